@@ -1,0 +1,17 @@
+# Third-party libraries that only some rooms use; none is visible through a room's headers.
+function(trunnion_use room)
+  if(TARGET trunnion_${room})
+    get_target_property(kind trunnion_${room} TYPE)
+    if(kind STREQUAL "STATIC_LIBRARY")
+      target_link_libraries(trunnion_${room} PRIVATE ${ARGN})
+    endif()
+  endif()
+endfunction()
+
+trunnion_use(emulator tomlplusplus::tomlplusplus)
+trunnion_use(regression tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json Threads::Threads)
+trunnion_use(identification NLopt::nlopt Threads::Threads)
+trunnion_use(diagnosis NLopt::nlopt Threads::Threads)
+trunnion_use(analysis NLopt::nlopt)
+trunnion_use(check nlohmann_json::nlohmann_json)
+trunnion_use(report nlohmann_json::nlohmann_json)

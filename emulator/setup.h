@@ -1,0 +1,87 @@
+// Belief + machine + devices + artefacts: one copyable value, from a TOML file.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/axes.h"
+#include "geometry/pose.h"
+#include "interpreter/dialect.h"
+#include "kinematics/machine.h"
+#include "offsets/stores.h"
+
+namespace trunnion {
+
+struct ProbeSettings {
+    int tool = 0;                                ///< control tool it is called as, 0 = any
+    Vector3 tip_S_mm = Vector3(0, 0, -150);      ///< physical stylus ball centre in S
+    double ball_diameter_mm = 6.0;
+    double repeatability_um = 0.0;
+    double pretravel_um = 0.0;
+};
+
+struct BallbarSettings {
+    Vector3 cup_S_mm = Vector3(0, 0, -120);      ///< physical tool-cup ball centre in S
+    double length_mm = 100.0;
+    double noise_um = 0.0;
+    double sample_hz = 1000.0;
+    bool free_cup = false;
+    bool free_length = false;
+};
+
+struct Artefact {
+    enum class Kind : unsigned char { sphere, center_pivot };
+    std::string name;
+    Kind kind = Kind::sphere;
+    Vector3 center_W_mm = Vector3::Zero();
+    double diameter_mm = 25.4;
+    bool free_center = false;
+};
+
+/// One entry of [effects]: name and parameters as in formats.md; a parameter may be a vector.
+struct EffectSetting {
+    std::string name;
+    std::map<std::string, std::vector<double>> parameters;
+};
+
+struct CalibrationPrior {
+    double value = 0.0;  ///< mm or rad
+    double sigma = 0.0;
+};
+
+/// [model]: what identification and diagnosis know beforehand.
+struct ModelSettings {
+    std::vector<std::string> modelled = {"location"};
+    std::map<std::string, double> noise_um;  ///< by device name
+    std::map<std::string, CalibrationPrior> calibration;  ///< by ISO 230 name
+};
+
+struct Setup {
+    std::string name;
+    std::string path;       ///< of the file, for messages
+    std::string chain_text;
+    Machine machine;
+    std::vector<EffectSetting> effects;
+    Dialect dialect;
+    Stores stores;
+    std::optional<ProbeSettings> probe;
+    std::optional<BallbarSettings> ballbar;
+    std::vector<Artefact> artefacts;
+    ModelSettings model;
+
+    const Artefact* find_artefact(const std::string& name) const;
+};
+
+/// Reads a setup file; throws InputError with line, column and the line's text. `notes` gets one line
+/// for each value that was derived (19680-19714) or key that is not known.
+Setup load_setup(const std::string& path, std::vector<std::string>& notes);
+Setup parse_setup(const std::string& text, const std::string& path, std::vector<std::string>& notes);
+/// The setup as TOML that loads again to the same value.
+std::string format_setup(const Setup& setup);
+
+/// 19680-19714 as they would be if the control were told the truth about this machine.
+void derive_pivot_parameters(const Machine& machine, Parameters& parameters);
+
+}  // namespace trunnion

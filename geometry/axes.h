@@ -1,0 +1,60 @@
+// Machine axes by letter, and positions of all of them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+namespace trunnion {
+
+/// The axis letters of ISO 841 that a setup file or an NC word can name.
+enum class Axis : unsigned char { X, Y, Z, A, B, C, U, V, W };
+
+constexpr std::size_t axis_count = 9;
+constexpr std::array<Axis, axis_count> all_axes{Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::B,
+                                                Axis::C, Axis::U, Axis::V, Axis::W};
+
+constexpr std::size_t index_of(Axis axis) { return static_cast<std::size_t>(axis); }
+constexpr char letter_of(Axis axis) { return "XYZABCUVW"[index_of(axis)]; }
+constexpr bool is_rotary(Axis axis) {
+    return axis == Axis::A || axis == Axis::B || axis == Axis::C;
+}
+
+/// The axis of a letter (upper case), or nothing.
+constexpr std::optional<Axis> axis_of(char letter) {
+    for (const Axis axis : all_axes)
+        if (letter_of(axis) == letter) return axis;
+    return std::nullopt;
+}
+
+/// One scalar for each axis letter: mm for linear axes, rad for rotary ones. Letters that a machine
+/// does not have stay 0. As a position: the commanded machine coordinate (the word's sign, before
+/// `direction` of the setup file turns it into a motion of a body).
+struct AxisPositions {
+    std::array<double, axis_count> value{};
+
+    double& operator[](Axis axis) { return value[index_of(axis)]; }
+    double operator[](Axis axis) const { return value[index_of(axis)]; }
+    friend bool operator==(const AxisPositions&, const AxisPositions&) = default;
+};
+
+/// The believed positioning function under which a motion was commanded: the `mode` of readings.
+enum class PositioningMode : unsigned char { none, dpp, rtdfo, rtcp, tw };
+
+/// Axis positions with all that an unmodelled effect may depend on.
+struct AxisSample {
+    AxisPositions position;                ///< commanded machine coordinates, mm and rad
+    AxisPositions velocity;                ///< mm/s and rad/s, 0 for a standing axis
+    std::array<signed char, axis_count> travel{};  ///< sign of the last motion (approach) or of the
+                                                   ///< velocity (ballbar): -1, 0, +1
+    std::array<double, axis_count> since_reversal{};  ///< mm or rad travelled since the axis turned
+    double time_s = 0.0;
+    double feed_mm_min = 0.0;
+    double spindle_rad = 0.0;
+    double temperature_c = 20.0;
+    double load_kg = 0.0;
+    bool clamped = false;
+    PositioningMode mode = PositioningMode::none;
+};
+
+}  // namespace trunnion

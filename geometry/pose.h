@@ -1,0 +1,66 @@
+// Rigid transforms and small motions.
+#pragma once
+
+#include <Eigen/Geometry>
+
+namespace trunnion {
+
+using Vector3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
+
+/// Cross-product matrix: skew(a) * b == a.cross(b).
+inline Matrix3 skew(const Vector3& a) {
+    Matrix3 m;
+    m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+    return m;
+}
+
+/// Right-handed rotation by `angle_rad` about the unit vector `axis` (Rodrigues).
+inline Matrix3 rotation_about(const Vector3& axis, double angle_rad) {
+    return Eigen::AngleAxisd(angle_rad, axis).toRotationMatrix();
+}
+
+/// exp([tilt]x): the exact rotation of a rotation vector (rad), orthogonal at any size.
+inline Matrix3 rotation_of(const Vector3& tilt_rad) {
+    const double angle = tilt_rad.norm();
+    if (angle < 1e-12) return Matrix3::Identity() + skew(tilt_rad);
+    return rotation_about(tilt_rad / angle, angle);
+}
+
+/// A rigid transform. `pose_AB` holds frame B seen from frame A: p_AQ = pose_AB * p_BQ, and
+/// pose_AC = pose_AB * pose_BC.
+struct Pose {
+    Matrix3 rotation = Matrix3::Identity();
+    Vector3 translation_mm = Vector3::Zero();
+
+    Vector3 operator*(const Vector3& p) const { return rotation * p + translation_mm; }
+    Pose operator*(const Pose& other) const {
+        return {rotation * other.rotation, rotation * other.translation_mm + translation_mm};
+    }
+    Pose inverse() const {
+        return {rotation.transpose(), -(rotation.transpose() * translation_mm)};
+    }
+
+    static Pose shift(const Vector3& shift_mm) { return {Matrix3::Identity(), shift_mm}; }
+    /// Rotation about the line through `point_mm` along the unit vector `axis`.
+    static Pose turn(const Vector3& axis, const Vector3& point_mm, double angle_rad) {
+        const Matrix3 r = rotation_about(axis, angle_rad);
+        return {r, point_mm - r * point_mm};
+    }
+};
+
+/// Six small numbers in a named frame: error = actual - nominal, along and about that frame's +
+/// axes (ISO 230-1).
+struct SmallMotion {
+    Vector3 shift_mm = Vector3::Zero();
+    Vector3 tilt_rad = Vector3::Zero();
+
+    SmallMotion& operator+=(const SmallMotion& other) {
+        shift_mm += other.shift_mm;
+        tilt_rad += other.tilt_rad;
+        return *this;
+    }
+    bool is_zero() const { return shift_mm.isZero(0.0) && tilt_rad.isZero(0.0); }
+};
+
+}  // namespace trunnion

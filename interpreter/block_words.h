@@ -1,0 +1,35 @@
+// What the language hands to the control: the words of one block with their values.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace trunnion {
+
+/// A word after its expression was evaluated.
+struct WordValue {
+    double value = 0.0;
+    char letter = 0;             ///< upper case
+    bool decimal_point = true;   ///< false: written as a bare integer, so parameter 3401#0 and the
+                                 ///< increment system decide what it means; variables count as true
+    bool vacant = false;         ///< `X#1` with #1 vacant: the control drops the word
+    std::uint16_t column = 0;    ///< from 1, of the letter
+};
+
+/// The words of one block in the order written, without N, O, macro statements and comments.
+/// A comma word (`,R2.` `,C1.`) has the lower-case letter 'r' or 'c'.
+struct BlockWords {
+    static constexpr std::size_t capacity = 48;  ///< more words in one block: alarm
+
+    std::array<WordValue, capacity> words;
+    std::size_t count = 0;
+    int sequence_number = -1;  ///< N, or -1
+    int line = 0;              ///< from 1, in the program's file
+    std::uint64_t byte = 0;    ///< where the block starts in the file
+
+    const WordValue* begin() const { return words.data(); }
+    const WordValue* end() const { return words.data() + count; }
+};
+
+}  // namespace trunnion

@@ -1,0 +1,47 @@
+// The physical machine: any serial chain with its errors, forward only.
+#pragma once
+
+#include <array>
+
+#include "geometry/axes.h"
+#include "geometry/pose.h"
+#include "kinematics/chain.h"
+#include "kinematics/errors.h"
+
+namespace trunnion {
+
+/// What effects outside `GeometricErrors` add at one sample.
+struct Perturbation {
+    AxisPositions axis;                          ///< added to the commanded positions, mm and rad
+    std::array<SmallMotion, axis_count> motion{};  ///< added to each axis's error motion, in M axes
+    Vector3 tip_shift_mm = Vector3::Zero();      ///< of the tool tip, in S
+    Vector3 work_shift_mm = Vector3::Zero();     ///< of the artefact, in W
+    double reading_mm = 0.0;                     ///< added to the reading itself
+};
+
+/// The two open ends of the structural loop, seen from the bed.
+struct MachinePose {
+    Pose pose_MW;  ///< table frame: identity when all axes are at zero and there are no errors
+    Pose pose_MS;  ///< spindle frame: a pure shift by (X, Y, Z) without errors
+};
+
+/// The physical machine. Frames in docs/notation.md.
+///
+/// Rotary axis R with u = direction, q = point_mm, commanded r (rad), everything in the frame of its
+/// carrier (formats.md, "Location errors"):
+///     x' = q + delta + exp([eps]x) * Rot(u, r + error) * (exp of the error motion about q) * (x - q)
+/// with delta = (EX0R EY0R EZ0R), eps = (EA0R EB0R EC0R). Linear axis: shift by r * exp([eps]x) u,
+/// error motions delta_k, eps_k after the shift; angular errors of the linear axes act on the arm
+/// from the gauge point to the tool tip.
+struct Machine {
+    Chain chain;
+    GeometricErrors errors;
+
+    MachinePose poses(const AxisPositions& commanded) const;
+    MachinePose poses(const AxisPositions& commanded, const Perturbation& extra) const;
+
+    /// The tool tip in W: pose_MW^-1 * pose_MS * tip_S.
+    Vector3 tip_W(const AxisPositions& commanded, const Vector3& tip_S_mm) const;
+};
+
+}  // namespace trunnion

@@ -1,0 +1,52 @@
+// Readings: simulated and real alike, one scalar a row (formats.md, "Readings").
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/axes.h"
+#include "geometry/pose.h"
+
+namespace trunnion {
+
+enum class Device : unsigned char { none, sphere, touch, ballbar };
+
+struct Reading {
+    int index = 0;
+    double time_s = 0.0;
+    std::string test;
+    PositioningMode mode = PositioningMode::none;
+    Device device = Device::none;
+    std::string feature;
+    AxisPositions commanded;             ///< mm and rad (deg in the file)
+    Vector3 direction_M = Vector3::Zero();
+    std::optional<double> value_mm;
+    double feed_mm_min = 0.0;
+    double spindle_rad = 0.0;
+    double temperature_c = 20.0;
+    double load_kg = 0.0;
+    bool clamped = false;
+    std::optional<double> sigma_mm;
+    int line = 0;                        ///< in the file, 0 when simulated
+};
+
+struct ReadingTable {
+    std::map<std::string, std::string> comment;  ///< `# key = value`
+    std::vector<Axis> axes;                      ///< machine axes with a column
+    std::vector<std::string> optional_columns;   ///< optional columns present, in file order
+    std::vector<Reading> rows;
+};
+
+/// Reads the CSV text. Throws InputError with line and column. Unknown columns are listed in `notes`.
+ReadingTable parse_readings(std::string_view text, const std::string& path,
+                            std::vector<std::string>& notes);
+/// The same table as text; numbers read back to the same double.
+std::string format_readings(const ReadingTable& table);
+
+/// AxisSample of each row: velocity and direction of travel by the contract's rules.
+std::vector<AxisSample> samples_of(const ReadingTable& table);
+
+}  // namespace trunnion
