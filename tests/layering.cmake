@@ -1,4 +1,5 @@
 # Fails when a room includes a room that cmake/rooms.cmake does not list for it.
+cmake_minimum_required(VERSION 3.25)
 include(${ROOT}/cmake/rooms.cmake)
 set(names "")
 foreach(line IN LISTS TRUNNION_ROOMS)
