@@ -21,6 +21,18 @@ set(TRUNNION_ROOMS
   "cli: report analysis diagnosis identification effects regression check backup emulator controller offsets kinematics probe ballbar interpreter records geometry"
 )
 
+# What stands behind the colon of one line of the list.
+function(trunnion_room_depends line result)
+  string(FIND "${line}" ": " colon)
+  set(depends "")
+  if(NOT colon EQUAL -1)
+    math(EXPR start "${colon} + 2")
+    string(SUBSTRING "${line}" ${start} -1 depends)
+    string(REPLACE " " ";" depends "${depends}")
+  endif()
+  set(${result} "${depends}" PARENT_SCOPE)
+endfunction()
+
 # trunnion_room(NAME): one static library for each room, from every .cpp in its folder.
 function(trunnion_room name depends)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${name}/*.cpp)
@@ -53,8 +65,7 @@ endfunction()
 function(trunnion_add_rooms)
   foreach(line IN LISTS TRUNNION_ROOMS)
     string(REGEX MATCH "^[a-z]+" name "${line}")
-    string(REGEX REPLACE "^[a-z]+:? *" "" depends "${line}")
-    string(REPLACE " " ";" depends "${depends}")
+    trunnion_room_depends("${line}" depends)
     if(NOT name STREQUAL "cli")
       trunnion_room(${name} "${depends}")
     endif()
