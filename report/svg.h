@@ -1,0 +1,69 @@
+// Small SVG drawings: shapes, text and a plot with axes, as text with fixed decimals.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace trunnion {
+
+/// Colours that stay apart for colour-blind readers (Okabe and Ito), in the order used.
+extern const std::vector<std::string> plot_colours;
+
+struct Point2 {
+    double x = 0.0, y = 0.0;
+};
+
+struct SvgStyle {
+    std::string stroke = "black";
+    double width = 1.0;
+    std::string fill = "none";
+    std::string dash;  ///< e.g. "4 3"
+};
+
+/// A drawing in pixels, y downwards, white ground.
+class Svg {
+  public:
+    Svg(double width, double height);
+
+    void line(Point2 a, Point2 b, const SvgStyle& style = {});
+    void polyline(const std::vector<Point2>& points, const SvgStyle& style = {});
+    void circle(Point2 centre, double radius, const SvgStyle& style = {});
+    void rectangle(Point2 corner, double width, double height, const SvgStyle& style = {});
+    /// A filled mark of about 3.5 px: shape 0 disc, 1 square, 2 diamond, 3 triangle.
+    void mark(Point2 at, int shape, const std::string& colour, double size = 3.5);
+    /// anchor: start, middle, end.
+    void text(Point2 at, const std::string& text, double size = 12, const std::string& anchor = "start",
+              const std::string& colour = "#222", double turn_deg = 0.0);
+
+    std::string str() const;  ///< the whole file
+
+  private:
+    double width_, height_;
+    std::string body_;
+};
+
+/// A linear axis of a plot: range in data units and where to put ticks.
+struct PlotRange {
+    double low = 0.0, high = 1.0;
+    double tick = 0.2;
+};
+
+/// A range with round ticks (1, 2, 5 x 10^n) that holds low..high.
+PlotRange round_range(double low, double high, int about_ticks = 5);
+
+/// A frame with axes inside a drawing; `at` maps data to pixels.
+class Plot {
+  public:
+    Plot(Svg& svg, Point2 corner, double width, double height, PlotRange x, PlotRange y);
+    void frame(const std::string& title, const std::string& x_label, const std::string& y_label);
+    Point2 at(double x, double y) const;
+    double scale_x() const { return width_ / (x_.high - x_.low); }  ///< px for each data unit
+
+  private:
+    Svg& svg_;
+    Point2 corner_;
+    double width_, height_;
+    PlotRange x_, y_;
+};
+
+}  // namespace trunnion
