@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace trunnion {
 
@@ -20,11 +21,19 @@ inline Matrix3 rotation_about(const Vector3& axis, double angle_rad) {
     return Eigen::AngleAxisd(angle_rad, axis).toRotationMatrix();
 }
 
-/// exp([tilt]x): the exact rotation of a rotation vector (rad), orthogonal at any size.
+/// exp([tilt]x): the exact rotation of a rotation vector (rad), orthogonal at any size. Small ones
+/// by the series, whose first neglected term is below the rounding of a double.
 inline Matrix3 rotation_of(const Vector3& tilt_rad) {
-    const double angle = tilt_rad.norm();
-    if (angle < 1e-12) return Matrix3::Identity() + skew(tilt_rad);
-    return rotation_about(tilt_rad / angle, angle);
+    const double square = tilt_rad.squaredNorm();
+    if (square > 1e-4) {
+        const double angle = std::sqrt(square);
+        return rotation_about(tilt_rad / angle, angle);
+    }
+    const double s = 1.0 - square / 6.0 * (1.0 - square / 20.0);   // sin(a) / a
+    const double k = 0.5 - square / 24.0 * (1.0 - square / 30.0);  // (1 - cos(a)) / a^2
+    const Matrix3 x = skew(tilt_rad);
+    return Matrix3::Identity() + s * x +
+           k * (tilt_rad * tilt_rad.transpose() - square * Matrix3::Identity());
 }
 
 /// A rigid transform. `pose_AB` holds frame B seen from frame A: p_AQ = pose_AB * p_BQ, and

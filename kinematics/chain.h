@@ -14,11 +14,13 @@ namespace trunnion {
 struct AxisGeometry {
     Axis axis = Axis::X;
     bool rotary = false;
-    Vector3 direction = Vector3::UnitX();  ///< in M, all axes at zero, unit: what a + command does to
-                                           ///< the carried body (table axes turn against the tool)
-    Vector3 point_mm = Vector3::Zero();    ///< rotary: a point of the axis line, in M, all axes at zero
-    std::optional<double> min, max;        ///< travel limits, mm or rad
-    std::optional<double> max_speed;       ///< mm/s or rad/s
+    Vector3 direction =
+        Vector3::UnitX();  ///< in M, all axes at zero, unit: what a + command does to
+                           ///< the carried body (table axes turn against the tool)
+    Vector3 point_mm =
+        Vector3::Zero();              ///< rotary: a point of the axis line, in M, all axes at zero
+    std::optional<double> min, max;   ///< travel limits, mm or rad
+    std::optional<double> max_speed;  ///< mm/s or rad/s
     std::optional<double> max_acceleration;  ///< mm/s^2 or rad/s^2
 };
 

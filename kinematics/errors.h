@@ -12,8 +12,9 @@
 
 namespace trunnion {
 
-/// EXX, EC0A, ...: letter of the direction (X Y Z: along; A B C: about), and the axis it belongs to.
-/// `location` true: E?0? (position and orientation of the axis line); false: E?? (error motion).
+/// EXX, EC0A, ...: letter of the direction (X Y Z: along; A B C: about), and the axis it belongs
+/// to. `location` true: E?0? (position and orientation of the axis line); false: E?? (error
+/// motion).
 struct ErrorName {
     char direction = 'X';
     bool location = false;
@@ -23,14 +24,16 @@ struct ErrorName {
     friend bool operator==(const ErrorName&, const ErrorName&) = default;
 };
 
-std::optional<ErrorName> parse_error_name(std::string_view text);  ///< "EX0C"; nothing if it is none
+std::optional<ErrorName> parse_error_name(
+    std::string_view text);  ///< "EX0C"; nothing if it is none
 std::string to_string(const ErrorName& name);
 
 /// An error as a function of its axis's position (mm or rad in, mm or rad out): a value, the sum of
 /// constant + slope * q + harmonics + table.
 struct ErrorCurve {
     struct Harmonic {
-        double order = 1.0;  ///< per turn of a rotary axis; per mm * 2 pi / `period_mm` for a linear one
+        double order =
+            1.0;  ///< per turn of a rotary axis; per mm * 2 pi / `period_mm` for a linear one
         double cosine = 0.0;
         double sine = 0.0;
     };
@@ -45,15 +48,16 @@ struct ErrorCurve {
     Interpolation interpolation = Interpolation::linear;
 
     bool is_zero() const;
-    double operator()(double q) const;   ///< held constant beyond the table's ends
-    double derivative(double q) const;   ///< d error / d q
+    double operator()(double q) const;  ///< held constant beyond the table's ends
+    double derivative(double q) const;  ///< d error / d q
 };
 
 /// All errors of one axis. Index 0..5 = X Y Z (mm), A B C (rad), along and about + axes of M.
 struct AxisErrors {
     std::array<double, 6> location{};
     std::array<ErrorCurve, 6> motion{};
-    double backlash = 0.0;  ///< reversal value B of ISO 230-2: actual = commanded + B/2 * sign of travel
+    double backlash =
+        0.0;  ///< reversal value B of ISO 230-2: actual = commanded + B/2 * sign of travel
 };
 
 struct GeometricErrors {

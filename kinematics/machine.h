@@ -12,11 +12,11 @@ namespace trunnion {
 
 /// What effects outside `GeometricErrors` add at one sample.
 struct Perturbation {
-    AxisPositions axis;                          ///< added to the commanded positions, mm and rad
+    AxisPositions axis;                            ///< added to the commanded positions, mm and rad
     std::array<SmallMotion, axis_count> motion{};  ///< added to each axis's error motion, in M axes
-    Vector3 tip_shift_mm = Vector3::Zero();      ///< of the tool tip, in S
-    Vector3 work_shift_mm = Vector3::Zero();     ///< of the artefact, in W
-    double reading_mm = 0.0;                     ///< added to the reading itself
+    Vector3 tip_shift_mm = Vector3::Zero();        ///< of the tool tip, in S
+    Vector3 work_shift_mm = Vector3::Zero();       ///< of the artefact, in W
+    double reading_mm = 0.0;                       ///< added to the reading itself
 };
 
 /// The two open ends of the structural loop, seen from the bed.
@@ -25,14 +25,17 @@ struct MachinePose {
     Pose pose_MS;  ///< spindle frame: a pure shift by (X, Y, Z) without errors
 };
 
-/// The physical machine. Frames in docs/notation.md.
+/// The physical machine. Frames in docs/notation.md. For many evaluations of one machine use
+/// ForwardModel (kinematics/forward.h), which works out once what does not change.
 ///
-/// Rotary axis R with u = direction, q = point_mm, commanded r (rad), everything in the frame of its
-/// carrier (formats.md, "Location errors"):
-///     x' = q + delta + exp([eps]x) * Rot(u, r + error) * (exp of the error motion about q) * (x - q)
-/// with delta = (EX0R EY0R EZ0R), eps = (EA0R EB0R EC0R). Linear axis: shift by r * exp([eps]x) u,
-/// error motions delta_k, eps_k after the shift; angular errors of the linear axes act on the arm
-/// from the gauge point to the tool tip.
+/// Rotary axis R with u = direction, q = point_mm, commanded r (rad), everything in the frame of
+/// its carrier (formats.md, "Location errors"):
+///     x' = q + delta + exp([eps]x) * (delta_m + exp([eps_m]x) * Rot(u, r + error) * (x - q))
+/// with delta = (EX0R EY0R EZ0R), eps = (EA0R EB0R EC0R) and the error motion delta_m(r) =
+/// (EXR EYR EZR), eps_m(r) = (EAR EBR ECR), along and about the carrier's axes (those of M at
+/// home). Linear axis: shift by delta + r * exp([eps]x) u + delta_m; its angular errors turn what
+/// hangs from the gauge point (tool, rotary head; on the work side the table), not the linear axes
+/// that it carries. Exact rotations everywhere.
 struct Machine {
     Chain chain;
     GeometricErrors errors;

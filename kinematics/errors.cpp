@@ -1,0 +1,111 @@
+#include "kinematics/errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/units.h"
+
+namespace trunnion {
+namespace {
+
+constexpr std::string_view directions = "XYZABC";
+
+std::size_t direction_index(const ErrorName& name) {
+    return directions.find(name.direction);
+}
+
+/// Slope of the smooth cubic at point i: that of the parabola through i and its two neighbours, or
+/// of the chord at the ends.
+double knot_slope(const ErrorCurve& curve, std::size_t i) {
+    const auto& x = curve.at;
+    const auto& y = curve.value;
+    const auto chord = [&](std::size_t k) { return (y[k + 1] - y[k]) / (x[k + 1] - x[k]); };
+    if (i == 0) return chord(0);
+    if (i + 1 == x.size()) return chord(i - 1);
+    const double left = x[i] - x[i - 1], right = x[i + 1] - x[i];
+    return (chord(i - 1) * right + chord(i) * left) / (left + right);
+}
+
+struct ValueAndSlope {
+    double value = 0.0;
+    double slope = 0.0;
+};
+
+ValueAndSlope cubic(const ErrorCurve& curve, std::size_t i, double q) {
+    const double h = curve.at[i + 1] - curve.at[i];
+    const double t = (q - curve.at[i]) / h;
+    const double y0 = curve.value[i], y1 = curve.value[i + 1];
+    const double m0 = h * knot_slope(curve, i), m1 = h * knot_slope(curve, i + 1);
+    const double a = 2.0 * (y0 - y1) + m0 + m1, b = 3.0 * (y1 - y0) - 2.0 * m0 - m1;
+    return {((a * t + b) * t + m0) * t + y0, ((3.0 * a * t + 2.0 * b) * t + m0) / h};
+}
+
+ValueAndSlope table(const ErrorCurve& curve, double q) {
+    const auto& x = curve.at;
+    if (q <= x.front()) return {curve.value.front(), 0.0};
+    if (q >= x.back()) return {curve.value.back(), 0.0};
+    const auto above = std::upper_bound(x.begin(), x.end(), q);
+    const auto i = static_cast<std::size_t>(above - x.begin()) - 1;
+    if (curve.interpolation == ErrorCurve::Interpolation::cubic) return cubic(curve, i, q);
+    const double slope = (curve.value[i + 1] - curve.value[i]) / (x[i + 1] - x[i]);
+    return {curve.value[i] + slope * (q - x[i]), slope};
+}
+
+double wave_number(const ErrorCurve& curve) {
+    return curve.period_mm > 0.0 ? 2.0 * pi / curve.period_mm : 1.0;
+}
+
+}  // namespace
+
+std::optional<ErrorName> parse_error_name(std::string_view text) {
+    if (text.size() < 3 || text.size() > 4 || text[0] != 'E') return std::nullopt;
+    const bool location = text.size() == 4;
+    const auto axis = axis_of(text.back());
+    if (directions.find(text[1]) == std::string_view::npos || !axis || (location && text[2] != '0'))
+        return std::nullopt;
+    return ErrorName{text[1], location, *axis};
+}
+
+std::string to_string(const ErrorName& name) {
+    std::string text{'E', name.direction};
+    if (name.location) text += '0';
+    return text + letter_of(name.axis);
+}
+
+bool ErrorCurve::is_zero() const {
+    return constant == 0.0 && slope == 0.0 && harmonics.empty() && at.empty();
+}
+
+double ErrorCurve::operator()(double q) const {
+    double sum = constant + slope * q;
+    if (!at.empty()) sum += table(*this, q).value;
+    const double k = harmonics.empty() ? 0.0 : wave_number(*this);
+    for (const Harmonic& h : harmonics)
+        sum += h.cosine * std::cos(h.order * k * q) + h.sine * std::sin(h.order * k * q);
+    return sum;
+}
+
+double ErrorCurve::derivative(double q) const {
+    double sum = slope;
+    if (!at.empty()) sum += table(*this, q).slope;
+    const double k = harmonics.empty() ? 0.0 : wave_number(*this);
+    for (const Harmonic& h : harmonics) {
+        const double w = h.order * k;
+        sum += w * (h.sine * std::cos(w * q) - h.cosine * std::sin(w * q));
+    }
+    return sum;
+}
+
+double& GeometricErrors::location(const ErrorName& name) {
+    return axis[index_of(name.axis)].location[direction_index(name)];
+}
+
+double GeometricErrors::location(const ErrorName& name) const {
+    return axis[index_of(name.axis)].location[direction_index(name)];
+}
+
+ErrorCurve& GeometricErrors::motion(const ErrorName& name) {
+    return axis[index_of(name.axis)].motion[direction_index(name)];
+}
+
+}  // namespace trunnion

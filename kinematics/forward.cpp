@@ -1,0 +1,172 @@
+#include "kinematics/forward.h"
+
+#include <cmath>
+
+namespace trunnion {
+namespace {
+
+Vector3 first_three(const std::array<double, 6>& v) {
+    return {v[0], v[1], v[2]};
+}
+Vector3 last_three(const std::array<double, 6>& v) {
+    return {v[3], v[4], v[5]};
+}
+
+/// Rodrigues with one sine and cosine; `u` is a unit vector.
+Matrix3 turn(const Vector3& u, double angle_rad) {
+    const double c = std::cos(angle_rad), s = std::sin(angle_rad), k = 1.0 - c;
+    const double kx = k * u.x(), ky = k * u.y(), kz = k * u.z();
+    Matrix3 r;
+    r << c + kx * u.x(), kx * u.y() - s * u.z(), kx * u.z() + s * u.y(),  //
+        ky * u.x() + s * u.z(), c + ky * u.y(), ky * u.z() - s * u.x(),   //
+        kz * u.x() - s * u.y(), kz * u.y() + s * u.x(), c + kz * u.z();
+    return r;
+}
+
+SmallMotion motion_of(const Link& link, double q, const SmallMotion* extra) {
+    std::array<double, 6> value{};
+    for (std::size_t k = 0; k < 6; ++k)
+        if (link.motions >> k & 1) value[k] = (*link.curves)[k](q);
+    SmallMotion motion{first_three(value), last_three(value)};
+    if (extra) motion += *extra;
+    return motion;
+}
+
+Pose spindle_pose(const SmallMotion& spindle) {
+    return {rotation_of(spindle.tilt_rad), spindle.shift_mm};
+}
+
+const SmallMotion* extra_of(const Perturbation* extra, Axis axis) {
+    if (!extra) return nullptr;
+    const SmallMotion& motion = extra->motion[index_of(axis)];
+    return motion.is_zero() ? nullptr : &motion;
+}
+
+double position_of(const AxisPositions& commanded, const Perturbation* extra, Axis axis) {
+    return extra ? commanded[axis] + extra->axis[axis] : commanded[axis];
+}
+
+Pose walk(const std::vector<Link>& links, const AxisPositions& q, const Perturbation* extra) {
+    ChainWalk walk;
+    for (const Link& link : links)
+        walk.step(link, position_of(q, extra, link.axis), extra_of(extra, link.axis));
+    walk.finish();
+    return walk.pose;
+}
+
+Pose walk(const std::vector<AxisGeometry>& side, const GeometricErrors& errors,
+          const AxisPositions& q, const Perturbation* extra) {
+    ChainWalk walk;
+    for (const AxisGeometry& geometry : side) {
+        const Link link = make_link(geometry, errors.axis[index_of(geometry.axis)]);
+        walk.step(link, position_of(q, extra, link.axis), extra_of(extra, link.axis));
+    }
+    walk.finish();
+    return walk.pose;
+}
+
+MachinePose poses_of(const Machine& machine, const AxisPositions& q, const Perturbation* extra) {
+    MachinePose poses{walk(machine.chain.work, machine.errors, q, extra),
+                      walk(machine.chain.tool, machine.errors, q, extra)};
+    if (!machine.errors.spindle.is_zero())
+        poses.pose_MS = poses.pose_MS * spindle_pose(machine.errors.spindle);
+    return poses;
+}
+
+Vector3 tip_seen_from_W(const MachinePose& poses, const Vector3& tip_S_mm) {
+    return poses.pose_MW.rotation.transpose() *
+           (poses.pose_MS * tip_S_mm - poses.pose_MW.translation_mm);
+}
+
+}  // namespace
+
+Link make_link(const AxisGeometry& geometry, const AxisErrors& errors) {
+    Link link;
+    link.axis = geometry.axis;
+    link.rotary = geometry.rotary;
+    link.direction = geometry.direction;
+    link.point_mm = geometry.point_mm;
+    link.carried_mm = first_three(errors.location);
+    if (link.rotary) link.carried_mm += geometry.point_mm;
+    const Vector3 tilt_rad = last_three(errors.location);
+    link.tilted = !tilt_rad.isZero(0.0);
+    if (link.tilted) link.tilt = rotation_of(tilt_rad);
+    if (link.tilted && !link.rotary) link.direction = link.tilt * geometry.direction;
+    link.curves = &errors.motion;
+    for (std::size_t k = 0; k < 6; ++k)
+        if (!errors.motion[k].is_zero()) link.motions |= static_cast<std::uint8_t>(1u << k);
+    return link;
+}
+
+void ChainWalk::step(const Link& link, double q, const SmallMotion* extra) {
+    const bool moves = link.motions != 0 || extra != nullptr;
+    if (!link.rotary) {
+        Vector3 shift_mm = q * link.direction + link.carried_mm;
+        if (moves) {
+            const SmallMotion motion = motion_of(link, q, extra);
+            shift_mm += motion.shift_mm;
+            pending = pending * rotation_of(motion.tilt_rad);
+            has_pending = true;
+        }
+        pose.translation_mm += pose.rotation * shift_mm;
+        return;
+    }
+    finish();
+    Matrix3 r = turn(link.direction, q);
+    Vector3 shift_mm = link.carried_mm;
+    if (moves) {  // along and about the carrier's axes, which are those of M at home
+        const SmallMotion motion = motion_of(link, q, extra);
+        r = rotation_of(motion.tilt_rad) * r;
+        shift_mm += link.tilt * motion.shift_mm;
+    }
+    if (link.tilted) r = link.tilt * r;
+    pose.translation_mm += pose.rotation * (shift_mm - r * link.point_mm);
+    pose.rotation = pose.rotation * r;
+}
+
+void ChainWalk::finish() {
+    if (!has_pending) return;
+    pose.rotation = pose.rotation * pending;
+    pending.setIdentity();
+    has_pending = false;
+}
+
+ForwardModel::ForwardModel(const Machine& machine)
+    : errors_(machine.errors),
+      spindle_(spindle_pose(errors_.spindle)),
+      has_spindle_(!errors_.spindle.is_zero()) {
+    for (const AxisGeometry& geometry : machine.chain.work)
+        work_.push_back(make_link(geometry, errors_.axis[index_of(geometry.axis)]));
+    for (const AxisGeometry& geometry : machine.chain.tool)
+        tool_.push_back(make_link(geometry, errors_.axis[index_of(geometry.axis)]));
+}
+
+MachinePose ForwardModel::poses(const AxisPositions& commanded) const {
+    MachinePose poses{walk(work_, commanded, nullptr), walk(tool_, commanded, nullptr)};
+    if (has_spindle_) poses.pose_MS = poses.pose_MS * spindle_;
+    return poses;
+}
+
+MachinePose ForwardModel::poses(const AxisPositions& commanded, const Perturbation& extra) const {
+    MachinePose poses{walk(work_, commanded, &extra), walk(tool_, commanded, &extra)};
+    if (has_spindle_) poses.pose_MS = poses.pose_MS * spindle_;
+    return poses;
+}
+
+Vector3 ForwardModel::tip_W(const AxisPositions& commanded, const Vector3& tip_S_mm) const {
+    return tip_seen_from_W(poses(commanded), tip_S_mm);
+}
+
+MachinePose Machine::poses(const AxisPositions& commanded) const {
+    return poses_of(*this, commanded, nullptr);
+}
+
+MachinePose Machine::poses(const AxisPositions& commanded, const Perturbation& extra) const {
+    return poses_of(*this, commanded, &extra);
+}
+
+Vector3 Machine::tip_W(const AxisPositions& commanded, const Vector3& tip_S_mm) const {
+    return tip_seen_from_W(poses(commanded), tip_S_mm);
+}
+
+}  // namespace trunnion

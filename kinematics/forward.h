@@ -1,0 +1,58 @@
+// One axis after the other: the forward kinematics of a chain, prepared once and evaluated often.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "kinematics/machine.h"
+
+namespace trunnion {
+
+/// One axis with its location errors worked out; borrows the curves of its error motions.
+struct Link {
+    Axis axis = Axis::X;
+    bool rotary = false;
+    Vector3 direction = Vector3::UnitX();  ///< in the frame of the carrier, all axes at zero
+    Vector3 point_mm = Vector3::Zero();    ///< q
+    Vector3 carried_mm = Vector3::Zero();  ///< q + delta (rotary), delta (linear)
+    Matrix3 tilt = Matrix3::Identity();    ///< exp([eps]x) of the location tilts
+    bool tilted = false;
+    std::uint8_t motions = 0;  ///< bit k: motion curve k is not zero
+    const std::array<ErrorCurve, 6>* curves = nullptr;
+};
+
+Link make_link(const AxisGeometry& geometry, const AxisErrors& errors);
+
+/// Pose of the far end of one side of the chain, walking from the bed outwards. Angular errors of
+/// linear axes do not turn the linear axes that they carry: they act from the gauge point outwards
+/// (formats.md, "Frames"), so they wait in `pending` until a rotary axis or the end comes.
+struct ChainWalk {
+    Pose pose;
+    Matrix3 pending = Matrix3::Identity();
+    bool has_pending = false;
+
+    void step(const Link& link, double q, const SmallMotion* extra);
+    void finish();
+};
+
+/// A machine prepared for many evaluations: no allocation, zero errors skipped. Keeps a copy of the
+/// error curves; later changes of the machine are not seen.
+class ForwardModel {
+  public:
+    explicit ForwardModel(const Machine& machine);
+    ForwardModel(const ForwardModel&) = delete;
+    ForwardModel& operator=(const ForwardModel&) = delete;
+
+    MachinePose poses(const AxisPositions& commanded) const;
+    MachinePose poses(const AxisPositions& commanded, const Perturbation& extra) const;
+    Vector3 tip_W(const AxisPositions& commanded, const Vector3& tip_S_mm) const;
+
+  private:
+    GeometricErrors errors_;
+    std::vector<Link> work_, tool_;
+    Pose spindle_;
+    bool has_spindle_ = false;
+};
+
+}  // namespace trunnion
