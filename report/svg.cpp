@@ -1,8 +1,8 @@
 #include "report/svg.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
+
+#include <cmath>
 
 namespace trunnion {
 
@@ -14,11 +14,16 @@ namespace {
 std::string escape(const std::string& text) {
     std::string out;
     for (const char c : text) {
-        if (c == '<') out += "&lt;";
-        else if (c == '>') out += "&gt;";
-        else if (c == '&') out += "&amp;";
-        else if (c == '"') out += "&quot;";
-        else out += c;
+        if (c == '<')
+            out += "&lt;";
+        else if (c == '>')
+            out += "&gt;";
+        else if (c == '&')
+            out += "&amp;";
+        else if (c == '"')
+            out += "&quot;";
+        else
+            out += c;
     }
     return out;
 }
@@ -65,8 +70,7 @@ void Svg::rectangle(Point2 corner, double width, double height, const SvgStyle& 
 void Svg::mark(Point2 at, int shape, const std::string& colour, double size) {
     const SvgStyle style{"none", 0.0, colour, ""};
     if (shape % 4 == 0) return circle(at, size, style);
-    if (shape % 4 == 1)
-        return rectangle({at.x - size, at.y - size}, 2 * size, 2 * size, style);
+    if (shape % 4 == 1) return rectangle({at.x - size, at.y - size}, 2 * size, 2 * size, style);
     const double s = 1.35 * size;
     if (shape % 4 == 2)
         return polyline({{at.x, at.y - s}, {at.x + s, at.y}, {at.x, at.y + s}, {at.x - s, at.y}},
@@ -76,9 +80,9 @@ void Svg::mark(Point2 at, int shape, const std::string& colour, double size) {
 
 void Svg::text(Point2 at, const std::string& text, double size, const std::string& anchor,
                const std::string& colour, double turn_deg) {
-    const std::string turn =
-        turn_deg == 0.0 ? ""
-                        : fmt::format(" transform=\"rotate({} {} {})\"", px(turn_deg), px(at.x), px(at.y));
+    const std::string turn = turn_deg == 0.0 ? ""
+                                             : fmt::format(" transform=\"rotate({} {} {})\"",
+                                                           px(turn_deg), px(at.x), px(at.y));
     body_ += fmt::format(
         "<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\"{}>{}</text>\n",
         px(at.x), px(at.y), px(size), anchor, colour, turn, escape(text));
@@ -126,7 +130,8 @@ void Plot::frame(const std::string& title, const std::string& x_label, const std
     for (int i = 0; i <= ticks(x_); ++i) {
         const double v = x_.low + i * x_.tick;
         svg_.line(at(v, y_.low), at(v, y_.high), grid);
-        svg_.text({at(v, y_.low).x, corner_.y + height_ + 16}, fmt::format("{:.6g}", v), 11, "middle");
+        svg_.text({at(v, y_.low).x, corner_.y + height_ + 16}, fmt::format("{:.6g}", v), 11,
+                  "middle");
     }
     for (int i = 0; i <= ticks(y_); ++i) {
         double v = y_.low + i * y_.tick;

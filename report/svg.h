@@ -32,8 +32,9 @@ class Svg {
     /// A filled mark of about 3.5 px: shape 0 disc, 1 square, 2 diamond, 3 triangle.
     void mark(Point2 at, int shape, const std::string& colour, double size = 3.5);
     /// anchor: start, middle, end.
-    void text(Point2 at, const std::string& text, double size = 12, const std::string& anchor = "start",
-              const std::string& colour = "#222", double turn_deg = 0.0);
+    void text(Point2 at, const std::string& text, double size = 12,
+              const std::string& anchor = "start", const std::string& colour = "#222",
+              double turn_deg = 0.0);
 
     std::string str() const;  ///< the whole file
 

@@ -1,0 +1,125 @@
+#include "backup/control_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "backup/value_lines.h"
+#include "geometry/alarm.h"
+
+namespace trunnion {
+
+const std::vector<std::string> backup_file_names{"CNC-PARA.TXT", "EXT_WKZ.TXT", "TOOLOFST.TXT",
+                                                 "MACRO.TXT"};
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string upper(std::string s) {
+    for (char& c : s)
+        if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    return s;
+}
+
+std::string read_file(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw InputError("cannot be read", {path.string()});
+    std::ostringstream bytes;
+    bytes << in.rdbuf();
+    return bytes.str();
+}
+
+const BackupValue* find_parameter(const std::vector<BackupValue>& values, int number) {
+    for (const BackupValue& v : values)
+        if (v.kind == BackupValue::Kind::parameter && v.number == number) return &v;
+    return nullptr;
+}
+
+void require_pivot(const ControlBackup& backup, const std::vector<BackupValue>& values) {
+    const BackupValue* type = find_parameter(values, 19680);
+    if (type == nullptr || stored_value(*type) == 0.0) return;
+    const bool table = stored_value(*type) != 2.0;
+    const int needed = table ? 19700 : 19709;
+    for (int n = needed; n < needed + 3; ++n)
+        if (find_parameter(values, n) == nullptr)
+            throw InputError("19680 names a mechanical type, but parameter " + std::to_string(n) +
+                                 " (pivot) is not in the backup",
+                             {(fs::path(backup.folder) / type->file).string(), type->line, 1});
+}
+
+}  // namespace
+
+ControlBackup read_backup(const std::string& folder) {
+    ControlBackup backup{folder, {}};
+    if (!fs::is_directory(folder)) throw InputError("no such folder", {folder});
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = upper(entry.path().filename().string());
+        if (std::find(backup_file_names.begin(), backup_file_names.end(), name) !=
+            backup_file_names.end())
+            backup.files[name] = read_file(entry.path());
+    }
+    if (backup.files.empty())
+        throw InputError("none of CNC-PARA.TXT, EXT_WKZ.TXT, TOOLOFST.TXT, MACRO.TXT is here",
+                         {folder});
+    return backup;
+}
+
+void write_backup(const ControlBackup& backup, const std::string& folder) {
+    fs::create_directories(folder);
+    for (const auto& [name, bytes] : backup.files) {
+        const fs::path path = fs::path(folder) / name, part = path.string() + ".part";
+        {
+            std::ofstream out(part, std::ios::binary);
+            out << bytes;
+            if (!out.flush()) throw InputError("cannot be written", {path.string()});
+        }
+        fs::rename(part, path);
+    }
+}
+
+std::vector<BackupValue> list_values(const ControlBackup& backup) {
+    std::vector<BackupValue> values;
+    for (const auto& [name, bytes] : backup.files) {
+        const std::string path = (fs::path(backup.folder) / name).string();
+        for (BackupValue& v : scan_values(name, bytes, path)) values.push_back(std::move(v));
+    }
+    return values;
+}
+
+void apply_backup(const ControlBackup& backup, Stores& stores) {
+    const std::vector<BackupValue> values = list_values(backup);
+    require_pivot(backup, values);
+    for (const BackupValue& v : values) store_value(v, stores);
+}
+
+void update_backup(ControlBackup& backup, const Stores& stores) {
+    std::vector<BackupValue> values = list_values(backup);
+    // From the end of each file, so that the places of earlier values stay right.
+    std::reverse(values.begin(), values.end());
+    for (const BackupValue& v : values) {
+        const double wanted = value_in(v, stores);
+        if (same_value(wanted, stored_value(v))) continue;
+        backup.files.at(v.file).replace(v.begin, v.size, format_value(v, wanted));
+    }
+}
+
+std::vector<BackupDifference> diff_backups(const ControlBackup& a, const ControlBackup& b) {
+    std::vector<BackupDifference> differences;
+    std::map<std::pair<std::string, std::string>, BackupValue> left, right;
+    for (BackupValue& v : list_values(a)) left[{v.file, v.name}] = v;
+    for (BackupValue& v : list_values(b)) right[{v.file, v.name}] = v;
+    for (const auto& [key, v] : left) {
+        const auto other = right.find(key);
+        if (other == right.end())
+            differences.push_back({key.first, key.second, v.text, ""});
+        else if (!same_value(stored_value(v), stored_value(other->second)))
+            differences.push_back({key.first, key.second, v.text, other->second.text});
+    }
+    for (const auto& [key, v] : right)
+        if (!left.contains(key)) differences.push_back({key.first, key.second, "", v.text});
+    return differences;
+}
+
+}  // namespace trunnion

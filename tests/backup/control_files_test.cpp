@@ -1,0 +1,97 @@
+#include "backup/control_files.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "geometry/alarm.h"
+
+using namespace trunnion;
+
+namespace {
+
+ControlBackup sample() {
+    ControlBackup b{"stick", {}};
+    b.files["CNC-PARA.TXT"] =
+        "%\n\r\rN00000Q1L1P00000010L2P00000000 \n\r\rN01020Q1A1P88A2P89A3P90\n\r\r"
+        "N19680Q1L1P12\n\r\rN19700Q1L1P0.5L2P0.0\n\r\rN19701Q1L1P-1.25\n\r\rN19702Q1L1P3.\n\r\r"
+        "N01825 A1 P 3000 A2 P 3000\n\r\rN01411Q1L1I1.0\n\r\r%";
+    b.files["EXT_WKZ.TXT"] =
+        "%\r\nG90\r\nG10L2P0X0.0Y0.0Z0.0B0.0\r\nG10L2P1X-100.5Y2.0Z-250.125B0.0\r\n"
+        "G10L20P3X1.0Y2.0Z3.0B4.0\r\nM02\r\n%";
+    b.files["TOOLOFST.TXT"] = "%\nG10G90L10P1R185.676\nG10G90L11P1R-0.01\nG10G90L12P1R3.\n%\n";
+    b.files["MACRO.TXT"] =
+        "%\nG10L85P500(400C000000000000)\nG10L85P501(FFFFFFFFFFFFFFFF)\nSETVN500[PIVOT]\n#502=7."
+        "5\nM02\n%\n";
+    return b;
+}
+
+}  // namespace
+
+TEST_CASE("a backup fills the stores") {
+    Stores stores;
+    stores.variables[501] = 9.0;
+    apply_backup(sample(), stores);
+    CHECK(stores.parameters.get(0) == 2.0);
+    CHECK(stores.parameters.bit(0, 1));
+    CHECK(stores.parameters.entry.at(1020).by_axis.at(3) == 90.0);
+    CHECK(stores.parameters.entry.at(1825).by_axis.at(2) == 3000.0);
+    CHECK(stores.parameters.get(19701) == -1.25);
+    CHECK(stores.parameters.get(1411) == 25.4);
+    CHECK(stores.work.standard[0][Axis::Z] == -250.125);
+    CHECK(stores.work.additional[2][Axis::B] == 4.0);
+    CHECK(stores.tools.tool[1].length_mm() == Approx(185.666));
+    CHECK(stores.variables.at(500) == 3.5);
+    CHECK(stores.variables.count(501) == 0);
+    CHECK(stores.variables.at(502) == 7.5);
+}
+
+TEST_CASE("an untouched backup keeps its bytes and a change touches only its value") {
+    ControlBackup b = sample();
+    Stores stores;
+    apply_backup(b, stores);
+    update_backup(b, stores);
+    CHECK(b.files == sample().files);
+
+    stores.parameters.set(19700, 0.75);
+    stores.parameters.set_bit(0, 0, true);
+    stores.work.standard[0][Axis::X] = -99.0;
+    stores.variables[500] = -1.0;
+    update_backup(b, stores);
+    Stores again;
+    apply_backup(b, again);
+    CHECK(again.parameters.get(19700) == 0.75);
+    CHECK(b.files["EXT_WKZ.TXT"].find("X-99.0Y2.0Z-250.125") != std::string::npos);
+    const auto differences = diff_backups(sample(), b);
+    REQUIRE(differences.size() == 4);
+    CHECK(differences[0].name == "0");
+    CHECK(differences[0].b == "00000011");
+    CHECK(differences[1].name == "19700");
+    CHECK(differences[2].name == "G54 X");
+    CHECK(differences[3].b == "BFF0000000000000");
+}
+
+TEST_CASE("files on disk round-trip byte for byte") {
+    const auto folder = std::filesystem::temp_directory_path() / "trunnion_backup_test";
+    std::filesystem::remove_all(folder);
+    write_backup(sample(), folder.string());
+    CHECK(read_backup(folder.string()).files == sample().files);
+    std::filesystem::remove_all(folder);
+    CHECK_THROWS_AS(read_backup(folder.string()), InputError);
+}
+
+TEST_CASE("bad backup lines are refused with their place") {
+    ControlBackup b = sample();
+    b.files["CNC-PARA.TXT"] = "%\nN19700Q1L1X0.0\n";
+    try {
+        list_values(b);
+        FAIL("accepted");
+    } catch (const InputError& e) {
+        CHECK(e.where.line == 2);
+        CHECK(e.where.column == 11);
+    }
+    b.files["CNC-PARA.TXT"] = "%\nN19680Q1L1P12\n%\n";
+    Stores stores;
+    CHECK_THROWS_AS(apply_backup(b, stores), InputError);
+    b.files["CNC-PARA.TXT"] = "%\n<<<<<<< HEAD\n%\n";
+    CHECK_THROWS_AS(list_values(b), InputError);
+}
