@@ -14,6 +14,12 @@ namespace trunnion {
 
 enum class Device : unsigned char { none, sphere, touch, ballbar };
 
+/// since_reversal of an axis that has not turned since its test began: more than this (mm or rad).
+constexpr double no_reversal_seen = 1e6;
+
+std::string_view name_of(Device device);         ///< "sphere", ...; "" for none
+std::string_view name_of(PositioningMode mode);  ///< "dpp", ...; "" for none
+
 struct Reading {
     int index = 0;
     double time_s = 0.0;
@@ -21,7 +27,7 @@ struct Reading {
     PositioningMode mode = PositioningMode::none;
     Device device = Device::none;
     std::string feature;
-    AxisPositions commanded;             ///< mm and rad (deg in the file)
+    AxisPositions commanded;  ///< mm and rad (deg in the file)
     Vector3 direction_M = Vector3::Zero();
     std::optional<double> value_mm;
     double feed_mm_min = 0.0;
@@ -30,7 +36,7 @@ struct Reading {
     double load_kg = 0.0;
     bool clamped = false;
     std::optional<double> sigma_mm;
-    int line = 0;                        ///< in the file, 0 when simulated
+    int line = 0;  ///< in the file, 0 when simulated
 };
 
 struct ReadingTable {
@@ -40,13 +46,18 @@ struct ReadingTable {
     std::vector<Reading> rows;
 };
 
-/// Reads the CSV text. Throws InputError with line and column. Unknown columns are listed in `notes`.
+/// Reads the CSV text. Throws InputError with line and column. Unknown columns are listed in
+/// `notes`.
 ReadingTable parse_readings(std::string_view text, const std::string& path,
                             std::vector<std::string>& notes);
 /// The same table as text; numbers read back to the same double.
 std::string format_readings(const ReadingTable& table);
 
-/// AxisSample of each row: velocity and direction of travel by the contract's rules.
+/// AxisSample of each row: velocity and direction of travel by the contract's rules. Ballbar rows:
+/// central differences within the test, travel 0 where the axis stands or turns within rounding.
+/// Other rows: sign of the axis's last non-zero move. `since_reversal` counts from the turning
+/// point (of the parabola through the samples around it); before the first turn of a test it is
+/// beyond `no_reversal_seen`.
 std::vector<AxisSample> samples_of(const ReadingTable& table);
 
 }  // namespace trunnion

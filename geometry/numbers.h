@@ -1,0 +1,18 @@
+// Numbers as text that read back to the same double, whatever the locale.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace trunnion {
+
+/// The shortest text that reads back to the same double; "0" for -0.
+std::string shortest(double value);
+/// An angle in degrees: the shortest text whose value, turned into rad again, is the same double
+/// (the nearest where no double of degrees does that).
+std::string shortest_degrees(double angle_rad);
+/// The whole of `text` as a finite number (leading blanks and one + allowed), or nothing.
+std::optional<double> parse_number(std::string_view text);
+
+}  // namespace trunnion

@@ -1,0 +1,193 @@
+#include "records/readings.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "geometry/alarm.h"
+#include "geometry/numbers.h"
+#include "geometry/units.h"
+
+using namespace trunnion;
+
+namespace {
+
+const std::string header =
+    "index,time_s,test,mode,device,feature,x_mm,b_deg,dir_x,dir_y,dir_z,value_mm\n";
+
+ReadingTable read(const std::string& text) {
+    std::vector<std::string> notes;
+    return parse_readings(text, "r.csv", notes);
+}
+
+void check_fault(const std::string& text, const std::string& part, int line, int column) {
+    INFO(text);
+    try {
+        read(text);
+        FAIL("no error");
+    } catch (const InputError& error) {
+        CHECK_THAT(error.message, Catch::Contains(part));
+        CHECK(error.where.line == line);
+        CHECK(error.where.column == column);
+        CHECK(error.where.program == "r.csv");
+    }
+}
+
+std::string circle(double start_rad, double turns, int n) {
+    std::string text = "index,time_s,test,device,feature,x_mm,y_mm,c_deg,value_mm\n";
+    for (int i = 0; i <= n; ++i) {
+        const double t = start_rad + 2 * pi * turns * i / n;
+        text += std::to_string(i) + ',' + shortest(0.1 * i) + ",xy,ballbar,P," +
+                shortest(100 * std::cos(t)) + ',' + shortest(100 * std::sin(t)) + ",30,0.001\n";
+    }
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("a table is read with units, comments and unknown columns noted") {
+    std::vector<std::string> notes;
+    const ReadingTable table = parse_readings(
+        "# schema = trunnion.readings/1\n# touches = "
+        "9\n\nindex,time_s,test,device,feature,x_mm,b_deg,odd,"
+        "value_mm,sigma_mm\r\n1,0.5,map,,S1,1.5,-30,9,,\r\n2,0.5,\"a,b\",ballbar,S1,1.5,-30,,0."
+        "0123,0.001\r\n",
+        "r.csv", notes);
+    REQUIRE(table.rows.size() == 2);
+    CHECK(table.comment.at("touches") == "9");
+    CHECK(table.rows[0].device == Device::none);
+    CHECK_FALSE(table.rows[0].value_mm);
+    CHECK(table.rows[1].test == "a,b");
+    CHECK(table.rows[1].commanded[Axis::B] == rad_from_deg(-30));
+    CHECK(*table.rows[1].value_mm == 0.0123);
+    CHECK(*table.rows[1].sigma_mm == 0.001);
+    REQUIRE(notes.size() == 1);
+    CHECK_THAT(notes[0], Catch::Contains("odd"));
+}
+
+TEST_CASE("bad tables name the place") {
+    check_fault("", "no header", 1, 1);
+    check_fault("a,b\n", "column 'index' is missing", 1, 1);
+    check_fault(header, "no rows", 1, 1);
+    check_fault(header + "1,nan,t,,ballbar,P,0,0,,,,0\n", "not a finite number", 2, 3);
+    check_fault(header + "1,0,t,,ballbar,P,inf,0,,,,0\n", "not a finite number", 2, 18);
+    check_fault(header + "1,0,t,,ballbar,P,,0,,,,0\n", "not a finite number", 2, 18);
+    check_fault(header + "1,0,t,,ruler,P,0,0,,,,0\n", "device is", 2, 8);
+    check_fault(header + "1,0,t,dbb,ballbar,P,0,0,,,,0\n", "mode is", 2, 7);
+    check_fault(header + "1,0,t,,sphere,P,0,0,1,1,0,0\n", "unit vector", 2, 1);
+    check_fault(header + "1,0,t,,ballbar,P,0,0,,,\n", "cells", 2, 24);
+    check_fault(header + "1,5,t,,ballbar,P,0,0,,,,0\n2,4,t,,ballbar,P,0,0,,,,0\n", "backwards", 3,
+                3);
+    check_fault(header + "1,5,t,,ballbar,P,0,0,,,,0\n2,5,t,,ballbar,P,0,1,,,,0\n", "same time_s", 3,
+                3);
+    check_fault(header + "1,5,t,,\"ballbar,P,0,0,,,,0\n", "quote", 2, 8);
+    check_fault("index,index\n", "stands twice", 1, 7);
+}
+
+TEST_CASE("text reads back to the same values") {
+    ReadingTable table;
+    table.axes = {Axis::X, Axis::C};
+    table.optional_columns = {"mode", "spindle_deg", "temperature_c"};
+    table.comment["seed"] = "7";
+    for (int i = 0; i < 300; ++i) {
+        Reading row;
+        row.index = i;
+        row.time_s = 0.1 * i;
+        row.test = "map";
+        row.device = i % 2 ? Device::sphere : Device::none;
+        row.mode = PositioningMode::tw;
+        row.commanded[Axis::X] = 1.0 / (i + 1);
+        row.commanded[Axis::C] = rad_from_deg(0.1 * i);
+        row.direction_M = {0, -1, 0};
+        row.spindle_rad = rad_from_deg(0.3 * i);
+        if (i % 3) row.value_mm = -0.001 / (i + 1);
+        table.rows.push_back(row);
+    }
+    const std::string text = format_readings(table);
+    const ReadingTable again = read(text);
+    REQUIRE(again.rows.size() == table.rows.size());
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        CHECK(again.rows[i].commanded == table.rows[i].commanded);
+        CHECK(again.rows[i].value_mm == table.rows[i].value_mm);
+        CHECK(again.rows[i].spindle_rad == table.rows[i].spindle_rad);
+        CHECK(again.rows[i].mode == PositioningMode::tw);
+    }
+    CHECK(format_readings(again) == text);
+    CHECK(again.comment.at("seed") == "7");
+}
+
+TEST_CASE("numbers are strict and short") {
+    CHECK(parse_number("+5") == 5.0);
+    CHECK(parse_number(" -2.5e-3 ") == -0.0025);
+    for (const char* bad : {"", "nan", "inf", "1,5", "5x", "+-5", "--5", "1e999"})
+        CHECK_FALSE(parse_number(bad));
+    CHECK(shortest(-0.0) == "0");
+    CHECK(shortest(0.1) == "0.1");
+    CHECK(shortest_degrees(rad_from_deg(58.252591)) == "58.252591");
+}
+
+TEST_CASE("ballbar rows: central velocity, one-sided at the ends, sign of travel") {
+    const ReadingTable table = read(circle(0.2, 1.0, 60));
+    const auto samples = samples_of(table);
+    const auto& rows = table.rows;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const std::size_t a = i ? i - 1 : 0, b = std::min(i + 1, rows.size() - 1);
+        const double v = (rows[b].commanded[Axis::X] - rows[a].commanded[Axis::X]) /
+                         (rows[b].time_s - rows[a].time_s);
+        CHECK(samples[i].velocity[Axis::X] == Approx(v));
+        CHECK(samples[i].travel[index_of(Axis::X)] == (v > 0 ? 1 : -1));
+        CHECK(samples[i].travel[index_of(Axis::C)] == 0);
+        CHECK(samples[i].velocity[Axis::C] == 0.0);
+    }
+}
+
+TEST_CASE("an exact turning point says nothing about reversal") {
+    const auto samples = samples_of(read(circle(0.0, 1.0, 40)));
+    CHECK(samples[20].travel[index_of(Axis::X)] == 0);  // x = -100
+    CHECK(samples[10].travel[index_of(Axis::Y)] == 0);
+    CHECK(samples[19].travel[index_of(Axis::X)] == -1);
+    CHECK(samples[21].travel[index_of(Axis::X)] == 1);
+}
+
+TEST_CASE("distance since reversal counts from the true turning point") {
+    for (const double start : {0.0, 0.2, -0.013}) {
+        const ReadingTable table = read(circle(start, 1.0, 120));
+        const auto samples = samples_of(table);
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            const double x = table.rows[i].commanded[Axis::X];
+            const double t = start + 2 * pi * static_cast<double>(i) / 120;
+            if (std::abs(std::remainder(t, pi)) < 1e-6) continue;
+            const double since = samples[i].since_reversal[index_of(Axis::X)];
+            if (start > 0 && t < pi)
+                CHECK(since > no_reversal_seen);
+            else if (t > 0 && t < pi && start == 0.0)
+                CHECK(since == Approx(100 - x).margin(1e-3));
+            else if (t > pi + 1e-3 && t < 2 * pi)
+                CHECK(since == Approx(x + 100).margin(1e-3));
+        }
+    }
+}
+
+TEST_CASE("sphere and touch rows: last non-zero move, device-less rows included") {
+    const ReadingTable table = read(header +
+                                    "0,0,m,,sphere,S,0,5,1,0,0,0\n"  // before the first move of b
+                                    "1,1,m,,,S,10,5,,,,\n"
+                                    "2,2,m,,sphere,S,10,0,1,0,0,0\n"
+                                    "3,3,n,,sphere,S,-7,3,1,0,0,0\n"  // another test: not a move
+                                    "4,4,m,,,S,10,-6,,,,\n"
+                                    "5,5,m,,touch,S,9,2,1,0,0,0\n");
+    const auto samples = samples_of(table);
+    const auto travel = [&](int i, Axis axis) {
+        return int(samples[std::size_t(i)].travel[index_of(axis)]);
+    };
+    CHECK(travel(0, Axis::X) == 1);
+    CHECK(travel(0, Axis::B) == -1);
+    CHECK(travel(2, Axis::X) == 1);
+    CHECK(travel(2, Axis::B) == -1);
+    CHECK(travel(3, Axis::X) == 0);
+    CHECK(travel(5, Axis::X) == -1);
+    CHECK(travel(5, Axis::B) == 1);
+    CHECK(samples[5].since_reversal[index_of(Axis::B)] == Approx(rad_from_deg(8)));
+    CHECK(samples[5].velocity[Axis::X] == 0.0);
+}
