@@ -1,0 +1,30 @@
+// What every command of the program looks like to main.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace trunnion {
+
+/// Set by the command that the user chose; returns the exit code of formats.md.
+using Run = std::function<int()>;
+
+/// Each command adds its subcommand and options to `app` and, when chosen, sets `run`.
+void add_backup(CLI::App& app, Run& run);
+void add_pivot(CLI::App& app, Run& run);
+
+/// Exit codes of formats.md.
+enum ExitCode : int {
+    exit_done = 0,
+    exit_differs = 1,
+    exit_bad_input = 2,
+    exit_alarm = 3,
+    exit_limit = 4,
+    exit_internal = 5
+};
+
+}  // namespace trunnion
