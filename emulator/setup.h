@@ -15,15 +15,15 @@
 namespace trunnion {
 
 struct ProbeSettings {
-    int tool = 0;                                ///< control tool it is called as, 0 = any
-    Vector3 tip_S_mm = Vector3(0, 0, -150);      ///< physical stylus ball centre in S
+    int tool = 0;                            ///< control tool it is called as, 0 = any
+    Vector3 tip_S_mm = Vector3(0, 0, -150);  ///< physical stylus ball centre in S
     double ball_diameter_mm = 6.0;
     double repeatability_um = 0.0;
     double pretravel_um = 0.0;
 };
 
 struct BallbarSettings {
-    Vector3 cup_S_mm = Vector3(0, 0, -120);      ///< physical tool-cup ball centre in S
+    Vector3 cup_S_mm = Vector3(0, 0, -120);  ///< physical tool-cup ball centre in S
     double length_mm = 100.0;
     double noise_um = 0.0;
     double sample_hz = 1000.0;
@@ -54,13 +54,13 @@ struct CalibrationPrior {
 /// [model]: what identification and diagnosis know beforehand.
 struct ModelSettings {
     std::vector<std::string> modelled = {"location"};
-    std::map<std::string, double> noise_um;  ///< by device name
+    std::map<std::string, double> noise_um;               ///< by device name
     std::map<std::string, CalibrationPrior> calibration;  ///< by ISO 230 name
 };
 
 struct Setup {
     std::string name;
-    std::string path;       ///< of the file, for messages
+    std::string path;  ///< of the file, for messages
     std::string chain_text;
     Machine machine;
     std::vector<EffectSetting> effects;
@@ -74,14 +74,21 @@ struct Setup {
     const Artefact* find_artefact(const std::string& name) const;
 };
 
-/// Reads a setup file; throws InputError with line, column and the line's text. `notes` gets one line
-/// for each value that was derived (19680-19714) or key that is not known.
+/// Reads a setup file; throws InputError with line, column and the line's text. `notes` gets one
+/// line for each value that was derived (19680-19714) or key that is not known.
 Setup load_setup(const std::string& path, std::vector<std::string>& notes);
-Setup parse_setup(const std::string& text, const std::string& path, std::vector<std::string>& notes);
+Setup parse_setup(const std::string& text, const std::string& path,
+                  std::vector<std::string>& notes);
 /// The setup as TOML that loads again to the same value.
 std::string format_setup(const Setup& setup);
 
-/// 19680-19714 as they would be if the control were told the truth about this machine.
-void derive_pivot_parameters(const Machine& machine, Parameters& parameters);
+/// 19680-19714 (and 19666, 19741-19744) as they would be if the control were told the truth about
+/// this machine. Numbers that `parameters` already has stay. Returns why they cannot be derived
+/// (not two rotary axes, a linear axis carried by a rotary one, an axis line in no coordinate
+/// plane), and then leaves all as it was; empty when done.
+std::string derive_pivot_parameters(const Machine& machine, Parameters& parameters);
+/// G54.2 groups 7580-7588 of the machine's table axes, the one nearest the work first. Nothing when
+/// any of them is present already, or when a table axis is inclined (no group can say that).
+void derive_fixture_groups(const Machine& machine, Parameters& parameters);
 
 }  // namespace trunnion
