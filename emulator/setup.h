@@ -1,6 +1,7 @@
 // Belief + machine + devices + artefacts: one copyable value, from a TOML file.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -74,11 +75,17 @@ struct Setup {
     const Artefact* find_artefact(const std::string& name) const;
 };
 
-/// Reads a setup file; throws InputError with line, column and the line's text. `notes` gets one
-/// line for each value that was derived (19680-19714) or key that is not known.
-Setup load_setup(const std::string& path, std::vector<std::string>& notes);
-Setup parse_setup(const std::string& text, const std::string& path,
-                  std::vector<std::string>& notes);
+/// Fills the stores from the backup folder that [control] names, before the file's own keys override
+/// them. The backup room stands beside this one, so the command that loads the setup hands it in.
+using BackupReader = std::function<void(const std::string& folder, Stores& stores)>;
+
+/// Reads a setup file; throws InputError with line, column and the line's text. `notes` gets one line
+/// for each value that was derived (19680-19714) or key that is not known. A `backup` key without a
+/// reader is an error.
+Setup load_setup(const std::string& path, std::vector<std::string>& notes,
+                 const BackupReader& backup = {});
+Setup parse_setup(const std::string& text, const std::string& path, std::vector<std::string>& notes,
+                  const BackupReader& backup = {});
 /// The setup as TOML that loads again to the same value.
 std::string format_setup(const Setup& setup);
 

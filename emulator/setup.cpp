@@ -1,0 +1,67 @@
+#include "emulator/setup.h"
+
+#include <fstream>
+#include <sstream>
+
+#include "emulator/setup_reader.h"
+
+namespace trunnion {
+namespace {
+
+/// Numbers of the pivot (19680-19714) and of the G54.2 groups that the file does not give are those
+/// of the machine, told truthfully.
+void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
+    Parameters& parameters = setup.stores.parameters;
+    const auto given = parameters.entry;
+    const std::string reason = derive_pivot_parameters(setup.machine, parameters);
+    if (!reason.empty() && !given.contains(19680))
+        notes.push_back(setup.path + ": note: no pivot parameters 19680-19714: " + reason);
+    derive_fixture_groups(setup.machine, parameters);
+    std::string numbers;
+    for (const auto& [number, parameter] : parameters.entry)
+        if (!given.contains(number))
+            numbers += (numbers.empty() ? "" : ", ") + std::to_string(number);
+    if (!numbers.empty())
+        notes.push_back(setup.path + ": note: parameters derived from [machine]: " + numbers);
+}
+
+std::string read_file(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    std::ostringstream text;
+    if (!in || !(text << in.rdbuf())) throw InputError("cannot read this file", {path, 0, 0});
+    return text.str();
+}
+
+}  // namespace
+
+const Artefact* Setup::find_artefact(const std::string& wanted) const {
+    for (const Artefact& artefact : artefacts)
+        if (artefact.name == wanted) return &artefact;
+    return nullptr;
+}
+
+Setup load_setup(const std::string& path, std::vector<std::string>& notes,
+                 const BackupReader& backup) {
+    return parse_setup(read_file(path), path, notes, backup);
+}
+
+Setup parse_setup(const std::string& text, const std::string& path, std::vector<std::string>& notes,
+                  const BackupReader& backup) {
+    const TomlFile file(text, path);
+    const TomlValue& root = file.root();
+    Setup setup;
+    setup.path = path;
+    if (const TomlValue* schema = root.find("schema"); schema && file.text(*schema) != "trunnion.setup/1")
+        file.fail(*schema, "this version reads schema \"trunnion.setup/1\"");
+    const TomlValue* machine = root.find("machine");
+    if (!machine) file.fail(root, "[machine] is missing");
+    read_machine(file, file.table(*machine), setup);
+    if (const TomlValue* control = root.find("control"))
+        read_control(file, file.table(*control), backup, setup);
+    read_devices(file, setup);
+    complete_pivot(setup, notes);
+    for (std::string& note : file.unknown_keys()) notes.push_back(std::move(note));
+    return setup;
+}
+
+}  // namespace trunnion
