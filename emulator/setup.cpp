@@ -1,5 +1,6 @@
 #include "emulator/setup.h"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -14,7 +15,9 @@ void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
     Parameters& parameters = setup.stores.parameters;
     const auto given = parameters.entry;
     const std::string reason = derive_pivot_parameters(setup.machine, parameters);
-    if (!reason.empty() && !given.contains(19680))
+    const auto axes = setup.machine.chain.axes();
+    const bool has_rotary = std::any_of(axes.begin(), axes.end(), [](auto& a) { return a.rotary; });
+    if (!reason.empty() && has_rotary && !given.contains(19680))
         notes.push_back(setup.path + ": note: no pivot parameters 19680-19714: " + reason);
     derive_fixture_groups(setup.machine, parameters);
     std::string numbers;
@@ -51,7 +54,8 @@ Setup parse_setup(const std::string& text, const std::string& path, std::vector<
     const TomlValue& root = file.root();
     Setup setup;
     setup.path = path;
-    if (const TomlValue* schema = root.find("schema"); schema && file.text(*schema) != "trunnion.setup/1")
+    if (const TomlValue* schema = root.find("schema");
+        schema && file.text(*schema) != "trunnion.setup/1")
         file.fail(*schema, "this version reads schema \"trunnion.setup/1\"");
     const TomlValue* machine = root.find("machine");
     if (!machine) file.fail(root, "[machine] is missing");

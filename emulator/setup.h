@@ -75,13 +75,14 @@ struct Setup {
     const Artefact* find_artefact(const std::string& name) const;
 };
 
-/// Fills the stores from the backup folder that [control] names, before the file's own keys override
-/// them. The backup room stands beside this one, so the command that loads the setup hands it in.
+/// Fills the stores from the backup folder that [control] names, before the file's own keys
+/// override them. The backup room stands beside this one, so the command that loads the setup hands
+/// it in.
 using BackupReader = std::function<void(const std::string& folder, Stores& stores)>;
 
-/// Reads a setup file; throws InputError with line, column and the line's text. `notes` gets one line
-/// for each value that was derived (19680-19714) or key that is not known. A `backup` key without a
-/// reader is an error.
+/// Reads a setup file; throws InputError with line, column and the line's text. `notes` gets one
+/// line for each value that was derived (19680-19714) or key that is not known. A `backup` key
+/// without a reader is an error.
 Setup load_setup(const std::string& path, std::vector<std::string>& notes,
                  const BackupReader& backup = {});
 Setup parse_setup(const std::string& text, const std::string& path, std::vector<std::string>& notes,

@@ -74,7 +74,8 @@ void read_tools(const TomlFile& file, const TomlValue& table, ToolOffsets& tools
 double parameter_value(const TomlFile& file, const TomlValue& value) {
     if (value.kind != TomlValue::Kind::text) return file.number(value);
     if (value.text.size() != 8 || value.text.find_first_not_of("01") != std::string::npos)
-        file.fail(value, "a bit parameter is eight of 0 and 1, e.g. \"00000001\" (rightmost is bit 0)");
+        file.fail(value,
+                  "a bit parameter is eight of 0 and 1, e.g. \"00000001\" (rightmost is bit 0)");
     double byte = 0.0;
     for (const char bit : value.text) byte = 2.0 * byte + (bit == '1' ? 1.0 : 0.0);
     return byte;
@@ -121,7 +122,8 @@ void read_numbered(const TomlFile& file, const TomlValue& table, std::map<int, d
     for (const auto& [key, value] : file.table(table).entries) {
         value.used = true;
         const std::string number = key.starts_with("#") ? key.substr(1) : key;
-        store[whole_number(file, number, value, 1, 99999, "a variable number")] = file.number(value);
+        store[whole_number(file, number, value, 1, 99999, "a variable number")] =
+            file.number(value);
     }
 }
 
@@ -140,7 +142,8 @@ void read_control(const TomlFile& file, const TomlValue& control, const BackupRe
     if (const TomlValue* dialect = control.find("dialect")) {
         if (file.text(*dialect) != "fanuc" && file.text(*dialect) != "hurco")
             file.fail(*dialect, "dialect is \"fanuc\" or \"hurco\"");
-        setup.dialect = dialect->text == "hurco" ? hurco_dialect() : fanuc_dialect();
+        setup.dialect.family =
+            dialect->text == "hurco" ? DialectFamily::hurco : DialectFamily::fanuc;
     }
     if (const TomlValue* folder = control.find("backup"))
         read_backup(file, *folder, backup, setup.stores);
@@ -148,7 +151,8 @@ void read_control(const TomlFile& file, const TomlValue& control, const BackupRe
         read_work_offsets(file, *table, setup.stores.work);
     if (const TomlValue* table = control.find("fixture_offsets"))
         read_fixtures(file, *table, setup.stores.fixture);
-    if (const TomlValue* table = control.find("tools")) read_tools(file, *table, setup.stores.tools);
+    if (const TomlValue* table = control.find("tools"))
+        read_tools(file, *table, setup.stores.tools);
     if (const TomlValue* table = control.find("parameters")) read_parameters(file, *table, setup);
     if (const TomlValue* table = control.find("variables"))
         read_numbered(file, *table, setup.stores.variables);

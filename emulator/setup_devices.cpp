@@ -110,7 +110,8 @@ void read_devices(const TomlFile& file, Setup& setup) {
     if (const TomlValue* table = root.find("probe")) read_probe(file, *table, setup);
     if (const TomlValue* table = root.find("ballbar")) read_ballbar(file, *table, setup);
     if (const TomlValue* list = root.find("artefact")) {
-        if (list->kind != TomlValue::Kind::array) file.fail(*list, "write [[artefact]], twice in brackets");
+        if (list->kind != TomlValue::Kind::array)
+            file.fail(*list, "write [[artefact]], twice in brackets");
         for (const TomlValue& item : list->items)
             setup.artefacts.push_back(read_artefact(file, item, setup));
     }

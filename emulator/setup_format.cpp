@@ -101,7 +101,8 @@ std::string axis_error_text(const AxisGeometry& axis, const AxisErrors& errors) 
         const std::string unit = k < 3 ? "_mm = " : "_rad = ";
         const char direction = "XYZABC"[k];
         if (errors.location[k] != 0.0)
-            out += to_string({direction, true, axis.axis}) + unit + shortest(errors.location[k]) + '\n';
+            out += to_string({direction, true, axis.axis}) + unit + shortest(errors.location[k]) +
+                   '\n';
         if (!errors.motion[k].is_zero())
             out += to_string({direction, false, axis.axis}) + unit +
                    curve_text(errors.motion[k], axis.rotary) + '\n';
@@ -120,7 +121,8 @@ std::string machine_text(const Setup& setup) {
     }
     const SmallMotion& spindle = setup.machine.errors.spindle;
     if (!spindle.shift_mm.isZero(0.0)) errors += "spindle_mm = " + numbers(spindle.shift_mm) + '\n';
-    if (!spindle.tilt_rad.isZero(0.0)) errors += "spindle_rad = " + numbers(spindle.tilt_rad) + '\n';
+    if (!spindle.tilt_rad.isZero(0.0))
+        errors += "spindle_rad = " + numbers(spindle.tilt_rad) + '\n';
     return errors.empty() ? out : out + "\n[machine.errors]\n" + errors;
 }
 
@@ -140,7 +142,8 @@ std::string work_text(const WorkOffsets& work) {
         if (offset != OffsetVector{}) out += key + " = " + offset_text(offset) + '\n';
     };
     add("external", work.external);
-    for (std::size_t i = 0; i < work.standard.size(); ++i) add("G5" + std::to_string(4 + i), work.standard[i]);
+    for (std::size_t i = 0; i < work.standard.size(); ++i)
+        add("G5" + std::to_string(4 + i), work.standard[i]);
     for (std::size_t i = 0; i < work.additional.size(); ++i)
         add("\"G54.1 P" + std::to_string(i + 1) + '"', work.additional[i]);
     return out.empty() ? out : "\n[control.work_offsets]\n" + out;
@@ -191,8 +194,9 @@ std::string numbered_text(const char* title, const std::map<int, double>& store)
 }
 
 std::string control_text(const Setup& setup) {
-    std::string out = std::string("\n[control]\ndialect = ") +
-                      (setup.dialect.family == DialectFamily::hurco ? "\"hurco\"\n" : "\"fanuc\"\n");
+    std::string out =
+        std::string("\n[control]\ndialect = ") +
+        (setup.dialect.family == DialectFamily::hurco ? "\"hurco\"\n" : "\"fanuc\"\n");
     out += work_text(setup.stores.work) + fixture_text(setup.stores.fixture);
     if (!setup.stores.parameters.entry.empty()) out += "\n[control.parameters]\n";
     for (const auto& [number, parameter] : setup.stores.parameters.entry)
@@ -211,7 +215,9 @@ std::string probe_text(const ProbeSettings& probe) {
            "\npretravel_um = " + shortest(probe.pretravel_um) + '\n';
 }
 
-std::string texts(const std::vector<std::string>& list) { return list_of(list, quoted); }
+std::string texts(const std::vector<std::string>& list) {
+    return list_of(list, quoted);
+}
 
 std::string ballbar_text(const BallbarSettings& bar) {
     std::vector<std::string> free;

@@ -7,7 +7,9 @@
 namespace trunnion {
 namespace {
 
-double from_file(bool rotary, double value) { return rotary ? rad_from_deg(value) : value; }
+double from_file(bool rotary, double value) {
+    return rotary ? rad_from_deg(value) : value;
+}
 
 void read_limits(const TomlFile& file, const TomlValue& table, AxisGeometry& axis) {
     const TomlValue* limits = table.find(axis.rotary ? "limits_deg" : "limits_mm");
@@ -26,7 +28,8 @@ void read_dynamics(const TomlFile& file, const TomlValue& table, AxisGeometry& a
         axis.max_acceleration = from_file(axis.rotary, file.positive(*most));
 }
 
-void read_axis(const TomlFile& file, const TomlValue& table, AxisGeometry& axis, AxisErrors& errors) {
+void read_axis(const TomlFile& file, const TomlValue& table, AxisGeometry& axis,
+               AxisErrors& errors) {
     if (const TomlValue* direction = table.find("direction")) {
         const Vector3 v = file.vector3(*direction);
         if (v.norm() < 1e-9) file.fail(*direction, "a direction is not the zero vector");
@@ -57,8 +60,7 @@ void read_axes(const TomlFile& file, const TomlValue& axes, Setup& setup) {
         value.used = true;
         AxisGeometry* axis = find_axis(setup.machine.chain, letter);
         if (!axis) file.fail(value, "axis " + letter + " does not stand in the chain");
-        read_axis(file, file.table(value), *axis,
-                  setup.machine.errors.axis[index_of(axis->axis)]);
+        read_axis(file, file.table(value), *axis, setup.machine.errors.axis[index_of(axis->axis)]);
     }
 }
 
@@ -155,12 +157,14 @@ void read_machine_errors(const TomlFile& file, const TomlValue& table, Setup& se
         }
         const auto bar = key.find('_');
         const auto name = parse_error_name(std::string_view(key).substr(0, bar));
-        if (!name) file.fail(value, "'" + key + "' is not an error of ISO 230, e.g. EX0C_mm, EBX_rad");
+        if (!name)
+            file.fail(value, "'" + key + "' is not an error of ISO 230, e.g. EX0C_mm, EBX_rad");
         if (key.substr(std::min(bar, key.size())) != (name->angular() ? "_rad" : "_mm"))
             file.fail(value, "the unit of " + to_string(*name) + " is " +
                                  (name->angular() ? "_rad" : "_mm"));
         const AxisGeometry* axis = setup.machine.chain.find(name->axis);
-        if (!axis) file.fail(value, "the machine has no axis " + std::string(1, letter_of(name->axis)));
+        if (!axis)
+            file.fail(value, "the machine has no axis " + std::string(1, letter_of(name->axis)));
         if (name->location)
             errors.location(*name) = file.number(value);
         else

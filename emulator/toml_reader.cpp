@@ -1,8 +1,9 @@
 #include "emulator/toml_reader.h"
 
+#include <toml++/toml.h>
+
 #include <algorithm>
 #include <cmath>
-#include <toml++/toml.h>
 
 namespace trunnion {
 namespace {
@@ -14,7 +15,8 @@ TomlValue convert_table(const toml::table& table) {
     for (const auto& [key, child] : table)
         value.entries.emplace_back(std::string(key.str()), convert(child));
     std::stable_sort(value.entries.begin(), value.entries.end(), [](const auto& a, const auto& b) {
-        return std::pair(a.second.line, a.second.column) < std::pair(b.second.line, b.second.column);
+        return std::pair(a.second.line, a.second.column) <
+               std::pair(b.second.line, b.second.column);
     });
     return value;
 }
