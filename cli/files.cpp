@@ -60,7 +60,7 @@ void OutputFiles::write() {
 }
 
 void print_notes(const std::vector<std::string>& notes) {
-    for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+    for (const std::string& note : notes) fmt::print(stderr, "{}\n", note);
 }
 
 }  // namespace trunnion

@@ -26,7 +26,7 @@ class OutputFiles {
     std::vector<std::pair<std::string, std::string>> files_;
 };
 
-/// One line for each note on stderr: "note: ...".
+/// One line for each note on stderr; a note brings its own place.
 void print_notes(const std::vector<std::string>& notes);
 
 }  // namespace trunnion

@@ -15,7 +15,7 @@ namespace {
 using namespace trunnion;
 
 /// One line a command: file cli/NAME.cpp, declared in cli/command.h.
-const std::initializer_list<void (*)(CLI::App&, Run&)> commands = {};
+const std::initializer_list<void (*)(CLI::App&, Run&)> commands = {add_backup};
 
 int report_alarm(const Alarm& alarm) {
     fmt::print(stderr, "{}\n",

@@ -11,7 +11,7 @@ set(TRUNNION_ROOMS
   "ballbar: kinematics geometry"
   "check: interpreter geometry"
   "backup: offsets interpreter geometry"
-  "emulator: backup controller offsets interpreter kinematics probe ballbar records geometry"
+  "emulator: controller offsets interpreter kinematics probe ballbar records geometry"
   "effects: emulator kinematics records geometry"
   "identification: emulator effects kinematics records geometry"
   "regression: emulator controller interpreter records geometry"

@@ -1,0 +1,67 @@
+// trunnion backup load|save|diff: a real control's backup files.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "backup/control_files.h"
+#include "cli/command.h"
+#include "cli/files.h"
+#include "cli/setups.h"
+
+namespace trunnion {
+
+namespace {
+
+int load(const std::string& folder) {
+    const ControlBackup backup = read_backup(folder);
+    Stores stores;
+    apply_backup(backup, stores);
+    for (const BackupValue& v : list_values(backup))
+        fmt::print("{}\t{}\t{}\n", v.file, v.name, v.text);
+    return exit_done;
+}
+
+int save(const std::string& from, const std::string& to, const std::string& setup_path) {
+    ControlBackup backup = read_backup(from);
+    update_backup(backup, open_setup(setup_path).stores);
+    write_backup(backup, to);
+    return exit_done;
+}
+
+int diff(const std::string& a, const std::string& b) {
+    const auto differences = diff_backups(read_backup(a), read_backup(b));
+    for (const BackupDifference& d : differences)
+        fmt::print("{}\t{}\t{}\t{}\n", d.file, d.name, d.a.empty() ? "-" : d.a,
+                   d.b.empty() ? "-" : d.b);
+    return differences.empty() ? exit_done : exit_differs;
+}
+
+}  // namespace
+
+void add_backup(CLI::App& app, Run& run) {
+    struct Options {
+        std::string a, b, setup;
+    };
+    const auto o = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("backup", "a real control's backup files");
+    command->require_subcommand(1);
+
+    CLI::App* load_word = command->add_subcommand("load", "list every value of a backup folder");
+    load_word->add_option("FOLDER", o->a, "backup folder")->required();
+    load_word->callback([o, &run] { run = [o] { return load(o->a); }; });
+
+    CLI::App* save_word = command->add_subcommand(
+        "save", "write the backup FOLDER to OUT with the values of a setup's control in it");
+    save_word->add_option("FOLDER", o->a, "backup folder whose form is kept")->required();
+    save_word->add_option("OUT", o->b, "folder to write")->required();
+    save_word->add_option("--setup", o->setup, "setup file")->required();
+    save_word->callback([o, &run] { run = [o] { return save(o->a, o->b, o->setup); }; });
+
+    CLI::App* diff_word =
+        command->add_subcommand("diff", "values that differ between two backup folders");
+    diff_word->add_option("A", o->a, "backup folder")->required();
+    diff_word->add_option("B", o->b, "backup folder")->required();
+    diff_word->callback([o, &run] { run = [o] { return diff(o->a, o->b); }; });
+}
+
+}  // namespace trunnion

@@ -1,0 +1,19 @@
+#include "cli/setups.h"
+
+#include "backup/control_files.h"
+#include "cli/files.h"
+
+namespace trunnion {
+
+Setup open_setup(const std::string& path) {
+    std::vector<std::string> notes;
+    const auto read_files = [](const std::string& folder, Stores& stores) {
+        apply_backup(read_backup(folder), stores);
+    };
+    Setup setup =
+        load_setup(path.empty() ? shipped("machines/bc_table.toml") : path, notes, read_files);
+    print_notes(notes);
+    return setup;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,14 @@
+// The setup a command works on.
+#pragma once
+
+#include <string>
+
+#include "emulator/setup.h"
+
+namespace trunnion {
+
+/// Loads a setup file, backup folder included; an empty path is machines/bc_table.toml. Notes go to
+/// stderr.
+Setup open_setup(const std::string& path);
+
+}  // namespace trunnion
