@@ -10,11 +10,11 @@ namespace trunnion {
 /// A word after its expression was evaluated.
 struct WordValue {
     double value = 0.0;
-    char letter = 0;             ///< upper case
-    bool decimal_point = true;   ///< false: written as a bare integer, so parameter 3401#0 and the
-                                 ///< increment system decide what it means; variables count as true
-    bool vacant = false;         ///< `X#1` with #1 vacant: the control drops the word
-    std::uint16_t column = 0;    ///< from 1, of the letter
+    char letter = 0;            ///< upper case
+    bool decimal_point = true;  ///< false: written as a bare integer, so parameter 3401#0 and the
+                                ///< increment system decide what it means; variables count as true
+    bool vacant = false;        ///< `X#1` with #1 vacant: the control drops the word
+    std::uint16_t column = 0;   ///< from 1, of the letter
 };
 
 /// The words of one block in the order written, without N, O, macro statements and comments.

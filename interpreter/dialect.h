@@ -10,11 +10,11 @@ enum class ControlGeneration : unsigned char { fanuc_16i, fanuc_30i, fanuc_0i_f 
 struct Dialect {
     DialectFamily family = DialectFamily::fanuc;
     ControlGeneration generation = ControlGeneration::fanuc_30i;
-    int macro_call_levels = 5;    ///< G65/G66 nesting: 5 on 30i and 0i-F, 4 on 16i/18i (assumed)
-    int subprogram_levels = 10;   ///< M98 nesting: 10, 4 on older controls (assumed)
-    int total_levels = 15;        ///< both together (assumed)
-    bool comment_nesting = false; ///< Fanuc: a comment ends at the first ')'
-    bool has_98000 = false;       ///< #98000-#98499
+    int macro_call_levels = 5;     ///< G65/G66 nesting: 5 on 30i and 0i-F, 4 on 16i/18i (assumed)
+    int subprogram_levels = 10;    ///< M98 nesting: 10, 4 on older controls (assumed)
+    int total_levels = 15;         ///< both together (assumed)
+    bool comment_nesting = false;  ///< Fanuc: a comment ends at the first ')'
+    bool has_98000 = false;        ///< #98000-#98499
 };
 
 Dialect fanuc_dialect(ControlGeneration generation = ControlGeneration::fanuc_30i);

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geometry/alarm.h"
@@ -32,9 +33,14 @@ struct InterpreterOptions {
     Dialect dialect;
     CodeCalls calls;
     std::vector<bool> skip_switches = std::vector<bool>(10, false);  ///< [1] also serves '/'
-    int increment_digits = 3;     ///< least input increment 1e-3 (IS-B): ROUND inside a word
-    bool asin_0_to_minus_90 = false;  ///< parameter 6004#0: range of ATAN, ASIN (see sources.md)
+    int increment_digits = 3;         ///< least input increment 1e-3 (IS-B): ROUND inside a word
+    bool asin_0_to_minus_90 = false;  ///< parameter 6004#0 = 1: ASIN -90..90, ATAN[a]/[b]
+                                      ///< -180..180; 0: 270..90 and 0..360
     std::uint64_t max_blocks = 0;     ///< 0: no limit; reached: stop with `limit`
+    bool whole_arguments_as_written = true;  ///< parameter 3401#0 = 1: G65 A10 passes 10.; 0: ten
+                                             ///< least increments
+    bool print_suppresses_blanks = false;    ///< parameter 6001#1 (PRT)
+    bool main_m99_ends = true;  ///< M99 in the main program: end here instead of running for ever
 };
 
 /// One program run, block by block.
@@ -43,14 +49,15 @@ struct InterpreterOptions {
 ///     nc.open(text);                     // or nc.open(o_number)
 ///     while (const BlockWords* words = nc.next()) control.execute(*words);
 ///
-/// `next` does all flow (GOTO, WHILE, IF, G65-G67, M98, M99, M198, mapped codes, assignments, DPRNT)
-/// and returns only blocks that hold words for the control, or nullptr at the end of the program.
-/// Faults are thrown as Alarm with place. The returned block is valid until the next call.
+/// `next` does all flow (GOTO, WHILE, IF, G65-G67, M98, M99, M198, mapped codes, assignments,
+/// DPRNT) and returns only blocks that hold words for the control, or nullptr at the end of the
+/// program. Faults are thrown as Alarm with place. The returned block is valid until the next call.
 class Interpreter {
   public:
     using Print = std::function<void(std::string_view)>;  ///< what DPRNT and BPRNT put out
 
-    Interpreter(ProgramSource& source, InterpreterOptions options, SystemVariables& system, Print print);
+    Interpreter(ProgramSource& source, InterpreterOptions options, SystemVariables& system,
+                Print print);
     ~Interpreter();
     Interpreter(Interpreter&&) noexcept;
 
@@ -77,6 +84,10 @@ class Interpreter {
     int program_number() const;
     int sequence_number() const;
     std::uint64_t blocks_executed() const;
+    /// Calls inside each other at present: 0 in the main program.
+    int call_depth() const;
+    /// Digits behind the point of the least input increment (G20 on IS-B: 4): ROUND inside a word.
+    void set_increment_digits(int digits);
     bool limit_reached() const;
 
   private:

@@ -12,7 +12,7 @@ namespace trunnion {
 /// The bytes of one file, kept alive as long as anyone reads it. `text` may be a memory map, so a
 /// file of any length costs no memory of its own.
 struct ProgramText {
-    std::string name;       ///< shown in messages: the path as given
+    std::string name;  ///< shown in messages: the path as given
     std::string_view text;
     std::shared_ptr<const void> owner;
 };

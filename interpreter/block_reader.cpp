@@ -1,0 +1,52 @@
+#include "interpreter/block_reader.h"
+
+#include <algorithm>
+
+#include "interpreter/alarms.h"
+
+namespace trunnion {
+
+std::uint16_t BlockReader::column() const {
+    return static_cast<std::uint16_t>(std::min<std::ptrdiff_t>(p - begin + 1, 65535));
+}
+
+char BlockReader::peek_raw() {
+    p = skip_blanks(p, end);
+    if (p == end || is_line_end(*p) || *p == control_z) return at_end;
+    if (*p == '\0') raise_alarm(9, column(), "NUL byte");
+    return *p;
+}
+
+char BlockReader::peek() {
+    char c = peek_raw();
+    while (c == '(') {
+        read_comment();
+        c = peek_raw();
+    }
+    return upper(c);
+}
+
+void BlockReader::read_comment() {
+    Comment comment;
+    comment.column = column();
+    comment.byte = static_cast<std::uint64_t>(p + 1 - text_);
+    comment.leading = leading;
+    int depth = 0;
+    do {
+        if (p == end || is_line_end(*p) || *p == control_z)
+            raise_alarm(9, comment.column, "comment without ')'");
+        if (*p == '(' && (depth == 0 || nested_comments_)) ++depth;
+        if (*p == ')') --depth;
+        ++p;
+    } while (depth > 0);
+    comment.size =
+        static_cast<std::uint32_t>(static_cast<std::uint64_t>(p - 1 - text_) - comment.byte);
+    out_.comments.push_back(comment);
+}
+
+void BlockReader::expect(char c, int alarm) {
+    if (peek() != c) raise_alarm(alarm, column());
+    ++p;
+}
+
+}  // namespace trunnion

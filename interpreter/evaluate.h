@@ -1,0 +1,23 @@
+// Runs the reverse Polish code of an expression.
+#pragma once
+
+#include "interpreter/code.h"
+#include "interpreter/memory.h"
+
+namespace trunnion {
+
+struct EvaluationRules {
+    bool signed_angles = false;  ///< parameter 6004#0 = 1: ATAN[a]/[b] in -180..180, ASIN in
+                                 ///< -90..90; 0: 0..360 and 270..90
+    double increments_per_unit = 1000.0;  ///< ROUND inside an NC word; ADP
+};
+
+/// The value of `code`: vacant only when it is nothing but a vacant variable. Vacant counts 0 in
+/// arithmetic; EQ and NE tell vacant from 0. Angles in degrees. Alarms carry the column.
+double evaluate(const Op* code, std::uint32_t count, const Memory& memory,
+                const EvaluationRules& rules);
+
+/// A value used as a number of something: rounded; vacant is 0. Alarm 110 beyond 9 digits.
+int whole_number(double value, int column);
+
+}  // namespace trunnion

@@ -1,0 +1,47 @@
+// Expressions and variable references -> reverse Polish code. Internal to the parser.
+#pragma once
+
+#include "interpreter/block_parser.h"
+#include "interpreter/block_reader.h"
+#include "interpreter/keywords.h"
+
+namespace trunnion {
+
+class ExpressionParser {
+  public:
+    ExpressionParser(BlockReader& in, const ParseOptions& options, Code& out)
+        : in_(in), options_(options), out_(out) {}
+
+    /// sum level, or with comparisons.
+    Span expression(Precedence lowest);
+    /// `#n` or `#[..]` as a value: what a word or GOTO may hold besides a number.
+    Span variable();
+    /// `[..]`
+    Span bracketed();
+    /// The number of a variable behind '#': constant in `number`, or code in the returned span.
+    Span variable_number(int& number);
+
+    bool round_to_increment = false;  ///< ROUND inside an NC word
+
+  private:
+    void binary(Precedence level);
+    void unary();
+    void primary();
+    void bracket();
+    void number();
+    void function(OpCode code, std::uint16_t column);
+    void atan(std::uint16_t column);
+    void prm(std::uint16_t column);
+    void load(std::uint16_t column);
+    bool reference(int& number);
+    int named_variable();
+    void emit(OpCode code, std::uint16_t column, int operands);
+
+    BlockReader& in_;
+    const ParseOptions& options_;
+    Code& out_;
+    int brackets_ = 0;
+    int stack_ = 0;
+};
+
+}  // namespace trunnion

@@ -1,0 +1,16 @@
+// What DPRNT and BPRNT put out for one value.
+#pragma once
+
+#include <string>
+
+namespace trunnion {
+
+/// DPRNT #v[ab]: sign (blank for +), `integers` places filled with blanks in front, point and
+/// `decimals` places; higher digits are cut off. With `suppress_zeros` (parameter 6001#1 PRT = 1)
+/// no blanks are put out. Vacant prints as 0.
+std::string decimal_print(double value, int integers, int decimals, bool suppress_zeros);
+
+/// BPRNT #v[d]: value * 10^d as four bytes, most significant first. Alarm 110 beyond 32 bits.
+std::string binary_print(double value, int decimals);
+
+}  // namespace trunnion

@@ -1,0 +1,79 @@
+// The program texts in use, where programs begin in them, and where N numbers and ENDs stand.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interpreter/program_source.h"
+
+namespace trunnion {
+
+/// The start of a block.
+struct TextPlace {
+    std::uint64_t byte = 0;
+    int line = 1;
+};
+
+struct Numbered {
+    int number = 0;
+    int line = 0;
+    std::uint64_t byte = 0;
+};
+
+/// One file; its list of programs is built when a call first needs it.
+struct ProgramFile {
+    int id = 0;
+    ProgramText text;
+    bool listed = false;
+    std::vector<Numbered> programs;  ///< by O number, first of equal ones first
+};
+
+/// One program: from its O number (or its first block) to the next one or the end of record.
+struct Section {
+    ProgramFile* file = nullptr;
+    TextPlace begin;
+    int o_number = 0;
+    std::uint64_t read_to = 0;  ///< text before this was executed already
+    int first_block = -1;       ///< runner's cache
+    bool indexed = false;
+    bool index_too_large = false;  ///< more N numbers than are kept: searched in the text each time
+    std::vector<Numbered> index;   ///< N numbers, by number then place
+};
+
+class ProgramFiles {
+  public:
+    explicit ProgramFiles(ProgramSource& source) : source_(source) {}
+
+    /// The first program of a text.
+    Section& open(const ProgramText& text);
+    /// Program O`number`: in `near`'s file, in the first opened file, then from the source.
+    Section* find(int number, const Section* near);
+    /// Only from the source (M198).
+    Section* find_outside(int number);
+
+    /// GOTO's rule: the next N`number` behind `after`, to the end of the program, then from its
+    /// start.
+    std::optional<TextPlace> find_sequence(Section& section, int number, std::uint64_t after);
+    /// Behind the END `number` that closes the DO whose block ends at `from`, or nothing.
+    std::optional<TextPlace> find_loop_end(const Section& section, TextPlace from,
+                                           int number) const;
+
+    void forget_first_blocks();
+
+  private:
+    ProgramFile& add(const ProgramText& text);
+    Section& section_at(ProgramFile& file, TextPlace place, int o_number);
+    Section* find_in(ProgramFile& file, int number);
+    void build_index(Section& section);
+
+    ProgramSource& source_;
+    std::vector<std::unique_ptr<ProgramFile>> files_;
+    std::vector<std::unique_ptr<Section>> sections_;
+    std::map<std::pair<int, int>, Section*> found_;  ///< by file id (-1: source) and number
+};
+
+}  // namespace trunnion

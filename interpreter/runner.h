@@ -1,0 +1,150 @@
+// State of a program run: frames, places, the cache of compiled blocks. Internal to the
+// interpreter.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "interpreter/arguments.h"
+#include "interpreter/block_cache.h"
+#include "interpreter/block_parser.h"
+#include "interpreter/evaluate.h"
+#include "interpreter/interpreter.h"
+#include "interpreter/plain_block.h"
+#include "interpreter/program_files.h"
+
+namespace trunnion {
+
+/// A block to run next: its place, and its number in the cache where that is known.
+struct Place {
+    std::uint64_t byte = 0;
+    int line = 0;  ///< 0: no place
+    int block = -1;
+};
+
+/// One program that runs: the main program or a called one.
+struct Frame {
+    Section* section = nullptr;
+    Locals* locals = nullptr;
+    std::array<Place, 4> loops;  ///< [1..3]: the DO block of the loop that runs
+    Place start;                 ///< where a repeat begins
+    Place back;                  ///< in the caller
+    int back_link = -1;
+    int repeats = 1;  ///< left, this one included
+    int macro_depth = 0;
+    int sub_depth = 0;
+    int modal_limit = 0;  ///< modal calls [0, limit) apply to motion of this program
+    bool macro = false;
+    bool by_code = false;  ///< called by a G, M or T code: codes call nothing in here
+};
+
+/// G66, G66.1
+struct ModalCall {
+    Section* section = nullptr;
+    Locals locals;
+    int repeats = 1;
+    bool every_block = false;
+};
+
+/// What the block just given out still has to do.
+struct Pending {
+    enum class Kind : unsigned char { none, subprogram, give_back } kind = Kind::none;
+    int program = 0;
+    int repeats = 1;
+    int sequence_number = -1;
+    bool by_code = false;
+    bool outside = false;
+};
+
+struct Interpreter::State {
+    State(ProgramSource& source, InterpreterOptions options, SystemVariables& system, Print print);
+
+    void start(Section& section);
+    const BlockWords* step();
+
+    // runner.cpp: blocks in order
+    bool first_reading(bool& give);
+    bool resolve();
+    void flush_cache();
+    bool run(const Block& block, Code& code, int index);
+    bool give_out(const Block& block, const Code& code);
+    bool program_block(const Block& block, Code& code, int index);
+    void end_of_section();
+    bool limit_hit();
+
+    // runner_statements.cpp
+    void statements(const Block& block, Code& code, int index);
+    void assign(const Block& block, const Code& code, const Item& item);
+    void go_to(const Block& block, Code& code, Item& item, bool cached);
+    void while_do(const Block& block, Item& item, int index);
+    void end_loop(const Item& item);
+    void jump(const TextPlace& place);
+    int new_link(const TextPlace& place);
+    void follow(int link);
+    void print_line(const Code& code, const Item* item, const Item* last);
+    void set_names(const Code& code, const Item& item);
+    std::string comment_of(const Block& block, const Code& code) const;
+
+    // runner_calls.cpp
+    bool special_words(const Block& block, const Code& code);
+    void macro_call(std::size_t at, bool modal, bool every_block);
+    bool subprogram_words(std::size_t at, bool outside);
+    bool return_words(std::size_t at);
+    bool code_call(std::size_t at, const CodeCalls::Call& call);
+    bool tool_call(std::size_t at);
+    bool cancel_modal(std::size_t at);
+    bool macro_file_value(const Block& block, const Code& code);
+    bool call_every_block();
+    void call_after_motion();
+    void perform_pending();
+    void call_subprogram(const Pending& call);
+    void push(Section& section, int repeats, bool macro, bool by_code);
+    void start_macro(Section& section, int repeats, bool by_code);
+    void give_back(int sequence_number, int repeats);
+    TextPlace target_of_return(const Frame& caller, int sequence_number);
+    void repeat();
+    Section& called(int number, bool outside, int column);
+    double take(char letter, double otherwise);
+    void remove(std::size_t at);
+    bool give_or(Pending call);
+    ArgumentRules argument_rules() const;
+
+    double value(const Code& code, const Item& item) const {
+        return item.a.count == 0
+                   ? item.value
+                   : evaluate(code.ops.data() + item.a.first, item.a.count, memory, rules);
+    }
+    Frame& frame() { return frames.back(); }
+    std::string_view text() const { return frames.back().section->file->text.text; }
+
+    InterpreterOptions options;
+    ProgramFiles files;
+    Memory memory;
+    Print print;
+    EvaluationRules rules;
+    ParseOptions parse;
+    VariableNames names;
+    SpecialCodes special;
+
+    BlockCache cache;
+    std::size_t cache_misses = 0;  ///< since it is full
+    Code scratch;                  ///< blocks met for the first time
+    std::vector<Frame> frames;
+    std::vector<Locals> levels;    ///< by macro depth
+    std::vector<Locals> repeated;  ///< arguments of a macro call with L, by macro depth
+    std::vector<ModalCall> modals;
+    std::size_t modal_count = 0;
+
+    BlockWords words;
+    Place at;            ///< the next block
+    int link_from = -1;  ///< cache link that leads to it and is not known yet
+    Place current;       ///< the block that runs
+    Pending pending;
+    bool moved = false;
+    bool ended = true;
+    bool limit = false;
+    std::uint64_t executed = 0;
+    int sequence_number = 0;
+};
+
+}  // namespace trunnion

@@ -1,0 +1,322 @@
+// Programs that call programs: G65-G67, M98, M99, M198 and codes mapped by parameters.
+#include <cmath>
+#include <cstring>
+
+#include "interpreter/alarms.h"
+#include "interpreter/runner.h"
+
+namespace trunnion {
+namespace {
+
+const CodeCalls::Call* find_call(const std::map<int, CodeCalls::Call>& calls, double code) {
+    const auto it = calls.find(static_cast<int>(std::lround(code)));
+    return it == calls.end() ? nullptr : &it->second;
+}
+
+/// The eight bytes of a control's MACRO.TXT, most significant first; false: not sixteen hex digits.
+bool read_hex_double(std::string_view digits, double& value) {
+    std::uint64_t bits = 0;
+    if (digits.size() != 16) return false;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + 16, bits, 16);
+    if (error != std::errc{} || end != digits.data() + 16) return false;
+    std::memcpy(&value, &bits, sizeof value);
+    return true;
+}
+
+}  // namespace
+
+/// `words` hold a code of the language. True: words remain for the control now.
+bool Interpreter::State::special_words(const Block& block, const Code& code) {
+    const bool codes_call = !frame().by_code;
+    for (std::size_t i = 0; i < words.count; ++i) {
+        const WordValue word = words.words[i];
+        if (word.vacant || !special.has(word.letter, word.value)) continue;
+        if (word.letter == 'T') {
+            if (codes_call) return tool_call(i);
+            continue;
+        }
+        if (word.letter == 'M') {
+            if (word.value == 98) return subprogram_words(i, false);
+            if (word.value == 99) return return_words(i);
+            if (word.value == 198) return subprogram_words(i, true);
+            const CodeCalls::Call* call = find_call(options.calls.m, word.value);
+            if (codes_call && call) return code_call(i, *call);
+            continue;
+        }
+        if (word.value == 65) return macro_call(i, false, false), false;
+        if (word.value == 66) return macro_call(i, true, false), false;
+        if (word.value == 66.1) return macro_call(i, true, true), false;
+        if (word.value == 67) return cancel_modal(i);
+        if (word.value == 10 && macro_file_value(block, code)) return false;
+        const CodeCalls::Call* call = find_call(options.calls.g, word.value * 10.0);
+        if (codes_call && call) return code_call(i, *call);
+    }
+    return words.count > 0;
+}
+
+void Interpreter::State::remove(std::size_t at_word) {
+    for (std::size_t i = at_word + 1; i < words.count; ++i) words.words[i - 1] = words.words[i];
+    --words.count;
+}
+
+/// The value of the first word with this letter, which is taken out of the block.
+double Interpreter::State::take(char letter, double otherwise) {
+    for (std::size_t i = 0; i < words.count; ++i) {
+        if (words.words[i].letter != letter) continue;
+        const WordValue word = words.words[i];
+        remove(i);
+        return word.vacant ? otherwise : word.value;
+    }
+    return otherwise;
+}
+
+ArgumentRules Interpreter::State::argument_rules() const {
+    ArgumentRules r;
+    r.whole_numbers_as_written = options.whole_arguments_as_written;
+    r.increments_per_unit = rules.increments_per_unit;
+    return r;
+}
+
+Section& Interpreter::State::called(int number, bool outside, int column) {
+    Section* section = outside ? files.find_outside(number) : files.find(number, frame().section);
+    if (!section) raise_alarm(76, column, "O" + std::to_string(number));
+    return *section;
+}
+
+/// G65 P_ L_ arguments, or G66 / G66.1 with the same words.
+void Interpreter::State::macro_call(std::size_t at_word, bool modal, bool every_block) {
+    if (at_word != 0)
+        raise_alarm(127, words.words[0].column, "G65 and G66 stand first in their block");
+    const int column = words.words[0].column;
+    remove(0);
+    const double p = take('P', -1.0);
+    if (p < 0.0) raise_alarm(76, column, "P is missing");
+    const int repeats = whole_number(take('L', 1.0), column);
+    Section& section = called(whole_number(p, column), false, column);
+    if (modal) {
+        if (modal_count == modals.size()) raise_alarm(122, column);
+        ModalCall& call = modals[modal_count++];
+        call.section = &section;
+        call.repeats = repeats;
+        call.every_block = every_block;
+        frame().modal_limit = static_cast<int>(modal_count);
+        return pass_arguments(words.begin(), words.end(), argument_rules(), call.locals);
+    }
+    start_macro(section, repeats, false);
+}
+
+/// Starts a macro with the words left in the block as arguments.
+void Interpreter::State::start_macro(Section& section, int repeats, bool by_code) {
+    const auto depth = static_cast<std::size_t>(frame().macro_depth) + 1;
+    if (depth >= levels.size()) raise_alarm(122, words.count > 0 ? words.words[0].column : 1);
+    pass_arguments(words.begin(), words.end(), argument_rules(), levels[depth]);
+    if (repeats < 1) return;
+    if (repeats > 1) repeated[depth] = levels[depth];
+    push(section, repeats, true, by_code);
+    frame().locals = memory.locals = &levels[depth];
+}
+
+void Interpreter::State::push(Section& section, int repeats, bool macro, bool by_code) {
+    const Frame& caller = frame();
+    Frame f;
+    f.macro_depth = caller.macro_depth + (macro ? 1 : 0);
+    f.sub_depth = caller.sub_depth + (macro ? 0 : 1);
+    if (f.macro_depth > options.dialect.macro_call_levels) raise_alarm(122);
+    if (f.sub_depth > options.dialect.subprogram_levels ||
+        f.macro_depth + f.sub_depth > options.dialect.total_levels)
+        raise_alarm(77);
+    f.section = &section;
+    f.locals = caller.locals;
+    f.start = {section.begin.byte, section.begin.line, section.first_block};
+    f.back = at;
+    f.back_link = link_from;
+    f.repeats = repeats;
+    f.modal_limit = caller.modal_limit;
+    f.macro = macro;
+    f.by_code = by_code || caller.by_code;
+    frames.push_back(f);
+    at = f.start;
+    link_from = -1;
+}
+
+/// Gives the remaining words out first and calls afterwards, or calls at once.
+bool Interpreter::State::give_or(Pending call) {
+    pending = call;
+    if (words.count > 0) return true;
+    perform_pending();
+    return false;
+}
+
+/// M98 P_ L_ Q_, M198 P_ L_.
+bool Interpreter::State::subprogram_words(std::size_t at_word, bool outside) {
+    const int column = words.words[at_word].column;
+    remove(at_word);
+    const double p = take('P', -1.0);
+    if (p < 0.0) raise_alarm(76, column, "P is missing");
+    const int l = whole_number(take('L', -1.0), column);
+    const bool packed = options.dialect.family == DialectFamily::fanuc;
+    const int number = whole_number(p, column);
+    SubprogramCall call = unpack_subprogram(number, l, packed);
+    if (call.program != number && !files.find(call.program, frame().section) &&
+        files.find(number, frame().section))
+        call = {number, 1};  // eight-digit program number without L
+    Pending todo;
+    todo.kind = Pending::Kind::subprogram;
+    todo.program = call.program;
+    todo.repeats = call.repeats;
+    todo.sequence_number = whole_number(take('Q', -1.0), column);
+    todo.outside = outside;
+    return give_or(todo);
+}
+
+/// M99 P_ L_: P names the block of the caller to go on at, L sets the repeats that are left.
+bool Interpreter::State::return_words(std::size_t at_word) {
+    const int column = words.words[at_word].column;
+    remove(at_word);
+    Pending todo;
+    todo.kind = Pending::Kind::give_back;
+    todo.sequence_number = whole_number(take('P', -1.0), column);
+    todo.repeats = whole_number(take('L', -1.0), column);
+    return give_or(todo);
+}
+
+/// A G or M code that a parameter maps to a program.
+bool Interpreter::State::code_call(std::size_t at_word, const CodeCalls::Call& call) {
+    const int column = words.words[at_word].column;
+    remove(at_word);
+    if (!call.with_arguments) {
+        Pending todo;
+        todo.kind = Pending::Kind::subprogram;
+        todo.program = call.program;
+        todo.by_code = true;
+        return give_or(todo);
+    }
+    const int repeats = whole_number(take('L', 1.0), column);
+    Section& section = called(call.program, false, column);
+    if (!call.modal) return start_macro(section, repeats, true), false;
+    if (modal_count == modals.size()) raise_alarm(122, column);
+    ModalCall& modal = modals[modal_count++];
+    modal.section = &section;
+    modal.repeats = repeats;
+    modal.every_block = false;
+    frame().modal_limit = static_cast<int>(modal_count);
+    pass_arguments(words.begin(), words.end(), argument_rules(), modal.locals);
+    return false;
+}
+
+/// 6001#5: a T code calls O9000 with its number in #149.
+bool Interpreter::State::tool_call(std::size_t at_word) {
+    memory.set(149, words.words[at_word].value);
+    remove(at_word);
+    Pending todo;
+    todo.kind = Pending::Kind::subprogram;
+    todo.program = 9000;
+    todo.by_code = true;
+    return give_or(todo);
+}
+
+/// G67 ends the latest modal call; without one it does nothing (posts write it to be safe).
+bool Interpreter::State::cancel_modal(std::size_t at_word) {
+    remove(at_word);
+    if (modal_count > 0) --modal_count;
+    return words.count > 0;
+}
+
+/// `G10L85P500(400777CED9168730)` of MACRO.TXT: #500 from eight bytes. All F is vacant (assumed).
+bool Interpreter::State::macro_file_value(const Block& block, const Code& code) {
+    int l = 0, p = -1;
+    for (const WordValue& word : words) {
+        if (word.letter == 'L') l = whole_number(word.value, word.column);
+        if (word.letter == 'P') p = whole_number(word.value, word.column);
+    }
+    if (l != 85 || p < 0) return false;
+    double v = 0.0;
+    if (!read_hex_double(comment_of(block, code), v))
+        raise_alarm(1144, words.words[0].column, "sixteen hexadecimal digits expected");
+    memory.set(p, v);
+    return true;
+}
+
+/// G66.1: the block itself is the list of arguments. False: not in this program.
+bool Interpreter::State::call_every_block() {
+    if (modal_count == 0 || frame().modal_limit < static_cast<int>(modal_count)) return false;
+    ModalCall& call = modals[modal_count - 1];
+    if (!call.every_block) return false;
+    ArgumentRules r = argument_rules();
+    r.pass_all = true;
+    pass_arguments(words.begin(), words.end(), r, call.locals);
+    push(*call.section, call.repeats, true, false);
+    frame().modal_limit = static_cast<int>(modal_count) - 1;
+    frame().locals = memory.locals = &call.locals;
+    return true;
+}
+
+/// G66: the macro runs behind a block with motion. Its locals stay as it left them.
+void Interpreter::State::call_after_motion() {
+    moved = false;
+    const auto level = std::min<std::size_t>(
+        modal_count, static_cast<std::size_t>(std::max(frame().modal_limit, 0)));
+    if (level == 0 || modals[level - 1].every_block) return;
+    ModalCall& call = modals[level - 1];
+    if (call.repeats < 1) return;
+    push(*call.section, call.repeats, true, false);
+    frame().modal_limit = static_cast<int>(level) - 1;
+    frame().locals = memory.locals = &call.locals;
+}
+
+void Interpreter::State::perform_pending() {
+    const Pending todo = pending;
+    pending = {};
+    if (todo.kind == Pending::Kind::give_back) return give_back(todo.sequence_number, todo.repeats);
+    call_subprogram(todo);
+}
+
+void Interpreter::State::call_subprogram(const Pending& call) {
+    Section& section = called(call.program, call.outside, 1);
+    if (call.repeats < 1) return;
+    const int n = call.sequence_number;
+    const auto place = n < 0 ? std::nullopt : files.find_sequence(section, n, section.begin.byte);
+    if (n >= 0 && !place) raise_alarm(78, 1, "N" + std::to_string(n));
+    push(section, call.repeats, false, call.by_code);
+    if (place) frame().start = at = {place->byte, place->line, -1};
+}
+
+/// M99, or the end of a called program: `n` is the block of the caller to go on at (-1: behind the
+/// call), `repeats` the repeats left (-1: as they are).
+void Interpreter::State::give_back(int n, int repeats) {
+    Frame& f = frame();
+    if (frames.size() == 1) {
+        ended = n < 0 && options.main_m99_ends;
+        at = f.start;
+        link_from = -1;
+        if (n >= 0) jump(target_of_return(f, n));
+        return;
+    }
+    if (repeats >= 0) f.repeats = repeats + 1;
+    if (n < 0 && --f.repeats > 0) return repeat();
+    const TextPlace target = n < 0 ? TextPlace{} : target_of_return(frames[frames.size() - 2], n);
+    at = f.back;
+    link_from = f.back_link;
+    frames.pop_back();
+    memory.locals = frame().locals;
+    if (n >= 0) jump(target);
+}
+
+/// M99 P: searched from the start of the program that goes on.
+TextPlace Interpreter::State::target_of_return(const Frame& caller, int n) {
+    const auto place = files.find_sequence(*caller.section, n, caller.section->begin.byte);
+    if (!place) raise_alarm(78, 1, "N" + std::to_string(n));
+    return *place;
+}
+
+/// The next of L repeats, with the arguments as they were passed.
+void Interpreter::State::repeat() {
+    Frame& f = frame();
+    const auto depth = static_cast<std::size_t>(f.macro_depth);
+    if (f.macro && f.locals == &levels[depth]) *f.locals = repeated[depth];
+    f.loops = {};
+    at = f.start;
+    link_from = -1;
+}
+
+}  // namespace trunnion
