@@ -21,18 +21,29 @@ namespace trunnion {
 struct ControlAxis {
     Axis axis = Axis::X;
     bool rotary = false;
-    std::optional<double> min, max;          ///< stored stroke limits, machine coordinates, mm or rad
-    std::optional<double> rapid_speed;       ///< mm/s or rad/s
+    std::optional<double> min, max;     ///< stored stroke limits, machine coordinates, mm or rad
+    std::optional<double> rapid_speed;  ///< mm/s or rad/s
     std::optional<double> max_acceleration;  ///< mm/s^2 or rad/s^2
 };
 
+/// M codes that clamp and release an axis; `alarm`: a move of the clamped axis is an alarm.
+struct ClampCode {
+    Axis axis = Axis::C;
+    int m_clamp = 10;
+    int m_release = 11;
+    bool alarm = false;
+};
+
 struct ControlConfig {
-    std::vector<ControlAxis> axes;   ///< in the control's order: axis number 1 is [0]
+    std::vector<ControlAxis> axes;  ///< in the control's order: axis number 1 is [0]
     Dialect dialect;
+    std::vector<ClampCode> clamps;
+    /// #5041.. and #5061.. include the tool length (facts/control.md 2.8: assumed).
+    bool work_positions_with_length = true;
     std::vector<bool> skip_switches = std::vector<bool>(10, false);
-    std::uint64_t max_blocks = 0;    ///< 0: none
-    std::int64_t clock_s = 0;        ///< #3011/#3012 and #3002 start here (seconds since 1970), so
-                                     ///< that same inputs give the same bytes
+    std::uint64_t max_blocks = 0;  ///< 0: none
+    std::int64_t clock_s = 0;      ///< #3011/#3012 and #3002 start here (seconds since 1970), so
+                                   ///< that same inputs give the same bytes
     double chord_tolerance_mm = 0.001;
 };
 

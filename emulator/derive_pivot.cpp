@@ -4,7 +4,7 @@
 
 #include "emulator/setup.h"
 #include "geometry/alarm.h"
-#include "geometry/units.h"
+#include "offsets/axis_numbers.h"
 #include "offsets/pivot_parameters.h"
 
 namespace trunnion {
@@ -73,10 +73,6 @@ std::optional<std::array<int, 2>> turned_plane(const Vector3& direction) {
     return std::nullopt;
 }
 
-int number_in(const std::vector<Axis>& order, Axis axis) {
-    return static_cast<int>(std::find(order.begin(), order.end(), axis) - order.begin()) + 1;
-}
-
 }  // namespace
 
 std::string derive_pivot_parameters(const Machine& machine, Parameters& parameters) {
@@ -107,10 +103,10 @@ void derive_fixture_groups(const Machine& machine, Parameters& parameters) {
     for (const AxisGeometry& axis : table) {
         const auto plane = turned_plane(axis.direction.normalized());
         if (!plane || number > 7586) return;
-        derived.set(number, number_in(order, axis.axis));
+        derived.set(number, number_of_axis(axis.axis, order));
         for (const std::size_t i : {0U, 1U})
             derived.set(number + 1 + static_cast<int>(i),
-                        number_in(order, all_axes[static_cast<std::size_t>((*plane)[i])]));
+                        number_of_axis(all_axes[static_cast<std::size_t>((*plane)[i])], order));
         number += 3;
     }
     for (const auto& [key, parameter] : derived.entry) parameters.entry[key] = parameter;

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "geometry/alarm.h"
 #include "geometry/units.h"
+#include "offsets/axis_numbers.h"
 
 namespace trunnion {
 
@@ -43,27 +43,6 @@ Vector3 vector_at(const Parameters& parameters, int number) {
 /// Unit vector of X, Y, Z for 0, 1, 2; counted round.
 Vector3 unit(int index) {
     return Vector3::Unit(index % 3);
-}
-
-/// Letter of axis `number`: parameter 1020 of that axis, or the control's order.
-std::optional<Axis> axis_of_number(const Parameters& parameters, int number,
-                                   const std::vector<Axis>& order) {
-    const auto names = parameters.entry.find(1020);
-    if (names != parameters.entry.end()) {
-        const auto name = names->second.by_axis.find(number);
-        if (name != names->second.by_axis.end())
-            return axis_of(static_cast<char>(static_cast<int>(name->second)));
-    }
-    const auto count = order.empty() ? axis_count : order.size();
-    if (number < 1 || static_cast<std::size_t>(number) > count) return std::nullopt;
-    const auto index = static_cast<std::size_t>(number - 1);
-    return order.empty() ? all_axes[index] : order[index];
-}
-
-int number_of_axis(Axis axis, const std::vector<Axis>& order) {
-    if (order.empty()) return static_cast<int>(index_of(axis)) + 1;
-    const auto at = std::find(order.begin(), order.end(), axis);
-    return at == order.end() ? 0 : static_cast<int>(at - order.begin()) + 1;
 }
 
 Vector3 decode_line(const Parameters& parameters, const AxisNumbers& numbers) {

@@ -25,6 +25,7 @@ class Plan:
     load_kg: float = 0.0
     clamp: bool = False
     spindle: bool = False
+    calibrated: bool = False
     touch_azimuth_deg: float = 0.0
     overtravel_mm: float = 2.0    # commanded end point beyond nominal contact
     rotary_deg_s: float = 6.0

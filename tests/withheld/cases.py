@@ -10,6 +10,7 @@ from campaign import Plan, build, session_length
 from forward import Scene
 from machine import Base, draw_machine
 from oracle import Projector
+from rivals import find_rivals, signature
 
 NULLS = ("right", "wrong", "repeats", "correlated-repeats")
 MULTI_BAD_PARTNERS = ("artefact.position", "tool.length", "ballbar.length", "control.rounding", "control.chord")
@@ -52,7 +53,7 @@ def schedule(rng, count, kinds, names):
     for kind, number in numbers.items():
         pool = []
         for k in range(number):
-            letters = (("B", "C"), ("A", "C"))[k % 2] if kind != "single" else (("B", "C"), ("A", "C"))[rng.integers(2)]
+            letters = (("B", "C"), ("A", "C"))[(k + k // 4) % 2 if kind != "single" else rng.integers(2)]
             if kind in ("single", "outliers"):
                 if not pool:
                     pool = list(rng.permutation(names or registry.all_names(("1", "C"))))
@@ -87,6 +88,7 @@ def draw_plan(rng, needs, kind_of_noise):
                 swing_c=float(rng.uniform(3, 5)) if "swing" in needs or rng.random() < 0.1 else 1.2,
                 load_kg=float(rng.integers(40, 160)) if "load" in needs or rng.random() < 0.08 else 0.0,
                 clamp="clamp" in needs or (probe and rng.random() < 0.08),
+                calibrated=bool(rng.random() < (0.5 if "modes" in needs else 0.06)),
                 spindle="spindle" in needs or (probe and rng.random() < 0.3),
                 touch_azimuth_deg=float(rng.integers(0, 30)), overtravel_mm=float(rng.choice([0.0, 2.0])),
                 rotary_deg_s=float(rng.choice([4.0, 6.0, 10.0])))
@@ -114,25 +116,23 @@ def prepare(rng, wish, needs):
     if "length known" in needs:
         case.machine.bar_free = ("cup",)
     if "artefact known" in needs:
-        case.machine.artefacts[int(rng.integers(3))].free = False
+        for k in rng.permutation(3)[:2]:      # one known sphere alone would be the same as a wrong pivot store
+            case.machine.artefacts[k].free = False
     set_noise(rng, case)
     case.train, case.hold = build(rng, case.machine, case.plan)
     case.base = Base(case.machine, set(case.plan.devices))
     case.scene, case.scene_hold = (Scene(case.machine, case.base, rows) for rows in (case.train, case.hold))
     case.sigma_train, case.sigma_hold = (noise.sigma_mm(rows, case.noise_um) for rows in (case.train, case.hold))
     case.base_values = case.base.draw(rng)
+    if case.plan.calibrated:
+        case.base.calibrate(rng, case.base_values)
     case.projector = Projector(case.scene, case.sigma_train)
     return case
 
 
-def signature(case, effect):
-    """What the effect adds to the training readings, in mm."""
-    return case.scene.readings(case.base_values, [effect]) - case.scene.readings(case.base_values)
-
-
 def plausible(effect):
-    """Amplitudes a machine in use may have."""
-    limit = {"rad": 1.0e-3, "mm": 0.08}
+    """Amplitudes a machine in use may have: 0.08 mm, 0.3 mrad, a worm's cyclic error 0.15 mrad."""
+    limit = {"rad": 1.5e-4 if effect.name.endswith(".cyclic") else 3e-4, "mm": 0.08}
     return all(abs(a) <= limit.get(label.rsplit("_", 1)[-1], 1e9) for a, label in zip(effect.amplitude, effect.labels))
 
 
@@ -162,8 +162,6 @@ def needs_of(rng, wish, names):
     """Needs of effects given by name or builder."""
     scratch = draw_machine(rng, wish.letters)
     scratch.session_s = 1.0
-    if "artefact.position" in names:
-        scratch.artefacts[0].free = False
     builders = registry.singles(wish.letters)
     out = set()
     for name in names:
@@ -209,6 +207,9 @@ def try_case(rng, wish):
     if len(case.effects) > 1 and not distinct(case, case.effects):
         return None
     case.sizes = [case.projector.rms(signature(case, e)) for e in case.effects]
+    case.rivals = [find_rivals(case, e) if wish.kind in ("single", "outliers", "multi") else {} for e in case.effects]
+    if any(r["cannot_tell"] and r["simpler"] for rivals in case.rivals for r in rivals.values()) and rng.random() < 0.7:
+        return None
     return case
 
 

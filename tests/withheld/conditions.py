@@ -83,7 +83,7 @@ def _sphere(rng, machine, free):
 def artefact_position(rng, machine):
     """A sphere whose place is declared as known is somewhere else on the table (W)."""
     known = [k for k, a in enumerate(machine.artefacts) if a.kind == "sphere" and not a.free]
-    which = known[0] if known else 0
+    which = int(rng.choice(known)) if known else 0
     def apply(scene, errors, a):
         errors.artefact_mm += (scene.which == which)[:, None] * a
     return Effect("artefact.position", ["X_mm", "Y_mm", "Z_mm"], spread(rng, 3, 8e-3), apply,

@@ -23,6 +23,8 @@ def write_set(folder, truth_folder, name, case):
     optional = case.plan.columns() + (["sigma_mm"] if case.sigma_column else [])
     with open(place("setup.toml"), "w") as out:
         out.write(setup_text(case.machine, set(case.plan.devices)))
+        if case.plan.calibrated:
+            out.write(case.base.calibration_text())
     letters = case.machine.letters
     case.train.sigma_mm, case.hold.sigma_mm = case.sigma_train, case.sigma_hold
     write_csv(place("readings.csv"), case.train, letters, case.values, optional, comments)

@@ -87,7 +87,26 @@ class Base:
             self.names += [("cup", 0, i) for i in range(3)] if "cup" in machine.bar_free else []
             self.names += [("length", 0, 0)] if "length" in machine.bar_free else []
         self.size = len(self.names)
-        self.step = np.array([1e-5 if n[0] == "tilt" else 1e-3 for n in self.names])
+        tilt = np.array([n[0] == "tilt" for n in self.names])
+        self.step = np.where(tilt, 1e-5, 1e-3)
+        self.known = np.zeros(self.size)                    # prior: value and sigma; wide unless calibrated
+        self.known_sigma = np.where(tilt, 5e-4, 0.1)
+
+    def calibrate(self, rng, values):
+        """Location errors known beforehand to 1-2 um and 5-10 urad ([model.calibration])."""
+        for k, (kind, _, _) in enumerate(self.names):
+            if kind in ("shift", "tilt"):
+                self.known_sigma[k] = float(f"{rng.uniform(1e-3, 2e-3) if kind == 'shift' else rng.uniform(5e-6, 1e-5):.3g}")
+                self.known[k] = float(f"{rng.normal(values[k], self.known_sigma[k]):.6g}")
+
+    def calibration_text(self):
+        """The [model.calibration] table."""
+        lines = ["[model.calibration]"]
+        for k, (label, name) in enumerate(zip(self.labels(), self.names)):
+            if name[0] in ("shift", "tilt"):
+                short, unit = label.rsplit("_", 1)
+                lines.append(f"{short} = {{ value_{unit} = {float(self.known[k])!r}, sigma_{unit} = {float(self.known_sigma[k])!r} }}")
+        return "\n".join(lines) + "\n"
 
     def draw(self, rng):
         """Location errors 2-30 um and 10-100 urad, set-up offsets 5-30 um, random signs."""

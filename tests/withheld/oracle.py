@@ -31,23 +31,29 @@ def solve(matrix, right):
 
 
 class Fit:
-    """Result: base values, amplitudes, rms of (measured - model)/sigma on the rows used."""
+    """Result: base values, amplitudes, rms of (measured - model)/sigma on the rows used.
+
+    Weak priors (base.known: 0.1 mm, 0.5 mrad unless calibrated; amplitudes: five times the effect's own) keep
+    directions that these data do not show from running away.
+    """
 
     def __init__(self, scene, values, sigma_mm, effects=(), sweeps=3):
-        use = sigma_mm > 0
-        base = np.zeros(scene.base.size)
-        amplitudes = [e.amplitude.copy() for e in effects]
-        matrix = jacobian(scene, base, effects, amplitudes)[use] / sigma_mm[use, None]
+        use, base = sigma_mm > 0, scene.base
+        known = np.concatenate([base.known, *[np.zeros(len(e.amplitude)) for e in effects]])
+        spread = np.concatenate([base.known_sigma, *[np.full(len(e.amplitude), 5 * np.sqrt(np.mean(e.amplitude ** 2)))
+                                                     if len(e.amplitude) else [] for e in effects]])
+        cuts = np.cumsum([base.size] + [len(e.amplitude) for e in effects])[:-1] if effects else []
+        parts = lambda all_values: np.split(all_values, cuts)
+        start = np.concatenate([base.known, *[e.amplitude for e in effects]])
+        matrix = jacobian(scene, parts(start)[0], effects, parts(start)[1:])[use] / sigma_mm[use, None]
+        matrix = np.vstack([matrix, np.diag(1 / spread)])
         for _ in range(sweeps):
-            z = (values - scene.readings(base, effects, amplitudes))[use] / sigma_mm[use]
-            delta = solve(matrix, z)
-            base = base + delta[:scene.base.size]
-            at = scene.base.size
-            for k, amplitude in enumerate(amplitudes):
-                amplitudes[k] = amplitude + delta[at:at + len(amplitude)]
-                at += len(amplitude)
-        z = (values - scene.readings(base, effects, amplitudes))[use] / sigma_mm[use]
-        self.base, self.amplitudes, self.effects = base, amplitudes, effects
+            now = parts(start)
+            z = (values - scene.readings(now[0], effects, now[1:]))[use] / sigma_mm[use]
+            start = start + solve(matrix, np.concatenate([z, (known - start) / spread]))
+        now = parts(start)
+        z = (values - scene.readings(now[0], effects, now[1:]))[use] / sigma_mm[use]
+        self.base, self.amplitudes, self.effects = now[0], now[1:], effects
         self.z_rms = float(np.sqrt(np.mean(z ** 2)))
 
     def predict(self, scene):
@@ -56,21 +62,24 @@ class Fit:
 
 
 class Projector:
-    """Removes from whitened columns what the base parameters can absorb."""
+    """Removes from whitened columns what the base parameters (with their priors) can absorb."""
 
     def __init__(self, scene, sigma_mm):
         self.use = sigma_mm > 0
         self.sigma = sigma_mm[self.use]
+        self.count, self.extra = int(self.use.sum()), scene.base.size
         matrix = jacobian(scene, np.zeros(scene.base.size), (), ())[self.use] / self.sigma[:, None]
-        matrix /= np.maximum(np.sqrt((matrix ** 2).sum(axis=0)), 1e-300)
+        matrix = np.vstack([matrix, np.diag(1 / scene.base.known_sigma)])
+        matrix /= np.sqrt((matrix ** 2).sum(axis=0))
         left, size, _ = np.linalg.svd(matrix, full_matrices=False)
         self.basis = left[:, size > RANK * size[0]]
 
     def visible(self, column_mm):
-        """Whitened column(s) less their part in the span of the base."""
+        """Whitened column(s) less what the base absorbs; the last rows are the price paid in the priors."""
         z = (column_mm[self.use].T / self.sigma).T
+        z = np.concatenate([z, np.zeros((self.extra, *z.shape[1:]))])
         return z - self.basis @ (self.basis.T @ z)
 
     def rms(self, column_mm):
         """Visible rms per reading, in sigma."""
-        return float(np.sqrt(np.mean(self.visible(column_mm) ** 2)))
+        return float(np.sqrt((self.visible(column_mm) ** 2).sum() / self.count))

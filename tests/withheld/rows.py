@@ -91,7 +91,8 @@ def write_csv(path, rows, letters, values, optional, comments):
         writer.writerow(head)
         for i in range(rows.n):
             direction = [f"{d:.9g}" for d in rows.dir[i]] if rows.probe[i] else ["", "", ""]
-            extra = [f"{getattr(rows, name)[i]:.10g}" for name in optional]
+            extra = ["" if name == "sigma_mm" and not rows.read[i] else f"{getattr(rows, name)[i]:.10g}"
+                     for name in optional]
             value = f"{values[i]:.7f}" if values is not None and rows.read[i] else ""
             writer.writerow([i, f"{rows.time_s[i]:.3f}", rows.test[i], rows.mode[i], rows.device[i],
                              rows.feature[i], *(f"{v:.6f}" for v in rows.pos_mm[i]),

@@ -161,7 +161,7 @@ class Cases(unittest.TestCase):
         for number, name in enumerate(names):
             letters = (("B", "C"), ("A", "C"))[number % 2]
             name = name.replace("B.", letters[0] + ".") if name.startswith("B.") else name
-            case = cases.draw_case(rng, cases.Wish("single", (name,), "right", letters))
+            case = cases.draw_case(rng, cases.Wish("size only", (name,), "right", letters))
             self.assertEqual(case.effects[0].name, name)
             self.assertTrue(0.75 < case.sizes[0] < 8.5, (name, case.sizes))
 

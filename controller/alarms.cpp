@@ -1,0 +1,33 @@
+#include "controller/alarms.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace trunnion {
+
+const AlarmRow* find_alarm(int number) {
+    const std::vector<AlarmRow>& rows = alarm_table();
+    const auto it = std::lower_bound(rows.begin(), rows.end(), number,
+                                     [](const AlarmRow& row, int n) { return row.number < n; });
+    return it != rows.end() && it->number == number ? &*it : nullptr;
+}
+
+std::string alarm_title(int number, std::string_view text) {
+    const AlarmRow* row = find_alarm(number);
+    const bool own = number >= 3000 && number <= 3999 + 999 && row == nullptr;
+    return fmt::format("{}{:04} {}", row ? row->prefix : own ? "MC" : "PS", number, text);
+}
+
+void raise_alarm(int number, int column) {
+    const AlarmRow* row = find_alarm(number);
+    throw Alarm(number, row ? row->text : "ALARM", SourceRef{{}, 0, column});
+}
+
+void raise_alarm(int number, const std::string& detail, int column) {
+    const AlarmRow* row = find_alarm(number);
+    throw Alarm(number, std::string(row ? row->text : "ALARM") + " " + detail,
+                SourceRef{{}, 0, column});
+}
+
+}  // namespace trunnion

@@ -1,0 +1,32 @@
+// The alarms of the control: number, text as on the screen, cause and remedy.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/alarm.h"
+
+namespace trunnion {
+
+struct AlarmRow {
+    int number;
+    const char* prefix;  ///< "PS", "OT", "MC": shown before the number
+    const char* text;    ///< as on the screen
+    const char* cause;
+    const char* remedy;
+};
+
+/// All alarms this control can give, rising by number.
+const std::vector<AlarmRow>& alarm_table();
+/// The row of a number, or nullptr (3000 and above are the program's own).
+const AlarmRow* find_alarm(int number);
+/// "PS0010 IMPROPER G-CODE", "MC3005 PROBE MISSED".
+std::string alarm_title(int number, std::string_view text);
+
+/// Throws the alarm with the table's text; `column` 0 when the place is the whole block.
+[[noreturn]] void raise_alarm(int number, int column = 0);
+/// The same with words of one's own behind the text: "+ OVERTRAVEL (SOFT 1) X".
+[[noreturn]] void raise_alarm(int number, const std::string& detail, int column = 0);
+
+}  // namespace trunnion

@@ -1,0 +1,31 @@
+// G2 and G3: centre from I J K or from R, helix, full circles, radius check (3410).
+#pragma once
+
+#include "controller/control_state.h"
+#include "controller/moves.h"
+
+namespace trunnion {
+
+/// Carries out the arc that the words of this block command.
+void move_arc_block(ControlState& c, bool clockwise);
+
+/// Centre of the arc from start to end with radius r in the plane (first, second as x, y): r < 0
+/// takes the way round of more than half a turn. Throws PS0020 when the points are too far apart.
+struct PlanePoint {
+    double x = 0.0, y = 0.0;
+};
+PlanePoint centre_from_radius(PlanePoint start, PlanePoint end, double radius, bool clockwise,
+                              double tolerance_mm);
+/// Signed angle from start to end about the centre, in (0, 2 pi] counter-clockwise, negative
+/// clockwise; equal directions are a full turn.
+double sweep_of(PlanePoint centre, PlanePoint start, PlanePoint end, bool clockwise);
+
+/// The arc of this block's words in its plane. `is_arc` false: nothing to turn (R with equal ends).
+struct ArcInPlane {
+    PlanePoint centre;
+    double sweep_rad = 0.0;
+    bool is_arc = false;
+};
+ArcInPlane arc_in_plane(ControlState& c, const ControlPosition& target, bool clockwise);
+
+}  // namespace trunnion

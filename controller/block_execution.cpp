@@ -1,0 +1,198 @@
+#include "controller/block_execution.h"
+
+#include <bit>
+
+#include "controller/arcs.h"
+#include "controller/g10.h"
+#include "controller/g_codes.h"
+#include "controller/m_codes.h"
+#include "controller/moves.h"
+#include "controller/readings.h"
+
+namespace trunnion {
+
+namespace {
+
+constexpr std::uint32_t phase_bit(Phase phase) {
+    return 1U << static_cast<unsigned>(phase);
+}
+constexpr std::uint32_t before_words =
+    phase_bit(Phase::speed) | phase_bit(Phase::feed) | phase_bit(Phase::units);
+/// Addresses that a block may hold besides axes: all but E, N, O.
+constexpr std::uint32_t known_letters =
+    0x3FFFFFFU & ~(SortedWords::bit('E') | SortedWords::bit('N') | SortedWords::bit('O'));
+
+/// Two codes of one group: the last one counts, or an alarm (3403#6).
+void add_code(ControlState& c, const GCode* code, int column) {
+    SortedWords& w = c.words;
+    if (code->group != ModalGroup::one_shot) {
+        for (std::size_t i = 0; i < w.code_count; ++i) {
+            if (w.code[i]->group != code->group) continue;
+            if (c.settings.duplicates_alarm) raise_alarm(5074, column);
+            w.code[i] = code;
+            w.phases |= phase_bit(code->phase);
+            return;
+        }
+    }
+    if (w.code_count == SortedWords::max_codes) raise_alarm(10, column);
+    w.code[w.code_count++] = code;
+    w.phases |= phase_bit(code->phase);
+}
+
+void add_g(ControlState& c, const WordValue& word) {
+    const GCode* code = find_g_code(word.value);
+    if (!code) raise_alarm(10, word.column);
+    if (code->phase != Phase::motion) return add_code(c, code, word.column);
+    if (c.words.motion && c.settings.duplicates_alarm) raise_alarm(5074, word.column);
+    c.words.motion = code;
+}
+
+void add_m(ControlState& c, const WordValue& word) {
+    SortedWords& w = c.words;
+    if (w.m_count == SortedWords::max_codes) raise_alarm(9, word.column);
+    w.m[w.m_count++] = static_cast<int>(word.value + 0.5);
+}
+
+void add_letter(ControlState& c, const WordValue& word) {
+    SortedWords& w = c.words;
+    const std::uint32_t bit = SortedWords::bit(word.letter);
+    if ((w.present & bit) && c.settings.duplicates_alarm) raise_alarm(5074, word.column);
+    const auto i = static_cast<std::size_t>(word.letter - 'A');
+    w.present |= bit;
+    w.value[i] = word.value;
+    w.column[i] = word.column;
+    if (word.decimal_point)
+        w.bare &= ~bit;
+    else
+        w.bare |= bit;
+}
+
+void add_corner(ControlState& c, const WordValue& word) {
+    c.words.corner = word.value * (word.decimal_point ? c.unit_mm : c.bare_linear);
+    (word.letter == 'r' ? c.words.corner_radius : c.words.corner_chamfer) = true;
+}
+
+void run_phase(ControlState& c, Phase phase) {
+    if (!(c.words.phases & phase_bit(phase))) return;
+    for (std::size_t i = 0; i < c.words.code_count; ++i) {
+        const GCode& code = *c.words.code[i];
+        if (code.phase != phase) continue;
+        if (code.handler)
+            code.handler(c, code);
+        else
+            c.modal.set(code.group, code.code10);
+    }
+}
+
+void feed_speed_tool(ControlState& c) {
+    const SortedWords& w = c.words;
+    constexpr std::uint32_t fst =
+        SortedWords::bit('F') | SortedWords::bit('S') | SortedWords::bit('T');
+    if (!(w.present & fst)) return;
+    if (w.has('F')) c.feed.programmed = w.get('F') * feed_word_unit(c);
+    if (w.has('S')) c.spindle.programmed = w.get('S');
+    if (w.has('F') || w.has('S')) c.feed_changed();
+    if (w.has('T')) c.tool_selected = c.whole_word('T');
+}
+
+void note_bare_words(ControlState& c) {
+    if (!c.settings.bare_is_noted || !(c.words.bare & SortedWords::axis_letters)) return;
+    for (const ControlAxis& axis : c.config.axes) {
+        const char letter = letter_of(axis.axis);
+        if (!c.words.has(letter) || !c.words.is_bare(letter) || c.words.get(letter) == 0.0)
+            continue;
+        c.note(
+            "numbers without a decimal point are read as whole units (parameter 3401 is not "
+            "given; with 3401#0 = 0 they would be least increments)");
+        c.settings.bare_is_noted = false;
+        return;
+    }
+}
+
+void run_motion(ControlState& c) {
+    const int code = c.modal[ModalGroup::motion];
+    switch (code) {
+        case 0:
+            move_line(c, MotionKind::rapid, c.target());
+            return;
+        case 10:
+            move_line(c, MotionKind::linear, c.target());
+            return;
+        case 20:
+        case 30:
+            move_arc_block(c, code == 20);
+            return;
+        default:
+            raise_alarm(10);
+    }
+}
+
+bool moves_by_itself(const ControlState& c) {
+    // An arc may have only its centre: a full circle.
+    constexpr std::uint32_t centre =
+        SortedWords::bit('I') | SortedWords::bit('J') | SortedWords::bit('K');
+    const int code = c.modal[ModalGroup::motion];
+    return (code == 20 || code == 30) && (c.words.present & centre);
+}
+
+void run_codes(ControlState& c) {
+    for (const Phase phase :
+         {Phase::plane, Phase::reading, Phase::work_offset, Phase::frame, Phase::offsets})
+        run_phase(c, phase);
+}
+
+}  // namespace
+
+void sort_words(ControlState& c, const BlockWords& block) {
+    SortedWords& w = c.words;
+    w.clear();
+    w.line = block.line;
+    w.byte = block.byte;
+    for (const WordValue& word : block) {
+        if (word.vacant) continue;
+        switch (word.letter) {
+            case 'G':
+                add_g(c, word);
+                break;
+            case 'M':
+                add_m(c, word);
+                break;
+            case 'r':
+            case 'c':
+                add_corner(c, word);
+                break;
+            default:
+                add_letter(c, word);
+        }
+    }
+    const std::uint32_t allowed = (known_letters & ~SortedWords::axis_letters) | c.axis_letters;
+    if (const std::uint32_t strange = w.present & ~allowed)
+        raise_alarm(9, w.column[static_cast<std::size_t>(std::countr_zero(strange))]);
+}
+
+void execute_block(ControlState& c, const BlockWords& block) {
+    sort_words(c, block);
+    const SortedWords& w = c.words;
+    if (c.data_entry != DataEntry::none && w.code_count == 0) return enter_data(c, block);
+    if (w.phases & before_words)
+        for (const Phase phase : {Phase::speed, Phase::feed, Phase::units}) run_phase(c, phase);
+    if (w.bare) note_bare_words(c);
+    feed_speed_tool(c);
+    if (w.m_count) m_codes_before(c);
+    if (w.motion) {
+        c.modal.set(ModalGroup::motion, w.motion->code10);
+        c.modal.set(ModalGroup::cycle, 800);
+    }
+    const ControlPosition stood = c.machine;
+    if (w.phases) run_codes(c);
+    c.move.gap_free = !c.exact_stop_once && !c.modal.is(ModalGroup::path_mode, 610);
+    if (w.phases & phase_bit(Phase::shot))
+        run_phase(c, Phase::shot);
+    else if (w.has_axis() || moves_by_itself(c) || c.length_moves)
+        run_motion(c);
+    c.length_moves = c.exact_stop_once = false;
+    c.moved = !(c.machine == stood);
+    if (w.m_count) m_codes_after(c);
+}
+
+}  // namespace trunnion

@@ -1,0 +1,136 @@
+#include "controller/control_state.h"
+
+#include <cmath>
+#include <limits>
+
+#include "controller/polar_words.h"
+
+namespace trunnion {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// Rapid speeds where the setup gives none (assumed): 24 m/min and 90 deg/s.
+constexpr double default_rapid_mm_s = 400.0;
+constexpr double default_rapid_rad_s = pi / 2.0;
+
+AxisLimits limits_of(const ControlConfig& config) {
+    AxisLimits out;
+    out.min.fill(-infinity);
+    out.max.fill(infinity);
+    out.seconds_per_unit.fill(0.0);
+    for (const ControlAxis& axis : config.axes) {
+        const std::size_t i = index_of(axis.axis);
+        out.min[i] = axis.min.value_or(-infinity);
+        out.max[i] = axis.max.value_or(infinity);
+        const double speed =
+            axis.rapid_speed.value_or(axis.rotary ? default_rapid_rad_s : default_rapid_mm_s);
+        out.seconds_per_unit[i] = speed > 0.0 ? 1.0 / speed : 0.0;
+    }
+    return out;
+}
+
+}  // namespace
+
+ControlState::ControlState(ControlConfig config_, Stores& stores_, MotionSink& sink_)
+    : config(std::move(config_)), stores(stores_), sink(sink_), limits(limits_of(config)) {
+    for (const ControlAxis& axis : config.axes)
+        axis_letters |= SortedWords::bit(letter_of(axis.axis));
+    modal = initial_modal_state(static_cast<unsigned>(stores.parameters.get(3402)));
+    if (stores.parameters.bit(0, 2)) modal.set(ModalGroup::units, 200);
+    parameters_changed();
+    read_work_offset();
+    stand_at({});
+}
+
+void ControlState::note(std::string text) {
+    if (noted.insert(text).second) result.notes.push_back(std::move(text));
+}
+
+void ControlState::frame_changed() {
+    coordinates.compile();
+    program = coordinates.program_from_machine(machine);
+}
+
+void ControlState::parameters_changed() {
+    settings = decode_settings(stores.parameters, config);
+    units_changed();
+}
+
+void ControlState::units_changed() {
+    unit_mm = modal.is(ModalGroup::units, 200) ? 25.4 : 1.0;
+    const double increment_mm = inch() ? 0.0001 * 25.4 : 0.001;
+    bare_linear = settings.bare_is_unit ? unit_mm : increment_mm;
+    bare_rotary = settings.bare_is_unit ? 1.0 : 0.001;
+    feed_changed();
+}
+
+double ControlState::spindle_rpm() const {
+    return modal.is(ModalGroup::surface_speed, 970) ? spindle.programmed * spindle.direction : 0.0;
+}
+
+void ControlState::feed_changed() {
+    const double rpm = spindle_rpm();
+    double mm_min = feed.programmed * unit_mm;
+    if (modal.is(ModalGroup::feed_mode, 950)) mm_min *= std::abs(rpm);
+    if (modal.is(ModalGroup::feed_mode, 930)) mm_min = 0.0;
+    feed.mm_min = mm_min;
+    feed.seconds_per_mm = mm_min > 0.0 ? 60.0 / mm_min : 0.0;
+    move.spindle_rpm = rpm;
+}
+
+void ControlState::read_work_offset() {
+    const WorkOffsets& work = stores.work;
+    const int code = modal[ModalGroup::work_offset];
+    coordinates.external = work.external;
+    coordinates.work = code == 541 ? work.additional[static_cast<std::size_t>(work_number - 1)]
+                                   : work.standard[static_cast<std::size_t>(code / 10 - 54)];
+    frame_changed();
+}
+
+void ControlState::fixture_changed() {
+    frame_changed();
+}
+
+void ControlState::stand_at(const ControlPosition& machine_position) {
+    machine = machine_position;
+    move.from = move.to = axis_positions_of(machine);
+    program = coordinates.program_from_machine(machine);
+}
+
+double ControlState::axis_word(Axis axis) const {
+    const char letter = letter_of(axis);
+    if (is_rotary(axis)) return words.get(letter) * (words.is_bare(letter) ? bare_rotary : 1.0);
+    return length_word(letter);
+}
+
+int ControlState::whole_word(char letter) const {
+    const double value = words.get(letter);
+    const double whole = std::round(value);
+    if (std::abs(value - whole) > 1e-6) raise_alarm(7, words.column_of(letter));
+    if (std::abs(whole) > 999999999.0) raise_alarm(3, words.column_of(letter));
+    return static_cast<int>(whole);
+}
+
+ControlPosition ControlState::target() {
+    if (modal.is(ModalGroup::polar_words, 160)) return polar_target(*this);
+    ControlPosition out = program;
+    const bool relative = !absolute();
+    for (const ControlAxis& entry : config.axes) {
+        const Axis axis = entry.axis;
+        if (!words.has(letter_of(axis))) continue;
+        const double value = axis_word(axis);
+        out[axis] = relative ? out[axis] + value : value;
+    }
+    return out;
+}
+
+const PlaneAxes& plane_axes(const ModalState& modal) {
+    static constexpr PlaneAxes xy{Axis::X, Axis::Y, Axis::Z, 'I', 'J'};
+    static constexpr PlaneAxes zx{Axis::Z, Axis::X, Axis::Y, 'K', 'I'};
+    static constexpr PlaneAxes yz{Axis::Y, Axis::Z, Axis::X, 'J', 'K'};
+    const int code = modal[ModalGroup::plane];
+    return code == 170 ? xy : code == 180 ? zx : yz;
+}
+
+}  // namespace trunnion

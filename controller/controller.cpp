@@ -1,0 +1,110 @@
+#include "controller/controller.h"
+
+#include "controller/block_execution.h"
+#include "controller/system_variables.h"
+
+namespace trunnion {
+
+struct Controller::State {
+    State(ControlConfig config, Stores& stores, ProgramSource& programs, MotionSink& sink,
+          Interpreter::Print print)
+        : control(std::move(config), stores, sink),
+          variables(control),
+          language(programs, language_options(), variables, std::move(print)) {
+        control.program_number = [this] { return language.program_number(); };
+        control.sequence_number = [this] { return language.sequence_number(); };
+    }
+
+    InterpreterOptions language_options() const;
+    template <typename Program>
+    RunResult run(const Program& program);
+    void run_blocks();
+    void finish();
+
+    ControlState control;
+    ControlVariables variables;
+    Interpreter language;
+    std::string program_name;
+};
+
+InterpreterOptions Controller::State::language_options() const {
+    InterpreterOptions options;
+    options.dialect = control.config.dialect;
+    options.skip_switches = control.config.skip_switches;
+    options.asin_0_to_minus_90 = control.stores.parameters.bit(6004, 0);
+    options.max_blocks = control.config.max_blocks;
+    return options;
+}
+
+void Controller::State::run_blocks() {
+    while (const BlockWords* block = language.next()) {
+        execute_block(control, *block);
+        if (control.moved) language.block_moved();
+        if (control.ended) language.end_program();
+    }
+}
+
+template <typename Program>
+RunResult Controller::State::run(const Program& program) {
+    control.result = {};
+    control.noted.clear();
+    control.ended = false;
+    try {
+        language.open(program);
+        program_name = language.where().program;
+        control.move.program = &program_name;
+        run_blocks();
+        if (language.limit_reached()) control.result.status = RunStatus::limit;
+    } catch (Alarm& alarm) {
+        const SourceRef place = language.where();
+        if (alarm.where.program.empty()) alarm.where.program = place.program;
+        if (alarm.where.line == 0) alarm.where.line = place.line;
+        if (alarm.block.empty()) alarm.block = language.block_text();
+        control.result.status = RunStatus::alarm;
+        control.result.alarm = alarm;
+    }
+    finish();
+    return control.result;
+}
+
+void Controller::State::finish() {
+    RunResult& result = control.result;
+    result.blocks = language.blocks_executed();
+    result.machine = axis_positions_of(control.machine);
+    result.work = axis_positions_of(control.coordinates.shaped_from_program(control.program));
+    result.modal = control.modal.texts();
+}
+
+Controller::Controller(ControlConfig config, Stores& stores, ProgramSource& programs,
+                       MotionSink& sink, Interpreter::Print print)
+    : state_(std::make_unique<State>(std::move(config), stores, programs, sink, std::move(print))) {
+}
+Controller::~Controller() = default;
+
+RunResult Controller::run(const ProgramText& program) {
+    return state_->run(program);
+}
+RunResult Controller::run(int o_number) {
+    return state_->run(o_number);
+}
+
+void Controller::set_variable(int number, double value) {
+    if (number < 1000)
+        state_->language.set_variable(number, value);
+    else
+        state_->variables.set(number, value, "");
+}
+
+double Controller::variable(int number) const {
+    return number < 1000 ? state_->language.variable(number) : state_->variables.get(number);
+}
+
+std::vector<int> Controller::used_common_variables() const {
+    return state_->language.used_common_variables();
+}
+
+void Controller::place(const AxisPositions& machine) {
+    state_->control.stand_at(control_position_of(machine));
+}
+
+}  // namespace trunnion

@@ -1,0 +1,87 @@
+#include "controller/coordinates.h"
+
+namespace trunnion {
+
+namespace {
+
+ControlPosition ones() {
+    ControlPosition p;
+    p.value.fill(1.0);
+    return p;
+}
+
+/// Follows p' = factor p + shift by one more stage centre + f (p' - centre).
+void follow(const Coordinates::AxisFactor& stage, ControlPosition& factor, ControlPosition& shift) {
+    for (std::size_t i = 0; i < axis_count; ++i) {
+        const double f = stage.factor.value[i];
+        factor.value[i] *= f;
+        shift.value[i] = f * shift.value[i] + (1.0 - f) * stage.centre.value[i];
+    }
+}
+
+ControlPosition sum(const ControlPosition& a, const ControlPosition& b) {
+    ControlPosition out;
+    for (std::size_t i = 0; i < axis_count; ++i) out.value[i] = a.value[i] + b.value[i];
+    return out;
+}
+
+}  // namespace
+
+ControlPosition Coordinates::work_origin() const {
+    ControlPosition origin = sum(sum(preset, work), sum(external, fixture));
+    return feature_MF ? sum(origin, plane_local) : origin;
+}
+
+void Coordinates::compile() {
+    factor_ = ones();
+    shape_shift_ = {};
+    if (mirror) follow(*mirror, factor_, shape_shift_);
+    if (scaling) follow(*scaling, factor_, shape_shift_);
+    shape_ = xyz_of(factor_).asDiagonal();
+    if (rotation) {
+        const Matrix3 turn = rotation_about(rotation->axis, rad_from_deg(rotation->angle_deg));
+        shape_ = turn * shape_;
+        set_xyz(shape_shift_, turn * (xyz_of(shape_shift_) - rotation->centre) + rotation->centre);
+    }
+    linear_ = shape_;
+    total_ = sum(sum(shape_shift_, local), work_origin());
+    if (feature_MF) {
+        linear_ = feature_MF->rotation * shape_;
+        set_xyz(total_, *feature_MF * (xyz_of(shape_shift_) + xyz_of(local)));
+    }
+    total_ = sum(total_, length);
+    is_shift_ = linear_.isIdentity(0.0) && factor_ == ones();
+    inverse_ = is_shift_ ? Matrix3::Identity() : Matrix3(linear_.inverse());
+}
+
+ControlPosition Coordinates::machine_general(const ControlPosition& program) const {
+    ControlPosition out;
+    for (std::size_t i = 0; i < axis_count; ++i)
+        out.value[i] = factor_.value[i] * program.value[i] + total_.value[i];
+    set_xyz(out, linear_ * xyz_of(program) + xyz_of(total_));
+    return out;
+}
+
+ControlPosition Coordinates::tip_from_program(const ControlPosition& program) const {
+    ControlPosition out = machine_from_program(program);
+    for (std::size_t i = 0; i < axis_count; ++i) out.value[i] -= length.value[i];
+    return out;
+}
+
+ControlPosition Coordinates::program_from_machine(const ControlPosition& machine) const {
+    ControlPosition out;
+    for (std::size_t i = 0; i < axis_count; ++i)
+        out.value[i] = (machine.value[i] - total_.value[i]) / factor_.value[i];
+    if (!is_shift_) set_xyz(out, inverse_ * (xyz_of(machine) - xyz_of(total_)));
+    return out;
+}
+
+ControlPosition Coordinates::shaped_from_program(const ControlPosition& program) const {
+    ControlPosition out;
+    for (std::size_t i = 0; i < axis_count; ++i)
+        out.value[i] = factor_.value[i] * program.value[i] + shape_shift_.value[i];
+    set_xyz(out, shape_ * xyz_of(program) + xyz_of(shape_shift_));
+    return out;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,81 @@
+// From program words to the machine: every coordinate stage, compiled into one affine map.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "controller/position.h"
+
+namespace trunnion {
+
+/// The stages between an absolute program position and the gauge point, in the order applied:
+///
+///   program --mirror, scaling--> --2-D rotation--> shaped        (#5001.. are shaped positions)
+///   shaped  --local shift G52--> [--tilted plane--> ] --G92, work offset, external, G54.2--> tip
+///   tip     --tool length--> machine (gauge point, mm and deg)
+///
+/// Whoever changes a stage calls compile() and then lets the control derive its program position
+/// anew. Tool centre point control replaces the last step (controller/tool_centre_point.h).
+class Coordinates {
+  public:
+    /// G51.1 and G51: p' = centre + factor (p - centre), axis by axis.
+    struct AxisFactor {
+        ControlPosition centre;
+        ControlPosition factor;
+    };
+    /// G68: about `centre` (program coordinates after mirror and scaling), right-handed about
+    /// `axis`.
+    struct PlaneRotation {
+        Vector3 centre = Vector3::Zero();
+        Vector3 axis = Vector3::UnitZ();
+        double angle_deg = 0.0;
+    };
+
+    std::optional<AxisFactor> mirror;
+    std::optional<AxisFactor> scaling;
+    std::optional<PlaneRotation> rotation;
+    ControlPosition local;  ///< G52; inside a tilted plane along the plane's axes
+    /// G68.2: the feature frame in machine coordinates without tool length. While it is set it
+    /// replaces `work_origin` for X Y Z; other axes keep their work offset.
+    std::optional<Pose> feature_MF;
+    ControlPosition plane_local;  ///< G52 in force when G68.2 was given; part of work_origin
+    ControlPosition preset;       ///< G92
+    ControlPosition external;     ///< external offset
+    ControlPosition work;         ///< G54-G59 or G54.1 Pn
+    ControlPosition fixture;      ///< G54.2, turned with the table
+    ControlPosition length;       ///< tool length vector, tip to gauge point
+
+    Coordinates() { compile(); }
+    void compile();
+
+    /// Zero of the work frame in machine coordinates: all shifts but G52.
+    ControlPosition work_origin() const;
+    ControlPosition tip_from_program(const ControlPosition& program) const;
+    ControlPosition machine_from_program(const ControlPosition& program) const {
+        if (!is_shift_) return machine_general(program);
+        ControlPosition out;
+        for (std::size_t i = 0; i < axis_count; ++i)
+            out.value[i] = program.value[i] + total_.value[i];
+        return out;
+    }
+    ControlPosition program_from_machine(const ControlPosition& machine) const;
+    /// After mirror, scaling and 2-D rotation: what #5001 shows.
+    ControlPosition shaped_from_program(const ControlPosition& program) const;
+
+    /// True while the map of X Y Z is a shift: arcs and feeds need no turning.
+    bool is_shift() const { return is_shift_; }
+    /// The linear part of the map of X Y Z.
+    const Matrix3& linear() const { return linear_; }
+
+  private:
+    ControlPosition machine_general(const ControlPosition& program) const;
+
+    bool is_shift_ = true;
+    Matrix3 linear_ = Matrix3::Identity(), inverse_ = Matrix3::Identity();
+    Matrix3 shape_ = Matrix3::Identity();
+    ControlPosition shape_shift_;  ///< shaped = shape * program + shape_shift
+    ControlPosition factor_;       ///< of all axes, X Y Z unused
+    ControlPosition total_;        ///< machine = linear * program + total
+};
+
+}  // namespace trunnion

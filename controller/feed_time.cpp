@@ -1,0 +1,37 @@
+#include "controller/feed_time.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trunnion {
+
+double rapid_time(const AxisLimits& limits, const AxisPositions& from, const AxisPositions& to) {
+    double longest = 0.0;
+    for (std::size_t i = 0; i < axis_count; ++i)
+        longest =
+            std::max(longest, std::abs(to.value[i] - from.value[i]) * limits.seconds_per_unit[i]);
+    return longest;
+}
+
+double cutting_time(const ControlState& c, double length_mm, const AxisPositions& from,
+                    const AxisPositions& to) {
+    double wanted = length_mm * c.feed.seconds_per_mm;
+    if (c.feed.seconds_per_mm <= 0.0) {
+        if (!c.modal.is(ModalGroup::feed_mode, 930)) raise_alarm(11);
+        if (!c.words.has('F')) raise_alarm(1202);
+        if (c.feed.programmed <= 0.0) raise_alarm(11);
+        wanted = 60.0 / c.feed.programmed;
+    }
+    return std::max(wanted, rapid_time(c.limits, from, to));
+}
+
+double feed_length(const ControlPosition& from, const ControlPosition& to) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < axis_count; ++i) {
+        const double d = to.value[i] - from.value[i];
+        sum += d * d;
+    }
+    return std::sqrt(sum);
+}
+
+}  // namespace trunnion

@@ -1,0 +1,46 @@
+// The G codes: code, modal group, when it acts in a block, who carries it out.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "controller/modal.h"
+
+namespace trunnion {
+
+struct ControlState;
+struct GCode;
+
+/// A handler reads `c.words` and changes the state; it sets its modal code itself through
+/// `set_modal` or is set before the call when `sets_modal`.
+using GHandler = void (*)(ControlState& c, const GCode& code);
+
+/// Order in which the codes of one block act, whatever order they are written in.
+enum class Phase : std::uint8_t {
+    speed,        ///< G96 G97, before S
+    feed,         ///< G93 G94 G95, before F
+    units,        ///< G20 G21
+    plane,        ///< G17 G18 G19
+    reading,      ///< G90 G91 G15 G98 G99 G61-G64: how words are read
+    work_offset,  ///< G54-G59 G54.1 G54.2: move nothing, words stay for the motion
+    frame,        ///< G50 G69 G50.1: cancels that leave the words to the motion
+    offsets,      ///< G40-G42 G43 G44 G49: the motion of the block goes with them
+    shot,         ///< uses the axis words itself: G4 G10 G28 G31 G51 G52 G53 G68 G92
+    cycle,        ///< G73-G89
+    motion,       ///< group 01
+};
+
+struct GCode {
+    int code10;  ///< code * 10
+    ModalGroup group;
+    Phase phase;
+    GHandler handler;  ///< nullptr: only sets its modal group
+    const char* text;  ///< for messages and documents
+};
+
+/// The code of a word's value, or nullptr when the control does not have it.
+const GCode* find_g_code(double value);
+std::span<const GCode> g_code_table();
+
+}  // namespace trunnion

@@ -1,0 +1,41 @@
+// The handlers behind the G code table, by subject. One .cpp a subject.
+#pragma once
+
+namespace trunnion {
+
+struct ControlState;
+struct GCode;
+
+// readings.cpp
+void g_units(ControlState& c, const GCode& code);        // G20 G21
+void g_plane(ControlState& c, const GCode& code);        // G17 G18 G19
+void g_feed_mode(ControlState& c, const GCode& code);    // G93 G94 G95
+void g_speed_mode(ControlState& c, const GCode& code);   // G96 G97
+void g_polar_words(ControlState& c, const GCode& code);  // G16
+void g_exact_stop(ControlState& c, const GCode& code);   // G9
+void g_accepted(ControlState& c, const GCode& code);     // without effect on positions: a note
+void g_dwell(ControlState& c, const GCode& code);        // G4
+
+// work_frames.cpp
+void g_work_offset(ControlState& c, const GCode& code);       // G54-G59, G54.1
+void g_local_shift(ControlState& c, const GCode& code);       // G52
+void g_machine_position(ControlState& c, const GCode& code);  // G53
+void g_preset(ControlState& c, const GCode& code);            // G92
+void g_preset_cancel(ControlState& c, const GCode& code);     // G92.1
+
+// tool_length.cpp
+void g_tool_length(ControlState& c, const GCode& code);  // G43 G44 G49
+
+// skip.cpp
+void g_skip(ControlState& c, const GCode& code);  // G31
+
+// g10.cpp
+void g_data_setting(ControlState& c, const GCode& code);      // G10
+void g_data_setting_end(ControlState& c, const GCode& code);  // G11
+
+// reference.cpp
+void g_reference_check(ControlState& c, const GCode& code);  // G27
+void g_reference(ControlState& c, const GCode& code);        // G28 G30
+void g_from_reference(ControlState& c, const GCode& code);   // G29
+
+}  // namespace trunnion

@@ -1,0 +1,156 @@
+#include "controller/moves.h"
+
+#include <cmath>
+
+#include "controller/feed_time.h"
+
+namespace trunnion {
+
+namespace {
+
+double xyz_length(const AxisPositions& from, const AxisPositions& to) {
+    const double x = to.value[0] - from.value[0], y = to.value[1] - from.value[1],
+                 z = to.value[2] - from.value[2];
+    return std::sqrt(x * x + y * y + z * z);
+}
+
+[[noreturn]] void raise_overtravel(const ControlState& c, std::size_t i, const AxisPositions& to) {
+    raise_alarm(to.value[i] > c.limits.max[i] ? 500 : 501, std::string(1, letter_of(all_axes[i])));
+}
+
+void check_clamps(const ControlState& c, const AxisPositions& to) {
+    for (const ClampCode& clamp : c.config.clamps) {
+        const std::size_t i = index_of(clamp.axis);
+        if (clamp.alarm && c.clamped[i] && to.value[i] != c.move.from.value[i])
+            raise_alarm(9001, std::string(1, letter_of(clamp.axis)));
+    }
+}
+
+/// Everything is in c.move but the place: sends it and keeps where the axes stopped.
+MoveResult send(ControlState& c, MotionKind kind, const ControlPosition& target,
+                const ControlPosition& machine_target) {
+    AxisMove& m = c.move;
+    m.kind = kind;
+    m.line = c.words.line;
+    m.byte = c.words.byte;
+    check_stroke(c, m.to);
+    if (!c.config.clamps.empty()) check_clamps(c, m.to);
+    m.feed_mm_min = kind == MotionKind::rapid                 ? 0.0
+                    : m.length_mm > 0.0 && m.duration_s > 0.0 ? 60.0 * m.length_mm / m.duration_s
+                                                              : c.feed.mm_min;
+    const MoveResult result = c.sink.move(m);
+    ++c.result.moves;
+    c.result.time_s += m.duration_s;
+    c.result.path_mm += m.length_mm;
+    if (result.skipped) {
+        c.machine = control_position_of(result.stopped);
+        m.from = m.to = result.stopped;
+        c.program = c.coordinates.program_from_machine(c.machine);
+        return result;
+    }
+    m.from = m.to;
+    c.machine = machine_target;
+    c.program = target;
+    c.length_parked = false;
+    return result;
+}
+
+}  // namespace
+
+void check_stroke(const ControlState& c, const AxisPositions& to) {
+    for (std::size_t i = 0; i < axis_count; ++i)
+        if (to.value[i] > c.limits.max[i] || to.value[i] < c.limits.min[i])
+            raise_overtravel(c, i, to);
+}
+
+MoveResult move_line(ControlState& c, MotionKind kind, const ControlPosition& target) {
+    const ControlPosition machine_target = c.coordinates.machine_from_program(target);
+    AxisMove& m = c.move;
+    m.to = axis_positions_of(machine_target);
+    if (m.to == m.from) {  // no way to go: nothing goes out
+        c.machine = machine_target;
+        c.program = target;
+        return {};
+    }
+    m.length_mm = xyz_length(m.from, m.to);
+    m.duration_s = kind == MotionKind::rapid
+                       ? rapid_time(c.limits, m.from, m.to)
+                       : cutting_time(c, feed_length(c.machine, machine_target), m.from, m.to);
+    return send(c, kind, target, machine_target);
+}
+
+void move_machine(ControlState& c, MotionKind kind, const ControlPosition& target) {
+    AxisMove& m = c.move;
+    m.to = axis_positions_of(target);
+    const ControlPosition program = c.coordinates.program_from_machine(target);
+    if (m.to == m.from) {
+        c.machine = target;
+        c.program = program;
+        return;
+    }
+    m.length_mm = xyz_length(m.from, m.to);
+    m.duration_s = kind == MotionKind::rapid
+                       ? rapid_time(c.limits, m.from, m.to)
+                       : cutting_time(c, feed_length(c.machine, target), m.from, m.to);
+    send(c, kind, program, target);
+}
+
+void move_arc(ControlState& c, MotionKind kind, const ControlPosition& target,
+              const ProgramArc& arc) {
+    const ControlPosition machine_target = c.coordinates.machine_from_program(target);
+    AxisMove& m = c.move;
+    m.to = axis_positions_of(machine_target);
+    ArcPath path;
+    const Matrix3& linear = c.coordinates.linear();
+    const Vector3 start = xyz_of(c.program);
+    if (c.coordinates.is_shift()) {
+        path.centre_mm = arc.centre + (xyz_of(c.machine) - start);
+        path.normal = arc.normal;
+        path.sweep_rad = arc.sweep_rad;
+    } else {
+        path.centre_mm = linear * (arc.centre - start) + xyz_of(c.machine);
+        const double side =
+            linear.determinant() < 0.0 ? -1.0 : 1.0;  // a mirror turns the arc round
+        path.normal = (linear * arc.normal).normalized();
+        path.sweep_rad = side * arc.sweep_rad;
+        if (side < 0.0 && path.normal.dot(arc.normal) > 0.0)
+            kind = kind == MotionKind::arc_ccw ? MotionKind::arc_cw : MotionKind::arc_ccw;
+    }
+    path.turns = (path.sweep_rad < 0.0 ? -1.0 : 1.0) *
+                 std::max(1.0, std::ceil(std::abs(path.sweep_rad) / (2.0 * pi) - 1e-9));
+    const Vector3 radius_vector = xyz_of(c.machine) - path.centre_mm;
+    const double rise = path.normal.dot(xyz_of(machine_target) - xyz_of(c.machine));
+    const double radius = (radius_vector - radius_vector.dot(path.normal) * path.normal).norm();
+    const double bow = radius * path.sweep_rad;
+    m.length_mm = std::sqrt(bow * bow + rise * rise);
+    double feed_squared = m.length_mm * m.length_mm;
+    for (std::size_t i = 3; i < axis_count; ++i) {
+        const double d = machine_target.value[i] - c.machine.value[i];
+        feed_squared += d * d;
+    }
+    m.duration_s = cutting_time(c, std::sqrt(feed_squared), m.from, m.to);
+    m.arc = path;
+    send(c, kind, target, machine_target);
+    m.arc.reset();
+}
+
+MoveResult move_curve(ControlState& c, MotionKind kind, const ControlPosition& target,
+                      const ControlPosition& machine_target, const PathCurve& curve,
+                      double length_mm) {
+    AxisMove& m = c.move;
+    m.to = axis_positions_of(machine_target);
+    m.length_mm = length_mm;
+    m.duration_s = kind == MotionKind::rapid ? rapid_time(c.limits, m.from, m.to)
+                                             : cutting_time(c, length_mm, m.from, m.to);
+    m.curve = &curve;
+    const MoveResult result = send(c, kind, target, machine_target);
+    m.curve = nullptr;
+    return result;
+}
+
+void dwell(ControlState& c, double duration_s) {
+    c.result.time_s += duration_s;
+    c.sink.dwell(duration_s);
+}
+
+}  // namespace trunnion

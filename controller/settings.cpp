@@ -1,0 +1,47 @@
+#include "controller/settings.h"
+
+namespace trunnion {
+
+namespace {
+
+/// Value of an axis parameter: the axis's own, or the one for all.
+double for_axis(const Parameters& parameters, int number, int axis_number) {
+    const auto it = parameters.entry.find(number);
+    if (it == parameters.entry.end()) return 0.0;
+    const auto own = it->second.by_axis.find(axis_number);
+    return own != it->second.by_axis.end() ? own->second : it->second.value;
+}
+
+void decode_axes(const Parameters& parameters, const ControlConfig& config, ControlSettings& s) {
+    for (std::size_t k = 0; k < config.axes.size(); ++k) {
+        const int number = static_cast<int>(k) + 1;
+        const std::size_t i = index_of(config.axes[k].axis);
+        for (int r = 0; r < 4; ++r)
+            s.reference[static_cast<std::size_t>(r)][i] = for_axis(parameters, 1240 + r, number);
+        const auto roa = static_cast<unsigned>(for_axis(parameters, 1008, number));
+        if (config.axes[k].rotary && (roa & 1U))
+            s.rollover = static_cast<std::uint16_t>(s.rollover | (1U << i));
+    }
+}
+
+}  // namespace
+
+ControlSettings decode_settings(const Parameters& parameters, const ControlConfig& config) {
+    ControlSettings s;
+    s.bare_is_noted = !parameters.find(3401);
+    s.bare_is_unit = s.bare_is_noted || parameters.bit(3401, 0);
+    s.duplicates_alarm = parameters.bit(3403, 6);
+    s.arc_needs_centre = parameters.bit(3403, 5);
+    s.arc_tolerance_mm = parameters.get(3410);
+    s.peck_return_mm = parameters.get(5114, 1.0);
+    s.peck_clearance_mm = parameters.get(5115, 1.0);
+    s.length_shifts = parameters.bit(5006, 6);
+    s.length_axis_type = parameters.bit(5001, 0) ? 2 : parameters.bit(5001, 1) ? 1 : 0;
+    s.startup_type_b = parameters.bit(5003, 0);
+    s.work_positions_with_length = config.work_positions_with_length;
+    s.wear_first = parameters.bit(6000, 3);
+    decode_axes(parameters, config, s);
+    return s;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,33 @@
+// What the control reads from its parameters at each block, decoded once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "controller/controller.h"
+
+namespace trunnion {
+
+/// Decoded CNC parameters. Numbers behind each field; where the store has no entry, the value here.
+struct ControlSettings {
+    bool bare_is_unit =
+        true;  ///< 3401#0 DPI: X58 is 58 mm; 0: 58 least increments. Absent: 1 (assumed)
+    bool bare_is_noted = false;      ///< 3401 absent: the first such word gives a note
+    bool duplicates_alarm = false;   ///< 3403#6 AD2
+    bool arc_needs_centre = false;   ///< 3403#5 CIR
+    double arc_tolerance_mm = 0.0;   ///< 3410; 0: start and end radius are not compared
+    double peck_return_mm = 1.0;     ///< 5114: G73 retreat (absent: 1 mm, assumed)
+    double peck_clearance_mm = 1.0;  ///< 5115: G83 clearance (absent: 1 mm, assumed)
+    bool length_shifts = false;      ///< 5006#6 TOS: G43 shifts the coordinates instead of moving
+    int length_axis_type =
+        0;  ///< 5001#0 TLC, #1 TLB: 0 A (always Z), 1 B (normal of plane), 2 C (axis in block)
+    bool startup_type_b = false;             ///< 5003#0 SUP
+    bool work_positions_with_length = true;  ///< #5041, #5061 include length (own option, see docs)
+    bool wear_first = false;                 ///< 6000#3 V15: #2001 geometry instead of wear
+    std::uint16_t rollover = 0;              ///< 1008#0 ROA by axis letter bit
+    std::array<std::array<double, axis_count>, 4> reference{};  ///< 1240-1243, mm and deg
+};
+
+ControlSettings decode_settings(const Parameters& parameters, const ControlConfig& config);
+
+}  // namespace trunnion

@@ -1,0 +1,55 @@
+// The frames of G68.2, G68.3 and G68.4: where the tilted working plane lies on the work.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "geometry/pose.h"
+
+namespace trunnion {
+
+/// The words of one G68.2, G68.3 or G68.4 block: mm, deg, or components of a vector; P and Q as
+/// written.
+struct PlaneWords {
+    std::optional<double> x, y, z, i, j, k, r, p, q;
+};
+
+/// Collects the blocks of one definition: P0, P1 and P4 need one block, P2 three or four, P3 two.
+class PlaneDefinition {
+  public:
+    /// The feature frame seen from the work frame once all its blocks are there; nothing before.
+    /// Throws Alarm 5457 (G68.2 FORMAT ERROR) for a missing address, an unknown P or Q, a block out
+    /// of place, points on one line, vectors that are not square.
+    ///   P0: Euler angles I J K about moved axes, in the order of the digits of Q (313: Z-X-Z)
+    ///   P1: I about X, J about Y, K about Z of the work frame, in the order of the digits of Q
+    ///   (123) P2: Q1 origin, Q2 a point on +X, Q3 on the +Y side; Q0 first: shift along the plane,
+    ///   R P3: Q1 origin X Y Z, +X along I J K; Q2 +Z along I J K; 5 deg off square is too much P4:
+    ///   projection angles (assumed): I turns X about Y, J turns Y about X, K about the new Z
+    /// R turns the frame about its new Z.
+    std::optional<Pose> add(const PlaneWords& words);
+    /// Between the blocks of P2 and P3: no other block may come.
+    bool pending() const { return form_ != 0; }
+    void reset() { *this = {}; }
+
+  private:
+    Pose from_points() const;
+    Pose from_vectors() const;
+    std::optional<Pose> add_point(const PlaneWords& words, int q);
+    std::optional<Pose> add_vector(const PlaneWords& words, int q);
+
+    int form_ = 0;  ///< P of a definition that is not complete
+    std::array<std::optional<PlaneWords>, 4> block_;
+};
+
+/// Parameters 12321 and 12322.
+struct VerticalAxis {
+    Vector3 direction_P = Vector3::UnitZ();
+    double threshold_rad = 0.0;
+};
+
+/// G68.3: Z along the tool, X = vertical x Z; when both are parallel within the threshold, X is the
+/// work frame's X made square to Z (assumed), or its Y where X lies along Z. R about Z.
+Pose plane_of_tool(const Vector3& tool_direction_P, const Vector3& origin_P_mm, double r_deg,
+                   const VerticalAxis& vertical);
+
+}  // namespace trunnion

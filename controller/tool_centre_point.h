@@ -1,0 +1,68 @@
+// G43.4 and G43.5: the tip follows the work, the axes follow the tip.
+#pragma once
+
+#include <vector>
+
+#include "controller/motion.h"
+#include "controller/rotary_transform.h"
+
+namespace trunnion {
+
+/// To what the table-fixed programming frame is tied when G43.4 comes with the table turned.
+enum class TcpFrame : unsigned char {
+    start,       ///< the work frame as it lies then sticks to the table (15i manual)
+    rotary_zero  ///< the work frame lies on the table with its rotaries at zero
+};
+
+/// The believed tool centre point control in force. "Programmed tip": where the control's
+/// coordinate stages put the tip in M without it.
+struct ToolCentrePoint {
+    const RotaryTransform* transform = nullptr;
+    Pose pose_WM0;              ///< programmed tip -> W, table-fixed frame
+    bool follows_work = false;  ///< WKP: the programmed tip is in M at the end of the block instead
+    Vector3 tool_vector_mm = Vector3::Zero();
+
+    /// `present`: the axes when G43.4 comes.
+    static ToolCentrePoint start(const RotaryTransform& transform, const AxisPositions& present,
+                                 TcpFrame frame, const Vector3& tool_vector_mm);
+
+    Vector3 tip_W(const Vector3& programmed_M_mm, const AxisPositions& rotaries) const;
+    /// Inverse: the programmed tip that says where the axes stand.
+    Vector3 programmed_tip_M(const AxisPositions& machine) const;
+    /// A direction in M (of the programmed frame) seen from W.
+    Vector3 direction_W(const Vector3& programmed_M) const {
+        return pose_WM0.rotation * programmed_M;
+    }
+    AxisPositions machine(const Vector3& tip_W_mm, const AxisPositions& rotaries) const {
+        return transform->machine_for_tip(tip_W_mm, rotaries, tool_vector_mm);
+    }
+};
+
+/// The tip runs straight in W from one axis position to another, all other axes linear in s.
+class TipLine : public PathCurve {
+  public:
+    TipLine(const ToolCentrePoint& tcp, const AxisPositions& from, const AxisPositions& to);
+    AxisPositions at(double s) const override;
+    double length_mm() const { return along_W_.norm(); }
+
+  private:
+    const RotaryTransform* transform_;
+    Vector3 tool_vector_mm_, start_W_, along_W_;
+    AxisPositions from_, to_;
+};
+
+/// G43.5 Q: the tool axis leans by `lean_rad` from n towards the direction of travel (assumed);
+/// unchanged without travel across n.
+Vector3 leaned(const Vector3& n_W, const Vector3& travel_W, double lean_rad);
+
+/// Values of s, 0 and 1 included, between which the straight line of the axes stays within
+/// `tolerance_mm` of the curve (X Y Z; since rotaries run linearly that is the error of the tip
+/// too).
+std::vector<double> chord_steps(const PathCurve& curve, double tolerance_mm);
+
+/// Least time (s) in which the axes can follow the curve at constant rate of s: each axis's
+/// steepest run times its `seconds_per_unit`.
+double least_curve_time_s(const PathCurve& curve,
+                          const std::array<double, axis_count>& seconds_per_unit);
+
+}  // namespace trunnion

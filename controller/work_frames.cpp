@@ -1,0 +1,68 @@
+// Work coordinate systems: G54-G59, G54.1, G52, G53, G92, G92.1.
+#include "controller/g_codes.h"
+#include "controller/g_handlers.h"
+#include "controller/moves.h"
+
+namespace trunnion {
+
+void g_work_offset(ControlState& c, const GCode& code) {
+    // G54.1 Pn, and G54 Pn as the same.
+    const bool additional =
+        code.code10 == 541 || (code.code10 == 540 && c.words.has('P') && !c.words.has('L'));
+    if (additional) {
+        if (!c.words.has('P')) raise_alarm(31);
+        const int p = c.whole_word('P');
+        if (p < 1 || p > static_cast<int>(c.stores.work.additional.size()))
+            raise_alarm(31, c.words.column_of('P'));
+        c.work_number = p;
+        c.modal.set(ModalGroup::work_offset, 541);
+    } else {
+        c.work_number = 0;
+        c.modal.set(ModalGroup::work_offset, code.code10);
+    }
+    c.read_work_offset();
+}
+
+void g_local_shift(ControlState& c, const GCode&) {
+    for (const ControlAxis& entry : c.config.axes) {
+        if (!c.words.has(letter_of(entry.axis))) continue;
+        const double value = c.axis_word(entry.axis);
+        double& local = c.coordinates.local[entry.axis];
+        local = c.absolute() ? value : local + value;
+    }
+    c.frame_changed();
+}
+
+void g_machine_position(ControlState& c, const GCode&) {
+    if (!c.absolute()) return;  // the control ignores G53 under G91
+    ControlPosition target = c.machine;
+    for (const ControlAxis& entry : c.config.axes)
+        if (c.words.has(letter_of(entry.axis))) target[entry.axis] = c.axis_word(entry.axis);
+    move_machine(c, MotionKind::rapid, target);
+    c.length_parked = true;
+}
+
+void g_preset(ControlState& c, const GCode&) {
+    // The present position gets the coordinates given; G52 of these axes is cancelled; every work
+    // coordinate system shifts alike.
+    for (const ControlAxis& entry : c.config.axes) {
+        const Axis axis = entry.axis;
+        if (!c.words.has(letter_of(axis))) continue;
+        const double wanted =
+            c.absolute() ? c.axis_word(axis) : c.program[axis] + c.axis_word(axis);
+        c.coordinates.preset[axis] += c.program[axis] + c.coordinates.local[axis] - wanted;
+        c.coordinates.local[axis] = 0.0;
+    }
+    c.frame_changed();
+}
+
+void g_preset_cancel(ControlState& c, const GCode&) {
+    for (const ControlAxis& entry : c.config.axes) {
+        if (!c.words.has(letter_of(entry.axis))) continue;
+        c.coordinates.preset[entry.axis] = 0.0;
+        c.coordinates.local[entry.axis] = 0.0;
+    }
+    c.frame_changed();
+}
+
+}  // namespace trunnion

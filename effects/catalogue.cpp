@@ -1,0 +1,103 @@
+#include "effects/catalogue.h"
+
+#include <fmt/format.h>
+
+namespace trunnion {
+namespace {
+
+using AxisMaker = Effect (*)(const AxisGeometry&);
+
+constexpr AxisMaker rotary_effects[] = {rotary_zero,  rotary_positioning, rotary_cyclic,
+                                        rotary_radial, rotary_axial,      rotary_tilt,
+                                        rotary_backlash};
+constexpr AxisMaker linear_effects[] = {linear_scale,    linear_straightness,   linear_angular,
+                                        linear_cyclic,   linear_backlash,
+                                        linear_reversal_spike, linear_lateral_play};
+
+/// The first rotary axis that carries the work: the one that gravity loads.
+const AxisGeometry* tilting_axis(const Chain& chain) {
+    for (const AxisGeometry& axis : chain.work)
+        if (axis.rotary) return &axis;
+    return nullptr;
+}
+
+void append_axis_effects(Catalogue& list, const Chain& chain) {
+    for (const AxisGeometry& axis : chain.axes()) {
+        if (axis.rotary)
+            for (const AxisMaker make : rotary_effects) list.push_back(make(axis));
+        else
+            for (const AxisMaker make : linear_effects) list.push_back(make(axis));
+    }
+}
+
+std::string parameter_text(const Effect& effect) {
+    std::string text, last;
+    for (const EffectParameter& p : effect.parameters) {
+        if (p.name == last) continue;
+        last = p.name;
+        text += fmt::format("{}`{}` [{}] {:.3g}{}", text.empty() ? "" : ", ", p.name, p.unit,
+                            p.typical, p.is_key() ? " (searched)" : "");
+    }
+    return text;
+}
+
+}  // namespace
+
+Catalogue make_catalogue(const Setup& setup, const DataExtent& extent) {
+    const Chain& chain = setup.machine.chain;
+    Catalogue list{location_effect(chain), pivot_g54(chain), pivot_p1970x(chain)};
+    append_axis_effects(list, chain);
+    list.push_back(squareness("XY", Axis::Y, 2));
+    list.push_back(squareness("YZ", Axis::Z, 0));
+    list.push_back(squareness("ZX", Axis::Z, 1));
+    list.push_back(servo_mismatch(chain));
+    list.push_back(servo_contour(chain));
+    list.push_back(thermal_drift(extent));
+    list.push_back(thermal_expansion(chain));
+    if (const AxisGeometry* tilting = tilting_axis(chain)) list.push_back(gravity_sag(*tilting));
+    list.push_back(probe_pretravel());
+    list.push_back(probe_radius());
+    list.push_back(probe_runout());
+    list.push_back(tool_length());
+    list.push_back(ballbar_length());
+    list.push_back(artefact_position(setup.artefacts));
+    list.push_back(artefact_form(setup.artefacts));
+    list.push_back(artefact_moved(setup.artefacts, extent));
+    list.push_back(control_rounding(chain));
+    list.push_back(control_chord(chain));
+    list.push_back(clamp_shift(chain));
+    return list;
+}
+
+DataExtent extent_of(const Setup& setup, const ReadingTable& table) {
+    DataExtent extent;
+    if (table.rows.empty()) return extent;
+    extent.start_s = table.rows.front().time_s;
+    extent.end_s = table.rows.back().time_s;
+    for (const Artefact& artefact : setup.artefacts) {
+        std::vector<double> times;
+        for (const Reading& row : table.rows)
+            if (row.device != Device::none && row.feature == artefact.name)
+                times.push_back(row.time_s);
+        extent.times_s.push_back(std::move(times));
+    }
+    return extent;
+}
+
+const Effect* find_effect(const Catalogue& catalogue, const std::string& name) {
+    for (const Effect& effect : catalogue)
+        if (effect.name == name) return &effect;
+    return nullptr;
+}
+
+std::string describe_catalogue(const Catalogue& catalogue) {
+    std::string text =
+        "| effect | what it is | usual cause | what to do | formula | parameters [unit] typical |\n"
+        "|---|---|---|---|---|---|\n";
+    for (const Effect& effect : catalogue)
+        text += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", effect.name, effect.what,
+                            effect.cause, effect.remedy, effect.formula, parameter_text(effect));
+    return text;
+}
+
+}  // namespace trunnion

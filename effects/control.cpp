@@ -1,0 +1,145 @@
+// What the control itself does to the path: rounding, chords, wrong pivot stores.
+#include <cmath>
+
+#include "effects/models.h"
+#include "geometry/units.h"
+
+namespace trunnion {
+namespace {
+
+double rounding_error(double value, double increment) {
+    return increment > 0.0 ? std::round(value / increment) * increment - value : 0.0;
+}
+
+/// Linear acceleration and velocity of the commanded path, mm and s.
+struct PathTurn {
+    Vector3 acceleration = Vector3::Zero(), velocity = Vector3::Zero();
+    double rate_rad_s() const {
+        const double speed = velocity.norm();
+        return speed > 1e-6 ? acceleration.norm() / speed : 0.0;
+    }
+};
+
+PathTurn turn_of(const AxisSample& sample, const Contact& contact) {
+    PathTurn turn;
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+        turn.acceleration(static_cast<int>(index_of(axis))) = contact.acceleration[axis];
+        turn.velocity(static_cast<int>(index_of(axis))) = sample.velocity[axis];
+    }
+    return turn;
+}
+
+/// Nominal rotations of the table's rotary axes, from the bed: first, and first times second.
+struct TableRotation {
+    Matrix3 first = Matrix3::Identity(), both = Matrix3::Identity();
+};
+
+TableRotation table_rotation(const std::vector<AxisGeometry>& rotary, const AxisSample& sample) {
+    TableRotation result;
+    for (std::size_t k = 0; k < rotary.size(); ++k) {
+        const Matrix3 turn = rotation_about(rotary[k].direction, sample.position[rotary[k].axis]);
+        result.both = result.both * turn;
+        if (k == 0) result.first = turn;
+    }
+    return result;
+}
+
+std::vector<AxisGeometry> rotary_of(const Chain& chain) {
+    std::vector<AxisGeometry> rotary;
+    for (const AxisGeometry& axis : chain.work)
+        if (axis.rotary) rotary.push_back(axis);
+    return rotary;
+}
+
+void move_axes(const Vector3& shift_mm, Perturbation& out) {
+    out.axis[Axis::X] += shift_mm.x();
+    out.axis[Axis::Y] += shift_mm.y();
+    out.axis[Axis::Z] += shift_mm.z();
+}
+
+Vector3 three(std::span<const double> value) { return {value[0], value[1], value[2]}; }
+
+}  // namespace
+
+Effect control_rounding(const Chain& chain) {
+    std::vector<Axis> axes;
+    for (const AxisGeometry& axis : chain.axes()) axes.push_back(axis.axis);
+    return {"control.rounding",
+            "Commanded positions are rounded to a coarse increment on their way to the drive",
+            "post-processor digits, least input increment, encoder resolution",
+            "more decimals in the program, finer increment system (IS-C)",
+            "position + fraction (round to increment - position); fraction 1 when it is so",
+            {{"fraction", "1", 1.0, -1, {}, true},
+             {"increment_deg", "deg", 0.001, -1, {0.0, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1},
+              false},
+             {"increment_mm", "mm", 0.0, -1, {0.0, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05}, false}},
+            [axes](const AxisSample& sample, const Contact&, std::span<const double> value,
+                   Perturbation& out) {
+                for (const Axis axis : axes) {
+                    const double step = is_rotary(axis) ? rad_from_deg(value[1]) : value[2];
+                    out.axis[axis] += value[0] * rounding_error(sample.position[axis], step);
+                }
+            }};
+}
+
+Effect control_chord(const Chain&) {
+    return {"control.chord",
+            "A curve is cut into straight pieces that pass inside it",
+            "coarse tolerance of the post-processor, rotary moves without tool-centre control",
+            "finer segments, or let the control interpolate (G02, G43.4)",
+            "linear axes + fraction a t (T - t) / 2, T = segment_deg / turn rate of the path",
+            {{"fraction", "1", 1.0, -1, {}, true},
+             {"segment_deg", "deg", 2.0, -1, {1.0, 1.5, 2.0, 2.5, 4.0, 5.0, 7.5, 10.0, 15.0}, false}},
+            [](const AxisSample& sample, const Contact& contact, std::span<const double> value,
+               Perturbation& out) {
+                if (contact.device != Device::ballbar) return;
+                const PathTurn turn = turn_of(sample, contact);
+                const double rate = turn.rate_rad_s();
+                if (rate < 1e-6) return;
+                const double block_s = rad_from_deg(value[1]) / rate;
+                const double t = std::fmod(contact.test_time_s, block_s);
+                move_axes(value[0] * 0.5 * t * (block_s - t) * turn.acceleration, out);
+            }};
+}
+
+Effect pivot_g54(const Chain& chain) {
+    Effect effect{"pivot.g54",
+                  "The work offset G54 does not hold the true pivot point",
+                  "work zero set again without correcting it, post-processor with old pivot",
+                  "make G54 agree with parameters 19700-19705 and with the machine",
+                  "modes dpp, rtdfo: axes move by -(R1 R2 - 1) dg_mm",
+                  {},
+                  {}};
+    for (int d = 0; d < 3; ++d)
+        effect.parameters.push_back({"dg_mm", "mm", 30e-3, d, {}, true});
+    effect.add = [rotary = rotary_of(chain)](const AxisSample& sample, const Contact&,
+                                             std::span<const double> value, Perturbation& out) {
+        if (sample.mode != PositioningMode::dpp && sample.mode != PositioningMode::rtdfo) return;
+        const Vector3 dg = three(value);
+        move_axes(dg - table_rotation(rotary, sample).both * dg, out);
+    };
+    return effect;
+}
+
+Effect pivot_p1970x(const Chain& chain) {
+    Effect effect{"pivot.p1970x",
+                  "Parameters 19700-19705 do not hold the true pivot point",
+                  "parameters from another machine, not updated after service",
+                  "calibrate the rotary axes and enter 19700-19705 anew",
+                  "modes rtcp, tw: axes move by -((R1 R2 - 1)(dp + dd) - (R1 - 1) dd)",
+                  {},
+                  {}};
+    for (const char* name : {"dp_mm", "dd_mm"})
+        for (int d = 0; d < 3; ++d)
+            effect.parameters.push_back({name, "mm", 30e-3, d, {}, true});
+    effect.add = [rotary = rotary_of(chain)](const AxisSample& sample, const Contact&,
+                                             std::span<const double> value, Perturbation& out) {
+        if (sample.mode != PositioningMode::rtcp && sample.mode != PositioningMode::tw) return;
+        const Vector3 dd = three(value.subspan(3)), sum = three(value) + dd;
+        const TableRotation turn = table_rotation(rotary, sample);
+        move_axes(sum - turn.both * sum + turn.first * dd - dd, out);
+    };
+    return effect;
+}
+
+}  // namespace trunnion

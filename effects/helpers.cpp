@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "effects/models.h"
+
+namespace trunnion {
+
+double harmonic_sum(double angle_rad, std::span<const double> values) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k + 1 < values.size(); k += 2) {
+        if (values[k] == 0.0 && values[k + 1] == 0.0) continue;
+        const double angle = static_cast<double>(k / 2 + 1) * angle_rad;
+        sum += values[k] * std::cos(angle) + values[k + 1] * std::sin(angle);
+    }
+    return sum;
+}
+
+void append_harmonics(std::vector<EffectParameter>& list, const std::string& prefix,
+                      const std::string& unit, int orders, double typical) {
+    for (int n = 1; n <= orders; ++n)
+        for (const char* wave : {"cos", "sin"})
+            list.push_back(
+                {fmt::format("{}{}{}_{}", prefix, wave, n, unit), unit, typical / n, -1, {}, true});
+}
+
+int main_direction(const AxisGeometry& axis) {
+    int largest = 0;
+    axis.direction.cwiseAbs().maxCoeff(&largest);
+    return largest;
+}
+
+std::vector<double> geometric_grid(double low, double high, int count) {
+    std::vector<double> grid;
+    for (int k = 0; k < count; ++k) grid.push_back(low * std::pow(high / low, k / (count - 1.0)));
+    return grid;
+}
+
+std::string motion_name(int direction, Axis axis) {
+    return std::string("E") + "XYZABC"[direction] + letter_of(axis);
+}
+
+std::string effect_name(Axis axis, const char* what) {
+    return letter_of(axis) + std::string(what);
+}
+
+std::string axis_parameter(const char* before, Axis axis, const char* after) {
+    return std::string(before) + static_cast<char>(letter_of(axis) - 'A' + 'a') + after;
+}
+
+bool is_probe(const Contact& contact) {
+    return contact.device == Device::sphere || contact.device == Device::touch;
+}
+
+}  // namespace trunnion

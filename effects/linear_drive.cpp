@@ -1,0 +1,79 @@
+// Errors of a linear axis's drive: ballscrew ripple, backlash, reversal spike, lateral play.
+#include <cmath>
+
+#include "effects/models.h"
+#include "geometry/units.h"
+
+namespace trunnion {
+
+Effect linear_cyclic(const AxisGeometry& axis) {
+    return {effect_name(axis.axis, ".cyclic"),
+            "A ripple of the position that repeats with every turn of the ballscrew",
+            "ballscrew eccentricity, coupling, encoder interpolation",
+            "check coupling and screw bearing; a linear scale removes it",
+            "position + cos_mm cos(2 pi q / p) + sin_mm sin(2 pi q / p), p = period_mm",
+            {{"cos_mm", "mm", 2e-3, -1, {}, true},
+             {"sin_mm", "mm", 2e-3, -1, {}, true},
+             {"period_mm", "mm", 10.0, -1, geometric_grid(4.0, 50.0, 180), true}},
+            [k = axis.axis](const AxisSample& sample, const Contact&, std::span<const double> value,
+                            Perturbation& out) {
+                const double angle = 2.0 * pi * sample.position[k] / value[2];
+                out.axis[k] += value[0] * std::cos(angle) + value[1] * std::sin(angle);
+            }};
+}
+
+Effect linear_backlash(const AxisGeometry& axis) {
+    return {effect_name(axis.axis, ".backlash"),
+            "The axis stops short by half the gap, on the side it comes from",
+            "ballscrew nut or thrust bearing worn; negative: a drive that lags",
+            "readjust nut and bearing, or correct backlash compensation (parameter 1851)",
+            "position + gap_mm / 2 * sign of travel (cancels in a found sphere centre)",
+            {{"gap_mm", "mm", 5e-3, -1, {}, true}},
+            [k = axis.axis](const AxisSample& sample, const Contact&, std::span<const double> value,
+                            Perturbation& out) {
+                out.axis[k] += 0.5 * value[0] * sample.travel[index_of(k)];
+            }};
+}
+
+Effect linear_reversal_spike(const AxisGeometry& axis) {
+    return {effect_name(axis.axis, ".reversal_spike"),
+            "The axis sticks for a moment when it turns round, then catches up",
+            "friction at standstill with a soft or slow velocity loop",
+            "raise the loop gain or switch on friction (quadrant) compensation",
+            "position - height_mm * sign of travel * exp(-distance since reversal / decay_mm)",
+            {{"height_mm", "mm", 6e-3, -1, {}, true},
+             {"decay_mm", "mm", 1.0, -1, {0.1, 0.2, 0.4, 0.7, 1.2, 2.0, 3.5, 6.0, 10.0, 16.0}, true}},
+            [k = axis.axis](const AxisSample& sample, const Contact& contact,
+                            std::span<const double> value, Perturbation& out) {
+                if (is_probe(contact)) return;
+                const std::size_t i = index_of(k);
+                out.axis[k] -=
+                    value[0] * sample.travel[i] * std::exp(-sample.since_reversal[i] / value[1]);
+            }};
+}
+
+Effect linear_lateral_play(const AxisGeometry& axis) {
+    std::vector<int> directions;
+    Effect effect{effect_name(axis.axis, ".lateral_play"),
+                  "The slide steps sideways when the axis changes direction",
+                  "guideway clearance, worn gibs or carriages",
+                  "readjust gibs or preload of the guideway",
+                  "E?L = play / 2 * sign of travel, sideways",
+                  {},
+                  {}};
+    for (int d = 0; d < 3; ++d) {
+        if (d == main_direction(axis)) continue;
+        directions.push_back(d);
+        effect.parameters.push_back(
+            {std::string("play_") + "xyz"[d] + "_mm", "mm", 4e-3, -1, {}, true});
+    }
+    effect.add = [k = axis.axis, directions](const AxisSample& sample, const Contact&,
+                                             std::span<const double> value, Perturbation& out) {
+        const std::size_t i = index_of(k);
+        for (std::size_t j = 0; j < directions.size(); ++j)
+            out.motion[i].shift_mm(directions[j]) += 0.5 * value[j] * sample.travel[i];
+    };
+    return effect;
+}
+
+}  // namespace trunnion

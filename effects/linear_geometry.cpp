@@ -1,0 +1,104 @@
+// Geometric errors of a linear axis along its travel: scale, straightness, angles, squareness.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "effects/models.h"
+
+namespace trunnion {
+namespace {
+
+constexpr double reach_mm = 200.0;  ///< travel at which polynomial coefficients are quoted
+
+/// sum over n of value[n] (q / reach)^(first + n).
+double polynomial(double q, int first, std::span<const double> value) {
+    double sum = 0.0, power = first == 1 ? q / reach_mm : q * q / (reach_mm * reach_mm);
+    for (const double v : value) {
+        sum += v * power;
+        power *= q / reach_mm;
+    }
+    return sum;
+}
+
+}  // namespace
+
+Effect linear_scale(const AxisGeometry& axis) {
+    return {effect_name(axis.axis, ".scale"),
+            "The axis moves too far or not far enough, in proportion to the distance",
+            "ballscrew lead or scale error, warm screw, wrong pitch compensation",
+            "measure with laser or step gauge and correct the pitch compensation",
+            "position + scale_ppm 1e-6 q + bow2_mm (q/200)^2 + bow3_mm (q/200)^3",
+            {{"scale_ppm", "ppm", 20.0, -1, {}, true},
+             {"bow2_mm", "mm", 1e-3, -1, {}, true},
+             {"bow3_mm", "mm", 0.7e-3, -1, {}, true}},
+            [k = axis.axis](const AxisSample& sample, const Contact&, std::span<const double> value,
+                            Perturbation& out) {
+                const double q = sample.position[k];
+                out.axis[k] += 1e-6 * value[0] * q + polynomial(q, 2, value.subspan(1, 2));
+            }};
+}
+
+Effect linear_straightness(const AxisGeometry& axis) {
+    Effect effect{effect_name(axis.axis, ".straightness"),
+                  "The axis runs on a bowed line: it strays sideways along its travel",
+                  "guideway wear, bed settling, machine not levelled",
+                  "level the machine, check the guideways",
+                  "E?L = p1 (q/200) + p2 (q/200)^2 + p3 (q/200)^3 + p4 (q/200)^4, both sideways",
+                  {},
+                  {}};
+    std::vector<int> directions;
+    for (int d = 0; d < 3; ++d) {
+        if (d == main_direction(axis)) continue;
+        directions.push_back(d);
+        for (int n = 1; n <= 4; ++n)
+            effect.parameters.push_back({fmt::format("{}_p{}_mm", motion_name(d, axis.axis), n),
+                                         "mm", n <= 2 ? 5e-3 : 3e-3, -1, {}, true});
+    }
+    effect.add = [k = axis.axis, directions](const AxisSample& sample, const Contact&,
+                                             std::span<const double> value, Perturbation& out) {
+        for (std::size_t j = 0; j < directions.size(); ++j)
+            out.motion[index_of(k)].shift_mm(directions[j]) +=
+                polynomial(sample.position[k], 1, value.subspan(4 * j, 4));
+    };
+    return effect;
+}
+
+Effect linear_angular(const AxisGeometry& axis) {
+    Effect effect{effect_name(axis.axis, ".angular"),
+                  "The axis pitches, yaws and rolls along its travel: errors grow with tool length",
+                  "guideway bow, bed settling, overhang",
+                  "level the machine; keep tools short; measure with a level or a laser",
+                  "E?L = p1 (q/200) + p2 (q/200)^2 about X, Y and Z; acts on the arm to the tip",
+                  {},
+                  {}};
+    for (int d = 0; d < 3; ++d)
+        for (int n = 1; n <= 2; ++n)
+            effect.parameters.push_back(
+                {fmt::format("{}_p{}_rad", motion_name(3 + d, axis.axis), n), "rad", 25e-6 / n, -1,
+                 {}, true});
+    effect.add = [k = axis.axis](const AxisSample& sample, const Contact&,
+                                 std::span<const double> value, Perturbation& out) {
+        for (std::size_t d = 0; d < 3; ++d)
+            out.motion[index_of(k)].tilt_rad(static_cast<int>(d)) +=
+                polynomial(sample.position[k], 1, value.subspan(2 * d, 2));
+    };
+    return effect;
+}
+
+Effect squareness(const std::string& plane, Axis moving, int about) {
+    const Vector3 along = Vector3::Unit(static_cast<int>(index_of(moving)));
+    const Vector3 stray = Vector3::Unit(about).cross(along);
+    return {plane + ".squareness",
+            "Two linear axes are not at right angles",
+            "machine not levelled, column or saddle misaligned, a crash",
+            "level and realign, or correct it in the control's squareness compensation",
+            fmt::format("{} tilted by angle_rad about {}", letter_of(moving), "XYZ"[about]),
+            {{"angle_rad", "rad", 40e-6, -1, {}, true}},
+            [moving, stray](const AxisSample& sample, const Contact&, std::span<const double> value,
+                            Perturbation& out) {
+                out.motion[index_of(moving)].shift_mm +=
+                    value[0] * sample.position[moving] * stray;
+            }};
+}
+
+}  // namespace trunnion

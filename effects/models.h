@@ -1,0 +1,70 @@
+// The makers of all effects; the catalogue calls them for each axis of a machine.
+#pragma once
+
+#include "effects/effect.h"
+
+namespace trunnion {
+
+/// What a set of readings spans: where keys are searched.
+struct DataExtent {
+    double start_s = 0.0;
+    double end_s = 7200.0;
+    std::vector<std::vector<double>> times_s;  ///< of the rows of each artefact, rising
+};
+
+Effect location_effect(const Chain& chain);
+Effect rotary_zero(const AxisGeometry& axis);
+Effect rotary_positioning(const AxisGeometry& axis);
+Effect rotary_cyclic(const AxisGeometry& axis);
+Effect rotary_radial(const AxisGeometry& axis);
+Effect rotary_axial(const AxisGeometry& axis);
+Effect rotary_tilt(const AxisGeometry& axis);
+Effect rotary_backlash(const AxisGeometry& axis);
+Effect linear_scale(const AxisGeometry& axis);
+Effect linear_straightness(const AxisGeometry& axis);
+Effect linear_angular(const AxisGeometry& axis);
+Effect linear_cyclic(const AxisGeometry& axis);
+Effect linear_backlash(const AxisGeometry& axis);
+Effect linear_reversal_spike(const AxisGeometry& axis);
+Effect linear_lateral_play(const AxisGeometry& axis);
+/// XY, YZ or ZX: `moving` is the axis that is out of square, tilted about direction `about`.
+Effect squareness(const std::string& plane, Axis moving, int about);
+Effect servo_mismatch(const Chain& chain);
+Effect servo_contour(const Chain& chain);
+Effect thermal_drift(const DataExtent& extent);
+Effect thermal_expansion(const Chain& chain);
+Effect gravity_sag(const AxisGeometry& tilting);
+Effect probe_pretravel();
+Effect probe_radius();
+Effect probe_runout();
+Effect tool_length();
+Effect ballbar_length();
+Effect artefact_position(const std::vector<Artefact>& artefacts);
+Effect artefact_form(const std::vector<Artefact>& artefacts);
+Effect artefact_moved(const std::vector<Artefact>& artefacts, const DataExtent& extent);
+Effect control_rounding(const Chain& chain);
+Effect control_chord(const Chain& chain);
+Effect clamp_shift(const Chain& chain);
+Effect pivot_g54(const Chain& chain);
+Effect pivot_p1970x(const Chain& chain);
+
+// Small helpers shared by the makers.
+
+/// Cosine and sine of orders 1, 2, ... of an angle: values[2 (n - 1)] cosine, then sine.
+double harmonic_sum(double angle_rad, std::span<const double> values);
+/// Parameters PREFIX cosN_UNIT and PREFIX sinN_UNIT whose typical size falls as 1 / N.
+void append_harmonics(std::vector<EffectParameter>& list, const std::string& prefix,
+                      const std::string& unit, int orders, double typical);
+/// 0 for an axis along X (or about it), 1 for Y, 2 for Z: the largest component of its direction.
+int main_direction(const AxisGeometry& axis);
+/// Values from `low` to `high` with a constant ratio.
+std::vector<double> geometric_grid(double low, double high, int count);
+/// "EXC", "EAC": ISO 230 name of an error motion, direction 0..5 = X Y Z A B C.
+std::string motion_name(int direction, Axis axis);
+/// "C" + ".backlash".
+std::string effect_name(Axis axis, const char* what);
+/// "tau_" + "x" + "_s".
+std::string axis_parameter(const char* before, Axis axis, const char* after);
+bool is_probe(const Contact& contact);
+
+}  // namespace trunnion

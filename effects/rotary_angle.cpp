@@ -1,0 +1,78 @@
+// Errors of a rotary axis's angle: zero offset, positioning, gear error, backlash.
+#include <cmath>
+
+#include "effects/models.h"
+#include "geometry/units.h"
+
+namespace trunnion {
+namespace {
+
+bool endless(const AxisGeometry& axis) {
+    return !axis.min || !axis.max || *axis.max - *axis.min >= 2.0 * pi - 1e-6;
+}
+
+}  // namespace
+
+Effect rotary_zero(const AxisGeometry& axis) {
+    return {effect_name(axis.axis, ".zero"),
+            "The axis's zero is not where the table is level or aligned",
+            "encoder replaced, reference mark moved",
+            "set the zero with a level or an indicator on the table: sphere readings cannot see it",
+            "angle + offset_rad",
+            {{"offset_rad", "rad", 50e-6, -1, {}, true}},
+            [k = axis.axis](const AxisSample&, const Contact&, std::span<const double> value,
+                            Perturbation& out) { out.axis[k] += value[0]; }};
+}
+
+Effect rotary_positioning(const AxisGeometry& axis) {
+    Effect effect{effect_name(axis.axis, ".positioning"),
+                  "The axis turns a little more or less than commanded, the same every turn",
+                  "eccentric encoder, wrong gear ratio, no or stale pitch compensation",
+                  "load a compensation table from these values or from an autocollimator",
+                  "angle + slope q + sum cosN cos(N q) + sinN sin(N q), N = 1..4",
+                  {},
+                  {}};
+    append_harmonics(effect.parameters, "", "rad", 4, 25e-6);
+    const bool sloped = !endless(axis);
+    if (sloped) effect.parameters.push_back({"slope_rad_per_rad", "1", 15e-6, -1, {}, true});
+    effect.add = [k = axis.axis, sloped](const AxisSample& sample, const Contact&,
+                                         std::span<const double> value, Perturbation& out) {
+        const double q = sample.position[k];
+        out.axis[k] += harmonic_sum(q, value.first(8));
+        if (sloped) out.axis[k] += value[8] * q;
+    };
+    return effect;
+}
+
+Effect rotary_cyclic(const AxisGeometry& axis) {
+    std::vector<double> turns;
+    for (int n = 10; n <= 360; ++n) turns.push_back(n);
+    return {effect_name(axis.axis, ".cyclic"),
+            "A ripple of the angle that repeats with every tooth or worm turn",
+            "worm or gear error, encoder interpolation",
+            "adjust or replace the worm; a direct encoder removes it",
+            "angle + cos_rad cos(n q) + sin_rad sin(n q), n = periods_per_turn",
+            {{"cos_rad", "rad", 15e-6, -1, {}, true},
+             {"sin_rad", "rad", 15e-6, -1, {}, true},
+             {"periods_per_turn", "1", 90.0, -1, turns, false}},
+            [k = axis.axis](const AxisSample& sample, const Contact&, std::span<const double> value,
+                            Perturbation& out) {
+                const double angle = value[2] * sample.position[k];
+                out.axis[k] += value[0] * std::cos(angle) + value[1] * std::sin(angle);
+            }};
+}
+
+Effect rotary_backlash(const AxisGeometry& axis) {
+    return {effect_name(axis.axis, ".backlash"),
+            "The axis stops short by half the gap, on the side it comes from",
+            "worn worm gear, loose preload, drive belt; negative: a drive that lags",
+            "readjust the preload, or enter the gap as backlash compensation (parameter 1851)",
+            "angle + gap_rad / 2 * sign of travel",
+            {{"gap_rad", "rad", 40e-6, -1, {}, true}},
+            [k = axis.axis](const AxisSample& sample, const Contact&, std::span<const double> value,
+                            Perturbation& out) {
+                out.axis[k] += 0.5 * value[0] * sample.travel[index_of(k)];
+            }};
+}
+
+}  // namespace trunnion

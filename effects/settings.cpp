@@ -1,0 +1,166 @@
+#include "effects/settings.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+
+#include "geometry/alarm.h"
+#include "geometry/units.h"
+
+namespace trunnion {
+namespace {
+
+struct Unit {
+    const char* name;
+    const char* base;
+    double factor;
+};
+
+constexpr Unit units[] = {{"um", "mm", 1e-3},     {"mm", "mm", 1.0},
+                          {"m", "mm", 1e3},       {"urad", "rad", 1e-6},
+                          {"mrad", "rad", 1e-3},  {"rad", "rad", 1.0},
+                          {"arcsec", "rad", pi / 648000.0}, {"deg", "deg", 1.0},
+                          {"ppm", "ppm", 1.0},    {"us", "s", 1e-6},
+                          {"ms", "s", 1e-3},      {"s", "s", 1.0}};
+
+[[noreturn]] void refuse(const std::string& message, const std::string& text, std::size_t at) {
+    throw InputError(message, {"--inject", 1, static_cast<int>(at) + 1}, text);
+}
+
+/// Reads "name", "=", numbers and units from one option's text.
+class Scanner {
+  public:
+    explicit Scanner(const std::string& text) : text_(text) {}
+
+    void skip() {
+        while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
+    }
+    bool take(char c) {
+        skip();
+        if (at_ >= text_.size() || text_[at_] != c) return false;
+        ++at_;
+        return true;
+    }
+    bool done() {
+        skip();
+        return at_ >= text_.size();
+    }
+    std::string word() {
+        skip();
+        const std::size_t start = at_;
+        while (at_ < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[at_])) ||
+                                      text_[at_] == '.' || text_[at_] == '_'))
+            ++at_;
+        return text_.substr(start, at_ - start);
+    }
+    double number(const std::string& unit) {
+        skip();
+        char* end = nullptr;
+        const double value = std::strtod(text_.c_str() + at_, &end);
+        const auto stop = static_cast<std::size_t>(end - text_.c_str());
+        if (stop == at_) fail("a number is missing");
+        at_ = stop;
+        const std::size_t before = at_;
+        const std::string name = word();
+        if (name.empty() || name == unit) return value;
+        for (const Unit& u : units)
+            if (name == u.name && unit == u.base) return value * u.factor;
+        if (name == "deg" && unit == "rad") return rad_from_deg(value);
+        at_ = before;
+        fail("unit '" + name + "' does not fit a parameter in " + unit);
+    }
+    std::vector<double> numbers(const std::string& unit) {
+        if (!take('[')) return {number(unit)};
+        std::vector<double> list;
+        do list.push_back(number(unit));
+        while (take(','));
+        if (!take(']')) fail("']' is missing");
+        return list;
+    }
+    [[noreturn]] void fail(const std::string& message) const { refuse(message, text_, at_); }
+
+  private:
+    const std::string& text_;
+    std::size_t at_ = 0;
+};
+
+const EffectParameter* find_parameter(const Effect& effect, const std::string& name) {
+    for (const EffectParameter& p : effect.parameters)
+        if (p.name == name) return &p;
+    return nullptr;
+}
+
+}  // namespace
+
+EffectSetting parse_injection(const std::string& text, const Catalogue& catalogue) {
+    Scanner scan(text);
+    EffectSetting setting;
+    setting.name = scan.word();
+    const Effect* effect = find_effect(catalogue, setting.name);
+    if (!effect) scan.fail("no effect is named '" + setting.name + "'");
+    if (effect->parameters.empty()) scan.fail("this machine has nothing for " + setting.name);
+    if (scan.take('=')) {
+        const EffectParameter& first = effect->parameters.front();
+        setting.parameters[first.name] = scan.numbers(first.unit);
+    } else if (scan.take(':')) {
+        do {
+            const std::string name = scan.word();
+            const EffectParameter* parameter = find_parameter(*effect, name);
+            if (!parameter) scan.fail(setting.name + " has no parameter '" + name + "'");
+            if (!scan.take('=')) scan.fail("'=' is missing after " + name);
+            setting.parameters[name] = scan.numbers(parameter->unit);
+        } while (scan.take(','));
+    }
+    if (!scan.done()) scan.fail("this is not understood");
+    values_of(*effect, setting);
+    return setting;
+}
+
+std::vector<double> values_of(const Effect& effect, const EffectSetting& setting) {
+    std::vector<double> values = effect.zeros();
+    for (const auto& [name, list] : setting.parameters) {
+        std::size_t used = 0;
+        for (std::size_t j = 0; j < values.size(); ++j) {
+            const EffectParameter& p = effect.parameters[j];
+            if (p.name != name) continue;
+            const auto k = static_cast<std::size_t>(std::max(0, p.component));
+            if (k < list.size()) values[j] = list[k];
+            ++used;
+        }
+        if (used == 0)
+            throw InputError("effect " + effect.name + " has no parameter '" + name + "'");
+        if (list.size() != used)
+            throw InputError("parameter " + name + " of " + effect.name + " wants " +
+                             std::to_string(used) + " number(s)");
+    }
+    return values;
+}
+
+EffectSetting setting_of(const Effect& effect, const std::vector<double>& values) {
+    EffectSetting setting{effect.name, {}};
+    for (std::size_t j = 0; j < values.size(); ++j)
+        setting.parameters[effect.parameters[j].name].push_back(values[j]);
+    std::erase_if(setting.parameters, [&](const auto& entry) {
+        const EffectParameter* parameter = find_parameter(effect, entry.first);
+        if (parameter && parameter->is_key()) return false;
+        return std::all_of(entry.second.begin(), entry.second.end(),
+                           [](double v) { return v == 0.0; });
+    });
+    return setting;
+}
+
+EffectModels active_models(const Setup& setup) {
+    EffectModels models;
+    if (setup.effects.empty()) return models;
+    const Catalogue catalogue = make_catalogue(setup);
+    for (const EffectSetting& setting : setup.effects) {
+        const Effect* effect = find_effect(catalogue, setting.name);
+        if (!effect)
+            throw InputError("[effects]: no effect is named '" + setting.name + "'",
+                             {setup.path, 0, 0});
+        models.push_back(make_model(*effect, values_of(*effect, setting)));
+    }
+    return models;
+}
+
+}  // namespace trunnion

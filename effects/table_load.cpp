@@ -1,0 +1,49 @@
+// What weight and clamping do to the table.
+#include <cmath>
+
+#include "effects/models.h"
+
+namespace trunnion {
+
+Effect gravity_sag(const AxisGeometry& tilting) {
+    return {"gravity.sag",
+            "The tilted table hangs through under its own weight and the load on it",
+            "flexible trunnion drive or bearings, heavy workpiece",
+            "counterbalance or clamp the axis; compensate by tilt angle and load",
+            "tilt angle + twist_rad (1 + m/100 kg) sin q; "
+            "table down by sag_mm ((1 + m/100) cos^2 q - 1)",
+            {{"twist_rad", "rad", 25e-6, -1, {}, true}, {"sag_mm", "mm", 5e-3, -1, {}, true}},
+            [k = tilting.axis](const AxisSample& sample, const Contact&,
+                               std::span<const double> value, Perturbation& out) {
+                const double load = 1.0 + sample.load_kg / 100.0;
+                const double c = std::cos(sample.position[k]);
+                out.axis[k] += value[0] * load * std::sin(sample.position[k]);
+                out.motion[index_of(k)].shift_mm.z() -= value[1] * (load * c * c - 1.0);
+            }};
+}
+
+Effect clamp_shift(const Chain& chain) {
+    std::vector<Axis> rotary;
+    for (const AxisGeometry& axis : chain.work)
+        if (axis.rotary) rotary.push_back(axis.axis);
+    Effect effect{"clamp.shift",
+                  "The table moves when its clamp closes",
+                  "the clamp pulls to one side, worn clamp ring",
+                  "readjust the clamp; measure and cut in the same clamp state",
+                  "clamped: table shifted by shift_mm, each rotary axis turned by turn_R_rad",
+                  {},
+                  {}};
+    for (int d = 0; d < 3; ++d) effect.parameters.push_back({"shift_mm", "mm", 5e-3, d, {}, true});
+    for (const Axis axis : rotary)
+        effect.parameters.push_back(
+            {axis_parameter("turn_", axis, "_rad"), "rad", 20e-6, -1, {}, true});
+    effect.add = [rotary](const AxisSample& sample, const Contact&, std::span<const double> value,
+                          Perturbation& out) {
+        if (!sample.clamped || rotary.empty()) return;
+        out.motion[index_of(rotary.back())].shift_mm += Vector3(value[0], value[1], value[2]);
+        for (std::size_t j = 0; j < rotary.size(); ++j) out.axis[rotary[j]] += value[3 + j];
+    };
+    return effect;
+}
+
+}  // namespace trunnion

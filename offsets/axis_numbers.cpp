@@ -1,0 +1,27 @@
+#include "offsets/axis_numbers.h"
+
+#include <algorithm>
+
+namespace trunnion {
+
+std::optional<Axis> axis_of_number(const Parameters& parameters, int number,
+                                   const std::vector<Axis>& order) {
+    const auto names = parameters.entry.find(1020);
+    if (names != parameters.entry.end()) {
+        const auto name = names->second.by_axis.find(number);
+        if (name != names->second.by_axis.end())
+            return axis_of(static_cast<char>(static_cast<int>(name->second)));
+    }
+    const auto count = order.empty() ? axis_count : order.size();
+    if (number < 1 || static_cast<std::size_t>(number) > count) return std::nullopt;
+    const auto index = static_cast<std::size_t>(number - 1);
+    return order.empty() ? all_axes[index] : order[index];
+}
+
+int number_of_axis(Axis axis, const std::vector<Axis>& order) {
+    if (order.empty()) return static_cast<int>(index_of(axis)) + 1;
+    const auto at = std::find(order.begin(), order.end(), axis);
+    return at == order.end() ? 0 : static_cast<int>(at - order.begin()) + 1;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,19 @@
+// Controlled-axis numbers, as parameters name axes: 1 is the control's first axis.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "geometry/axes.h"
+#include "offsets/stores.h"
+
+namespace trunnion {
+
+/// Letter of axis `number`: parameter 1020 of that axis when set, else the control's order, else
+/// (order empty) the order of `Axis`. Nothing when the control has no such axis.
+std::optional<Axis> axis_of_number(const Parameters& parameters, int number,
+                                   const std::vector<Axis>& order);
+/// Number of an axis in that order (1020 is not read); 0 when it is not in it.
+int number_of_axis(Axis axis, const std::vector<Axis>& order);
+
+}  // namespace trunnion
