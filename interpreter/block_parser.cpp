@@ -1,5 +1,6 @@
 #include "interpreter/block_parser.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "interpreter/alarms.h"
@@ -431,6 +432,14 @@ void Parser::semicolon() {
 }
 
 }  // namespace
+
+void read_names(std::string_view list, int number, VariableNames& names) {
+    for (; !list.empty(); ++number) {
+        const std::size_t comma = std::min(list.find(','), list.size());
+        if (comma > 0) names[std::string(list.substr(0, comma))] = number;
+        list.remove_prefix(std::min(comma + 1, list.size()));
+    }
+}
 
 Block parse_block(std::string_view text, std::uint64_t byte, int line, const ParseOptions& options,
                   Code& out) {

@@ -13,6 +13,8 @@ namespace trunnion {
 
 /// Names that SETVN gave to variables: `#[#NAME]`.
 using VariableNames = std::map<std::string, int, std::less<>>;
+/// Takes `NAME,NAME,,NAME` of SETVN into `names`, the first for variable `number`.
+void read_names(std::string_view list, int number, VariableNames& names);
 
 struct ParseOptions {
     Dialect dialect;

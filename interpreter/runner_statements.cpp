@@ -150,12 +150,8 @@ void Interpreter::State::print_line(const Code& code, const Item* item, const It
 }
 
 void Interpreter::State::set_names(const Code& code, const Item& item) {
-    std::string_view rest = std::string_view(code.text).substr(item.b.first, item.b.count);
-    for (int number = static_cast<int>(item.value); !rest.empty(); ++number) {
-        const std::size_t comma = std::min(rest.find(','), rest.size());
-        if (comma > 0) names[std::string(rest.substr(0, comma))] = number;
-        rest.remove_prefix(std::min(comma + 1, rest.size()));
-    }
+    read_names(std::string_view(code.text).substr(item.b.first, item.b.count),
+               static_cast<int>(item.value), names);
 }
 
 }  // namespace trunnion

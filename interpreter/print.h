@@ -1,0 +1,23 @@
+// Parsed blocks -> canonical text; parsing that text gives the same blocks.
+#pragma once
+
+#include <string>
+
+#include "interpreter/parse.h"
+
+namespace trunnion {
+
+/// A number as the control reads it back to the same double: `10.`, `-0.5`; without a point where
+/// `decimal_point` is false.
+std::string print_number(double value, bool decimal_point);
+
+/// Infix text with no more brackets than needed.
+std::string print_expression(const ParsedProgram& program, Span expression);
+
+/// One line without its end: O or <name>, N, leading comments, items, other comments.
+std::string print_block(const ParsedProgram& program, const Block& block);
+
+/// All blocks, one a line.
+std::string print_program(const ParsedProgram& program);
+
+}  // namespace trunnion
