@@ -53,7 +53,8 @@ BENCHMARK_CAPTURE(run_program, lin3_blocks, "a_lin3.nc", 200000)->Unit(benchmark
 BENCHMARK_CAPTURE(run_program, modal_blocks, "f_modal.nc", 200000)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(run_program, lin5_blocks, "b_lin5.nc", 200000)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(run_program, arc_blocks, "d_arcs.nc", 200000)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(run_program, loop_iterations, "c_macro.nc", 200000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run_program, loop_iterations, "c_macro.nc", 200000)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(run_program, macro_calls, "e_call.nc", 200000)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -24,8 +24,10 @@ struct ParseOptions {
     const VariableNames* names = nullptr;
 };
 
-/// Brackets may be nested this deep (control.md 2.8).
+/// Brackets may be nested this deep (control.md 2.8); those of functions do not count (assumed).
 constexpr int bracket_levels = 5;
+/// Brackets of any kind, so that no text exhausts the stack (assumed).
+constexpr int function_levels = 30;
 /// No expression needs more places on the evaluation stack.
 constexpr int expression_stack = 48;
 

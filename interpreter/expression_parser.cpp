@@ -100,50 +100,59 @@ void ExpressionParser::number() {
     out_.ops.back().value = n.value;
 }
 
+/// `[..]` that groups: five inside each other. Brackets of functions do not count (assumed), but
+/// have a limit of their own.
 void ExpressionParser::bracket() {
-    in_.expect('[', 1131);
-    if (++brackets_ > bracket_levels) raise_alarm(118, in_.column() - 1);
-    binary(Precedence::comparison);
-    in_.expect(']', 1132);
+    if (++brackets_ > bracket_levels) raise_alarm(118, in_.column());
+    open();
+    close();
     --brackets_;
+}
+
+/// '[' and what stands behind it, up to ',' or ']'.
+void ExpressionParser::open() {
+    in_.expect('[', 1131);
+    if (++depth_ > function_levels) raise_alarm(118, in_.column() - 1);
+    binary(Precedence::comparison);
+}
+
+void ExpressionParser::close() {
+    in_.expect(']', 1132);
+    --depth_;
 }
 
 void ExpressionParser::function(OpCode code, std::uint16_t column) {
     if (code == OpCode::atan) return atan(column);
     if (code == OpCode::prm) return prm(column);
     if (code == OpCode::pow) {
-        in_.expect('[', 1131);
-        if (++brackets_ > bracket_levels) raise_alarm(118, in_.column() - 1);
-        binary(Precedence::comparison);
+        open();
         in_.expect(',', 1134);
         binary(Precedence::comparison);
-        in_.expect(']', 1132);
-        --brackets_;
+        close();
         return emit(code, column, 2);
     }
-    bracket();
+    open();
+    close();
     if (code == OpCode::round && round_to_increment) code = OpCode::round_increment;
     emit(code, column, 1);
 }
 
 /// ATAN[a], ATAN[a]/[b] (not a division) and ATAN[a,b].
 void ExpressionParser::atan(std::uint16_t column) {
-    in_.expect('[', 1131);
-    if (++brackets_ > bracket_levels) raise_alarm(118, in_.column() - 1);
-    binary(Precedence::comparison);
+    open();
     const bool comma = in_.peek() == ',';
     if (comma) {
         ++in_.p;
         binary(Precedence::comparison);
     }
-    in_.expect(']', 1132);
-    --brackets_;
+    close();
     if (comma) return emit(OpCode::atan2, column, 2);
     const char* const before = in_.p;
     if (in_.peek() == '/') {
         ++in_.p;
         if (in_.peek() == '[') {
-            bracket();
+            open();
+            close();
             return emit(OpCode::atan2, column, 2);
         }
         in_.p = before;
@@ -153,19 +162,19 @@ void ExpressionParser::atan(std::uint16_t column) {
 
 /// PRM[n], PRM[n,bit], PRM[n]/[axis], PRM[n,bit]/[axis].
 void ExpressionParser::prm(std::uint16_t column) {
-    in_.expect('[', 1131);
-    binary(Precedence::comparison);
+    open();
     const bool bit = in_.peek() == ',';
     if (bit) {
         ++in_.p;
         binary(Precedence::comparison);
     }
-    in_.expect(']', 1132);
+    close();
     const char* const before = in_.p;
     if (in_.peek() == '/') {
         ++in_.p;
         if (in_.peek() == '[') {
-            bracket();
+            open();
+            close();
             return emit(bit ? OpCode::prm_bit_axis : OpCode::prm_axis, column, bit ? 3 : 2);
         }
         in_.p = before;

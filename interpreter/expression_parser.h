@@ -28,6 +28,8 @@ class ExpressionParser {
     void unary();
     void primary();
     void bracket();
+    void open();
+    void close();
     void number();
     void function(OpCode code, std::uint16_t column);
     void atan(std::uint16_t column);
@@ -40,7 +42,8 @@ class ExpressionParser {
     BlockReader& in_;
     const ParseOptions& options_;
     Code& out_;
-    int brackets_ = 0;
+    int brackets_ = 0;  ///< open ones that group
+    int depth_ = 0;     ///< open ones of any kind
     int stack_ = 0;
 };
 

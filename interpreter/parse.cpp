@@ -70,8 +70,7 @@ ParsedProgram parse_program(const ProgramText& source, const Dialect& dialect) {
     while (at.byte < text.size()) {
         std::uint64_t end = 0;
         try {
-            program.blocks.push_back(
-                parse_block(text, at.byte, at.line, options, program.code));
+            program.blocks.push_back(parse_block(text, at.byte, at.line, options, program.code));
             learn_names(program, program.blocks.back());
             end = program.blocks.back().end;
         } catch (Alarm& fault) {
@@ -102,9 +101,8 @@ bool same_block(const ParsedProgram& a, const Block& block_a, const ParsedProgra
         return false;
     const auto items_a = a.items(block_a), items_b = b.items(block_b);
     const auto comments_a = a.comments(block_a), comments_b = b.comments(block_b);
-    return std::equal(
-               items_a.begin(), items_a.end(), items_b.begin(), items_b.end(),
-               [&](const Item& x, const Item& y) { return same_item(a, x, b, y); }) &&
+    return std::equal(items_a.begin(), items_a.end(), items_b.begin(), items_b.end(),
+                      [&](const Item& x, const Item& y) { return same_item(a, x, b, y); }) &&
            std::equal(comments_a.begin(), comments_a.end(), comments_b.begin(), comments_b.end(),
                       [&](const Comment& x, const Comment& y) { return a.text(x) == b.text(y); });
 }

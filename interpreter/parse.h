@@ -19,8 +19,9 @@ struct ParsedProgram {
     ProgramText source;
     Code code;
     std::vector<Block> blocks;
-    std::vector<Alarm> faults;  ///< lines that could not be read, with place and text; not in blocks
-    VariableNames names;        ///< from SETVN
+    std::vector<Alarm>
+        faults;           ///< lines that could not be read, with place and text; not in blocks
+    VariableNames names;  ///< from SETVN
 
     std::span<const Item> items(const Block& block) const {
         return {code.items.data() + block.items.first, block.items.count};

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -18,10 +19,15 @@ struct Part {
     Precedence precedence = Precedence::none;  ///< none: a value, a function, a bracket
     bool negated = false;
     bool open_call = false;  ///< ends in ATAN[..] or PRM[..]: a `/[` behind would belong to it
+    int depth = 0;           ///< brackets that group inside each other, as the parser counts them
 };
 
 std::string bracketed(const std::string& text) {
     return "[" + text + "]";
+}
+
+Part grouped(const Part& part) {
+    return {bracketed(part.text), Precedence::none, false, false, part.depth + 1};
 }
 
 std::string print_operator(OpCode code) {
@@ -34,19 +40,18 @@ Part binary_part(OpCode code, const Part& left, const Part& right) {
     const auto looser = [&](const Part& part) {
         return part.precedence != Precedence::none && part.precedence < p;
     };
-    const bool right_bracket =
-        looser(right) || (right.precedence != Precedence::none && right.precedence == p);
-    const std::string right_text = right_bracket ? bracketed(right.text) : right.text;
-    const bool left_bracket =
-        looser(left) || (code == OpCode::divide && left.open_call && right_text[0] == '[');
-    return {(left_bracket ? bracketed(left.text) : left.text) + print_operator(code) + right_text, p,
-            false, right.open_call && !right_bracket};
+    const bool equal_right = right.precedence != Precedence::none && right.precedence == p;
+    const Part r = looser(right) || equal_right ? grouped(right) : right;
+    const bool swallowed = code == OpCode::divide && left.open_call && r.text[0] == '[';
+    const Part l = looser(left) || swallowed ? grouped(left) : left;
+    return {l.text + print_operator(code) + r.text, p, false, r.open_call,
+            std::max(l.depth, r.depth)};
 }
 
 Part negated_part(const Part& part) {
     const bool bracket = part.precedence != Precedence::none || part.negated;
-    return {"-" + (bracket ? bracketed(part.text) : part.text), Precedence::none, true,
-            part.open_call && !bracket};
+    const Part p = bracket ? grouped(part) : part;
+    return {"-" + p.text, Precedence::none, true, p.open_call, p.depth};
 }
 
 class ExpressionPrinter {
@@ -62,8 +67,8 @@ class ExpressionPrinter {
         parts_.pop_back();
         return part;
     }
-    void push(std::string text, bool open_call = false) {
-        parts_.push_back({std::move(text), Precedence::none, false, open_call});
+    void push(std::string text, bool open_call = false, int depth = 0) {
+        parts_.push_back({std::move(text), Precedence::none, false, open_call, depth});
     }
     void step(const Op& op);
     void call(const Op& op);
@@ -73,14 +78,22 @@ class ExpressionPrinter {
 
 void ExpressionPrinter::step(const Op& op) {
     switch (op.code) {
-        case OpCode::constant: return push(print_number(op.value, op.value != std::floor(op.value)));
-        case OpCode::vacant: return push("#0");
+        case OpCode::constant:
+            return push(print_number(op.value, op.value != std::floor(op.value)));
+        case OpCode::vacant:
+            return push("#0");
         case OpCode::local:
         case OpCode::common:
-        case OpCode::system: return push(fmt::format("#{}", op.number));
-        case OpCode::indirect: return push("#" + bracketed(pop().text));
-        case OpCode::negate: return parts_.push_back(negated_part(pop()));
-        default: break;
+        case OpCode::system:
+            return push(fmt::format("#{}", op.number));
+        case OpCode::indirect: {
+            const Part number = grouped(pop());
+            return push("#" + number.text, false, number.depth);
+        }
+        case OpCode::negate:
+            return parts_.push_back(negated_part(pop()));
+        default:
+            break;
     }
     if (precedence(op.code) == Precedence::none) return call(op);
     const Part right = pop();
@@ -88,34 +101,34 @@ void ExpressionPrinter::step(const Op& op) {
     parts_.push_back(binary_part(op.code, left, right));
 }
 
+/// Operands of a call, joined as its code wants them.
 void ExpressionPrinter::call(const Op& op) {
-    const std::string last = pop().text;
-    switch (op.code) {
-        case OpCode::atan2: return push("ATAN" + bracketed(pop().text) + "/" + bracketed(last));
-        case OpCode::pow: return push("POW" + bracketed(pop().text + "," + last));
-        case OpCode::prm_axis: return push("PRM" + bracketed(pop().text) + "/" + bracketed(last));
-        case OpCode::prm_bit: return push("PRM" + bracketed(pop().text + "," + last), true);
-        case OpCode::prm_bit_axis: {
-            const std::string bit = pop().text;
-            return push("PRM" + bracketed(pop().text + "," + bit) + "/" + bracketed(last));
-        }
-        default: break;
+    const Part last = pop();
+    const bool two = op.code == OpCode::atan2 || op.code == OpCode::pow ||
+                     op.code == OpCode::prm_axis || op.code == OpCode::prm_bit;
+    if (op.code == OpCode::prm_bit_axis) {
+        const Part bit = pop(), number = pop();
+        return push("PRM" + bracketed(number.text + "," + bit.text) + "/" + bracketed(last.text),
+                    false, std::max({number.depth, bit.depth, last.depth}));
     }
-    push(spelling(op.code) + bracketed(last), op.code == OpCode::atan || op.code == OpCode::prm);
+    if (!two) {
+        const bool open = op.code == OpCode::atan || op.code == OpCode::prm;
+        return push(spelling(op.code) + bracketed(last.text), open, last.depth);
+    }
+    const Part first = pop();
+    const int depth = std::max(first.depth, last.depth);
+    const std::string word = op.code == OpCode::atan2 ? "ATAN"
+                             : op.code == OpCode::pow ? "POW"
+                                                      : "PRM";
+    if (op.code == OpCode::pow || op.code == OpCode::prm_bit)
+        return push(word + bracketed(first.text + "," + last.text), op.code == OpCode::prm_bit,
+                    depth);
+    push(word + bracketed(first.text) + "/" + bracketed(last.text), false, depth);
 }
 
 bool is_variable(std::span<const Op> ops) {
     const OpCode last = ops.back().code;
     return last == OpCode::indirect || (ops.size() == 1 && last != OpCode::constant);
-}
-
-std::size_t bracket_depth(const std::string& text) {
-    std::size_t depth = 0, deepest = 0;
-    for (const char c : text) {
-        if (c == '[') deepest = std::max(deepest, ++depth);
-        if (c == ']') --depth;
-    }
-    return deepest;
 }
 
 class BlockPrinter {
@@ -206,50 +219,71 @@ void BlockPrinter::assignment(const Item& item) {
     out_ += right.precedence == Precedence::comparison ? bracketed(right.text) : right.text;
 }
 
-/// `[a EQ b]`; conditions joined by AND, OR stand without an outer bracket where it were too deep.
+/// `[a EQ b]`; where one bracket more were too deep, `[..] AND [..]` stands without it.
 std::string BlockPrinter::condition(const Item& item) const {
-    const std::string text = part(item.a).text;
-    if (text[0] == '[' && bracket_depth(text) >= bracket_levels) return text;
-    return bracketed(text);
+    const Part text = part(item.a);
+    return text.text[0] == '[' && text.depth >= bracket_levels ? text.text : bracketed(text.text);
 }
 
 void BlockPrinter::item(const Item& item) {
     switch (item.kind) {
-        case ItemKind::print_text: out_ += characters(item); return;
+        case ItemKind::print_text:
+            out_ += characters(item);
+            return;
         case ItemKind::print_value: {
             const bool decimal = out_.find("DPRNT[") != std::string::npos;
-            out_ += part(item.a).text +
-                    (decimal ? fmt::format("[{}{}]", item.number, item.digits)
-                             : fmt::format("[{}]", item.digits));
+            out_ += part(item.a).text + (decimal ? fmt::format("[{}{}]", item.number, item.digits)
+                                                 : fmt::format("[{}]", item.digits));
             return;
         }
-        default: gap(); break;
+        default:
+            gap();
+            break;
     }
     switch (item.kind) {
-        case ItemKind::word: return word(item);
+        case ItemKind::word:
+            return word(item);
         case ItemKind::skip:
             out_ += item.number == 1 ? "/" : fmt::format("/{}", item.number);
             after_skip_ = true;
             return;
-        case ItemKind::assign: return assignment(item);
-        case ItemKind::if_goto: out_ += "IF" + condition(item); return;
-        case ItemKind::if_then: out_ += "IF" + condition(item) + " THEN"; return;
+        case ItemKind::assign:
+            return assignment(item);
+        case ItemKind::if_goto:
+            out_ += "IF" + condition(item);
+            return;
+        case ItemKind::if_then:
+            out_ += "IF" + condition(item) + " THEN";
+            return;
         case ItemKind::while_do:
             out_ += fmt::format("WHILE{} DO{}", condition(item), item.number);
             return;
-        case ItemKind::do_only: out_ += fmt::format("DO{}", item.number); return;
-        case ItemKind::end: out_ += fmt::format("END{}", item.number); return;
+        case ItemKind::do_only:
+            out_ += fmt::format("DO{}", item.number);
+            return;
+        case ItemKind::end:
+            out_ += fmt::format("END{}", item.number);
+            return;
         case ItemKind::go_to:
             out_ += "GOTO" + (item.a.count == 0 ? print_number(item.value, false) : value(item.a));
             return;
-        case ItemKind::popen: out_ += "POPEN"; return;
-        case ItemKind::pclos: out_ += "PCLOS"; return;
-        case ItemKind::dprnt: out_ += "DPRNT["; return;
-        case ItemKind::bprnt: out_ += "BPRNT["; return;
+        case ItemKind::popen:
+            out_ += "POPEN";
+            return;
+        case ItemKind::pclos:
+            out_ += "PCLOS";
+            return;
+        case ItemKind::dprnt:
+            out_ += "DPRNT[";
+            return;
+        case ItemKind::bprnt:
+            out_ += "BPRNT[";
+            return;
         case ItemKind::setvn:
             out_ += fmt::format("SETVN{}[{}]", static_cast<int>(item.value), characters(item));
             return;
-        default: return;
+        default:
+            return;
     }
 }
 

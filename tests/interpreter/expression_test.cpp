@@ -74,6 +74,10 @@ TEST_CASE("arithmetic faults") {
     CHECK(alarm_of("#0=1\n") == 116);
     CHECK(alarm_of("#1=[[[[[[1]]]]]]\n") == 118);
     CHECK(alarm_of("#1=[[[[[1]]]]]\n") == 0);
+    CHECK(alarm_of("#1=[ABS[LN[ABS[ACOS[SIN[#1]*0.9]]+2.]]]\n") == 0);
+    std::string deep;
+    for (int i = 0; i < 40; ++i) deep += "ABS[";
+    CHECK(alarm_of("#1=" + deep + "\n") == 118);
     CHECK(alarm_of("#1=1 AND 1E10\n") != 0);
     CHECK(alarm_of("#1=5000000000 AND 1\n") == 110);
     CHECK(alarm_of("#1=##2\n") == 114);
