@@ -14,7 +14,7 @@ while [ $# -gt 0 ]; do
   esac
   shift 2
 done
-program=${program:-$here/../../build/release/trunnion}
+program=${program:-$here/../../build/release/bin/trunnion}
 command -v "$program" >/dev/null || [ -f "$program" ] || { echo "blind: no program at $program (use --program PATH)" >&2; exit 2; }
 program=$(realpath "$(command -v "$program" || echo "$program")")
 python=

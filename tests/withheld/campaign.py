@@ -77,7 +77,8 @@ class Builder:
         """Random poses: sphere, words, approach offsets, mode, spindle, clamp."""
         rng, plan = self.rng, self.plan
         low, high = np.array(self.machine.tilt_limits_deg) * 0.82
-        tilt = rng.choice(np.round(np.linspace(low, high, 9), 0), count) if grid else rng.uniform(low, high, count)
+        steps = np.round(np.linspace(low, high, int(rng.choice([9, 13, 37]))))
+        tilt = rng.choice(steps, count) if grid else rng.uniform(low, high, count)
         turn = rng.choice(np.arange(0, 360, 15), count) + rng.uniform(-9, 9, count) if grid \
             else rng.uniform(-20, 360, count)
         spheres = [a.name for a in self.machine.artefacts if a.kind == "sphere"]

@@ -1,5 +1,5 @@
 """From a wish (kind, effects, noise) to a case: machine, campaign, effects of the wanted size, noisy readings."""
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -10,9 +10,10 @@ from campaign import Plan, build, session_length
 from forward import Scene
 from machine import Base, draw_machine
 from oracle import Projector
-from rivals import find_rivals, signature
+from rivals import find_rivals, nearest, signature
 
 NULLS = ("right", "wrong", "repeats", "correlated-repeats")
+OUTSIDE = (0.75, 0.85)   # an outsider's visible variance that one, two catalogue effects may reproduce
 MULTI_BAD_PARTNERS = ("artefact.position", "tool.length", "ballbar.length", "control.rounding", "control.chord")
 
 
@@ -37,6 +38,7 @@ class Case:
     effects: list = field(default_factory=list)
     sizes: list = field(default_factory=list)
     sigma_column: bool = False
+    nearest: list = field(default_factory=list)
 
 
 def schedule(rng, count, kinds, names):
@@ -207,20 +209,40 @@ def try_case(rng, wish):
     if len(case.effects) > 1 and not distinct(case, case.effects):
         return None
     case.sizes = [case.projector.rms(signature(case, e)) for e in case.effects]
+    if wish.kind == "outsider":
+        case.nearest = nearest(case, case.effects[0])
+        if any(share > limit for (_, share), limit in zip(case.nearest, OUTSIDE)):
+            return None
     case.rivals = [find_rivals(case, e) if wish.kind in ("single", "outliers", "multi") else {} for e in case.effects]
     if any(r["cannot_tell"] and r["simpler"] for rivals in case.rivals for r in rivals.values()) and rng.random() < 0.7:
         return None
     return case
 
 
-def draw_case(rng, wish, tries=40):
+def other_effect(rng, wish):
+    """A wish that no campaign can grant gets another effect of its kind."""
+    if wish.kind in ("outsider", "foreign"):
+        source = outsiders.OUTSIDERS if wish.kind == "outsider" else outsiders.FOREIGN
+        return replace(wish, effects=(source[rng.integers(len(source))],))
+    if wish.kind in ("single", "outliers"):
+        return replace(wish, effects=(str(rng.choice(registry.all_names(wish.letters))),))
+    return wish
+
+
+def find_case(rng, wish, tries=25, rounds=8):
+    """A case without readings yet."""
+    for _ in range(rounds):
+        for _ in range(tries):
+            case = try_case(rng, wish)
+            if case is not None:
+                return case
+        wish = other_effect(rng, wish)
+    raise RuntimeError(f"no campaign shows {wish} at the wanted size")
+
+
+def draw_case(rng, wish):
     """A finished case for a wish."""
-    for _ in range(tries):
-        case = try_case(rng, wish)
-        if case is not None:
-            break
-    else:
-        raise RuntimeError(f"no campaign shows {wish} at the wanted size")
+    case = find_case(rng, wish)
     case.clean = case.scene.readings(case.base_values, case.effects)
     case.clean_hold = case.scene_hold.readings(case.base_values, case.effects)
     case.values = case.clean + noise.draw(rng, case.train, case.sigma_train, case.correlated)

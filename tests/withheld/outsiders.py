@@ -10,12 +10,12 @@ from effects import (Effect, harmonics, reversing, rotary_motion, rotary_positio
 
 # --- outside any catalogue ---------------------------------------------------------------------------
 def drift_two_times(rng, machine):
-    """A fast rise and a slow return, as of a chilled spindle that overshoots: both along Z and X."""
-    fast, slow = float(rng.uniform(0.05, 0.1) * machine.session_s), float(rng.uniform(0.5, 0.9) * machine.session_s)
+    """A fast rise that a slow process takes back and overshoots (a chiller catching up), along Z and X."""
+    fast, slow = float(rng.uniform(0.10, 0.18) * machine.session_s), float(rng.uniform(0.3, 0.5) * machine.session_s)
     lean = float(rng.uniform(-0.6, 0.6))
     def apply(scene, errors, a):
         t = scene.rows.time_s
-        shape = np.exp(-t / slow) - np.exp(-t / fast) - 0.5 * (1 - np.exp(-t / slow))
+        shape = (1 - np.exp(-t / fast)) - 1.25 * (1 - np.exp(-(t / slow) ** 2))
         errors.gauge_mm += a[0] * shape[:, None] * np.array([lean, 1.0, 0.7])
     return Effect("outsider.drift_two_times", ["height_mm"], [1e-2], apply, keys={"fast_s": fast, "slow_s": slow})
 
@@ -43,19 +43,27 @@ def guide_bump(rng, machine):
 
 
 def cubic_bow(rng, machine):
-    """A third-order guide: sideways with the cube of position."""
+    """An S-shaped guide: sideways with the third Legendre polynomial of the part of the travel in use."""
     i = int(rng.integers(2))
+    middle = float(machine.artefacts[-1].center_mm[i]) * float(rng.choice([0.0, 1.0]))
     def apply(scene, errors, a):
-        errors.gauge_mm[:, 1 - i] += a[0] * (scene.rows.pos_mm[:, i] / 150.0) ** 3
-    return Effect("outsider.cubic_bow", ["bow_mm"], [3e-3], apply, keys={"axis": "XY"[i]})
+        way = (scene.rows.pos_mm[:, i] - middle) / 180.0
+        errors.gauge_mm[:, 1 - i] += a[0] * (2.5 * way ** 3 - 1.5 * way)
+    return Effect("outsider.cubic_bow", ["bow_mm"], [3e-3], apply, keys={"axis": "XY"[i], "middle_mm": middle})
 
 
 def over_centre_play(rng, machine):
-    """The tilting body falls through its play as its centre of gravity passes over the axis."""
-    at, soft = float(np.radians(rng.uniform(-15, 15))), float(np.radians(rng.uniform(0.5, 3)))
+    """The tilting body falls through its play after its centre of gravity has passed over the axis.
+
+    Friction holds it a while: the fall comes `late` beyond the balance, on the side the axis moves to.
+    """
+    at, soft = float(np.radians(rng.uniform(-10, 10))), float(np.radians(rng.uniform(0.5, 3)))
+    late = float(np.radians(rng.uniform(8, 25)))
     def apply(scene, errors, a):
-        errors.angle_rad[:, 0] += 0.5 * a[0] * np.tanh((scene.word_rad[:, 0] - at) / soft)
-    return Effect("outsider.over_centre_play", ["play_rad"], [5e-5], apply, keys={"at_rad": at, "soft_rad": soft})
+        fall = scene.word_rad[:, 0] - at - late * scene.rows.sign[:, 3]
+        errors.angle_rad[:, 0] += 0.5 * a[0] * np.tanh(fall / soft)
+    return Effect("outsider.over_centre_play", ["play_rad"], [5e-5], apply,
+                  keys={"at_rad": at, "soft_rad": soft, "late_rad": late})
 
 
 def harmonic_five(rng, machine):

@@ -41,22 +41,42 @@ def possible(case, name):
     return not (name == "artefact.moved" and not any(a.free for a in case.machine.artefacts if a.kind == "sphere"))
 
 
+def bases(case, skip=""):
+    """(name, orthonormal basis of what it can do visibly) of the catalogue's effects, some with several keys."""
+    rng = np.random.Generator(np.random.PCG64(1))
+    for name, builder in registry.singles(case.machine.letters).items():
+        if name != skip and possible(case, name):
+            for _ in range(DRAWS.get(name, 1)):
+                yield name, span(case.projector.visible(columns_of(case, builder(rng, case.machine))))
+
+
 def find_rivals(case, effect):
     """name -> share reproduced, chi-square left, whether that is too little to tell, whether it is no richer."""
     target = case.projector.visible(signature(case, effect))
-    total = float(target @ target)
-    own = max(1, len(effect.amplitude))
-    rng = np.random.Generator(np.random.PCG64(1))
-    out = {}
-    for name, builder in registry.singles(case.machine.letters).items():
-        if name == effect.name or not possible(case, name):
-            continue
-        for _ in range(DRAWS.get(name, 1)):
-            rival = builder(rng, case.machine)
-            basis = span(case.projector.visible(columns_of(case, rival)))
-            share = float(((basis.T @ target) ** 2).sum() / total)
-            if share >= max(REACH, out.get(name, {}).get("share", 0.0)):
-                left = max(0.0, (1 - share) * total)
-                out[name] = {"share": round(share, 5), "chi2": round(left, 2), "cannot_tell": left < CANNOT_TELL,
-                             "simpler": basis.shape[1] <= own}
+    total, own, out = float(target @ target), max(1, len(effect.amplitude)), {}
+    for name, basis in bases(case, effect.name):
+        share = float(((basis.T @ target) ** 2).sum() / total)
+        if share >= max(REACH, out.get(name, {}).get("share", 0.0)):
+            left = max(0.0, (1 - share) * total)
+            out[name] = {"share": round(share, 5), "chi2": round(left, 2), "cannot_tell": left < CANNOT_TELL,
+                         "simpler": basis.shape[1] <= own}
     return out
+
+
+def nearest(case, effect):
+    """How far the catalogue reaches for an outsider: best one and (greedy) best two effects, with their shares."""
+    target = case.projector.visible(signature(case, effect))
+    target /= np.linalg.norm(target)
+    known = list(bases(case))
+    found, taken = [], np.zeros((len(target), 0))
+    for _ in range(2):
+        shares = []
+        for name, basis in known:
+            rest = basis - taken @ (taken.T @ basis)
+            left, size, _ = np.linalg.svd(rest, full_matrices=False)
+            left = left[:, size > 1e-2]
+            shares.append((float(((left.T @ target) ** 2).sum()), name, left))
+        best = max(shares, key=lambda entry: entry[0])
+        taken = np.hstack([taken, best[2]])
+        found.append([best[1], round(float(((taken.T @ target) ** 2).sum()), 4)])
+    return found
