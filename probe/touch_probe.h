@@ -1,0 +1,41 @@
+// The touch probe: where along a path a stylus ball meets a sphere, and where the skip latches.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "geometry/pose.h"
+#include "kinematics/machine.h"
+
+namespace trunnion {
+
+/// The physical stylus.
+struct TouchProbe {
+    Vector3 tip_S_mm = Vector3(0, 0, -150);  ///< stylus ball centre in S
+    double ball_diameter_mm = 6.0;
+    double pretravel_mm = 0.0;  ///< travel from contact to the trigger
+};
+
+/// A sphere on the table.
+struct SphereTarget {
+    Vector3 center_W_mm = Vector3::Zero();
+    double diameter_mm = 25.4;
+};
+
+/// From the sphere's centre to the stylus ball's centre, in M.
+Vector3 centre_to_tip_M(const MachinePose& poses, const TouchProbe& probe,
+                        const SphereTarget& sphere);
+
+/// Vector from sphere centre to ball centre (mm) at s in [0, 1] of a move: smooth in s.
+using Separation = std::function<Vector3(double)>;
+
+/// The first s in [0, 1] at which the separation is `reach_mm` (sum of the radii): never steps over
+/// a contact deeper than 1e-6 mm, root found to 1e-9 mm. 0 when in contact at the start, nothing
+/// when the path ends before.
+std::optional<double> first_contact(const Separation& separation, double reach_mm);
+
+/// Where the skip latches: `over_mm` (pretravel and noise) further along the path than the contact;
+/// nothing when the path ends before.
+std::optional<double> latch(const Separation& separation, double contact_s, double over_mm);
+
+}  // namespace trunnion
