@@ -5,7 +5,8 @@
 
 namespace trunnion {
 
-/// Follows the axes from position to position, in steps small enough that no axis turns twice in one.
+/// Follows the axes from position to position, in steps small enough that no axis turns twice in
+/// one.
 class AxisTracker {
   public:
     void place(const AxisPositions& position) { last_ = position; }

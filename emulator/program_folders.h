@@ -32,7 +32,7 @@ class ProgramFolders : public ProgramSource {
 
     std::vector<std::string> folders_;
     bool listed_ = false, scanned_ = false;
-    std::vector<std::string> files_;              ///< in order of folders, then of names
+    std::vector<std::string> files_;  ///< in order of folders, then of names
     std::map<int, std::string> by_name_, by_content_;
     std::map<int, ProgramText> own_;
 };

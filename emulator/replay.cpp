@@ -83,8 +83,9 @@ Replay::Replay(const Setup& setup, const ReadingTable& table) : setup_(setup) {
             refuse(setup, row, "a probe row on '" + artefact.name + "', which is no sphere");
         const MachinePose poses = model.poses(row.commanded);
         if (row.device == Device::ballbar)
-            contact.direction_M = (poses.pose_MW * artefact.center_W_mm -
-                                   poses.pose_MS * setup.ballbar->cup_S_mm).normalized();
+            contact.direction_M =
+                (poses.pose_MW * artefact.center_W_mm - poses.pose_MS * setup.ballbar->cup_S_mm)
+                    .normalized();
         if (row.device == Device::sphere) {
             contact.touches = touches;
             for (const Axis axis : all_axes)

@@ -16,12 +16,12 @@ namespace trunnion {
 /// beside the axis sample. `run` leaves it empty while no device reads.
 struct Contact {
     Device device = Device::none;
-    int artefact = -1;                           ///< index in Setup::artefacts
-    Vector3 direction_M = Vector3::Zero();       ///< component read, approach, or cup to pivot
-    Vector3 direction_W = Vector3::Zero();       ///< the same seen from the table
-    int touches = 0;                             ///< of the pattern behind a sphere row, 0 = unknown
-    double test_time_s = 0.0;                    ///< since the test began
-    AxisPositions acceleration;                  ///< mm/s^2, rad/s^2 along the commanded path
+    int artefact = -1;                      ///< index in Setup::artefacts
+    Vector3 direction_M = Vector3::Zero();  ///< component read, approach, or cup to pivot
+    Vector3 direction_W = Vector3::Zero();  ///< the same seen from the table
+    int touches = 0;                        ///< of the pattern behind a sphere row, 0 = unknown
+    double test_time_s = 0.0;               ///< since the test began
+    AxisPositions acceleration;             ///< mm/s^2, rad/s^2 along the commanded path
 };
 
 /// The physical model of one effect that is switched on: what it adds at one sample. Written in the
@@ -38,9 +38,9 @@ using EffectModels = std::vector<std::shared_ptr<const EffectModel>>;
 
 /// Set-up quantities of a replay that differ from the setup file's, mm.
 struct ReplayOffsets {
-    std::vector<Vector3> artefact_W;             ///< by artefact
+    std::vector<Vector3> artefact_W;  ///< by artefact
     Vector3 cup_S = Vector3::Zero();
-    double length = 0.0;                         ///< of the ballbar
+    double length = 0.0;  ///< of the ballbar
 };
 
 /// All device rows of a table, ready to be predicted many times.

@@ -28,6 +28,7 @@ struct BallbarSettings {
     double length_mm = 100.0;
     double noise_um = 0.0;
     double sample_hz = 1000.0;
+    double sample_deg = 0.0;  ///< above 0: sampled by swept angle instead of time
     bool free_cup = false;
     bool free_length = false;
 };

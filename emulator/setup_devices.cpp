@@ -31,6 +31,7 @@ void read_ballbar(const TomlFile& file, const TomlValue& table, Setup& setup) {
     BallbarSettings bar;
     if (const TomlValue* cup = file.table(table).find("cup_mm")) bar.cup_S_mm = file.vector3(*cup);
     if (const TomlValue* length = table.find("length_mm")) bar.length_mm = file.positive(*length);
+    if (const TomlValue* step = table.find("sample_deg")) bar.sample_deg = file.positive(*step);
     if (const TomlValue* rate = table.find("sample_hz")) bar.sample_hz = file.positive(*rate);
     bar.noise_um = file.find_number(table, "noise_um").value_or(0.0);
     if (const TomlValue* free = table.find("free")) {

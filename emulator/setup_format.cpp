@@ -225,7 +225,9 @@ std::string ballbar_text(const BallbarSettings& bar) {
     if (bar.free_length) free.push_back("length");
     return "\n[ballbar]\ncup_mm = " + numbers(bar.cup_S_mm) +
            "\nlength_mm = " + shortest(bar.length_mm) + "\nnoise_um = " + shortest(bar.noise_um) +
-           "\nsample_hz = " + shortest(bar.sample_hz) + "\nfree = " + texts(free) + '\n';
+           "\nsample_hz = " + shortest(bar.sample_hz) +
+           (bar.sample_deg > 0.0 ? "\nsample_deg = " + shortest(bar.sample_deg) : "") +
+           "\nfree = " + texts(free) + '\n';
 }
 
 std::string artefact_text(const Artefact& artefact) {

@@ -1,0 +1,138 @@
+#include "emulator/machine_sink.h"
+
+#include <cctype>
+#include <cmath>
+
+namespace trunnion {
+namespace {
+
+std::vector<Axis> axes_of(const Chain& chain) {
+    std::vector<Axis> axes;
+    for (const AxisGeometry& axis : chain.axes()) axes.push_back(axis.axis);
+    return axes;
+}
+
+bool turns(const AxisMove& move) {
+    for (const Axis axis : {Axis::A, Axis::B, Axis::C})
+        if (move.from[axis] != move.to[axis]) return true;
+    return false;
+}
+
+/// RADIAL A POS -> radial_A_pos
+std::string test_name(std::string_view words) {
+    std::string name, word;
+    for (std::size_t i = 0; i <= words.size(); ++i) {
+        if (i < words.size() && words[i] != ' ') {
+            word += words[i];
+            continue;
+        }
+        if (word.size() > 1)
+            for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        if (!word.empty()) name += (name.empty() ? "" : "_") + word;
+        word.clear();
+    }
+    return name;
+}
+
+}  // namespace
+
+MachineSink::MachineSink(const Setup& setup, EffectModels effects, const SinkOptions& options)
+    : setup_(setup),
+      options_(options),
+      machine_(setup.machine, std::move(effects)),
+      touch_(setup, options.seed),
+      bar_(setup, options.seed ^ 0x5bd1e995u),  // another stream than the probe's
+      log_(axes_of(setup.machine.chain), options.test) {
+    for (const AxisGeometry& axis : setup.machine.chain.axes()) has_rotary_ |= axis.rotary;
+    if (has_rotary_) mode_ = PositioningMode::dpp;
+    if (options.trace) trace_.emplace(axes_of(setup.machine.chain), options.truth);
+}
+
+void MachineSink::place(const AxisPositions& machine) {
+    tracker_.place(machine);
+}
+
+void MachineSink::printed(std::string_view text) {
+    for (const char c : text) {
+        if (c != '\n') {
+            if (c != '\r') line_ += c;
+            continue;
+        }
+        obey(line_);
+        line_.clear();
+    }
+}
+
+void MachineSink::obey(std::string_view line) {
+    constexpr std::string_view test = "TEST ", on = "BALLBAR ON", off = "BALLBAR OFF";
+    if (line.starts_with(off)) bar_.stop();
+    if (line.starts_with(test) || line.starts_with(on)) {
+        log_.set_test(test_name(line.substr(line.starts_with(on) ? on.size() : test.size())));
+        test_start_s_ = clock_s_;
+        if (line.starts_with(on)) bar_.start(clock_s_);
+    }
+}
+
+/// A move under a function sets the mode; a turn without any function is the program's own
+/// arithmetic (dpp). Probing moves after the function was cancelled keep what placed them.
+void MachineSink::follow_mode(const AxisMove& move) {
+    if (move.mode != PositioningMode::none)
+        mode_ = move.mode;
+    else if (has_rotary_ && turns(move))
+        mode_ = PositioningMode::dpp;
+}
+
+Vector3 MachineSink::true_tip_W(const PathSampler& path, double s) const {
+    const bool probing =
+        setup_.probe && setup_.probe->tool != 0 && path.move.tool == setup_.probe->tool;
+    const Vector3 tip_S_mm = probing ? setup_.probe->tip_S_mm : Vector3(-path.move.tool_vector_mm);
+    const PhysicalState state = machine_.at(path.at(s), {});
+    return state.poses.pose_MW.inverse() *
+           (state.poses.pose_MS * (tip_S_mm + state.extra.tip_shift_mm));
+}
+
+void MachineSink::write_trace(const PathSampler& path, double end_s) {
+    const auto row = [&](double s, bool end) {
+        const Vector3 tip = options_.truth ? true_tip_W(path, s) : Vector3::Zero();
+        trace_->add(path.move, s, path.time_s(s), end, &tip);
+    };
+    const double step = options_.trace_step_mm > 0.0 && path.move.length_mm > 0.0
+                            ? options_.trace_step_mm / path.move.length_mm
+                            : 2.0;
+    for (int i = 1; i * step < end_s - 1e-9; ++i) row(i * step, false);
+    row(end_s, true);
+}
+
+std::optional<Touch> MachineSink::probe(const PathSampler& path) {
+    const auto touch = touch_.touch(path, machine_, test_start_s_);
+    if (!touch || touch->direction_M.isZero()) return touch;
+    log_.passed(path.move.from, path.start_s, path.mode);
+    Reading row;
+    row.time_s = path.time_s(touch->s);
+    row.mode = path.mode;
+    row.device = Device::touch;
+    row.feature = touch->sphere->name;
+    row.commanded = path.move.to;
+    row.direction_M = touch->direction_M;
+    row.value_mm = touch->value_mm;
+    row.feed_mm_min = path.move.feed_mm_min;
+    log_.add(std::move(row));
+    return touch;
+}
+
+MoveResult MachineSink::move(const AxisMove& move) {
+    follow_mode(move);
+    const PathSampler path{move, tracker_, clock_s_, mode_};
+    std::optional<Touch> touch;
+    if (move.until_skip && touch_.mounted(move)) touch = probe(path);
+    const double end_s = touch ? touch->s : 1.0;
+    if (trace_) write_trace(path, end_s);
+    const bool read = !touch && !move.until_skip && bar_.record(path, machine_, log_, tracker_);
+    const AxisPositions end = touch ? touch->stopped : move.to;
+    clock_s_ = path.time_s(end_s);
+    if (!read && !touch) log_.passed(end, clock_s_, mode_);
+    tracker_.advance(end);
+    return {touch.has_value(), end};
+}
+
+}  // namespace trunnion

@@ -1,0 +1,66 @@
+// Where belief meets reality: every move of the control drives the physical machine and its
+// devices.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "controller/motion.h"
+#include "emulator/ballbar_station.h"
+#include "emulator/reading_log.h"
+#include "emulator/touch_station.h"
+#include "emulator/trace.h"
+
+namespace trunnion {
+
+struct SinkOptions {
+    std::uint64_t seed = 1;
+    bool trace = false;
+    double trace_step_mm = 0.0;  ///< above 0: SAMPLE rows at this distance along the path
+    bool truth = false;
+    std::string test = "run";  ///< name of the test until the program names one
+};
+
+/// Advances the clock, follows the axes, answers G31 from the probe, reads the ballbar, writes the
+/// trace. Lines that the program prints steer it as a PC on the serial line would be steered:
+/// `TEST words` names the test, `BALLBAR ON words` and `BALLBAR OFF` bound a pass. A name is the
+/// words joined by '_', in lower case except single letters: RADIAL A POS is radial_A_pos.
+class MachineSink : public MotionSink {
+  public:
+    /// `setup` must outlive the sink.
+    MachineSink(const Setup& setup, EffectModels effects, const SinkOptions& options);
+
+    void place(const AxisPositions& machine);
+    MoveResult move(const AxisMove& move) override;
+    void dwell(double duration_s) override { clock_s_ += duration_s; }
+    void printed(std::string_view text);
+
+    double clock_s() const { return clock_s_; }
+    ReadingTable take_readings() { return log_.take(); }
+    std::string take_trace() { return trace_ ? trace_->take() : std::string(); }
+    std::vector<std::string> take_notes() { return bar_.take_notes(); }
+
+  private:
+    void obey(std::string_view line);
+    void follow_mode(const AxisMove& move);
+    std::optional<Touch> probe(const PathSampler& path);
+    void write_trace(const PathSampler& path, double end_s);
+    Vector3 true_tip_W(const PathSampler& path, double s) const;
+
+    const Setup& setup_;
+    SinkOptions options_;
+    PhysicalMachine machine_;
+    TouchStation touch_;
+    BallbarStation bar_;
+    ReadingLog log_;
+    std::optional<TraceWriter> trace_;
+    AxisTracker tracker_;
+    double clock_s_ = 0.0, test_start_s_ = 0.0;
+    bool has_rotary_ = false;
+    PositioningMode mode_ = PositioningMode::none;  ///< function that positioned the rotary axes
+    std::string line_;
+};
+
+}  // namespace trunnion

@@ -1,0 +1,47 @@
+#include "emulator/path_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trunnion {
+namespace {
+
+/// Less motion than this (mm or rad) is rounding of an axis that stands or turns.
+constexpr double standing = 1e-9;
+
+}  // namespace
+
+AxisSample PathSampler::at(double s) const {
+    AxisSample sample;
+    sample.position = move.at(s);
+    sample.time_s = time_s(s);
+    sample.feed_mm_min = move.feed_mm_min;
+    sample.mode = mode;
+    tracker.describe(sample);
+    const double before = std::max(0.0, s - half_step), after = std::min(1.0, s + half_step);
+    const AxisPositions a = move.at(before), b = move.at(after);
+    const double span_s = (after - before) * move.duration_s;
+    for (std::size_t i = 0; i < axis_count; ++i) {
+        const double moved = b.value[i] - a.value[i];
+        if (std::abs(moved) < standing) continue;
+        const signed char sign = moved > 0.0 ? 1 : -1;
+        if (sign != sample.travel[i])
+            sample.since_reversal[i] =
+                std::abs(sample.position.value[i] - tracker.position().value[i]);
+        sample.travel[i] = sign;
+        if (span_s > 0.0) sample.velocity.value[i] = moved / span_s;
+    }
+    return sample;
+}
+
+AxisPositions PathSampler::acceleration(double s) const {
+    AxisPositions out;
+    const double h = std::min({half_step, 1.0 - s, s}), step_s = h * move.duration_s;
+    if (!(step_s > 0.0)) return out;
+    const AxisPositions a = move.at(s - h), m = move.at(s), b = move.at(s + h);
+    for (std::size_t i = 0; i < axis_count; ++i)
+        out.value[i] = (a.value[i] - 2.0 * m.value[i] + b.value[i]) / (step_s * step_s);
+    return out;
+}
+
+}  // namespace trunnion

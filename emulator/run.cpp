@@ -1,0 +1,76 @@
+#include "emulator/run.h"
+
+#include "emulator/machine_sink.h"
+
+namespace trunnion {
+namespace {
+
+SinkOptions sink_options(const RunOptions& options, const ProgramChoice& program) {
+    SinkOptions sink;
+    sink.seed = options.seed;
+    sink.trace = options.trace;
+    sink.trace_step_mm = options.trace_step_mm;
+    sink.truth = options.truth;
+    if (const auto* number = std::get_if<int>(&program)) {
+        sink.test = "O" + std::to_string(*number);
+    } else {
+        const std::string& name = std::get<ProgramText>(program).name;
+        const std::size_t slash = name.find_last_of('/');
+        sink.test = name.substr(slash == std::string::npos ? 0 : slash + 1);
+        sink.test = sink.test.substr(0, sink.test.find('.'));
+    }
+    return sink;
+}
+
+std::map<int, double> report_variables(const Controller& controller, const RunOptions& options) {
+    std::map<int, double> values;
+    const std::vector<int>& numbers = options.wanted_variables.empty()
+                                          ? controller.used_common_variables()
+                                          : options.wanted_variables;
+    for (const int number : numbers) values[number] = controller.variable(number);
+    return values;
+}
+
+void append(std::vector<std::string>& to, std::vector<std::string> from) {
+    for (std::string& note : from) to.push_back(std::move(note));
+}
+
+}  // namespace
+
+ControlConfig control_config(const Setup& setup) {
+    ControlConfig config;
+    for (const AxisGeometry& axis : setup.machine.chain.axes())
+        config.axes.push_back(
+            {axis.axis, axis.rotary, axis.min, axis.max, axis.max_speed, axis.max_acceleration});
+    config.dialect = setup.dialect;
+    return config;
+}
+
+RunLog run_program(const Setup& setup, ProgramSource& programs, const ProgramChoice& program,
+                   const RunOptions& options) {
+    RunLog log;
+    log.stores = setup.stores;
+    MachineSink sink(setup, options.effects, sink_options(options, program));
+    sink.place(options.start);
+    ControlConfig config = control_config(setup);
+    config.max_blocks = options.max_blocks;
+    Controller controller(std::move(config), log.stores, programs, sink,
+                          [&](std::string_view text) {
+                              log.printed += text;
+                              sink.printed(text);
+                          });
+    controller.place(options.start);
+    for (const auto& [number, value] : setup.stores.variables)
+        controller.set_variable(number, value);
+    for (const auto& [number, value] : options.variables) controller.set_variable(number, value);
+    log.result = std::visit([&](const auto& choice) { return controller.run(choice); }, program);
+    log.variables = report_variables(controller, options);
+    log.readings = sink.take_readings();
+    log.readings.comment["seed"] = std::to_string(options.seed);
+    log.trace_csv = sink.take_trace();
+    log.notes = log.result.notes;
+    append(log.notes, sink.take_notes());
+    return log;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,49 @@
+// Runs an NC program on a setup: control, machine, devices, and what came of it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "controller/controller.h"
+#include "emulator/replay.h"
+#include "emulator/setup.h"
+
+namespace trunnion {
+
+struct RunOptions {
+    std::uint64_t seed = 1;
+    bool trace = false;
+    double trace_step_mm = 0.0;         ///< above 0: SAMPLE rows at this distance along the path
+    bool truth = false;                 ///< physical tip in the trace
+    std::uint64_t max_blocks = 0;       ///< 0: no limit
+    std::map<int, double> variables;    ///< set before the run
+    std::vector<int> wanted_variables;  ///< reported after it; none: all common ones in use
+    AxisPositions start;                ///< where the axes stand before the run
+    EffectModels effects;
+};
+
+/// What a run did.
+struct RunLog {
+    RunResult result;
+    std::string printed;
+    ReadingTable readings;
+    std::string trace_csv;
+    std::map<int, double> variables;  ///< NaN: vacant
+    Stores stores;                    ///< as the program left them
+    std::vector<std::string> notes;
+};
+
+/// A program's text or its O number in the source.
+using ProgramChoice = std::variant<ProgramText, int>;
+
+/// Runs on a copy of the setup. Same inputs and seed: the same log. NC alarms are in the result.
+RunLog run_program(const Setup& setup, ProgramSource& programs, const ProgramChoice& program,
+                   const RunOptions& options);
+
+/// What the control knows of the machine's axes.
+ControlConfig control_config(const Setup& setup);
+
+}  // namespace trunnion

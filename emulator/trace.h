@@ -1,0 +1,35 @@
+// The trace of a run as CSV: one row a programmed move, samples along it when asked for.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "controller/motion.h"
+
+namespace trunnion {
+
+/// Believed tip and unit vector from tip to spindle in W at machine positions q of a move.
+struct BelievedTool {
+    Vector3 tip_W_mm = Vector3::Zero();
+    Vector3 direction_W = Vector3::UnitZ();
+};
+BelievedTool believed_tool(const AxisMove& move, const AxisPositions& q);
+
+/// Columns as in formats.md.
+class TraceWriter {
+  public:
+    TraceWriter(std::vector<Axis> axes, bool truth);
+
+    /// A row at `s` of a move; `true_tip_W` only with truth. `end` false: a SAMPLE row.
+    void add(const AxisMove& move, double s, double time_s, bool end, const Vector3* true_tip_W);
+    std::string take() { return std::move(text_); }
+
+  private:
+    std::vector<Axis> axes_;
+    bool truth_ = false;
+    std::uint64_t rows_ = 0;
+    std::string text_;
+};
+
+}  // namespace trunnion
