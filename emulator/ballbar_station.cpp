@@ -130,6 +130,7 @@ bool BallbarStation::record(const PathSampler& move, const PhysicalMachine& mach
         log.set_test("bar" + std::to_string(++passes_));
     }
     PathSampler path = move;
+    path.by_velocity = true;
     if (move.move.duration_s > 0.0)
         path.half_step = std::min(0.5, 1.0 / (setup_.ballbar->sample_hz * move.move.duration_s));
     for (const double s : places(path)) {

@@ -18,6 +18,8 @@ AxisSample PathSampler::at(double s) const {
     sample.feed_mm_min = move.feed_mm_min;
     sample.mode = mode;
     tracker.describe(sample);
+    const auto last_travel = sample.travel;
+    if (by_velocity) sample.travel.fill(0);
     const double before = std::max(0.0, s - half_step), after = std::min(1.0, s + half_step);
     const AxisPositions a = move.at(before), b = move.at(after);
     const double span_s = (after - before) * move.duration_s;
@@ -25,7 +27,7 @@ AxisSample PathSampler::at(double s) const {
         const double moved = b.value[i] - a.value[i];
         if (std::abs(moved) < standing) continue;
         const signed char sign = moved > 0.0 ? 1 : -1;
-        if (sign != sample.travel[i])
+        if (sign != last_travel[i])
             sample.since_reversal[i] =
                 std::abs(sample.position.value[i] - tracker.position().value[i]);
         sample.travel[i] = sign;

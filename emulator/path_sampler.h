@@ -12,7 +12,8 @@ struct PathSampler {
     const AxisTracker& tracker;
     double start_s = 0.0;
     PositioningMode mode = PositioningMode::none;  ///< function that positioned the axes
-    double half_step = 1e-3;  ///< of s: neighbours from which velocity and travel are taken
+    double half_step = 1e-3;   ///< of s: neighbours from which velocity and travel are taken
+    bool by_velocity = false;  ///< ballbar rows: travel is 0 for an axis that stands (formats.md)
 
     double time_s(double s) const { return start_s + s * move.duration_s; }
     AxisSample at(double s) const;

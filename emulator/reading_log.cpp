@@ -56,6 +56,7 @@ void ReadingLog::append(Reading row) {
 }
 
 void ReadingLog::add(Reading row) {
+    if (row.device == Device::ballbar) stops_.clear();  // its rows tell velocities themselves
     const bool begins = table_.rows.empty() || table_.rows.back().test != test_;
     for (std::size_t i = begins ? 0 : 1; i < stops_.size(); ++i) {
         Reading stop;

@@ -1,0 +1,274 @@
+#include "emulator/machine_sink.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "geometry/units.h"
+#include "kinematics/machine.h"
+
+using namespace trunnion;
+
+namespace {
+
+Setup bc_setup() {
+    std::vector<std::string> notes;
+    Setup setup = load_setup(TRUNNION_SOURCE_DIR "/machines/bc_table.toml", notes);
+    setup.probe->repeatability_um = 0.0;
+    setup.ballbar->noise_um = 0.0;
+    return setup;
+}
+
+AxisPositions at(double x, double y, double z, double b_deg = 0.0, double c_deg = 0.0) {
+    AxisPositions q;
+    q[Axis::X] = x, q[Axis::Y] = y, q[Axis::Z] = z;
+    q[Axis::B] = rad_from_deg(b_deg), q[Axis::C] = rad_from_deg(c_deg);
+    return q;
+}
+
+AxisMove line(const AxisPositions& from, const AxisPositions& to, bool skip = false) {
+    AxisMove move;
+    move.kind = skip ? MotionKind::linear : MotionKind::rapid;
+    move.until_skip = skip;
+    move.from = from;
+    move.to = to;
+    move.length_mm = (Vector3(to[Axis::X], to[Axis::Y], to[Axis::Z]) -
+                      Vector3(from[Axis::X], from[Axis::Y], from[Axis::Z]))
+                         .norm();
+    move.feed_mm_min = skip ? 60.0 : 0.0;
+    move.duration_s = skip ? move.length_mm : 0.5;
+    return move;
+}
+
+AxisMove circle_xy(const Vector3& centre, double radius, double turns, double feed_mm_min) {
+    AxisMove move;
+    move.kind = turns > 0 ? MotionKind::arc_ccw : MotionKind::arc_cw;
+    move.from = move.to = at(centre.x() + radius, centre.y(), centre.z());
+    move.arc = ArcPath{centre, Vector3::UnitZ(), turns, 2 * pi * turns};
+    move.length_mm = 2 * pi * radius * std::abs(turns);
+    move.feed_mm_min = feed_mm_min;
+    move.duration_s = move.length_mm / feed_mm_min * 60.0;
+    return move;
+}
+
+/// Every simulated reading against what the replay predicts for its row.
+double worst_prediction_mm(const Setup& setup, const ReadingTable& table,
+                           const EffectModels& models) {
+    std::vector<std::string> notes;
+    const ReadingTable read = parse_readings(format_readings(table), "r.csv", notes);
+    const ReadingTable said = predicted(setup, read, models);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < table.rows.size(); ++i)
+        if (table.rows[i].device != Device::none)
+            worst = std::max(worst, std::abs(*table.rows[i].value_mm - *said.rows[i].value_mm));
+    return worst;
+}
+
+struct Backlash : EffectModel {
+    void perturb(const AxisSample& sample, const Contact&, Perturbation& out) const override {
+        out.axis[Axis::X] += 0.004 * sample.travel[index_of(Axis::X)];
+        out.axis[Axis::C] += 3e-5 * sample.travel[index_of(Axis::C)];
+    }
+};
+
+}  // namespace
+
+TEST_CASE("G31 stops where the stylus ball meets the sphere") {
+    const Setup setup = bc_setup();  // sphere 25.4 at (120, 0, 80), ball 6, stylus 150
+    MachineSink sink(setup, {}, {});
+    sink.place(at(170, 0, 230));
+    const MoveResult result = sink.move(line(at(170, 0, 230), at(120, 0, 230), true));
+    REQUIRE(result.skipped);
+    CHECK(std::abs(result.stopped[Axis::X] - (120 + 12.7 + 3)) < 1e-9);
+    CHECK(sink.clock_s() == Approx(170 - 135.7));
+    const ReadingTable table = sink.take_readings();
+    REQUIRE(table.rows.size() == 2);
+    CHECK(table.rows[0].device == Device::none);
+    CHECK(table.rows[0].commanded == at(170, 0, 230));
+    CHECK(table.rows[1].device == Device::touch);
+    CHECK(table.rows[1].commanded == at(120, 0, 230));
+    CHECK(table.rows[1].direction_M == Vector3(-1, 0, 0));
+    CHECK(std::abs(*table.rows[1].value_mm + 15.7) < 1e-9);
+    CHECK(table.rows[1].feature == "S1");
+}
+
+TEST_CASE("a path that misses runs to its end, and another tool feels nothing") {
+    const Setup setup = bc_setup();
+    MachineSink sink(setup, {}, {});
+    CHECK_FALSE(sink.move(line(at(170, 0, 280), at(120, 0, 280), true)).skipped);
+    AxisMove move = line(at(170, 0, 230), at(120, 0, 230), true);
+    move.tool = 2;
+    CHECK_FALSE(sink.move(move).skipped);
+    CHECK(sink.take_readings().rows.empty());
+}
+
+TEST_CASE("pretravel comes on top along the approach, repeatability is seeded") {
+    Setup setup = bc_setup();
+    const AxisMove move = line(at(170, 0, 230), at(120, 0, 230), true);
+    setup.probe->pretravel_um = 5.0;
+    MachineSink one(setup, {}, {});
+    CHECK(std::abs(one.move(move).stopped[Axis::X] - (135.7 - 0.005)) < 1e-9);
+    setup.probe->repeatability_um = 0.5;
+    SinkOptions options;
+    options.seed = 9;
+    MachineSink a(setup, {}, options), b(setup, {}, options);
+    const double x = a.move(move).stopped[Axis::X];
+    CHECK(x == b.move(move).stopped[Axis::X]);
+    CHECK(std::abs(x - 135.695) > 1e-9);
+    CHECK(std::abs(x - 135.695) < 3e-3);
+}
+
+TEST_CASE("rows know the function that placed the axes, and the approach of every axis") {
+    const Setup setup = bc_setup();
+    MachineSink sink(setup, {}, {});
+    AxisMove turn = line(at(0, 0, 300), at(0, 0, 300, 20, 5));
+    turn.mode = PositioningMode::rtcp;
+    sink.move(turn);
+    sink.move(line(at(0, 0, 300, 20, 5), at(-60, 0, 300, 20, 0)));  // turns without a function: dpp
+    sink.move(line(at(-60, 0, 300, 20, 0), at(-60, 0, 400, 20, 0)));
+    turn = line(at(-60, 0, 400, 20, 0), at(-60, 0, 400, 0, 90));
+    turn.mode = PositioningMode::tw;
+    sink.move(turn);
+    sink.move(
+        line(at(-60, 0, 400, 0, 90), at(0, -100, 300, 0, 90)));  // cancelled, no turn: still tw
+    sink.move(line(at(0, -100, 300, 0, 90), at(0, -120, 200, 0, 90), true));
+    const ReadingTable table = sink.take_readings();
+    REQUIRE(table.rows.back().device == Device::touch);
+    CHECK(table.rows.back().mode == PositioningMode::tw);
+    const AxisSample sample = samples_of(table).back();
+    CHECK(sample.travel[index_of(Axis::X)] == 1);
+    CHECK(sample.travel[index_of(Axis::Y)] == -1);
+    CHECK(sample.travel[index_of(Axis::Z)] == -1);
+    CHECK(sample.travel[index_of(Axis::B)] == -1);
+    CHECK(sample.travel[index_of(Axis::C)] == 1);
+}
+
+TEST_CASE("the ballbar reads along a circle, by time, and out of range it says so") {
+    Setup setup = bc_setup();
+    setup.ballbar->sample_hz = 10.0;
+    setup.machine.errors.location(*parse_error_name("EC0Y")) = 1e-4;  // squareness
+    MachineSink sink(setup, {}, {});
+    const Vector3 centre(75, 0, 230);
+    const AxisMove move = circle_xy(centre, 100, 1, 1000);
+    sink.printed("BALLBAR ON XY CCW 1000\n");
+    sink.move(move);
+    sink.printed("BALLBAR OFF\n");
+    sink.move(move);
+    ReadingTable table = sink.take_readings();
+    const auto expected = static_cast<std::size_t>(std::ceil(move.duration_s * 10.0));
+    CHECK(table.rows.size() == expected);
+    for (const Reading& row : table.rows) {
+        CHECK(row.test == "xy_ccw_1000");
+        const double x = row.commanded[Axis::X] - 75, y = row.commanded[Axis::Y];
+        CHECK(*row.value_mm == Approx(-1e-4 * x * y / 100).margin(2e-6));
+    }
+    setup.ballbar->length_mm = 98.5;
+    MachineSink other(setup, {}, {});
+    other.printed("BALLBAR ON RADIAL A POS\n");
+    other.move(move);
+    table = other.take_readings();
+    CHECK(table.rows.empty());
+    const auto notes = other.take_notes();
+    REQUIRE(notes.size() == 1);
+    CHECK_THAT(notes[0],
+               Catch::Contains("out of its range of 1 mm") && Catch::Contains("radial_A_pos"));
+}
+
+TEST_CASE("without commands the ballbar reads feed moves that stay in range") {
+    Setup setup = bc_setup();
+    setup.ballbar->sample_hz = 10.0;
+    MachineSink sink(setup, {}, {});
+    sink.move(line(at(0, 0, 400), at(300, 0, 400)));
+    sink.move(circle_xy(Vector3(75, 0, 230), 100, 1, 2000));
+    sink.move(line(at(175, 0, 230), at(0, 0, 400)));
+    sink.move(circle_xy(Vector3(75, 0, 230), 100, -1, 2000));
+    const ReadingTable table = sink.take_readings();
+    REQUIRE_FALSE(table.rows.empty());
+    CHECK(table.rows.front().device == Device::ballbar);
+    std::map<std::string, int> tests;
+    for (const Reading& row : table.rows) tests[row.test] += row.device == Device::ballbar;
+    CHECK(tests.size() == 2);
+    CHECK(tests["bar1"] == tests["bar2"]);
+}
+
+TEST_CASE("sampling by angle") {
+    Setup setup = bc_setup();
+    setup.ballbar->sample_deg = 1.5;
+    MachineSink sink(setup, {}, {});
+    sink.printed("BALLBAR ON XY\r\n");
+    sink.move(circle_xy(Vector3(75, 0, 230), 100, 0.999, 2000));
+    CHECK(sink.take_readings().rows.size() == 240);
+}
+
+TEST_CASE("what a run reads is what the replay predicts from its rows") {
+    Setup setup = bc_setup();
+    setup.ballbar->sample_hz = 50.0;
+    for (const char* name : {"EX0B", "EZ0B", "EX0C", "EY0C"})
+        setup.machine.errors.location(*parse_error_name(name)) = 0.02;
+    for (const char* name : {"EA0B", "EC0B", "EA0C", "EB0C"})
+        setup.machine.errors.location(*parse_error_name(name)) = 5e-5;
+    for (const bool with_effect : {false, true}) {
+        EffectModels models;
+        if (with_effect) models.push_back(std::make_shared<Backlash>());
+        MachineSink sink(setup, models, {});
+        AxisPositions here = at(0, 0, 400);
+        sink.place(here);
+        const auto go = [&](const AxisPositions& to, bool skip = false) {
+            const MoveResult result = sink.move(line(here, to, skip));
+            here = result.skipped ? result.stopped : to;
+            return result.skipped;
+        };
+        go(at(1, 1, 401, 1, -1));  // before its first motion an axis has no direction
+        int touches = 0;
+        for (const double c : {0.0, 50.0, -40.0, 130.0}) {
+            const Vector3 s =
+                rotation_about(Vector3::UnitZ(), rad_from_deg(-c)) * Vector3(120, 0, 80);
+            go(at(s.x(), s.y(), 400, 0, c));
+            for (const Vector3& d :
+                 {Vector3(1, 0, 0), Vector3(-1, 0, 0), Vector3(0, 1, 0), Vector3(0, 0, 1)}) {
+                const Vector3 from = s + 40 * d + Vector3(0, 0, 150), end = s + Vector3(0, 0, 150);
+                go(at(from.x(), from.y(), 400, 0, c));
+                go(at(from.x(), from.y(), from.z(), 0, c));
+                touches += go(at(end.x(), end.y(), end.z(), 0, c), true);
+                go(at(from.x(), from.y(), from.z(), 0, c));
+                go(at(from.x(), from.y(), 400, 0, c));
+            }
+        }
+        sink.printed("BALLBAR ON XY\n");
+        go(at(175, 0, 230));
+        sink.move(circle_xy(Vector3(75, 0, 230), 100, 1, 3000));
+        const ReadingTable table = sink.take_readings();
+        CHECK(touches == 16);
+        CHECK(worst_prediction_mm(setup, table, models) < 1e-6);
+    }
+}
+
+TEST_CASE("trace rows hold the contract's columns and the physical tip") {
+    Setup setup = bc_setup();
+    setup.machine.errors.location(*parse_error_name("EX0C")) = 0.02;
+    SinkOptions options;
+    options.trace = options.truth = true;
+    options.trace_step_mm = 10.0;
+    MachineSink sink(setup, {}, options);
+    AxisMove move = line(at(0, 0, 200), at(35, 0, 200));
+    move.kind = MotionKind::linear;
+    move.tool_vector_mm = Vector3(0, 0, 150);
+    const std::string name = "o1.nc";
+    move.program = &name;
+    move.line = 7;
+    sink.move(move);
+    const std::string trace = sink.take_trace();
+    std::vector<std::string> lines;
+    for (std::size_t i = 0, end; i < trace.size(); i = end + 1) {
+        end = trace.find('\n', i);
+        lines.push_back(trace.substr(i, end - i));
+    }
+    REQUIRE(lines.size() == 5);
+    CHECK_THAT(lines[0], Catch::StartsWith(
+                             "seq,program,line,motion,tool,feed_mm_min,x_mm,y_mm,z_mm,b_deg,c_deg,"
+                             "tip_x_mm,tip_y_mm,tip_z_mm,tool_i,tool_j,tool_k,length_mm,time_s") &&
+                             Catch::EndsWith("true_x_mm,true_y_mm,true_z_mm"));
+    CHECK_THAT(lines[1], Catch::StartsWith("0,o1.nc,7,SAMPLE,0,0,10,0,200,0,0,10,0,50,0,0,1,10,"));
+    CHECK_THAT(lines[4],
+               Catch::StartsWith("3,o1.nc,7,G1,0,0,35,0,200,0,0,35,0,50,0,0,1,35,0.5,,,,,,,,"));
+    CHECK_THAT(lines[4], Catch::EndsWith(",34.98,0,50"));
+}
