@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "controller/arcs.h"
+#include "controller/five_axis.h"
 #include "controller/g10.h"
 #include "controller/g_codes.h"
 #include "controller/m_codes.h"
@@ -128,11 +129,12 @@ void run_motion(ControlState& c) {
 }
 
 bool moves_by_itself(const ControlState& c) {
-    // An arc may have only its centre: a full circle.
+    // An arc may have only its centre: a full circle. G43.5 turns the tool alone.
     constexpr std::uint32_t centre =
         SortedWords::bit('I') | SortedWords::bit('J') | SortedWords::bit('K');
     const int code = c.modal[ModalGroup::motion];
-    return (code == 20 || code == 30) && (c.words.present & centre);
+    const bool by_centre = code == 20 || code == 30 || (c.five_axis.tcp && c.five_axis.by_vector);
+    return by_centre && (c.words.present & centre);
 }
 
 void run_codes(ControlState& c) {
@@ -173,6 +175,7 @@ void sort_words(ControlState& c, const BlockWords& block) {
 void execute_block(ControlState& c, const BlockWords& block) {
     sort_words(c, block);
     const SortedWords& w = c.words;
+    if (c.five_axis.active) five_axis_block_begin(c);
     if (c.data_entry != DataEntry::none && w.code_count == 0) return enter_data(c, block);
     if (w.phases & before_words)
         for (const Phase phase : {Phase::speed, Phase::feed, Phase::units}) run_phase(c, phase);
@@ -191,6 +194,7 @@ void execute_block(ControlState& c, const BlockWords& block) {
     else if (w.has_axis() || moves_by_itself(c) || c.length_moves)
         run_motion(c);
     c.length_moves = c.exact_stop_once = false;
+    if (c.five_axis.active) five_axis_block_end(c);
     c.moved = !(c.machine == stood);
     if (w.m_count) m_codes_after(c);
 }

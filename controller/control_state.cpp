@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "controller/five_axis.h"
 #include "controller/polar_words.h"
 
 namespace trunnion {
@@ -49,11 +50,12 @@ void ControlState::note(std::string text) {
 
 void ControlState::frame_changed() {
     coordinates.compile();
-    program = coordinates.program_from_machine(machine);
+    program = program_at(machine);
 }
 
 void ControlState::parameters_changed() {
     settings = decode_settings(stores.parameters, config);
+    decode_five_axis(*this);
     units_changed();
 }
 
@@ -85,17 +87,26 @@ void ControlState::read_work_offset() {
     coordinates.external = work.external;
     coordinates.work = code == 541 ? work.additional[static_cast<std::size_t>(work_number - 1)]
                                    : work.standard[static_cast<std::size_t>(code / 10 - 54)];
+    if (five_axis.plane) place_plane(*this);
     frame_changed();
 }
 
 void ControlState::fixture_changed() {
+    if (fixture_number != 0) turn_fixture(*this, machine);
     frame_changed();
+}
+
+ControlPosition ControlState::program_at(const ControlPosition& machine_position) const {
+    return five_axis.tcp ? tcp_program_position(*this, machine_position)
+                         : coordinates.program_from_machine(machine_position);
 }
 
 void ControlState::stand_at(const ControlPosition& machine_position) {
     machine = machine_position;
     move.from = move.to = axis_positions_of(machine);
-    program = coordinates.program_from_machine(machine);
+    if (five_axis.plane) place_plane(*this);
+    coordinates.compile();
+    program = program_at(machine);
 }
 
 double ControlState::axis_word(Axis axis) const {

@@ -9,6 +9,7 @@
 #include "controller/alarms.h"
 #include "controller/controller.h"
 #include "controller/coordinates.h"
+#include "controller/five_axis_state.h"
 #include "controller/modal.h"
 #include "controller/settings.h"
 #include "controller/sorted_words.h"
@@ -79,6 +80,7 @@ struct ControlState {
     SpindleState spindle;
     SkipState skip;
     CycleState cycle;
+    FiveAxisState five_axis;
     DataEntry data_entry = DataEntry::none;
     bool moved = false;            ///< the block that ran moved an axis: G66 calls follow it
     bool ended = false;            ///< M2, M30
@@ -115,6 +117,8 @@ struct ControlState {
     /// After G54.2 sets changed.
     void fixture_changed();
     void stand_at(const ControlPosition& machine_position);
+    /// The program position of a place of the axes, by all that is in force (TCP too).
+    ControlPosition program_at(const ControlPosition& machine_position) const;
     double spindle_rpm() const;
 
     bool inch() const { return unit_mm != 1.0; }

@@ -34,6 +34,13 @@ struct ClampCode {
     bool alarm = false;
 };
 
+/// To what the table-fixed frame of G43.4 is tied when it comes with the table turned
+/// (facts/control.md 2.3: depends on options).
+enum class TcpFrame : unsigned char {
+    start,       ///< the work frame as it lies then sticks to the table (15i manual)
+    rotary_zero  ///< the work frame lies on the table with its rotaries at zero
+};
+
 struct ControlConfig {
     std::vector<ControlAxis> axes;  ///< in the control's order: axis number 1 is [0]
     Dialect dialect;
@@ -45,6 +52,7 @@ struct ControlConfig {
     std::int64_t clock_s = 0;      ///< #3011/#3012 and #3002 start here (seconds since 1970), so
                                    ///< that same inputs give the same bytes
     double chord_tolerance_mm = 0.001;
+    TcpFrame tcp_frame = TcpFrame::start;  ///< G43.4 with the table turned
 };
 
 enum class RunStatus : unsigned char { ok, alarm, limit };

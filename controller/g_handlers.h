@@ -26,6 +26,17 @@ void g_preset_cancel(ControlState& c, const GCode& code);     // G92.1
 // tool_length.cpp
 void g_tool_length(ControlState& c, const GCode& code);  // G43 G44 G49
 
+// tool_centre_codes.cpp
+void g_tool_centre(ControlState& c, const GCode& code);  // G43.4 G43.5
+// fixture_codes.cpp
+void g_fixture_offset(ControlState& c, const GCode& code);  // G54.2
+// tilted_plane_codes.cpp
+void g_tilted_plane(ControlState& c, const GCode& code);           // G68.2 G68.4
+void g_tilted_plane_by_tool(ControlState& c, const GCode& code);   // G68.3
+void g_rotation_cancel(ControlState& c, const GCode& code);        // G69
+void g_tool_axis(ControlState& c, const GCode& code);              // G53.1
+void g_tool_axis_keeping_tip(ControlState& c, const GCode& code);  // G53.6
+
 // skip.cpp
 void g_skip(ControlState& c, const GCode& code);  // G31
 

@@ -2,13 +2,11 @@
 
 #include <cmath>
 
+#include "geometry/units.h"
+
 namespace trunnion {
 
-namespace {
-
-/// On the arc at s: the radius goes evenly from that of the start to that of the end, the height
-/// along the normal too.
-Vector3 on_arc(const ArcPath& arc, const Vector3& from, const Vector3& to, double s) {
+Vector3 point_on_arc(const ArcPath& arc, const Vector3& from, const Vector3& to, double s) {
     const auto split = [&](const Vector3& p) {
         const Vector3 r = p - arc.centre_mm;
         const double height = r.dot(arc.normal);
@@ -24,7 +22,10 @@ Vector3 on_arc(const ArcPath& arc, const Vector3& from, const Vector3& to, doubl
            (height_start + s * (height_end - height_start)) * arc.normal;
 }
 
-}  // namespace
+double turns_of(double sweep_rad) {
+    const double begun = std::ceil(std::abs(sweep_rad) / (2.0 * pi) - 1e-9);
+    return std::copysign(std::fmax(1.0, begun), sweep_rad);
+}
 
 AxisPositions AxisMove::at(double s) const {
     if (s <= 0.0) return from;
@@ -34,7 +35,7 @@ AxisPositions AxisMove::at(double s) const {
     for (std::size_t i = 0; i < axis_count; ++i)
         out.value[i] = from.value[i] + s * (to.value[i] - from.value[i]);
     if (arc) {
-        const Vector3 p = on_arc(*arc, {from.value[0], from.value[1], from.value[2]},
+        const Vector3 p = point_on_arc(*arc, {from.value[0], from.value[1], from.value[2]},
                                  {to.value[0], to.value[1], to.value[2]}, s);
         for (std::size_t i = 0; i < 3; ++i) out.value[i] = p[static_cast<Eigen::Index>(i)];
     }

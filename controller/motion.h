@@ -23,6 +23,13 @@ struct ArcPath {
     double sweep_rad = 0.0;  ///< total angle, same sign
 };
 
+/// On the arc at s in [0, 1]: the radius goes evenly from that of the start to that of the end, the
+/// height along the normal too.
+Vector3 point_on_arc(const ArcPath& arc, const Vector3& from, const Vector3& to, double s);
+
+/// ArcPath::turns of a sweep: whole turns begun, at least one, with its sign.
+double turns_of(double sweep_rad);
+
 /// A believed path that is neither a line nor an arc of the axes: the tip is straight in the
 /// workpiece frame (G43.4), or on a cylinder (G7.1), or polar (G12.1). s runs from 0 to 1.
 class PathCurve {

@@ -1,8 +1,10 @@
 #include "controller/moves.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "controller/feed_time.h"
+#include "controller/five_axis.h"
 
 namespace trunnion {
 
@@ -45,7 +47,7 @@ MoveResult send(ControlState& c, MotionKind kind, const ControlPosition& target,
     if (result.skipped) {
         c.machine = control_position_of(result.stopped);
         m.from = m.to = result.stopped;
-        c.program = c.coordinates.program_from_machine(c.machine);
+        c.program = c.program_at(c.machine);
         return result;
     }
     m.from = m.to;
@@ -64,6 +66,10 @@ void check_stroke(const ControlState& c, const AxisPositions& to) {
 }
 
 MoveResult move_line(ControlState& c, MotionKind kind, const ControlPosition& target) {
+    return c.five_axis.active ? move_five_axis(c, kind, target) : move_straight(c, kind, target);
+}
+
+MoveResult move_straight(ControlState& c, MotionKind kind, const ControlPosition& target) {
     const ControlPosition machine_target = c.coordinates.machine_from_program(target);
     AxisMove& m = c.move;
     m.to = axis_positions_of(machine_target);
@@ -82,7 +88,7 @@ MoveResult move_line(ControlState& c, MotionKind kind, const ControlPosition& ta
 void move_machine(ControlState& c, MotionKind kind, const ControlPosition& target) {
     AxisMove& m = c.move;
     m.to = axis_positions_of(target);
-    const ControlPosition program = c.coordinates.program_from_machine(target);
+    const ControlPosition program = c.program_at(target);
     if (m.to == m.from) {
         c.machine = target;
         c.program = program;
@@ -97,6 +103,7 @@ void move_machine(ControlState& c, MotionKind kind, const ControlPosition& targe
 
 void move_arc(ControlState& c, MotionKind kind, const ControlPosition& target,
               const ProgramArc& arc) {
+    if (c.five_axis.active && move_five_axis_arc(c, kind, target, arc)) return;
     const ControlPosition machine_target = c.coordinates.machine_from_program(target);
     AxisMove& m = c.move;
     m.to = axis_positions_of(machine_target);
@@ -116,8 +123,7 @@ void move_arc(ControlState& c, MotionKind kind, const ControlPosition& target,
         if (side < 0.0 && path.normal.dot(arc.normal) > 0.0)
             kind = kind == MotionKind::arc_ccw ? MotionKind::arc_cw : MotionKind::arc_ccw;
     }
-    path.turns = (path.sweep_rad < 0.0 ? -1.0 : 1.0) *
-                 std::max(1.0, std::ceil(std::abs(path.sweep_rad) / (2.0 * pi) - 1e-9));
+    path.turns = turns_of(path.sweep_rad);
     const Vector3 radius_vector = xyz_of(c.machine) - path.centre_mm;
     const double rise = path.normal.dot(xyz_of(machine_target) - xyz_of(c.machine));
     const double radius = (radius_vector - radius_vector.dot(path.normal) * path.normal).norm();
@@ -134,18 +140,38 @@ void move_arc(ControlState& c, MotionKind kind, const ControlPosition& target,
     m.arc.reset();
 }
 
+MoveResult move_along(ControlState& c, MotionKind kind, const ControlPosition& target,
+                      const ControlPosition& machine_target, const AxisPositions& to,
+                      const CurveMove& way) {
+    AxisMove& m = c.move;
+    m.to = to;
+    if (m.to == m.from && !way.arc) {
+        c.machine = machine_target;
+        c.program = target;
+        return {};
+    }
+    m.length_mm = way.length_mm;
+    m.duration_s = kind == MotionKind::rapid ? rapid_time(c.limits, m.from, m.to)
+                                             : cutting_time(c, way.feed_length_mm, m.from, m.to);
+    if (way.curve) {
+        m.curve = way.curve;
+        m.duration_s =
+            std::max(m.duration_s, least_curve_time_s(*way.curve, c.limits.seconds_per_unit));
+    }
+    if (way.arc) m.arc = *way.arc;
+    const MoveResult result = send(c, kind, target, machine_target);
+    m.curve = nullptr;
+    m.arc.reset();
+    return result;
+}
+
 MoveResult move_curve(ControlState& c, MotionKind kind, const ControlPosition& target,
                       const ControlPosition& machine_target, const PathCurve& curve,
                       double length_mm) {
-    AxisMove& m = c.move;
-    m.to = axis_positions_of(machine_target);
-    m.length_mm = length_mm;
-    m.duration_s = kind == MotionKind::rapid ? rapid_time(c.limits, m.from, m.to)
-                                             : cutting_time(c, length_mm, m.from, m.to);
-    m.curve = &curve;
-    const MoveResult result = send(c, kind, target, machine_target);
-    m.curve = nullptr;
-    return result;
+    CurveMove way;
+    way.curve = &curve;
+    way.length_mm = way.feed_length_mm = length_mm;
+    return move_along(c, kind, target, machine_target, axis_positions_of(machine_target), way);
 }
 
 void dwell(ControlState& c, double duration_s) {

@@ -7,6 +7,8 @@ namespace trunnion {
 
 /// A straight move (G0, G1, G31) of the tip to a program position.
 MoveResult move_line(ControlState& c, MotionKind kind, const ControlPosition& target);
+/// The same without five-axis functions: the coordinate stages alone.
+MoveResult move_straight(ControlState& c, MotionKind kind, const ControlPosition& target);
 /// A straight move of the axes to a machine position (G53, G28); the program position follows.
 void move_machine(ControlState& c, MotionKind kind, const ControlPosition& target);
 /// An arc or helix of the tip; centre and normal in program coordinates.
@@ -21,6 +23,16 @@ void move_arc(ControlState& c, MotionKind kind, const ControlPosition& target,
 MoveResult move_curve(ControlState& c, MotionKind kind, const ControlPosition& target,
                       const ControlPosition& machine_target, const PathCurve& curve,
                       double length_mm);
+/// How the axes get to a place that has been worked out: along a curve, an arc, or straight.
+struct CurveMove {
+    const PathCurve* curve = nullptr;
+    std::optional<ArcPath> arc;
+    double length_mm = 0.0;       ///< of the programmed point's path
+    double feed_length_mm = 0.0;  ///< what F divides
+};
+MoveResult move_along(ControlState& c, MotionKind kind, const ControlPosition& target,
+                      const ControlPosition& machine_target, const AxisPositions& to,
+                      const CurveMove& way);
 void dwell(ControlState& c, double duration_s);
 
 /// Throws OT0500/OT0501 when `to` (mm, rad) leaves the stored stroke.

@@ -30,21 +30,27 @@ Vector3 ToolCentrePoint::programmed_tip_M(const AxisPositions& machine) const {
     return follows_work ? transform->pose_MW(machine) * tip : pose_WM0.inverse() * tip;
 }
 
-TipLine::TipLine(const ToolCentrePoint& tcp, const AxisPositions& from, const AxisPositions& to)
-    : transform_(tcp.transform),
-      tool_vector_mm_(tcp.tool_vector_mm),
-      start_W_(transform_->tip_W(from, tool_vector_mm_)),
-      along_W_(transform_->tip_W(to, tool_vector_mm_) - start_W_),
-      from_(from),
-      to_(to) {}
+namespace {
+
+AxisPositions between(const AxisPositions& from, const AxisPositions& to, double s) {
+    AxisPositions q;
+    for (std::size_t i = 0; i < axis_count; ++i)
+        q.value[i] = from.value[i] + s * (to.value[i] - from.value[i]);
+    return q;
+}
+
+}  // namespace
 
 AxisPositions TipLine::at(double s) const {
     if (s <= 0.0) return from_;
     if (s >= 1.0) return to_;
-    AxisPositions q;
-    for (std::size_t i = 0; i < axis_count; ++i)
-        q.value[i] = from_.value[i] + s * (to_.value[i] - from_.value[i]);
-    return transform_->machine_for_tip(start_W_ + s * along_W_, q, tool_vector_mm_);
+    return tcp_.machine(start_W_ + s * (end_W_ - start_W_), between(from_, to_, s));
+}
+
+AxisPositions TipArc::at(double s) const {
+    if (s <= 0.0) return from_;
+    if (s >= 1.0) return to_;
+    return tcp_.machine(point_on_arc(arc_, start_W_, end_W_, s), between(from_, to_, s));
 }
 
 Vector3 leaned(const Vector3& n_W, const Vector3& travel_W, double lean_rad) {

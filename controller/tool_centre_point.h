@@ -3,16 +3,11 @@
 
 #include <vector>
 
+#include "controller/controller.h"
 #include "controller/motion.h"
 #include "controller/rotary_transform.h"
 
 namespace trunnion {
-
-/// To what the table-fixed programming frame is tied when G43.4 comes with the table turned.
-enum class TcpFrame : unsigned char {
-    start,       ///< the work frame as it lies then sticks to the table (15i manual)
-    rotary_zero  ///< the work frame lies on the table with its rotaries at zero
-};
 
 /// The believed tool centre point control in force. "Programmed tip": where the control's
 /// coordinate stages put the tip in M without it.
@@ -41,14 +36,33 @@ struct ToolCentrePoint {
 /// The tip runs straight in W from one axis position to another, all other axes linear in s.
 class TipLine : public PathCurve {
   public:
-    TipLine(const ToolCentrePoint& tcp, const AxisPositions& from, const AxisPositions& to);
+    /// `start_W`, `end_W`: the tip there, mm.
+    TipLine(const ToolCentrePoint& tcp, const AxisPositions& from, const AxisPositions& to,
+            const Vector3& start_W, const Vector3& end_W)
+        : tcp_(tcp), from_(from), to_(to), start_W_(start_W), end_W_(end_W) {}
     AxisPositions at(double s) const override;
-    double length_mm() const { return along_W_.norm(); }
 
   private:
-    const RotaryTransform* transform_;
-    Vector3 tool_vector_mm_, start_W_, along_W_;
-    AxisPositions from_, to_;
+    const ToolCentrePoint& tcp_;  // these outlive the move that the path belongs to
+    const AxisPositions& from_;
+    const AxisPositions& to_;
+    Vector3 start_W_, end_W_;
+};
+
+/// The tip runs on an arc in W, rotaries linear in s; `arc` is in W.
+class TipArc : public PathCurve {
+  public:
+    TipArc(const ToolCentrePoint& tcp, const AxisPositions& from, const AxisPositions& to,
+           const Vector3& start_W, const Vector3& end_W, const ArcPath& arc)
+        : tcp_(tcp), from_(from), to_(to), start_W_(start_W), end_W_(end_W), arc_(arc) {}
+    AxisPositions at(double s) const override;
+
+  private:
+    const ToolCentrePoint& tcp_;
+    const AxisPositions& from_;
+    const AxisPositions& to_;
+    Vector3 start_W_, end_W_;
+    ArcPath arc_;
 };
 
 /// G43.5 Q: the tool axis leans by `lean_rad` from n towards the direction of travel (assumed);

@@ -1,7 +1,7 @@
 // G43, G44, G49: tool length compensation, types A, B and C (5001#0, #1), move or shift (5006#6).
 #include "controller/tool_length.h"
 
-#include "controller/control_state.h"
+#include "controller/five_axis.h"
 #include "controller/g_codes.h"
 #include "controller/g_handlers.h"
 
@@ -38,6 +38,8 @@ void apply_tool_length(ControlState& c, const ControlPosition& length) {
 }
 
 void g_tool_length(ControlState& c, const GCode& code) {
+    const bool from_tcp = c.five_axis.tcp.has_value();
+    cancel_tool_centre(c);
     c.modal.set(ModalGroup::length, code.code10);
     if (c.words.has('H')) c.length_number = c.whole_word('H');
     ControlPosition length;
@@ -47,7 +49,13 @@ void g_tool_length(ControlState& c, const GCode& code) {
     }
     c.move.tool_offset = code.code10 == 490 ? 0 : c.length_number;
     c.move.tool_vector_mm = xyz_of(length);
+    if (c.five_axis.plane) length = tool_length_in_plane(c);
     apply_tool_length(c, length);
+    // G49 of G43.4 moves nothing: the axes stand where the tip was led to (assumed).
+    if (from_tcp && code.code10 == 490) {
+        c.length_moves = false;
+        c.frame_changed();
+    }
 }
 
 }  // namespace trunnion

@@ -6,6 +6,7 @@
 namespace trunnion {
 
 void g_work_offset(ControlState& c, const GCode& code) {
+    if (c.five_axis.tcp) raise_alarm(5421);
     // G54.1 Pn, and G54 Pn as the same.
     const bool additional =
         code.code10 == 541 || (code.code10 == 540 && c.words.has('P') && !c.words.has('L'));
