@@ -1,0 +1,164 @@
+#include "diagnosis/candidates.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace trunnion {
+namespace {
+
+/// A column that moves no reading by this many sigma when its parameter changes as usual is left out.
+constexpr double dead_column = 1e-6;
+constexpr double visible_part = 0.02;
+
+/// Prior precision of base parameters in units of their typical size: calibrated values sharp,
+/// others wide (twenty times the usual size) so that unseen directions stay where they are.
+Eigen::VectorXd base_precision(const BaseModel& model) {
+    Eigen::VectorXd precision(model.columns.cols());
+    for (std::size_t j = 0; j < model.parameters.size(); ++j) {
+        const FitParameter& p = model.parameters[j];
+        const double sigma = p.prior_sigma > 0.0 ? p.prior_sigma : 20.0 * p.typical;
+        precision(static_cast<Eigen::Index>(j)) = (p.typical / sigma) * (p.typical / sigma);
+    }
+    return precision;
+}
+
+}  // namespace
+
+bool has_keys(const Effect& effect) {
+    return std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                       [](const EffectParameter& p) { return p.is_key(); });
+}
+
+Design::Design(const Replay& replay, const BaseModel& base, const Whitener& whitener)
+    : replay_(replay), model_(base), whitener_(&whitener), base_(base.columns.cols()),
+      base_rank_(base.rank), raw_(base.columns) {}
+
+std::size_t Design::add(const Effect& effect, std::vector<double> keys, double log_prior) {
+    Candidate candidate;
+    candidate.effect = &effect;
+    candidate.first = raw_.cols() - base_;
+    candidate.log_prior = log_prior;
+    for (std::size_t j = 0; j < effect.parameters.size(); ++j) {
+        if (effect.parameters[j].is_key()) continue;
+        const Eigen::VectorXd column = effect_column(replay_, model_.gradient, effect, keys, j);
+        if (column.cwiseQuotient(model_.sigma_mm).norm() < dead_column) continue;
+        raw_.conservativeResize(Eigen::NoChange, raw_.cols() + 1);
+        raw_.col(raw_.cols() - 1) = column;
+        candidate.parameters.push_back(j);
+    }
+    candidate.values = std::move(keys);
+    candidates_.push_back(std::move(candidate));
+    return candidates_.size() - 1;
+}
+
+void Design::rewhiten(const Whitener& whitener) {
+    whitener_ = &whitener;
+    done_ = 0;
+    update();
+}
+
+void Design::update() {
+    const Eigen::Index all = raw_.cols(), fresh = all - done_;
+    if (done_ == 0) data_ = whitener_->apply(model_.residual_mm);
+    Eigen::MatrixXd part = raw_.rightCols(fresh);
+    whitener_->apply(part);
+    white_.conservativeResize(raw_.rows(), all);
+    white_.rightCols(fresh) = part;
+    full_.conservativeResize(all, all);
+    cross_.conservativeResize(all);
+    const auto old = white_.leftCols(done_);
+    full_.bottomRightCorner(fresh, fresh).setZero();
+    full_.bottomRightCorner(fresh, fresh).selfadjointView<Eigen::Lower>().rankUpdate(part.transpose());
+    full_.bottomRightCorner(fresh, fresh).triangularView<Eigen::StrictlyUpper>() =
+        full_.bottomRightCorner(fresh, fresh).transpose();
+    full_.bottomLeftCorner(fresh, done_).noalias() = part.transpose() * old;
+    full_.topRightCorner(done_, fresh) = full_.bottomLeftCorner(fresh, done_).transpose();
+    cross_.tail(fresh).noalias() = part.transpose() * data_;
+    done_ = all;
+
+    Eigen::MatrixXd base = full_.topLeftCorner(base_, base_);
+    base.diagonal() += base_precision(model_);
+    const Eigen::LLT<Eigen::MatrixXd> llt(base);
+    const Eigen::Index p = all - base_;
+    const Eigen::MatrixXd half = llt.matrixL().solve(full_.topRightCorner(base_, p));
+    const Eigen::VectorXd half_data = llt.matrixL().solve(cross_.head(base_));
+    gram_ = full_.bottomRightCorner(p, p);
+    gram_.noalias() -= half.transpose() * half;
+    product_ = cross_.tail(p) - half.transpose() * half_data;
+    energy_ = data_.squaredNorm() - half_data.squaredNorm();
+    for (Candidate& c : candidates_) {
+        const double whole = full_.diagonal().segment(base_ + c.first, c.size()).sum();
+        const double seen = gram_.diagonal().segment(c.first, c.size()).sum();
+        c.visible = c.size() > 0 && seen > visible_part * visible_part * whole && seen > 1e-4;
+    }
+}
+
+Eigen::VectorXd Design::solve(const std::vector<Eigen::Index>& columns, double scale) const {
+    const auto p = static_cast<Eigen::Index>(columns.size());
+    Eigen::MatrixXd a(base_ + p, base_ + p);
+    Eigen::VectorXd b(base_ + p);
+    const auto place = [&](Eigen::Index k) {
+        return k < base_ ? k : base_ + columns[static_cast<std::size_t>(k - base_)];
+    };
+    for (Eigen::Index i = 0; i < a.rows(); ++i) {
+        b(i) = cross_(place(i));
+        for (Eigen::Index j = 0; j < a.cols(); ++j) a(i, j) = full_(place(i), place(j));
+    }
+    a.diagonal().head(base_) += base_precision(model_);
+    a.diagonal().tail(p).array() += 1.0 / (scale * scale);
+    return a.llt().solve(b);
+}
+
+std::vector<std::vector<double>> best_keys(const Replay& replay, const BaseModel& base,
+                                           const Effect& effect, const Eigen::VectorXd& left_mm,
+                                           const Eigen::VectorXd& sigma_mm, int count) {
+    struct Found {
+        std::vector<double> keys;
+        double gain;
+        std::size_t order;
+    };
+    std::vector<Found> found;
+    std::vector<std::size_t> key, linear;
+    for (std::size_t j = 0; j < effect.parameters.size(); ++j)
+        (effect.parameters[j].is_key() ? key : linear).push_back(j);
+    const Eigen::VectorXd weight = sigma_mm.cwiseInverse();
+    const Eigen::VectorXd left = left_mm.cwiseProduct(weight);
+    std::vector<std::size_t> at(key.size(), 0);
+    const auto m = static_cast<Eigen::Index>(linear.size());
+    for (std::size_t order = 0;; ++order) {
+        std::vector<double> values = effect.zeros();
+        for (std::size_t k = 0; k < key.size(); ++k)
+            values[key[k]] = effect.parameters[key[k]].grid[at[k]];
+        Eigen::MatrixXd a(left.size(), m);
+        for (Eigen::Index c = 0; c < m; ++c)
+            a.col(c) = effect_column(replay, base.gradient, effect, values,
+                                     linear[static_cast<std::size_t>(c)])
+                           .cwiseProduct(weight);
+        Eigen::MatrixXd information = a.transpose() * a;
+        if (information.trace() > 1e-9) {
+            const Eigen::VectorXd h = a.transpose() * left;
+            information.diagonal().array() += 1.0;
+            found.push_back({values, h.dot(information.ldlt().solve(h)), order});
+        }
+        std::size_t k = 0;
+        while (k < key.size() && ++at[k] == effect.parameters[key[k]].grid.size()) at[k++] = 0;
+        if (k == key.size()) break;
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Found& a, const Found& b) { return a.gain > b.gain; });
+    std::vector<std::vector<double>> best;
+    std::vector<std::size_t> taken;
+    for (const Found& f : found) {
+        if (static_cast<int>(best.size()) == count) break;
+        const bool near = std::any_of(taken.begin(), taken.end(), [&](std::size_t o) {
+            return f.order + 1 >= o && f.order <= o + 1;
+        });
+        if (near) continue;
+        best.push_back(f.keys);
+        taken.push_back(f.order);
+    }
+    return best;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,71 @@
+// The columns of all candidate effects: derivatives of the readings, whitened, with their Gram matrix.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "diagnosis/noise.h"
+#include "identification/base_model.h"
+
+namespace trunnion {
+
+/// One effect with its keys fixed: a block of columns, each for one typical change.
+struct Candidate {
+    const Effect* effect = nullptr;
+    std::vector<double> values;          ///< keys; linear parameters 0
+    std::vector<std::size_t> parameters; ///< of the effect, one for each column
+    Eigen::Index first = 0;              ///< column of the Gram matrix
+    Eigen::Index size() const { return static_cast<Eigen::Index>(parameters.size()); }
+    double log_prior = 0.0;
+    bool visible = true;
+};
+
+/// Base columns first, then those of the candidates; each whitened. `data` is the whitened residual.
+class Design {
+  public:
+    Design(const Replay& replay, const BaseModel& base, const Whitener& whitener);
+
+    /// Adds a candidate; returns its index. Parameters that cannot change any reading have no column.
+    std::size_t add(const Effect& effect, std::vector<double> keys, double log_prior);
+    /// Whitens everything anew, for another noise model or other row weights.
+    void rewhiten(const Whitener& whitener);
+    /// Works out Gram matrix and projections of what was added since.
+    void update();
+
+    const std::vector<Candidate>& candidates() const { return candidates_; }
+    Eigen::Index base_count() const { return base_; }
+    Eigen::Index rows() const { return data_.size(); }
+
+    // With the base projected out (set-up free, calibrated values with their prior):
+    const Eigen::MatrixXd& gram() const { return gram_; }      ///< of all candidate columns
+    const Eigen::VectorXd& product() const { return product_; }  ///< columns . data
+    double energy() const { return energy_; }                  ///< data . data
+    double freedom() const { return static_cast<double>(rows()) - static_cast<double>(base_rank_); }
+
+    const Eigen::MatrixXd& raw() const { return raw_; }  ///< unwhitened columns, base first, mm
+    /// Solution for base and the given columns (candidate numbering), ridge 1 / (scale^2).
+    Eigen::VectorXd solve(const std::vector<Eigen::Index>& columns, double scale) const;
+
+  private:
+    const Replay& replay_;
+    const BaseModel& model_;
+    const Whitener* whitener_;
+    Eigen::Index base_ = 0, done_ = 0;
+    int base_rank_ = 0;
+    Eigen::MatrixXd raw_, white_, full_;
+    Eigen::VectorXd data_, cross_;
+    std::vector<Candidate> candidates_;
+    Eigen::MatrixXd gram_;
+    Eigen::VectorXd product_;
+    double energy_ = 0.0;
+};
+
+/// Gain of the best few key settings of a keyed effect on the residual `left_mm`, without
+/// projection: where to look. Returns up to `count` settings, best first, not next to each other.
+std::vector<std::vector<double>> best_keys(const Replay& replay, const BaseModel& base,
+                                           const Effect& effect, const Eigen::VectorXd& left_mm,
+                                           const Eigen::VectorXd& sigma_mm, int count);
+bool has_keys(const Effect& effect);
+
+}  // namespace trunnion

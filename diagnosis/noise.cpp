@@ -1,0 +1,134 @@
+#include "diagnosis/noise.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+namespace trunnion {
+namespace {
+
+Eigen::MatrixXd touch_covariance(const Replay& replay, const std::vector<Eigen::Index>& rows,
+                                 const DeviceNoise& noise) {
+    const auto n = static_cast<Eigen::Index>(rows.size());
+    Eigen::MatrixXd v(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < n; ++j) {
+            const Vector3& a = replay.contact(static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])).direction_M;
+            const Vector3& b = replay.contact(static_cast<std::size_t>(rows[static_cast<std::size_t>(j)])).direction_M;
+            v(i, j) = noise.scale * noise.scale *
+                      (noise.shared * a.dot(b) + (i == j ? 1.0 - noise.shared : 0.0));
+        }
+    return v;
+}
+
+/// Innovations of "memory + white": what the Kalman filter of the shared state expects at each step.
+struct PassFilter {
+    explicit PassFilter(const DeviceNoise& noise)
+        : memory(noise.memory),
+          shared(noise.scale * noise.scale * noise.shared),
+          white(noise.scale * noise.scale * (1.0 - noise.shared) + 1e-12),
+          variance(shared) {}
+
+    double memory, shared, white;
+    double variance;        ///< of the predicted state
+    double gain = 0.0, deviation = 1.0;
+
+    void step() {
+        const double s = variance + white;
+        gain = variance / s;
+        deviation = std::sqrt(s);
+        const double left = variance * (1.0 - gain);
+        variance = memory * memory * left + (1.0 - memory * memory) * shared;
+    }
+};
+
+}  // namespace
+
+const DeviceNoise& NoiseModel::of(Device device) const {
+    return device == Device::sphere ? sphere : device == Device::touch ? touch : ballbar;
+}
+DeviceNoise& NoiseModel::of(Device device) {
+    return device == Device::sphere ? sphere : device == Device::touch ? touch : ballbar;
+}
+
+std::vector<NoiseBlock> noise_blocks(const Replay& replay, const ReadingTable& table) {
+    std::vector<NoiseBlock> blocks;
+    std::map<std::string, std::size_t> open;  // by test
+    std::size_t last_row = 0;
+    for (std::size_t i = 0; i < replay.size(); ++i) {
+        const Reading& row = table.rows[replay.table_row(i)];
+        const auto it = open.find(row.test);
+        bool same = it != open.end() && blocks[it->second].device == row.device;
+        if (same && row.device != Device::ballbar) {
+            const auto before = static_cast<std::size_t>(blocks[it->second].rows.back());
+            const Reading& other = table.rows[replay.table_row(before)];
+            same = before + 1 == i && replay.table_row(i) == last_row + 1 &&
+                   other.feature == row.feature && other.mode == row.mode &&
+                   blocks[it->second].rows.size() < 64;
+            for (const Axis axis : table.axes)
+                if (is_rotary(axis)) same = same && other.commanded[axis] == row.commanded[axis];
+            if (row.device == Device::sphere) same = same && other.time_s == row.time_s;
+        }
+        if (!same) {
+            open[row.test] = blocks.size();
+            blocks.push_back({row.device, {}});
+        }
+        blocks[open[row.test]].rows.push_back(static_cast<Eigen::Index>(i));
+        last_row = replay.table_row(i);
+    }
+    return blocks;
+}
+
+Whitener::Whitener(const Replay& replay, std::vector<NoiseBlock> blocks, const NoiseModel& noise,
+                   const Eigen::VectorXd& sigma_mm)
+    : replay_(replay), blocks_(std::move(blocks)), noise_(noise), sigma_mm_(sigma_mm) {}
+
+void Whitener::whiten_touches(const NoiseBlock& block, Eigen::MatrixXd& m) const {
+    const auto n = static_cast<Eigen::Index>(block.rows.size());
+    Eigen::MatrixXd part(n, m.cols());
+    for (Eigen::Index k = 0; k < n; ++k) part.row(k) = m.row(block.rows[static_cast<std::size_t>(k)]);
+    const Eigen::LLT<Eigen::MatrixXd> llt(touch_covariance(replay_, block.rows, noise_.touch));
+    llt.matrixL().solveInPlace(part);
+    for (Eigen::Index k = 0; k < n; ++k) m.row(block.rows[static_cast<std::size_t>(k)]) = part.row(k);
+}
+
+void Whitener::whiten_pass(const NoiseBlock& block, Eigen::MatrixXd& m) const {
+    PassFilter steady(noise_.ballbar);
+    std::vector<double> gain, inverse;
+    for (std::size_t k = 0; k < block.rows.size(); ++k) {
+        steady.step();
+        gain.push_back(steady.gain);
+        inverse.push_back(1.0 / steady.deviation);
+    }
+    for (Eigen::Index c = 0; c < m.cols(); ++c) {
+        double state = 0.0;
+        for (std::size_t k = 0; k < block.rows.size(); ++k) {
+            double& entry = m(block.rows[k], c);
+            const double innovation = entry - state;
+            state = noise_.ballbar.memory * (state + gain[k] * innovation);
+            entry = innovation * inverse[k];
+        }
+    }
+}
+
+void Whitener::apply(Eigen::MatrixXd& m) const {
+    m = sigma_mm_.cwiseInverse().asDiagonal() * m;
+    for (const NoiseBlock& block : blocks_) {
+        const DeviceNoise& noise = noise_.of(block.device);
+        if (noise.shared > 0.0 && block.device == Device::touch) {
+            whiten_touches(block, m);
+        } else if (noise.shared > 0.0 && block.device == Device::ballbar) {
+            whiten_pass(block, m);
+        } else {
+            for (const Eigen::Index row : block.rows) m.row(row) /= noise.scale;
+        }
+    }
+}
+
+Eigen::VectorXd Whitener::apply(const Eigen::VectorXd& v) const {
+    Eigen::MatrixXd m = v;
+    apply(m);
+    return m.col(0);
+}
+
+}  // namespace trunnion

@@ -1,0 +1,73 @@
+// The noise of readings: how large, and how neighbours share it.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "emulator/replay.h"
+
+namespace trunnion {
+
+enum class NoiseSource : unsigned char { given, repeats, assumed };
+
+/// Covariance of one device's readings, in units of each row's stated sigma:
+///   sphere   scale^2
+///   touch    scale^2 ((1 - shared) delta + shared n_i . n_j) within the touches of one pose
+///   ballbar  scale^2 ((1 - shared) delta + shared memory^|i - j|) along one pass
+struct DeviceNoise {
+    double scale = 1.0;
+    double shared = 0.0;  ///< part of the variance that neighbours share
+    double memory = 0.9;  ///< of the shared part, from one ballbar sample to the next
+};
+
+struct NoiseModel {
+    DeviceNoise sphere, touch, ballbar;
+    NoiseSource source = NoiseSource::given;
+    const DeviceNoise& of(Device device) const;
+    DeviceNoise& of(Device device);
+};
+
+/// Device rows that share an error: the touches (or components) of one pose, the samples of one
+/// ballbar pass. Each device row is in exactly one.
+struct NoiseBlock {
+    Device device = Device::none;
+    std::vector<Eigen::Index> rows;
+};
+std::vector<NoiseBlock> noise_blocks(const Replay& replay, const ReadingTable& table);
+
+/// Multiplies by the inverse square root of the noise covariance, block by block.
+class Whitener {
+  public:
+    Whitener(const Replay& replay, std::vector<NoiseBlock> blocks, const NoiseModel& noise,
+             const Eigen::VectorXd& sigma_mm);
+    /// Every column of `m` (mm) becomes independent with variance 1.
+    void apply(Eigen::MatrixXd& m) const;
+    Eigen::VectorXd apply(const Eigen::VectorXd& v) const;
+
+  private:
+    void whiten_touches(const NoiseBlock& block, Eigen::MatrixXd& m) const;
+    void whiten_pass(const NoiseBlock& block, Eigen::MatrixXd& m) const;
+
+    const Replay& replay_;
+    std::vector<NoiseBlock> blocks_;
+    NoiseModel noise_;
+    Eigen::VectorXd sigma_mm_;
+};
+
+/// Noise from repeated poses and repeated passes: the differences of their residuals, freed of a
+/// shift between the two. Devices without enough repeats keep what `start` says; `source` tells
+/// whether repeats set it.
+NoiseModel noise_from_repeats(const Replay& replay, const ReadingTable& table,
+                              const std::vector<NoiseBlock>& blocks,
+                              const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& sigma_mm,
+                              const NoiseModel& start);
+
+/// Noise from what a fit left over, by maximum likelihood: shared part, memory and a scale within
+/// 0.6..1.45 of what was stated. `freedom` = share of the rows' freedom that the fit left.
+NoiseModel noise_from_residuals(const Replay& replay, const std::vector<NoiseBlock>& blocks,
+                                const Eigen::VectorXd& residual_mm,
+                                const Eigen::VectorXd& sigma_mm, const NoiseModel& start,
+                                double freedom);
+
+}  // namespace trunnion

@@ -1,0 +1,255 @@
+// Estimates of the noise model: from repeats, or from what a fit left over.
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <nlopt.hpp>
+#include <tuple>
+
+#include "diagnosis/noise.h"
+
+namespace trunnion {
+namespace {
+
+/// A stretch of values that follow one device's noise model, in units of sigma, with the rows whose
+/// directions shape the shared part.
+struct Stretch {
+    std::vector<Eigen::Index> rows;
+    Eigen::VectorXd value;
+};
+
+double touch_likelihood(const Replay& replay, const Stretch& s, const DeviceNoise& noise) {
+    const auto n = s.value.size();
+    Eigen::MatrixXd v(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+        for (Eigen::Index j = 0; j < n; ++j) {
+            const auto a = static_cast<std::size_t>(s.rows[static_cast<std::size_t>(i)]);
+            const auto b = static_cast<std::size_t>(s.rows[static_cast<std::size_t>(j)]);
+            const double along =
+                replay.contact(a).direction_M.dot(replay.contact(b).direction_M);
+            v(i, j) = noise.shared * along + (i == j ? 1.0 - noise.shared + 1e-9 : 0.0);
+        }
+    const Eigen::LLT<Eigen::MatrixXd> llt(v);
+    const Eigen::VectorXd w = llt.matrixL().solve(s.value);
+    const double log_scale = std::log(noise.scale);
+    return -w.squaredNorm() / (2.0 * noise.scale * noise.scale) -
+           static_cast<double>(n) * log_scale -
+           llt.matrixLLT().diagonal().array().log().sum();
+}
+
+double pass_likelihood(const Stretch& s, const DeviceNoise& noise) {
+    const double scale2 = noise.scale * noise.scale;
+    const double shared = scale2 * noise.shared, white = scale2 * (1.0 - noise.shared) + 1e-12;
+    double variance = shared, state = 0.0, sum = 0.0;
+    for (Eigen::Index k = 0; k < s.value.size(); ++k) {
+        const double expected = variance + white, innovation = s.value(k) - state;
+        sum -= 0.5 * (innovation * innovation / expected + std::log(expected));
+        const double gain = variance / expected;
+        state = noise.memory * (state + gain * innovation);
+        variance = noise.memory * noise.memory * variance * (1.0 - gain) +
+                   (1.0 - noise.memory * noise.memory) * shared;
+    }
+    return sum;
+}
+
+double likelihood(const Replay& replay, Device device, const std::vector<Stretch>& stretches,
+                  const DeviceNoise& noise) {
+    double sum = 0.0;
+    for (const Stretch& s : stretches)
+        sum += device == Device::ballbar ? pass_likelihood(s, noise)
+               : device == Device::touch ? touch_likelihood(replay, s, noise)
+                                         : -s.value.squaredNorm() / (2.0 * noise.scale * noise.scale) -
+                                               static_cast<double>(s.value.size()) *
+                                                   std::log(noise.scale);
+    return sum;
+}
+
+double rms(const std::vector<Stretch>& stretches) {
+    double sum = 0.0, count = 0.0;
+    for (const Stretch& s : stretches) {
+        sum += s.value.squaredNorm();
+        count += static_cast<double>(s.value.size());
+    }
+    return std::sqrt(sum / std::max(1.0, count));
+}
+
+/// Maximum likelihood within bounds on the scale; the shared part must win by `worth` nats.
+DeviceNoise estimate(const Replay& replay, Device device, const std::vector<Stretch>& stretches,
+                     double low, double high) {
+    DeviceNoise plain;
+    plain.scale = std::clamp(rms(stretches), low, high);
+    plain.shared = 0.0;
+    if (device == Device::sphere) return plain;
+    DeviceNoise best = plain;
+    double most = likelihood(replay, device, stretches, plain) + 4.0;
+    const bool pass = device == Device::ballbar;
+    for (const double memory : pass ? std::vector<double>{0.6, 0.9, 0.97} : std::vector<double>{0.0}) {
+        nlopt::opt search(nlopt::LN_NELDERMEAD, pass ? 3 : 2);
+        const auto noise_of = [&](const std::vector<double>& x) {
+            return DeviceNoise{x[0], x[1], pass ? x[2] : 0.0};
+        };
+        struct Context {
+            std::function<double(const std::vector<double>&)> value;
+        } context{[&](const std::vector<double>& x) {
+            return likelihood(replay, device, stretches, noise_of(x));
+        }};
+        search.set_max_objective(
+            [](const std::vector<double>& x, std::vector<double>&, void* data) {
+                return static_cast<Context*>(data)->value(x);
+            },
+            &context);
+        std::vector<double> lower{low, 0.0}, upper{high, 0.98}, x{plain.scale, 0.4};
+        if (pass) {
+            lower.push_back(0.2);
+            upper.push_back(0.995);
+            x.push_back(memory);
+        }
+        search.set_lower_bounds(lower);
+        search.set_upper_bounds(upper);
+        search.set_xtol_abs(2e-3);
+        search.set_maxeval(60);
+        double value = 0.0;
+        search.optimize(x, value);
+        if (value <= most) continue;
+        most = value;
+        best = noise_of(x);
+    }
+    return best;
+}
+
+/// What makes two device rows repeats of each other, but for the pass they belong to.
+using Key = std::tuple<int, int, int, std::vector<long>, std::vector<int>>;
+
+Key key_of(const Replay& replay, const ReadingTable& table, std::size_t i) {
+    const Contact& contact = replay.contact(i);
+    const AxisSample& sample = replay.sample(i);
+    std::vector<long> place;
+    std::vector<int> travel;
+    for (const Axis axis : table.axes) {
+        place.push_back(std::lround(sample.position[axis] * 1e5));
+        if (is_rotary(axis) || contact.device == Device::ballbar)
+            travel.push_back(sample.travel[index_of(axis)]);
+    }
+    if (contact.device != Device::ballbar)
+        for (int d = 0; d < 3; ++d) place.push_back(std::lround(contact.direction_M(d) * 1e3));
+    place.push_back(std::lround(sample.feed_mm_min));
+    place.push_back(std::lround(sample.load_kg * 10.0));
+    place.push_back(std::lround(sample.spindle_rad * 100.0));
+    place.push_back(sample.clamped ? 1 : 0);
+    return {static_cast<int>(contact.device), contact.artefact, static_cast<int>(sample.mode), place,
+            travel};
+}
+
+/// Pairs of blocks that repeat each other row by row.
+std::vector<std::pair<std::size_t, std::size_t>> repeated_blocks(
+    const Replay& replay, const ReadingTable& table, const std::vector<NoiseBlock>& blocks) {
+    std::map<std::vector<Key>, std::size_t> seen;
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        std::vector<Key> keys;
+        for (const Eigen::Index i : blocks[b].rows)
+            keys.push_back(key_of(replay, table, static_cast<std::size_t>(i)));
+        const auto [it, fresh] = seen.try_emplace(keys, b);
+        if (fresh) continue;
+        pairs.emplace_back(it->second, b);
+        it->second = b;
+    }
+    return pairs;
+}
+
+/// Takes out of all differences together what a shift of the machine between passes leaves: for
+/// each stretch (ballbar) or over all (probe) a constant vector, growing with time for the probe.
+void remove_shift(const Replay& replay, Device device, std::vector<Stretch>& stretches) {
+    const auto detrend = [&](std::vector<Stretch*> group, bool with_time) {
+        Eigen::Index n = 0;
+        for (const Stretch* s : group) n += s->value.size();
+        const int p = with_time ? 6 : 3;
+        if (n < 2 * p) return;
+        Eigen::MatrixXd a(n, p);
+        Eigen::VectorXd y(n);
+        Eigen::Index at = 0;
+        for (const Stretch* s : group)
+            for (Eigen::Index k = 0; k < s->value.size(); ++k, ++at) {
+                const auto i = static_cast<std::size_t>(s->rows[static_cast<std::size_t>(k)]);
+                a.row(at).head<3>() = replay.contact(i).direction_M.transpose();
+                if (with_time)
+                    a.row(at).tail<3>() = a.row(at).head<3>() * (replay.sample(i).time_s * 1e-4);
+                y(at) = s->value(k);
+            }
+        Eigen::MatrixXd normal = a.transpose() * a;
+        normal.diagonal().array() += 1e-9;
+        const Eigen::VectorXd x = normal.ldlt().solve(a.transpose() * y);
+        const Eigen::VectorXd left =
+            (y - a * x) * std::sqrt(static_cast<double>(n) / static_cast<double>(n - p));
+        at = 0;
+        for (Stretch* s : group)
+            for (Eigen::Index k = 0; k < s->value.size(); ++k) s->value(k) = left(at++);
+    };
+    if (device == Device::ballbar) {
+        for (Stretch& s : stretches) detrend({&s}, false);
+        return;
+    }
+    std::vector<Stretch*> all;
+    for (Stretch& s : stretches) all.push_back(&s);
+    detrend(all, true);
+}
+
+}  // namespace
+
+NoiseModel noise_from_repeats(const Replay& replay, const ReadingTable& table,
+                              const std::vector<NoiseBlock>& blocks,
+                              const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& sigma_mm,
+                              const NoiseModel& start) {
+    NoiseModel noise = start;
+    std::map<Device, std::vector<Stretch>> stretches;
+    for (const auto& [first, second] : repeated_blocks(replay, table, blocks)) {
+        Stretch s;
+        s.rows = blocks[second].rows;
+        s.value.resize(static_cast<Eigen::Index>(s.rows.size()));
+        for (std::size_t k = 0; k < s.rows.size(); ++k) {
+            const Eigen::Index a = blocks[first].rows[k], b = s.rows[k];
+            s.value(static_cast<Eigen::Index>(k)) =
+                (residual_mm(b) - residual_mm(a)) / (std::sqrt(2.0) * sigma_mm(b));
+        }
+        stretches[blocks[second].device].push_back(std::move(s));
+    }
+    std::map<Device, std::size_t> present;
+    for (const NoiseBlock& block : blocks) present[block.device] += block.rows.size();
+    bool all = !present.empty();
+    for (const auto& [device, rows] : present) {
+        auto& list = stretches[device];
+        std::size_t count = 0;
+        for (const Stretch& s : list) count += static_cast<std::size_t>(s.value.size());
+        if (count < 30) {
+            all = false;
+            continue;
+        }
+        remove_shift(replay, device, list);
+        for (Stretch& s : list)  // a few wild differences must not set the noise
+            s.value = s.value.cwiseMax(-6.0).cwiseMin(6.0);
+        noise.of(device) = estimate(replay, device, list, 0.05, 4.0);
+    }
+    if (all) noise.source = NoiseSource::repeats;
+    return noise;
+}
+
+NoiseModel noise_from_residuals(const Replay& replay, const std::vector<NoiseBlock>& blocks,
+                                const Eigen::VectorXd& residual_mm,
+                                const Eigen::VectorXd& sigma_mm, const NoiseModel& start,
+                                double freedom) {
+    NoiseModel noise = start;
+    std::map<Device, std::vector<Stretch>> stretches;
+    for (const NoiseBlock& block : blocks) {
+        Stretch s;
+        s.rows = block.rows;
+        s.value.resize(static_cast<Eigen::Index>(s.rows.size()));
+        for (std::size_t k = 0; k < s.rows.size(); ++k) {
+            const double z = residual_mm(s.rows[k]) / sigma_mm(s.rows[k]);
+            s.value(static_cast<Eigen::Index>(k)) = std::clamp(z, -5.0, 5.0) / std::sqrt(freedom);
+        }
+        stretches[block.device].push_back(std::move(s));
+    }
+    for (auto& [device, list] : stretches) noise.of(device) = estimate(replay, device, list, 0.6, 1.45);
+    return noise;
+}
+
+}  // namespace trunnion

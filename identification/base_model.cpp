@@ -1,0 +1,331 @@
+#include "identification/base_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "effects/settings.h"
+#include "geometry/alarm.h"
+#include "identification/least_squares.h"
+
+namespace trunnion {
+namespace {
+
+constexpr double absurd_mm = 5.0;  ///< a residual that no machine has: units, frame or setup wrong
+
+/// Where the unknowns of a fit live: first those of effects, then those of the set-up.
+class Unknowns {
+  public:
+    Unknowns(const Setup& setup, const Replay& replay, const Catalogue& catalogue,
+             const std::vector<std::string>& effects)
+        : setup_(setup) {
+        for (const std::string& name : effects) add_effect_unknowns(catalogue, name);
+        add_set_up(replay);
+    }
+
+    struct Slot {
+        const Effect* effect = nullptr;  ///< nullptr: set-up
+        std::size_t parameter = 0;       ///< of the effect
+        int artefact = -1, axis = 0;     ///< set-up: artefact centre, else the cup (axis < 3) or length
+        FitParameter fit;
+    };
+    const std::vector<Slot>& slots() const { return slots_; }
+
+  private:
+    void add_effect_unknowns(const Catalogue& catalogue, const std::string& name) {
+        const Effect* effect = find_effect(catalogue, name);
+        if (!effect) throw InputError("no effect is named '" + name + "'", {setup_.path, 0, 0});
+        for (std::size_t j = 0; j < effect->parameters.size(); ++j) {
+            const EffectParameter& p = effect->parameters[j];
+            if (p.is_key()) continue;
+            Slot slot;
+            slot.effect = effect;
+            slot.parameter = j;
+            slot.fit = {name, p.name, p.unit, p.component, p.typical, 0.0, 0.0, 0.0, 0.0};
+            add_prior(slot.fit);
+            slots_.push_back(slot);
+        }
+    }
+
+    void add_prior(FitParameter& fit) const {
+        if (fit.effect != "location") return;
+        const auto it = setup_.model.calibration.find(fit.name.substr(0, 4));
+        if (it == setup_.model.calibration.end()) return;
+        fit.prior_value = it->second.value;
+        fit.prior_sigma = it->second.sigma;
+    }
+
+    void add_set_up(const Replay& replay) {
+        std::vector<bool> used(setup_.artefacts.size(), false);
+        bool bar = false;
+        for (std::size_t i = 0; i < replay.size(); ++i) {
+            used[static_cast<std::size_t>(replay.contact(i).artefact)] = true;
+            bar = bar || replay.contact(i).device == Device::ballbar;
+        }
+        for (std::size_t k = 0; k < used.size(); ++k)
+            if (used[k] && setup_.artefacts[k].free_center)
+                for (int d = 0; d < 3; ++d)
+                    push_set_up(setup_.artefacts[k].name + "." + "xyz"[d] + "_mm",
+                                static_cast<int>(k), d);
+        if (bar && setup_.ballbar->free_cup)
+            for (int d = 0; d < 3; ++d) push_set_up(std::string("cup.") + "xyz"[d] + "_mm", -1, d);
+        if (bar && setup_.ballbar->free_length) push_set_up("length_mm", -1, 3);
+    }
+
+    void push_set_up(const std::string& name, int artefact, int axis) {
+        Slot slot;
+        slot.artefact = artefact;
+        slot.axis = axis;
+        slot.fit = {"setup", name, "mm", -1, 0.1, 0.0, 0.0, 0.0, 0.0};
+        slots_.push_back(slot);
+    }
+
+    const Setup& setup_;
+    std::vector<Slot> slots_;
+};
+
+using Slot = Unknowns::Slot;
+
+double set_up_derivative(const Slot& slot, const Contact& contact, const Perturbation& gradient) {
+    if (slot.artefact >= 0)
+        return contact.artefact == slot.artefact ? gradient.work_shift_mm(slot.axis) : 0.0;
+    if (contact.device != Device::ballbar) return 0.0;
+    return slot.axis < 3 ? gradient.tip_shift_mm(slot.axis) : -1.0;
+}
+
+Eigen::MatrixXd columns_of(const std::vector<Slot>& slots, const Replay& replay,
+                           const std::vector<Perturbation>& gradient) {
+    const auto n = static_cast<Eigen::Index>(replay.size());
+    Eigen::MatrixXd columns(n, static_cast<Eigen::Index>(slots.size()));
+    for (std::size_t j = 0; j < slots.size(); ++j) {
+        const auto c = static_cast<Eigen::Index>(j);
+        if (slots[j].effect) {
+            columns.col(c) = effect_column(replay, gradient, *slots[j].effect,
+                                           slots[j].effect->zeros(), slots[j].parameter);
+            continue;
+        }
+        for (std::size_t i = 0; i < replay.size(); ++i)
+            columns(static_cast<Eigen::Index>(i), c) =
+                slots[j].fit.typical * set_up_derivative(slots[j], replay.contact(i), gradient[i]);
+    }
+    return columns;
+}
+
+/// Applies a step of the fit (in units) to the setup.
+void apply_step(Setup& setup, const std::vector<Slot>& slots, const Eigen::VectorXd& step) {
+    std::map<const Effect*, std::vector<double>> by_effect;
+    for (std::size_t j = 0; j < slots.size(); ++j) {
+        const double by = step(static_cast<Eigen::Index>(j));
+        const Slot& slot = slots[j];
+        if (slot.effect) {
+            auto& values = by_effect[slot.effect];
+            if (values.empty()) values = slot.effect->zeros();
+            values[slot.parameter] = by;
+        } else if (slot.artefact >= 0) {
+            setup.artefacts[static_cast<std::size_t>(slot.artefact)].center_W_mm(slot.axis) += by;
+        } else if (slot.axis < 3) {
+            setup.ballbar->cup_S_mm(slot.axis) += by;
+        } else {
+            setup.ballbar->length_mm += by;
+        }
+    }
+    for (const auto& [effect, values] : by_effect) add_effect(setup, *effect, values);
+}
+
+/// Difference to the setup's own set-up quantities: the replay keeps those of the file.
+ReplayOffsets offsets_between(const Setup& from, const Setup& to) {
+    ReplayOffsets offsets;
+    for (std::size_t k = 0; k < from.artefacts.size(); ++k)
+        offsets.artefact_W.push_back(to.artefacts[k].center_W_mm - from.artefacts[k].center_W_mm);
+    if (!from.ballbar) return offsets;
+    offsets.cup_S = to.ballbar->cup_S_mm - from.ballbar->cup_S_mm;
+    offsets.length = to.ballbar->length_mm - from.ballbar->length_mm;
+    return offsets;
+}
+
+Eigen::VectorXd residual(const BaseModel& model, const Replay& replay, const Setup& setup) {
+    const std::vector<double> value = replay.predict(
+        setup.machine, offsets_between(replay.setup(), setup), active_models(setup));
+    return model.measured_mm -
+           Eigen::Map<const Eigen::VectorXd>(value.data(), static_cast<Eigen::Index>(value.size()));
+}
+
+double location_value(const Setup& setup, const FitParameter& fit) {
+    const auto name = parse_error_name(fit.name.substr(0, 4));
+    return name ? setup.machine.errors.location(*name) : 0.0;
+}
+
+/// Weight of each row: 1 / sigma, less for rows that stand out (Huber at 3 sigma of the median).
+Eigen::VectorXd row_weights(const BaseModel& model, const Eigen::VectorXd& r) {
+    std::vector<double> size;
+    for (Eigen::Index i = 0; i < r.size(); ++i) size.push_back(std::abs(r(i)) / model.sigma_mm(i));
+    std::vector<double> sorted = size;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<long>(sorted.size() / 2),
+                     sorted.end());
+    const double limit = 3.0 * std::max(1.0, 1.4826 * sorted[sorted.size() / 2]);
+    Eigen::VectorXd weight = model.sigma_mm.cwiseInverse();
+    for (Eigen::Index i = 0; i < r.size(); ++i) {
+        const double s = size[static_cast<std::size_t>(i)];
+        if (s > limit) weight(i) *= std::sqrt(limit / s);
+    }
+    return weight;
+}
+
+void take_measured(BaseModel& model, const ReadingTable& table, const Replay& replay) {
+    const auto n = static_cast<Eigen::Index>(replay.size());
+    model.measured_mm.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const Reading& row = table.rows[replay.table_row(static_cast<std::size_t>(i))];
+        if (!row.value_mm)
+            throw InputError("a row with a device but without value_mm", {"readings", row.line, 0});
+        model.measured_mm(i) = *row.value_mm;
+    }
+}
+
+void refuse_absurd(const BaseModel& model, const Replay& replay, const ReadingTable& table) {
+    Eigen::Index worst = 0;
+    const double most = model.residual_mm.cwiseAbs().maxCoeff(&worst);
+    if (most < absurd_mm) return;
+    const Reading& row = table.rows[replay.table_row(static_cast<std::size_t>(worst))];
+    throw InputError(fmt::format("a residual of {:.3g} mm after fitting: wrong units, frame, or the "
+                                 "setup of another machine",
+                                 most),
+                     {"readings", row.line, 0});
+}
+
+void name_null_space(BaseModel& model, const std::vector<Slot>& slots, const LinearFit& fit) {
+    for (const Eigen::VectorXd& v : fit.null_space) {
+        Inseparable group;
+        double largest = 0.0;
+        for (Eigen::Index j = 0; j < v.size(); ++j) {
+            const FitParameter& p = slots[static_cast<std::size_t>(j)].fit;
+            if (v(j) == 0.0) continue;
+            group.names.push_back(p.effect == "setup" ? p.name : p.effect + "." + p.name);
+            group.direction.push_back(v(j) * p.typical);
+            largest = std::max(largest, std::abs(v(j) * p.typical));
+        }
+        for (double& d : group.direction) d /= largest;
+        model.inseparable.push_back(group);
+    }
+}
+
+}  // namespace
+
+RowNoise row_noise(const Setup& setup, const ReadingTable& table, const Replay& replay) {
+    static const std::map<Device, std::pair<const char*, double>> usual_um{
+        {Device::sphere, {"sphere", 1.0}}, {Device::touch, {"touch", 1.0}},
+        {Device::ballbar, {"ballbar", 0.5}}};
+    RowNoise noise;
+    noise.sigma_mm.resize(static_cast<Eigen::Index>(replay.size()));
+    for (std::size_t i = 0; i < replay.size(); ++i) {
+        const Reading& row = table.rows[replay.table_row(i)];
+        const auto& [name, otherwise_um] = usual_um.at(row.device);
+        const auto it = setup.model.noise_um.find(name);
+        double sigma_mm = 1e-3 * (it == setup.model.noise_um.end() ? otherwise_um : it->second);
+        if (row.sigma_mm && *row.sigma_mm > 0.0) sigma_mm = *row.sigma_mm;
+        else if (it == setup.model.noise_um.end()) noise.given = false;
+        noise.sigma_mm(static_cast<Eigen::Index>(i)) = std::max(sigma_mm, 1e-6);
+    }
+    return noise;
+}
+
+Eigen::VectorXd effect_column(const Replay& replay, const std::vector<Perturbation>& gradient,
+                              const Effect& effect, const std::vector<double>& values,
+                              std::size_t j) {
+    std::vector<double> at = values;
+    for (std::size_t k = 0; k < at.size(); ++k)
+        if (!effect.parameters[k].is_key()) at[k] = k == j ? effect.parameters[k].typical : 0.0;
+    Eigen::VectorXd column(static_cast<Eigen::Index>(replay.size()));
+    for (std::size_t i = 0; i < replay.size(); ++i) {
+        Perturbation change;
+        effect.add(replay.sample(i), replay.contact(i), at, change);
+        column(static_cast<Eigen::Index>(i)) = dot(gradient[i], change);
+    }
+    return column;
+}
+
+void add_effect(Setup& setup, const Effect& effect, const std::vector<double>& values) {
+    if (effect.name == "location") {
+        for (std::size_t j = 0; j < values.size(); ++j)
+            if (const auto name = parse_error_name(effect.parameters[j].name.substr(0, 4)))
+                setup.machine.errors.location(*name) += values[j];
+        return;
+    }
+    for (EffectSetting& present : setup.effects) {
+        if (present.name != effect.name) continue;
+        std::vector<double> sum = values_of(effect, present);
+        for (std::size_t j = 0; j < sum.size(); ++j)
+            sum[j] = effect.parameters[j].is_key() ? values[j] : sum[j] + values[j];
+        present = setting_of(effect, sum);
+        return;
+    }
+    setup.effects.push_back(setting_of(effect, values));
+}
+
+BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& replay,
+                   const Catalogue& catalogue, const std::vector<std::string>& effects) {
+    BaseModel model;
+    model.setup = setup;
+    take_measured(model, table, replay);
+    const RowNoise noise = row_noise(setup, table, replay);
+    model.sigma_mm = noise.sigma_mm;
+    model.noise_given = noise.given;
+    const Unknowns unknowns(setup, replay, catalogue, effects);
+    const auto& slots = unknowns.slots();
+    {
+        const ForwardModel forward(setup.machine);
+        for (std::size_t i = 0; i < replay.size(); ++i)
+            model.gradient.push_back(replay.gradient(i, forward, {}));
+    }
+    model.columns = columns_of(slots, replay, model.gradient);
+    model.residual_mm = model.start_residual_mm = residual(model, replay, model.setup);
+    const auto p = static_cast<Eigen::Index>(slots.size());
+    Eigen::VectorXd typical(p);
+    for (Eigen::Index j = 0; j < p; ++j) typical(j) = slots[static_cast<std::size_t>(j)].fit.typical;
+    LinearFit fit;
+    for (int pass = 0; pass < 4; ++pass) {
+        const Eigen::VectorXd weight = row_weights(model, model.residual_mm);
+        const Eigen::MatrixXd a = weight.asDiagonal() * model.columns;
+        Eigen::MatrixXd information = a.transpose() * a;
+        Eigen::VectorXd gradient = a.transpose() * weight.cwiseProduct(model.residual_mm);
+        for (Eigen::Index j = 0; j < p; ++j) {
+            const FitParameter& prior = slots[static_cast<std::size_t>(j)].fit;
+            if (prior.prior_sigma <= 0.0) continue;
+            const double pull = typical(j) / prior.prior_sigma;
+            information(j, j) += pull * pull;
+            gradient(j) += pull * pull *
+                           (prior.prior_value - location_value(model.setup, prior)) / typical(j);
+        }
+        fit = solve_ranked(information, gradient);
+        apply_step(model.setup, slots, typical.cwiseProduct(fit.value));
+        model.residual_mm = residual(model, replay, model.setup);
+        if (fit.value.cwiseAbs().maxCoeff() < 1e-7) break;
+    }
+    refuse_absurd(model, replay, table);
+    name_null_space(model, slots, fit);
+    model.rank = static_cast<int>(p) - static_cast<int>(fit.null_space.size());
+    model.covariance = typical.asDiagonal() * fit.covariance * typical.asDiagonal();
+    for (Eigen::Index j = 0; j < p; ++j) {
+        const Slot& slot = slots[static_cast<std::size_t>(j)];
+        FitParameter done = slot.fit;
+        done.sigma = typical(j) * fit.sigma(j);
+        if (!slot.effect) {
+            const auto a = static_cast<std::size_t>(std::max(0, slot.artefact));
+            done.value = slot.artefact >= 0 ? model.setup.artefacts[a].center_W_mm(slot.axis)
+                         : slot.axis < 3    ? model.setup.ballbar->cup_S_mm(slot.axis)
+                                            : model.setup.ballbar->length_mm;
+        } else if (slot.effect->name == "location") {
+            done.value = location_value(model.setup, slot.fit);
+        } else {
+            for (const EffectSetting& setting : model.setup.effects)
+                if (setting.name == slot.effect->name)
+                    done.value = values_of(*slot.effect, setting)[slot.parameter];
+        }
+        model.parameters.push_back(done);
+    }
+    model.models = active_models(model.setup);
+    return model;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,65 @@
+// The simulation fitted to readings: modelled effects and set-up re-identified, residuals left.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "effects/catalogue.h"
+#include "emulator/replay.h"
+
+namespace trunnion {
+
+/// One unknown of the fit. Set-up quantities (artefact centres, cup, bar length) have effect "setup".
+struct FitParameter {
+    std::string effect, name, unit;
+    int component = -1;
+    double typical = 1.0;      ///< in `unit`
+    double value = 0.0;        ///< in `unit`: the correction found, or the total for a location error
+    double sigma = 0.0;        ///< of `value`; NaN when it cannot be told apart
+    double prior_value = 0.0;
+    double prior_sigma = 0.0;  ///< 0: no prior
+};
+
+/// Parameters that cannot be told apart: moving along `direction` (in their units) changes nothing.
+struct Inseparable {
+    std::vector<std::string> names;
+    std::vector<double> direction;
+};
+
+/// One sigma of each device row, mm, and whether every row had one in the table or in the setup.
+struct RowNoise {
+    Eigen::VectorXd sigma_mm;
+    bool given = true;
+};
+RowNoise row_noise(const Setup& setup, const ReadingTable& table, const Replay& replay);
+
+/// A replay with the fitted base and all that a linear analysis of what remains needs. mm inside.
+struct BaseModel {
+    Setup setup;                          ///< as fitted: loads again, predicts the same
+    std::vector<FitParameter> parameters;
+    std::vector<Inseparable> inseparable;
+    EffectModels models;                  ///< of effects that the setup switched on
+    std::vector<Perturbation> gradient;   ///< of each device row
+    Eigen::MatrixXd columns;              ///< d reading / d parameter, for one typical change, mm
+    Eigen::VectorXd measured_mm, residual_mm, start_residual_mm, sigma_mm;
+    bool noise_given = true;
+    Eigen::MatrixXd covariance;           ///< of the parameters, in their units
+    int rank = 0;
+};
+
+/// Throws InputError when a device row has no value, and on residuals that no machine can have
+/// (units, frames or the setup of another machine).
+BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& replay,
+                   const Catalogue& catalogue, const std::vector<std::string>& effects);
+
+/// Derivatives of the device rows by parameter j of an effect whose keys are in `values`, mm for
+/// one typical change.
+Eigen::VectorXd effect_column(const Replay& replay, const std::vector<Perturbation>& gradient,
+                              const Effect& effect, const std::vector<double>& values,
+                              std::size_t j);
+
+/// The setup with an effect's values added: location errors to the machine, others to [effects].
+void add_effect(Setup& setup, const Effect& effect, const std::vector<double>& values);
+
+}  // namespace trunnion
