@@ -15,6 +15,9 @@ using Run = std::function<int()>;
 
 /// Each command adds its subcommand and options to `app` and, when chosen, sets `run`.
 void add_backup(CLI::App& app, Run& run);
+void add_diagnose(CLI::App& app, Run& run);
+void add_identify(CLI::App& app, Run& run);
+void add_predict(CLI::App& app, Run& run);
 
 /// Exit codes of formats.md.
 enum ExitCode : int {

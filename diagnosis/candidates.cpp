@@ -94,20 +94,56 @@ void Design::update() {
     }
 }
 
-Eigen::VectorXd Design::solve(const std::vector<Eigen::Index>& columns, double scale) const {
-    const auto p = static_cast<Eigen::Index>(columns.size());
-    Eigen::MatrixXd a(base_ + p, base_ + p);
-    Eigen::VectorXd b(base_ + p);
-    const auto place = [&](Eigen::Index k) {
-        return k < base_ ? k : base_ + columns[static_cast<std::size_t>(k - base_)];
-    };
-    for (Eigen::Index i = 0; i < a.rows(); ++i) {
-        b(i) = cross_(place(i));
-        for (Eigen::Index j = 0; j < a.cols(); ++j) a(i, j) = full_(place(i), place(j));
-    }
+std::vector<Eigen::Index> Design::places(const std::vector<Eigen::Index>& columns) const {
+    std::vector<Eigen::Index> place;
+    for (Eigen::Index k = 0; k < base_; ++k) place.push_back(k);
+    for (const Eigen::Index k : columns) place.push_back(base_ + k);
+    return place;
+}
+
+void Design::normal_equations(const std::vector<Eigen::Index>& columns, double scale,
+                              Eigen::MatrixXd& a, Eigen::VectorXd& b) const {
+    const std::vector<Eigen::Index> place = places(columns);
+    a = full_(place, place);
+    b = cross_(place);
     a.diagonal().head(base_) += base_precision(model_);
-    a.diagonal().tail(p).array() += 1.0 / (scale * scale);
+    a.diagonal().tail(a.rows() - base_).array() += 1.0 / (scale * scale);
+}
+
+Eigen::VectorXd Design::solve(const std::vector<Eigen::Index>& columns, double scale) const {
+    Eigen::MatrixXd a;
+    Eigen::VectorXd b;
+    normal_equations(columns, scale, a, b);
     return a.llt().solve(b);
+}
+
+Eigen::MatrixXd Design::covariance(const std::vector<Eigen::Index>& columns, double scale) const {
+    Eigen::MatrixXd a;
+    Eigen::VectorXd b;
+    normal_equations(columns, scale, a, b);
+    return a.llt().solve(Eigen::MatrixXd::Identity(a.rows(), a.cols()));
+}
+
+Eigen::VectorXd Design::residual(const std::vector<Eigen::Index>& columns, double scale) const {
+    const Eigen::VectorXd x = solve(columns, scale);
+    Eigen::VectorXd left = model_.residual_mm - raw_.leftCols(base_) * x.head(base_);
+    for (std::size_t k = 0; k < columns.size(); ++k)
+        left -= raw_.col(base_ + columns[k]) * x(base_ + static_cast<Eigen::Index>(k));
+    return left;
+}
+
+Eigen::VectorXd Design::residual_without(const std::vector<Eigen::Index>& test,
+                                         const std::vector<Eigen::Index>& columns,
+                                         double scale) const {
+    Eigen::MatrixXd a;
+    Eigen::VectorXd b;
+    normal_equations(columns, scale, a, b);
+    const std::vector<Eigen::Index> place = places(columns);
+    const Eigen::MatrixXd out = white_(test, place);
+    a.noalias() -= out.transpose() * out;
+    b.noalias() -= out.transpose() * data_(test);
+    const Eigen::VectorXd x = a.ldlt().solve(b);
+    return model_.residual_mm(test) - raw_(test, place) * x;
 }
 
 std::vector<std::vector<double>> best_keys(const Replay& replay, const BaseModel& base,

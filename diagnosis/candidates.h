@@ -46,8 +46,20 @@ class Design {
     const Eigen::MatrixXd& raw() const { return raw_; }  ///< unwhitened columns, base first, mm
     /// Solution for base and the given columns (candidate numbering), ridge 1 / (scale^2).
     Eigen::VectorXd solve(const std::vector<Eigen::Index>& columns, double scale) const;
+    /// Covariance of that solution, same order.
+    Eigen::MatrixXd covariance(const std::vector<Eigen::Index>& columns, double scale) const;
+    /// Residual (mm) of all rows after base and columns are fitted.
+    Eigen::VectorXd residual(const std::vector<Eigen::Index>& columns, double scale) const;
+    /// Residual (mm) of the rows `test` after a fit to all the others.
+    Eigen::VectorXd residual_without(const std::vector<Eigen::Index>& test,
+                                     const std::vector<Eigen::Index>& columns, double scale) const;
 
   private:
+    /// Normal equations of base and columns, with their priors.
+    void normal_equations(const std::vector<Eigen::Index>& columns, double scale,
+                          Eigen::MatrixXd& a, Eigen::VectorXd& b) const;
+    std::vector<Eigen::Index> places(const std::vector<Eigen::Index>& columns) const;
+
     const Replay& replay_;
     const BaseModel& model_;
     const Whitener* whitener_;

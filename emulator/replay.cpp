@@ -8,14 +8,19 @@
 namespace trunnion {
 namespace {
 
-[[noreturn]] void refuse(const Setup& setup, const Reading& row, const std::string& message) {
-    throw InputError(message + " (setup " + setup.path + ")", {"readings", row.line, 0});
-}
+struct Place {
+    const Setup& setup;
+    const ReadingTable& table;
+    [[noreturn]] void refuse(const Reading& row, const std::string& message) const {
+        throw InputError(message + " (setup " + setup.path + ")", {table.path, row.line, 0});
+    }
+};
 
-int artefact_index(const Setup& setup, const Reading& row) {
-    for (std::size_t k = 0; k < setup.artefacts.size(); ++k)
-        if (setup.artefacts[k].name == row.feature) return static_cast<int>(k);
-    refuse(setup, row, "the setup has no artefact named '" + row.feature + "'");
+int artefact_index(const Place& place, const Reading& row) {
+    const auto& artefacts = place.setup.artefacts;
+    for (std::size_t k = 0; k < artefacts.size(); ++k)
+        if (artefacts[k].name == row.feature) return static_cast<int>(k);
+    place.refuse(row, "the setup has no artefact named '" + row.feature + "'");
 }
 
 int touches_of(const ReadingTable& table) {
@@ -50,7 +55,8 @@ Replay::Replay(const Setup& setup, const ReadingTable& table) : setup_(setup) {
         if (std::find(table.axes.begin(), table.axes.end(), axis.axis) == table.axes.end())
             throw InputError(std::string("no column for axis ") + letter_of(axis.axis) +
                                  " of the setup's machine: readings of another machine?",
-                             {"readings", 0, 0});
+                             {table.path, 0, 0});
+    const Place where{setup, table};
     const std::vector<AxisSample> all = samples_of(table);
     const ForwardModel model(setup.machine);
     const int touches = touches_of(table);
@@ -67,20 +73,20 @@ Replay::Replay(const Setup& setup, const ReadingTable& table) : setup_(setup) {
         AxisSample sample = all[r];
         Contact contact;
         contact.device = row.device;
-        contact.artefact = artefact_index(setup, row);
+        contact.artefact = artefact_index(where, row);
         contact.direction_M = row.direction_M;
         const auto& rows = tests[row.test];
         contact.test_time_s = row.time_s - table.rows[rows.front()].time_s;
         if (row.device == Device::ballbar) {
-            if (!setup.ballbar) refuse(setup, row, "a ballbar row, but no [ballbar] in the setup");
+            if (!setup.ballbar) where.refuse(row, "a ballbar row, but no [ballbar] in the setup");
             for (const Axis axis : table.axes)
                 contact.acceleration[axis] = acceleration_at(table, rows, place[r], axis);
         } else if (!setup.probe) {
-            refuse(setup, row, "a probe row, but no [probe] in the setup");
+            where.refuse(row, "a probe row, but no [probe] in the setup");
         }
         const auto& artefact = setup.artefacts[static_cast<std::size_t>(contact.artefact)];
         if (row.device != Device::ballbar && artefact.kind != Artefact::Kind::sphere)
-            refuse(setup, row, "a probe row on '" + artefact.name + "', which is no sphere");
+            where.refuse(row, "a probe row on '" + artefact.name + "', which is no sphere");
         const MachinePose poses = model.poses(row.commanded);
         if (row.device == Device::ballbar)
             contact.direction_M =

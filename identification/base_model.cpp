@@ -178,7 +178,7 @@ void take_measured(BaseModel& model, const ReadingTable& table, const Replay& re
     for (Eigen::Index i = 0; i < n; ++i) {
         const Reading& row = table.rows[replay.table_row(static_cast<std::size_t>(i))];
         if (!row.value_mm)
-            throw InputError("a row with a device but without value_mm", {"readings", row.line, 0});
+            throw InputError("a row with a device but without value_mm", {table.path, row.line, 0});
         model.measured_mm(i) = *row.value_mm;
     }
 }
@@ -191,7 +191,7 @@ void refuse_absurd(const BaseModel& model, const Replay& replay, const ReadingTa
     throw InputError(fmt::format("a residual of {:.3g} mm after fitting: wrong units, frame, or the "
                                  "setup of another machine",
                                  most),
-                     {"readings", row.line, 0});
+                     {table.path, row.line, 0});
 }
 
 void name_null_space(BaseModel& model, const std::vector<Slot>& slots, const LinearFit& fit) {
@@ -261,6 +261,36 @@ void add_effect(Setup& setup, const Effect& effect, const std::vector<double>& v
         return;
     }
     setup.effects.push_back(setting_of(effect, values));
+}
+
+void shift_base(Setup& setup, const BaseModel& base, const Catalogue& catalogue,
+                const Eigen::VectorXd& step) {
+    std::vector<Slot> slots;
+    for (const FitParameter& p : base.parameters) {
+        Slot slot;
+        slot.fit = p;
+        if (p.effect != "setup") {
+            slot.effect = find_effect(catalogue, p.effect);
+            for (std::size_t j = 0; j < slot.effect->parameters.size(); ++j)
+                if (slot.effect->parameters[j].name == p.name &&
+                    slot.effect->parameters[j].component == p.component)
+                    slot.parameter = j;
+        } else if (p.name == "length_mm") {
+            slot.axis = 3;
+        } else {
+            const auto dot_at = p.name.rfind('.');
+            slot.axis = p.name[dot_at + 1] - 'x';
+            const std::string owner = p.name.substr(0, dot_at);
+            for (std::size_t k = 0; k < setup.artefacts.size(); ++k)
+                if (setup.artefacts[k].name == owner && p.typical > 0.0 && owner != "cup")
+                    slot.artefact = static_cast<int>(k);
+        }
+        slots.push_back(slot);
+    }
+    Eigen::VectorXd by = step;
+    for (Eigen::Index j = 0; j < by.size(); ++j)
+        by(j) *= slots[static_cast<std::size_t>(j)].fit.typical;
+    apply_step(setup, slots, by);
 }
 
 BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& replay,

@@ -59,6 +59,10 @@ Eigen::VectorXd effect_column(const Replay& replay, const std::vector<Perturbati
                               const Effect& effect, const std::vector<double>& values,
                               std::size_t j);
 
+/// Moves a fitted setup by a further step of the base parameters, in units of their typical size.
+void shift_base(Setup& setup, const BaseModel& base, const Catalogue& catalogue,
+                const Eigen::VectorXd& step);
+
 /// The setup with an effect's values added: location errors to the machine, others to [effects].
 void add_effect(Setup& setup, const Effect& effect, const std::vector<double>& values);
 

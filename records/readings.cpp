@@ -258,6 +258,7 @@ std::string_view name_of(PositioningMode mode) {
 ReadingTable parse_readings(std::string_view text, const std::string& path,
                             std::vector<std::string>& notes) {
     ReadingTable table;
+    table.path = path;
     std::vector<Store> stores;
     std::size_t time_cell = 0;
     Line line{{}, 0, path};

@@ -40,6 +40,7 @@ struct Reading {
 };
 
 struct ReadingTable {
+    std::string path;                             ///< of the file, for messages
     std::map<std::string, std::string> comment;  ///< `# key = value`
     std::vector<Axis> axes;                      ///< machine axes with a column
     std::vector<std::string> optional_columns;   ///< optional columns present, in file order

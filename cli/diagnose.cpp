@@ -1,0 +1,140 @@
+// trunnion diagnose: where the sim-to-real gap lies, which effect causes it, how far it shrinks.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cli/command.h"
+#include "cli/files.h"
+#include "cli/json_output.h"
+#include "cli/readings_command.h"
+#include "diagnosis/diagnosis.h"
+
+namespace trunnion {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+    std::string readings, setup, holdout, out, html;
+    std::optional<double> limit_um;
+    bool json = false;
+};
+
+Json to_json(const HeldOut& heldout) {
+    return {{"rms_before_um", heldout.rms_before_um},
+            {"rms_after_um", heldout.rms_after_um},
+            {"noise_um", heldout.noise_um},
+            {"shrink", heldout.shrink},
+            {"ci95", {heldout.low, heldout.high}}};
+}
+
+Json to_json(const Cause& cause) {
+    Json json{{"effect", cause.effect},
+              {"probability", cause.probability},
+              {"rivals", cause.rivals},
+              {"parameters", json_parameters(cause.parameters)},
+              {"share", cause.share},
+              {"heldout", to_json(cause.heldout)},
+              {"what", cause.what},
+              {"usual_cause", cause.usual_cause},
+              {"remedy", cause.remedy}};
+    return json;
+}
+
+Json to_json(const Diagnosis& d) {
+    Json json{{"schema", "trunnion.diagnosis/1"},
+              {"verdict", to_string(d.verdict)},
+              {"noise_source", to_string(d.noise.source)},
+              {"gap",
+               {{"rms_um", d.rms_um},
+                {"noise_um", d.noise_um},
+                {"excess_um", d.excess_um},
+                {"p_value", d.p_value}}}};
+    json["where"] = Json::array();
+    for (const DriverShare& w : d.where)
+        json["where"].push_back({{"by", w.by},
+                                 {"component", w.component},
+                                 {"share", w.share},
+                                 {"p_value", w.p_value},
+                                 {"text", w.text}});
+    json["causes"] = Json::array();
+    for (const Cause& cause : d.causes) json["causes"].push_back(to_json(cause));
+    json["after"] = {{"rms_um", d.after_rms_um},
+                     {"heldout_shrink", d.after.shrink},
+                     {"ci95", {d.after.low, d.after.high}},
+                     {"unexplained_share", d.unexplained_share}};
+    json["next_measurement"] = Json::array();
+    for (const NextMeasurement& next : d.next)
+        json["next_measurement"].push_back({{"separates", {next.first, next.second}},
+                                            {"text", next.text},
+                                            {"program", next.program},
+                                            {"log_bayes_factor", next.log_bayes_factor},
+                                            {"minutes", next.minutes}});
+    json["unseen"] = d.unseen;
+    json["readings"] = d.readings;
+    json["outliers"] = d.outliers;
+    return json;
+}
+
+void print_cause(const Cause& cause) {
+    fmt::print("\n{}  {:.0f} % of the gap, probability {:.2f}\n", cause.effect, 100 * cause.share,
+               cause.probability);
+    fmt::print("  {}.\n", cause.what);
+    if (!cause.usual_cause.empty())
+        fmt::print("  Usual cause: {}. What to do: {}.\n", cause.usual_cause, cause.remedy);
+    for (const FitParameter& p : cause.parameters)
+        fmt::print("  {:<20} {:>12.4g} {} (sigma {:.2g})\n", p.name, p.value, p.unit, p.sigma);
+    if (!cause.rivals.empty())
+        fmt::print("  cannot be told apart here from: {}\n", fmt::join(cause.rivals, ", "));
+    fmt::print("  held out: {:.3f} -> {:.3f} um (noise {:.3f}): shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
+               cause.heldout.rms_before_um, cause.heldout.rms_after_um, cause.heldout.noise_um,
+               100 * cause.heldout.shrink, 100 * cause.heldout.low, 100 * cause.heldout.high);
+}
+
+void print_report(const Diagnosis& d) {
+    fmt::print("verdict: {}\n", to_string(d.verdict));
+    fmt::print("{} readings ({} set aside), rms {:.3f} um, noise {:.3f} um ({}), excess {:.3f} um\n",
+               d.readings, d.outliers, d.rms_um, d.noise_um, to_string(d.noise.source), d.excess_um);
+    for (const DriverShare& w : d.where) fmt::print("  {}\n", w.text);
+    for (const Cause& cause : d.causes) print_cause(cause);
+    if (!d.causes.empty())
+        fmt::print("\nafter: rms {:.3f} um; held out the gap shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
+                   d.after_rms_um, 100 * d.after.shrink, 100 * d.after.low, 100 * d.after.high);
+    for (const NextMeasurement& next : d.next) fmt::print("next: {}\n", next.text);
+}
+
+int diagnose_command(const Options& options) {
+    const Setup setup = load_setup_option(options.setup);
+    const ReadingTable table = load_readings(options.readings);
+    std::optional<ReadingTable> holdout;
+    if (!options.holdout.empty()) holdout = load_readings(options.holdout);
+    DiagnosisOptions how;
+    how.holdout = holdout ? &*holdout : nullptr;
+    const Diagnosis result = diagnose(setup, table, how);
+    OutputFiles files;
+    if (!options.out.empty()) files.add(options.out, format_setup(result.setup));
+    if (options.json) files.add("-", to_json(result).dump(1) + "\n");
+    files.write();
+    if (!options.json) print_report(result);
+    return options.limit_um && result.excess_um > *options.limit_um ? exit_differs : exit_done;
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& app, Run& run) {
+    auto* command = app.add_subcommand("diagnose", "the gap between simulation and readings");
+    const auto options = std::make_shared<Options>();
+    command->add_option("readings", options->readings, "table of readings (CSV)")->required();
+    command->add_option("--setup", options->setup, "setup file (TOML)");
+    command->add_option("--holdout", options->holdout, "readings that take no part in the fit");
+    command->add_option("--limit-um", options->limit_um, "exit 1 when the gap is larger");
+    command->add_option("--out", options->out, "setup with the effects added");
+    command->add_option("--html", options->html, "report as one HTML file");
+    command->add_flag("--json", options->json, "result as JSON on stdout");
+    command->callback([options, &run] { run = [options] { return diagnose_command(*options); }; });
+}
+
+}  // namespace trunnion

@@ -1,0 +1,86 @@
+// trunnion identify: fits effects to readings.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "cli/files.h"
+#include "cli/json_output.h"
+#include "cli/readings_command.h"
+#include "identification/identify.h"
+
+namespace trunnion {
+namespace {
+
+struct Options {
+    std::string readings, setup, effects, out;
+    bool json = false;
+};
+
+std::vector<std::string> split_names(const std::string& text) {
+    std::vector<std::string> names;
+    std::string name;
+    for (const char c : text + ",") {
+        if (c != ',') {
+            if (c != ' ') name += c;
+        } else if (!name.empty()) {
+            names.push_back(std::exchange(name, {}));
+        }
+    }
+    return names;
+}
+
+nlohmann::ordered_json to_json(const Identification& result) {
+    nlohmann::ordered_json json;
+    json["schema"] = "trunnion.identification/1";
+    json["parameters"] = json_parameters(result.parameters);
+    json["inseparable"] = nlohmann::ordered_json::array();
+    for (const Inseparable& group : result.inseparable)
+        json["inseparable"].push_back({{"names", group.names}, {"direction", group.direction}});
+    json["rms_before_um"] = result.rms_before_um;
+    json["rms_after_um"] = result.rms_after_um;
+    json["dof"] = result.dof;
+    return json;
+}
+
+void print_table(const Identification& result) {
+    fmt::print("{:<18} {:<22} {:>14} {:>12} {}\n", "effect", "parameter", "value", "sigma", "unit");
+    for (const FitParameter& p : result.parameters)
+        fmt::print("{:<18} {:<22} {:>14.7g} {:>12} {}\n", p.effect, p.name, p.value,
+                   std::isfinite(p.sigma) ? fmt::format("{:.2g}", p.sigma) : "-", p.unit);
+    for (const Inseparable& group : result.inseparable)
+        fmt::print("cannot be told apart here: {}\n", fmt::join(group.names, ", "));
+    fmt::print("rms {:.3f} um before, {:.3f} um after, {} degrees of freedom\n",
+               result.rms_before_um, result.rms_after_um, result.dof);
+}
+
+int identify_command(const Options& options) {
+    const Setup setup = load_setup_option(options.setup);
+    const Identification result =
+        identify(setup, load_readings(options.readings), split_names(options.effects));
+    OutputFiles files;
+    if (!options.out.empty()) files.add(options.out, format_setup(result.setup));
+    if (options.json) files.add("-", to_json(result).dump(1) + "\n");
+    files.write();
+    if (!options.json) print_table(result);
+    return exit_done;
+}
+
+}  // namespace
+
+void add_identify(CLI::App& app, Run& run) {
+    auto* command = app.add_subcommand("identify", "fits effects to readings");
+    const auto options = std::make_shared<Options>();
+    command->add_option("readings", options->readings, "table of readings (CSV)")->required();
+    command->add_option("--setup", options->setup, "setup file (TOML)");
+    command->add_option("--effects", options->effects,
+                        "names, comma between; without it those of [model].modelled");
+    command->add_option("--out", options->out, "setup with the values entered");
+    command->add_flag("--json", options->json, "result as JSON on stdout");
+    command->callback([options, &run] { run = [options] { return identify_command(*options); }; });
+}
+
+}  // namespace trunnion

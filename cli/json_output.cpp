@@ -1,0 +1,35 @@
+#include "cli/json_output.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace trunnion {
+namespace {
+
+nlohmann::ordered_json number(double value) {
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+}  // namespace
+
+nlohmann::ordered_json json_parameters(const std::vector<FitParameter>& parameters) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const FitParameter& p : parameters) {
+        const bool vector = p.component >= 0;
+        const bool continues = vector && p.component > 0 && !list.empty() &&
+                               list.back()["effect"] == p.effect && list.back()["name"] == p.name;
+        if (!continues) {
+            list.push_back({{"effect", p.effect}, {"name", p.name}});
+            auto& entry = list.back();
+            entry["value"] = vector ? nlohmann::ordered_json::array() : number(p.value);
+            entry["sigma"] = vector ? nlohmann::ordered_json::array() : number(p.sigma);
+            entry["unit"] = p.unit;
+        }
+        if (!vector) continue;
+        list.back()["value"].push_back(number(p.value));
+        list.back()["sigma"].push_back(number(p.sigma));
+    }
+    return list;
+}
+
+}  // namespace trunnion

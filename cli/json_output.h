@@ -1,0 +1,15 @@
+// JSON pieces that several commands print.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "identification/base_model.h"
+
+namespace trunnion {
+
+/// [{"effect", "name", "value", "sigma", "unit"}]: components of a vector parameter in one entry
+/// with arrays; a sigma that does not exist is null.
+nlohmann::ordered_json json_parameters(const std::vector<FitParameter>& parameters);
+
+}  // namespace trunnion

@@ -1,0 +1,26 @@
+#include "cli/readings_command.h"
+
+#include "cli/files.h"
+#include "effects/settings.h"
+
+namespace trunnion {
+
+ReadingTable load_readings(const std::string& path) {
+    std::vector<std::string> notes;
+    ReadingTable table = parse_readings(read_whole(path), path, notes);
+    print_notes(notes);
+    return table;
+}
+
+Setup load_setup_option(const std::string& path, const std::vector<std::string>& inject) {
+    std::vector<std::string> notes;
+    Setup setup = load_setup(path.empty() ? shipped("machines/bc_table.toml") : path, notes);
+    print_notes(notes);
+    if (inject.empty()) return setup;
+    const Catalogue catalogue = make_catalogue(setup);
+    for (const std::string& text : inject)
+        setup.effects.push_back(parse_injection(text, catalogue));
+    return setup;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,73 @@
+// The sim-to-real gap of a set of readings: where it lies, which effect causes it, how far it shrinks.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "diagnosis/noise.h"
+#include "emulator/setup.h"
+#include "identification/base_model.h"
+#include "records/readings.h"
+
+namespace trunnion {
+
+enum class Verdict : unsigned char { no_gap, explained, partly_explained, ambiguous, unexplained };
+const char* to_string(Verdict verdict);
+const char* to_string(NoiseSource source);
+
+/// The gap on readings that took no part in the fit, before and after, raw um.
+struct HeldOut {
+    double rms_before_um = 0.0, rms_after_um = 0.0, noise_um = 0.0;
+    double shrink = 0.0;            ///< 1 - sqrt(max(0, after^2 - noise^2) / (before^2 - noise^2))
+    double low = 0.0, high = 0.0;   ///< 95 %, bootstrap over poses and arcs
+};
+
+struct DriverShare {
+    std::string by, component, text;
+    double share = 0.0, p_value = 1.0;
+};
+
+struct Cause {
+    std::string effect;
+    double probability = 0.0;
+    std::vector<std::string> rivals;
+    std::vector<FitParameter> parameters;
+    double share = 0.0;             ///< of the gap, independent of order (Shapley)
+    HeldOut heldout;
+    std::string what, usual_cause, remedy;
+};
+
+struct NextMeasurement {
+    std::string first, second, text, program;
+    double log_bayes_factor = 0.0;  ///< predicted
+    double minutes = 0.0;
+};
+
+struct Diagnosis {
+    Verdict verdict = Verdict::no_gap;
+    NoiseModel noise;
+    double rms_um = 0.0, noise_um = 0.0, excess_um = 0.0, p_value = 1.0;
+    std::vector<DriverShare> where;
+    std::vector<Cause> causes;
+    double after_rms_um = 0.0, unexplained_share = 0.0;
+    HeldOut after;
+    std::vector<NextMeasurement> next;
+    std::vector<std::string> unseen;       ///< effects that these readings cannot show
+    std::vector<Inseparable> inseparable;  ///< of the base
+    std::size_t readings = 0, outliers = 0;
+    Setup setup;                           ///< with the re-identified and added effects
+};
+
+struct DiagnosisOptions {
+    const ReadingTable* holdout = nullptr;
+    bool plan_next = true;
+    std::uint64_t seed = 1;
+};
+
+/// Throws InputError on readings that allow no verdict.
+Diagnosis diagnose(const Setup& setup, const ReadingTable& table,
+                   const DiagnosisOptions& options = {});
+
+}  // namespace trunnion

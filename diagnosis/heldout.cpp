@@ -1,0 +1,109 @@
+#include "diagnosis/heldout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/search.h"
+#include "diagnosis/statistics.h"
+#include "geometry/random.h"
+
+namespace trunnion {
+namespace {
+
+double shrink_of(double before, double after, double noise) {
+    const double gap = before - noise;
+    if (gap <= 0.0) return 0.0;
+    return 1.0 - std::sqrt(std::max(0.0, after - noise) / gap);
+}
+
+}  // namespace
+
+Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
+    Folds folds;
+    folds.group.assign(rows, 0);
+    int pass = 0;
+    for (const NoiseBlock& block : blocks) {
+        const bool bar = block.device == Device::ballbar;
+        const std::size_t pieces = bar ? std::min<std::size_t>(6, 1 + block.rows.size() / 8) : 1;
+        const auto first = static_cast<int>(folds.fold.size());
+        for (std::size_t k = 0; k < block.rows.size(); ++k)
+            folds.group[static_cast<std::size_t>(block.rows[k])] =
+                first + static_cast<int>(k * pieces / block.rows.size());
+        for (std::size_t k = 0; k < pieces; ++k)
+            folds.fold.push_back((bar ? 3 * pass + static_cast<int>(k) : pass) % Folds::count);
+        ++pass;
+    }
+    return folds;
+}
+
+HeldOut summarise(const SquaredSums& sums, std::uint64_t seed) {
+    HeldOut result;
+    const auto shrink = [&](const std::vector<std::size_t>& groups) {
+        double before = 0, after = 0, noise = 0;
+        for (const std::size_t g : groups) {
+            before += sums.before[g];
+            after += sums.after[g];
+            noise += sums.noise[g];
+        }
+        return shrink_of(before, after, noise);
+    };
+    std::vector<std::size_t> all;
+    double before = 0, after = 0, noise = 0, rows = 0;
+    for (std::size_t g = 0; g < sums.before.size(); ++g) {
+        if (sums.rows[g] == 0.0) continue;
+        all.push_back(g);
+        before += sums.before[g];
+        after += sums.after[g];
+        noise += sums.noise[g];
+        rows += sums.rows[g];
+    }
+    if (all.empty()) return result;
+    result.rms_before_um = 1e3 * std::sqrt(before / rows);
+    result.rms_after_um = 1e3 * std::sqrt(after / rows);
+    result.noise_um = 1e3 * std::sqrt(noise / rows);
+    result.shrink = shrink_of(before, after, noise);
+    SeededNoise random(seed);
+    std::vector<double> draws;
+    for (int k = 0; k < 400; ++k) {
+        std::vector<std::size_t> sample(all.size());
+        for (std::size_t& g : sample)
+            g = all[std::min(all.size() - 1, static_cast<std::size_t>(
+                                                 random.uniform() * static_cast<double>(all.size())))];
+        draws.push_back(shrink(sample));
+    }
+    result.low = quantile(draws, 0.025);
+    result.high = quantile(draws, 0.975);
+    return result;
+}
+
+HeldOut cross_validate(const Design& design, const BaseModel& base, const Folds& folds,
+                       const std::vector<std::size_t>& members, double scale,
+                       const Eigen::VectorXd& noise_mm, const std::vector<bool>& used,
+                       std::uint64_t seed) {
+    const std::vector<Eigen::Index> columns = columns_of(design, members);
+    const auto groups = folds.fold.size();
+    SquaredSums sums{std::vector<double>(groups), std::vector<double>(groups),
+                     std::vector<double>(groups), std::vector<double>(groups)};
+    const auto n = static_cast<std::size_t>(base.residual_mm.size());
+    for (int f = 0; f < Folds::count; ++f) {
+        std::vector<Eigen::Index> test;
+        for (std::size_t i = 0; i < n; ++i)
+            if (folds.fold[static_cast<std::size_t>(folds.group[i])] == f)
+                test.push_back(static_cast<Eigen::Index>(i));
+        const Eigen::VectorXd without = design.residual_without(test, {}, scale);
+        const Eigen::VectorXd with = design.residual_without(test, columns, scale);
+        for (std::size_t k = 0; k < test.size(); ++k) {
+            const auto i = static_cast<std::size_t>(test[k]);
+            if (!used[i]) continue;
+            const auto g = static_cast<std::size_t>(folds.group[i]);
+            const auto at = static_cast<Eigen::Index>(k);
+            sums.before[g] += without(at) * without(at);
+            sums.after[g] += with(at) * with(at);
+            sums.noise[g] += noise_mm(test[k]) * noise_mm(test[k]);
+            sums.rows[g] += 1.0;
+        }
+    }
+    return summarise(sums, seed);
+}
+
+}  // namespace trunnion

@@ -1,0 +1,15 @@
+// The thresholds of the verdict in one place; docs/diagnosis.md says why.
+#pragma once
+
+namespace trunnion::rules {
+
+constexpr double least_share = 0.05;    ///< of the gap: below it an effect is background
+constexpr double least_square = 0.03;   ///< of the noise variance: below it nobody cares
+constexpr double driver_p = 1e-4;       ///< chance level at which a driver counts
+constexpr double driver_share = 0.05;
+constexpr double admit_share = 0.10;    ///< unexplained part from which "unknown" is named
+constexpr double rival_loss = 12.0;     ///< chi-squared a rival may lose
+constexpr double rival_part = 0.04;     ///< ... or part of the contribution
+constexpr double parsimony_nats = 4.0;  ///< a simpler effect of equal fit is this much more probable
+
+}  // namespace trunnion::rules

@@ -1,0 +1,170 @@
+#include "identification/identify.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/alarm.h"
+
+namespace trunnion {
+namespace {
+
+bool keyed(const Effect& effect) {
+    return std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                       [](const EffectParameter& p) { return p.is_key(); });
+}
+
+/// Part of the weighted squared sum of `left_mm` that an effect with these keys and the base explain.
+class KeyGain {
+  public:
+    KeyGain(const Replay& replay, const BaseModel& base, const Effect& effect,
+            const Eigen::VectorXd& left_mm)
+        : replay_(replay), base_(base), effect_(effect),
+          weight_(base.sigma_mm.cwiseInverse()),
+          left_(left_mm.cwiseProduct(weight_)),
+          columns_(weight_.asDiagonal() * base.columns) {
+        Eigen::MatrixXd information = columns_.transpose() * columns_;
+        information.diagonal().array() += 1e-3;
+        llt_.compute(information);
+    }
+
+    double operator()(const std::vector<double>& keys) const {
+        std::vector<Eigen::VectorXd> list;
+        for (std::size_t j = 0; j < effect_.parameters.size(); ++j)
+            if (!effect_.parameters[j].is_key())
+                list.push_back(effect_column(replay_, base_.gradient, effect_, keys, j)
+                                   .cwiseProduct(weight_));
+        Eigen::MatrixXd a(left_.size(), static_cast<Eigen::Index>(list.size()));
+        for (std::size_t c = 0; c < list.size(); ++c) a.col(static_cast<Eigen::Index>(c)) = list[c];
+        const Eigen::MatrixXd cross = columns_.transpose() * a;
+        Eigen::MatrixXd information = a.transpose() * a - cross.transpose() * llt_.solve(cross);
+        information.diagonal().array() += 1e-2;
+        const Eigen::VectorXd h =
+            a.transpose() * left_ - cross.transpose() * llt_.solve(columns_.transpose() * left_);
+        return h.dot(information.ldlt().solve(h));
+    }
+
+  private:
+    const Replay& replay_;
+    const BaseModel& base_;
+    const Effect& effect_;
+    Eigen::VectorXd weight_, left_;
+    Eigen::MatrixXd columns_;
+    Eigen::LLT<Eigen::MatrixXd> llt_;
+};
+
+/// Bounds of a key's search: its neighbours on the grid.
+std::pair<double, double> neighbours(const std::vector<double>& grid, double value) {
+    const auto at = std::lower_bound(grid.begin(), grid.end(), value);
+    const auto k = std::min(static_cast<std::size_t>(at - grid.begin()), grid.size() - 1);
+    const double low = k == 0 ? grid[0] * 0.7 : grid[k - 1];
+    const double high = k + 1 >= grid.size() ? grid.back() * 1.4 : grid[k + 1];
+    return {low, high};
+}
+
+double rms_um(const Eigen::VectorXd& v) {
+    return 1e3 * std::sqrt(v.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, v.size())));
+}
+
+}  // namespace
+
+std::vector<double> refine_keys(const Replay& replay, const BaseModel& base, const Effect& effect,
+                                std::vector<double> keys, const Eigen::VectorXd& left_mm) {
+    constexpr double golden = 0.6180339887498949;
+    const KeyGain gain(replay, base, effect, left_mm);
+    double best = gain(keys);
+    for (std::size_t j = 0; j < keys.size(); ++j) {
+        const EffectParameter& p = effect.parameters[j];
+        if (!p.is_key() || !p.refine) continue;
+        auto [low, high] = neighbours(p.grid, keys[j]);
+        const auto at = [&](double value) {
+            std::vector<double> trial = keys;
+            trial[j] = value;
+            return gain(trial);
+        };
+        double a = high - golden * (high - low), b = low + golden * (high - low);
+        double fa = at(a), fb = at(b);
+        for (int step = 0; step < 18; ++step) {
+            if (fa > fb) {
+                high = b;
+                b = a;
+                fb = fa;
+                fa = at(a = high - golden * (high - low));
+            } else {
+                low = a;
+                a = b;
+                fa = fb;
+                fb = at(b = low + golden * (high - low));
+            }
+        }
+        if (std::max(fa, fb) <= best) continue;
+        best = std::max(fa, fb);
+        keys[j] = fa > fb ? a : b;
+    }
+    return keys;
+}
+
+std::vector<double> search_keys(const Replay& replay, const BaseModel& base, const Effect& effect,
+                                const Eigen::VectorXd& left_mm) {
+    const KeyGain gain(replay, base, effect, left_mm);
+    std::vector<double> best = effect.zeros();
+    double most = -1.0;
+    std::vector<std::size_t> key;
+    for (std::size_t j = 0; j < effect.parameters.size(); ++j)
+        if (effect.parameters[j].is_key()) key.push_back(j);
+    std::vector<std::size_t> at(key.size(), 0);
+    for (bool more = true; more;) {
+        std::vector<double> values = effect.zeros();
+        for (std::size_t k = 0; k < key.size(); ++k)
+            values[key[k]] = effect.parameters[key[k]].grid[at[k]];
+        if (const double g = gain(values); g > most) {
+            most = g;
+            best = values;
+        }
+        std::size_t k = 0;
+        while (k < key.size() && ++at[k] == effect.parameters[key[k]].grid.size()) at[k++] = 0;
+        more = k < key.size();
+    }
+    return refine_keys(replay, base, effect, best, left_mm);
+}
+
+Identification identify(const Setup& setup, const ReadingTable& table,
+                        std::vector<std::string> effects) {
+    if (effects.empty()) effects = setup.model.modelled;
+    const Replay replay(setup, table);
+    if (replay.size() < 2) throw InputError("fewer than two readings with a device");
+    Catalogue catalogue = make_catalogue(setup, extent_of(setup, table));
+    std::vector<std::string> plain;
+    for (const std::string& name : effects) {
+        const Effect* effect = find_effect(catalogue, name);
+        if (!effect) throw InputError("no effect is named '" + name + "'");
+        if (!keyed(*effect)) plain.push_back(name);
+    }
+    if (plain.size() < effects.size()) {
+        const BaseModel base = fit_base(setup, table, replay, catalogue, plain);
+        for (Effect& effect : catalogue) {
+            if (!keyed(effect) || std::find(effects.begin(), effects.end(), effect.name) == effects.end())
+                continue;
+            const std::vector<double> keys =
+                search_keys(replay, base, effect, base.residual_mm);
+            for (std::size_t j = 0; j < keys.size(); ++j)
+                if (effect.parameters[j].is_key()) effect.parameters[j].typical = keys[j];
+        }
+    }
+    BaseModel base = fit_base(setup, table, replay, catalogue, effects);
+    Identification result;
+    result.parameters = base.parameters;
+    for (const std::string& name : effects)
+        for (const EffectParameter& p : find_effect(catalogue, name)->parameters)
+            if (p.is_key())
+                result.parameters.push_back({name, p.name, p.unit, -1, p.typical, p.typical,
+                                             std::nan(""), 0.0, 0.0});
+    result.inseparable = base.inseparable;
+    result.rms_before_um = rms_um(base.start_residual_mm);
+    result.rms_after_um = rms_um(base.residual_mm);
+    result.dof = static_cast<int>(replay.size()) - base.rank;
+    result.setup = std::move(base.setup);
+    return result;
+}
+
+}  // namespace trunnion
