@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/drivers.h"
@@ -195,6 +196,18 @@ class Diagnoser {
         return sum / std::max(1.0, rows);
     }
 
+    /// What the fit leaves is noise of another size than the setup states.
+    bool stated_noise_is_off() const {
+        std::map<Device, double> rows;
+        for (const NoiseBlock& block : blocks_)
+            rows[block.device] += static_cast<double>(block.rows.size());
+        return std::any_of(rows.begin(), rows.end(), [&](const auto& entry) {
+            const DeviceNoise& noise = noise_.of(entry.first);
+            const double chance = 3.0 / std::sqrt(2.0 * noise.independent(entry.second));
+            return std::abs(std::log(noise.scale)) > std::max(0.1, chance);
+        });
+    }
+
     std::vector<double> shares_of(const std::vector<std::size_t>& members) const {
         const auto players = static_cast<int>(members.size());
         std::vector<double> worth(std::size_t{1} << players);
@@ -285,7 +298,7 @@ class Diagnoser {
 
 void Diagnoser::describe_where() {
     const auto tests = test_drivers(replay_, table_, base_, known_columns({}), base_.residual_mm,
-                                    base_.sigma_mm, used_);
+                                    base_.sigma_mm, used_, *whitener_);
     const double gap = std::max(1e-9, left_square({}) - floor_square());
     for (const DriverTest& t : tests) {
         const double share = std::min(1.0, t.explained / gap);
@@ -424,15 +437,17 @@ void Diagnoser::judge() {
     const double base = left_square({}), after = left_square(set_.members);
     const Eigen::VectorXd left = left_after(set_);
     const auto drivers = test_drivers(replay_, table_, base_, known_columns(set_), left,
-                                      base_.sigma_mm, used_);
+                                      base_.sigma_mm, used_, *whitener_);
     // Without repeats a remainder without structure is noise, whatever was stated.
     double floor = floor_square();
     const double structured = drivers.empty() || drivers.front().p_value > rules::driver_p
                                   ? 0.0
                                   : std::max(0.0, drivers.front().explained);
     const bool trusted = noise_.source == NoiseSource::repeats;
-    const double remainder = trusted ? std::max(after - floor, structured)
-                                     : std::max(structured, after - floor > 1.1 * floor ? after - floor : 0.0);
+    const double doubt = trusted ? 4.0 * noise_.doubt : 1.1;
+    const double beyond = after - floor > doubt * floor ? after - floor : 0.0;
+    const double remainder = std::max(structured, beyond);
+    if (!trusted && structured == 0.0 && stated_noise_is_off()) noise_.source = NoiseSource::assumed;
     const double unexplained = remainder > rules::least_square * floor ? remainder : 0.0;
     const double gap = std::max(1e-9, base - after) + unexplained;
     const double explained = std::clamp((base - after) / gap, 0.0, 1.0);

@@ -250,43 +250,72 @@ class DriverList {
 
 }  // namespace
 
+namespace {
+
+/// Fall of a squared sum when `extra` columns join the `known` ones.
+class Gain {
+  public:
+    Gain(Eigen::MatrixXd known, const Eigen::VectorXd& data) : known_(std::move(known)) {
+        for (Eigen::Index j = 0; j < known_.cols(); ++j)
+            known_.col(j) /= std::max(1e-12, known_.col(j).norm());
+        Eigen::MatrixXd square = known_.transpose() * known_;
+        square.diagonal().array() += 1e-9;
+        llt_.compute(square);
+        left_ = data - known_ * llt_.solve(known_.transpose() * data);
+        sum_ = left_.squaredNorm();
+    }
+
+    double of(Eigen::MatrixXd extra) const {
+        for (Eigen::Index j = 0; j < extra.cols(); ++j)
+            extra.col(j) /= std::max(1e-12, extra.col(j).norm());
+        const Eigen::MatrixXd cross = known_.transpose() * extra;
+        Eigen::MatrixXd square = extra.transpose() * extra - cross.transpose() * llt_.solve(cross);
+        square.diagonal().array() += 1e-6;
+        const Eigen::VectorXd h = extra.transpose() * left_;
+        return std::clamp(h.dot(square.ldlt().solve(h)), 0.0, sum_);
+    }
+    double sum() const { return sum_; }
+
+  private:
+    Eigen::MatrixXd known_;
+    Eigen::LLT<Eigen::MatrixXd> llt_;
+    Eigen::VectorXd left_;
+    double sum_ = 0.0;
+};
+
+}  // namespace
+
 std::vector<DriverTest> test_drivers(const Replay& replay, const ReadingTable& table,
                                      const BaseModel& base, const Eigen::MatrixXd& known,
                                      const Eigen::VectorXd& left_mm,
                                      const Eigen::VectorXd& sigma_mm,
-                                     const std::vector<bool>& used) {
+                                     const std::vector<bool>& used, const Whitener& whitener) {
     Eigen::VectorXd weight = sigma_mm.cwiseInverse();
     double rows = 0.0;
     for (Eigen::Index i = 0; i < weight.size(); ++i)
         used[static_cast<std::size_t>(i)] ? rows += 1.0 : weight(i) = 0.0;
-    const Eigen::VectorXd z = left_mm.cwiseProduct(weight);
-    Eigen::MatrixXd a = weight.asDiagonal() * known;
-    for (Eigen::Index j = 0; j < a.cols(); ++j) a.col(j) /= std::max(1e-12, a.col(j).norm());
-    Eigen::MatrixXd aa = a.transpose() * a;
-    aa.diagonal().array() += 1e-9;
-    const Eigen::LLT<Eigen::MatrixXd> llt(aa);
-    const Eigen::VectorXd left = z - a * llt.solve(a.transpose() * z);
-    const double sum = left.squaredNorm(), freedom = rows - static_cast<double>(a.cols());
+    const Gain plain(weight.asDiagonal() * known, weight.cwiseProduct(left_mm));
+    Eigen::MatrixXd white_known = known;
+    whitener.apply(white_known);
+    const Gain white(std::move(white_known), whitener.apply(left_mm));
+    const double freedom = rows - static_cast<double>(known.cols());
     const DriverList list(replay, table, base);
     std::vector<DriverTest> tests;
     for (const Driver& driver : list.all()) {
-        Eigen::MatrixXd b(z.size(), static_cast<Eigen::Index>(driver.columns.size()));
+        Eigen::MatrixXd columns(left_mm.size(), static_cast<Eigen::Index>(driver.columns.size()));
         for (std::size_t c = 0; c < driver.columns.size(); ++c)
-            b.col(static_cast<Eigen::Index>(c)) =
-                Eigen::Map<const Eigen::VectorXd>(driver.columns[c].data(), z.size())
-                    .cwiseProduct(weight);
-        for (Eigen::Index j = 0; j < b.cols(); ++j) b.col(j) /= std::max(1e-12, b.col(j).norm());
-        const Eigen::MatrixXd cross = a.transpose() * b;
-        Eigen::MatrixXd bb = b.transpose() * b - cross.transpose() * llt.solve(cross);
-        const double q = static_cast<double>(b.cols());
-        bb.diagonal().array() += 1e-6;
-        const Eigen::VectorXd h = b.transpose() * left;
-        const double gain = h.dot(bb.ldlt().solve(h));
-        if (!(gain > 0.0) || freedom - q < 5.0) continue;
-        DriverTest test{driver.by, driver.component, driver.text, 0.0, 1.0, b.cols() > 0 ? static_cast<int>(b.cols()) : 0};
-        const double rest = std::max(1e-12, sum - gain) / (freedom - q);
-        test.explained = sum / freedom - rest;
-        test.p_value = std::min(1.0, f_tail(gain / q / rest, q, freedom - q) *
+            columns.col(static_cast<Eigen::Index>(c)) =
+                Eigen::Map<const Eigen::VectorXd>(driver.columns[c].data(), left_mm.size());
+        const double q = static_cast<double>(columns.cols());
+        if (freedom - q < 5.0) continue;
+        const double rest = std::max(1e-12, plain.sum() - plain.of(weight.asDiagonal() * columns));
+        whitener.apply(columns);
+        const double gain = white.of(columns);
+        const double white_rest = std::max(1e-12, white.sum() - gain) / (freedom - q);
+        DriverTest test{driver.by, driver.component, driver.text, 0.0, 1.0,
+                        static_cast<int>(driver.columns.size())};
+        test.explained = plain.sum() / freedom - rest / (freedom - q);
+        test.p_value = std::min(1.0, f_tail(gain / q / white_rest, q, freedom - q) *
                                          static_cast<double>(list.all().size()));
         tests.push_back(test);
     }

@@ -5,8 +5,9 @@
 
 namespace trunnion {
 
-/// Part of `left_mm` that smooth functions of each driver explain beyond the columns `known`
-/// (unwhitened, mm), with its F test. Rows with `used` 0 take no part. Strongest first.
+/// Part of `left_mm` that smooth functions of each driver explain beyond the columns `known` (mm).
+/// Its size is measured in stated sigma, its F test on whitened readings, so that what neighbours
+/// share does not pass for structure. Rows with `used` 0 take no part. Strongest first.
 struct DriverTest {
     std::string by, component, text;
     double explained = 0.0;   ///< fall of the mean squared z, freedom accounted for
@@ -17,6 +18,6 @@ std::vector<DriverTest> test_drivers(const Replay& replay, const ReadingTable& t
                                      const BaseModel& base, const Eigen::MatrixXd& known,
                                      const Eigen::VectorXd& left_mm,
                                      const Eigen::VectorXd& sigma_mm,
-                                     const std::vector<bool>& used);
+                                     const std::vector<bool>& used, const Whitener& whitener);
 
 }  // namespace trunnion

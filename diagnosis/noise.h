@@ -19,11 +19,18 @@ struct DeviceNoise {
     double scale = 1.0;
     double shared = 0.0;  ///< part of the variance that neighbours share
     double memory = 0.9;  ///< of the shared part, from one ballbar sample to the next
+
+    /// Independent readings that know as much about the variance as `rows` of these.
+    double independent(double rows) const {
+        const double m2 = memory * memory;
+        return rows / (1.0 + shared * shared * 2.0 * m2 / (1.0 - m2));
+    }
 };
 
 struct NoiseModel {
     DeviceNoise sphere, touch, ballbar;
     NoiseSource source = NoiseSource::given;
+    double doubt = 0.0;  ///< relative standard error of the variance, when repeats set it
     const DeviceNoise& of(Device device) const;
     DeviceNoise& of(Device device);
 };

@@ -227,6 +227,8 @@ NoiseModel noise_from_repeats(const Replay& replay, const ReadingTable& table,
         for (Stretch& s : list)  // a few wild differences must not set the noise
             s.value = s.value.cwiseMax(-6.0).cwiseMin(6.0);
         noise.of(device) = estimate(replay, device, list, 0.05, 4.0);
+        const double independent = noise.of(device).independent(static_cast<double>(count));
+        noise.doubt = std::max(noise.doubt, std::sqrt(2.0 / independent));
     }
     if (all) noise.source = NoiseSource::repeats;
     return noise;
