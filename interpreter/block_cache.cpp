@@ -17,10 +17,11 @@ std::size_t BlockCache::slot(std::uint64_t key) const {
 }
 
 int BlockCache::find(int file, std::uint64_t byte) const {
-    return table_[slot(key_of(file, byte))].block;
+    return table_.empty() ? -1 : table_[slot(key_of(file, byte))].block;
 }
 
 int BlockCache::add(int file, const Block& block) {
+    if (table_.empty()) table_.resize(table_size);
     const std::uint64_t key = key_of(file, block.byte);
     const int index = static_cast<int>(blocks.size());
     blocks.push_back(block);
@@ -33,7 +34,7 @@ bool BlockCache::full() const {
 }
 
 void BlockCache::clear() {
-    table_.assign(table_size, Entry{});
+    table_.clear();
     blocks.clear();
     links.clear();
     code.clear();

@@ -17,8 +17,6 @@ struct Link {
 
 class BlockCache {
   public:
-    BlockCache() : table_(table_size, Entry{}) {}
-
     /// Number of the block at `byte` of file `file`, or -1.
     int find(int file, std::uint64_t byte) const;
     int add(int file, const Block& block);
@@ -48,7 +46,7 @@ class BlockCache {
 
     std::size_t slot(std::uint64_t key) const;
 
-    std::vector<Entry> table_;
+    std::vector<Entry> table_;  ///< open addressing; empty until the first block comes
 };
 
 }  // namespace trunnion

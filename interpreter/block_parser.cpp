@@ -85,7 +85,7 @@ Block Parser::run() {
 /// False: the line is no block (end of record, folder line).
 bool Parser::start() {
     const char c = in_.peek_raw();
-    const bool over = in_.p == in_.end || *in_.p == control_z;
+    const bool over = in_.begin == in_.end || (in_.p != in_.end && *in_.p == control_z);
     if (!over && c != '%' && c != '&') return true;
     block_.kind = BlockKind::end_of_record;
     const char* p = over ? in_.end : find_line_end(in_.p, in_.end);

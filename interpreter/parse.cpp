@@ -23,6 +23,13 @@ void learn_names(ParsedProgram& program, const Block& block) {
                        static_cast<int>(item.value), program.names);
 }
 
+/// The old end-of-file mark: nothing behind it counts.
+bool is_control_z(const ParsedProgram& program, const Block& block) {
+    const std::string_view text = program.text(block);
+    const std::size_t first = text.find_first_not_of(" \t");
+    return block.kind == BlockKind::end_of_record && first != text.npos && text[first] == control_z;
+}
+
 bool same_number(double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
@@ -73,6 +80,10 @@ ParsedProgram parse_program(const ProgramText& source, const Dialect& dialect) {
             program.blocks.push_back(parse_block(text, at.byte, at.line, options, program.code));
             learn_names(program, program.blocks.back());
             end = program.blocks.back().end;
+            if (is_control_z(program, program.blocks.back())) {
+                program.blocks.pop_back();
+                return program;
+            }
         } catch (Alarm& fault) {
             Block lost;
             lost.byte = at.byte;

@@ -162,6 +162,7 @@ class BlockPrinter {
     const Block& block_;
     std::string out_;
     bool after_skip_ = false;
+    bool binary_ = false;  ///< inside BPRNT
 };
 
 std::string BlockPrinter::print() {
@@ -171,9 +172,11 @@ std::string BlockPrinter::print() {
     }
     head();
     comments(true);
-    bool printing = false;
+    bool printing = false;  // inside DPRNT[..]
     for (const Item& i : program_.items(block_)) {
-        printing = printing || i.kind == ItemKind::dprnt || i.kind == ItemKind::bprnt;
+        const bool part = i.kind == ItemKind::print_text || i.kind == ItemKind::print_value;
+        if (printing && !part) out_ += ']';
+        printing = part || i.kind == ItemKind::dprnt || i.kind == ItemKind::bprnt;
         item(i);
     }
     if (printing) out_ += ']';
@@ -231,9 +234,8 @@ void BlockPrinter::item(const Item& item) {
             out_ += characters(item);
             return;
         case ItemKind::print_value: {
-            const bool decimal = out_.find("DPRNT[") != std::string::npos;
-            out_ += part(item.a).text + (decimal ? fmt::format("[{}{}]", item.number, item.digits)
-                                                 : fmt::format("[{}]", item.digits));
+            out_ += part(item.a).text + (binary_ ? fmt::format("[{}]", item.digits)
+                                                 : fmt::format("[{}{}]", item.number, item.digits));
             return;
         }
         default:
@@ -278,6 +280,7 @@ void BlockPrinter::item(const Item& item) {
             return;
         case ItemKind::bprnt:
             out_ += "BPRNT[";
+            binary_ = true;
             return;
         case ItemKind::setvn:
             out_ += fmt::format("SETVN{}[{}]", static_cast<int>(item.value), characters(item));

@@ -9,6 +9,7 @@
 namespace trunnion {
 namespace {
 
+constexpr int outside = -2;                    ///< in place of a file's id: from the source alone
 constexpr std::size_t largest_index = 300000;  ///< N numbers kept for one program: 4.8 MB
 
 bool by_number(const Numbered& a, const Numbered& b) {
@@ -102,18 +103,21 @@ Section* ProgramFiles::find(int number, const Section* near) {
     Section* section = near ? find_in(*near->file, number) : nullptr;
     if (!section && !files_.empty()) section = find_in(*files_.front(), number);
     if (!section) section = find_outside(number);
-    if (section) found_[key] = section;
-    return section;
+    return found_[key] = section;
 }
 
 Section* ProgramFiles::find_outside(int number) {
+    const auto key = std::make_pair(outside, number);
+    const auto known = found_.find(key);
+    if (known != found_.end()) return known->second;
+    Section*& section = found_[key];
     const std::optional<ProgramText> text = source_.find(number);
-    if (!text) return nullptr;
-    ProgramFile& file = add(*text);
-    if (Section* section = find_in(file, number)) return section;
-    Section& section = open(*text);
-    if (section.o_number == 0) section.o_number = number;
-    return &section;
+    if (!text) return section = nullptr;
+    section = find_in(add(*text), number);
+    if (section) return section;
+    section = &open(*text);
+    if (section->o_number == 0) section->o_number = number;
+    return section;
 }
 
 void ProgramFiles::build_index(Section& section) {

@@ -73,7 +73,8 @@ class ProgramFiles {
     ProgramSource& source_;
     std::vector<std::unique_ptr<ProgramFile>> files_;
     std::vector<std::unique_ptr<Section>> sections_;
-    std::map<std::pair<int, int>, Section*> found_;  ///< by file id (-1: source) and number
+    std::map<std::pair<int, int>, Section*> found_;  ///< by file id (-1: none) and number;
+                                                     ///< missing ones too
 };
 
 }  // namespace trunnion
