@@ -18,6 +18,7 @@ void add_backup(CLI::App& app, Run& run);
 void add_diagnose(CLI::App& app, Run& run);
 void add_identify(CLI::App& app, Run& run);
 void add_predict(CLI::App& app, Run& run);
+void add_run(CLI::App& app, Run& run);
 
 /// Exit codes of formats.md.
 enum ExitCode : int {

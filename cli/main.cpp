@@ -16,7 +16,12 @@ using namespace trunnion;
 
 /// One line a command: file cli/NAME.cpp, declared in cli/command.h.
 const std::initializer_list<void (*)(CLI::App&, Run&)> commands = {
-    add_backup, add_diagnose, add_identify, add_predict};
+    add_backup,    //
+    add_diagnose,  //
+    add_identify,  //
+    add_predict,   //
+    add_run,       //
+};
 
 int report_alarm(const Alarm& alarm) {
     fmt::print(stderr, "{}\n",

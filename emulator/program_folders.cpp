@@ -91,8 +91,9 @@ ProgramFolders::ProgramFolders(std::vector<std::string> folders) : folders_(std:
         if (!fs::is_directory(folder)) throw InputError("no such program folder", {folder, 0, 0});
 }
 
-void ProgramFolders::add_file(const ProgramText& file) {
-    programs_in(file.text, [&](int number) { own_.emplace(number, file); });
+void ProgramFolders::scan_own_files() {
+    for (const ProgramText& file : std::exchange(own_files_, {}))
+        programs_in(file.text, [&](int number) { own_.emplace(number, file); });
 }
 
 void ProgramFolders::list_folders() {
@@ -119,6 +120,7 @@ void ProgramFolders::scan_contents() {
 }
 
 std::optional<ProgramText> ProgramFolders::find(int o_number) {
+    scan_own_files();
     if (const auto own = own_.find(o_number); own != own_.end()) return own->second;
     list_folders();
     if (const auto named = by_name_.find(o_number); named != by_name_.end())

@@ -20,20 +20,23 @@ class ProgramFolders : public ProgramSource {
   public:
     explicit ProgramFolders(std::vector<std::string> folders);
 
-    /// Programs of this file are found before all others (the file that runs).
-    void add_file(const ProgramText& file);
+    /// Programs of this file are found before all others (the file that runs). It is searched when
+    /// the first subprogram is called, not before.
+    void add_file(const ProgramText& file) { own_files_.push_back(file); }
 
     std::optional<ProgramText> find(int o_number) override;
     std::optional<ProgramText> find(std::string_view name) override;
 
   private:
     void list_folders();
+    void scan_own_files();
     void scan_contents();
 
     std::vector<std::string> folders_;
     bool listed_ = false, scanned_ = false;
     std::vector<std::string> files_;  ///< in order of folders, then of names
     std::map<int, std::string> by_name_, by_content_;
+    std::vector<ProgramText> own_files_;  ///< not yet searched
     std::map<int, ProgramText> own_;
 };
 

@@ -18,14 +18,14 @@ void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
     const auto axes = setup.machine.chain.axes();
     const bool has_rotary = std::any_of(axes.begin(), axes.end(), [](auto& a) { return a.rotary; });
     if (!reason.empty() && has_rotary && !given.contains(19680))
-        notes.push_back(setup.path + ": note: no pivot parameters 19680-19714: " + reason);
+        notes.push_back(setup.path + ": no pivot parameters 19680-19714: " + reason);
     derive_fixture_groups(setup.machine, parameters);
     std::string numbers;
     for (const auto& [number, parameter] : parameters.entry)
         if (!given.contains(number))
             numbers += (numbers.empty() ? "" : ", ") + std::to_string(number);
     if (!numbers.empty())
-        notes.push_back(setup.path + ": note: parameters derived from [machine]: " + numbers);
+        notes.push_back(setup.path + ": parameters derived from [machine]: " + numbers);
 }
 
 std::string read_file(const std::string& path) {

@@ -53,7 +53,7 @@ void list_unused(const TomlValue& value, const std::string& name, const std::str
         const std::string full = name.empty() ? key : name + '.' + key;
         if (!child.used)
             notes.push_back(path + ':' + std::to_string(child.line) + ':' +
-                            std::to_string(child.column) + ": note: key '" + full +
+                            std::to_string(child.column) + ": key '" + full +
                             "' is not known and ignored");
         else
             list_unused(child, full, path, notes);

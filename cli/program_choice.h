@@ -1,0 +1,21 @@
+// The program a command works on: a file, or an O number in the program folders.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "emulator/program_folders.h"
+#include "emulator/run.h"
+
+namespace trunnion {
+
+/// Folders searched for programs: those given, the program's own, then what ships with the product.
+struct ProgramAndFolders {
+    ProgramChoice program;
+    ProgramFolders folders;
+};
+
+/// Throws InputError when there is no such file and no such O number.
+ProgramAndFolders open_program(const std::string& name, std::vector<std::string> folders);
+
+}  // namespace trunnion

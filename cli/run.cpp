@@ -1,0 +1,154 @@
+// trunnion run: an NC program on the emulated control and the physical machine.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "backup/control_files.h"
+#include "cli/command.h"
+#include "cli/files.h"
+#include "cli/program_choice.h"
+#include "cli/setups.h"
+#include "effects/settings.h"
+#include "geometry/numbers.h"
+#include "report/run_report.h"
+
+namespace trunnion {
+namespace {
+
+constexpr std::uint64_t most_blocks = 100'000'000;  ///< an endless loop ends here, exit code 4
+
+struct Options {
+    std::string program, setup, control, trace, readings, print, variables;
+    std::vector<std::string> folders, sets, injections;
+    std::uint64_t seed = 1, max_blocks = most_blocks;
+    double trace_step_mm = 0.0;
+    bool truth = false, json = false;
+};
+
+int whole(const std::string& text, const char* option) {
+    const auto n = parse_number(text);
+    if (!n || *n < 1 || *n > 99999 || *n != static_cast<int>(*n))
+        throw InputError(fmt::format("{}: '{}' is not a variable number", option, text));
+    return static_cast<int>(*n);
+}
+
+std::string without_hash(const std::string& text) {
+    return text.starts_with("#") ? text.substr(1) : text;
+}
+
+std::map<int, double> parse_sets(const std::vector<std::string>& sets) {
+    std::map<int, double> values;
+    for (const std::string& set : sets) {
+        const std::size_t equal = set.find('=');
+        const auto value = equal == std::string::npos ? std::nullopt
+                                                      : parse_number(set.substr(equal + 1));
+        if (!value) throw InputError(fmt::format("--set: '{}' does not read '#100=3.5'", set));
+        values[whole(without_hash(set.substr(0, equal)), "--set")] = *value;
+    }
+    return values;
+}
+
+/// "100-149,500"
+std::vector<int> parse_variables(const std::string& text) {
+    std::vector<int> numbers;
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t end = std::min(text.find(',', i), text.size());
+        const std::string part = text.substr(i, end - i);
+        const std::size_t dash = part.find('-');
+        const int first = whole(without_hash(part.substr(0, dash)), "--vars");
+        const int last = dash == std::string::npos
+                             ? first
+                             : whole(without_hash(part.substr(dash + 1)), "--vars");
+        for (int n = first; n <= last; ++n) numbers.push_back(n);
+        i = end + 1;
+    }
+    return numbers;
+}
+
+Setup setup_of(const Options& o) {
+    Setup setup = open_setup(o.setup);
+    if (!o.control.empty()) apply_backup(read_backup(o.control), setup.stores);
+    const Catalogue catalogue = make_catalogue(setup);
+    for (const std::string& text : o.injections)
+        setup.effects.push_back(parse_injection(text, catalogue));
+    return setup;
+}
+
+RunOptions run_options(const Options& o, const Setup& setup) {
+    RunOptions options;
+    options.seed = o.seed;
+    options.trace = !o.trace.empty();
+    options.trace_step_mm = o.trace_step_mm;
+    options.truth = o.truth;
+    options.max_blocks = o.max_blocks;
+    options.variables = parse_sets(o.sets);
+    options.wanted_variables = parse_variables(o.variables);
+    options.effects = active_models(setup);
+    return options;
+}
+
+/// A run that did not come to its end leaves no files: none of them would be whole.
+void write_files(const Options& o, RunLog& log) {
+    OutputFiles files;
+    if (!o.trace.empty()) files.add(o.trace, std::move(log.trace_csv));
+    if (!o.readings.empty()) files.add(o.readings, format_readings(log.readings));
+    if (!o.print.empty()) files.add(o.print, log.printed);
+    if (log.result.status == RunStatus::ok) files.write();
+}
+
+int exit_code(const RunResult& result) {
+    if (result.status == RunStatus::limit) {
+        fmt::print(stderr, "trunnion: stopped after {} blocks (--max-blocks)\n", result.blocks);
+        return exit_limit;
+    }
+    if (!result.alarm) return exit_done;
+    const Alarm& alarm = *result.alarm;
+    fmt::print(stderr, "{}\n",
+               format_diagnostic(alarm.where, fmt::format("alarm {} {}", alarm.number, alarm.text),
+                                 alarm.block));
+    return exit_alarm;
+}
+
+int run_command(const Options& o) {
+    if (o.trace_step_mm < 0.0) throw InputError("--trace-step: a length above zero is needed");
+    if ((o.truth || o.trace_step_mm > 0.0) && o.trace.empty())
+        throw InputError("--truth and --trace-step belong to --trace FILE");
+    const Setup setup = setup_of(o);
+    ProgramAndFolders program = open_program(o.program, o.folders);
+    RunLog log = run_program(setup, program.folders, program.program, run_options(o, setup));
+    print_notes(log.notes);
+    if (o.json)
+        fmt::print("{}", run_json(log, setup.machine.chain));
+    else if (o.print.empty())
+        fmt::print("{}", log.printed);
+    if (!o.json && !o.variables.empty()) fmt::print("{}", variables_text(log));
+    if (!o.json) fmt::print(stderr, "{}\n", run_summary(log));
+    write_files(o, log);
+    return exit_code(log.result);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Run& run) {
+    const auto o = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("run", "run an NC program on the emulated machine");
+    command->add_option("PROGRAM", o->program, "program file, or an O number")->required();
+    command->add_option("--setup", o->setup, "setup file (machines/bc_table.toml)");
+    command->add_option("--programs", o->folders, "folder with more programs")->allow_extra_args(false);
+    command->add_option("--control", o->control, "a real control's backup folder, put over the setup");
+    command->add_option("--seed", o->seed, "seed of the devices' noise (1)");
+    command->add_option("--trace", o->trace, "CSV with a row for each move");
+    command->add_option("--trace-step", o->trace_step_mm, "also a SAMPLE row every so many mm");
+    command->add_flag("--truth", o->truth, "also where the physical tip was");
+    command->add_option("--readings", o->readings, "CSV of what probe and ballbar read");
+    command->add_option("--print", o->print, "file for what DPRNT prints");
+    command->add_option("--set", o->sets, "variable before the run, '#100=3.5'")->allow_extra_args(false);
+    command->add_option("--vars", o->variables, "variables to report, 100-149,500");
+    command->add_option("--inject", o->injections, "effect, 'C.backlash: gap_rad=6e-5'")
+        ->allow_extra_args(false);
+    command->add_option("--max-blocks", o->max_blocks, "stop after so many blocks, 0: never");
+    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->callback([o, &run] { run = [o] { return run_command(*o); }; });
+}
+
+}  // namespace trunnion
