@@ -40,8 +40,8 @@ std::map<int, double> parse_sets(const std::vector<std::string>& sets) {
     std::map<int, double> values;
     for (const std::string& set : sets) {
         const std::size_t equal = set.find('=');
-        const auto value = equal == std::string::npos ? std::nullopt
-                                                      : parse_number(set.substr(equal + 1));
+        const auto value =
+            equal == std::string::npos ? std::nullopt : parse_number(set.substr(equal + 1));
         if (!value) throw InputError(fmt::format("--set: '{}' does not read '#100=3.5'", set));
         values[whole(without_hash(set.substr(0, equal)), "--set")] = *value;
     }
@@ -134,15 +134,18 @@ void add_run(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand("run", "run an NC program on the emulated machine");
     command->add_option("PROGRAM", o->program, "program file, or an O number")->required();
     command->add_option("--setup", o->setup, "setup file (machines/bc_table.toml)");
-    command->add_option("--programs", o->folders, "folder with more programs")->allow_extra_args(false);
-    command->add_option("--control", o->control, "a real control's backup folder, put over the setup");
+    command->add_option("--programs", o->folders, "folder with more programs")
+        ->allow_extra_args(false);
+    command->add_option("--control", o->control,
+                        "a real control's backup folder, put over the setup");
     command->add_option("--seed", o->seed, "seed of the devices' noise (1)");
     command->add_option("--trace", o->trace, "CSV with a row for each move");
     command->add_option("--trace-step", o->trace_step_mm, "also a SAMPLE row every so many mm");
     command->add_flag("--truth", o->truth, "also where the physical tip was");
     command->add_option("--readings", o->readings, "CSV of what probe and ballbar read");
     command->add_option("--print", o->print, "file for what DPRNT prints");
-    command->add_option("--set", o->sets, "variable before the run, '#100=3.5'")->allow_extra_args(false);
+    command->add_option("--set", o->sets, "variable before the run, '#100=3.5'")
+        ->allow_extra_args(false);
     command->add_option("--vars", o->variables, "variables to report, 100-149,500");
     command->add_option("--inject", o->injections, "effect, 'C.backlash: gap_rad=6e-5'")
         ->allow_extra_args(false);

@@ -9,6 +9,17 @@
 namespace trunnion {
 namespace {
 
+/// "7580-7585, 19666"
+std::string ranges(const std::vector<int>& rising) {
+    std::string out;
+    for (std::size_t i = 0, last; i < rising.size(); i = last + 1) {
+        for (last = i; last + 1 < rising.size() && rising[last + 1] == rising[last] + 1;) ++last;
+        out += (out.empty() ? "" : ", ") + std::to_string(rising[i]);
+        if (last > i) out += '-' + std::to_string(rising[last]);
+    }
+    return out;
+}
+
 /// Numbers of the pivot (19680-19714) and of the G54.2 groups that the file does not give are those
 /// of the machine, told truthfully.
 void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
@@ -20,12 +31,11 @@ void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
     if (!reason.empty() && has_rotary && !given.contains(19680))
         notes.push_back(setup.path + ": no pivot parameters 19680-19714: " + reason);
     derive_fixture_groups(setup.machine, parameters);
-    std::string numbers;
+    std::vector<int> added;
     for (const auto& [number, parameter] : parameters.entry)
-        if (!given.contains(number))
-            numbers += (numbers.empty() ? "" : ", ") + std::to_string(number);
-    if (!numbers.empty())
-        notes.push_back(setup.path + ": parameters derived from [machine]: " + numbers);
+        if (!given.contains(number)) added.push_back(number);
+    if (!added.empty())
+        notes.push_back(setup.path + ": parameters derived from [machine]: " + ranges(added));
 }
 
 std::string read_file(const std::string& path) {

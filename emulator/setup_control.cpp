@@ -142,8 +142,7 @@ void read_control(const TomlFile& file, const TomlValue& control, const BackupRe
     if (const TomlValue* dialect = control.find("dialect")) {
         if (file.text(*dialect) != "fanuc" && file.text(*dialect) != "hurco")
             file.fail(*dialect, "dialect is \"fanuc\" or \"hurco\"");
-        setup.dialect =
-            dialect->text == "hurco" ? hurco_dialect() : fanuc_dialect();
+        setup.dialect = dialect->text == "hurco" ? hurco_dialect() : fanuc_dialect();
     }
     if (const TomlValue* folder = control.find("backup"))
         read_backup(file, *folder, backup, setup.stores);

@@ -19,9 +19,9 @@ const char* status_name(RunStatus status) {
 
 Json alarm_json(const std::optional<Alarm>& alarm) {
     if (!alarm) return nullptr;
-    return {{"number", alarm->number},      {"text", alarm->text},
+    return {{"number", alarm->number},         {"text", alarm->text},
             {"program", alarm->where.program}, {"line", alarm->where.line},
-            {"column", alarm->where.column}, {"block", alarm->block}};
+            {"column", alarm->where.column},   {"block", alarm->block}};
 }
 
 Json position_json(const AxisPositions& q, const Chain& chain) {
@@ -29,7 +29,8 @@ Json position_json(const AxisPositions& q, const Chain& chain) {
     for (const AxisGeometry& axis : chain.axes()) {
         const double value = q[axis.axis];
         out[std::string(1, letter_of(axis.axis))] =
-            axis.rotary ? parse_number(shortest_degrees(value)).value_or(deg_from_rad(value)) : value;
+            axis.rotary ? parse_number(shortest_degrees(value)).value_or(deg_from_rad(value))
+                        : value;
     }
     return out;
 }
@@ -41,26 +42,26 @@ std::string run_json(const RunLog& log, const Chain& chain) {
     for (const auto& [number, value] : log.variables)
         variables[std::to_string(number)] = std::isfinite(value) ? Json(value) : Json(nullptr);
     const RunResult& r = log.result;
-    const Json json = {{"schema", "trunnion.run/1"},
-                       {"status", status_name(r.status)},
-                       {"alarm", alarm_json(r.alarm)},
-                       {"blocks", r.blocks},
-                       {"moves", r.moves},
-                       {"time_s", r.time_s},
-                       {"path_mm", r.path_mm},
-                       {"final",
-                        {{"machine", position_json(r.machine, chain)},
-                         {"work", position_json(r.work, chain)}}},
-                       {"modal", r.modal},
-                       {"variables", variables},
-                       {"printed", log.printed}};
+    const Json json = {
+        {"schema", "trunnion.run/1"},
+        {"status", status_name(r.status)},
+        {"alarm", alarm_json(r.alarm)},
+        {"blocks", r.blocks},
+        {"moves", r.moves},
+        {"time_s", r.time_s},
+        {"path_mm", r.path_mm},
+        {"final",
+         {{"machine", position_json(r.machine, chain)}, {"work", position_json(r.work, chain)}}},
+        {"modal", r.modal},
+        {"variables", variables},
+        {"printed", log.printed}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 std::string run_summary(const RunLog& log) {
     const RunResult& r = log.result;
-    return fmt::format("{}: {} blocks, {} moves, {:.3f} s, {:.3f} mm", status_name(r.status), r.blocks,
-                       r.moves, r.time_s, r.path_mm);
+    return fmt::format("{}: {} blocks, {} moves, {:.3f} s, {:.3f} mm", status_name(r.status),
+                       r.blocks, r.moves, r.time_s, r.path_mm);
 }
 
 std::string variables_text(const RunLog& log) {
