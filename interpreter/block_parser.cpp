@@ -42,6 +42,8 @@ class Parser {
     void finish();
     void program_number(char c);
     void program_name();
+    void called_name();
+    std::string_view name();
     void number_word();
     bool skip();
     void comma_word();
@@ -102,6 +104,7 @@ bool Parser::item(char c) {
     if (c == '/') return skip();
     if ((c == 'O' || c == ':') && first) return program_number(c), true;
     if (c == '<' && first && !program_) return program_name(), true;
+    if (c == '<' && words_) return called_name(), true;
     if (c == '#') return assignment(), true;
     if (c == ',') return comma_word(), true;
     if (c == 'N' && first && block_.sequence_number < 0) return number_word(), true;
@@ -157,17 +160,35 @@ void Parser::program_number(char) {
                     "O words with SUB, WHILE, IF .. are LinuxCNC's, not Fanuc's");
 }
 
-/// `<101>`, `<PART-1>`; the longest name is 32 characters.
-void Parser::program_name() {
+/// `<101>`, `<PART-1>` without the brackets; the longest name is 32 characters.
+std::string_view Parser::name() {
     const std::uint16_t column = in_.column();
     const char* const first = ++in_.p;
     while (in_.p != in_.end && is_name_character(*in_.p)) ++in_.p;
-    if (in_.p == in_.end || *in_.p != '>' || in_.p == first || in_.p - first > 32)
+    const auto size = static_cast<std::size_t>(in_.p - first);
+    if (in_.p == in_.end || *in_.p != '>' || size == 0 || size > 32)
         raise_alarm(9, column, "neither a program name nor a block (a merge marker?)");
-    block_.name = {static_cast<std::uint32_t>(first - in_.begin),
-                   static_cast<std::uint32_t>(in_.p - first)};
     ++in_.p;
+    return {first, size};
+}
+
+void Parser::program_name() {
+    const std::string_view text = name();
+    block_.name = {static_cast<std::uint32_t>(text.data() - in_.begin),
+                   static_cast<std::uint32_t>(text.size())};
     program_ = true;
+}
+
+/// `M98<NAME>`, `G65<NAME>`: a word whose value is text.
+void Parser::called_name() {
+    const std::uint16_t column = in_.column();
+    const std::string_view text = name();
+    Item& item = add(ItemKind::word, column);
+    item.letter = '<';
+    item.b = {static_cast<std::uint32_t>(out_.text.size()),
+              static_cast<std::uint32_t>(text.size())};
+    out_.text += text;
+    computed_ = true;
 }
 
 void Parser::number_word() {

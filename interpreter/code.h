@@ -91,7 +91,8 @@ enum class ItemKind : std::uint8_t {
 
 struct Item {
     ItemKind kind = ItemKind::word;
-    char letter = 0;          ///< upper case; comma words lower case
+    char letter = 0;          ///< upper case; comma words lower case; '<' for the
+                              ///< called name of `M98<NAME>`: characters b of Code::text
     std::uint8_t number = 0;  ///< loop, skip switch, digits before the point
     std::uint8_t digits = 0;  ///< digits behind the point of print_value
     std::uint16_t column = 0;

@@ -45,7 +45,8 @@ bool same_expression(const ParsedProgram& a, Span span_a, const ParsedProgram& b
 }
 
 bool has_text(const Item& item) {
-    return item.kind == ItemKind::print_text || item.kind == ItemKind::setvn;
+    return item.kind == ItemKind::print_text || item.kind == ItemKind::setvn ||
+           (item.kind == ItemKind::word && item.letter == '<');
 }
 
 bool same_item(const ParsedProgram& a, const Item& x, const ParsedProgram& b, const Item& y) {

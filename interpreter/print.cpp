@@ -201,6 +201,10 @@ void BlockPrinter::comments(bool leading) {
 }
 
 void BlockPrinter::word(const Item& item) {
+    if (item.letter == '<') {
+        out_ += "<" + characters(item) + ">";
+        return;
+    }
     if (item.letter >= 'a') out_ += ',';
     out_ += upper(item.letter);
     if (item.a.count == 0) {

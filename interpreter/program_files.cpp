@@ -106,6 +106,31 @@ Section* ProgramFiles::find(int number, const Section* near) {
     return found_[key] = section;
 }
 
+Section* ProgramFiles::find_in(ProgramFile& file, std::string_view name) {
+    const std::string_view text = file.text.text;
+    const std::string wanted = "<" + std::string(name) + ">";
+    for (LineScan scan(text, start_of_text(text)); scan.next();) {
+        const LineHead& head = scan.head();
+        if (head.kind != LineKind::program || *head.content != '<') continue;
+        const auto at = static_cast<std::size_t>(head.content - text.data());
+        if (text.compare(at, wanted.size(), wanted) == 0) return &section_at(file, head.place, 0);
+    }
+    return nullptr;
+}
+
+Section* ProgramFiles::find(std::string_view name, const Section& near) {
+    const auto known = named_.find(name);
+    if (known != named_.end()) return known->second;
+    Section* section = find_in(*near.file, name);
+    if (!section) {
+        const std::optional<ProgramText> text = source_.find(name);
+        if (text) section = find_in(add(*text), name);
+        if (text && !section) section = &open(*text);
+    }
+    named_.emplace(name, section);
+    return section;
+}
+
 Section* ProgramFiles::find_outside(int number) {
     const auto key = std::make_pair(outside, number);
     const auto known = found_.find(key);

@@ -54,6 +54,8 @@ class ProgramFiles {
     Section* find(int number, const Section* near);
     /// Only from the source (M198).
     Section* find_outside(int number);
+    /// The program `<name>`: in `near`'s file, then from the source.
+    Section* find(std::string_view name, const Section& near);
 
     /// GOTO's rule: the next N`number` behind `after`, to the end of the program, then from its
     /// start.
@@ -68,11 +70,13 @@ class ProgramFiles {
     ProgramFile& add(const ProgramText& text);
     Section& section_at(ProgramFile& file, TextPlace place, int o_number);
     Section* find_in(ProgramFile& file, int number);
+    Section* find_in(ProgramFile& file, std::string_view name);
     void build_index(Section& section);
 
     ProgramSource& source_;
     std::vector<std::unique_ptr<ProgramFile>> files_;
     std::vector<std::unique_ptr<Section>> sections_;
+    std::map<std::string, Section*, std::less<>> named_;
     std::map<std::pair<int, int>, Section*> found_;  ///< by file id (-1: none) and number;
                                                      ///< missing ones too
 };

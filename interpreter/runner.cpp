@@ -191,7 +191,7 @@ bool Interpreter::State::give_out(const Block& block, const Code& code) {
         word.decimal_point = item->decimal_point;
         word.vacant = is_vacant(v);
         word.column = item->column;
-        any_special = any_special || special.has(word.letter, v);
+        any_special = any_special || word.letter == '<' || special.has(word.letter, v);
     }
     return !any_special || special_words(block, code);
 }

@@ -49,6 +49,7 @@ struct ModalCall {
 /// What the block just given out still has to do.
 struct Pending {
     enum class Kind : unsigned char { none, subprogram, give_back } kind = Kind::none;
+    Section* named = nullptr;  ///< of M98<NAME>; else looked up by number when it is called
     int program = 0;
     int repeats = 1;
     int sequence_number = -1;
@@ -87,8 +88,9 @@ struct Interpreter::State {
 
     // runner_calls.cpp
     bool special_words(const Block& block, const Code& code);
-    void macro_call(std::size_t at, bool modal, bool every_block);
-    bool subprogram_words(std::size_t at, bool outside);
+    void macro_call(std::size_t at, Section* named, bool modal, bool every_block);
+    bool subprogram_words(std::size_t at, Section* named, bool outside);
+    Section* take_name(const Block& block, const Code& code);
     bool return_words(std::size_t at);
     bool code_call(std::size_t at, const CodeCalls::Call& call);
     bool tool_call(std::size_t at);

@@ -28,6 +28,7 @@ bool read_hex_double(std::string_view digits, double& value) {
 /// `words` hold a code of the language. True: words remain for the control now.
 bool Interpreter::State::special_words(const Block& block, const Code& code) {
     const bool codes_call = !frame().by_code;
+    Section* const named = take_name(block, code);
     for (std::size_t i = 0; i < words.count; ++i) {
         const WordValue word = words.words[i];
         if (word.vacant || !special.has(word.letter, word.value)) continue;
@@ -36,22 +37,47 @@ bool Interpreter::State::special_words(const Block& block, const Code& code) {
             continue;
         }
         if (word.letter == 'M') {
-            if (word.value == 98) return subprogram_words(i, false);
+            if (word.value == 98) return subprogram_words(i, named, false);
             if (word.value == 99) return return_words(i);
-            if (word.value == 198) return subprogram_words(i, true);
+            if (word.value == 198) return subprogram_words(i, named, true);
             const CodeCalls::Call* call = find_call(options.calls.m, word.value);
             if (codes_call && call) return code_call(i, *call);
             continue;
         }
-        if (word.value == 65) return macro_call(i, false, false), false;
-        if (word.value == 66) return macro_call(i, true, false), false;
-        if (word.value == 66.1) return macro_call(i, true, true), false;
+        if (word.value == 65) return macro_call(i, named, false, false), false;
+        if (word.value == 66) return macro_call(i, named, true, false), false;
+        if (word.value == 66.1) return macro_call(i, named, true, true), false;
         if (word.value == 67) return cancel_modal(i);
         if (word.value == 10 && macro_file_value(block, code)) return false;
         const CodeCalls::Call* call = find_call(options.calls.g, word.value * 10.0);
         if (codes_call && call) return code_call(i, *call);
     }
     return words.count > 0;
+}
+
+/// The program that `<NAME>` in the block names, taken out of it; nullptr when there is none.
+Section* Interpreter::State::take_name(const Block& block, const Code& code) {
+    bool calls = false;
+    std::size_t at_name = words.count;
+    for (std::size_t i = 0; i < words.count; ++i) {
+        const WordValue& w = words.words[i];
+        calls = calls || (w.letter == 'M' && (w.value == 98 || w.value == 198)) ||
+                (w.letter == 'G' && (w.value == 65 || w.value == 66 || w.value == 66.1));
+        if (w.letter == '<') at_name = i;
+    }
+    if (at_name == words.count) return nullptr;
+    const int column = words.words[at_name].column;
+    if (!calls) raise_alarm(9, column, "a program name without a call");
+    std::string_view name;
+    for (std::uint32_t i = 0; i < block.items.count; ++i) {
+        const Item& item = code.items[block.items.first + i];
+        if (item.letter == '<')
+            name = std::string_view(code.text).substr(item.b.first, item.b.count);
+    }
+    Section* const section = files.find(name, *frame().section);
+    if (!section) raise_alarm(76, column, "<" + std::string(name) + ">");
+    remove(at_name);
+    return section;
 }
 
 void Interpreter::State::remove(std::size_t at_word) {
@@ -84,15 +110,16 @@ Section& Interpreter::State::called(int number, bool outside, int column) {
 }
 
 /// G65 P_ L_ arguments, or G66 / G66.1 with the same words.
-void Interpreter::State::macro_call(std::size_t at_word, bool modal, bool every_block) {
+void Interpreter::State::macro_call(std::size_t at_word, Section* named, bool modal,
+                                    bool every_block) {
     if (at_word != 0)
         raise_alarm(127, words.words[0].column, "G65 and G66 stand first in their block");
     const int column = words.words[0].column;
     remove(0);
     const double p = take('P', -1.0);
-    if (p < 0.0) raise_alarm(76, column, "P is missing");
+    if (p < 0.0 && !named) raise_alarm(76, column, "P is missing");
     const int repeats = whole_number(take('L', 1.0), column);
-    Section& section = called(whole_number(p, column), false, column);
+    Section& section = named ? *named : called(whole_number(p, column), false, column);
     if (modal) {
         if (modal_count == modals.size()) raise_alarm(122, column);
         ModalCall& call = modals[modal_count++];
@@ -148,20 +175,21 @@ bool Interpreter::State::give_or(Pending call) {
 }
 
 /// M98 P_ L_ Q_, M198 P_ L_.
-bool Interpreter::State::subprogram_words(std::size_t at_word, bool outside) {
+bool Interpreter::State::subprogram_words(std::size_t at_word, Section* named, bool outside) {
     const int column = words.words[at_word].column;
     remove(at_word);
     const double p = take('P', -1.0);
-    if (p < 0.0) raise_alarm(76, column, "P is missing");
+    if (p < 0.0 && !named) raise_alarm(76, column, "P is missing");
     const int l = whole_number(take('L', -1.0), column);
     const bool packed = options.dialect.family == DialectFamily::fanuc;
     const int number = whole_number(p, column);
     SubprogramCall call = unpack_subprogram(number, l, packed);
-    if (call.program != number && !files.find(call.program, frame().section) &&
+    if (!named && call.program != number && !files.find(call.program, frame().section) &&
         files.find(number, frame().section))
         call = {number, 1};  // eight-digit program number without L
     Pending todo;
     todo.kind = Pending::Kind::subprogram;
+    todo.named = named;
     todo.program = call.program;
     todo.repeats = call.repeats;
     todo.sequence_number = whole_number(take('Q', -1.0), column);
@@ -272,7 +300,7 @@ void Interpreter::State::perform_pending() {
 }
 
 void Interpreter::State::call_subprogram(const Pending& call) {
-    Section& section = called(call.program, call.outside, 1);
+    Section& section = call.named ? *call.named : called(call.program, call.outside, 1);
     if (call.repeats < 1) return;
     const int n = call.sequence_number;
     const auto place = n < 0 ? std::nullopt : files.find_sequence(section, n, section.begin.byte);

@@ -141,6 +141,16 @@ TEST_CASE("codes mapped to programs by parameters") {
           Blocks{"M6", "S7", "T7", "M30"});
 }
 
+TEST_CASE("programs are called by name") {
+    const std::string sub = "M30\n<SUB-1>\nX#1\nM99\n";
+    CHECK(run("#1=2\nM98<SUB-1>L2\nG65<SUB-1>A5.\n" + sub).blocks ==
+          Blocks{"X2", "X2", "X5", "M30"});
+    CHECK(run("#1=2\n#2=0\nWHILE[#2LT2]DO1\nG90M98 <SUB-1>\n#2=#2+1\nEND1\n" + sub).blocks ==
+          Blocks{"G90", "X2", "G90", "X2", "M30"});
+    CHECK(alarm_of("M98<OTHER>\n") == 76);
+    CHECK(alarm_of("X1.<SUB-1>\n" + sub) == 9);
+}
+
 TEST_CASE("MACRO.TXT lines set variables and names") {
     const Run r =
         run("%\nG10L85P500(400777CED9168730)\nG10L85P501(FFFFFFFFFFFFFFFF)\n"

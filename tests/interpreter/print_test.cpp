@@ -57,6 +57,7 @@ TEST_CASE("parse, print, parse is a fixpoint") {
           "#1=-[-#2]\n#1=-#2*-3\n#1=[-2]*3-[-4]\n#[#[#1]+2]=POW[#1,-2]\nX[ROUND[#1]]\n",
           "G#401B#2\nG[59+[#1-6]/10]\nM#33\nX#[#1+1]Y-#[5]Z-[#5*2]\n",
           "WHILE[[#1LT3]AND[#2GT[4+5]]]DO2\nEND2\nDO1\nEND1\nGOTO[#147*100]\nGOTO#140\n",
+          "G90M98<SUB-1>L2\nG65 <A B>A5.\nDPRNT[]/2\nBPRNT[DPRNT[#1[2]]\n",
           "POPEN\nDPRNT[POSNX/#24[44]/**ACTUAL/#[135+#1][08]]\nBPRNT[C*#1[3]]\nPCLOS\n",
           "SETVN500[LEN,,RAD]\n#1=#[#RAD]\n<NAME-1>M60\n&F=/MTB1/\nO7001G90N5\n",
           "(a)#3000=1(b)(c)\n#100=1(a)+(b)2\nX.5Y5.Z-0.F1.000\nG5.1Q1\nC-145318.181\n",

@@ -1,0 +1,78 @@
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "support.h"
+
+using namespace trunnion;
+using namespace trunnion::test;
+
+TEST_CASE("every alarm of the language is reached by a program") {
+    std::string sets = "G65P9";
+    for (int i = 0; i < 11; ++i) sets += "K1.";
+    const std::vector<std::pair<int, std::string>> programs{
+        {3, "X1234567890123456\n"},
+        {4, "G0 5\n"},
+        {5, "G0X\n"},
+        {6, "X+-1\n"},
+        {7, "N1.X1\n"},
+        {9, "X1.$\n"},
+        {76, "G65P9\n"},
+        {77, "M98P9\nM30\nO9\nM98P9\n"},
+        {78, "M98P9Q5\nM30\nO9\nM99\n"},
+        {110, "#1=9999999999 OR 1\n"},
+        {111, "#1=EXP[900]\n"},
+        {112, "#1=1/[#2-0]\n"},
+        {114, "#1=[*2]\n"},
+        {115, "#34=1\n"},
+        {116, "#0=1\n"},
+        {118, "#1=[[[[[[2]]]]]]\n"},
+        {119, "#1=SQRT[-2]\n"},
+        {122, "G65P9\nM30\nO9\nG65P9\n"},
+        {124, "WHILE[1EQ1]DO1\n"},
+        {125, "ENDIF\n"},
+        {126, "DO5\n"},
+        {127, "#1=1X1.\n"},
+        {128, "GOTO5\n"},
+        {129, "G65P9A1.O5\nO9\n"},
+        {1090, "o10 sub\n"},
+        {1095, sets + "\nO9\nM99\n"},
+        {1096, "#1=#[#NOBODY]\n"},
+        {1124, "END1\n"},
+        {1131, "#1=SIN 30\n"},
+        {1132, "X[1.\n"},
+        {1133, "#1 5\n"},
+        {1134, "#1=POW[2]\n"},
+        {1137, "IF[1EQ1]\n"},
+        {1138, "WHILE[1EQ1]\n"},
+        {1139, "SETVN500\n"},
+        {1143, "DPRNT[#1]\n"},
+        {1144, "G10L85P500(XYZ)\n"},
+    };
+    std::set<int> reached;
+    for (const auto& [number, program] : programs) {
+        INFO(program);
+        CHECK(alarm_of(program) == number);
+        reached.insert(number);
+    }
+    for (const AlarmInfo& row : language_alarms()) {
+        INFO(row.number);
+        CHECK(reached.count(row.number) == 1);
+        CHECK(std::string(row.cause).size() > 5);
+        CHECK(std::string(row.remedy).size() > 5);
+        CHECK(language_alarm(row.number) == &row);
+    }
+    CHECK(language_alarm(1) == nullptr);
+}
+
+TEST_CASE("an alarm inside a called program shows that program's place") {
+    ProgramsInMemory folder;
+    folder.add(50, "O0050\nX1.\n  #1=1/0\nM99\n");
+    const Run r = run_on(folder, "X0.\nM98P50\n");
+    REQUIRE(r.alarm);
+    CHECK(r.alarm->number == 112);
+    CHECK(r.alarm->text == "ZERO DIVIDE");
+    CHECK(r.alarm->where.program == "O0050");
+    CHECK(r.alarm->where.line == 3);
+    CHECK(r.alarm->where.column == 7);
+    CHECK(r.alarm->block == "  #1=1/0");
+}
