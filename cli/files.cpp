@@ -24,6 +24,12 @@ std::string shipped(const std::string& relative) {
     throw InputError("not found beside the program or in share/trunnion", {relative});
 }
 
+void make_folder(const std::string& path) {
+    std::error_code error;
+    fs::create_directories(path, error);
+    if (error) throw InputError("this folder cannot be made: " + error.message(), {path});
+}
+
 std::string read_whole(const std::string& path) {
     if (fs::is_directory(path)) throw InputError("is a folder, not a file", {path});
     std::ifstream in(path, std::ios::binary);

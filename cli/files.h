@@ -13,6 +13,7 @@ namespace trunnion {
 /// installation. Throws InputError when it is nowhere.
 std::string shipped(const std::string& relative);
 
+void make_folder(const std::string& path);        ///< throws InputError with the path
 std::string read_whole(const std::string& path);  ///< throws InputError with the path
 
 /// Output files of one command: collected, then written under another name and renamed, so that
