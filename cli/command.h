@@ -17,6 +17,7 @@ using Run = std::function<int()>;
 void add_backup(CLI::App& app, Run& run);
 void add_diagnose(CLI::App& app, Run& run);
 void add_identify(CLI::App& app, Run& run);
+void add_pivot(CLI::App& app, Run& run);
 void add_predict(CLI::App& app, Run& run);
 void add_run(CLI::App& app, Run& run);
 

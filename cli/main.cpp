@@ -19,6 +19,7 @@ const std::initializer_list<void (*)(CLI::App&, Run&)> commands = {
     add_backup,    //
     add_diagnose,  //
     add_identify,  //
+    add_pivot,     //
     add_predict,   //
     add_run,       //
 };
