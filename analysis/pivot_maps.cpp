@@ -23,15 +23,18 @@ Vector3 location_shift_mm(const Machine& machine, Axis axis) {
     return {e[0], e[1], e[2]};
 }
 
-/// Value behind `letter` in a printed line, e.g. 'B' of "B -90.0000"; blanks may follow the letter.
+/// Value behind `letter` in a printed line. DPRNT writes the sign first and blanks for leading zeros:
+/// "B-  90.0000".
 std::optional<double> printed_value(std::string_view line, char letter, std::size_t from) {
     const std::size_t at = line.find(letter, from);
     if (at == std::string_view::npos) return std::nullopt;
-    const std::string text(line.substr(at + 1));
+    std::string text(line.substr(at + 1));
+    const bool negative = !text.empty() && text[0] == '-';
+    if (negative) text[0] = ' ';
     char* end = nullptr;
     const double value = std::strtod(text.c_str(), &end);
     if (end == text.c_str()) return std::nullopt;
-    return value;
+    return negative ? -value : value;
 }
 
 PivotMap& map_of(std::map<int, PivotMap>& maps, int number) {

@@ -89,7 +89,7 @@ TEST_CASE("the circle radius of an arc is the length of the turning vector") {
 
 TEST_CASE("printed results become maps") {
     const auto maps = parse_pivot_prints(
-        "DPP MAP1 B-90.0000 C  0.0000 X 0.1000000 Y-0.2000000 Z 0.3000000\n"
+        "DPP MAP1 B-  90.0000 C  0.0000 X 0.1000000 Y-0.2000000 Z 0.3000000\n"
         "DPP MAP1 B-75.0000 C  0.0000 X 0.1000000 Y-0.2000000 Z 0.3000000\nnoise\n"
         "TW MAP4 B  0.0000 C 15.0000 X 0.1000000 Y-0.2000000 Z 0.3000000\n"
         "TW MAP4 B  0.0000 C 30.0000 X 0.1000000 Y-0.2000000 Z 0.3000000\n");
@@ -97,6 +97,7 @@ TEST_CASE("printed results become maps") {
     CHECK(maps[0].name == "B arc at C0");
     CHECK(maps[1].moving == Axis::C);
     REQUIRE(maps[0].arcs[0].points.size() == 2);
+    CHECK(maps[0].arcs[0].points[0].b_deg == -90.0);
     CHECK(maps[0].arcs[0].points[0].error_mm == Vector3(0.1, -0.2, 0.3));
     CHECK(maps[1].arcs[3].points[1].c_deg == 30.0);
 }
