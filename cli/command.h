@@ -15,8 +15,10 @@ using Run = std::function<int()>;
 
 /// Each command adds its subcommand and options to `app` and, when chosen, sets `run`.
 void add_backup(CLI::App& app, Run& run);
+void add_compare(CLI::App& app, Run& run);
 void add_diagnose(CLI::App& app, Run& run);
 void add_identify(CLI::App& app, Run& run);
+void add_merge(CLI::App& app, Run& run);
 void add_pivot(CLI::App& app, Run& run);
 void add_predict(CLI::App& app, Run& run);
 void add_run(CLI::App& app, Run& run);

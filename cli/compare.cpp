@@ -1,0 +1,200 @@
+// trunnion compare, trunnion merge: are two programs, folders or suites the same machining?
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "cli/command.h"
+#include "cli/files.h"
+#include "cli/setups.h"
+#include "emulator/program_folders.h"
+#include "geometry/alarm.h"
+#include "geometry/units.h"
+#include "regression/suite.h"
+#include "report/comparison_report.h"
+
+namespace trunnion {
+
+namespace {
+
+struct CompareCommand {
+    std::string a, b, suite, setup, setup_b, by, format = "text", shard, reason, out = "-";
+    std::vector<std::string> program_folders;
+    double tol_lin_mm = Tolerances{}.position_mm;
+    double tol_ang_deg = deg_from_rad(Tolerances{}.direction_rad);
+    double tol_feed = Tolerances{}.feed_ratio, tol_time = Tolerances{}.time_ratio;
+    unsigned threads = 0;
+    std::uint64_t max_blocks = 0;
+    bool json = false, update = false;
+};
+
+void put(const std::string& path, std::string text) {
+    OutputFiles files;
+    files.add(path, std::move(text));
+    files.write();
+}
+
+SuiteCase case_of(const CompareCommand& c) {
+    if (!(c.tol_lin_mm > 0.0) || !(c.tol_ang_deg > 0.0) || !(c.tol_feed >= 0.0) ||
+        !(c.tol_time >= 0.0))
+        throw InputError("tolerances are numbers above 0");
+    SuiteCase like;
+    like.setup = c.setup;
+    like.setup_b = c.setup_b.empty() ? c.setup : c.setup_b;
+    like.options.tolerances.position_mm = c.tol_lin_mm;
+    like.options.tolerances.direction_rad = rad_from_deg(c.tol_ang_deg);
+    like.options.tolerances.feed_ratio = c.tol_feed;
+    like.options.tolerances.time_ratio = c.tol_time;
+    like.options.program_folders = c.program_folders;
+    like.options.max_blocks = c.max_blocks;
+    if (c.by.empty()) return like;
+    const auto layer = std::find(layer_names.begin(), layer_names.end(), c.by);
+    if (layer == layer_names.end())
+        throw InputError("--by " + c.by + ": one of text, words, blocks, path, axes, effects");
+    like.options.by = static_cast<Layer>(layer - layer_names.begin());
+    return like;
+}
+
+CompareReport compare_two(const CompareCommand& c, const SuiteCase& like) {
+    const ProgramText a = map_program(c.a), b = map_program(c.b);
+    const Setup setup_a = open_setup(like.setup);
+    CompareReport report;
+    if (like.setup_b == like.setup) {
+        report.cases.push_back(compare_programs(a, setup_a, b, setup_a, like.options));
+    } else {
+        const Setup setup_b = open_setup(like.setup_b);
+        report.cases.push_back(compare_programs(a, setup_a, b, setup_b, like.options));
+    }
+    return report;
+}
+
+Suite suite_of(const CompareCommand& c, const SuiteCase& like) {
+    if (c.suite.empty()) return suite_of_folders(c.a, c.b, like);
+    std::vector<std::string> notes;
+    Suite suite = read_suite(c.suite, like, notes);
+    print_notes(notes);
+    return suite;
+}
+
+int update(const CompareCommand& c, const Suite& suite) {
+    if (c.reason.empty() || c.reason.find('\n') != std::string::npos)
+        throw InputError(
+            "--update needs --reason \"one line that says why the machining changed\"");
+    OutputFiles files;
+    const auto goldens = updated_goldens(suite, c.reason, open_setup);
+    for (const auto& [path, text] : goldens) {
+        std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+        files.add(path, text);
+    }
+    files.write();
+    for (const auto& [path, text] : goldens) fmt::print("written: {}\n", path);
+    if (goldens.empty()) fmt::print("nothing to write: every golden is up to date\n");
+    return exit_done;
+}
+
+/// `{i}` in a file name is the number of the shard.
+std::string shard_path(std::string path, const Shard& shard) {
+    if (const std::size_t at = path.find("{i}"); at != std::string::npos)
+        path.replace(at, 3, std::to_string(shard.index));
+    return path;
+}
+
+std::optional<Shard> shard_of(const CompareCommand& c) {
+    if (!c.shard.empty()) return parse_shard(c.shard);
+    const auto shard = shard_of_environment();
+    if (shard)
+        print_notes({fmt::format("shard {}/{} by the environment (--shard 1/1 for all of it)",
+                                 shard->index, shard->count)});
+    return shard;
+}
+
+int compare_many(const CompareCommand& c, const SuiteCase& like, ReportFormat format) {
+    const Suite suite = suite_of(c, like);
+    if (c.update) return update(c, suite);
+    const auto shard = shard_of(c);
+    const unsigned threads = c.threads > 0 ? c.threads : std::thread::hardware_concurrency();
+    SuiteRun run = run_suite(suite, shard.value_or(Shard{}), open_setup, threads);
+    const int code = exit_code(run.report);
+    if (shard)
+        put(shard_path(c.out, *shard),
+            format_part({std::move(run.report), std::move(run.places), suite.cases.size()}));
+    else
+        put(c.out, format_comparison(run.report, format));
+    return code;
+}
+
+int compare(const CompareCommand& c) {
+    const ReportFormat format = report_format(c.json ? "json" : c.format);
+    const SuiteCase like = case_of(c);
+    if (c.suite.empty() == (c.a.empty() || c.b.empty()) || (!c.suite.empty() && !c.a.empty()))
+        throw InputError("compare: give two programs, two folders, or --suite FILE");
+    if (c.update && c.suite.empty()) throw InputError("--update writes the goldens of a --suite");
+    if (!c.suite.empty() || std::filesystem::is_directory(c.a) ||
+        std::filesystem::is_directory(c.b))
+        return compare_many(c, like, format);
+    const CompareReport report = compare_two(c, like);
+    put(c.out, format_comparison(report, format));
+    return exit_code(report);
+}
+
+int merge(const std::vector<std::string>& paths, const std::string& format_name,
+          const std::string& out) {
+    const ReportFormat format = report_format(format_name);
+    std::vector<ComparePart> parts;
+    for (const std::string& path : paths) parts.push_back(parse_part(read_whole(path), path));
+    const CompareReport report = merge_parts(parts);
+    put(out, format_comparison(report, format));
+    return exit_code(report);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Run& run) {
+    const auto c = std::make_shared<CompareCommand>();
+    CLI::App* command =
+        app.add_subcommand("compare", "are two programs (or folders) the same machining?");
+    command->add_option("A", c->a, "older program or folder");
+    command->add_option("B", c->b, "newer program or folder");
+    command->add_option("--suite", c->suite, "suite file: programs x setups x tolerances");
+    command->add_option("--setup", c->setup, "machine and control of both, or of A");
+    command->add_option("--setup-b", c->setup_b, "machine and control of B");
+    command->add_option("--programs", c->program_folders, "folders of subprograms");
+    command->add_option("--tol-lin", c->tol_lin_mm, "position tolerance, mm")
+        ->capture_default_str();
+    command->add_option("--tol-ang", c->tol_ang_deg, "direction tolerance, deg")
+        ->capture_default_str();
+    command->add_option("--tol-feed", c->tol_feed, "feed and speed tolerance, relative")
+        ->capture_default_str();
+    command->add_option("--tol-time", c->tol_time, "cycle time tolerance, relative")
+        ->capture_default_str();
+    command->add_option("--by", c->by, "one layer: text, words, blocks, path, axes, effects");
+    command->add_option("--format", c->format, "text, json, junit, sarif, github, html");
+    command->add_flag("--json", c->json, "the same as --format json");
+    command->add_option("--out", c->out, "file for the report or part ({i}: the shard's number)");
+    command->add_option("--shard", c->shard, "i/n, /n or env: one part of the cases, for 'merge'");
+    command->add_option("--threads", c->threads, "default: all cores");
+    command->add_option("--max-blocks", c->max_blocks, "stop a program after this many blocks");
+    command->add_flag("--update", c->update, "write the goldens of the suite that differ");
+    command->add_option("--reason", c->reason, "why they changed; stands in the golden");
+    command->callback([c, &run] { run = [c] { return compare(*c); }; });
+}
+
+void add_merge(CLI::App& app, Run& run) {
+    struct Options {
+        std::vector<std::string> parts;
+        std::string format = "text", out = "-";
+    };
+    const auto o = std::make_shared<Options>();
+    CLI::App* command =
+        app.add_subcommand("merge", "one report from the parts of 'compare --shard'");
+    command->add_option("PART", o->parts, "parts, in any order")->required();
+    command->add_option("--format", o->format, "text, json, junit, sarif, github, html");
+    command->add_flag_callback(
+        "--json", [o] { o->format = "json"; }, "the same as --format json");
+    command->add_option("--out", o->out, "file for the report");
+    command->callback([o, &run] { run = [o] { return merge(o->parts, o->format, o->out); }; });
+}
+
+}  // namespace trunnion

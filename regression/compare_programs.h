@@ -1,0 +1,34 @@
+// Are two programs the same machining? The layers, from what is written to what it does.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/setup.h"
+#include "interpreter/program_source.h"
+#include "regression/comparison.h"
+#include "regression/recorded_run.h"
+
+namespace trunnion {
+
+struct CompareOptions {
+    Tolerances tolerances;
+    std::optional<Layer> by;  ///< nothing: from the top until one layer is equal
+    std::vector<std::string> program_folders;
+    std::size_t most_differences = 1000;
+    std::uint64_t max_blocks = 0;
+};
+
+/// Compares two programs on one or two setups (the same object: one). Bad NC programs are results.
+/// Without `by` the layers are text, words, blocks, path (only path where the setups differ), then
+/// effects where neither program moves anything.
+Comparison compare_programs(const ProgramText& a, const Setup& setup_a, const ProgramText& b,
+                            const Setup& setup_b, const CompareOptions& options);
+
+/// A recorded path (a golden) against a program, in the layer `path`.
+Comparison compare_with_golden(const PathRecord& golden, const std::string& golden_path,
+                               const ProgramText& program, const Setup& setup,
+                               const CompareOptions& options);
+
+}  // namespace trunnion

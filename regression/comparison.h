@@ -1,0 +1,130 @@
+// The result of a comparison: plain values that every report format is written from.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace trunnion {
+
+/// The layers, from what is written to what it does.
+enum class Layer : std::uint8_t { text, words, blocks, path, axes, effects };
+constexpr std::array<const char*, 6> layer_names{"text", "words", "blocks",
+                                                 "path", "axes",  "effects"};
+constexpr const char* name_of(Layer layer) {
+    return layer_names[static_cast<std::size_t>(layer)];
+}
+
+/// A place in one of the programs: line from 1 (0: none), the block there and its neighbours.
+struct ComparePlace {
+    std::string program;
+    int line = 0;
+    int last_line = 0;  ///< where the difference ends, >= line
+    std::string block;
+    std::vector<std::string> context;  ///< lines around, the place's own one at `context_at`
+    int context_at = 0;
+};
+
+enum class DifferenceKind : std::uint8_t {
+    moved,
+    path,
+    only_a,
+    only_b,
+    reordered,
+    feed,
+    spindle,
+    coolant,
+    tool,
+    time,
+    value,
+    alarm,
+    text
+};
+constexpr std::array<const char*, 13> difference_names{
+    "moved",   "path", "only-in-a", "only-in-b", "reordered", "feed", "spindle",
+    "coolant", "tool", "time",      "value",     "alarm",     "text"};
+constexpr const char* name_of(DifferenceKind kind) {
+    return difference_names[static_cast<std::size_t>(kind)];
+}
+
+/// One cluster: the same change in `count` places, the first of which is shown.
+struct Difference {
+    DifferenceKind kind = DifferenceKind::path;
+    std::string what;  ///< one sentence
+    ComparePlace a, b;
+    double position_mm = 0.0;
+    double direction_deg = 0.0;
+    std::array<double, 3> shift_mm{};  ///< B minus A (moved)
+    double value_a = 0.0, value_b = 0.0;
+    int tool = 0;
+    std::uint64_t count = 1;
+    std::string fingerprint;  ///< stays when lines are added or removed elsewhere
+    bool expected = false;    ///< listed in the suite, with `reason`
+    std::string reason;
+};
+
+/// One line of the table: a tool and what became of its passes.
+struct ToolRow {
+    int tool = 0;
+    std::uint64_t passes_a = 0, passes_b = 0;
+    std::uint64_t equal = 0, moved = 0, changed = 0, reordered = 0, only_a = 0, only_b = 0;
+    double cut_a_mm = 0.0, cut_b_mm = 0.0;
+    double rapid_a_mm = 0.0, rapid_b_mm = 0.0;
+    double cut_a_s = 0.0, cut_b_s = 0.0;
+    std::array<double, 2> feed_a{}, feed_b{};        ///< least and largest, mm/min
+    std::array<double, 2> spindle_a{}, spindle_b{};  ///< rpm
+};
+
+struct LayerVerdict {
+    Layer layer = Layer::path;
+    bool equal = false;
+};
+
+/// Both paths as polylines of tips, thinned out, and the differing parts: for the picture.
+struct ComparePicture {
+    using Line = std::vector<std::array<double, 3>>;
+    Line a, b;
+    std::vector<Line> differing_a, differing_b;
+};
+
+enum class CompareStatus : std::uint8_t { equal, differs, alarm, bad_input, limit };
+constexpr std::array<const char*, 5> status_names{"equal", "differs", "alarm", "bad-input",
+                                                  "limit"};
+
+/// Two programs, or one case of a suite.
+struct Comparison {
+    std::string name;  ///< of the case; the relative path in folders
+    std::string a, b;  ///< files
+    std::string setup, setup_b;
+    CompareStatus status = CompareStatus::equal;
+    bool equal = true;  ///< nothing differs but what is expected
+    Layer by = Layer::path;
+    std::string verdict;  ///< one line
+    std::vector<LayerVerdict> layers;
+    std::uint64_t compared = 0;
+    double position_mm = 0.0, direction_deg = 0.0;  ///< worst of all that was compared
+    ComparePlace worst_a, worst_b;
+    std::vector<Difference> differences;  ///< in the order of A
+    std::uint64_t differences_left_out = 0;
+    std::vector<ToolRow> tools;
+    double time_a_s = 0.0, time_b_s = 0.0;
+    std::string alarm_a, alarm_b;  ///< "10 IMPROPER G-CODE" or empty
+    std::vector<std::string> notes;
+    ComparePicture picture;
+};
+
+/// Folders and suites: the cases in order.
+struct CompareReport {
+    std::string suite;  ///< name of the suite file or folders; empty for two single files
+    bool single = true;
+    std::vector<Comparison> cases;
+};
+
+/// 0 equal, 1 differs, 2 bad input, 3 alarm, 4 limit: the gravest of all cases, alarm before
+/// differs.
+int exit_code(const CompareReport& report);
+/// One line: the single case's verdict, or how many cases are equal.
+std::string verdict_of(const CompareReport& report);
+
+}  // namespace trunnion

@@ -1,0 +1,261 @@
+#include "regression/describe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "emulator/program_folders.h"
+#include "geometry/alarm.h"
+#include "geometry/units.h"
+#include "interpreter/lexical.h"
+
+namespace trunnion {
+
+SourceLines::SourceLines(const ProgramText& main) : name_(main.name) {
+    texts_[main.name] = main;
+}
+
+const ProgramLines* SourceLines::lines_of(const std::string& program) {
+    const auto known = lines_.find(program);
+    if (known != lines_.end()) return known->second ? &*known->second : nullptr;
+    std::optional<ProgramLines>& lines = lines_[program];
+    try {
+        if (!texts_.contains(program)) texts_[program] = map_program(program);
+        lines.emplace(texts_[program].text);
+    } catch (const InputError&) {
+        return nullptr;  // a golden, or a program that is no file: nothing to show
+    }
+    return &*lines;
+}
+
+void SourceLines::show(ComparePlace& place) {
+    const ProgramLines* lines = lines_of(place.program);
+    if (lines == nullptr || place.line <= 0) return;
+    constexpr int around = 2;
+    place.block = lines->line(place.line);
+    const int first = std::max(1, place.line - around);
+    place.context_at = place.line - first;
+    for (int n = first; n <= std::min(lines->count(), place.line + around); ++n)
+        place.context.push_back(lines->line(n));
+}
+
+namespace {
+
+ComparePlace place_of(SegmentWindow& path, const PathRecord& record, Stretch stretch,
+                      SourceLines& lines) {
+    ComparePlace place;
+    place.program = lines.main_name();
+    if (record.size() == 0) return place;
+    // Where one side has nothing, the block before which it is missing is shown.
+    const std::uint64_t at = std::min(stretch.first, record.segments().size() - 1);
+    const Segment segment = path[at];
+    if (segment.program < record.programs().size())
+        place.program = record.programs()[segment.program];
+    place.line = static_cast<int>(segment.line);
+    place.last_line = place.line;
+    if (stretch.last > stretch.first) {
+        const Segment last = path[stretch.last - 1];
+        if (last.program == segment.program)
+            place.last_line = std::max(place.line, static_cast<int>(last.line));
+    }
+    lines.show(place);
+    return place;
+}
+
+std::string shift_text(const Vector3& shift) {
+    std::string out;
+    for (int k = 0; k < 3; ++k)
+        if (std::abs(shift[k]) >= 5e-5)
+            out += fmt::format("{}{}{:+.4f}", out.empty() ? "" : " ", "XYZ"[k], shift[k]);
+    return out;
+}
+
+std::string times(std::uint64_t count, const char* what) {
+    return count > 1 ? fmt::format(", in {} {}", count, what) : "";
+}
+
+/// One sentence for a cluster.
+std::string sentence(const PathCluster& c, PathSpace space, const Tolerances& tolerances) {
+    const std::string tool = fmt::format(" (T{})", c.tool);
+    const double deg = deg_from_rad(c.direction_rad);
+    switch (c.kind) {
+        case DifferenceKind::moved:
+            return "moved by " + shift_text(c.first.shift_mm) + " mm" + times(c.count, "places") +
+                   tool;
+        case DifferenceKind::only_a:
+            return c.cut_a_mm > 0.0
+                       ? fmt::format("only in A: a pass with {:.3f} mm of cut", c.cut_a_mm) + tool
+                       : fmt::format("only in A: moves, up to {:.4f} mm away", c.position_mm) +
+                             tool;
+        case DifferenceKind::only_b:
+            return c.cut_b_mm > 0.0
+                       ? fmt::format("only in B: a pass with {:.3f} mm of cut", c.cut_b_mm) + tool
+                       : fmt::format("only in B: moves, up to {:.4f} mm away", c.position_mm) +
+                             tool;
+        case DifferenceKind::reordered:
+            return "reordered: the same pass stands at another place" + times(c.count, "passes") +
+                   tool;
+        case DifferenceKind::feed:
+            return fmt::format("feed {:g} -> {:g} mm/min", c.first.value_a, c.first.value_b) +
+                   times(c.count, "passes") + tool;
+        case DifferenceKind::spindle:
+            return fmt::format("spindle {:g} -> {:g} rpm", c.first.value_a, c.first.value_b) +
+                   times(c.count, "passes") + tool;
+        case DifferenceKind::coolant:
+            return fmt::format("coolant {} -> {}", c.first.value_a != 0.0 ? "on" : "off",
+                               c.first.value_b != 0.0 ? "on" : "off") +
+                   times(c.count, "passes") + tool;
+        case DifferenceKind::tool:
+            return fmt::format("tool T{:g} -> T{:g}", c.first.value_a, c.first.value_b) +
+                   times(c.count, "passes");
+        default:
+            break;
+    }
+    const bool turned = c.direction_rad > tolerances.direction_rad;
+    const bool shifted = c.position_mm > tolerances.position_mm;
+    const char* what = space == PathSpace::tip ? "tool direction" : "rotary axes";
+    if (turned && shifted)
+        return fmt::format("another path, up to {:.4f} mm and {:.4f} deg apart", c.position_mm,
+                           deg) +
+               tool;
+    if (turned) return fmt::format("{} up to {:.4f} deg apart", what, deg) + tool;
+    if (shifted) return fmt::format("another path, up to {:.4f} mm apart", c.position_mm) + tool;
+    return "the same points by another motion (rapid or feed, or along the path to and fro)" + tool;
+}
+
+std::array<double, 3> array_of(const Vector3& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+ComparePicture::Line thin_line(const PathRecord& record, Stretch stretch, std::uint64_t points,
+                               const Tolerances& tolerances) {
+    ComparePicture::Line line;
+    SegmentWindow path(record.segments());
+    const std::uint64_t step = 1 + (stretch.last - stretch.first) / points;
+    std::vector<PathPoint> chords;
+    for (std::uint64_t k = stretch.first; k < stretch.last; k += step) {
+        const PathPoint start = path[k - 1].end();
+        const Segment segment = path[k];
+        if (line.empty()) line.push_back(array_of(start.position_mm));
+        if (segment.is_arc() && step == 1) {
+            chords.clear();
+            append_chords(start, segment, tolerances, chords);
+            const std::size_t stride = 1 + chords.size() / 12;
+            for (std::size_t c = 0; c + 1 < chords.size(); c += stride)
+                line.push_back(array_of(chords[c].position_mm));
+        }
+        line.push_back(array_of(segment.end().position_mm));
+        path.drop_before(k);
+    }
+    return line;
+}
+
+void draw(const PathComparison& found, const PathRecord& a, const PathRecord& b,
+          const Tolerances& tolerances, ComparePicture& picture) {
+    if (found.clusters.empty()) return;
+    Tolerances coarse = tolerances;
+    coarse.position_mm = std::max(0.5, tolerances.position_mm);
+    constexpr std::uint64_t points = 1500;
+    constexpr std::size_t marked = 40;
+    if (a.size() > 0) picture.a = thin_line(a, {1, a.segments().size()}, points, coarse);
+    if (b.size() > 0) picture.b = thin_line(b, {1, b.segments().size()}, points, coarse);
+    for (std::size_t k = 0; k < std::min(marked, found.clusters.size()); ++k) {
+        const PathRegion& r = found.clusters[k].first;
+        if (r.a.last > r.a.first) picture.differing_a.push_back(thin_line(a, r.a, 100, coarse));
+        if (r.b.last > r.b.first) picture.differing_b.push_back(thin_line(b, r.b, 100, coarse));
+    }
+}
+
+/// The block without its N number and blanks: what a fingerprint is made of.
+std::string bare(const std::string& block) {
+    std::string out;
+    for (const char c : block)
+        if (!is_blank(c)) out += upper(c);
+    std::size_t end = out.starts_with("N") ? 1 : 0;
+    while (end > 0 && end < out.size() && is_digit(out[end])) ++end;
+    return out.substr(end);
+}
+
+}  // namespace
+
+void describe_paths(const PathComparison& found, const PathRecord& a, const PathRecord& b,
+                    PathSpace space, SourceLines& lines_a, SourceLines& lines_b,
+                    const Tolerances& tolerances, Comparison& result) {
+    SegmentWindow path_a(a.segments()), path_b(b.segments());
+    for (const PathCluster& c : found.clusters) {
+        Difference d;
+        d.kind = c.kind;
+        d.what = sentence(c, space, tolerances);
+        d.a = place_of(path_a, a, c.first.a, lines_a);
+        d.b = place_of(path_b, b, c.first.b, lines_b);
+        d.position_mm = c.position_mm;
+        d.direction_deg = deg_from_rad(c.direction_rad);
+        d.shift_mm = array_of(c.first.shift_mm);
+        d.value_a = c.first.value_a;
+        d.value_b = c.first.value_b;
+        d.tool = c.tool;
+        d.count = c.count;
+        result.differences.push_back(std::move(d));
+    }
+    result.differences_left_out += found.left_out;
+    result.position_mm = found.totals.position_mm;
+    result.direction_deg = deg_from_rad(found.totals.direction_rad);
+    result.worst_a = place_of(path_a, a, {found.totals.worst_a, found.totals.worst_a}, lines_a);
+    result.worst_b = place_of(path_b, b, {found.totals.worst_b, found.totals.worst_b}, lines_b);
+    result.tools = found.tools;
+    result.compared = found.totals.compared;
+    if (found.approaches_differ > 0)
+        result.notes.push_back(fmt::format(
+            "{} approaches differ between cuts; the two sides use different positioning functions, "
+            "so only where rapids end was compared (--by axes compares all of them)",
+            found.approaches_differ));
+    draw(found, a, b, tolerances, result.picture);
+}
+
+void describe_gaps(const std::vector<KeyGap>& gaps, const KeyedLines& a, const KeyedLines& b,
+                   SourceLines& lines_a, SourceLines& lines_b, std::size_t most,
+                   Comparison& result) {
+    const auto place = [](const KeyedLines& keyed, std::size_t first, std::size_t last,
+                          SourceLines& lines) {
+        ComparePlace p;
+        p.program = lines.main_name();
+        if (keyed.lines.empty()) return p;
+        p.line = static_cast<int>(keyed.lines[std::min(first, keyed.lines.size() - 1)]);
+        p.last_line =
+            last > first ? std::max(p.line, static_cast<int>(keyed.lines[last - 1])) : p.line;
+        lines.show(p);
+        return p;
+    };
+    for (const KeyGap& gap : gaps) {
+        if (result.differences.size() >= most) {
+            ++result.differences_left_out;
+            continue;
+        }
+        Difference d;
+        d.kind = DifferenceKind::text;
+        const std::size_t in_a = gap.a_last - gap.a_first, in_b = gap.b_last - gap.b_first;
+        if (in_a == 0) d.kind = DifferenceKind::only_b;
+        if (in_b == 0) d.kind = DifferenceKind::only_a;
+        d.what = in_a == 0                ? fmt::format("{} only in B", in_b)
+                 : in_b == 0              ? fmt::format("{} only in A", in_a)
+                 : in_a == 1 && in_b == 1 ? std::string("changed")
+                                          : fmt::format("{} of A became {} of B", in_a, in_b);
+        d.a = place(a, gap.a_first, gap.a_last, lines_a);
+        d.b = place(b, gap.b_first, gap.b_last, lines_b);
+        result.differences.push_back(std::move(d));
+    }
+    result.compared = std::max(a.keys.size(), b.keys.size());
+}
+
+void add_fingerprints(Comparison& result) {
+    std::map<std::string, int> before;
+    for (Difference& d : result.differences) {
+        const std::string what =
+            fmt::format("{}|{}|{}|{}", name_of(d.kind), d.tool, bare(d.a.block), bare(d.b.block));
+        const int occurrence = before[what]++;
+        d.fingerprint = fmt::format("{:016x}", hash_of(fmt::format("{}|{}", what, occurrence)));
+    }
+}
+
+}  // namespace trunnion

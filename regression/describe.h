@@ -1,0 +1,47 @@
+// Clusters and gaps as differences with places, source lines, sentences and fingerprints.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "interpreter/program_source.h"
+#include "regression/comparison.h"
+#include "regression/path_compare.h"
+#include "regression/path_recorder.h"
+#include "regression/program_lines.h"
+
+namespace trunnion {
+
+/// The source lines of one side: its main program and whatever files it called.
+class SourceLines {
+  public:
+    explicit SourceLines(const ProgramText& main);
+    /// Fills block and context from program and line.
+    void show(ComparePlace& place);
+    const std::string& main_name() const { return name_; }
+
+  private:
+    const ProgramLines* lines_of(const std::string& program);
+
+    std::string name_;
+    std::map<std::string, ProgramText> texts_;
+    std::map<std::string, std::optional<ProgramLines>> lines_;
+};
+
+/// Puts a path comparison into `result`: differences, worst place, table, picture.
+void describe_paths(const PathComparison& found, const PathRecord& a, const PathRecord& b,
+                    PathSpace space, SourceLines& lines_a, SourceLines& lines_b,
+                    const Tolerances& tolerances, Comparison& result);
+
+/// Puts the gaps of a layer of lines or blocks into `result`.
+void describe_gaps(const std::vector<KeyGap>& gaps, const KeyedLines& a, const KeyedLines& b,
+                   SourceLines& lines_a, SourceLines& lines_b, std::size_t most,
+                   Comparison& result);
+
+/// Gives every difference its fingerprint: of its kind and its source lines without N numbers, and
+/// how often that occurred before. It does not change when lines are added or removed elsewhere.
+void add_fingerprints(Comparison& result);
+
+}  // namespace trunnion

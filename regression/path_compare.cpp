@@ -1,0 +1,261 @@
+#include "regression/path_compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace trunnion {
+
+namespace {
+
+DifferenceKind kind_of(RegionKind kind) {
+    switch (kind) {
+        case RegionKind::moved:
+            return DifferenceKind::moved;
+        case RegionKind::only_a:
+            return DifferenceKind::only_a;
+        case RegionKind::only_b:
+            return DifferenceKind::only_b;
+        case RegionKind::feed:
+            return DifferenceKind::feed;
+        case RegionKind::spindle:
+            return DifferenceKind::spindle;
+        case RegionKind::coolant:
+            return DifferenceKind::coolant;
+        case RegionKind::tool:
+            return DifferenceKind::tool;
+        case RegionKind::path:
+            break;
+    }
+    return DifferenceKind::path;
+}
+
+class PathComparer {
+  public:
+    PathComparer(const PathRecord& a, const PathRecord& b, const WalkOptions& options,
+                 std::size_t most_clusters)
+        : a_(a),
+          b_(b),
+          options_(options),
+          most_clusters_(most_clusters),
+          walk_(a.segments(), b.segments(), options),
+          seen_a_(a.segments()),
+          seen_b_(b.segments()) {}
+
+    PathComparison run() {
+        fill_totals();
+        Keys ids_a, ids_b;
+        identify_passes(a_.passes(), b_.passes(), options_.tolerances, ids_a, ids_b);
+        for (const PassPair& pair : align_passes(ids_a, ids_b)) compare(pair);
+        for (auto& [tool, row] : rows_) result_.tools.push_back(row);
+        return std::move(result_);
+    }
+
+  private:
+    void compare(const PassPair& pair) {
+        switch (pair.pairing) {
+            case Pairing::same:
+                compare_same(pair);
+                break;
+            case Pairing::changed:
+                compare_changed(pair);
+                break;
+            case Pairing::reordered:
+                compare_cut(pair.a.first, pair.b.first);
+                add_whole(DifferenceKind::reordered, pair);
+                break;
+            case Pairing::only_a:
+                add_whole(DifferenceKind::only_a, pair);
+                break;
+            case Pairing::only_b:
+                add_whole(DifferenceKind::only_b, pair);
+                break;
+        }
+    }
+
+    void compare_same(const PassPair& pair) {
+        const Pass &p = a_.passes()[pair.a.first], &q = b_.passes()[pair.b.first];
+        std::vector<PathRegion> regions;
+        if (p.modes != q.modes) {
+            walk_.compare({p.first, p.cut_first}, {q.first, q.cut_first}, regions, unused_);
+            result_.approaches_differ += regions.empty() ? 0 : 1;
+            regions.clear();
+            walk(p.cut_first, p.last, q.cut_first, q.last, regions);
+        } else if (starts_alike(p, q)) {
+            walk(p.first, p.last, q.first, q.last, regions);
+        } else {  // after a pass that only one side has: the way here differs of necessity
+            walk(p.cut_first, p.last, q.cut_first, q.last, regions);
+        }
+        take(regions, pair.a);
+    }
+
+    void compare_changed(const PassPair& pair) {
+        const Pass &p = a_.passes()[pair.a.first], &q = b_.passes()[pair.b.first];
+        if (p.modes != q.modes && pair.a.size() == pair.b.size()) {
+            for (std::size_t k = 0; k < pair.a.size(); ++k)
+                compare_same({Pairing::same,
+                              {pair.a.first + k, pair.a.first + k + 1},
+                              {pair.b.first + k, pair.b.first + k + 1}});
+            return;
+        }
+        std::vector<PathRegion> regions;
+        walk(p.first, a_.passes()[pair.a.last - 1].last, q.first, b_.passes()[pair.b.last - 1].last,
+             regions);
+        take(regions, pair.a);
+    }
+
+    void compare_cut(std::size_t i, std::size_t j) {
+        const Pass &p = a_.passes()[i], &q = b_.passes()[j];
+        std::vector<PathRegion> regions;
+        walk(p.cut_first, p.last, q.cut_first, q.last, regions);
+        take(regions, {i, i + 1}, false);
+    }
+
+    void walk(std::uint64_t a_first, std::uint64_t a_last, std::uint64_t b_first,
+              std::uint64_t b_last, std::vector<PathRegion>& regions) {
+        walk_.compare({a_first, a_last}, {b_first, b_last}, regions, result_.totals);
+    }
+
+    bool starts_alike(const Pass& p, const Pass& q) {
+        const Vector3 apart =
+            seen_a_[p.first - 1].end().position_mm - seen_b_[q.first - 1].end().position_mm;
+        return apart.norm() <= options_.tolerances.position_mm;
+    }
+
+    /// Adds the regions to the clusters and counts what became of each pass of A.
+    void take(std::vector<PathRegion>& regions, PassRange range, bool count = true) {
+        const auto by_place = [](const PathRegion& p, const PathRegion& q) {
+            return p.a.first < q.a.first;
+        };
+        std::stable_sort(regions.begin(), regions.end(), by_place);
+        std::size_t next = 0, added = 0;
+        for (std::size_t k = range.first; k < range.last; ++k) {
+            const Pass& pass = a_.passes()[k];
+            const bool final = k + 1 == range.last;
+            for (; added < regions.size() && (final || regions[added].a.first < pass.last); ++added)
+                add(kind_of(regions[added].kind), regions[added], pass.tool, 0.0, 0.0);
+            while (next < regions.size() && ends(regions[next]) <= pass.first) ++next;
+            bool moved = false, other = false;
+            for (std::size_t r = next; r < added; ++r)
+                if (ends(regions[r]) > pass.first)
+                    (regions[r].kind == RegionKind::moved ? moved : other) = true;
+            if (!count) continue;
+            ToolRow& row = rows_[pass.tool];
+            ++(other ? row.changed : moved ? row.moved : row.equal);
+        }
+    }
+
+    static std::uint64_t ends(const PathRegion& r) { return std::max(r.a.last, r.a.first + 1); }
+
+    void add_whole(DifferenceKind kind, const PassPair& pair) {
+        PathRegion region;
+        const auto& a = a_.passes();
+        const auto& b = b_.passes();
+        // An empty side stands where the other's passes would be.
+        const std::uint64_t at_a =
+            pair.a.first < a.size() ? a[pair.a.first].first : a_.segments().size();
+        const std::uint64_t at_b =
+            pair.b.first < b.size() ? b[pair.b.first].first : b_.segments().size();
+        region.a = {at_a, pair.a.size() ? a[pair.a.last - 1].last : at_a};
+        region.b = {at_b, pair.b.size() ? b[pair.b.last - 1].last : at_b};
+        const int tool = pair.a.size() ? a[pair.a.first].tool : b[pair.b.first].tool;
+        double cut_a = 0.0, cut_b = 0.0;
+        for (std::size_t k = pair.a.first; k < pair.a.last; ++k) cut_a += a[k].cut_mm;
+        for (std::size_t k = pair.b.first; k < pair.b.last; ++k) cut_b += b[k].cut_mm;
+        ToolRow& row = rows_[tool];
+        row.only_a += kind == DifferenceKind::only_a ? pair.a.size() : 0;
+        row.only_b += kind == DifferenceKind::only_b ? pair.b.size() : 0;
+        row.reordered += kind == DifferenceKind::reordered ? 1 : 0;
+        if (kind != DifferenceKind::reordered) ++result_.totals.compared;
+        add(kind, region, tool, cut_a, cut_b);
+    }
+
+    /// What makes two regions the same change.
+    using Key = std::tuple<DifferenceKind, int, long, long, long, long, long>;
+    Key key_of(DifferenceKind kind, const PathRegion& r, int tool) const {
+        const double grid = 4.0 * options_.tolerances.position_mm;
+        const auto n = [](double v) { return std::lround(v); };
+        const double ratio = r.value_a != 0.0 ? r.value_b / r.value_a : 0.0;
+        return {kind,
+                tool,
+                n(r.shift_mm.x() / grid),
+                n(r.shift_mm.y() / grid),
+                n(r.shift_mm.z() / grid),
+                n(ratio * 1000.0),
+                r.value_a == 0.0 ? n(r.value_b) : 0};
+    }
+
+    void add(DifferenceKind kind, const PathRegion& region, int tool, double cut_a, double cut_b) {
+        const bool joins = kind != DifferenceKind::path && kind != DifferenceKind::only_a &&
+                           kind != DifferenceKind::only_b && kind != DifferenceKind::reordered;
+        PathCluster* cluster = nullptr;
+        if (joins) {
+            const auto [place, fresh] =
+                by_key_.try_emplace(key_of(kind, region, tool), result_.clusters.size());
+            if (!fresh && place->second < result_.clusters.size())
+                cluster = &result_.clusters[place->second];
+        } else if (!result_.clusters.empty() && result_.clusters.back().kind == kind &&
+                   result_.clusters.back().last_a.last == region.a.first &&
+                   result_.clusters.back().last_b.last == region.b.first) {
+            cluster = &result_.clusters.back();
+        }
+        if (cluster == nullptr) {
+            if (result_.clusters.size() >= most_clusters_) {
+                ++result_.left_out;
+                return;
+            }
+            result_.clusters.push_back({kind, region, 0, 0.0, 0.0, tool, 0.0, 0.0, {}, {}});
+            cluster = &result_.clusters.back();
+        }
+        ++cluster->count;
+        cluster->position_mm = std::max(cluster->position_mm, region.position_mm);
+        cluster->direction_rad = std::max(cluster->direction_rad, region.direction_rad);
+        cluster->cut_a_mm += cut_a;
+        cluster->cut_b_mm += cut_b;
+        cluster->last_a = region.a;
+        cluster->last_b = region.b;
+    }
+
+    void fill_totals() {
+        for (const auto& [tool, t] : a_.totals()) {
+            ToolRow& row = rows_[tool];
+            row.passes_a = t.passes;
+            row.cut_a_mm = t.cut_mm;
+            row.rapid_a_mm = t.rapid_mm;
+            row.cut_a_s = t.cut_s;
+            row.feed_a = {t.feed_min, t.feed_max};
+            row.spindle_a = {t.spindle_min, t.spindle_max};
+        }
+        for (const auto& [tool, t] : b_.totals()) {
+            ToolRow& row = rows_[tool];
+            row.passes_b = t.passes;
+            row.cut_b_mm = t.cut_mm;
+            row.rapid_b_mm = t.rapid_mm;
+            row.cut_b_s = t.cut_s;
+            row.feed_b = {t.feed_min, t.feed_max};
+            row.spindle_b = {t.spindle_min, t.spindle_max};
+        }
+        for (auto& [tool, row] : rows_) row.tool = tool;
+    }
+
+    const PathRecord &a_, &b_;
+    WalkOptions options_;
+    std::size_t most_clusters_;
+    StretchComparer walk_;
+    SegmentWindow seen_a_, seen_b_;
+    PathComparison result_;
+    WalkTotals unused_;
+    std::map<int, ToolRow> rows_;
+    std::map<Key, std::size_t> by_key_;
+};
+
+}  // namespace
+
+PathComparison compare_paths(const PathRecord& a, const PathRecord& b, const WalkOptions& options,
+                             std::size_t most_clusters) {
+    if (a.size() == 0 && b.size() == 0) return {};
+    return PathComparer(a, b, options, most_clusters).run();
+}
+
+}  // namespace trunnion

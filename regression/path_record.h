@@ -1,0 +1,64 @@
+// A whole path, cut into passes: what two programs are aligned by.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "regression/segment_file.h"
+
+namespace trunnion {
+
+/// Rapids to a cut, and the cut: segments first..last, the cut from cut_first on (empty at the end
+/// of a program). A new pass begins with the first rapid after a cut, or with another tool.
+struct Pass {
+    std::uint64_t first = 1, cut_first = 1, last = 1;
+    std::array<double, 3> start_mm{}, end_mm{};  ///< of the cut; of the rapids where there is none
+    std::array<double, 3> centroid_mm{};         ///< of the cut's length
+    double cut_mm = 0.0, rapid_mm = 0.0;
+    std::uint32_t line = 0;
+    std::uint16_t tool = 0;
+    std::uint16_t modes = 0;  ///< bit n: PositioningMode n occurs
+
+    bool cuts() const { return last > cut_first; }
+};
+
+/// What the report's table says about one tool.
+struct ToolTotals {
+    double cut_mm = 0.0, rapid_mm = 0.0, cut_s = 0.0;
+    double feed_min = 0.0, feed_max = 0.0;
+    double spindle_min = 0.0, spindle_max = 0.0;
+    std::uint64_t passes = 0;
+};
+
+/// A path in the order run, with its passes. Segment 0 is the origin: where the path begins.
+class PathRecord {
+  public:
+    /// Adds a segment; segments without length and orientation change are dropped.
+    void add(Segment segment);
+    /// Closes the last pass.
+    void finish();
+    std::uint16_t program_index(const std::string& name);
+
+    const SegmentFile& segments() const { return file_; }
+    const std::vector<Pass>& passes() const { return passes_; }
+    const std::vector<std::string>& programs() const { return programs_; }
+    const std::map<int, ToolTotals>& totals() const { return totals_; }
+    /// Motion segments added (the origin does not count).
+    std::uint64_t size() const { return file_.size() == 0 ? 0 : file_.size() - 1; }
+
+  private:
+    void begin_pass(const Segment& segment);
+    void count(const Segment& segment, double length_mm);
+
+    SegmentFile file_;
+    std::vector<Pass> passes_;
+    std::vector<std::string> programs_;
+    std::map<int, ToolTotals> totals_;
+    PathPoint end_;
+    bool open_ = false;
+};
+
+}  // namespace trunnion

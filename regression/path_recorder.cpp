@@ -1,0 +1,159 @@
+#include "regression/path_recorder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "controller/rotary_transform.h"
+#include "geometry/units.h"
+
+namespace trunnion {
+
+namespace {
+
+Vector3 linear_of(const AxisPositions& p) {
+    return {p[Axis::X], p[Axis::Y], p[Axis::Z]};
+}
+Vector3 rotary_of(const AxisPositions& p) {
+    return {p[Axis::A], p[Axis::B], p[Axis::C]};
+}
+
+/// Where the control has no five-axis transform: no machine is known, so the rotary axes are turned
+/// in the order A, B, C about X, Y, Z; a direction off all three makes each of them visible.
+Vector3 direction_without_transform(const AxisPositions& p) {
+    const Vector3 rotary = rotary_of(p);
+    if (rotary.isZero(0.0)) return Vector3(0.36, 0.48, 0.8);
+    return rotation_about(Vector3::UnitX(), rotary.x()) *
+           (rotation_about(Vector3::UnitY(), rotary.y()) *
+            (rotation_about(Vector3::UnitZ(), rotary.z()) * Vector3(0.36, 0.48, 0.8)));
+}
+
+void set_end(Segment& segment, const PathPoint& p) {
+    segment.end_mm = {p.position_mm.x(), p.position_mm.y(), p.position_mm.z()};
+    segment.end_orientation = {p.orientation.x(), p.orientation.y(), p.orientation.z()};
+}
+
+double turned_rad(const AxisMove& move) {
+    return (rotary_of(move.to) - rotary_of(move.from)).cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+PathRecorder::PathRecorder(PathRecord& record, PathSpace space, const Tolerances& tolerances)
+    : record_(record), space_(space), tolerances_(tolerances) {}
+
+/// Prepares the map from X Y Z to the tip for the rotary positions in frame_.
+void PathRecorder::refresh(const AxisMove& move) {
+    frame_.tool_vector_mm = move.tool_vector_mm;
+    frame_.transform = move.transform;
+    frame_.valid = true;
+    if (move.transform == nullptr) {
+        frame_.rotation = Matrix3::Identity();
+        frame_.translation_mm = -move.tool_vector_mm;
+        frame_.direction = direction_without_transform(frame_.rotary);
+        return;
+    }
+    frame_.table_point_mm = move.transform->pivot().table_point_mm;
+    frame_.table_offset_mm = move.transform->pivot().table_offset_mm;
+    AxisPositions at = frame_.rotary;
+    const Pose pose_WM = move.transform->pose_MW(at).inverse();
+    at[Axis::X] = at[Axis::Y] = at[Axis::Z] = 0.0;
+    frame_.rotation = pose_WM.rotation;
+    frame_.translation_mm = move.transform->tip_W(at, move.tool_vector_mm);
+    frame_.direction = move.transform->tool_direction_W(at);
+}
+
+PathPoint PathRecorder::point(const AxisMove& move, const AxisPositions& at) {
+    if (space_ == PathSpace::joints) return {linear_of(at), rotary_of(at)};
+    const RotaryTransform* t = move.transform;
+    const bool same = frame_.valid && frame_.transform == t &&
+                      rotary_of(frame_.rotary) == rotary_of(at) &&
+                      frame_.tool_vector_mm == move.tool_vector_mm &&
+                      (t == nullptr || (t->pivot().table_point_mm == frame_.table_point_mm &&
+                                        t->pivot().table_offset_mm == frame_.table_offset_mm));
+    if (!same) {
+        frame_.rotary = at;
+        refresh(move);
+    }
+    return {frame_.rotation * linear_of(at) + frame_.translation_mm, frame_.direction};
+}
+
+Segment PathRecorder::plain_segment(const AxisMove& move) {
+    Segment s;
+    s.kind = move.kind == MotionKind::rapid ? SegmentKind::rapid : SegmentKind::feed;
+    s.feed_mm_min = s.kind == SegmentKind::feed ? static_cast<float>(move.feed_mm_min) : 0.0F;
+    s.spindle_rpm = static_cast<float>(move.spindle_rpm);
+    s.coolant = move.coolant;
+    s.tool = static_cast<std::uint16_t>(move.tool);
+    s.mode = static_cast<std::uint8_t>(move.mode);
+    s.line = static_cast<std::uint32_t>(move.line);
+    if (move.program != program_ && move.program != nullptr) {
+        program_ = move.program;
+        program_index_ = record_.program_index(*move.program);
+    }
+    s.program = program_index_;
+    return s;
+}
+
+MoveResult PathRecorder::move(const AxisMove& move) {
+    Segment segment = plain_segment(move);
+    const PathPoint start = point(move, move.from);
+    if (record_.segments().size() == 0) {
+        Segment origin = segment;
+        origin.kind = SegmentKind::origin;
+        set_end(origin, start);
+        record_.add(origin);
+        last_ = origin;
+    } else if (Vector3(last_.end_mm.data()) != start.position_mm) {
+        // G43, G49, a new table frame: the tip the control believes in is elsewhere without motion.
+        const double jump_mm = (Vector3(last_.end_mm.data()) - start.position_mm).norm();
+        Segment jump = segment;
+        jump.kind = SegmentKind::jump;
+        jump.feed_mm_min = 0.0F;
+        set_end(jump, start);
+        if (jump_mm > 1e-9) record_.add(jump);
+    }
+    const PathPoint end = point(move, move.to);
+    segment.turning = turned_rad(move) > 0.0;
+    set_end(segment, end);
+    const bool curved = move.curve != nullptr || (space_ == PathSpace::tip && segment.turning);
+    if (move.arc && !segment.turning)
+        add_arc(move, segment, end);
+    else if ((curved || move.arc) && segment.kind == SegmentKind::feed)
+        add_curve(move, segment);
+    else
+        record_.add(segment);  // rapids that turn: only where they end is machining
+    last_ = segment;
+    return {};
+}
+
+void PathRecorder::add_arc(const AxisMove& move, Segment segment, const PathPoint& end) {
+    AxisPositions at = move.from;
+    const Vector3& c = move.arc->centre_mm;
+    at[Axis::X] = c.x();
+    at[Axis::Y] = c.y();
+    at[Axis::Z] = c.z();
+    const Vector3 centre = point(move, at).position_mm;
+    at[Axis::X] += move.arc->normal.x();
+    at[Axis::Y] += move.arc->normal.y();
+    at[Axis::Z] += move.arc->normal.z();
+    const Vector3 normal = point(move, at).position_mm - centre;
+    segment.centre_mm = {centre.x(), centre.y(), centre.z()};
+    segment.normal = {static_cast<float>(normal.x()), static_cast<float>(normal.y()),
+                      static_cast<float>(normal.z())};
+    segment.sweep_rad = move.arc->sweep_rad;
+    set_end(segment, end);
+    record_.add(segment);
+}
+
+void PathRecorder::add_curve(const AxisMove& move, const Segment& segment) {
+    points_.clear();
+    const int pieces = 1 + static_cast<int>(turned_rad(move) / (pi / 4.0));
+    sample_curve([&](double s) { return point(move, move.at(s)); }, pieces, tolerances_, points_);
+    for (const PathPoint& p : points_) {
+        Segment chord = segment;
+        set_end(chord, p);
+        record_.add(chord);
+    }
+}
+
+}  // namespace trunnion

@@ -1,0 +1,52 @@
+// Turns what a control commands into segments of a layer. Belief only: no physical machine.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "controller/motion.h"
+#include "regression/chords.h"
+#include "regression/path_record.h"
+
+namespace trunnion {
+
+/// What a segment's points are: the tip in the table frame, or the joints of the machine.
+enum class PathSpace : unsigned char { tip, joints };
+
+/// The sink for a Controller that writes a PathRecord.
+class PathRecorder : public MotionSink {
+  public:
+    PathRecorder(PathRecord& record, PathSpace space, const Tolerances& tolerances);
+
+    MoveResult move(const AxisMove& move) override;
+
+  private:
+    PathPoint point(const AxisMove& move, const AxisPositions& at);
+    void refresh(const AxisMove& move);
+    Segment plain_segment(const AxisMove& move);
+    void add_arc(const AxisMove& move, Segment segment, const PathPoint& end);
+    void add_curve(const AxisMove& move, const Segment& segment);
+
+    PathRecord& record_;
+    PathSpace space_;
+    Tolerances tolerances_;
+    const std::string* program_ = nullptr;
+    std::uint16_t program_index_ = 0;
+    std::vector<PathPoint> points_;
+    Segment last_;
+
+    /// With the rotary axes standing, tip and direction are an affine map of X Y Z.
+    struct Frame {
+        AxisPositions rotary;
+        Vector3 tool_vector_mm = Vector3::Zero();
+        const RotaryTransform* transform = nullptr;
+        Vector3 table_point_mm = Vector3::Zero(), table_offset_mm = Vector3::Zero();
+        Matrix3 rotation = Matrix3::Identity();
+        Vector3 translation_mm = Vector3::Zero();
+        Vector3 direction = Vector3::UnitZ();
+        bool valid = false;
+    } frame_;
+};
+
+}  // namespace trunnion

@@ -1,0 +1,59 @@
+// The lines of a program: shown in reports, and the layers that compare what is written.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interpreter/dialect.h"
+#include "regression/align.h"
+#include "regression/comparison.h"
+
+namespace trunnion {
+
+/// Finds lines of a text by number without keeping where each one starts.
+class ProgramLines {
+  public:
+    explicit ProgramLines(std::string_view text);
+    /// Line `number` (from 1) without its end and trailing blanks; control characters become '?'.
+    /// Empty beyond the end.
+    std::string line(int number) const;
+    int count() const { return count_; }
+
+  private:
+    std::string_view text_;
+    std::vector<std::size_t> starts_;  ///< of every 256th line
+    int count_ = 0;
+};
+
+/// What a layer compares: one key for each line or move that counts, and the source line it is
+/// from.
+struct KeyedLines {
+    Keys keys;
+    std::vector<std::uint32_t> lines;
+    void add(std::uint64_t key, int line) {
+        keys.push_back(key);
+        lines.push_back(static_cast<std::uint32_t>(line));
+    }
+};
+
+/// Layer `text`: lines without their ends and trailing blanks; empty lines at the end do not count.
+KeyedLines text_keys(std::string_view text);
+
+/// Layer `words`: each block as the control reads it. N numbers (unless the program jumps), blanks,
+/// comments, the way a number is written, the order of words and repeated modal words (G codes, F,
+/// S, positions) do not count. A line that cannot be read counts as it is written.
+KeyedLines word_keys(std::string_view text, const Dialect& dialect);
+
+/// A stretch of keys that differs.
+struct KeyGap {
+    std::size_t a_first = 0, a_last = 0, b_first = 0, b_last = 0;
+};
+/// Aligns both sides; what stands between the matches.
+std::vector<KeyGap> key_gaps(const KeyedLines& a, const KeyedLines& b);
+
+/// FNV-1a, 64 bits, mixed at the end: the same on every machine.
+std::uint64_t hash_of(std::string_view text, std::uint64_t seed = 0xCBF29CE484222325ULL);
+
+}  // namespace trunnion

@@ -1,0 +1,337 @@
+#include "regression/stretch_compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include "regression/deviation.h"
+
+namespace trunnion {
+
+namespace {
+
+bool near(const PathPoint& p, const PathPoint& q, const Tolerances& t) {
+    return (p.position_mm - q.position_mm).squaredNorm() <= t.position_mm * t.position_mm &&
+           (p.orientation - q.orientation).squaredNorm() <= t.direction_rad * t.direction_rad;
+}
+
+bool ratio_differs(double a, double b, double ratio) {
+    return std::abs(a - b) > ratio * std::max(std::abs(a), std::abs(b));
+}
+
+}  // namespace
+
+void WalkTotals::worst(double position, double direction, std::uint64_t a, std::uint64_t b) {
+    if (position > position_mm) {
+        position_mm = position;
+        worst_a = a;
+        worst_b = b;
+    }
+    if (direction > direction_rad) {
+        direction_rad = direction;
+        if (position_mm == 0.0) {
+            worst_a = a;
+            worst_b = b;
+        }
+    }
+}
+
+void StretchComparer::compare(Stretch a, Stretch b, std::vector<PathRegion>& regions,
+                              WalkTotals& totals) {
+    regions_ = &regions;
+    totals_ = &totals;
+    first_region_ = regions.size();
+    commits_.clear();
+    Corner at{a.first, b.first};
+    bool together = common(at.i, at.j);
+    while (at.i < a.last || at.j < b.last) {
+        if (together && at.i < a.last && at.j < b.last && quick_match(at, a, b)) {
+            attributes(at);
+            commit(at);
+            ++at.i, ++at.j;
+            continue;
+        }
+        const FrechetResult walk =
+            next_common_corner(a_, {at.i, a.last}, b_, {at.j, b.last}, options_.tolerances);
+        if (walk.reached) {
+            attributes_between(at, {walk.a, walk.b});
+            totals.compared += walk.a - at.i;
+            totals.worst(walk.position_mm, walk.direction_rad, at.i, at.j);
+            at = {walk.a, walk.b};
+            together = true;
+            continue;
+        }
+        if (retry_exact(at, a, b)) continue;
+        const Corner from = first_failing(walk, at, a, b);
+        const Corner to = regions.size() - first_region_ + 1 >= options_.max_regions
+                              ? Corner{a.last, b.last}
+                              : meet_again(from, a, b);
+        add_region(from, to);
+        totals.compared += to.i - at.i;
+        at = to;
+        together = common(at.i, at.j);
+        commits_.clear();
+    }
+}
+
+/// Segment against segment from a common corner: lines end together, arcs run together.
+bool StretchComparer::quick_match(Corner at, Stretch a, Stretch b) {
+    const Segment &sa = a_[at.i], &sb = b_[at.j];
+    if (sa.kind != sb.kind || sa.is_arc() != sb.is_arc()) return false;
+    if ((at.i + 1 == a.last) != (at.j + 1 == b.last)) return false;
+    if (!near(sa.end(), sb.end(), options_.tolerances)) return false;
+    return !sa.is_arc() || same_arc(at);
+}
+
+bool StretchComparer::same_arc(Corner at) {
+    const Segment &sa = a_[at.i], &sb = b_[at.j];
+    if ((sa.sweep_rad > 0.0) != (sb.sweep_rad > 0.0) && sa.normal == sb.normal) return false;
+    const PathPoint start_a = a_[at.i - 1].end(), start_b = b_[at.j - 1].end();
+    Tolerances inner = options_.tolerances;  // between the points looked at it may be a little more
+    inner.position_mm *= 0.8;
+    inner.direction_rad *= 0.8;
+    const int count = 4 + static_cast<int>(std::abs(sa.sweep_rad));
+    for (int k = 1; k < count; ++k) {
+        const double s = static_cast<double>(k) / count;
+        if (!near(point_at(start_a, sa, s), point_at(start_b, sb, s), inner)) return false;
+    }
+    return true;
+}
+
+/// Short segments next to the tolerance: an earlier corner was perhaps the wrong one to agree on,
+/// so the exact walk is tried from some corners back, past the place where it failed.
+bool StretchComparer::retry_exact(Corner& at, Stretch a, Stretch b) {
+    if (commits_.empty()) return false;
+    const Corner back = commits_.front();
+    const double reach = (a_[at.i - 1].end().position_mm - a_[back.i - 1].end().position_mm).norm();
+    commits_.clear();
+    if (reach > 40.0 * options_.tolerances.position_mm) return false;
+    const FrechetResult walk = next_common_corner(a_, {back.i, a.last}, b_, {back.j, b.last},
+                                                  options_.tolerances, at.i + 1, at.j + 1);
+    if (!walk.reached) return false;
+    totals_->worst(walk.position_mm, walk.direction_rad, at.i, at.j);
+    attributes_between(at, {walk.a, walk.b});
+    at = {walk.a, walk.b};
+    return true;
+}
+
+void StretchComparer::commit(Corner at) {
+    constexpr std::size_t kept = 16;
+    const PathPoint p = a_[at.i].end(), q = b_[at.j].end();
+    totals_->worst((p.position_mm - q.position_mm).norm(), (p.orientation - q.orientation).norm(),
+                   at.i, at.j);
+    ++totals_->compared;
+    if (commits_.size() == 2 * kept)
+        commits_.erase(commits_.begin(), commits_.begin() + static_cast<std::ptrdiff_t>(kept));
+    commits_.push_back(at);
+    a_.drop_before(at.i > 64 ? at.i - 64 : 0);
+    b_.drop_before(at.j > 64 ? at.j - 64 : 0);
+}
+
+/// Which segments to name: those whose ends are nearest among the ones where the walk came to a
+/// stop.
+StretchComparer::Corner StretchComparer::first_failing(const FrechetResult& failed, Corner from,
+                                                       Stretch a, Stretch b) {
+    Corner best{std::min(failed.a, std::max(from.i, a.last - 1)),
+                std::min(failed.b, std::max(from.j, b.last - 1))};
+    double least = std::numeric_limits<double>::infinity();
+    for (const Corner& c : {Corner{failed.a, failed.b}, Corner{failed.a, failed.b - 1},
+                            Corner{failed.a - 1, failed.b}}) {
+        if (c.i < from.i || c.j < from.j || c.i >= a.last || c.j >= b.last) continue;
+        const double apart = (a_[c.i].end().position_mm - b_[c.j].end().position_mm).norm();
+        if (apart < least - 1e-9) {
+            least = apart;
+            best = c;
+        }
+    }
+    return best;
+}
+
+// Feed, spindle, coolant, tool ------------------------------------------------------------------
+
+void StretchComparer::attributes(Corner at) {
+    const Segment &sa = a_[at.i], &sb = b_[at.j];
+    if (sa.kind != SegmentKind::feed) return;
+    const double ratio = options_.tolerances.feed_ratio;
+    if (sa.tool != sb.tool) add_attribute(RegionKind::tool, at, sa.tool, sb.tool);
+    if (ratio_differs(sa.feed_mm_min, sb.feed_mm_min, ratio))
+        add_attribute(RegionKind::feed, at, sa.feed_mm_min, sb.feed_mm_min);
+    if (ratio_differs(sa.spindle_rpm, sb.spindle_rpm, ratio))
+        add_attribute(RegionKind::spindle, at, sa.spindle_rpm, sb.spindle_rpm);
+    if (sa.coolant != sb.coolant) add_attribute(RegionKind::coolant, at, sa.coolant, sb.coolant);
+}
+
+/// Stretches that agree as paths but are cut differently: pairs by fraction of length, and what
+/// overlaps by less than the tolerance does not count.
+void StretchComparer::attributes_between(Corner from, Corner to) {
+    const auto length_of = [](SegmentWindow& path, std::uint64_t first, std::uint64_t last) {
+        std::vector<double> ends;
+        double sum = 0.0;
+        for (std::uint64_t k = first; k < last; ++k)
+            ends.push_back(sum += length_mm(path[k - 1].end(), path[k]));
+        return ends;
+    };
+    const auto ends_a = length_of(a_, from.i, to.i), ends_b = length_of(b_, from.j, to.j);
+    if (ends_a.empty() || ends_b.empty() || ends_a.back() <= 0.0 || ends_b.back() <= 0.0) return;
+    const double scale = ends_a.back() / ends_b.back();
+    const double least = 4.0 * options_.tolerances.position_mm;
+    std::size_t i = 0, j = 0;
+    double done = 0.0;
+    while (i < ends_a.size() && j < ends_b.size()) {
+        const double end_b = ends_b[j] * scale;
+        const double end = std::min(ends_a[i], end_b);
+        if (end - done > least) attributes({from.i + i, from.j + j});
+        done = end;
+        if (ends_a[i] <= end_b)
+            ++i;
+        else
+            ++j;
+    }
+}
+
+void StretchComparer::add_attribute(RegionKind kind, Corner at, double value_a, double value_b) {
+    // The same change goes on: it is one difference, across rapids too.
+    const std::size_t look_back = std::min<std::size_t>(4, regions_->size() - first_region_);
+    for (std::size_t k = 1; k <= look_back; ++k) {
+        PathRegion& r = (*regions_)[regions_->size() - k];
+        if (r.kind != kind || std::abs(r.value_a - value_a) > 1e-3 * std::abs(value_a) ||
+            std::abs(r.value_b - value_b) > 1e-3 * std::abs(value_b))
+            continue;
+        r.a.last = std::max(r.a.last, at.i + 1);
+        r.b.last = std::max(r.b.last, at.j + 1);
+        return;
+    }
+    PathRegion region;
+    region.kind = kind;
+    region.a = {at.i, at.i + 1};
+    region.b = {at.j, at.j + 1};
+    region.value_a = value_a;
+    region.value_b = value_b;
+    regions_->push_back(region);
+}
+
+// Where the paths meet again --------------------------------------------------------------------
+
+/// The corners before segments i and j are the same place.
+bool StretchComparer::common(std::uint64_t i, std::uint64_t j) {
+    return near(a_[i - 1].end(), b_[j - 1].end(), options_.tolerances);
+}
+
+/// From here on they really run together again: the next segments match too.
+bool StretchComparer::confirmed(std::uint64_t i, std::uint64_t j, Stretch a, Stretch b) {
+    if (i == a.last && j == b.last) return true;
+    if (i == a.last || j == b.last) return false;
+    const Stretch any{1, std::numeric_limits<std::uint64_t>::max()};
+    if (quick_match({i, j}, any, any)) return true;
+    return next_common_corner(a_, {i, std::min(a.last, i + 8)}, b_, {j, std::min(b.last, j + 8)},
+                              options_.tolerances)
+        .reached;
+}
+
+StretchComparer::Corner StretchComparer::meet_again(Corner at, Stretch a, Stretch b) {
+    Corner found = at;
+    if (meet_near(found, a, b)) return found;
+    if (meet_shifted(found, a, b)) return found;
+    for (const std::size_t window : {std::size_t{2048}, std::size_t{1} << 15, resync_window}) {
+        if (meet_far(found, a, b, window)) return found;
+        if (window > a.last - at.i && window > b.last - at.j) return {a.last, b.last};
+    }
+    return {std::min(a.last, at.i + resync_window), std::min(b.last, at.j + resync_window)};
+}
+
+bool StretchComparer::meet_near(Corner& at, Stretch a, Stretch b) {
+    constexpr std::uint64_t window = 24;
+    const auto try_at = [&](std::uint64_t i, std::uint64_t j) {
+        if (i > a.last || j > b.last || !common(i, j) || !confirmed(i, j, a, b)) return false;
+        at = {i, j};
+        return true;
+    };
+    // The fewest segments left out first, and of those the most equal counts.
+    for (std::uint64_t sum = 1; sum <= window; ++sum)
+        for (std::uint64_t d = sum % 2; d <= sum; d += 2) {
+            const std::uint64_t more = (sum + d) / 2, less = (sum - d) / 2;
+            if (try_at(at.i + more, at.j + less) || (d > 0 && try_at(at.i + less, at.j + more)))
+                return true;
+        }
+    return false;
+}
+
+/// The same path beside itself: follows it as long as the shift stays.
+bool StretchComparer::meet_shifted(Corner& at, Stretch a, Stretch b) {
+    if (at.i >= a.last || at.j >= b.last) return false;
+    const Vector3 shift = b_[at.j].end().position_mm - a_[at.i].end().position_mm;
+    const double tolerance = options_.tolerances.position_mm;
+    std::uint64_t k = 1;
+    for (; at.i + k < a.last && at.j + k < b.last; ++k) {
+        const Segment &sa = a_[at.i + k], &sb = b_[at.j + k];
+        const Vector3 here = sb.end().position_mm - sa.end().position_mm;
+        if (sa.kind != sb.kind || (here - shift).norm() > tolerance) break;
+        if (common(at.i + k, at.j + k) && confirmed(at.i + k, at.j + k, a, b)) break;
+    }
+    if (k < 12) return false;
+    at = {at.i + k, at.j + k};
+    return true;
+}
+
+/// The nearest corner of both that is common, found by a hash of B's corners.
+bool StretchComparer::meet_far(Corner& at, Stretch a, Stretch b, std::size_t window) {
+    const double cell = 64.0 * options_.tolerances.position_mm;
+    const auto key = [](const Vector3& p, double size, int corner) {
+        std::uint64_t h = 0x9E3779B97F4A7C15ULL;
+        for (int d = 0; d < 3; ++d) {
+            const double shift = (corner >> d) & 1 ? 0.25 : -0.25;
+            const auto n =
+                static_cast<std::int64_t>(std::floor(p[d] / size + (corner < 0 ? 0.0 : shift)));
+            h = (h ^ static_cast<std::uint64_t>(n)) * 0xBF58476D1CE4E5B9ULL;
+            h ^= h >> 29;
+        }
+        return h;
+    };
+    std::unordered_multimap<std::uint64_t, std::uint64_t> corners;
+    const std::uint64_t b_end = std::min<std::uint64_t>(b.last, at.j + window);
+    const std::uint64_t a_end = std::min<std::uint64_t>(a.last, at.i + window);
+    for (std::uint64_t j = at.j; j <= b_end; ++j)
+        corners.emplace(key(b_[j - 1].end().position_mm, cell, -1), j);
+    std::uint64_t best = std::numeric_limits<std::uint64_t>::max();
+    Corner found = at;
+    int tries = 0;  // the same place met thousands of times must not cost its square
+    for (std::uint64_t i = at.i; i <= a_end && i - at.i < best; ++i)
+        for (int corner = 0; corner < 8; ++corner) {
+            const auto range = corners.equal_range(key(a_[i - 1].end().position_mm, cell, corner));
+            for (auto k = range.first; k != range.second && tries < 200000; ++k, ++tries) {
+                const std::uint64_t j = k->second;
+                if (i == at.i && j == at.j) continue;
+                const std::uint64_t cost = (i - at.i) + (j - at.j);
+                if (cost >= best || !common(i, j) || !confirmed(i, j, a, b)) continue;
+                best = cost;
+                found = {i, j};
+            }
+        }
+    if (best == std::numeric_limits<std::uint64_t>::max()) return false;
+    at = found;
+    return true;
+}
+
+void StretchComparer::add_region(Corner from, Corner to) {
+    PathRegion region;
+    region.a = {from.i, to.i};
+    region.b = {from.j, to.j};
+    const Deviation apart = deviation_between(a_, region.a, b_, region.b, options_.tolerances);
+    region.position_mm = apart.position_mm;
+    region.direction_rad = apart.direction_rad;
+    if (const auto shift = common_shift(a_, region.a, b_, region.b, options_.tolerances)) {
+        region.kind = RegionKind::moved;
+        region.shift_mm = *shift;
+        region.position_mm = shift->norm();
+    } else if (from.i == to.i) {
+        region.kind = RegionKind::only_b;
+    } else if (from.j == to.j) {
+        region.kind = RegionKind::only_a;
+    }
+    totals_->worst(region.position_mm, region.direction_rad, std::min(from.i, to.i),
+                   std::min(from.j, to.j));
+    regions_->push_back(region);
+}
+
+}  // namespace trunnion

@@ -1,0 +1,75 @@
+// Walks two stretches of path side by side; where they part, finds where they meet again.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "regression/frechet.h"
+
+namespace trunnion {
+
+/// How a region differs. `moved`: the same path shifted by one vector.
+enum class RegionKind : std::uint8_t { moved, path, only_a, only_b, feed, spindle, coolant, tool };
+
+struct PathRegion {
+    RegionKind kind = RegionKind::path;
+    Stretch a, b;              ///< the differing segments; empty: nothing on that side
+    double position_mm = 0.0;  ///< largest distance of one path from the other there
+    double direction_rad = 0.0;
+    Vector3 shift_mm = Vector3::Zero();   ///< B minus A (moved)
+    double value_a = 0.0, value_b = 0.0;  ///< feed mm/min, spindle rpm, coolant 0/1, tool number
+};
+
+/// What was seen on the way, differences or not.
+struct WalkTotals {
+    std::uint64_t compared = 0;                     ///< segments
+    double position_mm = 0.0, direction_rad = 0.0;  ///< worst of all
+    std::uint64_t worst_a = 0, worst_b = 0;         ///< segment where
+    void worst(double position_mm, double direction_rad, std::uint64_t a, std::uint64_t b);
+};
+
+struct WalkOptions {
+    Tolerances tolerances;
+    std::size_t max_regions = 100000;  ///< of one stretch; the rest goes into the last one
+};
+
+/// Compares the stretches, appends the regions that differ in order. Linear in their length; a
+/// place where the paths meet again is looked for within `resync_window` segments.
+class StretchComparer {
+  public:
+    static constexpr std::size_t resync_window = 1U << 18;
+
+    StretchComparer(const SegmentFile& a, const SegmentFile& b, WalkOptions options)
+        : a_(a), b_(b), options_(options) {}
+
+    void compare(Stretch a, Stretch b, std::vector<PathRegion>& regions, WalkTotals& totals);
+
+  private:
+    struct Corner {
+        std::uint64_t i = 0, j = 0;
+    };
+    bool quick_match(Corner at, Stretch a, Stretch b);
+    bool same_arc(Corner at);
+    void attributes(Corner at);
+    void attributes_between(Corner from, Corner to);
+    void add_attribute(RegionKind kind, Corner at, double value_a, double value_b);
+    Corner first_failing(const FrechetResult& failed, Corner from, Stretch a, Stretch b);
+    Corner meet_again(Corner at, Stretch a, Stretch b);
+    bool meet_near(Corner& at, Stretch a, Stretch b);
+    bool meet_shifted(Corner& at, Stretch a, Stretch b);
+    bool meet_far(Corner& at, Stretch a, Stretch b, std::size_t window);
+    bool common(std::uint64_t i, std::uint64_t j);
+    bool confirmed(std::uint64_t i, std::uint64_t j, Stretch a, Stretch b);
+    void add_region(Corner from, Corner to);
+    bool retry_exact(Corner& at, Stretch a, Stretch b);
+    void commit(Corner at);
+
+    SegmentWindow a_, b_;
+    WalkOptions options_;
+    std::vector<PathRegion>* regions_ = nullptr;
+    WalkTotals* totals_ = nullptr;
+    std::size_t first_region_ = 0;
+    std::vector<Corner> commits_;
+};
+
+}  // namespace trunnion

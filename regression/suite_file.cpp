@@ -1,0 +1,211 @@
+// Suite files and folders as lists of cases.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "emulator/toml_reader.h"
+#include "geometry/units.h"
+#include "regression/suite.h"
+
+namespace trunnion {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array<const char*, 12> nc_endings{".nc",  ".txt", ".tap", ".min", ".mpf", ".cnc",
+                                                 ".ngc", ".eia", ".iso", ".prg", ".hnc", ".fnc"};
+
+bool is_program(const fs::path& path) {
+    std::string ending = path.extension().string();
+    for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    if (ending.empty()) {  // O1234
+        const std::string name = path.filename().string();
+        return name.size() > 1 && (name[0] == 'O' || name[0] == 'o') &&
+               std::all_of(name.begin() + 1, name.end(),
+                           [](char c) { return c >= '0' && c <= '9'; });
+    }
+    return std::find(nc_endings.begin(), nc_endings.end(), ending) != nc_endings.end();
+}
+
+std::set<std::string> programs_below(const std::string& folder) {
+    if (!fs::is_directory(folder)) throw InputError("no such folder", {folder, 0, 0});
+    std::set<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_regular_file() && is_program(entry.path()))
+            names.insert(entry.path().lexically_relative(folder).generic_string());
+    return names;
+}
+
+/// `*` stands for any characters, `?` for one.
+bool matches(std::string_view pattern, std::string_view name) {
+    if (pattern.empty()) return name.empty();
+    if (pattern[0] == '*')
+        return matches(pattern.substr(1), name) ||
+               (!name.empty() && matches(pattern, name.substr(1)));
+    return !name.empty() && (pattern[0] == '?' || pattern[0] == name[0]) &&
+           matches(pattern.substr(1), name.substr(1));
+}
+
+class SuiteReader {
+  public:
+    SuiteReader(const TomlFile& file, const SuiteCase& like)
+        : file_(file), folder_(fs::path(file.path()).parent_path()), like_(like) {}
+
+    Suite read() {
+        suite_.name = file_.path();
+        const TomlValue* schema = file_.root().find("schema");
+        if (schema == nullptr || file_.text(*schema) != "trunnion.suite/1")
+            throw InputError("a suite begins with schema = \"trunnion.suite/1\"",
+                             {file_.path(), 1, 1});
+        read_options(file_.root(), like_);
+        if (const TomlValue* cases = file_.root().find("case"))
+            for (const TomlValue& c : cases->items) read_case(c);
+        if (const TomlValue* expected = file_.root().find("expected"))
+            for (const TomlValue& e : expected->items) read_expected(e);
+        refuse_doubles();
+        return std::move(suite_);
+    }
+
+  private:
+    std::string path_of(const std::string& name) const { return (folder_ / name).generic_string(); }
+
+    std::string text_or(const TomlValue& table, const char* key,
+                        const std::string& otherwise) const {
+        const TomlValue* value = table.find(key);
+        return value != nullptr ? file_.text(*value) : otherwise;
+    }
+
+    std::vector<std::string> list(const TomlValue& table, const char* key) const {
+        const TomlValue* value = table.find(key);
+        if (value == nullptr) return {};
+        if (value->kind == TomlValue::Kind::text) return {value->text};
+        return file_.texts(*value);
+    }
+
+    /// What may stand at the top for all cases and in each case for itself.
+    void read_options(const TomlValue& table, SuiteCase& into) const {
+        Tolerances& t = into.options.tolerances;
+        if (const auto v = file_.find_number(table, "tol_lin_mm")) t.position_mm = *v;
+        if (const auto v = file_.find_number(table, "tol_ang_deg"))
+            t.direction_rad = rad_from_deg(*v);
+        if (const auto v = file_.find_number(table, "tol_feed")) t.feed_ratio = *v;
+        if (const auto v = file_.find_number(table, "tol_time")) t.time_ratio = *v;
+        if (t.position_mm <= 0.0 || t.direction_rad <= 0.0)
+            file_.fail(table, "tolerances are above 0");
+        if (const TomlValue* by = table.find("by")) {
+            const auto found = std::find(layer_names.begin(), layer_names.end(), file_.text(*by));
+            if (found == layer_names.end()) file_.fail(*by, "no such layer");
+            into.options.by = static_cast<Layer>(found - layer_names.begin());
+        }
+        if (const TomlValue* b = table.find("setup_b")) into.setup_b = path_of(file_.text(*b));
+        for (const std::string& folder : list(table, "programs_folders"))
+            into.options.program_folders.push_back(path_of(folder));
+    }
+
+    void read_case(const TomlValue& table) {
+        SuiteCase like = like_;
+        read_options(table, like);
+        std::vector<std::string> setups = list(table, "setups");
+        if (setups.empty()) setups = list(file_.root(), "setups");
+        const std::vector<std::string> programs = list(table, "program");
+        if (programs.empty()) file_.fail(table, "a case needs program = \"...\"");
+        std::size_t found = 0;
+        for (const std::string& pattern : programs)
+            for (const std::string& program : expand(pattern)) {
+                ++found;
+                if (setups.empty()) add(table, like, program, "", false);
+                for (const std::string& setup : setups)
+                    add(table, like, program, path_of(setup), setups.size() > 1);
+            }
+        if (found == 0) file_.fail(table, "no program matches");
+    }
+
+    void add(const TomlValue& table, SuiteCase c, const std::string& program,
+             const std::string& setup, bool name_setup) {
+        if (!setup.empty()) c.setup = setup;
+        if (c.setup_b.empty()) c.setup_b = c.setup;
+        c.b = path_of(program);
+        c.name = text_or(table, "name", fs::path(program).replace_extension().generic_string());
+        if (name_setup) c.name += "@" + fs::path(setup).stem().string();
+        const std::string against = text_or(table, "against", "");
+        if (against.empty()) {
+            const std::string goldens =
+                text_or(table, "goldens", text_or(file_.root(), "goldens", "goldens"));
+            c.golden = path_of(goldens) + "/" + c.name + ".csv";
+        } else {
+            c.a = path_of(against);
+            if (fs::is_directory(c.a)) c.a += "/" + fs::path(program).filename().string();
+        }
+        suite_.cases.push_back(std::move(c));
+    }
+
+    std::vector<std::string> expand(const std::string& pattern) const {
+        if (pattern.find_first_of("*?") == std::string::npos) return {pattern};
+        const fs::path parent = fs::path(pattern).parent_path();
+        const std::string last = fs::path(pattern).filename().string();
+        const std::string folder = path_of(parent.generic_string());
+        std::vector<std::string> names;
+        if (fs::is_directory(folder))
+            for (const auto& entry : fs::directory_iterator(folder))
+                if (entry.is_regular_file() && matches(last, entry.path().filename().string()))
+                    names.push_back((parent / entry.path().filename()).generic_string());
+        std::sort(names.begin(), names.end());
+        return names;
+    }
+
+    void read_expected(const TomlValue& table) {
+        ExpectedDifference e{text_or(table, "case", ""), text_or(table, "fingerprint", ""),
+                             text_or(table, "reason", "")};
+        if (e.fingerprint.empty())
+            file_.fail(table, "an expected difference needs its fingerprint");
+        if (e.reason.empty()) file_.fail(table, "an expected difference needs a reason");
+        suite_.expected.push_back(std::move(e));
+    }
+
+    void refuse_doubles() const {
+        std::set<std::string> names;
+        for (const SuiteCase& c : suite_.cases)
+            if (!names.insert(c.name).second)
+                throw InputError("two cases are called '" + c.name + "'", {file_.path(), 0, 0});
+    }
+
+    const TomlFile& file_;
+    fs::path folder_;
+    SuiteCase like_;
+    Suite suite_;
+};
+
+}  // namespace
+
+Suite suite_of_folders(const std::string& a, const std::string& b, const SuiteCase& like) {
+    Suite suite;
+    suite.name = a + " " + b;
+    const std::set<std::string> in_a = programs_below(a), in_b = programs_below(b);
+    std::set<std::string> names = in_a;
+    names.insert(in_b.begin(), in_b.end());
+    if (names.empty()) throw InputError("no NC programs in either folder", {a, 0, 0});
+    for (const std::string& name : names) {
+        SuiteCase c = like;
+        c.name = name;
+        if (in_a.contains(name)) c.a = (fs::path(a) / name).generic_string();
+        if (in_b.contains(name)) c.b = (fs::path(b) / name).generic_string();
+        suite.cases.push_back(std::move(c));
+    }
+    return suite;
+}
+
+Suite read_suite(const std::string& path, const SuiteCase& like, std::vector<std::string>& notes) {
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw InputError("cannot be read", {path, 0, 0});
+    std::ostringstream text;
+    text << in.rdbuf();
+    const TomlFile file(text.str(), path);
+    Suite suite = SuiteReader(file, like).read();
+    for (const std::string& key : file.unknown_keys()) notes.push_back(key);
+    return suite;
+}
+
+}  // namespace trunnion

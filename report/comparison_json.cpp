@@ -1,0 +1,266 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "geometry/alarm.h"
+#include "report/comparison_report.h"
+#include "report/places.h"
+
+namespace trunnion {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json place_json(const ComparePlace& p, bool whole) {
+    Json j = {{"program", valid_utf8(p.program)}, {"line", p.line}, {"block", valid_utf8(p.block)}};
+    if (!whole) return j;
+    j["last_line"] = p.last_line;
+    j["context_at"] = p.context_at;
+    j["context"] = Json::array();
+    for (const std::string& line : p.context) j["context"].push_back(valid_utf8(line));
+    return j;
+}
+
+ComparePlace place_of(const Json& j) {
+    ComparePlace p;
+    p.program = j.at("program");
+    p.line = j.at("line");
+    p.block = j.at("block");
+    p.last_line = j.at("last_line");
+    p.context_at = j.at("context_at");
+    p.context = j.at("context").get<std::vector<std::string>>();
+    return p;
+}
+
+Json difference_json(const Difference& d) {
+    return {{"kind", name_of(d.kind)},
+            {"what", valid_utf8(d.what)},
+            {"a", place_json(d.a, true)},
+            {"b", place_json(d.b, true)},
+            {"position_mm", d.position_mm},
+            {"direction_deg", d.direction_deg},
+            {"shift_mm", d.shift_mm},
+            {"value_a", d.value_a},
+            {"value_b", d.value_b},
+            {"tool", d.tool},
+            {"count", d.count},
+            {"fingerprint", d.fingerprint},
+            {"expected", d.expected},
+            {"reason", valid_utf8(d.reason)}};
+}
+
+template <typename Names>
+std::size_t index_of_name(const Names& names, const std::string& name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) throw InputError("unknown name '" + name + "'");
+    return static_cast<std::size_t>(found - names.begin());
+}
+
+Difference difference_of(const Json& j) {
+    Difference d;
+    d.kind = static_cast<DifferenceKind>(index_of_name(difference_names, j.at("kind")));
+    d.what = j.at("what");
+    d.a = place_of(j.at("a"));
+    d.b = place_of(j.at("b"));
+    d.position_mm = j.at("position_mm");
+    d.direction_deg = j.at("direction_deg");
+    d.shift_mm = j.at("shift_mm");
+    d.value_a = j.at("value_a");
+    d.value_b = j.at("value_b");
+    d.tool = j.at("tool");
+    d.count = j.at("count");
+    d.fingerprint = j.at("fingerprint");
+    d.expected = j.at("expected");
+    d.reason = j.at("reason");
+    return d;
+}
+
+/// The table's columns: name in the JSON and member, once for both ways.
+template <typename Row, typename Visit>
+void each_column(Row& r, const Visit& visit) {
+    visit("tool", r.tool);
+    visit("passes_a", r.passes_a);
+    visit("passes_b", r.passes_b);
+    visit("equal", r.equal);
+    visit("moved", r.moved);
+    visit("changed", r.changed);
+    visit("reordered", r.reordered);
+    visit("only_a", r.only_a);
+    visit("only_b", r.only_b);
+    visit("cut_a_mm", r.cut_a_mm);
+    visit("cut_b_mm", r.cut_b_mm);
+    visit("rapid_a_mm", r.rapid_a_mm);
+    visit("rapid_b_mm", r.rapid_b_mm);
+    visit("cut_a_s", r.cut_a_s);
+    visit("cut_b_s", r.cut_b_s);
+    visit("feed_a_mm_min", r.feed_a);
+    visit("feed_b_mm_min", r.feed_b);
+    visit("spindle_a_rpm", r.spindle_a);
+    visit("spindle_b_rpm", r.spindle_b);
+}
+
+Json row_json(const ToolRow& row) {
+    Json j;
+    each_column(row, [&](const char* name, const auto& value) { j[name] = value; });
+    return j;
+}
+
+ToolRow row_of(const Json& j) {
+    ToolRow row;
+    each_column(row, [&](const char* name, auto& value) { j.at(name).get_to(value); });
+    return row;
+}
+
+Json first_json(const Comparison& c) {
+    const auto open = std::find_if(c.differences.begin(), c.differences.end(),
+                                   [](const Difference& d) { return !d.expected; });
+    if (open == c.differences.end()) return nullptr;
+    return {{"a", place_json(open->a, false)},
+            {"b", place_json(open->b, false)},
+            {"what", valid_utf8(open->what)}};
+}
+
+/// The contract's keys, then what a report needs besides.
+Json case_json(const Comparison& c) {
+    Json j = {{"equal", c.equal},
+              {"by", name_of(c.by)},
+              {"first", first_json(c)},
+              {"worst",
+               {{"position_mm", c.position_mm},
+                {"direction_deg", c.direction_deg},
+                {"a", place_json(c.worst_a, true)},
+                {"b", place_json(c.worst_b, true)}}},
+              {"compared", c.compared},
+              {"name", valid_utf8(c.name)},
+              {"file_a", valid_utf8(c.a)},
+              {"file_b", valid_utf8(c.b)},
+              {"setup", valid_utf8(c.setup)},
+              {"setup_b", valid_utf8(c.setup_b)},
+              {"status", status_names[static_cast<std::size_t>(c.status)]},
+              {"verdict", valid_utf8(c.verdict)}};
+    j["layers"] = Json::array();
+    for (const LayerVerdict& l : c.layers)
+        j["layers"].push_back({{"name", name_of(l.layer)}, {"equal", l.equal}});
+    j["differences"] = Json::array();
+    for (const Difference& d : c.differences) j["differences"].push_back(difference_json(d));
+    j["differences_left_out"] = c.differences_left_out;
+    j["tools"] = Json::array();
+    for (const ToolRow& row : c.tools) j["tools"].push_back(row_json(row));
+    j["time_a_s"] = c.time_a_s;
+    j["time_b_s"] = c.time_b_s;
+    j["alarm_a"] = valid_utf8(c.alarm_a);
+    j["alarm_b"] = valid_utf8(c.alarm_b);
+    j["notes"] = Json::array();
+    for (const std::string& note : c.notes) j["notes"].push_back(valid_utf8(note));
+    return j;
+}
+
+Comparison case_of(const Json& j) {
+    Comparison c;
+    c.equal = j.at("equal");
+    c.by = static_cast<Layer>(index_of_name(layer_names, j.at("by")));
+    c.position_mm = j.at("worst").at("position_mm");
+    c.direction_deg = j.at("worst").at("direction_deg");
+    c.worst_a = place_of(j.at("worst").at("a"));
+    c.worst_b = place_of(j.at("worst").at("b"));
+    c.compared = j.at("compared");
+    c.name = j.at("name");
+    c.a = j.at("file_a");
+    c.b = j.at("file_b");
+    c.setup = j.at("setup");
+    c.setup_b = j.at("setup_b");
+    c.status = static_cast<CompareStatus>(index_of_name(status_names, j.at("status")));
+    c.verdict = j.at("verdict");
+    for (const Json& l : j.at("layers"))
+        c.layers.push_back(
+            {static_cast<Layer>(index_of_name(layer_names, l.at("name"))), l.at("equal")});
+    for (const Json& d : j.at("differences")) c.differences.push_back(difference_of(d));
+    c.differences_left_out = j.at("differences_left_out");
+    for (const Json& row : j.at("tools")) c.tools.push_back(row_of(row));
+    c.time_a_s = j.at("time_a_s");
+    c.time_b_s = j.at("time_b_s");
+    c.alarm_a = j.at("alarm_a");
+    c.alarm_b = j.at("alarm_b");
+    c.notes = j.at("notes").get<std::vector<std::string>>();
+    return c;
+}
+
+Json picture_json(const ComparePicture& p) {
+    return {{"a", p.a}, {"b", p.b}, {"differing_a", p.differing_a}, {"differing_b", p.differing_b}};
+}
+
+ComparePicture picture_of(const Json& j) {
+    ComparePicture p;
+    j.at("a").get_to(p.a);
+    j.at("b").get_to(p.b);
+    j.at("differing_a").get_to(p.differing_a);
+    j.at("differing_b").get_to(p.differing_b);
+    return p;
+}
+
+Json suite_json(const CompareReport& report) {
+    Json j = {{"schema", "trunnion.compare/1"}, {"equal", exit_code(report) == 0}};
+    const Comparison* worst = nullptr;
+    const Comparison* first = nullptr;
+    std::uint64_t compared = 0;
+    for (const Comparison& c : report.cases) {
+        compared += c.compared;
+        if (first == nullptr && !c.equal) first = &c;
+        if (worst == nullptr || c.position_mm > worst->position_mm) worst = &c;
+    }
+    j["by"] = name_of(first != nullptr ? first->by : Layer::path);
+    j["first"] = first != nullptr ? first_json(*first) : Json(nullptr);
+    j["worst"] = worst != nullptr ? case_json(*worst).at("worst") : Json(nullptr);
+    j["compared"] = compared;
+    j["suite"] = valid_utf8(report.suite);
+    j["verdict"] = valid_utf8(verdict_of(report));
+    j["cases"] = Json::array();
+    for (const Comparison& c : report.cases) j["cases"].push_back(case_json(c));
+    return j;
+}
+
+}  // namespace
+
+std::string comparison_json(const CompareReport& report) {
+    if (!report.single || report.cases.size() != 1) return suite_json(report).dump(2) + "\n";
+    Json j = {{"schema", "trunnion.compare/1"}};
+    j.update(case_json(report.cases.front()));
+    return j.dump(2) + "\n";
+}
+
+std::string format_part(const ComparePart& part) {
+    Json j = {{"schema", "trunnion.compare-part/1"},
+              {"suite", part.report.suite},
+              {"single", part.report.single},
+              {"total", part.total},
+              {"cases", Json::array()}};
+    for (std::size_t k = 0; k < part.report.cases.size(); ++k) {
+        Json c = case_json(part.report.cases[k]);
+        c["place"] = part.places[k];
+        c["picture"] = picture_json(part.report.cases[k].picture);
+        j["cases"].push_back(c);
+    }
+    return j.dump(1) + "\n";
+}
+
+ComparePart parse_part(const std::string& text, const std::string& path) {
+    try {
+        const Json j = Json::parse(text);
+        if (j.at("schema") != "trunnion.compare-part/1") throw InputError("another schema");
+        ComparePart part;
+        part.report.suite = j.at("suite");
+        part.report.single = j.at("single");
+        part.total = j.at("total");
+        for (const Json& c : j.at("cases")) {
+            part.report.cases.push_back(case_of(c));
+            part.report.cases.back().picture = picture_of(c.at("picture"));
+            part.places.push_back(c.at("place"));
+        }
+        return part;
+    } catch (const std::exception& e) {
+        throw InputError(std::string("not a part written by 'compare --shard': ") + e.what(),
+                         {path, 0, 0});
+    }
+}
+
+}  // namespace trunnion

@@ -1,0 +1,135 @@
+// A comparison as JUnit, SARIF and GitHub lines; parts of shards put together again.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "geometry/alarm.h"
+#include "report/comparison_report.h"
+#include "report/places.h"
+
+namespace trunnion {
+
+namespace {
+
+const std::vector<ReportRule>& rules() {
+    static const std::vector<ReportRule> table = {
+        {"moved", "The same path, shifted"},
+        {"path", "Another path"},
+        {"only-in-a", "Machining that is missing in B"},
+        {"only-in-b", "Machining that B adds"},
+        {"reordered", "The same passes in another order"},
+        {"feed", "Another feed"},
+        {"spindle", "Another spindle speed"},
+        {"coolant", "Coolant differs"},
+        {"tool", "Another tool"},
+        {"time", "Another cycle time"},
+        {"value", "Another result: variable, offset or printed line"},
+        {"alarm", "An NC alarm stopped a program"},
+        {"text", "What is written differs"},
+        {"case", "A program could not be compared"}};
+    return table;
+}
+
+/// The place a reader wants to open: B is the new program, A where B has nothing.
+ReportItem item_of(const Difference& d) {
+    const ComparePlace& p = d.b.line > 0 || d.a.line == 0 ? d.b : d.a;
+    ReportItem item;
+    item.rule = name_of(d.kind);
+    item.level = d.expected ? "note" : "error";
+    item.path = p.program;
+    item.line = p.line;
+    item.last_line = std::max(p.line, p.last_line);
+    item.text = d.what;
+    if (d.a.line > 0 && d.b.line > 0 && d.a.program != d.b.program)
+        item.text += fmt::format(" (A: {}:{})", d.a.program, d.a.line);
+    if (d.expected) item.text += " (expected: " + d.reason + ")";
+    item.fingerprint = d.fingerprint;
+    return item;
+}
+
+std::vector<ReportItem> items_of(const CompareReport& report) {
+    std::vector<ReportItem> items;
+    for (const Comparison& c : report.cases) {
+        for (const Difference& d : c.differences) items.push_back(item_of(d));
+        if (c.equal || !c.differences.empty()) continue;
+        ReportItem whole;
+        whole.rule = "case";
+        whole.path = c.b.empty() ? c.a : c.b;
+        whole.text = c.verdict;
+        items.push_back(whole);
+    }
+    return items;
+}
+
+std::string junit_of(const CompareReport& report) {
+    std::vector<JUnitCase> cases;
+    for (const Comparison& c : report.cases) {
+        JUnitCase j{c.name.empty() ? c.b : c.name, c.b, "", ""};
+        if (!c.equal) {
+            j.failure = c.verdict;
+            for (const Difference& d : c.differences)
+                if (!d.expected)
+                    j.details += fmt::format("A {}:{}  B {}:{}  {}\n", d.a.program, d.a.line,
+                                             d.b.program, d.b.line, d.what);
+        }
+        cases.push_back(j);
+    }
+    return format_junit(report.suite.empty() ? "trunnion compare" : report.suite, cases);
+}
+
+constexpr std::array<const char*, 6> format_names{"text",  "json",   "junit",
+                                                  "sarif", "github", "html"};
+
+}  // namespace
+
+ReportFormat report_format(const std::string& name) {
+    const auto found = std::find(format_names.begin(), format_names.end(), name);
+    if (found == format_names.end())
+        throw InputError("--format " + name + ": one of text, json, junit, sarif, github, html");
+    return static_cast<ReportFormat>(found - format_names.begin());
+}
+
+std::string format_comparison(const CompareReport& report, ReportFormat format) {
+    switch (format) {
+        case ReportFormat::text:
+            return comparison_text(report);
+        case ReportFormat::json:
+            return comparison_json(report);
+        case ReportFormat::html:
+            return comparison_html(report);
+        case ReportFormat::junit:
+            return junit_of(report);
+        case ReportFormat::sarif:
+            return format_sarif(rules(), items_of(report));
+        case ReportFormat::github:
+            return format_github(items_of(report));
+    }
+    return {};
+}
+
+CompareReport merge_parts(const std::vector<ComparePart>& parts) {
+    if (parts.empty()) throw InputError("merge: no parts given");
+    const ComparePart& first = parts.front();
+    CompareReport whole{first.report.suite, first.report.single, {}};
+    whole.cases.resize(first.total);
+    std::vector<bool> seen(first.total, false);
+    for (const ComparePart& part : parts) {
+        if (part.report.suite != first.report.suite || part.total != first.total)
+            throw InputError("merge: parts of different suites: '" + first.report.suite +
+                             "' and '" + part.report.suite + "'");
+        for (std::size_t k = 0; k < part.places.size(); ++k) {
+            const std::size_t place = part.places[k];
+            if (place >= whole.cases.size() || seen[place])
+                throw InputError(fmt::format("merge: case {} stands in two parts", place + 1));
+            seen[place] = true;
+            whole.cases[place] = part.report.cases[k];
+        }
+    }
+    const auto missing = std::find(seen.begin(), seen.end(), false);
+    if (missing != seen.end())
+        throw InputError(fmt::format("merge: case {} of {} stands in no part: a shard is missing",
+                                     missing - seen.begin() + 1, first.total));
+    return whole;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/comparison_report.h"
+
+namespace trunnion {
+
+namespace {
+
+std::string place_text(const char* side, const ComparePlace& p) {
+    if (p.line == 0) return fmt::format("    {} {}: nothing here\n", side, p.program);
+    std::string out = fmt::format("    {} {}:{}\n", side, p.program, p.line);
+    for (int k = 0; k < static_cast<int>(p.context.size()); ++k)
+        out += fmt::format("    {} {:>7} | {}\n", k == p.context_at ? ">" : " ",
+                           p.line - p.context_at + k, p.context[static_cast<std::size_t>(k)]);
+    return out;
+}
+
+std::string difference_text(const Difference& d, std::size_t number) {
+    std::string out = fmt::format("  {}. {}", number, d.what);
+    if (d.expected) out += fmt::format("\n    expected: {}", d.reason);
+    return out + "\n" + place_text("A", d.a) + place_text("B", d.b);
+}
+
+std::string range_text(const std::array<double, 2>& range) {
+    if (range[0] == range[1]) return fmt::format("{:g}", range[1]);
+    return fmt::format("{:g}..{:g}", range[0], range[1]);
+}
+
+std::string both(const std::array<double, 2>& a, const std::array<double, 2>& b) {
+    return a == b ? range_text(a) : range_text(a) + " -> " + range_text(b);
+}
+
+/// What became of a tool's passes, in words.
+std::string fate_text(const ToolRow& r) {
+    std::string out;
+    const auto say = [&](std::uint64_t count, const char* word) {
+        if (count == 0) return;
+        if (!out.empty()) out += ", ";
+        out += fmt::format("{} {}", count, word);
+    };
+    say(r.equal, "equal");
+    say(r.moved, "moved");
+    say(r.changed, "changed");
+    say(r.reordered, "reordered");
+    say(r.only_a, "only in A");
+    say(r.only_b, "only in B");
+    return out;
+}
+
+std::string table_text(const Comparison& c) {
+    if (c.tools.empty()) return {};
+    std::string out =
+        "\n  tool  cut A mm    cut B mm    longer by   feed mm/min       spindle rpm       "
+        "passes\n";
+    for (const ToolRow& r : c.tools)
+        out += fmt::format("  T{:<4} {:<11.3f} {:<11.3f} {:<+11.3f} {:<17} {:<17} {}\n", r.tool,
+                           r.cut_a_mm, r.cut_b_mm, r.cut_b_mm - r.cut_a_mm + 0.0,
+                           both(r.feed_a, r.feed_b), both(r.spindle_a, r.spindle_b), fate_text(r));
+    return out;
+}
+
+std::string layers_text(const Comparison& c) {
+    std::string out = "  layers:";
+    for (const LayerVerdict& l : c.layers)
+        out += fmt::format(" {} {}", name_of(l.layer), l.equal ? "equal" : "differs");
+    return out + "\n";
+}
+
+std::string case_text(const Comparison& c, bool single) {
+    std::string out = single ? c.verdict + "\n" : fmt::format("{}: {}\n", c.name, c.verdict);
+    if (c.equal && !single && c.differences.empty()) return out;
+    if (!c.layers.empty()) out += layers_text(c);
+    constexpr std::size_t shown = 20;
+    const auto worst = std::max_element(
+        c.differences.begin(), c.differences.end(),
+        [](const Difference& p, const Difference& q) { return p.position_mm < q.position_mm; });
+    for (std::size_t k = 0; k < std::min(shown, c.differences.size()); ++k)
+        out += difference_text(c.differences[k], k + 1);
+    const std::uint64_t more =
+        c.differences.size() - std::min(shown, c.differences.size()) + c.differences_left_out;
+    if (more > 0) {
+        if (worst - c.differences.begin() >= static_cast<std::ptrdiff_t>(shown))
+            out += "  the worst:\n" +
+                   difference_text(*worst,
+                                   static_cast<std::size_t>(worst - c.differences.begin()) + 1);
+        out += fmt::format("  and {} more (--format json lists them)\n", more);
+    }
+    if (c.position_mm > 0.0 || c.direction_deg > 0.0)
+        out += fmt::format("  worst: {:.4f} mm, {:.4f} deg, A line {}, B line {}\n", c.position_mm,
+                           c.direction_deg, c.worst_a.line, c.worst_b.line);
+    out += table_text(c);
+    for (const std::string& note : c.notes) out += "  note: " + note + "\n";
+    return out;
+}
+
+}  // namespace
+
+std::string comparison_text(const CompareReport& report) {
+    const bool single = report.single && report.cases.size() == 1;
+    std::string out;
+    if (!single) out = verdict_of(report) + "\n";
+    for (const Comparison& c : report.cases) out += case_text(c, single);
+    return out;
+}
+
+}  // namespace trunnion
