@@ -17,8 +17,10 @@ bool close(const std::array<double, 3>& p, const std::array<double, 3>& q, doubl
 }
 
 bool alike(const Pass& p, const Pass& q, const Tolerances& t) {
+    // Without a cut it is the way to the end or to another tool: alike wherever it begins.
+    if (!p.cuts() || !q.cuts()) return p.tool == q.tool && p.cuts() == q.cuts();
     const double place = 2.0 * t.position_mm;
-    return p.tool == q.tool && p.cuts() == q.cuts() && close(p.centroid_mm, q.centroid_mm, place) &&
+    return p.tool == q.tool && close(p.centroid_mm, q.centroid_mm, place) &&
            close(p.start_mm, q.start_mm, place) && close(p.end_mm, q.end_mm, place) &&
            std::abs(p.cut_mm - q.cut_mm) <= 1e-3 * p.cut_mm + 4.0 * t.position_mm;
 }
@@ -45,6 +47,7 @@ class PassIds {
   private:
     std::uint64_t cell(const Pass& pass, int corner) const {
         std::uint64_t h = pass.tool + 1;
+        if (!pass.cuts()) return ~h;
         const auto mix = [&h](std::int64_t n) {
             h = (h ^ static_cast<std::uint64_t>(n)) * 0xBF58476D1CE4E5B9ULL;
             h ^= h >> 29;
