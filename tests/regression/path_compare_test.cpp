@@ -229,7 +229,7 @@ TEST_CASE("a whole tool moved is one cluster with its shift", "[compare]") {
     CHECK(r.clusters[0].tool == 2);
     CHECK(r.clusters[0].first.shift_mm.z() == Approx(-0.05));
     CHECK(r.tools.at(0).moved == 0);
-    CHECK(r.tools.at(1).moved == 21);  // with the retract behind the last cut
+    CHECK(r.tools.at(1).moved == 20);
 }
 
 TEST_CASE("a stretch inserted into a long cut is found and the rest is equal", "[compare]") {
