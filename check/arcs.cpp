@@ -1,0 +1,232 @@
+// Arcs whose end is off their circle, and arcs without a plane, where it can be told from the text.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "check/section.h"
+
+namespace trunnion {
+
+namespace {
+
+constexpr std::array<char, 3> axis_letters{'X', 'Y', 'Z'};
+constexpr std::array<char, 3> centre_letters{'I', 'J', 'K'};
+
+/// First and second axis of each plane: 0 = X, 1 = Y, 2 = Z.
+struct Plane {
+    std::size_t first, second;
+};
+constexpr Plane plane_xy{0, 1}, plane_zx{2, 0}, plane_yz{1, 2};
+
+/// What is known of position and modes at a block; nothing where it was computed or jumped to.
+class ArcCheck {
+  public:
+    ArcCheck(const CheckSection& section, const CheckOptions& options, Findings& findings)
+        : section_(section), program_(*section.program), options_(options), findings_(findings) {}
+
+    void run() {
+        for (const Block* block : section_.blocks) step(*block);
+    }
+
+  private:
+    void step(const Block& block) {
+        if (block.sequence_number >= 0 &&
+            (section_.computed_jump || section_.targets.contains(block.sequence_number)))
+            forget();
+        bool other = false;
+        for (const Item& item : program_.items(block)) {
+            if (item.kind == ItemKind::assign) continue;
+            if (item.kind != ItemKind::word) {
+                other = true;
+                continue;
+            }
+            if (item.letter == 'G') take_code(item, other);
+            if (item.letter == 'M') take_m(item, other);
+        }
+        if (other) {
+            forget_position();
+            return;
+        }
+        if (arc_ == 2 || arc_ == 3) check(block);
+        move(block);
+    }
+
+    void take_code(const Item& item, bool& other) {
+        const auto value = constant_value(program_, item);
+        if (!value) {
+            forget();
+            other = true;
+            return;
+        }
+        switch (code10_of(*value)) {
+            case 0:
+                arc_ = 0;
+                break;
+            case 10:
+                arc_ = 1;
+                break;
+            case 20:
+                arc_ = 2;
+                break;
+            case 30:
+                arc_ = 3;
+                break;
+            case 170:
+                set_plane(plane_xy);
+                break;
+            case 180:
+                set_plane(plane_zx);
+                break;
+            case 190:
+                set_plane(plane_yz);
+                break;
+            case 900:
+                absolute_ = true;
+                break;
+            case 910:
+                absolute_ = false;
+                break;
+            case 200:
+            case 210:
+                break;
+            case 400:
+            case 800:
+            case 940:
+            case 430:
+            case 490:
+            case 610:
+            case 640:
+                break;
+            case 730:
+            case 740:
+            case 760:
+            case 810:
+            case 820:
+            case 830:
+            case 840:
+            case 850:
+            case 860:
+            case 870:
+            case 880:
+            case 890:
+                arc_ = -1;
+                other = true;
+                break;
+            default:
+                other = true;  // work offsets, rotation, polar words, reference moves, ...
+        }
+    }
+
+    /// Calls may move and change modes; spindle and coolant do not.
+    void take_m(const Item& item, bool& other) {
+        const auto value = constant_value(program_, item);
+        if (!value || code10_of(*value) >= 900 || code10_of(*value) == 60) other = true;
+    }
+
+    void set_plane(Plane plane) {
+        plane_ = plane;
+        plane_named_ = true;
+    }
+
+    void check(const Block& block) {
+        const bool words = has_word(block, "XYZIJKR");
+        if (!words) return;
+        if (!plane_named_ && !section_.subprogram && !plane_told_) {
+            plane_told_ = true;
+            findings_.add("arc-plane", Severity::warning, block, 1,
+                          "an arc, and no G17, G18 or G19 before it: the plane is what was left on",
+                          "Write the plane at the start of the program.");
+        }
+        const auto start_1 = position_[plane_.first], start_2 = position_[plane_.second];
+        if (!absolute_ || (*absolute_ && (!start_1 || !start_2))) return;
+        double end_1 = 0.0, end_2 = 0.0;
+        if (!delta(block, plane_.first, end_1) || !delta(block, plane_.second, end_2)) return;
+        if (has_word(block, "R"))
+            check_radius(block, std::hypot(end_1, end_2));
+        else
+            check_centre(block, end_1, end_2);
+    }
+
+    /// Way along one axis of the plane, from the start; false when it cannot be told.
+    bool delta(const Block& block, std::size_t axis, double& way) const {
+        if (!has_word(block, std::string_view(&axis_letters[axis], 1))) return true;
+        const auto value = word_value(program_, block, axis_letters[axis]);
+        if (!value) return false;
+        way = *absolute_ ? *value - *position_[axis] : *value;
+        return true;
+    }
+
+    void check_radius(const Block& block, double chord) {
+        const auto radius = word_value(program_, block, 'R');
+        if (!radius || chord <= 2.0 * std::abs(*radius) + options_.arc_tolerance_mm) return;
+        findings_.add(
+            "arc-radius", Severity::error, block, 1,
+            fmt::format("the arc's ends are {:.4f} apart, more than twice R{:g}", chord, *radius),
+            "Correct the end point or the radius.");
+    }
+
+    void check_centre(const Block& block, double end_1, double end_2) {
+        double centre[2] = {0.0, 0.0};
+        const std::size_t axes[2] = {plane_.first, plane_.second};
+        bool any = false;
+        for (int k = 0; k < 2; ++k) {
+            if (!has_word(block, std::string_view(&centre_letters[axes[k]], 1))) continue;
+            const auto value = word_value(program_, block, centre_letters[axes[k]]);
+            if (!value) return;
+            centre[k] = *value;
+            any = true;
+        }
+        if (!any) return;
+        const double at_start = std::hypot(centre[0], centre[1]);
+        const double at_end = std::hypot(end_1 - centre[0], end_2 - centre[1]);
+        if (std::abs(at_start - at_end) <= options_.arc_tolerance_mm) return;
+        findings_.add(
+            "arc-radius", Severity::error, block, 1,
+            fmt::format("radius {:.4f} at the arc's start and {:.4f} at its end", at_start, at_end),
+            "Correct the end point or the centre (I, J, K from the start).");
+    }
+
+    bool has_word(const Block& block, std::string_view letters) const {
+        for (const Item& item : program_.items(block))
+            if (item.kind == ItemKind::word && letters.find(item.letter) != std::string_view::npos)
+                return true;
+        return false;
+    }
+
+    void move(const Block& block) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (!has_word(block, std::string_view(&axis_letters[k], 1))) continue;
+            const auto value = word_value(program_, block, axis_letters[k]);
+            if (!value || !absolute_ || (!*absolute_ && !position_[k]))
+                position_[k].reset();
+            else
+                position_[k] = *absolute_ ? *value : *position_[k] + *value;
+        }
+    }
+
+    void forget_position() { position_.fill(std::nullopt); }
+    void forget() {
+        forget_position();
+        absolute_.reset();
+        arc_ = -1;
+    }
+
+    const CheckSection& section_;
+    const ParsedProgram& program_;
+    const CheckOptions& options_;
+    Findings& findings_;
+    std::array<std::optional<double>, 3> position_{};
+    std::optional<bool> absolute_;
+    Plane plane_ = plane_xy;
+    bool plane_named_ = false, plane_told_ = false;
+    int arc_ = -1;  ///< group 01: 0 1 2 3, -1 not known
+};
+
+}  // namespace
+
+void check_arcs(const CheckSection& section, const CheckOptions& options, Findings& findings) {
+    ArcCheck(section, options, findings).run();
+}
+
+}  // namespace trunnion

@@ -1,0 +1,74 @@
+// G codes: unknown ones, and states that do not go together.
+#include <fmt/format.h>
+
+#include "check/section.h"
+
+namespace trunnion {
+
+namespace {
+
+/// Modal states the checks follow, in the order the blocks are written.
+struct Followed {
+    bool compensation = false;  ///< G41, G42
+    bool tool_centre = false;   ///< G43.4, G43.5
+    bool tilted_plane = false;  ///< G68.2 to G68.4
+};
+
+struct Effect {
+    int code10;
+    bool Followed::*state;
+    bool on;
+};
+constexpr Effect effects[] = {
+    {400, &Followed::compensation, false}, {410, &Followed::compensation, true},
+    {420, &Followed::compensation, true},  {434, &Followed::tool_centre, true},
+    {435, &Followed::tool_centre, true},   {490, &Followed::tool_centre, false},
+    {430, &Followed::tool_centre, false},  {682, &Followed::tilted_plane, true},
+    {683, &Followed::tilted_plane, true},  {684, &Followed::tilted_plane, true},
+    {690, &Followed::tilted_plane, false}};
+
+std::string name_of_code(int code10) {
+    return code10 % 10 == 0 ? fmt::format("G{}", code10 / 10)
+                            : fmt::format("G{}.{}", code10 / 10, code10 % 10);
+}
+
+void at_end(const Followed& state, const Block& block, Findings& findings) {
+    if (state.tool_centre)
+        findings.add("left-on", Severity::warning, block, 1,
+                     "tool centre point control (G43.4, G43.5) is still on at the end",
+                     "Cancel it with G49 before M30.");
+    if (state.tilted_plane)
+        findings.add("left-on", Severity::warning, block, 1,
+                     "a tilted working plane (G68.2) is still on at the end",
+                     "Cancel it with G69 before M30.");
+}
+
+}  // namespace
+
+void check_codes(const CheckSection& section, const CheckOptions& options, Findings& findings) {
+    const ParsedProgram& program = *section.program;
+    Followed state;
+    for (const Block* block : section.blocks) {
+        for (const Item& item : program.items(*block)) {
+            if (item.kind != ItemKind::word || item.letter != 'G') continue;
+            const auto value = constant_value(program, item);
+            if (!value) continue;
+            const int code = code10_of(*value);
+            if (options.knows_g && !options.knows_g(code))
+                findings.add(
+                    "unknown-code", Severity::error, *block, item.column,
+                    "this control has no " + name_of_code(code),
+                    "Use a code of this control, or map it to a program (parameters 6050-6059).");
+            for (const Effect& e : effects)
+                if (e.code10 == code) state.*e.state = e.on;
+        }
+        if (state.compensation && has_code(program, *block, 'G', 310))
+            findings.add("skip-compensation", Severity::error, *block, 1,
+                         "G31 while cutter compensation (G41, G42) is on",
+                         "Cancel it with G40 before the skip.");
+        if (has_code(program, *block, 'M', 300) || has_code(program, *block, 'M', 20))
+            at_end(state, *block, findings);
+    }
+}
+
+}  // namespace trunnion

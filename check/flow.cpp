@@ -1,0 +1,156 @@
+// Jumps, loops, calls and what is never reached.
+#include <fmt/format.h>
+
+#include "check/section.h"
+
+namespace trunnion {
+
+namespace {
+
+void check_jump(const CheckSection& section, const Block& block, const Item& item,
+                Findings& findings) {
+    const auto target = constant_value(*section.program, item);
+    if (!target) return;
+    const int number = static_cast<int>(*target);
+    const auto found = section.numbered.find(number);
+    if (found == section.numbered.end())
+        findings.add("jump-target", Severity::error, block, item.column,
+                     fmt::format("GOTO {} but the program has no N{}", number, number),
+                     "Give the target block its N number, or correct the GOTO.");
+    else if (found->second.size() > 1)
+        findings.add(
+            "duplicate-target", Severity::warning, block, item.column,
+            fmt::format("GOTO {} and N{} stands {} times (lines {} and {})", number, number,
+                        found->second.size(), found->second[0]->line, found->second[1]->line),
+            "Give each jump target a number of its own.");
+}
+
+struct OpenLoop {
+    int number;
+    const Block* block;
+    int column;
+};
+
+void close_loop(std::vector<OpenLoop>& loops, const Block& block, const Item& item,
+                Findings& findings) {
+    if (!loops.empty() && loops.back().number == item.number) {
+        loops.pop_back();
+        return;
+    }
+    const std::string text =
+        loops.empty() ? fmt::format("END{} without DO{}", item.number, item.number)
+                      : fmt::format("END{} closes the DO{} of line {}: loops cross", item.number,
+                                    loops.back().number, loops.back().block->line);
+    findings.add("loop", Severity::error, block, item.column, text,
+                 "Every DO needs its END with the same number, nested loops inside.");
+    for (std::size_t k = loops.size(); k-- > 0;)
+        if (loops[k].number == item.number) {
+            loops.resize(k);
+            return;
+        }
+}
+
+void check_statements(const CheckSection& section, Findings& findings) {
+    std::vector<OpenLoop> loops;
+    for (const Block* block : section.blocks)
+        for (const Item& item : section.program->items(*block)) {
+            if (item.kind == ItemKind::go_to) check_jump(section, *block, item, findings);
+            if (item.kind == ItemKind::while_do || item.kind == ItemKind::do_only)
+                loops.push_back({item.number, block, item.column});
+            if (item.kind == ItemKind::end) close_loop(loops, *block, item, findings);
+        }
+    for (const OpenLoop& loop : loops)
+        findings.add("loop", Severity::error, *loop.block, loop.column,
+                     fmt::format("DO{} without END{}", loop.number, loop.number),
+                     "Every DO needs its END with the same number, nested loops inside.");
+}
+
+/// Nothing behind it runs unless something jumps there: GOTO, M30, M02, M99 without a condition.
+bool leaves(const ParsedProgram& program, const Block& block) {
+    bool jump = false;
+    for (const Item& item : program.items(block)) {
+        if (item.kind == ItemKind::skip || item.kind == ItemKind::if_goto) return false;
+        jump = jump || item.kind == ItemKind::go_to;
+    }
+    return jump || has_code(program, block, 'M', 300) || has_code(program, block, 'M', 20) ||
+           has_code(program, block, 'M', 990);
+}
+
+bool is_entered(const CheckSection& section, const Block& block) {
+    if (block.sequence_number >= 0 &&
+        (section.computed_jump || section.targets.contains(block.sequence_number)))
+        return true;
+    for (const Item& item : section.program->items(block))
+        if (item.kind == ItemKind::end) return true;
+    return false;
+}
+
+void check_reach(const CheckSection& section, Findings& findings) {
+    bool reached = true, told = false;
+    for (const Block* block : section.blocks) {
+        if (is_entered(section, *block)) reached = true;
+        // A number alone may be what a caller's M99 P or M98 Q returns to.
+        const bool numbered = block->sequence_number >= 0 && section.subprogram;
+        if (!reached && !told && !numbered && block->items.count > 0 &&
+            block->kind != BlockKind::program) {
+            findings.add("unreachable", Severity::warning, *block, 1,
+                         "never reached: the block before leaves, and nothing jumps here",
+                         "Remove it, or give it the N number of a jump.");
+            told = true;
+        }
+        if (numbered) reached = true;
+        if (leaves(*section.program, *block)) {
+            reached = false;
+            told = false;
+        }
+    }
+}
+
+std::optional<int> called_program(const ParsedProgram& program, const Block& block, int& column) {
+    const bool m98 = has_code(program, block, 'M', 980);
+    const bool macro = has_code(program, block, 'G', 650) || has_code(program, block, 'G', 660) ||
+                       has_code(program, block, 'G', 661);
+    if (!m98 && !macro) return std::nullopt;
+    for (const Item& item : program.items(block)) {
+        if (item.kind != ItemKind::word || item.letter != 'P') continue;
+        const auto value = constant_value(program, item);
+        if (!value) return std::nullopt;
+        column = item.column;
+        return static_cast<int>(*value);
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+void check_flow(const CheckSection& section, Findings& findings) {
+    check_statements(section, findings);
+    check_reach(section, findings);
+}
+
+void check_calls(const ParsedProgram& program, const std::vector<CheckSection>& sections,
+                 const CheckOptions& options, Findings& findings) {
+    if (!options.finds_program) return;
+    std::set<int> own;
+    for (const CheckSection& section : sections)
+        for (const Block* block : section.blocks)
+            if (block->kind == BlockKind::program) own.insert(block->o_number);
+    const auto known = [&](int number) {
+        return own.contains(number) || options.finds_program(number);
+    };
+    for (const CheckSection& section : sections)
+        for (const Block* block : section.blocks) {
+            int column = 1;
+            const auto number = called_program(program, *block, column);
+            if (!number || known(*number)) continue;
+            // M98 P100005 may be ten times O0005 (by control generation).
+            const bool m98 = has_code(program, *block, 'M', 980);
+            if (m98 && *number > 9999 && known(*number % 10000)) continue;
+            findings.add(
+                "subprogram-missing", Severity::error, *block, column,
+                fmt::format("program O{:04} is called and nowhere to be found", *number),
+                "Put it into the folder of this program, or name its folder with --programs.");
+        }
+}
+
+}  // namespace trunnion

@@ -1,0 +1,52 @@
+// One program of a file (from its O number to the next) as the checks see it.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "check/check.h"
+#include "interpreter/parse.h"
+
+namespace trunnion {
+
+struct CheckSection {
+    const ParsedProgram* program = nullptr;
+    std::vector<const Block*> blocks;
+    std::map<int, std::vector<const Block*>> numbered;  ///< by N
+    std::set<int> targets;       ///< N numbers that a GOTO with a constant names
+    bool computed_jump = false;  ///< some GOTO computes its target
+    bool subprogram = false;     ///< ends with M99
+};
+
+/// Splits a file at its O numbers and `%`.
+std::vector<CheckSection> sections_of(const ParsedProgram& program);
+
+/// The value of a word when it is a constant.
+std::optional<double> word_value(const ParsedProgram& program, const Block& block, char letter);
+/// Does the block hold this M or G code (times 10) as a constant?
+bool has_code(const ParsedProgram& program, const Block& block, char letter, int code10);
+int code10_of(double value);
+
+/// Collects findings of one file.
+class Findings {
+  public:
+    explicit Findings(const ParsedProgram& program) : program_(program) {}
+    void add(const char* rule, Severity severity, const Block& block, int column, std::string text,
+             std::string remedy);
+    void add(Finding finding) { found_.push_back(std::move(finding)); }
+    std::vector<Finding> take();
+
+  private:
+    const ParsedProgram& program_;
+    std::vector<Finding> found_;
+};
+
+void check_flow(const CheckSection& section, Findings& findings);
+void check_calls(const ParsedProgram& program, const std::vector<CheckSection>& sections,
+                 const CheckOptions& options, Findings& findings);
+void check_codes(const CheckSection& section, const CheckOptions& options, Findings& findings);
+void check_arcs(const CheckSection& section, const CheckOptions& options, Findings& findings);
+
+}  // namespace trunnion
