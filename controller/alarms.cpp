@@ -4,7 +4,21 @@
 
 #include <algorithm>
 
+#include "interpreter/alarms.h"
+
 namespace trunnion {
+
+const std::vector<AlarmRow>& alarm_table() {
+    static const std::vector<AlarmRow> all = [] {
+        std::vector<AlarmRow> rows = control_alarms();
+        for (const AlarmInfo& info : language_alarms())
+            rows.push_back({info.number, "PS", info.text, info.cause, info.remedy});
+        std::sort(rows.begin(), rows.end(),
+                  [](const AlarmRow& a, const AlarmRow& b) { return a.number < b.number; });
+        return rows;
+    }();
+    return all;
+}
 
 const AlarmRow* find_alarm(int number) {
     const std::vector<AlarmRow>& rows = alarm_table();
@@ -15,7 +29,7 @@ const AlarmRow* find_alarm(int number) {
 
 std::string alarm_title(int number, std::string_view text) {
     const AlarmRow* row = find_alarm(number);
-    const bool own = number >= 3000 && number <= 3999 + 999 && row == nullptr;
+    const bool own = number >= 3000 && number < 5000 && row == nullptr;
     return fmt::format("{}{:04} {}", row ? row->prefix : own ? "MC" : "PS", number, text);
 }
 

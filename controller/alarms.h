@@ -17,7 +17,9 @@ struct AlarmRow {
     const char* remedy;
 };
 
-/// All alarms this control can give, rising by number.
+/// The rows of the control itself (the language has its own: interpreter/alarms.h).
+const std::vector<AlarmRow>& control_alarms();
+/// All alarms that a program can meet, rising by number.
 const std::vector<AlarmRow>& alarm_table();
 /// The row of a number, or nullptr (3000 and above are the program's own).
 const AlarmRow* find_alarm(int number);

@@ -10,10 +10,6 @@ namespace {
 /// two least increments).
 constexpr double chord_slack_mm = 0.002;
 
-bool has_centre(const SortedWords& w, const PlaneAxes& plane) {
-    return w.has(plane.centre_first) || w.has(plane.centre_second);
-}
-
 void check_radii(PlanePoint centre, PlanePoint start, PlanePoint end, double tolerance_mm) {
     if (tolerance_mm <= 0.0) return;
     const double r0 = std::hypot(start.x - centre.x, start.y - centre.y);
@@ -72,10 +68,15 @@ ArcInPlane arc_in_plane(ControlState& c, const ControlPosition& target, bool clo
     return out;
 }
 
+bool has_arc_words(const ControlState& c) {
+    const PlaneAxes& plane = plane_axes(c.modal);
+    return c.words.has('R') || c.words.has(plane.centre_first) || c.words.has(plane.centre_second);
+}
+
 void move_arc_block(ControlState& c, bool clockwise) {
     const PlaneAxes& plane = plane_axes(c.modal);
     const ControlPosition target = c.target();
-    if (!c.words.has('R') && !has_centre(c.words, plane)) {
+    if (!has_arc_words(c)) {
         if (c.settings.arc_needs_centre) raise_alarm(22);
         move_line(c, MotionKind::linear, target);  // 3403#5 = 0: a straight line
         return;

@@ -3,17 +3,17 @@
 
 #include "controller/control_state.h"
 #include "controller/moves.h"
+#include "controller/plane_path.h"
 
 namespace trunnion {
 
+/// True when the block has R or a centre word of the plane.
+bool has_arc_words(const ControlState& c);
 /// Carries out the arc that the words of this block command.
 void move_arc_block(ControlState& c, bool clockwise);
 
 /// Centre of the arc from start to end with radius r in the plane (first, second as x, y): r < 0
 /// takes the way round of more than half a turn. Throws PS0020 when the points are too far apart.
-struct PlanePoint {
-    double x = 0.0, y = 0.0;
-};
 PlanePoint centre_from_radius(PlanePoint start, PlanePoint end, double radius, bool clockwise,
                               double tolerance_mm);
 /// Signed angle from start to end about the centre, in (0, 2 pi] counter-clockwise, negative

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "controller/arcs.h"
+#include "controller/cycles.h"
 #include "controller/five_axis.h"
 #include "controller/g10.h"
 #include "controller/g_codes.h"
@@ -40,11 +41,19 @@ void add_code(ControlState& c, const GCode* code, int column) {
     w.phases |= phase_bit(code->phase);
 }
 
+void drop_cycle(SortedWords& w) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < w.code_count; ++i)
+        if (w.code[i]->phase != Phase::cycle) w.code[kept++] = w.code[i];
+    w.code_count = kept;
+}
+
 void add_g(ControlState& c, const WordValue& word) {
     const GCode* code = find_g_code(word.value);
     if (!code) raise_alarm(10, word.column);
     if (code->phase != Phase::motion) return add_code(c, code, word.column);
     if (c.words.motion && c.settings.duplicates_alarm) raise_alarm(5074, word.column);
+    drop_cycle(c.words);  // G81 G0: the cycle is not carried out
     c.words.motion = code;
 }
 
@@ -110,8 +119,24 @@ void note_bare_words(ControlState& c) {
     }
 }
 
+/// Codes that change frames or move by themselves: a compensated path ends before them.
+bool pauses_path(const ControlState& c) {
+    constexpr std::uint32_t mask = phase_bit(Phase::shot) | phase_bit(Phase::work_offset) |
+                                   phase_bit(Phase::frame) | phase_bit(Phase::cycle);
+    return (c.words.phases & mask) != 0;
+}
+
+void queue_motion(ControlState& c, int code) {
+    const bool round = (code == 20 || code == 30) && has_arc_words(c);
+    if ((code == 20 || code == 30) && !round && c.settings.arc_needs_centre) raise_alarm(22);
+    queue_move(c, path_move_of(c, c.target(), code == 20, round));
+}
+
 void run_motion(ControlState& c) {
+    if (!c.modal.is(ModalGroup::cycle, 800)) return run_cycle(c);
     const int code = c.modal[ModalGroup::motion];
+    c.moved = true;
+    if (uses_path_queue(c)) return queue_motion(c, code);
     switch (code) {
         case 0:
             move_line(c, MotionKind::rapid, c.target());
@@ -137,9 +162,14 @@ bool moves_by_itself(const ControlState& c) {
     return by_centre && (c.words.present & centre);
 }
 
+/// R alone makes a hole in a canned cycle.
+bool cycle_word(const ControlState& c) {
+    return c.words.has('R') && !c.modal.is(ModalGroup::cycle, 800);
+}
+
 void run_codes(ControlState& c) {
-    for (const Phase phase :
-         {Phase::plane, Phase::reading, Phase::work_offset, Phase::frame, Phase::offsets})
+    for (const Phase phase : {Phase::plane, Phase::reading, Phase::work_offset, Phase::frame,
+                              Phase::offsets, Phase::cycle})
         run_phase(c, phase);
 }
 
@@ -175,6 +205,7 @@ void sort_words(ControlState& c, const BlockWords& block) {
 void execute_block(ControlState& c, const BlockWords& block) {
     sort_words(c, block);
     const SortedWords& w = c.words;
+    c.moved = false;
     if (c.five_axis.active) five_axis_block_begin(c);
     if (c.data_entry != DataEntry::none && w.code_count == 0) return enter_data(c, block);
     if (w.phases & before_words)
@@ -186,17 +217,25 @@ void execute_block(ControlState& c, const BlockWords& block) {
         c.modal.set(ModalGroup::motion, w.motion->code10);
         c.modal.set(ModalGroup::cycle, 800);
     }
+    c.move.line = w.line;
+    c.move.byte = w.byte;
     const ControlPosition stood = c.machine;
+    const bool paused = c.path.engaged && pauses_path(c);
+    if (paused) pause_path(c);
     if (w.phases) run_codes(c);
     c.move.gap_free = !c.exact_stop_once && !c.modal.is(ModalGroup::path_mode, 610);
     if (w.phases & phase_bit(Phase::shot))
         run_phase(c, Phase::shot);
-    else if (w.has_axis() || moves_by_itself(c) || c.length_moves)
+    else if (w.has_axis() || moves_by_itself(c) || c.length_moves || cycle_word(c))
         run_motion(c);
     c.length_moves = c.exact_stop_once = false;
     if (c.five_axis.active) five_axis_block_end(c);
-    c.moved = !(c.machine == stood);
-    if (w.m_count) m_codes_after(c);
+    c.moved = c.moved || !(c.machine == stood);
+    if (paused) resume_path(c, !(c.machine == stood));
+    if (w.m_count) {
+        m_codes_after(c);
+        if (c.ended) flush_path(c);
+    }
 }
 
 }  // namespace trunnion

@@ -1,5 +1,6 @@
 #include "controller/control_state.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -31,10 +32,24 @@ AxisLimits limits_of(const ControlConfig& config) {
     return out;
 }
 
+/// Axis number of each letter: parameter 1020 where it is set, else X Y Z A B C U V W.
+void sort_axes(std::vector<ControlAxis>& axes, const Parameters& parameters) {
+    const auto rank = [&](const ControlAxis& axis) {
+        const auto names = parameters.entry.find(1020);
+        if (names != parameters.entry.end())
+            for (const auto& [number, code] : names->second.by_axis)
+                if (static_cast<int>(code) == letter_of(axis.axis)) return number;
+        return 100 + static_cast<int>(index_of(axis.axis));
+    };
+    std::stable_sort(axes.begin(), axes.end(),
+                     [&](const ControlAxis& a, const ControlAxis& b) { return rank(a) < rank(b); });
+}
+
 }  // namespace
 
 ControlState::ControlState(ControlConfig config_, Stores& stores_, MotionSink& sink_)
     : config(std::move(config_)), stores(stores_), sink(sink_), limits(limits_of(config)) {
+    sort_axes(config.axes, stores.parameters);
     for (const ControlAxis& axis : config.axes)
         axis_letters |= SortedWords::bit(letter_of(axis.axis));
     modal = initial_modal_state(static_cast<unsigned>(stores.parameters.get(3402)));

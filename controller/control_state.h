@@ -11,6 +11,7 @@
 #include "controller/coordinates.h"
 #include "controller/five_axis_state.h"
 #include "controller/modal.h"
+#include "controller/path_queue.h"
 #include "controller/settings.h"
 #include "controller/sorted_words.h"
 
@@ -37,13 +38,14 @@ struct SkipState {
 /// Canned cycle data that stay until G80.
 struct CycleState {
     double initial_level =
-        0.0;                   ///< program coordinate along the drilling axis when the cycle began
-    double depth = 0.0;        ///< Z as programmed (absolute, or from R under G91)
-    double level_r = 0.0;      ///< R as programmed (absolute, or from the initial level under G91)
-    double peck = 0.0;         ///< Q
-    double dwell_s = 0.0;      ///< P
-    double shift[2] = {0, 0};  ///< G76, G87: shift in the plane, program units
-    bool rigid_tap = false;    ///< M29
+        0.0;               ///< program coordinate along the drilling axis when the cycle began
+    double depth = 0.0;    ///< Z as programmed (absolute, or from R under G91)
+    double level_r = 0.0;  ///< R as programmed (absolute, or from the initial level under G91)
+    double peck = 0.0;     ///< Q
+    double dwell_s = 0.0;  ///< P
+    bool r_from_initial = false;  ///< R was given under G91
+    bool depth_from_r = false;    ///< Z was given under G91
+    bool rigid_tap = false;       ///< M29
 };
 
 /// What the blocks after G10 L3, L50, L52 hold until G11.
@@ -83,6 +85,7 @@ struct ControlState {
     FiveAxisState five_axis;
     DataEntry data_entry = DataEntry::none;
     bool moved = false;            ///< the block that ran moved an axis: G66 calls follow it
+    bool units_switched = false;   ///< G20, G21: the language's increment changes
     bool ended = false;            ///< M2, M30
     bool length_moves = false;     ///< G43, G49 without axis words: the axis moves by the offset
     bool exact_stop_once = false;  ///< G9
@@ -97,6 +100,7 @@ struct ControlState {
     ControlPosition intermediate;  ///< of G28, for G29: program coordinates
     std::array<bool, axis_count> clamped{};
 
+    PathQueue path;
     AxisMove move;  ///< the one that goes out; fields that rarely change stay
     RunResult result;
     std::set<std::string, std::less<>> noted;
@@ -126,6 +130,8 @@ struct ControlState {
     bool has_axis(Axis axis) const {
         return (axis_letters & SortedWords::bit(letter_of(axis))) != 0;
     }
+    /// Cutter radius in force, signed: + to the left of the path (G41), - to the right (G42).
+    double cutter_offset_mm() const;
     /// Value of a dimension word (X I R Q ..) in mm.
     double length_word(char letter) const {
         return words.get(letter) * (words.is_bare(letter) ? bare_linear : unit_mm);

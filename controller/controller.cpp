@@ -1,6 +1,7 @@
 #include "controller/controller.h"
 
 #include "controller/block_execution.h"
+#include "controller/code_calls.h"
 #include "controller/system_variables.h"
 
 namespace trunnion {
@@ -19,12 +20,12 @@ struct Controller::State {
     template <typename Program>
     RunResult run(const Program& program);
     void run_blocks();
+    void switch_units();
     void finish();
 
     ControlState control;
     ControlVariables variables;
     Interpreter language;
-    std::string program_name;
 };
 
 InterpreterOptions Controller::State::language_options() const {
@@ -33,13 +34,25 @@ InterpreterOptions Controller::State::language_options() const {
     options.skip_switches = control.config.skip_switches;
     options.asin_0_to_minus_90 = control.stores.parameters.bit(6004, 0);
     options.max_blocks = control.config.max_blocks;
+    options.calls = decode_code_calls(control.stores.parameters);
+    options.whole_arguments_as_written = control.settings.bare_is_unit;
+    options.print_suppresses_blanks = control.stores.parameters.bit(6001, 1);
+    options.increment_digits = control.inch() ? 4 : 3;
     return options;
+}
+
+/// ROUND in a word rounds to the least input increment: 0.001 mm or 0.0001 inch.
+void Controller::State::switch_units() {
+    language.set_increment_digits(control.inch() ? 4 : 3);
+    control.units_switched = false;
 }
 
 void Controller::State::run_blocks() {
     while (const BlockWords* block = language.next()) {
+        control.move.program = &language.program_name();
         execute_block(control, *block);
         if (control.moved) language.block_moved();
+        if (control.units_switched) switch_units();
         if (control.ended) language.end_program();
     }
 }
@@ -49,11 +62,14 @@ RunResult Controller::State::run(const Program& program) {
     control.result = {};
     control.noted.clear();
     control.ended = false;
+    control.path = {};
+    control.move.arc.reset();
+    control.move.curve = nullptr;
+    control.move.until_skip = false;
     try {
         language.open(program);
-        program_name = language.where().program;
-        control.move.program = &program_name;
         run_blocks();
+        flush_path(control);
         if (language.limit_reached()) control.result.status = RunStatus::limit;
     } catch (Alarm& alarm) {
         const SourceRef place = language.where();

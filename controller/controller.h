@@ -47,6 +47,9 @@ struct ControlConfig {
     std::vector<ClampCode> clamps;
     /// #5041.. and #5061.. include the tool length (facts/control.md 2.8: assumed).
     bool work_positions_with_length = true;
+    /// G89 under G98: feeds all the way out to the initial level, as the reference paths do; false:
+    /// feeds to R and rapids on like G85 (Fanuc's drawing, from memory).
+    bool g89_feeds_to_initial = true;
     std::vector<bool> skip_switches = std::vector<bool>(10, false);
     std::uint64_t max_blocks = 0;  ///< 0: none
     std::int64_t clock_s = 0;      ///< #3011/#3012 and #3002 start here (seconds since 1970), so

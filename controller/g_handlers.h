@@ -44,6 +44,19 @@ void g_skip(ControlState& c, const GCode& code);  // G31
 void g_data_setting(ControlState& c, const GCode& code);      // G10
 void g_data_setting_end(ControlState& c, const GCode& code);  // G11
 
+// cycles.cpp
+void g_cycle(ControlState& c, const GCode& code);  // G73-G89
+
+// cutter_compensation.cpp
+void g_cutter(ControlState& c, const GCode& code);  // G40 G41 G42
+
+// shapes.cpp
+void g_scaling(ControlState& c, const GCode& code);      // G51
+void g_scaling_off(ControlState& c, const GCode& code);  // G50
+void g_mirror(ControlState& c, const GCode& code);       // G51.1
+void g_mirror_off(ControlState& c, const GCode& code);   // G50.1
+void g_rotation(ControlState& c, const GCode& code);     // G68
+
 // reference.cpp
 void g_reference_check(ControlState& c, const GCode& code);  // G27
 void g_reference(ControlState& c, const GCode& code);        // G28 G30

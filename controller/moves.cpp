@@ -33,8 +33,6 @@ MoveResult send(ControlState& c, MotionKind kind, const ControlPosition& target,
                 const ControlPosition& machine_target) {
     AxisMove& m = c.move;
     m.kind = kind;
-    m.line = c.words.line;
-    m.byte = c.words.byte;
     check_stroke(c, m.to);
     if (!c.config.clamps.empty()) check_clamps(c, m.to);
     m.feed_mm_min = kind == MotionKind::rapid                 ? 0.0

@@ -23,6 +23,7 @@ void g_units(ControlState& c, const GCode& code) {
     const double before_mm = c.unit_mm;
     c.modal.set(ModalGroup::units, code.code10);
     c.units_changed();
+    c.units_switched = true;
     if (c.unit_mm != before_mm) {  // F stays the same speed
         if (!c.modal.is(ModalGroup::feed_mode, 930)) c.feed.programmed *= before_mm / c.unit_mm;
         c.feed_changed();

@@ -37,6 +37,7 @@ ControlSettings decode_settings(const Parameters& parameters, const ControlConfi
     s.peck_clearance_mm = parameters.get(5115, 1.0);
     s.length_shifts = parameters.bit(5006, 6);
     s.length_axis_type = parameters.bit(5001, 0) ? 2 : parameters.bit(5001, 1) ? 1 : 0;
+    s.radius_is_diameter = parameters.bit(5004, 2);
     s.startup_type_b = parameters.bit(5003, 0);
     s.work_positions_with_length = config.work_positions_with_length;
     s.wear_first = parameters.bit(6000, 3);

@@ -21,6 +21,7 @@ struct ControlSettings {
     bool length_shifts = false;      ///< 5006#6 TOS: G43 shifts the coordinates instead of moving
     int length_axis_type =
         0;  ///< 5001#0 TLC, #1 TLB: 0 A (always Z), 1 B (normal of plane), 2 C (axis in block)
+    bool radius_is_diameter = false;         ///< 5004#2 ODI: D holds diameters
     bool startup_type_b = false;             ///< 5003#0 SUP
     bool work_positions_with_length = true;  ///< #5041, #5061 include length (own option, see docs)
     bool wear_first = false;                 ///< 6000#3 V15: #2001 geometry instead of wear

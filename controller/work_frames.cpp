@@ -27,9 +27,7 @@ void g_work_offset(ControlState& c, const GCode& code) {
 void g_local_shift(ControlState& c, const GCode&) {
     for (const ControlAxis& entry : c.config.axes) {
         if (!c.words.has(letter_of(entry.axis))) continue;
-        const double value = c.axis_word(entry.axis);
-        double& local = c.coordinates.local[entry.axis];
-        local = c.absolute() ? value : local + value;
+        c.coordinates.local[entry.axis] = c.axis_word(entry.axis);  // absolute under G91 too
     }
     c.frame_changed();
 }
@@ -49,8 +47,7 @@ void g_preset(ControlState& c, const GCode&) {
     for (const ControlAxis& entry : c.config.axes) {
         const Axis axis = entry.axis;
         if (!c.words.has(letter_of(axis))) continue;
-        const double wanted =
-            c.absolute() ? c.axis_word(axis) : c.program[axis] + c.axis_word(axis);
+        const double wanted = c.axis_word(axis);  // absolute under G91 too
         c.coordinates.preset[axis] += c.program[axis] + c.coordinates.local[axis] - wanted;
         c.coordinates.local[axis] = 0.0;
     }

@@ -66,6 +66,11 @@ SourceRef Interpreter::where() const {
     return {std::move(name), state_->current.line, 1};
 }
 
+const std::string& Interpreter::program_name() const {
+    static const std::string none;
+    return state_->frames.empty() ? none : state_->frames.back().section->file->text.name;
+}
+
 std::string Interpreter::block_text() const {
     if (state_->frames.empty()) return {};
     const std::string_view text = state_->text();

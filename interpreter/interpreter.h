@@ -80,6 +80,8 @@ class Interpreter {
     /// The place and text of the block that runs now.
     SourceRef where() const;
     std::string block_text() const;
+    /// Name of the running program's file; the reference lasts as long as this interpreter.
+    const std::string& program_name() const;
     /// O number of the running program (#4115), sequence number in force (#4114).
     int program_number() const;
     int sequence_number() const;

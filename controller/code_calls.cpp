@@ -1,0 +1,22 @@
+#include "controller/code_calls.h"
+
+#include <cstdlib>
+
+namespace trunnion {
+
+CodeCalls decode_code_calls(const Parameters& parameters) {
+    CodeCalls calls;
+    const auto code_of = [&](int number) {
+        return static_cast<int>(parameters.get(number));  // 0: no call
+    };
+    for (int i = 0; i < 10; ++i) {
+        if (const int g = code_of(6050 + i)) calls.g[std::abs(g) * 10] = {9010 + i, true, g < 0};
+        if (const int m = code_of(6080 + i)) calls.m[m] = {9020 + i, true, false};
+    }
+    for (int i = 1; i < 10; ++i)
+        if (const int m = code_of(6070 + i)) calls.m[m] = {9000 + i, false, false};
+    calls.t_calls_9000 = parameters.bit(6001, 5);
+    return calls;
+}
+
+}  // namespace trunnion
