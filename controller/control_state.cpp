@@ -148,6 +148,7 @@ ControlPosition ControlState::target() {
         const double value = axis_word(axis);
         out[axis] = relative ? out[axis] + value : value;
     }
+    if (!relative && (settings.rollover || five_axis.shortest_way)) take_shortest_way(*this, out);
     return out;
 }
 

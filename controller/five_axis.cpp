@@ -1,6 +1,7 @@
 #include "controller/five_axis.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "controller/g_codes.h"
 #include "controller/rotary_choice.h"
@@ -98,6 +99,30 @@ void five_axis_block_end(ControlState& c) {
     }
     if (c.fixture_number != 0 && turn_fixture(c, c.machine)) changed = true;
     if (changed) c.frame_changed();
+}
+
+namespace {
+
+/// The way (deg) to |wanted| mod 360 in the direction of its sign.
+double way_by_sign(double present, double wanted) {
+    const double way = std::fmod(std::abs(wanted) - present, 360.0);
+    if (std::signbit(wanted)) return way > 0.0 ? way - 360.0 : way;
+    return way < 0.0 ? way + 360.0 : way;
+}
+
+}  // namespace
+
+void take_shortest_way(const ControlState& c, ControlPosition& target) {
+    for (const Axis axis : {Axis::A, Axis::B, Axis::C}) {
+        if (!c.words.has(letter_of(axis))) continue;
+        const auto bit = static_cast<std::uint16_t>(1U << index_of(axis));
+        const bool rolls = (c.settings.rollover & bit) != 0;
+        if (!c.five_axis.shortest_way && !rolls) continue;
+        const double present = c.program[axis], wanted = target[axis];
+        const bool by_sign = !c.five_axis.shortest_way && (c.settings.rollover_signed & bit);
+        target[axis] = present + (by_sign ? way_by_sign(present, wanted)
+                                          : std::remainder(wanted - present, 360.0));
+    }
 }
 
 MoveResult move_five_axis(ControlState& c, MotionKind kind, const ControlPosition& target) {

@@ -46,6 +46,8 @@ void place_plane(ControlState& c);
 /// the swing of a rotary head.
 ControlPosition tool_length_in_plane(const ControlState& c);
 void cancel_tilted_plane(ControlState& c);
+/// The tool length as #5081.. show it: without the swing of a head inside a tilted plane.
+ControlPosition shown_tool_length(const ControlState& c);
 
 // fixture_codes.cpp
 /// The vector as the block's end needs it, before the block moves; true when it changed (7570#0 =
@@ -53,5 +55,12 @@ void cancel_tilted_plane(ControlState& c);
 bool follow_fixture(ControlState& c, const ControlPosition& target);
 /// The G54.2 vector with the rotaries where `machine` says; true when it changed.
 bool turn_fixture(ControlState& c, const ControlPosition& machine);
+
+// hurco_codes.cpp
+/// M126-M129 of a Hurco control; false for any other code.
+bool hurco_m_code(ControlState& c, int code);
+/// Absolute rotary words of roll-over axes (1008#0) or under M126: the nearest turn, or with 1008#1
+/// the turn in the direction of the word's sign.
+void take_shortest_way(const ControlState& c, ControlPosition& target);
 
 }  // namespace trunnion

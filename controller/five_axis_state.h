@@ -28,6 +28,7 @@ struct FiveAxisState {
     std::optional<ToolCentrePoint> tcp;       ///< G43.4, G43.5 in force
     std::optional<ToolCentrePoint> starting;  ///< takes over at the end of the start-up block
     bool by_vector = false;                   ///< G43.5: I J K instead of rotary words
+    bool shortest_way = false;                ///< M126: rotary words by the shorter way
     double lean_rad = 0.0;                    ///< Q of G43.5
     /// True while any of these needs the hooks below: the one flag that plain blocks look at.
     bool active = false;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "controller/five_axis.h"
+
 namespace trunnion {
 
 namespace {
@@ -86,6 +88,8 @@ void carry_out(ControlState& c, int code) {
     c.last_m = code;
     if (const ClampCode* clamp = clamp_of(c, code))
         c.clamped[index_of(clamp->axis)] = code == clamp->m_clamp;
+    else if (c.config.dialect.family == DialectFamily::hurco && hurco_m_code(c, code))
+        return c.sink.m_code(code);
     else if (!find_row(code))
         c.note(fmt::format("M{:02} is not known to the control: passed on without effect", code));
     change_state(c, code);

@@ -155,6 +155,10 @@ MoveResult move_along(ControlState& c, MotionKind kind, const ControlPosition& t
         m.curve = way.curve;
         m.duration_s =
             std::max(m.duration_s, least_curve_time_s(*way.curve, c.limits.seconds_per_unit));
+        // The axes may swing further out on the way than where they end.
+        const int parts = curve_parts(m.from, m.to);
+        for (int k = 1; k < parts; ++k)
+            check_stroke(c, way.curve->at(static_cast<double>(k) / parts));
     }
     if (way.arc) m.arc = *way.arc;
     const MoveResult result = send(c, kind, target, machine_target);

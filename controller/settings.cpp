@@ -21,6 +21,8 @@ void decode_axes(const Parameters& parameters, const ControlConfig& config, Cont
         const auto roa = static_cast<unsigned>(for_axis(parameters, 1008, number));
         if (config.axes[k].rotary && (roa & 1U))
             s.rollover = static_cast<std::uint16_t>(s.rollover | (1U << i));
+        if (config.axes[k].rotary && (roa & 2U))
+            s.rollover_signed = static_cast<std::uint16_t>(s.rollover_signed | (1U << i));
     }
 }
 

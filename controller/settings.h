@@ -26,6 +26,7 @@ struct ControlSettings {
     bool work_positions_with_length = true;  ///< #5041, #5061 include length (own option, see docs)
     bool wear_first = false;                 ///< 6000#3 V15: #2001 geometry instead of wear
     std::uint16_t rollover = 0;              ///< 1008#0 ROA by axis letter bit
+    std::uint16_t rollover_signed = 0;  ///< 1008#1 RAB: such an axis turns by the word's sign
     std::array<std::array<double, axis_count>, 4> reference{};  ///< 1240-1243, mm and deg
 };
 

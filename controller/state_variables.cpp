@@ -6,6 +6,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "controller/five_axis.h"
 #include "controller/system_variables.h"
 
 namespace trunnion {
@@ -38,7 +39,7 @@ bool read_position(const ControlState& c, int number, double& value) {
             p = c.skip.work;
             break;
         case 4:
-            p = c.coordinates.length;
+            p = shown_tool_length(c);
             break;
         default:
             break;

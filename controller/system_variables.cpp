@@ -1,5 +1,7 @@
 #include "controller/system_variables.h"
 
+#include "controller/five_axis.h"
+
 #include "controller/offset_variables.h"
 #include "controller/state_variables.h"
 
@@ -7,8 +9,9 @@ namespace trunnion {
 
 ControlPosition work_position(const ControlState& c) {
     ControlPosition out = c.coordinates.shaped_from_program(c.program);
-    if (c.settings.work_positions_with_length)
-        for (std::size_t i = 0; i < axis_count; ++i) out.value[i] += c.coordinates.length.value[i];
+    if (!c.settings.work_positions_with_length) return out;
+    const ControlPosition length = shown_tool_length(c);
+    for (std::size_t i = 0; i < axis_count; ++i) out.value[i] += length.value[i];
     return out;
 }
 

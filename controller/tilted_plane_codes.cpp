@@ -104,6 +104,12 @@ ControlPosition tool_length_in_plane(const ControlState& c) {
     return length;
 }
 
+ControlPosition shown_tool_length(const ControlState& c) {
+    ControlPosition length = c.coordinates.length;
+    if (c.five_axis.plane) set_xyz(length, c.move.tool_vector_mm);
+    return length;
+}
+
 void place_plane(ControlState& c) {
     TiltedPlaneState& plane = *c.five_axis.plane;
     plane.latched = c.move.from;

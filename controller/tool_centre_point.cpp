@@ -112,13 +112,17 @@ std::vector<double> chord_steps(const PathCurve& curve, double tolerance_mm) {
     return steps;
 }
 
-double least_curve_time_s(const PathCurve& curve,
-                          const std::array<double, axis_count>& seconds_per_unit) {
-    const AxisPositions from = curve.at(0.0), to = curve.at(1.0);
+int curve_parts(const AxisPositions& from, const AxisPositions& to) {
     double turn_rad = 0.0;
     for (const Axis axis : {Axis::A, Axis::B, Axis::C})
         turn_rad = std::max(turn_rad, std::abs(to[axis] - from[axis]));
-    const int parts = std::clamp(static_cast<int>(turn_rad / rad_from_deg(5.0)) + 1, 1, 256);
+    return std::clamp(static_cast<int>(turn_rad / rad_from_deg(5.0)) + 1, 1, 256);
+}
+
+double least_curve_time_s(const PathCurve& curve,
+                          const std::array<double, axis_count>& seconds_per_unit) {
+    const AxisPositions from = curve.at(0.0), to = curve.at(1.0);
+    const int parts = curve_parts(from, to);
     double longest_s = 0.0;
     AxisPositions before = from;
     for (int k = 1; k <= parts; ++k) {

@@ -74,6 +74,10 @@ Vector3 leaned(const Vector3& n_W, const Vector3& travel_W, double lean_rad);
 /// too).
 std::vector<double> chord_steps(const PathCurve& curve, double tolerance_mm);
 
+/// Into how many parts a curve is cut to look at it: one for each 5 deg of the axis that turns
+/// most.
+int curve_parts(const AxisPositions& from, const AxisPositions& to);
+
 /// Least time (s) in which the axes can follow the curve at constant rate of s: each axis's
 /// steepest run times its `seconds_per_unit`.
 double least_curve_time_s(const PathCurve& curve,

@@ -615,4 +615,69 @@ TEST_CASE("TCP inside a tilted plane keeps the plane's coordinates") {
     CHECK(b.control.move.from == stood);
 }
 
+TEST_CASE("roll-over axes take the shorter way, or the way of the sign") {
+    TableBench b;
+    b.stores.parameters.entry[1008].by_axis[5] = 1;
+    b.control.parameters_changed();
+    const auto c_deg = [&] { return deg_from_rad(b.control.move.from[Axis::C]); };
+    b.run("G90 G54 G0 C350.;C10.");
+    CHECK(c_deg() == Approx(10).margin(1e-9));
+    b.run("C350.");
+    CHECK(c_deg() == Approx(-10).margin(1e-9));
+    b.run("G91 C400.;G90 B300.");
+    CHECK(c_deg() == Approx(390).margin(1e-9));
+    CHECK(deg_from_rad(b.control.move.from[Axis::B]) == Approx(300));
+    b.stores.parameters.entry[1008].by_axis[5] = 3;
+    b.control.parameters_changed();
+    b.run("C-20.");
+    CHECK(c_deg() == Approx(380).margin(1e-9));
+    b.run("C10.");
+    CHECK(c_deg() == Approx(730).margin(1e-9));
+}
+
+TEST_CASE("Hurco: M128 and M129, M126 and M127") {
+    TableBench b;
+    b.control.config.dialect = hurco_dialect();
+    b.set_pivot({1, 2, 40}, {0.5, 0.25, -20});
+    b.run("G90 G54 G0 G43 H1 X10. Y0 Z50. B30. C40.;M128;X10. Y5. Z20.");
+    CHECK((b.tip_W(b.last().to) - Vector3(10, 5, 20)).norm() < 1e-9);
+    CHECK(b.last().mode == PositioningMode::rtcp);
+    const AxisPositions stood = b.control.move.from;
+    b.run("M129");
+    CHECK(b.control.move.from == stood);
+    b.run("X10. Y5. Z20. B0 C0");
+    CHECK((xyz(b.last().to) - Vector3(10, 5, 140.25)).norm() < 1e-9);
+    b.run("C350.;M126;C10.");
+    CHECK(deg_from_rad(b.control.move.from[Axis::C]) == Approx(370));
+    b.run("M127;C0");
+    CHECK(b.control.move.from[Axis::C] == Approx(0).margin(1e-12));
+    TableBench fanuc;
+    fanuc.run("G90 G54 M128");
+    CHECK_FALSE(fanuc.control.five_axis.tcp);
+}
+
+TEST_CASE("axes may not swing beyond their stroke on the way of the tip") {
+    TableBench b;
+    b.control.limits.max[index_of(Axis::Y)] = 40.0;
+    b.run("G90 G54 G0 B0 C0;G43.4 H1 X50. Y0 Z0");
+    CHECK(b.alarm("C-180.") == 500);  // both ends have Y0, half-way it is at 50
+    b.run("C180.");
+}
+
+TEST_CASE("#5081 shows the tool length, not the swing of a head") {
+    TableBench b;
+    Parameters& p = b.stores.parameters;
+    p.set(19680, 2);
+    p.set(19709, 12.0);
+    p.set(19711, 200.0);
+    b.control.parameters_changed();
+    b.run("G90 G54 G0 B0 C0;G68.2 X0 Y0 Z0 I90. J20. K-90.;G53.1;G43 H1 X1. Y2. Z3.");
+    CHECK((b.tip_W(b.last().to) -
+           rotation_about(Vector3::UnitY(), rad_from_deg(20)) * Vector3(1, 2, 3))
+              .norm() < 1e-9);
+    CHECK(b.variable(5081) == 0.0);
+    CHECK(b.variable(5083) == 120.25);
+    CHECK(b.variable(5043) == Approx(123.25));
+}
+
 }  // namespace trunnion
