@@ -26,7 +26,7 @@ struct CompareCommand {
     double tol_ang_deg = deg_from_rad(Tolerances{}.direction_rad);
     double tol_feed = Tolerances{}.feed_ratio, tol_time = Tolerances{}.time_ratio;
     unsigned threads = 0;
-    std::uint64_t max_blocks = 0;
+    std::uint64_t max_blocks = 100'000'000;  ///< an endless loop ends here, exit code 4
     bool json = false, update = false;
 };
 
