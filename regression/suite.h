@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,10 @@ struct Suite {
     std::vector<SuiteCase> cases;
     std::vector<ExpectedDifference> expected;
 };
+
+/// The NC programs below a folder, as relative paths: files with one of the usual endings, or named
+/// by their O number. Throws InputError when it is no folder.
+std::set<std::string> programs_below(const std::string& folder);
 
 /// Every NC program below two folders, by relative path. Throws InputError when one is no folder.
 Suite suite_of_folders(const std::string& a, const std::string& b, const SuiteCase& like);

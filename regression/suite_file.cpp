@@ -30,15 +30,6 @@ bool is_program(const fs::path& path) {
     return std::find(nc_endings.begin(), nc_endings.end(), ending) != nc_endings.end();
 }
 
-std::set<std::string> programs_below(const std::string& folder) {
-    if (!fs::is_directory(folder)) throw InputError("no such folder", {folder, 0, 0});
-    std::set<std::string> names;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (entry.is_regular_file() && is_program(entry.path()))
-            names.insert(entry.path().lexically_relative(folder).generic_string());
-    return names;
-}
-
 /// `*` stands for any characters, `?` for one.
 bool matches(std::string_view pattern, std::string_view name) {
     if (pattern.empty()) return name.empty();
@@ -179,6 +170,15 @@ class SuiteReader {
 };
 
 }  // namespace
+
+std::set<std::string> programs_below(const std::string& folder) {
+    if (!fs::is_directory(folder)) throw InputError("no such folder", {folder, 0, 0});
+    std::set<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.is_regular_file() && is_program(entry.path()))
+            names.insert(entry.path().lexically_relative(folder).generic_string());
+    return names;
+}
 
 Suite suite_of_folders(const std::string& a, const std::string& b, const SuiteCase& like) {
     Suite suite;

@@ -1,0 +1,16 @@
+// Findings of `check` in every form they can be written in.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "check/check.h"
+
+namespace trunnion {
+
+/// format: text, json, junit, sarif, github; throws InputError for another. `files` are all that
+/// were looked at: a JUnit case each.
+std::string format_findings(const std::vector<Finding>& findings,
+                            const std::vector<std::string>& files, const std::string& format);
+
+}  // namespace trunnion
