@@ -15,9 +15,19 @@ namespace {
 using namespace trunnion;
 
 /// One line a command: file cli/NAME.cpp, declared in cli/command.h.
+// clang-format off
 const std::initializer_list<void (*)(CLI::App&, Run&)> commands = {
-    add_backup, add_check, add_compare, add_diagnose, add_identify,
-    add_merge,  add_pivot, add_predict, add_run};
+    add_backup,
+    add_check,
+    add_compare,
+    add_diagnose,
+    add_identify,
+    add_merge,
+    add_pivot,
+    add_predict,
+    add_run,
+};
+// clang-format on
 
 int report_alarm(const Alarm& alarm) {
     fmt::print(stderr, "{}\n",
