@@ -39,15 +39,6 @@ std::pair<double, double> planar_range(BallbarTestKind kind, double partial_rad)
     return {middle - 0.5 * partial_rad, middle + 0.5 * partial_rad};
 }
 
-/// Unit vector along the machine axis that `v` is nearest to, same side.
-Vector3 main_direction(const Vector3& v) {
-    Eigen::Index main = 0;
-    v.cwiseAbs().maxCoeff(&main);
-    Vector3 out = Vector3::Zero();
-    out(main) = v(main) < 0.0 ? -1.0 : 1.0;
-    return out;
-}
-
 }  // namespace
 
 std::optional<BallbarTest> parse_ballbar_test(std::string_view name) {
@@ -88,12 +79,13 @@ std::pair<AxisGeometry, AxisGeometry> table_axes(const Chain& chain) {
 Vector3 bar_at_home(const BallbarLayout& layout, const BallbarTest& test,
                     const AxisGeometry& axis) {
     const double side = layout.inside ? -1.0 : 1.0;
-    if (test.kind == BallbarTestKind::axial) {
-        // The side on which the other axis's radial test has the cup: the same station.
-        return side * main_direction(axis.direction.cwiseAbs());
-    }
     const Vector3 arm = layout.pivot_W_mm - axis.point_mm;
-    return side * main_direction(arm - axis.direction.dot(arm) * axis.direction);
+    const double along = axis.direction.dot(arm);
+    if (test.kind == BallbarTestKind::radial)
+        return side * (arm - along * axis.direction).normalized();
+    Vector3 up = axis.direction;
+    if (along < 0.0 || (along == 0.0 && up.sum() < 0.0)) up = -up;
+    return side * up;
 }
 
 std::vector<AxisPositions> ideal_path(const Machine& nominal, const BallbarLayout& layout,

@@ -45,8 +45,7 @@ struct BallbarLayout {
 std::pair<AxisGeometry, AxisGeometry> table_axes(const Chain& chain);
 
 /// Unit vector from pivot to cup of a rotary test at home: radial tests across the axis, away from
-/// it (towards it when `inside`), axial ones along it. Along a machine axis: the pivot should stand
-/// straight above the first axis and be offset from the second one along the first.
+/// it (towards it when `inside`), axial ones along it, on the side on which the pivot stands.
 Vector3 bar_at_home(const BallbarLayout& layout, const BallbarTest& test, const AxisGeometry& axis);
 
 /// Gauge point and rotary angles of `count` points of a test along its ideal path (equal steps,

@@ -290,7 +290,6 @@ TEST_CASE("the same evaluation serves a B-C table") {
     Bench bench;
     bench.nominal.chain.work[0].axis = Axis::B;
     bench.nominal.chain.work[0].direction = -Vector3::UnitY();
-    for (AxisGeometry& axis : bench.nominal.chain.work) axis.point_mm = Vector3(0, -75, -110);
     bench.truth.machine = bench.nominal;
     const std::vector<NamedError> errors = {
         {{'X', true, Axis::B}, 0.021}, {{'Z', true, Axis::B}, -0.013}, {{'A', true, Axis::B}, 4e-5},
