@@ -44,6 +44,8 @@ std::vector<CirclePoint> points_of(const CircularTest& test) {
     const auto [u, v] = axes_of_plane(test.plane);
     std::vector<CirclePoint> points;
     for (const CircularPass& pass : test.passes) {
+        // The eccentricity of the set-up, whose square would look like an oval, is taken out.
+        const auto radial_mm = centred_radial_mm(pass, test.circle, test.radius_mm);
         const std::size_t count = pass.angle_rad.size(), blocks = std::min(count, points_per_pass);
         for (std::size_t b = 0; b < blocks; ++b) {
             const std::size_t begin = count * b / blocks, end = count * (b + 1) / blocks;
@@ -53,7 +55,7 @@ std::vector<CirclePoint> points_of(const CircularTest& test) {
                 turns_within(pass, begin, end, u) || turns_within(pass, begin, end, v))
                 continue;
             double sum = 0.0;
-            for (std::size_t i = begin; i < end; ++i) sum += pass.radial_mm[i];
+            for (std::size_t i = begin; i < end; ++i) sum += radial_mm[i];
             const double a = pass.angle_rad[middle];
             points.push_back(
                 {std::cos(a), std::sin(a), s.position[u] - test.center_M_mm.x(),

@@ -59,15 +59,6 @@ CircleFit centre(const std::vector<const CircularPass*>& passes, double radius_m
     return {x.head<2>(), radius_mm + x.z(), 0.0};
 }
 
-std::vector<double> centred(const CircularPass& pass, const CircleFit& circle, double radius_mm) {
-    std::vector<double> out;
-    for (std::size_t i = 0; i < pass.angle_rad.size(); ++i) {
-        const double bar_mm = (arm_of(pass, i, radius_mm) - circle.center_mm).norm();
-        out.push_back(pass.radial_mm[i] - (bar_mm - radius_mm));
-    }
-    return out;
-}
-
 double spread_um(const std::vector<double>& values_mm) {
     const auto [low, high] = std::minmax_element(values_mm.begin(), values_mm.end());
     return um_from_mm(*high - *low);
@@ -100,8 +91,8 @@ class RadiusAt {
 
 void add_hysteresis(const CircularTest& test, const CircularPass& ccw, const CircularPass& cw,
                     CircularFigures& out) {
-    const auto r_ccw = centred(ccw, test.circle, test.radius_mm);
-    const RadiusAt r_cw(cw, centred(cw, test.circle, test.radius_mm));
+    const auto r_ccw = centred_radial_mm(ccw, test.circle, test.radius_mm);
+    const RadiusAt r_cw(cw, centred_radial_mm(cw, test.circle, test.radius_mm));
     for (std::size_t i = 0; i < r_ccw.size(); ++i) {
         const auto other = r_cw(ccw.angle_rad[i]);
         if (!other) continue;
@@ -128,6 +119,16 @@ std::pair<Axis, Axis> axes_of_plane(BallbarTestKind plane) {
 std::string plane_name(BallbarTestKind plane) {
     const auto [u, v] = axes_of_plane(plane);
     return {letter_of(u), letter_of(v)};
+}
+
+std::vector<double> centred_radial_mm(const CircularPass& pass, const CircleFit& circle,
+                                      double radius_mm) {
+    std::vector<double> out;
+    for (std::size_t i = 0; i < pass.angle_rad.size(); ++i) {
+        const double bar_mm = (arm_of(pass, i, radius_mm) - circle.center_mm).norm();
+        out.push_back(pass.radial_mm[i] - (bar_mm - radius_mm));
+    }
+    return out;
 }
 
 std::vector<CircularTest> circular_tests(const ReadingTable& table, double radius_mm) {
@@ -169,8 +170,8 @@ CircularFigures circular_figures(const CircularTest& test) {
     const CircularPass *ccw = nullptr, *cw = nullptr;
     for (const CircularPass& pass : test.passes) {
         double& figure = pass.ccw ? out.circularity_ccw_um : out.circularity_cw_um;
-        figure = std::max(figure, spread_um(centred(pass, pass.circle, test.radius_mm)));
-        const auto own = centred(pass, test.circle, test.radius_mm);
+        figure = std::max(figure, spread_um(centred_radial_mm(pass, pass.circle, test.radius_mm)));
+        const auto own = centred_radial_mm(pass, test.circle, test.radius_mm);
         all.insert(all.end(), own.begin(), own.end());
         (pass.ccw ? ccw : cw) = &pass;
     }

@@ -69,6 +69,10 @@ struct CircularDiagnosis {
 /// The planar tests among the readings, by plane and feed, in order of appearance.
 std::vector<CircularTest> circular_tests(const ReadingTable& table, double radius_mm);
 
+/// Radius of the measured path about the pivot that `circle` found, minus the nominal radius.
+std::vector<double> centred_radial_mm(const CircularPass& pass, const CircleFit& circle,
+                                      double radius_mm);
+
 CircularFigures circular_figures(const CircularTest& test);
 
 /// Least squares of the shapes that backlash, reversal spikes, lateral play, squareness,

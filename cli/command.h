@@ -15,6 +15,7 @@ using Run = std::function<int()>;
 
 /// Each command adds its subcommand and options to `app` and, when chosen, sets `run`.
 void add_backup(CLI::App& app, Run& run);
+void add_ballbar(CLI::App& app, Run& run);
 void add_check(CLI::App& app, Run& run);
 void add_compare(CLI::App& app, Run& run);
 void add_diagnose(CLI::App& app, Run& run);

@@ -18,6 +18,7 @@ using namespace trunnion;
 // clang-format off
 const std::initializer_list<void (*)(CLI::App&, Run&)> commands = {
     add_backup,
+    add_ballbar,
     add_check,
     add_compare,
     add_diagnose,

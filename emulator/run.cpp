@@ -52,9 +52,12 @@ RunLog run_program(const Setup& setup, ProgramSource& programs, const ProgramCho
     log.stores = setup.stores;
     MachineSink sink(setup, options.effects, sink_options(options, program));
     sink.place(options.start);
+    std::optional<CompensatingSink> compensating;
+    if (options.compensation) compensating.emplace(sink, options.compensation);
+    MotionSink& door = compensating ? static_cast<MotionSink&>(*compensating) : sink;
     ControlConfig config = control_config(setup);
     config.max_blocks = options.max_blocks;
-    Controller controller(std::move(config), log.stores, programs, sink,
+    Controller controller(std::move(config), log.stores, programs, door,
                           [&](std::string_view text) {
                               log.printed += text;
                               sink.printed(text);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "controller/controller.h"
+#include "emulator/compensating_sink.h"
 #include "emulator/replay.h"
 #include "emulator/setup.h"
 
@@ -23,6 +24,8 @@ struct RunOptions {
     std::vector<int> wanted_variables;  ///< reported after it; none: all common ones in use
     AxisPositions start;                ///< where the axes stand before the run
     EffectModels effects;
+    Compensation compensation;  ///< of the control, when set; readings and trace hold the
+                                ///< compensated positions
 };
 
 /// What a run did.

@@ -1,13 +1,13 @@
 // The NC programs of the single-set-up test on the emulated control.
-#include "analysis/ballbar_program.h"
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <sstream>
 
 #include "analysis/ballbar_fit.h"
+#include "analysis/ballbar_procedure.h"
 #include "analysis/ballbar_result.h"
 #include "emulator/program_folders.h"
 #include "emulator/run.h"
@@ -32,6 +32,13 @@ BallbarLayout layout_of(const Setup& setup) {
 Machine without_errors(Machine machine) {
     machine.errors = {};
     return machine;
+}
+
+std::string file_text(const std::string& path) {
+    std::ifstream in(path);
+    std::ostringstream out;
+    out << in.rdbuf();
+    return out.str();
 }
 
 RunLog run(const Setup& setup, const std::string& text, double trace_step_mm = 0.0) {
@@ -131,7 +138,8 @@ TEST_CASE("the bar keeps its length from the first test to the last") {
     const auto column = columns_of(line);
     while (std::getline(lines, line)) {
         const auto cells = split(line);
-        const Vector3 tip(number(cells[column.at("tip_x_mm")]), number(cells[column.at("tip_y_mm")]),
+        const Vector3 tip(number(cells[column.at("tip_x_mm")]),
+                          number(cells[column.at("tip_y_mm")]),
                           number(cells[column.at("tip_z_mm")]));
         pending_mm.push_back((tip - layout.pivot_W_mm).norm());
         const std::string& motion = cells[column.at("motion")];
@@ -165,6 +173,28 @@ TEST_CASE("BK1 BK2 and BK4 run and read along the whole path") {
     CHECK(tests["bk4_pos"] == tests["bk4_neg"]);
     CHECK(tests["bk4_pos"] > 100);
     CHECK(five_axes);
+}
+
+TEST_CASE("the programs that ship are what the generator writes") {
+    struct Shipped {
+        const char *setup, *folder;
+        bool hurco;
+    };
+    for (const Shipped& s :
+         {Shipped{"ac_trunnion.toml", "", false}, Shipped{"bc_table.toml", "bc/", false},
+          Shipped{"ac_trunnion.toml", "hurco/", true}}) {
+        const Setup setup = load(s.setup);
+        const Machine nominal = without_errors(setup.machine);
+        int tool_offset = 0;
+        auto data = ballbar_program_data(nominal, stated_layout(setup, tool_offset));
+        data.tool_offset = tool_offset;
+        data.hurco = s.hurco;
+        const std::string folder =
+            std::string(TRUNNION_SOURCE_DIR) + "/programs/ballbar/" + s.folder;
+        CAPTURE(folder);
+        CHECK(file_text(folder + "O8200.nc") == ballbar_program(nominal, data));
+        CHECK(file_text(folder + "O8300.nc") == kinematic_test_program(nominal, data));
+    }
 }
 
 TEST_CASE("a pivot on an axis is refused") {

@@ -1,0 +1,80 @@
+// The whole single-set-up procedure: run, identify, compensate the control, run again.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/ballbar_fit.h"
+#include "analysis/ballbar_program.h"
+#include "analysis/ballbar_published.h"
+#include "analysis/circular_test.h"
+#include "emulator/run.h"
+
+namespace trunnion {
+
+/// One line of the result table. mm or rad.
+struct BallbarErrorRow {
+    ErrorName name;
+    double before = 0.0, after = 0.0;
+    double sigma_before = 0.0;
+    double sigma = 0.0;  ///< of `after`: noise of both runs, so the larger one
+    std::optional<double> published_before;
+};
+
+/// Manual times that the comparison with two set-ups assumes, s.
+struct SetupTimes {
+    double setup_s = 600.0;   ///< clamp pivot and cup, set the origin, start the software
+    double remount_s = 90.0;  ///< take the bar off, move, mount it again: between tests when it
+                              ///< does not stay in place
+};
+
+struct PlanarResult {
+    CircularTest test;
+    CircularFigures figures;
+    CircularDiagnosis diagnosis;
+};
+
+struct BallbarRun {
+    ReadingTable readings;
+    double time_s = 0.0;
+};
+
+struct BallbarResult {
+    std::string machine;
+    std::string setup_path;
+    BallbarProgramData data;
+    std::string program;
+    BallbarRun before, after;
+    std::vector<BallbarErrorRow> errors;           ///< as the setup file means them
+    std::vector<BallbarErrorRow> at_intersection;  ///< as the paper means them
+    BallbarFit fit;                                ///< cup taken as known
+    BallbarFit open_fit;  ///< cup unknown too: rank, what cannot be told apart
+    ResidualVerdict verdict;
+    PublishedEvaluation published;
+    std::vector<PlanarResult> planar;
+    std::vector<std::pair<int, double>> pivot_parameters;  ///< 19700-19705 with the found positions
+    SetupTimes times;
+    std::vector<std::string> notes;
+
+    std::size_t tests() const;  ///< number of different tests
+    double single_setup_s() const;
+    double two_setups_s() const;
+};
+
+struct BallbarProcedureOptions {
+    std::uint64_t seed = 1;
+    EffectModels effects;
+    SetupTimes times;
+};
+
+/// The bar as the operator states it: pivot from the setup's center_pivot, cup from the tool table
+/// (the offset whose length is nearest the cup's). Throws InputError when the setup lacks them.
+BallbarLayout stated_layout(const Setup& setup, int& tool_offset);
+
+/// Throws Alarm when the program stops, InputError when the setup cannot carry the test or a pass
+/// has no readings (out of range).
+BallbarResult run_ballbar(const Setup& setup, const BallbarProcedureOptions& options);
+
+}  // namespace trunnion

@@ -1,0 +1,87 @@
+// trunnion ballbar: the single-set-up ballbar test: run, identify, compensate, run again.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "cli/command.h"
+#include "cli/files.h"
+#include "cli/setups.h"
+#include "effects/settings.h"
+#include "report/ballbar_report.h"
+
+namespace trunnion {
+
+namespace {
+
+struct BallbarOptions {
+    std::string setup, svg_folder, readings, readings_after, program, kinematic_program;
+    std::uint64_t seed = 1;
+    SetupTimes times;
+    bool json = false, hurco = false;
+};
+
+/// --program and --kinematic-program only write; nothing runs.
+int write_programs(const Setup& setup, const BallbarOptions& o) {
+    Machine nominal = setup.machine;
+    nominal.errors = {};
+    int tool_offset = 0;
+    BallbarProgramData data = ballbar_program_data(nominal, stated_layout(setup, tool_offset));
+    data.tool_offset = tool_offset;
+    data.hurco = o.hurco;
+    OutputFiles files;
+    if (!o.program.empty()) files.add(o.program, ballbar_program(nominal, data));
+    if (!o.kinematic_program.empty())
+        files.add(o.kinematic_program, kinematic_test_program(nominal, data));
+    files.write();
+    return exit_done;
+}
+
+int run_command(const BallbarOptions& o) {
+    const Setup setup = open_setup(o.setup);
+    if (!o.program.empty() || !o.kinematic_program.empty()) return write_programs(setup, o);
+    BallbarProcedureOptions options;
+    options.seed = o.seed;
+    options.effects = active_models(setup);
+    options.times = o.times;
+    const BallbarResult result = run_ballbar(setup, options);
+    print_notes(result.notes);
+    OutputFiles files;
+    files.add("-", o.json ? ballbar_json(result) : ballbar_table(result));
+    if (!o.readings.empty()) files.add(o.readings, format_readings(result.before.readings));
+    if (!o.readings_after.empty())
+        files.add(o.readings_after, format_readings(result.after.readings));
+    if (!o.svg_folder.empty()) {
+        std::filesystem::create_directories(o.svg_folder);
+        for (const auto& [name, text] : ballbar_pictures(result))
+            files.add((std::filesystem::path(o.svg_folder) / name).string(), text);
+    }
+    files.write();
+    return exit_done;
+}
+
+}  // namespace
+
+void add_ballbar(CLI::App& app, Run& run) {
+    const auto o = std::make_shared<BallbarOptions>();
+    CLI::App* command = app.add_subcommand(
+        "ballbar", "the single-set-up ballbar test: run, identify, compensate, run again");
+    command->add_option("--setup", o->setup, "setup file (default machines/bc_table.toml)");
+    command->add_option("--seed", o->seed, "of the noise (second run: the next one)");
+    command->add_option("--svg", o->svg_folder, "folder for the polar plots");
+    command->add_option("--readings", o->readings, "write the first run's readings (CSV)");
+    command->add_option("--readings-after", o->readings_after,
+                        "write the readings of the run after compensation (CSV)");
+    command->add_option("--program", o->program,
+                        "only write the NC program of the test for this machine");
+    command->add_option("--kinematic-program", o->kinematic_program,
+                        "only write the NC program of BK1, BK2 and BK4 for this machine");
+    command->add_flag("--hurco", o->hurco, "M128 and M129 in the written program");
+    command->add_option("--setup-time", o->times.setup_s, "assumed seconds for one set-up");
+    command->add_option("--remount-time", o->times.remount_s,
+                        "assumed seconds to move the bar between two tests");
+    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->callback([o, &run] { run = [o] { return run_command(*o); }; });
+}
+
+}  // namespace trunnion

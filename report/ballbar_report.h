@@ -1,0 +1,20 @@
+// The single-set-up ballbar procedure as table, JSON and polar plots.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "analysis/ballbar_procedure.h"
+
+namespace trunnion {
+
+/// Tables like the 2015 paper's Table 2 (at the setup's point_mm, and at the nominal intersection),
+/// set-up, what the test cannot tell apart, residual, ISO 230-4 figures, diagnosis, times.
+std::string ballbar_table(const BallbarResult& result);
+/// `{"schema":"trunnion.ballbar/1",...}` of formats.md.
+std::string ballbar_json(const BallbarResult& result);
+/// Polar plots by file name: planar ones centred, rotary ones about their mean with the fitted
+/// eccentric circle.
+std::map<std::string, std::string> ballbar_pictures(const BallbarResult& result);
+
+}  // namespace trunnion

@@ -1,0 +1,162 @@
+// The whole single-set-up procedure on the emulated machine, and what is reported of it.
+#include "report/ballbar_report.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "analysis/ballbar_procedure.h"
+#include "geometry/alarm.h"
+#include "geometry/units.h"
+#include "report/polar_plot.h"
+
+using namespace trunnion;
+
+namespace {
+
+Setup ac_setup(double noise_um) {
+    std::vector<std::string> notes;
+    Setup setup =
+        load_setup(std::string(TRUNNION_SOURCE_DIR) + "/machines/ac_trunnion.toml", notes);
+    setup.ballbar->noise_um = noise_um;
+    setup.ballbar->sample_hz = 8.0;
+    return setup;
+}
+
+const BallbarErrorRow& row(const std::vector<BallbarErrorRow>& rows, const std::string& name) {
+    for (const BallbarErrorRow& r : rows)
+        if (to_string(r.name) == name) return r;
+    FAIL("no row " + name);
+    return rows.front();
+}
+
+}  // namespace
+
+TEST_CASE("run, identify, compensate, run again - every error within three sigma of zero") {
+    const Setup setup = ac_setup(0.5);
+    const BallbarResult result = run_ballbar(setup, {});
+    REQUIRE(result.errors.size() == 8);
+    for (const BallbarErrorRow& r : result.errors) {
+        CAPTURE(to_string(r.name), r.before, r.after, r.sigma);
+        CHECK(r.sigma_before > 0.0);
+        CHECK(r.sigma > r.sigma_before);
+        CHECK(std::abs(r.before - setup.machine.errors.location(r.name)) < 3.5 * r.sigma_before);
+        CHECK(std::abs(r.after) < 3.0 * r.sigma);
+        REQUIRE(r.published_before);
+        CHECK(std::abs(*r.published_before - r.before) < (r.name.angular() ? 4e-6 : 5e-4));
+    }
+    CHECK_FALSE(result.verdict.structured);
+    CHECK(result.open_fit.rank == 12);
+    CHECK(result.open_fit.parameters.size() == 15);
+    // Less than two set-ups by at least the published 40 %.
+    CHECK(result.single_setup_s() < 0.6 * result.two_setups_s());
+    CHECK(result.times.setup_s == 600.0);
+}
+
+TEST_CASE("noise-free the procedure is exact and the tilts are compensated too") {
+    const BallbarResult result = run_ballbar(ac_setup(0.0), {});
+    for (const BallbarErrorRow& r : result.errors) {
+        CAPTURE(to_string(r.name), r.after);
+        CHECK(std::abs(r.after) < (r.name.angular() ? 1e-9 : 1e-6));
+    }
+    for (const BallbarErrorRow& r : result.at_intersection)
+        CHECK(std::abs(r.after) < (r.name.angular() ? 1e-9 : 1e-6));
+    // 19700-19702 hold a point of the A axis, 19703-19705 lead from there to the C axis.
+    const auto& p = result.pivot_parameters;
+    REQUIRE(p.size() == 6);
+    CHECK(p[1].second == Approx(0.0726).margin(1e-6));
+    CHECK(p[2].second == Approx(-0.0202).margin(1e-6));
+    CHECK(p[0].second + p[3].second == Approx(0.0283).margin(1e-6));
+    CHECK(p[1].second + p[4].second == Approx(0.1041).margin(1e-6));
+}
+
+TEST_CASE("a wrong tool length reads as EZ0A and is named as what cannot be told apart") {
+    Setup setup = ac_setup(0.0);
+    setup.ballbar->cup_S_mm.z() -= 0.01;  // the tool is 10 um longer than its offset says
+    const BallbarResult result = run_ballbar(setup, {});
+    CHECK(row(result.errors, "EZ0A").before - (-0.0202) == Approx(0.01).margin(1e-5));
+    bool named = false;
+    for (const InseparableGroup& group : result.open_fit.inseparable)
+        named |= std::count(group.names.begin(), group.names.end(), "EZ0A") == 1 &&
+                 std::count(group.names.begin(), group.names.end(), "ballbar.cup.z") == 1;
+    CHECK(named);
+    setup.stores.tools.tool[2].length_geometry_mm += 0.01;  // told the truth
+    const BallbarResult known = run_ballbar(setup, {});
+    CHECK(row(known.errors, "EZ0A").before == Approx(-0.0202).margin(1e-6));
+}
+
+TEST_CASE("errors of the linear axes are handed to diagnosis") {
+    Setup setup = ac_setup(0.3);
+    setup.machine.errors.location(*parse_error_name("EC0Y")) = 4e-5;
+    const BallbarResult result = run_ballbar(setup, {});
+    CHECK(result.verdict.structured);
+    const std::string text = ballbar_table(result);
+    CHECK_THAT(text, Catch::Contains("trunnion diagnose R.csv --setup"));
+    for (const PlanarResult& planar : result.planar) {
+        if (planar.test.plane != BallbarTestKind::xy) continue;
+        const CircularCause& first = planar.diagnosis.causes.front();
+        CHECK(first.name == "squareness XY");
+        CHECK(first.value == Approx(40.0).margin(4.0 * first.sigma));
+    }
+}
+
+TEST_CASE("a bar out of its range is said with the pass") {
+    Setup setup = ac_setup(0.0);
+    setup.machine.errors.location(*parse_error_name("EX0C")) = 3.0;
+    CHECK_THROWS_MATCHES(run_ballbar(setup, {}), InputError,
+                         Catch::Matchers::Predicate<InputError>([](const InputError& e) {
+                             return e.message.find("of 14 passes") != std::string::npos &&
+                                    e.message.find("out of its range of 1 mm") != std::string::npos;
+                         }));
+}
+
+TEST_CASE("ballbar JSON holds the keys of the contract") {
+    const BallbarResult result = run_ballbar(ac_setup(0.5), {});
+    const auto json = nlohmann::json::parse(ballbar_json(result));
+    CHECK(json["schema"] == "trunnion.ballbar/1");
+    REQUIRE(json["errors"].size() == 8);
+    for (const auto& e : json["errors"])
+        for (const char* key : {"name", "before", "after", "sigma", "unit", "published_before"})
+            CHECK(e.contains(key));
+    CHECK(json["errors"][0]["name"] == "EY0A");
+    CHECK(json["errors"][0]["unit"] == "mm");
+    CHECK(json["errors"][0]["before"].get<double>() == Approx(0.0726).margin(1e-3));
+    CHECK(json["time_s"].get<double>() > 100.0);
+    REQUIRE(json["circularity"].size() == 3);
+    CHECK(json["circularity"][0]["circularity_ccw_um"].get<double>() > 0.0);
+    CHECK(json["rank"] == 12);
+    CHECK(json["inseparable"].size() == 3);
+}
+
+TEST_CASE("same seed, same report") {
+    const Setup setup = ac_setup(0.5);
+    CHECK(ballbar_json(run_ballbar(setup, {})) == ballbar_json(run_ballbar(setup, {})));
+    BallbarProcedureOptions other;
+    other.seed = 2;
+    CHECK(ballbar_json(run_ballbar(setup, {})) != ballbar_json(run_ballbar(setup, other)));
+}
+
+TEST_CASE("polar plots have a scale, both directions and the fitted circle") {
+    PolarPlot plot;
+    plot.title = "XY";
+    PolarTrace trace{"ccw", {}, {}};
+    for (int i = 0; i < 360; ++i) {
+        trace.angle_rad.push_back(rad_from_deg(i));
+        trace.radial_um.push_back(3.0 + 6.5 * std::cos(rad_from_deg(i)) -
+                                  2.0 * std::sin(rad_from_deg(i)));
+    }
+    plot.traces = {trace, trace};
+    plot.fitted_um = fit_eccentric_circle(plot.traces);
+    REQUIRE(plot.fitted_um.size() == 3);
+    CHECK(plot.fitted_um[0] == Approx(3.0));
+    CHECK(plot.fitted_um[1] == Approx(6.5));
+    CHECK(plot.fitted_um[2] == Approx(-2.0));
+    CHECK(um_per_division(plot) == 5.0);  // 9.8 um within four divisions
+    const std::string svg = polar_svg(plot);
+    CHECK_THAT(svg, Catch::Contains("5 um/div") && Catch::Contains("fitted circle"));
+    CHECK(svg.find("nan") == std::string::npos);
+    const auto pictures = ballbar_pictures(run_ballbar(ac_setup(0.5), {}));
+    CHECK(pictures.size() == 7);
+    CHECK(pictures.count("radial_A.svg") == 1);
+    CHECK(pictures.count("xy_2000.svg") == 1);
+}
