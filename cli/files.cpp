@@ -39,29 +39,43 @@ std::string read_whole(const std::string& path) {
     return text.str();
 }
 
+struct OutputFiles::Growing {
+    std::string path, part;
+    std::ofstream out;
+};
+
+OutputFiles::OutputFiles() = default;
+
+OutputFiles::~OutputFiles() {
+    std::error_code ignored;
+    for (const auto& file : growing_) fs::remove(file->part, ignored);
+}
+
 void OutputFiles::add(const std::string& path, std::string text) {
     files_.emplace_back(path, std::move(text));
 }
 
+std::ostream& OutputFiles::open(const std::string& path) {
+    const std::string part = path + ".part";
+    growing_.push_back(
+        std::make_unique<Growing>(Growing{path, part, std::ofstream(part, std::ios::binary)}));
+    if (!growing_.back()->out) throw InputError("cannot be written", {path});
+    return growing_.back()->out;
+}
+
 void OutputFiles::write() {
-    std::vector<std::pair<fs::path, fs::path>> written;
     for (const auto& [path, text] : files_) {
-        if (path == "-") {
+        if (path == "-")
             std::fwrite(text.data(), 1, text.size(), stdout);
-            continue;
-        }
-        const fs::path part = path + ".part";
-        std::ofstream out(part, std::ios::binary);
-        out << text;
-        out.close();
-        if (!out) {
-            for (const auto& pair : written) fs::remove(pair.first);
-            fs::remove(part);
-            throw InputError("cannot be written", {path});
-        }
-        written.emplace_back(part, path);
+        else
+            open(path) << text;
     }
-    for (const auto& [part, path] : written) fs::rename(part, path);
+    for (const auto& file : growing_) {
+        file->out.close();
+        if (!file->out) throw InputError("cannot be written", {file->path});
+    }
+    for (const auto& file : growing_) fs::rename(file->part, file->path);
+    growing_.clear();
     files_.clear();
 }
 

@@ -1,7 +1,9 @@
 // Files a command reads by name and writes whole.
 #pragma once
 
+#include <iosfwd>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,11 +22,17 @@ std::string read_whole(const std::string& path);  ///< throws InputError with th
 /// each appears whole or not at all. "-" is standard output.
 class OutputFiles {
   public:
+    OutputFiles();
+    ~OutputFiles();
     void add(const std::string& path, std::string text);
+    /// A file that grows while the command works; it gets its name in `write` and goes without it.
+    std::ostream& open(const std::string& path);
     void write();  ///< throws InputError with the path that cannot be written
 
   private:
+    struct Growing;
     std::vector<std::pair<std::string, std::string>> files_;
+    std::vector<std::unique_ptr<Growing>> growing_;
 };
 
 /// One line for each note on stderr; a note brings its own place.

@@ -88,9 +88,7 @@ RunOptions run_options(const Options& o, const Setup& setup) {
 }
 
 /// A run that did not come to its end leaves no files: none of them would be whole.
-void write_files(const Options& o, RunLog& log) {
-    OutputFiles files;
-    if (!o.trace.empty()) files.add(o.trace, std::move(log.trace_csv));
+void write_files(const Options& o, const RunLog& log, OutputFiles& files) {
     if (!o.readings.empty()) files.add(o.readings, format_readings(log.readings));
     if (!o.print.empty()) files.add(o.print, log.printed);
     if (log.result.status == RunStatus::ok) files.write();
@@ -115,7 +113,11 @@ int run_command(const Options& o) {
         throw InputError("--truth and --trace-step belong to --trace FILE");
     const Setup setup = setup_of(o);
     ProgramAndFolders program = open_program(o.program, o.folders);
-    RunLog log = run_program(setup, program.folders, program.program, run_options(o, setup));
+    RunOptions options = run_options(o, setup);
+    OutputFiles files;
+    if (options.trace)
+        options.trace_chunk = [&out = files.open(o.trace)](std::string_view text) { out << text; };
+    const RunLog log = run_program(setup, program.folders, program.program, options);
     print_notes(log.notes);
     if (o.json)
         fmt::print("{}", run_json(log, setup.machine.chain));
@@ -123,7 +125,7 @@ int run_command(const Options& o) {
         fmt::print("{}", log.printed);
     if (!o.json && !o.variables.empty()) fmt::print("{}", variables_text(log));
     if (!o.json) fmt::print(stderr, "{}\n", run_summary(log));
-    write_files(o, log);
+    write_files(o, log, files);
     return exit_code(log.result);
 }
 

@@ -45,7 +45,8 @@ MachineSink::MachineSink(const Setup& setup, EffectModels effects, const SinkOpt
       log_(axes_of(setup.machine.chain), options.test) {
     for (const AxisGeometry& axis : setup.machine.chain.axes()) has_rotary_ |= axis.rotary;
     if (has_rotary_) mode_ = PositioningMode::dpp;
-    if (options.trace) trace_.emplace(axes_of(setup.machine.chain), options.truth);
+    if (options.trace)
+        trace_.emplace(axes_of(setup.machine.chain), options.truth, options.trace_chunk);
 }
 
 void MachineSink::place(const AxisPositions& machine) {

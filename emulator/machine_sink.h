@@ -20,6 +20,7 @@ struct SinkOptions {
     bool trace = false;
     double trace_step_mm = 0.0;  ///< above 0: SAMPLE rows at this distance along the path
     bool truth = false;
+    TraceChunk trace_chunk;    ///< empty: the trace waits for take_trace
     std::string test = "run";  ///< name of the test until the program names one
 };
 

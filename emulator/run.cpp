@@ -11,6 +11,7 @@ SinkOptions sink_options(const RunOptions& options, const ProgramChoice& program
     sink.trace = options.trace;
     sink.trace_step_mm = options.trace_step_mm;
     sink.truth = options.truth;
+    sink.trace_chunk = options.trace_chunk;
     if (const auto* number = std::get_if<int>(&program)) {
         sink.test = "O" + std::to_string(*number);
     } else {
@@ -71,6 +72,10 @@ RunLog run_program(const Setup& setup, ProgramSource& programs, const ProgramCho
     log.readings = sink.take_readings();
     log.readings.comment["seed"] = std::to_string(options.seed);
     log.trace_csv = sink.take_trace();
+    if (options.trace_chunk) {
+        options.trace_chunk(log.trace_csv);
+        log.trace_csv.clear();
+    }
     log.notes = log.result.notes;
     append(log.notes, sink.take_notes());
     return log;

@@ -11,16 +11,18 @@
 #include "emulator/compensating_sink.h"
 #include "emulator/replay.h"
 #include "emulator/setup.h"
+#include "emulator/trace.h"
 
 namespace trunnion {
 
 struct RunOptions {
     std::uint64_t seed = 1;
     bool trace = false;
-    double trace_step_mm = 0.0;         ///< above 0: SAMPLE rows at this distance along the path
-    bool truth = false;                 ///< physical tip in the trace
-    std::uint64_t max_blocks = 0;       ///< 0: no limit
-    std::map<int, double> variables;    ///< set before the run
+    double trace_step_mm = 0.0;       ///< above 0: SAMPLE rows at this distance along the path
+    bool truth = false;               ///< physical tip in the trace
+    TraceChunk trace_chunk;           ///< receives the trace as it grows; empty: RunLog::trace_csv
+    std::uint64_t max_blocks = 0;     ///< 0: no limit
+    std::map<int, double> variables;  ///< set before the run
     std::vector<int> wanted_variables;  ///< reported after it; none: all common ones in use
     AxisPositions start;                ///< where the axes stand before the run
     EffectModels effects;

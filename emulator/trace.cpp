@@ -9,6 +9,7 @@
 namespace trunnion {
 namespace {
 
+constexpr std::size_t chunk_bytes = 1 << 16;
 constexpr const char* motion_names[] = {"G0", "G1", "G2", "G3"};
 
 void append(std::string& out, double value) {
@@ -16,6 +17,21 @@ void append(std::string& out, double value) {
     if (value == 0.0) value = 0.0;  // no "-0"
     std::array<char, 32> text;
     out.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr);
+}
+
+template <class Integer>
+void append_integer(std::string& out, Integer value) {
+    std::array<char, 24> text;
+    out.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr);
+}
+
+/// A program's name as a CSV cell.
+void append_name(std::string& out, const std::string* name) {
+    if (!name) return;
+    const bool quoted = name->find(',') != std::string::npos;
+    if (quoted) out += '"';
+    out += *name;
+    if (quoted) out += '"';
 }
 
 void append(std::string& out, const Vector3& v) {
@@ -30,8 +46,8 @@ BelievedTool believed_tool(const AxisMove& move, const AxisPositions& q) {
     return {Vector3(q[Axis::X], q[Axis::Y], q[Axis::Z]) - move.tool_vector_mm, Vector3::UnitZ()};
 }
 
-TraceWriter::TraceWriter(std::vector<Axis> axes, bool truth)
-    : axes_(std::move(axes)), truth_(truth) {
+TraceWriter::TraceWriter(std::vector<Axis> axes, bool truth, TraceChunk chunk)
+    : axes_(std::move(axes)), truth_(truth), chunk_(std::move(chunk)) {
     text_ = "seq,program,line,motion,tool,feed_mm_min";
     for (const Axis axis : axes_) {
         const char lower = static_cast<char>(letter_of(axis) + ('a' - 'A'));
@@ -47,12 +63,15 @@ TraceWriter::TraceWriter(std::vector<Axis> axes, bool truth)
 void TraceWriter::add(const AxisMove& move, double s, double time_s, bool end,
                       const Vector3* true_tip_W) {
     const AxisPositions q = move.at(s);
-    const std::string program = move.program ? *move.program : "";
-    const bool quoted = program.find(',') != std::string::npos;
-    text_ += std::to_string(rows_++) + ',' + (quoted ? '"' + program + '"' : program) + ',';
-    text_ += std::to_string(move.line) + ',';
+    append_integer(text_, rows_++);
+    text_ += ',';
+    append_name(text_, move.program);
+    text_ += ',';
+    append_integer(text_, move.line);
+    text_ += ',';
     text_ += end ? motion_names[static_cast<std::size_t>(move.kind)] : "SAMPLE";
-    text_ += ',' + std::to_string(move.tool);
+    text_ += ',';
+    append_integer(text_, move.tool);
     append(text_, move.feed_mm_min);
     for (const Axis axis : axes_)
         is_rotary(axis) ? void(text_ += ',' + shortest_degrees(q[axis])) : append(text_, q[axis]);
@@ -70,6 +89,10 @@ void TraceWriter::add(const AxisMove& move, double s, double time_s, bool end,
     }
     if (truth_) append(text_, true_tip_W ? *true_tip_W : Vector3::Zero());
     text_ += '\n';
+    if (chunk_ && text_.size() > chunk_bytes) {
+        chunk_(text_);
+        text_.clear();
+    }
 }
 
 }  // namespace trunnion

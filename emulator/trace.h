@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "controller/motion.h"
@@ -16,18 +18,24 @@ struct BelievedTool {
 };
 BelievedTool believed_tool(const AxisMove& move, const AxisPositions& q);
 
+/// Receives the trace piece by piece, whole lines.
+using TraceChunk = std::function<void(std::string_view)>;
+
 /// Columns as in formats.md.
 class TraceWriter {
   public:
-    TraceWriter(std::vector<Axis> axes, bool truth);
+    /// Without `chunk` the whole text waits for `take`.
+    TraceWriter(std::vector<Axis> axes, bool truth, TraceChunk chunk = {});
 
     /// A row at `s` of a move; `true_tip_W` only with truth. `end` false: a SAMPLE row.
     void add(const AxisMove& move, double s, double time_s, bool end, const Vector3* true_tip_W);
+    /// What was not handed out yet.
     std::string take() { return std::move(text_); }
 
   private:
     std::vector<Axis> axes_;
     bool truth_ = false;
+    TraceChunk chunk_;
     std::uint64_t rows_ = 0;
     std::string text_;
 };
