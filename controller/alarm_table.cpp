@@ -6,6 +6,8 @@ namespace trunnion {
 
 const std::vector<AlarmRow>& control_alarms() {
     static const std::vector<AlarmRow> rows = {
+        {10, "PS", "IMPROPER G-CODE", "The control does not have this G code.",
+         "Use a G code of this dialect."},
         {11, "PS", "FEED ZERO ( COMMAND )", "A cutting move with feed rate 0.", "Command F."},
         {15, "PS", "TOO MANY SIMULTANEOUS AXES", "More axes commanded than can move together.",
          "Split the block."},

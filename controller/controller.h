@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "controller/motion.h"
+#include "controller/tcp_frame.h"
 #include "geometry/alarm.h"
 #include "interpreter/dialect.h"
 #include "interpreter/interpreter.h"
@@ -32,13 +33,6 @@ struct ClampCode {
     int m_clamp = 10;
     int m_release = 11;
     bool alarm = false;
-};
-
-/// To what the table-fixed frame of G43.4 is tied when it comes with the table turned
-/// (facts/control.md 2.3: depends on options).
-enum class TcpFrame : unsigned char {
-    start,       ///< the work frame as it lies then sticks to the table (15i manual)
-    rotary_zero  ///< the work frame lies on the table with its rotaries at zero
 };
 
 struct ControlConfig {

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "controller/controller.h"
 #include "controller/motion.h"
 #include "controller/rotary_transform.h"
+#include "controller/tcp_frame.h"
 
 namespace trunnion {
 

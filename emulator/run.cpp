@@ -44,6 +44,7 @@ ControlConfig control_config(const Setup& setup) {
         config.axes.push_back(
             {axis.axis, axis.rotary, axis.min, axis.max, axis.max_speed, axis.max_acceleration});
     config.dialect = setup.dialect;
+    config.tcp_frame = setup.tcp_frame;
     return config;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "controller/tcp_frame.h"
 #include "geometry/axes.h"
 #include "geometry/pose.h"
 #include "interpreter/dialect.h"
@@ -67,6 +68,7 @@ struct Setup {
     Machine machine;
     std::vector<EffectSetting> effects;
     Dialect dialect;
+    TcpFrame tcp_frame = TcpFrame::start;  ///< [control] tcp_frame = "start" or "rotary_zero"
     Stores stores;
     std::optional<ProbeSettings> probe;
     std::optional<BallbarSettings> ballbar;

@@ -144,6 +144,11 @@ void read_control(const TomlFile& file, const TomlValue& control, const BackupRe
             file.fail(*dialect, "dialect is \"fanuc\" or \"hurco\"");
         setup.dialect = dialect->text == "hurco" ? hurco_dialect() : fanuc_dialect();
     }
+    if (const TomlValue* frame = control.find("tcp_frame")) {
+        if (file.text(*frame) != "start" && file.text(*frame) != "rotary_zero")
+            file.fail(*frame, "tcp_frame is \"start\" or \"rotary_zero\"");
+        setup.tcp_frame = frame->text == "rotary_zero" ? TcpFrame::rotary_zero : TcpFrame::start;
+    }
     if (const TomlValue* folder = control.find("backup"))
         read_backup(file, *folder, backup, setup.stores);
     if (const TomlValue* table = control.find("work_offsets"))

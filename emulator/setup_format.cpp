@@ -197,6 +197,7 @@ std::string control_text(const Setup& setup) {
     std::string out =
         std::string("\n[control]\ndialect = ") +
         (setup.dialect.family == DialectFamily::hurco ? "\"hurco\"\n" : "\"fanuc\"\n");
+    if (setup.tcp_frame == TcpFrame::rotary_zero) out += "tcp_frame = \"rotary_zero\"\n";
     out += work_text(setup.stores.work) + fixture_text(setup.stores.fixture);
     if (!setup.stores.parameters.entry.empty()) out += "\n[control.parameters]\n";
     for (const auto& [number, parameter] : setup.stores.parameters.entry)

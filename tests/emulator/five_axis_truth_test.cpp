@@ -144,4 +144,14 @@ TEST_CASE("G68.2 and G53.1 on every machine: the physical tool stands square on 
     CHECK(reached >= 150);
 }
 
+TEST_CASE("the setup says to what the frame of G43.4 is tied, and says it again") {
+    std::vector<std::string> notes;
+    Setup setup = load_setup(TRUNNION_SOURCE_DIR "/machines/bc_table.toml", notes);
+    CHECK(setup.tcp_frame == TcpFrame::start);
+    setup.tcp_frame = TcpFrame::rotary_zero;
+    const Setup again = parse_setup(format_setup(setup), "again.toml", notes);
+    CHECK(again.tcp_frame == TcpFrame::rotary_zero);
+    CHECK(control_config(again).tcp_frame == TcpFrame::rotary_zero);
+}
+
 }  // namespace trunnion
