@@ -16,6 +16,7 @@ namespace {
 
 struct BallbarOptions {
     std::string setup, svg_folder, readings, readings_after, program, kinematic_program;
+    std::vector<std::string> injections;
     std::uint64_t seed = 1;
     SetupTimes times;
     bool json = false, hurco = false;
@@ -38,7 +39,10 @@ int write_programs(const Setup& setup, const BallbarOptions& o) {
 }
 
 int run_command(const BallbarOptions& o) {
-    const Setup setup = open_setup(o.setup);
+    Setup setup = open_setup(o.setup);
+    const Catalogue catalogue = make_catalogue(setup);
+    for (const std::string& text : o.injections)
+        setup.effects.push_back(parse_injection(text, catalogue));
     if (!o.program.empty() || !o.kinematic_program.empty()) return write_programs(setup, o);
     BallbarProcedureOptions options;
     options.seed = o.seed;
@@ -68,6 +72,7 @@ void add_ballbar(CLI::App& app, Run& run) {
         "ballbar", "the single-set-up ballbar test: run, identify, compensate, run again");
     command->add_option("--setup", o->setup, "setup file (default machines/bc_table.toml)");
     command->add_option("--seed", o->seed, "of the noise (second run: the next one)");
+    command->add_option("--inject", o->injections, "an effect on the machine, as in trunnion run");
     command->add_option("--svg", o->svg_folder, "folder for the polar plots");
     command->add_option("--readings", o->readings, "write the first run's readings (CSV)");
     command->add_option("--readings-after", o->readings_after,

@@ -84,12 +84,14 @@ std::vector<double> values_at(const ReadingTable& table, const std::vector<std::
 }
 
 /// Seven tests both ways, exact; every error found.
-void check_single_run(Setup setup) {
+void check_single_run(Setup setup, bool hurco = false) {
     setup.ballbar->noise_um = 0.0;
     setup.ballbar->sample_hz = 5.0;
     const Machine nominal = without_errors(setup.machine);
     const BallbarLayout layout = layout_of(setup);
-    const RunLog log = run(setup, ballbar_program(nominal, ballbar_program_data(nominal, layout)));
+    BallbarProgramData data = ballbar_program_data(nominal, layout);
+    data.hurco = hurco;
+    const RunLog log = run(setup, ballbar_program(nominal, data));
     require_no_alarm(log);
     const BallbarModel model(nominal, layout, log.readings.rows, {});
     CHECK(model.passes().size() == 14);
@@ -107,6 +109,12 @@ void check_single_run(Setup setup) {
 
 TEST_CASE("one run of the NC program does all seven tests both ways and finds the errors") {
     check_single_run(load("ac_trunnion.toml"));
+}
+
+TEST_CASE("the Hurco program with M128 finds the same errors") {
+    Setup setup = load("ac_trunnion.toml");
+    setup.dialect = hurco_dialect();
+    check_single_run(setup, true);
 }
 
 TEST_CASE("the generator serves a B-C table, other radii and other places of the pivot") {
