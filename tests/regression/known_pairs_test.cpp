@@ -1,0 +1,283 @@
+// Generated pairs with known answers: verdict, layer and place have to be right.
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "controller/rotary_transform.h"
+#include "geometry/units.h"
+#include "offsets/pivot_parameters.h"
+#include "tests/regression/programs.h"
+
+using namespace trunnion;
+using namespace trunnion::testing;
+
+namespace {
+
+struct Pass {
+    double x, y, z;
+};
+
+std::string milling(const std::vector<Pass>& passes, const std::string& header = "(DATE 2024)") {
+    std::string p = "%\nO1000 " + header + "\nN1 G21 G90 G17 G94 G40 G49 G80\nN2 G54\nN3 T1 M6\n"
+                    "N4 S8000 M3\nN5 G0 X0. Y0.\nN6 G43 H1 Z10. M8\n";
+    int n = 10;
+    for (const Pass& pass : passes) {
+        p += fmt::format("N{} G0 X{:.3f} Y{:.3f}\n", n, pass.x, pass.y);
+        p += fmt::format("N{} Z2.\nN{} G1 Z{:.3f} F300.\n", n + 1, n + 2, pass.z);
+        p += fmt::format("N{} X{:.3f} F500.\n", n + 3, pass.x + 40.0);
+        p += fmt::format("N{} G3 X{:.3f} Y{:.3f} I0. J5.\n", n + 4, pass.x + 40.0, pass.y + 10.0);
+        p += fmt::format("N{} G1 X{:.3f}\nN{} G0 Z10.\n", n + 5, pass.x, n + 6);
+        n += 10;
+    }
+    return p + "N9990 M9\nN9991 M5\nN9992 M30\n%\n";
+}
+
+std::vector<Pass> grid(int count) {
+    std::vector<Pass> passes;
+    for (int k = 0; k < count; ++k) passes.push_back({2.0 * k, 1.0 * k, -0.5 - 0.01 * k});
+    return passes;
+}
+
+}  // namespace
+
+TEST_CASE("what does not change machining is equal at its layer", "[compare]") {
+    const Setup setup = bc_table();
+    const std::string a = milling(grid(10));
+    SECTION("the same") { CHECK(compare_texts(a, a, setup).by == Layer::text); }
+    SECTION("line ends and trailing blanks") {
+        std::string b;
+        for (const char c : a) b += c == '\n' ? std::string("  \r\n") : std::string(1, c);
+        const Comparison r = compare_texts(a, b, setup);
+        CHECK(r.equal);
+        CHECK(r.by == Layer::text);
+    }
+    SECTION("header date only") {
+        const Comparison r = compare_texts(a, milling(grid(10), "(DATE 2026)"), setup);
+        CHECK(r.equal);
+        CHECK(r.by == Layer::words);
+        CHECK(r.layers.front().equal == false);
+    }
+    SECTION("renumbered, without blanks, other number forms, other word order") {
+        std::string b;
+        int n = 5;
+        for (std::size_t at = 0; at < a.size();) {
+            const std::size_t end = a.find('\n', at);
+            std::string line = a.substr(at, end - at);
+            if (line[0] == 'N') {
+                const std::size_t blank = line.find(' ');
+                line = "N" + std::to_string(n += 5) + line.substr(blank);
+                std::string dense;
+                for (const char c : line) dense += c == ' ' ? "" : std::string(1, c);
+                line = dense;
+            }
+            b += line + "\n";
+            at = end + 1;
+        }
+        b = replaced(b, "Z-0.500F300.", "F300.00Z-.5");
+        const Comparison r = compare_texts(a, b, setup);
+        CHECK(r.equal);
+        CHECK(r.by == Layer::words);
+    }
+    SECTION("long hand and subprogram are equal blocks") {
+        const std::string head = "%\nO1\nG90 G21 G17 G94 G54\nT1 M6\nS500 M3\nG0 X0. Y0. Z5.\n";
+        const std::string body = "G91 G1 X10. F100.\nY5.\nG90\n";
+        const Comparison r = compare_texts(head + body + body + "M30\n%\n",
+                                           head + "M98 P2 L2\nM30\nO2\n" + body + "M99\n%\n", setup);
+        CHECK(r.equal);
+        CHECK(r.by == Layer::blocks);
+    }
+    SECTION("inch") {
+        std::string b = replaced(a, "G21", "G20");
+        std::string inch;
+        for (std::size_t at = 0; at < b.size();) {
+            const std::size_t end = b.find('\n', at);
+            const std::string line = b.substr(at, end - at);
+            for (std::size_t k = 0; k < line.size();) {
+                const bool word = std::string("XYZIJF").find(line[k]) != std::string::npos &&
+                                  line[0] == 'N' && k > 0;
+                inch += line[k++];
+                if (!word) continue;
+                std::size_t used = 0;
+                const double value = std::stod(line.substr(k), &used);
+                inch += fmt::format("{:.5f}", value / 25.4);
+                k += used;
+            }
+            inch += "\n";
+            at = end + 1;
+        }
+        const Comparison r = compare_texts(a, inch, setup);
+        CHECK(r.equal);
+        CHECK(r.by == Layer::path);
+    }
+}
+
+TEST_CASE("every change of machining is named with its place", "[compare]") {
+    const Setup setup = bc_table();
+    const std::vector<Pass> passes = grid(400);
+    const std::string a = milling(passes);
+    const auto first = [](const Comparison& r) {
+        REQUIRE_FALSE(r.equal);
+        REQUIRE(r.by == Layer::path);
+        REQUIRE_FALSE(r.differences.empty());
+        return r.differences.front();
+    };
+    SECTION("one clearance of 2,800 lines") {
+        const std::string b = replaced(a, "N2016 G0 Z10.", "N2016 G0 Z9.906");
+        const Comparison r = compare_texts(a, b, setup);
+        const Difference d = first(r);
+        CHECK(r.differences.size() == 1);
+        CHECK(d.kind == DifferenceKind::moved);
+        CHECK(d.shift_mm[2] == Approx(-0.094));
+        CHECK(d.a.line == line_with(a, "N2016 "));
+        CHECK(d.b.line == d.a.line);
+        CHECK(d.b.block == "N2016 G0 Z9.906");
+        CHECK(r.position_mm == Approx(0.094));
+    }
+    SECTION("one arc reversed") {
+        const std::string b = replaced(a, "N1014 G3", "N1014 G2");
+        const Difference d = first(compare_texts(a, b, setup));
+        CHECK(d.kind == DifferenceKind::path);
+        CHECK(d.a.line == line_with(a, "N1014 "));
+    }
+    SECTION("feed by one percent in one block") {
+        const std::string b = replaced(a, "N1003 X240.000 F500.", "N1003 X240.000 F505.");
+        const Comparison r = compare_texts(replaced(a, "N1003 X238.000 F500.", "N1003 X240.000 F500."),
+                                           replaced(a, "N1003 X238.000 F500.", "N1003 X240.000 F505."),
+                                           setup);
+        const Difference d = first(r);
+        CHECK(r.differences.size() == 1);
+        CHECK(d.kind == DifferenceKind::feed);
+        CHECK(d.value_a == Approx(500));
+        CHECK(d.value_b == Approx(505));
+        CHECK(d.a.line == line_with(a, "N1003 "));
+        CHECK(b.empty() == false);
+    }
+    SECTION("a pass missing") {
+        std::vector<Pass> fewer = passes;
+        fewer.erase(fewer.begin() + 100);
+        const Comparison r = compare_texts(a, milling(fewer), setup);
+        const Difference d = first(r);
+        CHECK(r.differences.size() == 1);
+        CHECK(d.kind == DifferenceKind::only_a);
+        CHECK(std::abs(d.a.line - line_with(a, "N1010 ")) <= 1);  // with the retract before it
+        CHECK(r.tools.front().cut_a_mm - r.tools.front().cut_b_mm ==
+              Approx(2.0 + 1.5 + 80.0 + 5.0 * pi));
+    }
+    SECTION("passes reordered") {
+        std::vector<Pass> other = passes;
+        std::swap(other[50], other[51]);
+        const Comparison r = compare_texts(a, milling(other), setup);
+        const Difference d = first(r);
+        CHECK(r.differences.size() == 1);
+        CHECK(d.kind == DifferenceKind::reordered);
+        CHECK(r.tools.front().cut_a_mm == Approx(r.tools.front().cut_b_mm));
+    }
+    SECTION("merge markers in one file") {
+        const std::string b = replaced(a, "N1014 G3", "<<<<<<< HEAD\nN1014 G3");
+        const Comparison r = compare_texts(a, b, setup);
+        CHECK(r.status == CompareStatus::alarm);
+        CHECK(r.differences.front().kind == DifferenceKind::alarm);
+        CHECK(r.differences.front().b.line == line_with(b, "<<<<<<<"));
+        CHECK(exit_code({"", true, {r}}) == 3);
+    }
+}
+
+TEST_CASE("C by 360 degrees is the same machining and another axis motion", "[compare]") {
+    const Setup setup = bc_table();
+    const std::string a =
+        "%\nO1\nG90 G21 G17 G94 G54\nT1 M6\nS500 M3\nG0 X10. Y0. Z5.\nG0 C30.\nG1 X20. F100.\nM30\n%\n";
+    const std::string b = replaced(a, "C30.", "C390.");
+    CHECK(compare_texts(a, b, setup).equal);
+    CHECK(compare_texts(a, b, setup).by == Layer::path);
+    const Comparison axes = compare_texts(a, b, setup, only(Layer::axes));
+    CHECK_FALSE(axes.equal);
+    CHECK(axes.differences.front().direction_deg == Approx(360.0));
+    CHECK_FALSE(compare_texts(a, replaced(a, "C30.", "C30.02"), setup).equal);
+}
+
+TEST_CASE("a program of offsets alone is compared by its effects", "[compare]") {
+    const Setup setup = bc_table();
+    const std::string a = "%\nO1\nG90 G10 L2 P1 X10. Y20. Z30.\n#100=3.5\nM30\n%\n";
+    CHECK(compare_texts(a, replaced(a, "X10. Y20.", "Y20.0 X10."), setup).equal);
+    const Comparison r = compare_texts(a, replaced(a, "Y20.", "Y20.1"), setup);
+    CHECK_FALSE(r.equal);
+    CHECK(r.by == Layer::effects);
+    CHECK(r.differences.front().what == "G54 Y: 20 -> 20.1");
+}
+
+namespace {
+
+/// Lines cut in the table frame at several orientations, as four posts would write them.
+class FourFunctions {
+  public:
+    explicit FourFunctions(const Setup& setup)
+        : transform_(*decode_pivot(setup.stores.parameters)) {}
+
+    std::string own_kinematics() const {
+        return program("G43 H1 Z300.\n", "", [this](const Vector3& p, double b, double c) {
+            return machine_tip(p, b, c);
+        });
+    }
+    std::string tool_centre_point() const {
+        return program("", "G43.4 H1\n", [](const Vector3& p, double, double) { return p; }, "G49\n");
+    }
+
+  private:
+    template <typename Words>
+    std::string program(const std::string& start, const std::string& on, const Words& words,
+                        const std::string& off = "") const {
+        std::string text = "%\nO1\nG90 G21 G17 G94 G54\nT1 M6\nS500 M3\n" + start;
+        for (const auto& [b, c] : {std::pair{0.0, 0.0}, {20.0, 45.0}, {-35.0, 160.0}}) {
+            text += fmt::format("G0 B{} C{}\n", b, c) + on;
+            const Vector3 lift = transform_.tool_direction_W(rotaries(b, c)) * 30.0;
+            const Vector3 p(30, 10, 5), q(50, -15, 8);
+            const auto move = [&, b = b, c = c](const char* g, const Vector3& at) {
+                const Vector3 w = words(at, b, c);
+                text += fmt::format("{} X{:.5f} Y{:.5f} Z{:.5f}\n", g, w.x(), w.y(), w.z());
+            };
+            move("G0", p + lift);
+            move("G1 F800.", p);
+            move("G1", q);
+            move("G0", q + lift);
+            text += off;
+        }
+        return text + "M30\n%\n";
+    }
+
+    static AxisPositions rotaries(double b_deg, double c_deg) {
+        AxisPositions at;
+        at[Axis::B] = rad_from_deg(b_deg);
+        at[Axis::C] = rad_from_deg(c_deg);
+        return at;
+    }
+    Vector3 machine_tip(const Vector3& p_W, double b_deg, double c_deg) const {
+        const AxisPositions at =
+            transform_.machine_for_tip(p_W, rotaries(b_deg, c_deg), Vector3::Zero());
+        return {at[Axis::X], at[Axis::Y], at[Axis::Z]};
+    }
+
+    RotaryTransform transform_;
+};
+
+}  // namespace
+
+TEST_CASE("the same part by own kinematics and by G43.4 is equal", "[compare]") {
+    Setup setup = bc_table();
+    setup.stores.tools.tool[1].length_geometry_mm = 120.0;
+    setup.stores.work.standard[0] = {};
+    const FourFunctions part(setup);
+    const std::string dpp = part.own_kinematics(), tcp = part.tool_centre_point();
+    const Comparison r = compare_texts(dpp, tcp, setup);
+    INFO(r.verdict);
+    INFO(tcp);
+    CHECK(r.equal);
+    CHECK(r.by == Layer::path);
+    CHECK(r.position_mm < 0.001);
+    // The stores decide what G43.4 does and not what the post computed itself.
+    Setup moved = setup;
+    moved.stores.parameters.set(19700, moved.stores.parameters.get(19700) + 0.1);
+    const Comparison lost =
+        compare_programs(text_of("a.nc", tcp), setup, text_of("a.nc", tcp), moved, {});
+    CHECK_FALSE(lost.equal);
+}

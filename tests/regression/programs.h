@@ -1,0 +1,47 @@
+// Programs for tests of the comparer, made from strings.
+#pragma once
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "emulator/setup.h"
+#include "regression/compare_programs.h"
+
+namespace trunnion::testing {
+
+inline ProgramText text_of(const std::string& name, const std::string& text) {
+    const auto owner = std::make_shared<const std::string>(text);
+    return {name, *owner, owner};
+}
+
+inline Setup bc_table() {
+    std::vector<std::string> notes;
+    return load_setup(std::string(TRUNNION_SOURCE_DIR) + "/machines/bc_table.toml", notes);
+}
+
+inline Comparison compare_texts(const std::string& a, const std::string& b, const Setup& setup,
+                                CompareOptions options = {}) {
+    return compare_programs(text_of("a.nc", a), setup, text_of("b.nc", b), setup, options);
+}
+
+inline CompareOptions only(Layer layer) {
+    CompareOptions options;
+    options.by = layer;
+    return options;
+}
+
+/// The number of the line that holds `text`, from 1.
+inline int line_with(const std::string& program, const std::string& text) {
+    const std::size_t at = program.find(text);
+    return 1 + static_cast<int>(std::count(program.begin(),
+                                           program.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+}
+
+inline std::string replaced(std::string text, const std::string& what, const std::string& with) {
+    const std::size_t at = text.find(what);
+    if (at == std::string::npos) throw std::logic_error("no '" + what + "' in the program");
+    return text.replace(at, what.size(), with);
+}
+
+}  // namespace trunnion::testing
