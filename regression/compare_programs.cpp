@@ -34,8 +34,7 @@ class ProgramComparer {
         if (options_.by)
             by_layer(*options_.by);
         else if (&setup_a_ == &setup_b_)
-            by_layer(Layer::text) || by_layer(Layer::words) || by_layer(Layer::blocks) ||
-                by_layer(nothing_moves() ? Layer::effects : Layer::path);
+            by_layer(Layer::text) || by_layer(Layer::words) || by_what_runs();
         else
             by_layer(Layer::path);
         finish();
@@ -114,7 +113,16 @@ class ProgramComparer {
         run_a_.reset();
         run_b_.reset();
         run_a_.emplace(record_run(setup_a_, a_, record));
-        run_b_.emplace(record_run(setup_b_, b_, record));
+        run_b_.emplace(record_run(setup_b_, b_, record, one_machine() ? &setup_a_ : nullptr));
+    }
+
+    /// Two states of the stores of one machine: both are seen through A's.
+    bool one_machine() const {
+        const auto &p = setup_a_.machine.chain.axes(), &q = setup_b_.machine.chain.axes();
+        if (&setup_a_ == &setup_b_ || p.size() != q.size()) return false;
+        return std::equal(p.begin(), p.end(), q.begin(), [](const auto& a, const auto& b) {
+            return a.axis == b.axis && a.direction == b.direction && a.point_mm == b.point_mm;
+        });
     }
 
     /// An alarm or a limit: no deeper layer can say more.
@@ -124,7 +132,12 @@ class ProgramComparer {
                result_.by == Layer::path;
     }
 
-    bool nothing_moves() const { return run_a_->path.size() == 0 && run_b_->path.size() == 0; }
+    /// Programs that move nothing are what they leave behind.
+    bool by_what_runs() {
+        record(PathSpace::tip);
+        if (run_a_->path.size() == 0 && run_b_->path.size() == 0) return by_layer(Layer::effects);
+        return by_layer(Layer::blocks) || by_layer(Layer::path);
+    }
 
     void finish() {
         result_.status =

@@ -82,7 +82,7 @@ class PathComparer {
             result_.approaches_differ += regions.empty() ? 0 : 1;
             regions.clear();
             walk(p.cut_first, p.last, q.cut_first, q.last, regions);
-        } else if (starts_alike(p, q)) {
+        } else if ((pair.a.first == 0 && pair.b.first == 0) || starts_alike(p, q)) {
             walk(p.first, p.last, q.first, q.last, regions);
         } else {  // after a pass that only one side has: the way here differs of necessity
             walk(p.cut_first, p.last, q.cut_first, q.last, regions);
@@ -152,13 +152,14 @@ class PathComparer {
         PathRegion region;
         const auto& a = a_.passes();
         const auto& b = b_.passes();
-        // An empty side stands where the other's passes would be.
-        const std::uint64_t at_a =
-            pair.a.first < a.size() ? a[pair.a.first].first : a_.segments().size();
-        const std::uint64_t at_b =
-            pair.b.first < b.size() ? b[pair.b.first].first : b_.segments().size();
-        region.a = {at_a, pair.a.size() ? a[pair.a.last - 1].last : at_a};
-        region.b = {at_b, pair.b.size() ? b[pair.b.last - 1].last : at_b};
+        // The first block that cuts names the place; an empty side stands before the next cut.
+        const auto at = [](const std::vector<Pass>& passes, std::size_t first, std::uint64_t end) {
+            return first < passes.size() ? std::min(passes[first].cut_first, end - 1) : end;
+        };
+        const std::uint64_t at_a = at(a, pair.a.first, a_.segments().size());
+        const std::uint64_t at_b = at(b, pair.b.first, b_.segments().size());
+        region.a = {at_a, pair.a.size() ? std::max(at_a, a[pair.a.last - 1].last) : at_a};
+        region.b = {at_b, pair.b.size() ? std::max(at_b, b[pair.b.last - 1].last) : at_b};
         const int tool = pair.a.size() ? a[pair.a.first].tool : b[pair.b.first].tool;
         double cut_a = 0.0, cut_b = 0.0;
         for (std::size_t k = pair.a.first; k < pair.a.last; ++k) cut_a += a[k].cut_mm;

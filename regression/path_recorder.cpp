@@ -94,8 +94,26 @@ Segment PathRecorder::plain_segment(const AxisMove& move) {
     return s;
 }
 
+void PathRecorder::see_through(const RotaryTransform* transform,
+                               std::vector<double> tool_length_mm) {
+    seen_through_ = transform;
+    seen_length_mm_ = std::move(tool_length_mm);
+}
+
 MoveResult PathRecorder::move(const AxisMove& move) {
+    if (seen_through_ == nullptr) return record(move);
+    AxisMove seen = move;
+    seen.transform = seen_through_;
+    const auto offset = static_cast<std::size_t>(std::max(0, move.tool_offset));
+    const double length_mm = move.tool_vector_mm.norm();
+    if (length_mm > 0.0 && offset < seen_length_mm_.size())
+        seen.tool_vector_mm *= seen_length_mm_[offset] / length_mm;
+    return record(seen);
+}
+
+MoveResult PathRecorder::record(const AxisMove& move) {
     Segment segment = plain_segment(move);
+    if (move.from == move.to && !move.arc && move.curve == nullptr) return {};
     const PathPoint start = point(move, move.from);
     if (record_.segments().size() == 0) {
         Segment origin = segment;

@@ -19,9 +19,14 @@ class PathRecorder : public MotionSink {
   public:
     PathRecorder(PathRecord& record, PathSpace space, const Tolerances& tolerances);
 
+    /// Sees the axes through this transform and these tool lengths (mm, by offset number) instead
+    /// of the control's own: where the tip goes on a machine for which they are true.
+    void see_through(const RotaryTransform* transform, std::vector<double> tool_length_mm);
+
     MoveResult move(const AxisMove& move) override;
 
   private:
+    MoveResult record(const AxisMove& move);
     PathPoint point(const AxisMove& move, const AxisPositions& at);
     void refresh(const AxisMove& move);
     Segment plain_segment(const AxisMove& move);
@@ -31,6 +36,8 @@ class PathRecorder : public MotionSink {
     PathRecord& record_;
     PathSpace space_;
     Tolerances tolerances_;
+    const RotaryTransform* seen_through_ = nullptr;
+    std::vector<double> seen_length_mm_;
     const std::string* program_ = nullptr;
     std::uint16_t program_index_ = 0;
     std::vector<PathPoint> points_;

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "controller/rotary_transform.h"
 #include "emulator/program_folders.h"
 #include "emulator/run.h"
 #include "geometry/units.h"
@@ -59,6 +60,11 @@ class RecordingSink : public MotionSink {
         keys_.move(move);
         return path_.move(move);
     }
+    void see_through(const RotaryTransform& transform, const Stores& stores) {
+        std::vector<double> lengths_mm;
+        for (const ToolOffset& tool : stores.tools.tool) lengths_mm.push_back(tool.length_mm());
+        path_.see_through(&transform, std::move(lengths_mm));
+    }
     void dwell(double duration_s) override { keys_.event(2, duration_s); }
     void m_code(int code) override { keys_.event(3, code); }
 
@@ -66,6 +72,14 @@ class RecordingSink : public MotionSink {
     PathRecorder path_;
     BlockKeys keys_;
 };
+
+std::optional<RotaryTransform> transform_of(const Setup& setup) {
+    std::vector<Axis> order;
+    for (const ControlAxis& axis : control_config(setup).axes) order.push_back(axis.axis);
+    const auto pivot = decode_pivot(setup.stores.parameters, order);
+    if (!pivot) return std::nullopt;
+    return RotaryTransform(*pivot);
+}
 
 std::vector<std::string> folders_of(const ProgramText& program, const RecordOptions& options) {
     std::vector<std::string> folders = options.program_folders;
@@ -77,11 +91,13 @@ std::vector<std::string> folders_of(const ProgramText& program, const RecordOpti
 
 }  // namespace
 
-RecordedRun record_run(const Setup& setup, const ProgramText& program,
-                       const RecordOptions& options) {
+RecordedRun record_run(const Setup& setup, const ProgramText& program, const RecordOptions& options,
+                       const Setup* seen_through) {
     RecordedRun run;
     run.stores = setup.stores;
     RecordingSink sink(run, options);
+    const auto seen = seen_through != nullptr ? transform_of(*seen_through) : std::nullopt;
+    if (seen) sink.see_through(*seen, seen_through->stores);
     ProgramFolders programs(folders_of(program, options));
     programs.add_file(program);
     ControlConfig config = control_config(setup);

@@ -28,8 +28,10 @@ struct RecordOptions {
     std::uint64_t max_blocks = 0;
 };
 
-/// Devices are not there: G31 runs to its end. NC alarms are in the result.
-RecordedRun record_run(const Setup& setup, const ProgramText& program,
-                       const RecordOptions& options);
+/// Devices are not there: G31 runs to its end. NC alarms are in the result. With `seen_through` the
+/// path is where the tip goes when that setup's pivot parameters and tool lengths are the true
+/// ones.
+RecordedRun record_run(const Setup& setup, const ProgramText& program, const RecordOptions& options,
+                       const Setup* seen_through = nullptr);
 
 }  // namespace trunnion

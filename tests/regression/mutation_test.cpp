@@ -1,5 +1,5 @@
-// 500 random single edits: what changes machining is found, what does not is not reported. The truth
-// is made by dense samples of both runs, with code that shares nothing with the comparer.
+// 500 random single edits: what changes machining is found, what does not is not reported. The
+// truth is made by dense samples of both runs, with code that shares nothing with the comparer.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -91,10 +91,16 @@ class Sampler : public MotionSink {
         const int count = m.arc ? 300 : 1;
         for (int k = 1; k <= count; ++k) points.push_back(tip(static_cast<double>(k) / count));
         double length = 0.0;
-        for (std::size_t k = 1; k < points.size(); ++k) length += (points[k] - points[k - 1]).norm();
+        for (std::size_t k = 1; k < points.size(); ++k)
+            length += (points[k] - points[k - 1]).norm();
         if (length < 1e-7) return {};
-        Stretch2 now{rapid, rapid ? 0 : m.feed_mm_min, rapid ? 0 : m.spindle_rpm,
-                     rapid ? 0 : m.tool, rapid ? false : m.coolant, {}, {}};
+        Stretch2 now{rapid,
+                     rapid ? 0 : m.feed_mm_min,
+                     rapid ? 0 : m.spindle_rpm,
+                     rapid ? 0 : m.tool,
+                     rapid ? false : m.coolant,
+                     {},
+                     {}};
         if (stretches.empty() || !same_values(stretches.back(), now)) stretches.push_back(now);
         Stretch2& s = stretches.back();
         for (const Vector3& p : points) {
@@ -152,8 +158,10 @@ double apart(const Sampler& a, const Sampler& b) {
 std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> lines(1);
     for (const char c : text)
-        if (c == '\n') lines.emplace_back();
-        else lines.back() += c;
+        if (c == '\n')
+            lines.emplace_back();
+        else
+            lines.back() += c;
     return lines;
 }
 
@@ -174,9 +182,13 @@ std::string edited(SeededNoise& noise, std::size_t& line) {
                 text[at] = static_cast<char>('0' + pick(noise, 10));
                 break;
             case 1:
-                if (std::string("XYZIJ").find(text[at]) == std::string::npos || at + 1 >= text.size()) continue;
-                if (text[at + 1] == '-') text.erase(at + 1, 1);
-                else text.insert(at + 1, "-");
+                if (std::string("XYZIJ").find(text[at]) == std::string::npos ||
+                    at + 1 >= text.size())
+                    continue;
+                if (text[at + 1] == '-')
+                    text.erase(at + 1, 1);
+                else
+                    text = text.substr(0, at + 1) + "-" + text.substr(at + 1);
                 break;
             case 2: {
                 const std::size_t from = text.rfind(' ', at);
@@ -184,10 +196,13 @@ std::string edited(SeededNoise& noise, std::size_t& line) {
                 text.erase(from, text.find(' ', from + 1) - from);
                 break;
             }
-            case 3: std::swap(lines[line], lines[line + 1]); break;
+            case 3:
+                std::swap(lines[line], lines[line + 1]);
+                break;
             default:
                 if (text[at] != 'G' || at + 1 >= text.size()) continue;
-                text.replace(at + 1, text.find(' ', at) - at - 1, std::to_string(pick(noise, 4)));
+                text = text.substr(0, at + 1) + static_cast<char>('0' + pick(noise, 4)) +
+                       text.substr(std::min(text.find(' ', at), text.size()));
         }
         std::string out;
         for (std::size_t k = 0; k + 1 < lines.size(); ++k) out += lines[k] + "\n";
@@ -221,7 +236,7 @@ TEST_CASE("500 random edits: found when machining changes, silent when it does n
         INFO("edit " << k << " line " << line + 1 << ": '" << lines_of(b)[line] << "' was '"
                      << lines_of(base)[line] << "', " << distance << " mm apart: " << r.verdict);
         CHECK(r.equal != differs);
-        if (differs && !r.differences.empty())
+        if (differs && r.status == CompareStatus::differs)
             CHECK(std::max(r.differences.front().a.line, r.differences.front().b.line) >=
                   static_cast<int>(line));
         ++(differs ? changed : same);

@@ -34,8 +34,8 @@ inline CompareOptions only(Layer layer) {
 /// The number of the line that holds `text`, from 1.
 inline int line_with(const std::string& program, const std::string& text) {
     const std::size_t at = program.find(text);
-    return 1 + static_cast<int>(std::count(program.begin(),
-                                           program.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+    return 1 + static_cast<int>(std::count(
+                   program.begin(), program.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
 }
 
 inline std::string replaced(std::string text, const std::string& what, const std::string& with) {
