@@ -84,12 +84,7 @@ void MachineSink::follow_mode(const AxisMove& move) {
 }
 
 Vector3 MachineSink::true_tip_W(const PathSampler& path, double s) const {
-    const bool probing =
-        setup_.probe && setup_.probe->tool != 0 && path.move.tool == setup_.probe->tool;
-    const Vector3 tip_S_mm = probing ? setup_.probe->tip_S_mm : Vector3(-path.move.tool_vector_mm);
-    const PhysicalState state = machine_.at(path.at(s), {});
-    return state.poses.pose_MW.inverse() *
-           (state.poses.pose_MS * (tip_S_mm + state.extra.tip_shift_mm));
+    return physical_tip_W(machine_.at(path.at(s), {}), physical_tip_S(setup_, path.move));
 }
 
 void MachineSink::write_trace(const PathSampler& path, double end_s) {

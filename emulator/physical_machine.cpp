@@ -17,4 +17,15 @@ PhysicalState PhysicalMachine::at(const AxisSample& sample, const Contact& conta
     return state;
 }
 
+Vector3 physical_tip_S(const Setup& setup, const AxisMove& move) {
+    if (setup.probe && setup.probe->tool != 0 && move.tool == setup.probe->tool)
+        return setup.probe->tip_S_mm;
+    return -move.tool_vector_mm;
+}
+
+Vector3 physical_tip_W(const PhysicalState& state, const Vector3& tip_S_mm) {
+    return state.poses.pose_MW.inverse() *
+           (state.poses.pose_MS * (tip_S_mm + state.extra.tip_shift_mm));
+}
+
 }  // namespace trunnion

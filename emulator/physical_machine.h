@@ -1,6 +1,7 @@
 // The machine as it stands in the shop: geometry with its errors, backlash and effects.
 #pragma once
 
+#include "controller/motion.h"
 #include "emulator/replay.h"
 #include "kinematics/forward.h"
 
@@ -23,5 +24,12 @@ class PhysicalMachine {
     std::array<double, axis_count> half_backlash_{};
     EffectModels effects_;
 };
+
+/// The physical tip in S during a move: the stylus when the setup's probe is in the spindle, else a
+/// tool just as long as the control believes (the gauge point when no length is in force).
+Vector3 physical_tip_S(const Setup& setup, const AxisMove& move);
+
+/// Where that tip is in W, effects included.
+Vector3 physical_tip_W(const PhysicalState& state, const Vector3& tip_S_mm);
 
 }  // namespace trunnion

@@ -1,0 +1,52 @@
+// trunnion volumetric: where in the working volume the tool point is off, and by which error.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "cli/command.h"
+#include "cli/files.h"
+#include "cli/setups.h"
+#include "effects/settings.h"
+#include "geometry/alarm.h"
+#include "report/volumetric_report.h"
+
+namespace trunnion {
+namespace {
+
+struct Options {
+    std::string setup, csv, svg;
+    VolumetricOptions map;
+};
+
+int run_command(const Options& o) {
+    if (o.map.grid < 2 || o.map.grid > 50) throw InputError("--grid: 2 to 50 points along an axis");
+    const Setup setup = open_setup(o.setup);
+    std::vector<std::string> names;
+    for (const EffectSetting& effect : setup.effects) names.push_back(effect.name);
+    const VolumetricMap map = volumetric_map(setup, names, active_models(setup), o.map);
+    OutputFiles files;
+    if (!o.csv.empty()) files.add(o.csv, volumetric_csv(map));
+    if (!o.svg.empty()) {
+        std::filesystem::create_directories(o.svg);
+        for (auto& [name, text] : volumetric_pictures(map)) files.add(o.svg + '/' + name, text);
+    }
+    files.write();
+    if (o.csv != "-") fmt::print("{}", volumetric_text(map));
+    return exit_done;
+}
+
+}  // namespace
+
+void add_volumetric(CLI::App& app, Run& run) {
+    const auto o = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("volumetric", "tool point errors over the working volume");
+    command->add_option("--setup", o->setup, "setup file (machines/bc_table.toml)");
+    command->add_option("--grid", o->map.grid, "points along each linear axis (5)");
+    command->add_option("--length", o->map.length_mm, "tool length in mm (150)");
+    command->add_option("--csv", o->csv, "every pose with its error");
+    command->add_option("--svg", o->svg, "folder for pictures, one for each height");
+    command->callback([o, &run] { run = [o] { return run_command(*o); }; });
+}
+
+}  // namespace trunnion

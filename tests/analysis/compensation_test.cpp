@@ -1,0 +1,135 @@
+#include "analysis/compensation.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "geometry/alarm.h"
+#include "geometry/random.h"
+#include "geometry/units.h"
+
+using namespace trunnion;
+
+namespace {
+
+/// 41 errors of realistic size: 30 error motions, 8 location errors, 3 squarenesses.
+Setup setup_with_errors() {
+    std::vector<std::string> notes;
+    Setup setup = load_setup(TRUNNION_SOURCE_DIR "/machines/bc_table.toml", notes);
+    for (const int number : {19700, 19701, 19702, 19703, 19704, 19705})
+        setup.stores.parameters.set(number, 0.0);
+    setup.stores.work.standard[0] = {};
+    SeededNoise noise(4);
+    GeometricErrors& errors = setup.machine.errors;
+    for (const AxisGeometry& axis : setup.machine.chain.axes())
+        for (std::size_t k = 0; k < 6; ++k) {
+            ErrorCurve& curve = errors.axis[index_of(axis.axis)].motion[k];
+            curve.interpolation = ErrorCurve::Interpolation::cubic;
+            for (int i = -4; i <= 4; ++i) {
+                curve.at.push_back(axis.rotary ? 0.8 * i : 125.0 * i);
+                curve.value.push_back((k < 3 ? 0.004 : 1.5e-5) * noise.normal());
+            }
+        }
+    for (const char* name : {"EX0B", "EZ0B", "EX0C", "EY0C"})
+        errors.location(*parse_error_name(name)) = 0.015 * noise.normal();
+    for (const char* name : {"EA0B", "EC0B", "EA0C", "EB0C", "EC0Y", "EA0Z", "EB0Z"})
+        errors.location(*parse_error_name(name)) = 3e-5 * noise.normal();
+    return setup;
+}
+
+Compensation compensate(const Setup& setup, const std::string& text,
+                        const CompensationOptions& options = {}) {
+    ProgramsInMemory programs;
+    return compensate_program(setup, programs, ProgramText{"p.nc", text, nullptr}, {}, options);
+}
+
+}  // namespace
+
+TEST_CASE("a three-axis program lands where it meant, with 41 errors") {
+    const Setup setup = setup_with_errors();
+    const Compensation c = compensate(
+        setup,
+        "O1\nG21 G17 G90 G54\nT1 M06\nS3000 M03\nM08\nG0 X-80. Y-60. Z250.\nG43 H1 Z120.\n"
+        "G1 Z60. F800.\n#1=0\nWHILE [#1 LT 3] DO1\nG1 X[80.-#1] F1200.\nG1 Y60.\nG3 X-80. "
+        "I[#1/2-80.] J0.\n"
+        "G1 Y-60.\n#1=#1+1\nEND1\nG18 G2 X20. I50. K0.\nG19 G3 Y-20. J20. K0.\nG4 P500\nG0 "
+        "Z200.\nM05\nM30\n");
+    REQUIRE(c.original.status == RunStatus::ok);
+    INFO(c.program);
+    for (const std::string& note : c.notes) UNSCOPED_INFO(note);
+    REQUIRE(c.executed.status == RunStatus::ok);
+    CHECK(c.notes.empty());
+    CHECK(c.worst_before_mm > 0.01);
+    CHECK(c.worst_after_mm < 1e-4);
+    CHECK(c.executed.time_s == Approx(c.original.time_s).epsilon(0.01));
+    for (const char* word :
+         {"T1 M06", "S3000. M03", "M08", "G43 H1", "G4 X0.5", "M05", "G18 G2", "G19 G3"})
+        CHECK_THAT(c.program, Catch::Contains(word));
+}
+
+TEST_CASE("the whole path lands where it meant, not only the ends of blocks") {
+    const Setup setup = setup_with_errors();
+    // a circle of 60 mm about (0, 0) at Z 50: every sample of the physical path lies on it
+    const std::string circle =
+        "O1\nG21 G17 G90 G54\nT1 M06\nG0 X60. Y0.\nG43 H1 Z50.\nG3 I-60. F1000.\nM30\n";
+    const Compensation c = compensate(setup, circle);
+    REQUIRE(c.executed.status == RunStatus::ok);
+    const auto worst_um = [&](const std::string& program) {
+        ProgramsInMemory none;
+        RunOptions options;
+        options.trace = options.truth = true;
+        options.trace_step_mm = 1.0;
+        const RunLog log = run_program(setup, none, ProgramText{"c.nc", program, nullptr}, options);
+        double worst = 0.0;
+        std::size_t start = log.trace_csv.find('\n') + 1;
+        while (start < log.trace_csv.size()) {
+            const std::size_t end = log.trace_csv.find('\n', start);
+            const std::string line = log.trace_csv.substr(start, end - start);
+            start = end + 1;
+            if (line.find(",1,0,") != std::string::npos) continue;  // tool 1, feed 0: rapid
+            const std::size_t z = line.rfind(','), y = line.rfind(',', z - 1),
+                              x = line.rfind(',', y - 1);
+            const double px = std::stod(line.substr(x + 1)), py = std::stod(line.substr(y + 1)),
+                         pz = std::stod(line.substr(z + 1));
+            worst = std::max({worst, std::abs(std::hypot(px, py) - 60.0), std::abs(pz - 50.0)});
+        }
+        return um_from_mm(worst);
+    };
+    CHECK(worst_um(circle) > 5.0);
+    CHECK(worst_um(c.program) < 0.1);
+    CHECK(c.blocks.size() < 60);  // arcs stay arcs
+}
+
+TEST_CASE("five axes under tool centre point control land where they meant") {
+    const Setup setup = setup_with_errors();
+    const Compensation c =
+        compensate(setup,
+                   "O1\nG21 G17 G90 G54\nT1 M06\nG0 B0 C0\nG0 X100. Y0.\nG43.4 H1 Z60.\n"
+                   "G1 X100. Y20. Z40. B30. C40. F2000.\nG1 X80. Y-20. Z45. B-20. C90.\n"
+                   "G49\nG53 G0 Z400.\nM30\n");
+    REQUIRE(c.original.status == RunStatus::ok);
+    INFO(c.program);
+    INFO((c.notes.empty() ? "" : c.notes.back()));
+    if (c.executed.alarm) INFO(c.executed.alarm->where.line << ' ' << c.executed.alarm->block);
+    REQUIRE(c.executed.status == RunStatus::ok);
+    CHECK(c.worst_before_mm > 0.01);
+    CHECK(c.worst_after_mm < 1e-4);
+    CHECK(c.blocks.size() > 20);
+}
+
+TEST_CASE("a machine without errors gets its program back in other words") {
+    std::vector<std::string> notes;
+    Setup setup = load_setup(TRUNNION_SOURCE_DIR "/machines/mill_xy_table.toml", notes);
+    const Compensation c = compensate(
+        setup, "O1\nG90 G54 G0 X10. Y20. Z30.\nG1 X50. F500.\nG2 X70. Y40. I0. J20.\nM30\n");
+    REQUIRE(c.executed.status == RunStatus::ok);
+    CHECK(c.worst_after_mm < 2e-6);
+    CHECK_THAT(c.program, Catch::Contains("G1 X50. F500."));
+}
+
+TEST_CASE("what cannot be compensated says so") {
+    const Setup setup = setup_with_errors();
+    CHECK_THROWS_AS(compensate(setup, "O1\nG90 G54 G31 X10. F100.\nM30\n"), InputError);
+    const Compensation c = compensate(setup, "O1\nG90 G54 G1 X10.\nG777\nM30\n");
+    CHECK(c.original.status == RunStatus::alarm);
+    CHECK(c.program.empty());
+}
