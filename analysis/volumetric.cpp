@@ -100,7 +100,8 @@ class Mapper {
     }
 
   private:
-    Vector3 part(const NamedError& error, const AxisPositions& q, const TipJacobian& jacobian) const {
+    Vector3 part(const NamedError& error, const AxisPositions& q,
+                 const TipJacobian& jacobian) const {
         const AxisErrors& own = setup_.machine.errors.axis[error.axis];
         const auto column = static_cast<Eigen::Index>(error.k);
         if (error.name.location)
@@ -139,7 +140,8 @@ void finish(VolumetricMap& map) {
     double sum = 0.0, all = 0.0;
     for (std::size_t i = 0; i < map.points.size(); ++i) {
         sum += map.points[i].error_W_mm.squaredNorm();
-        if (map.points[i].error_W_mm.norm() > map.points[map.worst].error_W_mm.norm()) map.worst = i;
+        if (map.points[i].error_W_mm.norm() > map.points[map.worst].error_W_mm.norm())
+            map.worst = i;
     }
     map.rms_mm = std::sqrt(sum / n);
     for (const VolumetricCause& cause : map.causes) all += cause.rms_mm;  // still sums of squares

@@ -11,10 +11,10 @@ namespace trunnion {
 
 /// One pose of the grid.
 struct VolumetricPoint {
-    AxisPositions at;                         ///< mm, rad
-    Vector3 tip_W_mm = Vector3::Zero();       ///< nominal
-    Vector3 error_W_mm = Vector3::Zero();     ///< physical - nominal
-    std::size_t worst = 0;                    ///< index of the cause that contributes most
+    AxisPositions at;                      ///< mm, rad
+    Vector3 tip_W_mm = Vector3::Zero();    ///< nominal
+    Vector3 error_W_mm = Vector3::Zero();  ///< physical - nominal
+    std::size_t worst = 0;                 ///< index of the cause that contributes most
 };
 
 /// One error or effect, alone. `mm` of a vector is its length.
@@ -22,7 +22,7 @@ struct VolumetricCause {
     std::string name;         ///< EX0C, EYX, C.backlash, ...
     double largest_mm = 0.0;  ///< over the grid
     double rms_mm = 0.0;
-    double share = 0.0;       ///< part of the sum of squares of all causes
+    double share = 0.0;  ///< part of the sum of squares of all causes
 };
 
 struct VolumetricMap {
@@ -34,12 +34,12 @@ struct VolumetricMap {
 };
 
 struct VolumetricOptions {
-    int grid = 5;  ///< points along each linear axis; rotary axes take three angles
+    int grid = 5;              ///< points along each linear axis; rotary axes take three angles
     double length_mm = 150.0;  ///< tool
 };
 
-/// The linear axes step through their limits (+-200 mm where the setup gives none), each rotary axis
-/// through -60, 0 and 60 degrees as far as its limits allow. Errors one by one come from the
+/// The linear axes step through their limits (+-200 mm where the setup gives none), each rotary
+/// axis through -60, 0 and 60 degrees as far as its limits allow. Errors one by one come from the
 /// Jacobian, effects from switching them on alone.
 VolumetricMap volumetric_map(const Setup& setup, const std::vector<std::string>& effect_names,
                              const EffectModels& effects, const VolumetricOptions& options);

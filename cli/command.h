@@ -24,6 +24,8 @@ void add_merge(CLI::App& app, Run& run);
 void add_pivot(CLI::App& app, Run& run);
 void add_predict(CLI::App& app, Run& run);
 void add_run(CLI::App& app, Run& run);
+void add_compensate(CLI::App& app, Run& run);
+void add_volumetric(CLI::App& app, Run& run);
 
 /// Exit codes of formats.md.
 enum ExitCode : int {

@@ -34,16 +34,17 @@ int run_command(const Options& o) {
     if (o.decimals < 1 || o.decimals > 9) throw InputError("--decimals: 1 to 9");
     const Setup setup = open_setup(o.setup);
     ProgramAndFolders program = open_program(o.program, o.folders);
-    const Compensation c = compensate_program(setup, program.folders, program.program,
-                                              active_models(setup),
-                                              {mm_from_um(o.tolerance_um), o.decimals});
+    const Compensation c =
+        compensate_program(setup, program.folders, program.program, active_models(setup),
+                           {mm_from_um(o.tolerance_um), o.decimals});
     print_notes(c.notes);
     if (c.original.alarm) return report_alarm(*c.original.alarm);
     if (c.executed.alarm) return report_alarm(*c.executed.alarm);
     OutputFiles files;
     files.add(o.out, c.program);
     files.write();
-    fmt::print(stderr, "{} blocks; largest tip error at a block's end {:.3f} um before, {:.3f} um after\n",
+    fmt::print(stderr,
+               "{} blocks; largest tip error at a block's end {:.3f} um before, {:.3f} um after\n",
                c.blocks.size(), um_from_mm(c.worst_before_mm), um_from_mm(c.worst_after_mm));
     return exit_done;
 }
@@ -52,11 +53,13 @@ int run_command(const Options& o) {
 
 void add_compensate(CLI::App& app, Run& run) {
     const auto o = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("compensate", "a program that makes up for known errors");
+    CLI::App* command =
+        app.add_subcommand("compensate", "a program that makes up for known errors");
     command->add_option("PROGRAM", o->program, "program file, or an O number")->required();
     command->add_option("--setup", o->setup, "setup file with the errors (machines/bc_table.toml)");
     command->add_option("--out", o->out, "file to write (stdout)");
-    command->add_option("--programs", o->folders, "folder with more programs")->allow_extra_args(false);
+    command->add_option("--programs", o->folders, "folder with more programs")
+        ->allow_extra_args(false);
     command->add_option("--tol-um", o->tolerance_um, "path tolerance between exact points (0.05)");
     command->add_option("--decimals", o->decimals, "of the words written (6)");
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });

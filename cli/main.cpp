@@ -21,12 +21,14 @@ const std::initializer_list<void (*)(CLI::App&, Run&)> commands = {
     add_ballbar,
     add_check,
     add_compare,
+    add_compensate,
     add_diagnose,
     add_identify,
     add_merge,
     add_pivot,
     add_predict,
     add_run,
+    add_volumetric,
 };
 // clang-format on
 

@@ -40,7 +40,8 @@ int run_command(const Options& o) {
 
 void add_volumetric(CLI::App& app, Run& run) {
     const auto o = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("volumetric", "tool point errors over the working volume");
+    CLI::App* command =
+        app.add_subcommand("volumetric", "tool point errors over the working volume");
     command->add_option("--setup", o->setup, "setup file (machines/bc_table.toml)");
     command->add_option("--grid", o->map.grid, "points along each linear axis (5)");
     command->add_option("--length", o->map.length_mm, "tool length in mm (150)");

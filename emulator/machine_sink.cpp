@@ -77,7 +77,7 @@ void MachineSink::obey(std::string_view line) {
 /// A move under a function sets the mode; a turn without any function is the program's own
 /// arithmetic (dpp). Probing moves after the function was cancelled keep what placed them.
 void MachineSink::follow_mode(const AxisMove& move) {
-    if (move.mode != PositioningMode::none)
+    if (move.mode != PositioningMode::none && move.mode != PositioningMode::dpp)
         mode_ = move.mode;
     else if (has_rotary_ && turns(move))
         mode_ = PositioningMode::dpp;

@@ -49,8 +49,8 @@ std::map<double, std::vector<const VolumetricPoint*>> slices(const VolumetricMap
     return out;
 }
 
-std::string picture(const VolumetricMap& map, double z, const std::vector<const VolumetricPoint*>& points,
-                    double largest_mm) {
+std::string picture(const VolumetricMap& map, double z,
+                    const std::vector<const VolumetricPoint*>& points, double largest_mm) {
     double low_x = INFINITY, high_x = -INFINITY, low_y = INFINITY, high_y = -INFINITY;
     for (const VolumetricPoint* p : points) {
         low_x = std::min(low_x, p->at[Axis::X]), high_x = std::max(high_x, p->at[Axis::X]);
@@ -60,9 +60,10 @@ std::string picture(const VolumetricMap& map, double z, const std::vector<const 
     Svg svg(760, 640);
     Plot plot(svg, {80, 50}, 560, 500, round_range(low_x - margin, high_x + margin),
               round_range(low_y - margin, high_y + margin));
-    plot.frame(fmt::format("error of the tool point at Z {:.1f} mm (arrows: X Y, discs: Z)", z), "X mm",
-               "Y mm");
-    const double scale = largest_mm > 0.0 ? 0.9 * margin / largest_mm : 0.0;  // mm drawn per mm of error
+    plot.frame(fmt::format("error of the tool point at Z {:.1f} mm (arrows: X Y, discs: Z)", z),
+               "X mm", "Y mm");
+    const double scale =
+        largest_mm > 0.0 ? 0.9 * margin / largest_mm : 0.0;  // mm drawn per mm of error
     for (const VolumetricPoint* p : points) {
         const Vector3& e = p->error_W_mm;
         const Point2 at = plot.at(p->at[Axis::X], p->at[Axis::Y]);
@@ -72,8 +73,10 @@ std::string picture(const VolumetricMap& map, double z, const std::vector<const 
                  {plot_colours[0], 2.0, "none", ""});
         svg.text({at.x + 6, at.y - 6}, cause_name(map, *p), 8);
     }
-    svg.text({80, 625}, fmt::format("longest error in the volume {:.2f} um; names: the largest single cause there",
-                                    um_from_mm(largest_mm)));
+    svg.text(
+        {80, 625},
+        fmt::format("longest error in the volume {:.2f} um; names: the largest single cause there",
+                    um_from_mm(largest_mm)));
     return svg.str();
 }
 
@@ -85,7 +88,8 @@ std::string volumetric_csv(const VolumetricMap& map) {
     out += "tip_x_mm,tip_y_mm,tip_z_mm,error_x_mm,error_y_mm,error_z_mm,error_mm,cause\n";
     for (const VolumetricPoint& point : map.points) {
         for (const Axis axis : map.axes)
-            out += (is_rotary(axis) ? shortest_degrees(point.at[axis]) : shortest(point.at[axis])) + ',';
+            out += (is_rotary(axis) ? shortest_degrees(point.at[axis]) : shortest(point.at[axis])) +
+                   ',';
         for (const double v : point.tip_W_mm) out += shortest(v) + ',';
         for (const double v : point.error_W_mm) out += shortest(v) + ',';
         out += shortest(point.error_W_mm.norm()) + ',' + cause_name(map, point) + '\n';
@@ -95,14 +99,15 @@ std::string volumetric_csv(const VolumetricMap& map) {
 
 std::string volumetric_text(const VolumetricMap& map) {
     const VolumetricPoint& worst = map.points[map.worst];
-    std::string out = fmt::format(
-        "{} poses: rms {:.2f} um, largest {:.2f} um at {} (mostly {})\n", map.points.size(),
-        um_from_mm(map.rms_mm), um_from_mm(worst.error_W_mm.norm()), place_text(map, worst.at),
-        map.causes.empty() ? "nothing" : cause_name(map, worst));
+    std::string out = fmt::format("{} poses: rms {:.2f} um, largest {:.2f} um at {} (mostly {})\n",
+                                  map.points.size(), um_from_mm(map.rms_mm),
+                                  um_from_mm(worst.error_W_mm.norm()), place_text(map, worst.at),
+                                  map.causes.empty() ? "nothing" : cause_name(map, worst));
     if (!map.causes.empty()) out += "cause                rms um  largest um   share\n";
     for (const VolumetricCause& cause : map.causes)
-        out += fmt::format("{:18} {:8.2f} {:11.2f} {:6.1f} %\n", cause.name, um_from_mm(cause.rms_mm),
-                           um_from_mm(cause.largest_mm), 100.0 * cause.share);
+        out +=
+            fmt::format("{:18} {:8.2f} {:11.2f} {:6.1f} %\n", cause.name, um_from_mm(cause.rms_mm),
+                        um_from_mm(cause.largest_mm), 100.0 * cause.share);
     return out;
 }
 

@@ -9,8 +9,8 @@
 
 namespace trunnion {
 
-/// One row a pose: axis positions, nominal tip in W, error in W (mm), and the cause that contributes
-/// most there.
+/// One row a pose: axis positions, nominal tip in W, error in W (mm), and the cause that
+/// contributes most there.
 std::string volumetric_csv(const VolumetricMap& map);
 /// Worst place, rms, and a table of causes.
 std::string volumetric_text(const VolumetricMap& map);
