@@ -87,10 +87,10 @@ std::optional<FittedArc> fit_arc(const Vector3& a, const Vector3& m, const Vecto
 }
 
 /// Rewrites every move as it comes from the control.
-class CompensatingSink : public MotionSink {
+class RewritingSink : public MotionSink {
   public:
-    CompensatingSink(const Setup& setup, const EffectModels& effects,
-                     const CompensationOptions& options, Compensation& out)
+    RewritingSink(const Setup& setup, const EffectModels& effects,
+                  const CompensationOptions& options, CompensatedProgram& out)
         : corrector_(setup, effects),
           text_(setup, options.decimals),
           options_(options),
@@ -181,7 +181,7 @@ class CompensatingSink : public MotionSink {
     TipCorrector corrector_;
     FlatProgram text_;
     CompensationOptions options_;
-    Compensation& out_;
+    CompensatedProgram& out_;
     AxisTracker tracker_;
     double clock_s_ = 0.0;
 };
@@ -189,7 +189,7 @@ class CompensatingSink : public MotionSink {
 /// Executes the program written and looks where the physical tip ends.
 class CheckingSink : public MotionSink {
   public:
-    CheckingSink(const Setup& setup, const EffectModels& effects, Compensation& out)
+    CheckingSink(const Setup& setup, const EffectModels& effects, CompensatedProgram& out)
         : corrector_(setup, effects), out_(out) {}
 
     MoveResult move(const AxisMove& move) override {
@@ -207,7 +207,7 @@ class CheckingSink : public MotionSink {
 
   private:
     TipCorrector corrector_;
-    Compensation& out_;
+    CompensatedProgram& out_;
     AxisTracker tracker_;
     double clock_s_ = 0.0;
     std::size_t next_ = 0;
@@ -225,11 +225,11 @@ RunResult execute(const Setup& setup, ProgramSource& programs, MotionSink& sink,
 
 }  // namespace
 
-Compensation compensate_program(const Setup& setup, ProgramSource& programs,
-                                const ProgramChoice& program, const EffectModels& effects,
-                                const CompensationOptions& options) {
-    Compensation out;
-    CompensatingSink sink(setup, effects, options, out);
+CompensatedProgram compensate_program(const Setup& setup, ProgramSource& programs,
+                                      const ProgramChoice& program, const EffectModels& effects,
+                                      const CompensationOptions& options) {
+    CompensatedProgram out;
+    RewritingSink sink(setup, effects, options, out);
     out.original =
         std::visit([&](const auto& p) { return execute(setup, programs, sink, p); }, program);
     out.notes = out.original.notes;

@@ -19,7 +19,7 @@ struct CompensatedBlock {
     Vector3 meant_W_mm = Vector3::Zero();  ///< tip at its end, as the control believed it
 };
 
-struct Compensation {
+struct CompensatedProgram {
     std::string program;  ///< flat: what the original executed, without loops and calls
     std::vector<CompensatedBlock> blocks;
     RunResult original, executed;  ///< of the original and of the program written
@@ -33,8 +33,8 @@ struct Compensation {
 /// axes keep their positions. Lines and arcs stay lines and arcs, split where one does not hold the
 /// tolerance; moves under G43.4, and arcs in inclined planes, become short lines. Throws InputError
 /// for programs that measure (G31) and for machines without X, Y and Z.
-Compensation compensate_program(const Setup& setup, ProgramSource& programs,
-                                const ProgramChoice& program, const EffectModels& effects,
-                                const CompensationOptions& options = {});
+CompensatedProgram compensate_program(const Setup& setup, ProgramSource& programs,
+                                      const ProgramChoice& program, const EffectModels& effects,
+                                      const CompensationOptions& options = {});
 
 }  // namespace trunnion

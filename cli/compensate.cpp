@@ -34,7 +34,7 @@ int run_command(const Options& o) {
     if (o.decimals < 1 || o.decimals > 9) throw InputError("--decimals: 1 to 9");
     const Setup setup = open_setup(o.setup);
     ProgramAndFolders program = open_program(o.program, o.folders);
-    const Compensation c =
+    const CompensatedProgram c =
         compensate_program(setup, program.folders, program.program, active_models(setup),
                            {mm_from_um(o.tolerance_um), o.decimals});
     print_notes(c.notes);

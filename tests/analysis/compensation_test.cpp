@@ -36,8 +36,8 @@ Setup setup_with_errors() {
     return setup;
 }
 
-Compensation compensate(const Setup& setup, const std::string& text,
-                        const CompensationOptions& options = {}) {
+CompensatedProgram compensate(const Setup& setup, const std::string& text,
+                              const CompensationOptions& options = {}) {
     ProgramsInMemory programs;
     return compensate_program(setup, programs, ProgramText{"p.nc", text, nullptr}, {}, options);
 }
@@ -46,7 +46,7 @@ Compensation compensate(const Setup& setup, const std::string& text,
 
 TEST_CASE("a three-axis program lands where it meant, with 41 errors") {
     const Setup setup = setup_with_errors();
-    const Compensation c = compensate(
+    const CompensatedProgram c = compensate(
         setup,
         "O1\nG21 G17 G90 G54\nT1 M06\nS3000 M03\nM08\nG0 X-80. Y-60. Z250.\nG43 H1 Z120.\n"
         "G1 Z60. F800.\n#1=0\nWHILE [#1 LT 3] DO1\nG1 X[80.-#1] F1200.\nG1 Y60.\nG3 X-80. "
@@ -71,7 +71,7 @@ TEST_CASE("the whole path lands where it meant, not only the ends of blocks") {
     // a circle of 60 mm about (0, 0) at Z 50: every sample of the physical path lies on it
     const std::string circle =
         "O1\nG21 G17 G90 G54\nT1 M06\nG0 X60. Y0.\nG43 H1 Z50.\nG3 I-60. F1000.\nM30\n";
-    const Compensation c = compensate(setup, circle);
+    const CompensatedProgram c = compensate(setup, circle);
     REQUIRE(c.executed.status == RunStatus::ok);
     const auto worst_um = [&](const std::string& program) {
         ProgramsInMemory none;
@@ -101,7 +101,7 @@ TEST_CASE("the whole path lands where it meant, not only the ends of blocks") {
 
 TEST_CASE("five axes under tool centre point control land where they meant") {
     const Setup setup = setup_with_errors();
-    const Compensation c =
+    const CompensatedProgram c =
         compensate(setup,
                    "O1\nG21 G17 G90 G54\nT1 M06\nG0 B0 C0\nG0 X100. Y0.\nG43.4 H1 Z60.\n"
                    "G1 X100. Y20. Z40. B30. C40. F2000.\nG1 X80. Y-20. Z45. B-20. C90.\n"
@@ -119,7 +119,7 @@ TEST_CASE("five axes under tool centre point control land where they meant") {
 TEST_CASE("a machine without errors gets its program back in other words") {
     std::vector<std::string> notes;
     Setup setup = load_setup(TRUNNION_SOURCE_DIR "/machines/mill_xy_table.toml", notes);
-    const Compensation c = compensate(
+    const CompensatedProgram c = compensate(
         setup, "O1\nG90 G54 G0 X10. Y20. Z30.\nG1 X50. F500.\nG2 X70. Y40. I0. J20.\nM30\n");
     REQUIRE(c.executed.status == RunStatus::ok);
     CHECK(c.worst_after_mm < 2e-6);
@@ -129,7 +129,7 @@ TEST_CASE("a machine without errors gets its program back in other words") {
 TEST_CASE("what cannot be compensated says so") {
     const Setup setup = setup_with_errors();
     CHECK_THROWS_AS(compensate(setup, "O1\nG90 G54 G31 X10. F100.\nM30\n"), InputError);
-    const Compensation c = compensate(setup, "O1\nG90 G54 G1 X10.\nG777\nM30\n");
+    const CompensatedProgram c = compensate(setup, "O1\nG90 G54 G1 X10.\nG777\nM30\n");
     CHECK(c.original.status == RunStatus::alarm);
     CHECK(c.program.empty());
 }
