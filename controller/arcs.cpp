@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "controller/wrapped_motion.h"
+
 namespace trunnion {
 
 namespace {
@@ -9,13 +11,6 @@ namespace {
 /// R commands whose chord is longer by no more than this are half circles when 3410 is 0 (assumed:
 /// two least increments).
 constexpr double chord_slack_mm = 0.002;
-
-void check_radii(PlanePoint centre, PlanePoint start, PlanePoint end, double tolerance_mm) {
-    if (tolerance_mm <= 0.0) return;
-    const double r0 = std::hypot(start.x - centre.x, start.y - centre.y);
-    const double r1 = std::hypot(end.x - centre.x, end.y - centre.y);
-    if (std::abs(r1 - r0) > tolerance_mm) raise_alarm(20);
-}
 
 PlanePoint point_in(const ControlPosition& p, const PlaneAxes& plane) {
     return {p[plane.first], p[plane.second]};
@@ -26,6 +21,13 @@ Vector3 unit_vector(Axis axis) {
 }
 
 }  // namespace
+
+void check_radii(PlanePoint centre, PlanePoint start, PlanePoint end, double tolerance_mm) {
+    if (tolerance_mm <= 0.0) return;
+    const double r0 = std::hypot(start.x - centre.x, start.y - centre.y);
+    const double r1 = std::hypot(end.x - centre.x, end.y - centre.y);
+    if (std::abs(r1 - r0) > tolerance_mm) raise_alarm(20);
+}
 
 PlanePoint centre_from_radius(PlanePoint start, PlanePoint end, double radius, bool clockwise,
                               double tolerance_mm) {
@@ -68,12 +70,21 @@ ArcInPlane arc_in_plane(ControlState& c, const ControlPosition& target, bool clo
     return out;
 }
 
+/// A centre word of the wrong plane alone: G17 with K.
+void check_plane_of_centre(const ControlState& c) {
+    if (has_arc_words(c)) return;
+    for (const char letter : {'I', 'J', 'K'})
+        if (c.words.has(letter)) raise_alarm(21, c.words.column_of(letter));
+}
+
 bool has_arc_words(const ControlState& c) {
     const PlaneAxes& plane = plane_axes(c.modal);
     return c.words.has('R') || c.words.has(plane.centre_first) || c.words.has(plane.centre_second);
 }
 
 void move_arc_block(ControlState& c, bool clockwise) {
+    if (c.cylinder) return move_cylinder_arc(c, clockwise);
+    check_plane_of_centre(c);
     const PlaneAxes& plane = plane_axes(c.modal);
     const ControlPosition target = c.target();
     if (!has_arc_words(c)) {

@@ -7,6 +7,8 @@
 
 namespace trunnion {
 
+/// PS0021 when the only centre word belongs to another plane.
+void check_plane_of_centre(const ControlState& c);
 /// True when the block has R or a centre word of the plane.
 bool has_arc_words(const ControlState& c);
 /// Carries out the arc that the words of this block command.
@@ -20,6 +22,8 @@ PlanePoint centre_from_radius(PlanePoint start, PlanePoint end, double radius, b
 /// clockwise; equal directions are a full turn.
 double sweep_of(PlanePoint centre, PlanePoint start, PlanePoint end, bool clockwise);
 
+/// PS0020 when start and end radius differ by more than the tolerance (0: not compared).
+void check_radii(PlanePoint centre, PlanePoint start, PlanePoint end, double tolerance_mm);
 /// The arc of this block's words in its plane. `is_arc` false: nothing to turn (R with equal ends).
 struct ArcInPlane {
     PlanePoint centre;

@@ -10,6 +10,7 @@
 #include "controller/m_codes.h"
 #include "controller/moves.h"
 #include "controller/readings.h"
+#include "controller/wrapped_motion.h"
 
 namespace trunnion {
 
@@ -127,6 +128,7 @@ bool pauses_path(const ControlState& c) {
 }
 
 void queue_motion(ControlState& c, int code) {
+    if (code == 20 || code == 30) check_plane_of_centre(c);
     const bool round = (code == 20 || code == 30) && has_arc_words(c);
     if ((code == 20 || code == 30) && !round && c.settings.arc_needs_centre) raise_alarm(22);
     queue_move(c, path_move_of(c, c.target(), code == 20, round));
@@ -136,6 +138,7 @@ void run_motion(ControlState& c) {
     if (!c.modal.is(ModalGroup::cycle, 800)) return run_cycle(c);
     const int code = c.modal[ModalGroup::motion];
     c.moved = true;
+    if (c.polar) return move_polar(c);
     if (uses_path_queue(c)) return queue_motion(c, code);
     switch (code) {
         case 0:

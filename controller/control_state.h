@@ -51,6 +51,17 @@ struct CycleState {
 /// What the blocks after G10 L3, L50, L52 hold until G11.
 enum class DataEntry : std::uint8_t { none, parameters, tool_life };
 
+/// G12.1 in force: radius axis and angle axis, and where the figure stands in their plane.
+struct PolarMotion {
+    Axis linear = Axis::X, rotary = Axis::C;
+    double x_mm = 0.0, y_mm = 0.0;
+};
+/// G7.1 in force.
+struct CylinderMotion {
+    Axis rotary = Axis::C;
+    double radius_mm = 0.0;
+};
+
 /// Speed and stroke of each axis letter, in what the axes are driven with (mm, rad).
 struct AxisLimits {
     std::array<double, axis_count> min, max;
@@ -83,6 +94,8 @@ struct ControlState {
     SkipState skip;
     CycleState cycle;
     FiveAxisState five_axis;
+    std::optional<PolarMotion> polar;
+    std::optional<CylinderMotion> cylinder;
     DataEntry data_entry = DataEntry::none;
     bool moved = false;            ///< the block that ran moved an axis: G66 calls follow it
     bool units_switched = false;   ///< G20, G21: the language's increment changes

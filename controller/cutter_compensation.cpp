@@ -35,6 +35,14 @@ void line_to(ControlState& c, const PathMove& m, PlanePoint end) {
     send_path(c, m, way, m.to);
 }
 
+/// An arc smaller than the cutter has no path beside it.
+void check_radius(const PathMove& m) {
+    if (!m.plane.arc) return;
+    const double radius = offset_radius(m.plane, m.offset_mm);
+    if (std::abs(radius) <= 1e-6) raise_alarm(38);
+    if (radius < 0.0) raise_alarm(41);
+}
+
 /// The tool must not run backwards along the side: the cutter does not fit.
 void check_interference(const PathMove& m, const PlaneElement& way) {
     constexpr double slack_mm = 1e-6;
@@ -42,15 +50,14 @@ void check_interference(const PathMove& m, const PlaneElement& way) {
         if (dot(way.end - way.start, tangent_at_start(m.plane)) < -slack_mm) raise_alarm(41);
         return;
     }
-    const double radius = offset_radius(m.plane, m.offset_mm);
-    if (std::abs(radius) <= slack_mm) raise_alarm(38);
-    if (radius < 0.0) raise_alarm(41);
+    check_radius(m);
     if (way.sweep_rad * m.plane.sweep_rad < 0.0) raise_alarm(41);
 }
 
 /// The first move up to `end` beside its path (from where the tool stands).
 void run_first(ControlState& c, const PathMove& m, PlanePoint end) {
-    const bool starts = c.path.last_offset_mm == 0.0, ends = m.offset_mm == 0.0;
+    const bool free = c.path.last_offset_mm == 0.0 && m.offset_mm == 0.0;  // a corner alone
+    const bool starts = !free && c.path.last_offset_mm == 0.0, ends = !free && m.offset_mm == 0.0;
     if (m.plane.arc && (starts || ends)) raise_alarm(34);
     PlaneElement way;
     if (m.plane.arc) {
@@ -84,6 +91,8 @@ Corner corner_of(const PathMove& first, const PathMove& second) {
 
 /// Inside corner: both offset paths end where they meet.
 void inside_corner(ControlState& c, const PathMove& first, const PathMove& second) {
+    check_radius(first);
+    check_radius(second);
     const auto meeting = offset_meeting(first.plane, first.offset_mm, second.plane,
                                         second.offset_mm, first.plane.end);
     if (!meeting) raise_alarm(33);

@@ -96,8 +96,9 @@ void leave(ControlState& c, const CycleRow& row, const Levels& at) {
         case Leave::feed:
             if (row.code10 != 890 || !c.config.g89_feeds_to_initial)
                 go_to_level(c, MotionKind::linear, at.r);
-            go_to_level(c, row.code10 == 890 && c.config.g89_feeds_to_initial ? MotionKind::linear
-                                                                              : MotionKind::rapid,
+            go_to_level(c,
+                        row.code10 == 890 && c.config.g89_feeds_to_initial ? MotionKind::linear
+                                                                           : MotionKind::rapid,
                         top);
             break;
         case Leave::tap:

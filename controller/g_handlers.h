@@ -50,6 +50,10 @@ void g_cycle(ControlState& c, const GCode& code);  // G73-G89
 // cutter_compensation.cpp
 void g_cutter(ControlState& c, const GCode& code);  // G40 G41 G42
 
+// wrapped_motion.cpp
+void g_polar_motion(ControlState& c, const GCode& code);  // G12.1 G13.1
+void g_cylinder(ControlState& c, const GCode& code);      // G7.1
+
 // shapes.cpp
 void g_scaling(ControlState& c, const GCode& code);      // G51
 void g_scaling_off(ControlState& c, const GCode& code);  // G50

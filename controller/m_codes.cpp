@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "controller/five_axis.h"
+#include "controller/dialect_codes.h"
 
 namespace trunnion {
 
@@ -86,10 +86,12 @@ void change_state(ControlState& c, int code) {
 
 void carry_out(ControlState& c, int code) {
     c.last_m = code;
+    if (const DialectCode* row = find_dialect_code(c, code)) {
+        row->handler(c);
+        return c.sink.m_code(code);
+    }
     if (const ClampCode* clamp = clamp_of(c, code))
         c.clamped[index_of(clamp->axis)] = code == clamp->m_clamp;
-    else if (c.config.dialect.family == DialectFamily::hurco && hurco_m_code(c, code))
-        return c.sink.m_code(code);
     else if (!find_row(code))
         c.note(fmt::format("M{:02} is not known to the control: passed on without effect", code));
     change_state(c, code);

@@ -36,7 +36,7 @@ AxisPositions AxisMove::at(double s) const {
         out.value[i] = from.value[i] + s * (to.value[i] - from.value[i]);
     if (arc) {
         const Vector3 p = point_on_arc(*arc, {from.value[0], from.value[1], from.value[2]},
-                                 {to.value[0], to.value[1], to.value[2]}, s);
+                                       {to.value[0], to.value[1], to.value[2]}, s);
         for (std::size_t i = 0; i < 3; ++i) out.value[i] = p[static_cast<Eigen::Index>(i)];
     }
     return out;

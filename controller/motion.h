@@ -19,7 +19,8 @@ enum class MotionKind : std::uint8_t { rapid, linear, arc_cw, arc_ccw };  ///< G
 struct ArcPath {
     Vector3 centre_mm = Vector3::Zero();
     Vector3 normal = Vector3::UnitZ();
-    double turns = 0.0;  ///< positive counter-clockwise seen from the normal's tip, +-1 up to one turn
+    double turns =
+        0.0;  ///< positive counter-clockwise seen from the normal's tip, +-1 up to one turn
     double sweep_rad = 0.0;  ///< total angle, same sign
 };
 
@@ -41,21 +42,23 @@ class PathCurve {
 /// One move of the axes, in machine coordinates of the gauge point (mm, rad), tool length included.
 struct AxisMove {
     MotionKind kind = MotionKind::rapid;
-    bool until_skip = false;        ///< G31: stops where the skip signal comes
-    bool gap_free = true;           ///< false: exact stop at the end (G9, G61)
+    bool until_skip = false;  ///< G31: stops where the skip signal comes
+    bool gap_free = true;     ///< false: exact stop at the end (G9, G61)
     AxisPositions from, to;
     std::optional<ArcPath> arc;
     const PathCurve* curve = nullptr;  ///< valid during the call only
-    double length_mm = 0.0;         ///< path length of the programmed point
+    double length_mm = 0.0;            ///< path length of the programmed point
     double duration_s = 0.0;
-    double feed_mm_min = 0.0;       ///< 0 for G0
-    int tool = 0;                   ///< T in the spindle
-    int tool_offset = 0;            ///< H in force
-    double spindle_rpm = 0.0;       ///< signed: negative is M4
+    double feed_mm_min = 0.0;  ///< 0 for G0
+    int tool = 0;              ///< T in the spindle
+    int tool_offset = 0;       ///< H in force
+    double spindle_rpm = 0.0;  ///< signed: negative is M4
     bool coolant = false;
     PositioningMode mode = PositioningMode::none;
-    Vector3 tool_vector_mm = Vector3::Zero();  ///< believed: from tip to gauge point, rotaries at zero
-    const RotaryTransform* transform = nullptr;  ///< believed kinematics, for tip and direction in W
+    Vector3 tool_vector_mm =
+        Vector3::Zero();  ///< believed: from tip to gauge point, rotaries at zero
+    const RotaryTransform* transform =
+        nullptr;  ///< believed kinematics, for tip and direction in W
     int line = 0;
     std::uint64_t byte = 0;
     const std::string* program = nullptr;  ///< name of the file

@@ -143,6 +143,7 @@ void queue_move(ControlState& c, const PathMove& move) {
         q.corner = m;
     else
         compensate(c, m);
+    q.engaged = q.engaged || q.corner.has_value();
 }
 
 void flush_path(ControlState& c) {

@@ -50,7 +50,8 @@ std::vector<PathRow> expected_path(const std::filesystem::path& csv) {
         row.kind = cell[1];
         row.line = std::stoi(cell[0]);
         const int column[5] = {2, 3, 4, 6, 7};
-        for (int i = 0; i < 5; ++i) row.end[i] = std::stod(cell[static_cast<std::size_t>(column[i])]);
+        for (int i = 0; i < 5; ++i)
+            row.end[i] = std::stod(cell[static_cast<std::size_t>(column[i])]);
         if (row.kind == "ARC") {
             row.plane = std::stoi(cell[9]);
             row.turns = std::stod(cell[10]);
@@ -118,11 +119,12 @@ void compare(const std::filesystem::path& program) {
     for (const AxisMove& m : sink.moves) push(is, row_of(m));
     for (std::size_t i = 0; i < std::min(is.size(), wanted.size()); ++i)
         if (const std::string what = fault(is[i], wanted[i]); !what.empty()) {
-            FAIL_CHECK(what << " at line " << is[i].line << " (" << wanted[i].line << "): " << is[i].end[0] << " "
-                            << is[i].end[1] << " " << is[i].end[2] << " " << is[i].end[3] << " "
-                            << is[i].end[4] << " instead of " << wanted[i].end[0] << " "
-                            << wanted[i].end[1] << " " << wanted[i].end[2] << " "
-                            << wanted[i].end[3] << " " << wanted[i].end[4]);
+            FAIL_CHECK(what << " at line " << is[i].line << " (" << wanted[i].line
+                            << "): " << is[i].end[0] << " " << is[i].end[1] << " " << is[i].end[2]
+                            << " " << is[i].end[3] << " " << is[i].end[4] << " instead of "
+                            << wanted[i].end[0] << " " << wanted[i].end[1] << " "
+                            << wanted[i].end[2] << " " << wanted[i].end[3] << " "
+                            << wanted[i].end[4]);
             return;
         }
     CHECK(is.size() == wanted.size());

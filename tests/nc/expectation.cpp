@@ -1,0 +1,199 @@
+#include "expectation.h"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "geometry/units.h"
+
+namespace trunnion::nc {
+
+namespace {
+
+std::vector<std::string> comments_of(const std::string& text) {
+    std::vector<std::string> out;
+    for (std::size_t from = text.find('('); from != std::string::npos;
+         from = text.find('(', from + 1)) {
+        const std::size_t to = text.find(')', from);
+        if (to == std::string::npos) break;
+        out.push_back(text.substr(from + 1, to - from - 1));
+    }
+    return out;
+}
+
+ExpectedMove read_move(std::istringstream& in) {
+    ExpectedMove move;
+    for (std::string word; in >> word;) {
+        if (word[0] == 'G')
+            move.kind = word;
+        else
+            move.words[word[0]] = std::stod(word.substr(1));
+    }
+    return move;
+}
+
+std::string rest_of(std::istringstream& in) {
+    std::string rest;
+    std::getline(in >> std::ws, rest);
+    return rest;
+}
+
+double value_after_equals(std::istringstream& in) {
+    std::string equals;
+    double value = 0.0;
+    if (!(in >> equals >> value) || equals != "=") throw std::runtime_error("no value");
+    return value;
+}
+
+void read_expected_variable(Expectation& e, int number, std::istringstream& in) {
+    std::string equals, value;
+    in >> equals >> value;
+    if (value == "VACANT")
+        e.variables[number] = std::nullopt;
+    else
+        e.variables[number] = std::stod(value);
+}
+
+void read_expect(Expectation& e, std::istringstream& in) {
+    ++e.count;
+    std::string what;
+    in >> what;
+    if (what[0] == '#') return read_expected_variable(e, std::stoi(what.substr(1)), in);
+    if (what == "MOVE") return e.moves.push_back(read_move(in));
+    if (what == "LAST") return void(e.last = read_move(in));
+    if (what == "MOVES") return void(e.move_count = std::stoul(rest_of(in)));
+    if (what == "ALARM") {
+        int number = 0, line = 0;
+        std::string word;
+        in >> number;
+        e.alarm = number;
+        if (in >> word >> line) e.alarm_line = line;
+        return;
+    }
+    if (what == "TEXT") return void(e.alarm_text = rest_of(in));
+    if (what == "PRINT") {
+        std::string text;
+        in.get();
+        std::getline(in, text);
+        return e.printed.push_back(text);
+    }
+    if (what == "NOTE") return e.notes.push_back(rest_of(in));
+    if (what == "NO") return void(e.no_note = true);
+    if (what == "TIME") return void(e.time_s = std::stod(rest_of(in)));
+    if (what == "MODAL") return e.modal.push_back(rest_of(in));
+    if (what == "MCODE") return e.m_codes.push_back(std::stoi(rest_of(in)));
+    if (what == "LIMIT") return void(e.limit = true);
+    throw std::runtime_error("EXPECT " + what + "?");
+}
+
+ControlAxis& axis_named(Expectation& e, char letter) {
+    for (ControlAxis& axis : e.config.axes)
+        if (letter_of(axis.axis) == letter) return axis;
+    throw std::runtime_error("no such axis");
+}
+
+void set_tool(Expectation& e, std::istringstream& in) {
+    std::size_t number = 0;
+    std::string equals;
+    ToolOffset tool;
+    in >> number >> equals >> tool.length_geometry_mm >> tool.radius_geometry_mm;
+    e.stores.tools.tool.at(number) = tool;
+}
+
+void set_limit(Expectation& e, std::istringstream& in) {
+    char letter = 0;
+    double min = 0.0, max = 0.0;
+    in >> letter >> min >> max;
+    ControlAxis& axis = axis_named(e, letter);
+    axis.min = axis.rotary ? rad_from_deg(min) : min;
+    axis.max = axis.rotary ? rad_from_deg(max) : max;
+}
+
+void set_reference(Expectation& e, std::istringstream& in) {
+    int position = 0;
+    char letter = 0;
+    double value = 0.0;
+    in >> position >> letter >> value;
+    const std::string letters = "XYZBC";
+    e.stores.parameters.entry[1239 + position].by_axis[static_cast<int>(letters.find(letter)) + 1] =
+        value;
+}
+
+void read_set(Expectation& e, std::istringstream& in) {
+    std::string what;
+    in >> what;
+    int number = 0;
+    if (what[0] == '#') {
+        e.preset[std::stoi(what.substr(1))] = value_after_equals(in);
+    } else if (what == "PARAMETER") {
+        in >> number;
+        e.stores.parameters.set(number, value_after_equals(in));
+    } else if (what == "BIT") {
+        std::string name;
+        in >> name;
+        const std::size_t hash = name.find('#');
+        e.stores.parameters.set_bit(std::stoi(name.substr(0, hash)),
+                                    std::stoi(name.substr(hash + 1)), value_after_equals(in) != 0);
+    } else if (what == "TOOL") {
+        set_tool(e, in);
+    } else if (what == "SKIP") {
+        in >> e.skip_at;
+    } else if (what == "LIMIT") {
+        set_limit(e, in);
+    } else if (what == "REFERENCE") {
+        set_reference(e, in);
+    } else if (what == "CLAMP") {
+        char letter = 0;
+        ClampCode clamp;
+        in >> letter >> clamp.m_clamp >> clamp.m_release;
+        clamp.axis = axis_named(e, letter).axis;
+        clamp.alarm = true;
+        e.config.clamps.push_back(clamp);
+    } else if (what == "DIALECT") {
+        const std::string name = rest_of(in);
+        if (name == "HURCO") e.config.dialect = hurco_dialect();
+        if (name == "16I") e.config.dialect = fanuc_dialect(ControlGeneration::fanuc_16i);
+    } else if (what == "SWITCH") {
+        in >> number;
+        e.config.skip_switches.at(static_cast<std::size_t>(number)) = true;
+    } else if (what == "SIGNAL") {
+        in >> number;
+        e.stores.signals[number] = value_after_equals(in);
+    } else if (what == "BLOCKS") {
+        in >> number;
+        e.config.max_blocks = static_cast<std::uint64_t>(number);
+    } else if (what == "POSITIONS") {
+        e.config.work_positions_with_length = false;
+    } else {
+        throw std::runtime_error("SET " + what + "?");
+    }
+}
+
+ControlConfig five_axes() {
+    ControlConfig config;
+    config.dialect = fanuc_dialect();
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z, Axis::B, Axis::C}) {
+        ControlAxis entry;
+        entry.axis = axis;
+        entry.rotary = is_rotary(axis);
+        config.axes.push_back(entry);
+    }
+    return config;
+}
+
+}  // namespace
+
+Expectation read_expectation(const std::string& text) {
+    Expectation e;
+    e.config = five_axes();
+    for (const std::string& comment : comments_of(text)) {
+        std::istringstream in(comment);
+        std::string word;
+        in >> word;
+        if (word == "EXPECT") read_expect(e, in);
+        if (word == "SET") read_set(e, in);
+    }
+    return e;
+}
+
+}  // namespace trunnion::nc

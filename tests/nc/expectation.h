@@ -1,0 +1,51 @@
+// What an NC test program expects, read from its own comments.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "controller/controller.h"
+
+namespace trunnion::nc {
+
+/// One EXPECT MOVE: kind, axis words (machine mm and deg), I J K the arc's centre (machine mm), F.
+struct ExpectedMove {
+    std::string kind;  ///< "G0" .. "G3", empty: any
+    std::map<char, double> words;
+};
+
+/// Comments of a program, one thing each:
+///   (EXPECT #100 = 3.5) (EXPECT #100 = VACANT) (EXPECT MOVE G1 X10. Y5.) all moves in order
+///   (EXPECT LAST X1.) (EXPECT MOVES 3) (EXPECT ALARM 128) (EXPECT ALARM 10 LINE 4)
+///   (EXPECT TEXT IMPROPER) of the alarm (EXPECT PRINT text) next line printed
+///   (EXPECT NOTE part) (EXPECT NO NOTE) (EXPECT TIME 1.5) (EXPECT MODAL G01) (EXPECT MCODE 8)
+///   (EXPECT LIMIT)
+///   (SET PARAMETER 3410 = 0.05) (SET BIT 5003#0 = 1) (SET TOOL 1 = 100. 5.) length, radius
+///   (SET SKIP 0.25) (SET LIMIT X -100. 100.) (SET CLAMP C 10 11) (SET DIALECT HURCO)
+///   (SET SWITCH 2) (SET SIGNAL 1000 = 1) (SET #100 = 5.) (SET BLOCKS 100)
+///   (SET POSITIONS WITHOUT LENGTH) (SET REFERENCE 2 Z 50.)
+struct Expectation {
+    std::map<int, std::optional<double>> variables;
+    std::vector<ExpectedMove> moves;
+    std::optional<ExpectedMove> last;
+    std::optional<std::size_t> move_count;
+    std::optional<int> alarm, alarm_line;
+    std::string alarm_text;
+    std::vector<std::string> printed, notes, modal;
+    std::vector<int> m_codes;
+    bool no_note = false, limit = false;
+    std::optional<double> time_s;
+    std::size_t count = 0;  ///< of EXPECT comments: a program without any tests nothing
+
+    ControlConfig config;
+    Stores stores;
+    std::map<int, double> preset;
+    double skip_at = -1.0;
+};
+
+/// Throws std::runtime_error for a comment that starts with EXPECT or SET and cannot be read.
+Expectation read_expectation(const std::string& text);
+
+}  // namespace trunnion::nc

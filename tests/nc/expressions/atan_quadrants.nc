@@ -1,0 +1,6 @@
+%
+O0001 (ATAN QUADRANTS)
+(EXPECT #100 = 225.)
+#100=ATAN[-1.]/[-1.]
+M30
+%

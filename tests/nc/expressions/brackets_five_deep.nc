@@ -1,0 +1,6 @@
+%
+O0001 (BRACKETS FIVE DEEP)
+(EXPECT #100 = 1.)
+#100=[[[[[1]]]]]
+M30
+%

@@ -1,0 +1,6 @@
+%
+O0001 (BRACKETS TOO DEEP)
+(EXPECT ALARM 118)
+#100=[[[[[[1]]]]]]
+M30
+%

@@ -1,0 +1,8 @@
+%
+O0001 (FIX GOES TO ZERO)
+(EXPECT #100 = 2.)
+(EXPECT #101 = -2.)
+#100=FIX[2.9]
+#101=FIX[-2.9]
+M30
+%

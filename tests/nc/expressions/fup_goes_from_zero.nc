@@ -1,0 +1,10 @@
+%
+O0001 (FUP GOES FROM ZERO)
+(EXPECT #100 = 3.)
+(EXPECT #101 = -3.)
+(EXPECT #102 = 2.)
+#100=FUP[2.1]
+#101=FUP[-2.1]
+#102=FUP[2.]
+M30
+%

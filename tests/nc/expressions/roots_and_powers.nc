@@ -1,0 +1,12 @@
+%
+O0001 (ROOTS AND POWERS)
+(EXPECT #100 = 3.)
+(EXPECT #101 = 8.)
+(EXPECT #102 = 0.)
+(EXPECT #103 = 1.)
+#100=SQRT[9.]
+#101=POW[2.,3.]
+#102=LN[1.]
+#103=EXP[0]
+M30
+%

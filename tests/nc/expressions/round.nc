@@ -1,0 +1,10 @@
+%
+O0001 (ROUND)
+(EXPECT #100 = 3.)
+(EXPECT #101 = -3.)
+(EXPECT #102 = 2.)
+#100=ROUND[2.5]
+#101=ROUND[-2.5]
+#102=ROUND[2.4]
+M30
+%

@@ -1,0 +1,6 @@
+%
+O0001 (DOUBLE SIGN)
+(EXPECT ALARM 6)
+G0 X--3.
+M30
+%

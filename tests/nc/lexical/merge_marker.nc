@@ -1,0 +1,6 @@
+%
+O0001 (MERGE MARKER)
+(EXPECT ALARM 9)
+<<<<<<< HEAD
+M30
+%

@@ -1,0 +1,6 @@
+%
+O0001 (NO END CODE)
+(EXPECT LAST X1.)
+G0 X1.
+M30
+%

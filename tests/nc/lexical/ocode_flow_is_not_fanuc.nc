@@ -1,0 +1,6 @@
+%
+O0001 (OCODE FLOW IS NOT FANUC)
+(EXPECT ALARM 1090)
+O<loop> while
+M30
+%

@@ -1,0 +1,7 @@
+%
+O0001 (M2 ENDS)
+(EXPECT MOVES 0)
+M2
+G0 X5.
+M30
+%

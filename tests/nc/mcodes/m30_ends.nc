@@ -1,0 +1,6 @@
+%
+O0001 (M30 ENDS)
+(EXPECT MOVES 0)
+M30
+G0 X5.
+%

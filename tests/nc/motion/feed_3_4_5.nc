@@ -1,0 +1,6 @@
+%
+O0001 (FEED 3 4 5)
+(EXPECT TIME 0.5)
+G1 X3. Y4. F600.
+M30
+%

@@ -1,0 +1,8 @@
+%
+O0001 (NEGATIVE EXPRESSION WORDS)
+(EXPECT MOVE G0 X-2. Y-7. Z4.)
+#1=2.
+#2=5.
+G0 X-#1 Y-[#1+#2] Z[#2-1.]
+M30
+%

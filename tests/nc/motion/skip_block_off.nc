@@ -1,0 +1,7 @@
+%
+O0001 (SKIP BLOCK OFF)
+(EXPECT LAST X2.)
+G0 X1.
+/X2.
+M30
+%
