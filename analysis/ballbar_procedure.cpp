@@ -121,6 +121,10 @@ std::vector<std::pair<int, double>> pivot_parameters(const Machine& nominal, con
 
 }  // namespace
 
+double BallbarErrorRow::change_percent() const {
+    return before == 0.0 ? 0.0 : 100.0 * (std::abs(after) / std::abs(before) - 1.0);
+}
+
 std::size_t BallbarResult::tests() const {
     std::set<std::string> names;
     for (const BallbarPass& pass : ballbar_passes(before.readings.rows))

@@ -21,6 +21,8 @@ struct BallbarErrorRow {
     double sigma_before = 0.0;
     double sigma = 0.0;  ///< of `after`: noise of both runs, so the larger one
     std::optional<double> published_before;
+
+    double change_percent() const;  ///< of the size; 0 when there was no error before
 };
 
 /// Manual times that the comparison with two set-ups assumes, s.

@@ -1,0 +1,116 @@
+#include <nlohmann/json.hpp>
+
+#include "geometry/units.h"
+#include "report/ballbar_report.h"
+
+namespace trunnion {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* unit_of(const ErrorName& name) {
+    return name.angular() ? "rad" : "mm";
+}
+
+Json rows_json(const std::vector<BallbarErrorRow>& rows) {
+    Json list = Json::array();
+    for (const BallbarErrorRow& row : rows) {
+        Json entry = {{"name", to_string(row.name)},
+                      {"before", row.before},
+                      {"after", row.after},
+                      {"sigma", row.sigma},
+                      {"sigma_before", row.sigma_before},
+                      {"unit", unit_of(row.name)},
+                      {"change_percent", row.change_percent()}};
+        entry["published_before"] = row.published_before ? Json(*row.published_before) : Json();
+        list.push_back(entry);
+    }
+    return list;
+}
+
+Json planar_json(const PlanarResult& planar) {
+    const CircularFigures& f = planar.figures;
+    Json causes = Json::array();
+    for (const CircularCause& c : planar.diagnosis.causes)
+        causes.push_back({{"name", c.name},
+                          {"effect", c.effect},
+                          {"value", c.value},
+                          {"sigma", c.sigma},
+                          {"unit", c.unit},
+                          {"share_um", c.share_um},
+                          {"share", c.share},
+                          {"rank", c.rank},
+                          {"significant", c.significant},
+                          {"note", c.note}});
+    return {{"plane", plane_name(planar.test.plane)},
+            {"feed_mm_min", planar.test.passes.front().feed_mm_min},
+            {"arc_deg", deg_from_rad(planar.test.arc_rad)},
+            {"circularity_ccw_um", f.circularity_ccw_um},
+            {"circularity_cw_um", f.circularity_cw_um},
+            {"bidirectional_circularity_um", f.bidirectional_circularity_um},
+            {"mean_radial_deviation_um", f.mean_radial_deviation_um},
+            {"radial_deviation_max_um", f.radial_deviation_max_um},
+            {"radial_deviation_min_um", f.radial_deviation_min_um},
+            {"hysteresis_um", f.hysteresis_um},
+            {"hysteresis_at_deg", deg_from_rad(f.hysteresis_at_rad)},
+            {"diagnosis", causes},
+            {"not_separable", planar.diagnosis.not_separable},
+            {"residual_um", planar.diagnosis.residual_um}};
+}
+
+Json groups_json(const std::vector<InseparableGroup>& groups) {
+    Json list = Json::array();
+    for (const InseparableGroup& group : groups)
+        list.push_back({{"names", group.names}, {"direction", group.direction}});
+    return list;
+}
+
+Json time_json(const BallbarResult& r) {
+    return {{"program_s", r.before.time_s},
+            {"one_setup_s", r.single_setup_s()},
+            {"two_setups_s", r.two_setups_s()},
+            {"assumed_setup_s", r.times.setup_s},
+            {"assumed_remount_s", r.times.remount_s}};
+}
+
+Json residual_json(const BallbarResult& r) {
+    return {
+        {"rms_um", um_from_mm(r.fit.rms_mm)},
+        {"noise_um", um_from_mm(r.fit.noise_mm)},
+        {"structured", r.verdict.structured},
+        {"excess_um", r.verdict.excess_um},
+        {"worst_test", r.verdict.worst_test},
+        {"remedy", r.verdict.structured ? Json("trunnion diagnose READINGS --setup " + r.setup_path)
+                                        : Json()}};
+}
+
+}  // namespace
+
+std::string ballbar_json(const BallbarResult& r) {
+    Json out;
+    out["schema"] = "trunnion.ballbar/1";
+    out["machine"] = r.machine;
+    out["errors"] = rows_json(r.errors);
+    out["errors_at_intersection"] = rows_json(r.at_intersection);
+    out["time_s"] = r.before.time_s;
+    out["time"] = time_json(r);
+    out["circularity"] = Json::array();
+    for (const PlanarResult& planar : r.planar) out["circularity"].push_back(planar_json(planar));
+    out["readings"] = r.fit.residual_mm.size();
+    out["rank"] = r.open_fit.rank;
+    out["unknowns"] = r.open_fit.parameters.size();
+    out["inseparable"] = groups_json(r.open_fit.inseparable);
+    out["residual"] = residual_json(r);
+    const Vector3& p = r.published.pivot_offset_mm;
+    out["location_check"] = {{"pivot_offset_mm", {p.x(), p.y(), p.z()}},
+                             {"length_error_mm", r.published.length_error_mm},
+                             {"rms_um", um_from_mm(r.published.setup_rms_mm)}};
+    out["parameters"] = Json::object();
+    for (const auto& [number, value] : r.pivot_parameters)
+        out["parameters"][std::to_string(number)] = value;
+    out["notes"] = r.notes;
+    return out.dump(2) + "\n";
+}
+
+}  // namespace trunnion
