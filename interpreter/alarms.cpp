@@ -76,7 +76,7 @@ const AlarmInfo* language_alarm(int number) {
     return row != std::end(table) && row->number == number ? row : nullptr;
 }
 
-void raise_alarm(int number, int column, const std::string& detail) {
+void raise_language_alarm(int number, int column, const std::string& detail) {
     const AlarmInfo* row = language_alarm(number);
     std::string text = row ? row->text : "ALARM";
     if (!detail.empty()) text += ": " + detail;

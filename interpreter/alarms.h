@@ -22,6 +22,6 @@ const AlarmInfo* language_alarm(int number);
 
 /// Throws the alarm with the screen text, `: detail` behind it, and the column (0: not known). The
 /// line and the program are filled in by whoever runs the block.
-[[noreturn]] void raise_alarm(int number, int column = 0, const std::string& detail = {});
+[[noreturn]] void raise_language_alarm(int number, int column = 0, const std::string& detail = {});
 
 }  // namespace trunnion

@@ -35,14 +35,14 @@ void pass_arguments(const WordValue* first, const WordValue* last, const Argumen
     char previous = 0;  // letter last met in this set
     for (const WordValue* word = first; word != last; ++word) {
         const char letter = word->letter;
-        if (letter < 'A' || letter > 'Z') raise_alarm(129, word->column);
+        if (letter < 'A' || letter > 'Z') raise_language_alarm(129, word->column);
         int number = variable_of[static_cast<std::size_t>(letter - 'A')];
         if (number == 0 && rules.pass_all) number = extra_variable(letter);
-        if (number == 0) raise_alarm(129, word->column, std::string(1, letter));
+        if (number == 0) raise_language_alarm(129, word->column, std::string(1, letter));
         if (letter >= 'I' && letter <= 'K') {
             if (previous != 0 && letter <= previous) ++set;
             previous = letter;
-            if (set == 10) raise_alarm(1095, word->column);
+            if (set == 10) raise_language_alarm(1095, word->column);
             number += 3 * set;
         }
         locals[static_cast<std::size_t>(number)] = argument_value(*word, rules);

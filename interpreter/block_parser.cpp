@@ -108,14 +108,14 @@ bool Parser::item(char c) {
     if (c == '#') return assignment(), true;
     if (c == ',') return comma_word(), true;
     if (c == 'N' && first && block_.sequence_number < 0) return number_word(), true;
-    if (is_digit(c) || c == '.') raise_alarm(4, column);
-    if (c == '+' || c == '-') raise_alarm(6, column);
-    if (c == '[' || c == ']' || c == '*') raise_alarm(114, column);
+    if (is_digit(c) || c == '.') raise_language_alarm(4, column);
+    if (c == '+' || c == '-') raise_language_alarm(6, column);
+    if (c == '[' || c == ']' || c == '*') raise_language_alarm(114, column);
     if (!is_letter(c))
-        raise_alarm(9, column,
-                    c == '=' || c == '<' || c == '>' ? "stray character, "
-                                                       "a merge marker?"
-                                                     : "stray character");
+        raise_language_alarm(9, column,
+                             c == '=' || c == '<' || c == '>' ? "stray character, "
+                                                                "a merge marker?"
+                                                              : "stray character");
     const Keyword keyword = read_keyword(in_.p, in_.end);
     if (keyword != Keyword::none) return statement(keyword, column), true;
     word(c);
@@ -135,8 +135,8 @@ void Parser::finish() {
 
 Item& Parser::add(ItemKind kind, std::uint16_t column) {
     (kind == ItemKind::word ? words_ : statements_) |= kind != ItemKind::skip;
-    if (words_ && statements_) raise_alarm(127, column);
-    if (closed_ && kind != ItemKind::skip) raise_alarm(125, column);
+    if (words_ && statements_) raise_language_alarm(127, column);
+    if (closed_ && kind != ItemKind::skip) raise_language_alarm(125, column);
     in_.leading = false;
     Item& item = out_.items.emplace_back();
     item.kind = kind;
@@ -146,18 +146,19 @@ Item& Parser::add(ItemKind kind, std::uint16_t column) {
 
 void Parser::program_number(char) {
     ++in_.p;
-    if (in_.peek() == '<') raise_alarm(1090, in_.column(), "O<name> is LinuxCNC's, not Fanuc's");
+    if (in_.peek() == '<')
+        raise_language_alarm(1090, in_.column(), "O<name> is LinuxCNC's, not Fanuc's");
     const std::uint16_t column = in_.column();
     const Number n = read_number(in_.p, in_.end);
-    if (n.digits == 0) raise_alarm(5, column);
-    if (n.point) raise_alarm(7, column);
-    if (n.digits > 8) raise_alarm(3, column);
+    if (n.digits == 0) raise_language_alarm(5, column);
+    if (n.point) raise_language_alarm(7, column);
+    if (n.digits > 8) raise_language_alarm(3, column);
     program_ = true;
     block_.o_number = static_cast<int>(n.value);
     if (is_letter(in_.peek()) && in_.end - in_.p > 1 && is_letter(in_.p[1]) &&
         !(upper(in_.p[0]) == 'G' && upper(in_.p[1]) == 'O'))
-        raise_alarm(1090, in_.column(),
-                    "O words with SUB, WHILE, IF .. are LinuxCNC's, not Fanuc's");
+        raise_language_alarm(1090, in_.column(),
+                             "O words with SUB, WHILE, IF .. are LinuxCNC's, not Fanuc's");
 }
 
 /// `<101>`, `<PART-1>` without the brackets; the longest name is 32 characters.
@@ -167,7 +168,7 @@ std::string_view Parser::name() {
     while (in_.p != in_.end && is_name_character(*in_.p)) ++in_.p;
     const auto size = static_cast<std::size_t>(in_.p - first);
     if (in_.p == in_.end || *in_.p != '>' || size == 0 || size > 32)
-        raise_alarm(9, column, "neither a program name nor a block (a merge marker?)");
+        raise_language_alarm(9, column, "neither a program name nor a block (a merge marker?)");
     ++in_.p;
     return {first, size};
 }
@@ -196,9 +197,9 @@ void Parser::number_word() {
     in_.peek();
     const std::uint16_t column = in_.column();
     const Number n = read_number(in_.p, in_.end);
-    if (n.digits == 0) raise_alarm(5, column);
-    if (n.point) raise_alarm(7, column);
-    if (n.digits > 9) raise_alarm(3, column);
+    if (n.digits == 0) raise_language_alarm(5, column);
+    if (n.point) raise_language_alarm(7, column);
+    if (n.digits > 9) raise_language_alarm(3, column);
     block_.sequence_number = static_cast<int>(n.value);
 }
 
@@ -208,7 +209,7 @@ bool Parser::skip() {
     ++in_.p;
     std::uint8_t number = 1;
     if (in_.p != in_.end && is_digit(*in_.p)) number = static_cast<std::uint8_t>(*in_.p++ - '0');
-    if (number == 0) raise_alarm(4, column);
+    if (number == 0) raise_language_alarm(4, column);
     if (options_.keep_skips) add(ItemKind::skip, column).number = number;
     if (!options_.skip[number]) return true;
     in_.p = find_line_end(in_.p, in_.end);
@@ -219,7 +220,7 @@ void Parser::comma_word() {
     const std::uint16_t column = in_.column();
     ++in_.p;
     const char c = in_.peek();
-    if (c != 'R' && c != 'C' && c != 'A') raise_alarm(9, column, "stray comma");
+    if (c != 'R' && c != 'C' && c != 'A') raise_language_alarm(9, column, "stray comma");
     const char letter = static_cast<char>(c - 'A' + 'a');
     ++in_.p;
     Item& item = add(ItemKind::word, column);
@@ -252,15 +253,15 @@ void Parser::word_value(Item& item) {
         return;
     }
     const std::uint16_t column = in_.column();
-    if (c == '+' || c == '-') raise_alarm(6, column);
-    if (!is_digit(c) && c != '.') raise_alarm(5, item.column);
+    if (c == '+' || c == '-') raise_language_alarm(6, column);
+    if (!is_digit(c) && c != '.') raise_language_alarm(5, item.column);
     const Number n = read_number(in_.p, in_.end);
-    if (n.digits == 0) raise_alarm(7, column);
-    if (n.digits > 15) raise_alarm(3, column);
+    if (n.digits == 0) raise_language_alarm(7, column);
+    if (n.digits > 15) raise_language_alarm(3, column);
     item.value = item.negative ? -n.value : n.value;
     item.negative = false;
     item.decimal_point = n.point;
-    if (in_.peek() == '.') raise_alarm(7, in_.column());
+    if (in_.peek() == '.') raise_language_alarm(7, in_.column());
 }
 
 void Parser::assignment() {
@@ -268,7 +269,7 @@ void Parser::assignment() {
     expressions_.round_to_increment = false;
     int number = 0;
     const Span target = expressions_.variable_number(number);
-    if (in_.peek() != '=') raise_alarm(1133, in_.column());
+    if (in_.peek() != '=') raise_language_alarm(1133, in_.column());
     ++in_.p;
     in_.leading = false;
     const Span value = expressions_.expression(Precedence::sum);
@@ -300,11 +301,11 @@ void Parser::statement(Keyword keyword, std::uint16_t column) {
         case Keyword::setvn:
             return setvn(column);
         case Keyword::then:
-            raise_alarm(1137, column, "THEN without IF in the same block");
+            raise_language_alarm(1137, column, "THEN without IF in the same block");
         case Keyword::do_:
         case Keyword::end: {
             if (is_letter(in_.peek()))
-                raise_alarm(125, column, "ENDIF, ENDWHILE and the like are not Fanuc's");
+                raise_language_alarm(125, column, "ENDIF, ENDWHILE and the like are not Fanuc's");
             const std::uint8_t number = loop_number();
             add(keyword == Keyword::do_ ? ItemKind::do_only : ItemKind::end, column).number =
                 number;
@@ -317,13 +318,13 @@ void Parser::statement(Keyword keyword, std::uint16_t column) {
 }
 
 void Parser::if_statement(std::uint16_t column) {
-    if (in_.peek() != '[') raise_alarm(1137, in_.column(), "'[' expected");
+    if (in_.peek() != '[') raise_language_alarm(1137, in_.column(), "'[' expected");
     const Span condition = expressions_.expression(Precedence::comparison);
     const char c = in_.peek();
     const std::uint16_t at = in_.column();
     const Keyword keyword = is_letter(c) ? read_keyword(in_.p, in_.end) : Keyword::none;
     if (keyword != Keyword::go_to && keyword != Keyword::then)
-        raise_alarm(1137, at, "GOTO or THEN expected");
+        raise_language_alarm(1137, at, "GOTO or THEN expected");
     const bool then = keyword == Keyword::then;
     add(then ? ItemKind::if_then : ItemKind::if_goto, column).a = condition;
     then ? after_then() : jump(at);
@@ -334,18 +335,18 @@ void Parser::after_then() {
     const std::uint16_t at = in_.column();
     if (c == '#') return assignment();
     if (c == BlockReader::at_end)
-        raise_alarm(1137, at, "THEN over several blocks (.. ENDIF) is not Fanuc's");
-    raise_alarm(1137, at,
-                "only an assignment may follow THEN on a Fanuc (GOTO stands without THEN)");
+        raise_language_alarm(1137, at, "THEN over several blocks (.. ENDIF) is not Fanuc's");
+    raise_language_alarm(
+        1137, at, "only an assignment may follow THEN on a Fanuc (GOTO stands without THEN)");
 }
 
 void Parser::while_statement(std::uint16_t column) {
-    if (in_.peek() != '[') raise_alarm(1138, in_.column(), "'[' expected");
+    if (in_.peek() != '[') raise_language_alarm(1138, in_.column(), "'[' expected");
     const Span condition = expressions_.expression(Precedence::comparison);
     const char c = in_.peek();
     const std::uint16_t at = in_.column();
     if (!is_letter(c) || read_keyword(in_.p, in_.end) != Keyword::do_)
-        raise_alarm(1138, at, "DO expected");
+        raise_language_alarm(1138, at, "DO expected");
     const std::uint8_t number = loop_number();
     Item& item = add(ItemKind::while_do, column);
     item.a = condition;
@@ -357,7 +358,7 @@ std::uint8_t Parser::loop_number() {
     in_.peek();
     const std::uint16_t column = in_.column();
     const Number n = read_number(in_.p, in_.end);
-    if (n.digits == 0 || n.point || n.value < 1 || n.value > 3) raise_alarm(126, column);
+    if (n.digits == 0 || n.point || n.value < 1 || n.value > 3) raise_language_alarm(126, column);
     return static_cast<std::uint8_t>(n.value);
 }
 
@@ -373,8 +374,8 @@ void Parser::jump(std::uint16_t column) {
         target = expressions_.bracketed();
     } else {
         n = read_number(in_.p, in_.end);
-        if (n.digits == 0) raise_alarm(128, at, "GOTO without a number");
-        if (n.point) raise_alarm(7, at);
+        if (n.digits == 0) raise_language_alarm(128, at, "GOTO without a number");
+        if (n.point) raise_language_alarm(7, at);
     }
     Item& item = add(ItemKind::go_to, column);
     item.a = target;
@@ -385,10 +386,10 @@ void Parser::jump(std::uint16_t column) {
 /// DPRNT[text#v[ab]..], BPRNT[text#v[d]..]; blanks do not count, `*` prints one.
 void Parser::print_statement(ItemKind kind, std::uint16_t column) {
     add(kind, column);
-    if (in_.peek_raw() != '[') raise_alarm(1143, in_.column());
+    if (in_.peek_raw() != '[') raise_language_alarm(1143, in_.column());
     ++in_.p;
     for (char c = in_.peek_raw(); c != ']'; c = in_.peek_raw()) {
-        if (c == BlockReader::at_end) raise_alarm(1143, in_.column(), "']' is missing");
+        if (c == BlockReader::at_end) raise_language_alarm(1143, in_.column(), "']' is missing");
         c == '#' ? print_value(kind == ItemKind::bprnt) : print_text();
     }
     ++in_.p;
@@ -399,13 +400,13 @@ void Parser::print_value(bool binary) {
     const std::uint16_t column = in_.column();
     const Span value = expressions_.variable();
     std::uint8_t digits[2] = {0, 0};
-    if (in_.peek_raw() != '[') raise_alarm(1143, in_.column(), "[ab] expected");
+    if (in_.peek_raw() != '[') raise_language_alarm(1143, in_.column(), "[ab] expected");
     ++in_.p;
     for (int i = binary ? 1 : 0; i < 2; ++i) {
-        if (!is_digit(in_.peek_raw())) raise_alarm(1143, in_.column(), "digit expected");
+        if (!is_digit(in_.peek_raw())) raise_language_alarm(1143, in_.column(), "digit expected");
         digits[i] = static_cast<std::uint8_t>(*in_.p++ - '0');
     }
-    if (in_.peek_raw() != ']') raise_alarm(1143, in_.column(), "']' expected");
+    if (in_.peek_raw() != ']') raise_language_alarm(1143, in_.column(), "']' expected");
     ++in_.p;
     Item& item = add(ItemKind::print_value, column);
     item.a = value;
@@ -429,13 +430,13 @@ void Parser::setvn(std::uint16_t column) {
     in_.peek();
     const Number n = read_number(in_.p, in_.end);
     if (n.digits == 0 || n.digits > 9 || n.point || in_.peek() != '[')
-        raise_alarm(1139, in_.column());
+        raise_language_alarm(1139, in_.column());
     ++in_.p;
     Item& item = add(ItemKind::setvn, column);
     item.value = n.value;
     item.b.first = static_cast<std::uint32_t>(out_.text.size());
     for (char c = in_.peek_raw(); c != ']'; c = in_.peek_raw()) {
-        if (c == BlockReader::at_end) raise_alarm(1139, in_.column(), "']' is missing");
+        if (c == BlockReader::at_end) raise_language_alarm(1139, in_.column(), "']' is missing");
         out_.text += upper(c);
         ++in_.p;
     }
@@ -449,7 +450,8 @@ void Parser::semicolon() {
     const std::uint16_t column = in_.column();
     ++in_.p;
     if (in_.peek() != BlockReader::at_end)
-        raise_alarm(9, column, "';' is not in a Fanuc file (comments stand in round brackets)");
+        raise_language_alarm(9, column,
+                             "';' is not in a Fanuc file (comments stand in round brackets)");
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ std::uint16_t BlockReader::column() const {
 char BlockReader::peek_raw() {
     p = skip_blanks(p, end);
     if (p == end || is_line_end(*p) || *p == control_z) return at_end;
-    if (*p == '\0') raise_alarm(9, column(), "NUL byte");
+    if (*p == '\0') raise_language_alarm(9, column(), "NUL byte");
     return *p;
 }
 
@@ -34,7 +34,7 @@ void BlockReader::read_comment() {
     int depth = 0;
     do {
         if (p == end || is_line_end(*p) || *p == control_z)
-            raise_alarm(9, comment.column, "comment without ')'");
+            raise_language_alarm(9, comment.column, "comment without ')'");
         if (*p == '(' && (depth == 0 || nested_comments_)) ++depth;
         if (*p == ')') --depth;
         ++p;
@@ -45,7 +45,7 @@ void BlockReader::read_comment() {
 }
 
 void BlockReader::expect(char c, int alarm) {
-    if (peek() != c) raise_alarm(alarm, column());
+    if (peek() != c) raise_language_alarm(alarm, column());
     ++p;
 }
 

@@ -16,7 +16,7 @@ inline double zero_if_vacant(double x) {
 }
 
 inline double in_range(double x, const Op& op) {
-    if (!(std::fabs(x) <= largest)) raise_alarm(111, op.column);
+    if (!(std::fabs(x) <= largest)) raise_language_alarm(111, op.column);
     return x;
 }
 
@@ -39,19 +39,19 @@ double cosine_deg(double angle_deg) {
 }
 double tangent_deg(double angle_deg, const Op& op) {
     const double cosine = cosine_deg(angle_deg);
-    if (cosine == 0.0) raise_alarm(119, op.column);
+    if (cosine == 0.0) raise_language_alarm(119, op.column);
     return sine_deg(angle_deg) == 0.0 ? 0.0 : std::tan(rad_from_deg(angle_deg));
 }
 
 double arc_function(double x, const Op& op, const EvaluationRules& rules) {
-    if (!(std::fabs(x) <= 1.0)) raise_alarm(119, op.column);
+    if (!(std::fabs(x) <= 1.0)) raise_language_alarm(119, op.column);
     if (op.code == OpCode::acos) return deg_from_rad(std::acos(x));
     const double angle_deg = deg_from_rad(std::asin(x));
     return angle_deg < 0.0 && !rules.signed_angles ? angle_deg + 360.0 : angle_deg;
 }
 
 double arc_tangent(double y, double x, const Op& op, const EvaluationRules& rules) {
-    if (x == 0.0 && y == 0.0) raise_alarm(119, op.column);
+    if (x == 0.0 && y == 0.0) raise_language_alarm(119, op.column);
     const double angle_deg = deg_from_rad(std::atan2(y + 0.0, x));
     return angle_deg < 0.0 && !rules.signed_angles ? angle_deg + 360.0 : angle_deg;
 }
@@ -59,7 +59,8 @@ double arc_tangent(double y, double x, const Op& op, const EvaluationRules& rule
 /// 32 bits, two's complement, operands rounded.
 std::int32_t bits(double x, const Op& op) {
     const double rounded = std::round(x);
-    if (!(rounded >= -2147483648.0 && rounded <= 4294967295.0)) raise_alarm(110, op.column);
+    if (!(rounded >= -2147483648.0 && rounded <= 4294967295.0))
+        raise_language_alarm(110, op.column);
     return static_cast<std::int32_t>(
         static_cast<std::uint32_t>(static_cast<std::int64_t>(rounded)));
 }
@@ -68,14 +69,14 @@ double binary_of_bcd(double x, const Op& op) {
     auto code = static_cast<std::uint32_t>(bits(x, op));
     double value = 0.0;
     for (double weight = 1.0; code != 0; code >>= 4, weight *= 10.0) {
-        if ((code & 15u) > 9u) raise_alarm(119, op.column);
+        if ((code & 15u) > 9u) raise_language_alarm(119, op.column);
         value += weight * (code & 15u);
     }
     return value;
 }
 double bcd_of_binary(double x, const Op& op) {
     const double rounded = std::round(x);
-    if (!(rounded >= 0.0 && rounded <= 99999999.0)) raise_alarm(119, op.column);
+    if (!(rounded >= 0.0 && rounded <= 99999999.0)) raise_language_alarm(119, op.column);
     auto rest = static_cast<std::uint32_t>(rounded);
     std::uint32_t code = 0;
     for (int shift = 0; rest != 0; shift += 4, rest /= 10) code |= (rest % 10u) << shift;
@@ -98,7 +99,7 @@ double unary(const Op& op, double x, const EvaluationRules& rules) {
         case OpCode::atan:
             return deg_from_rad(std::atan(x));
         case OpCode::sqrt:
-            if (x < 0.0) raise_alarm(119, op.column);
+            if (x < 0.0) raise_language_alarm(119, op.column);
             return std::sqrt(x);
         case OpCode::abs:
             return std::fabs(x);
@@ -115,7 +116,7 @@ double unary(const Op& op, double x, const EvaluationRules& rules) {
         case OpCode::fup:
             return x < 0.0 ? std::floor(x) : std::ceil(x);
         case OpCode::ln:
-            if (!(x > 0.0)) raise_alarm(119, op.column);
+            if (!(x > 0.0)) raise_language_alarm(119, op.column);
             return std::log(x);
         case OpCode::exp:
             return in_range(std::exp(x), op);
@@ -127,9 +128,9 @@ double unary(const Op& op, double x, const EvaluationRules& rules) {
 }
 
 double power(double base, double exponent, const Op& op) {
-    if (base == 0.0 && exponent < 0.0) raise_alarm(112, op.column);
+    if (base == 0.0 && exponent < 0.0) raise_language_alarm(112, op.column);
     const double result = std::pow(base, exponent);
-    if (std::isnan(result)) raise_alarm(119, op.column);
+    if (std::isnan(result)) raise_language_alarm(119, op.column);
     return in_range(result, op);
 }
 
@@ -145,7 +146,7 @@ bool compare(OpCode code, double a, double b) {
 }
 
 double divide(double a, double b, const Op& op) {
-    if (b == 0.0) raise_alarm(112, op.column);
+    if (b == 0.0) raise_language_alarm(112, op.column);
     return in_range(a / b, op);
 }
 
@@ -153,7 +154,7 @@ double divide(double a, double b, const Op& op) {
 double binary(const Op& op, double a, double b, const EvaluationRules& rules) {
     switch (op.code) {
         case OpCode::modulo:
-            if (b == 0.0) raise_alarm(112, op.column);
+            if (b == 0.0) raise_language_alarm(112, op.column);
             return std::fmod(a, b);
         case OpCode::bit_and:
             return bits(a, op) & bits(b, op);
@@ -195,7 +196,7 @@ double read_parameter(const Op& op, const double* operands, const Memory& memory
 
 int whole_number(double value, int column) {
     if (is_vacant(value)) return 0;
-    if (!(std::fabs(value) < 1e9)) raise_alarm(110, column);
+    if (!(std::fabs(value) < 1e9)) raise_language_alarm(110, column);
     return static_cast<int>(std::lround(value));
 }
 

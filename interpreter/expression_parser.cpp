@@ -45,7 +45,7 @@ Span ExpressionParser::variable_number(int& number) {
 
 void ExpressionParser::emit(OpCode code, std::uint16_t column, int operands) {
     stack_ += 1 - operands;
-    if (stack_ > expression_stack) raise_alarm(118, column);
+    if (stack_ > expression_stack) raise_language_alarm(118, column);
     Op op;
     op.code = code;
     op.column = column;
@@ -84,18 +84,18 @@ void ExpressionParser::primary() {
     if (c == '#') return load(column);
     if (c == '[') return bracket();
     if (is_digit(c) || c == '.') return number();
-    if (c == '+' || c == '-') raise_alarm(6, column);
+    if (c == '+' || c == '-') raise_language_alarm(6, column);
     OpCode code;
-    if (!is_letter(c) || !read_function(in_.p, in_.end, code)) raise_alarm(114, column);
+    if (!is_letter(c) || !read_function(in_.p, in_.end, code)) raise_language_alarm(114, column);
     function(code, column);
 }
 
 void ExpressionParser::number() {
     const std::uint16_t column = in_.column();
     const Number n = read_number(in_.p, in_.end);
-    if (n.digits == 0) raise_alarm(7, column);
-    if (n.digits > 15) raise_alarm(3, column);
-    if (in_.peek() == '.') raise_alarm(7, in_.column());
+    if (n.digits == 0) raise_language_alarm(7, column);
+    if (n.digits > 15) raise_language_alarm(3, column);
+    if (in_.peek() == '.') raise_language_alarm(7, in_.column());
     emit(OpCode::constant, column, 0);
     out_.ops.back().value = n.value;
 }
@@ -103,7 +103,7 @@ void ExpressionParser::number() {
 /// `[..]` that groups: five inside each other. Brackets of functions do not count (assumed), but
 /// have a limit of their own.
 void ExpressionParser::bracket() {
-    if (++brackets_ > bracket_levels) raise_alarm(118, in_.column());
+    if (++brackets_ > bracket_levels) raise_language_alarm(118, in_.column());
     open();
     close();
     --brackets_;
@@ -112,7 +112,7 @@ void ExpressionParser::bracket() {
 /// '[' and what stands behind it, up to ',' or ']'.
 void ExpressionParser::open() {
     in_.expect('[', 1131);
-    if (++depth_ > function_levels) raise_alarm(118, in_.column() - 1);
+    if (++depth_ > function_levels) raise_language_alarm(118, in_.column() - 1);
     binary(Precedence::comparison);
 }
 
@@ -200,17 +200,18 @@ bool ExpressionParser::reference(int& number) {
     in_.expect('#', 114);
     const char c = in_.peek();
     const std::uint16_t column = in_.column();
-    if (c == '<') raise_alarm(114, column, "named parameters #<name> are LinuxCNC's, not Fanuc's");
+    if (c == '<')
+        raise_language_alarm(114, column, "named parameters #<name> are LinuxCNC's, not Fanuc's");
     if (c == '[') {
         number = named_variable();
         if (number >= 0) return true;
         bracket();
         return false;
     }
-    if (!is_digit(c)) raise_alarm(114, column, "variable number expected behind #");
+    if (!is_digit(c)) raise_language_alarm(114, column, "variable number expected behind #");
     const Number n = read_number(in_.p, in_.end);
-    if (n.point) raise_alarm(7, column);
-    if (n.digits > 9) raise_alarm(115, column);
+    if (n.point) raise_language_alarm(7, column);
+    if (n.digits > 9) raise_language_alarm(115, column);
     number = static_cast<int>(n.value);
     return true;
 }
@@ -230,7 +231,7 @@ int ExpressionParser::named_variable() {
             in_.expect(']', 1132);
             if (!options_.names) return 0;
             const auto it = options_.names->find(name);
-            if (it == options_.names->end()) raise_alarm(1096, column, name);
+            if (it == options_.names->end()) raise_language_alarm(1096, column, name);
             return it->second;
         }
     }

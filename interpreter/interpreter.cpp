@@ -17,7 +17,7 @@ void Interpreter::open(const ProgramText& program) {
 
 void Interpreter::open(int o_number) {
     Section* section = state_->files.find(o_number, nullptr);
-    if (!section) raise_alarm(76, 0, "O" + std::to_string(o_number));
+    if (!section) raise_language_alarm(76, 0, "O" + std::to_string(o_number));
     state_->start(*section);
 }
 

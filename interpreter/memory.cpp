@@ -13,12 +13,12 @@ double Memory::get(int number) const {
     if (number >= 1 && number <= local_count) return (*locals)[static_cast<std::size_t>(number)];
     const int slot = common_slot(number, has_98000);
     if (slot >= 0) return common[static_cast<std::size_t>(slot)];
-    if (number < 100) raise_alarm(115);
+    if (number < 100) raise_language_alarm(115);
     return system.get(number);
 }
 
 void Memory::set(int number, double value, const char* comment) {
-    if (number == 0) raise_alarm(116);
+    if (number == 0) raise_language_alarm(116);
     if (number >= 1 && number <= local_count) {
         (*locals)[static_cast<std::size_t>(number)] = value;
         return;
@@ -28,7 +28,7 @@ void Memory::set(int number, double value, const char* comment) {
         common[static_cast<std::size_t>(slot)] = value;
         return;
     }
-    if (number < 100) raise_alarm(115);
+    if (number < 100) raise_language_alarm(115);
     system.set(number, value, comment);
 }
 

@@ -28,7 +28,7 @@ std::string decimal_print(double value, int integers, int decimals, bool suppres
 std::string binary_print(double value, int decimals) {
     if (is_vacant(value)) value = 0.0;
     const double scaled = std::round(value * powers_of_ten[static_cast<std::size_t>(decimals)]);
-    if (!(std::fabs(scaled) < 2147483648.0)) raise_alarm(110);
+    if (!(std::fabs(scaled) < 2147483648.0)) raise_language_alarm(110);
     const auto bits = static_cast<std::uint32_t>(static_cast<std::int32_t>(scaled));
     std::string bytes;
     for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>((bits >> shift) & 255u);

@@ -174,7 +174,8 @@ void Interpreter::State::end_of_section() {
 }
 
 bool Interpreter::State::give_out(const Block& block, const Code& code) {
-    if (block.items.count > BlockWords::capacity) raise_alarm(1090, 1, "too many words in a block");
+    if (block.items.count > BlockWords::capacity)
+        raise_language_alarm(1090, 1, "too many words in a block");
     if (block.items.count == 0) return false;
     ++executed;
     words.sequence_number = block.sequence_number;

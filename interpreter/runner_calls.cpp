@@ -67,7 +67,7 @@ Section* Interpreter::State::take_name(const Block& block, const Code& code) {
     }
     if (at_name == words.count) return nullptr;
     const int column = words.words[at_name].column;
-    if (!calls) raise_alarm(9, column, "a program name without a call");
+    if (!calls) raise_language_alarm(9, column, "a program name without a call");
     std::string_view name;
     for (std::uint32_t i = 0; i < block.items.count; ++i) {
         const Item& item = code.items[block.items.first + i];
@@ -75,7 +75,7 @@ Section* Interpreter::State::take_name(const Block& block, const Code& code) {
             name = std::string_view(code.text).substr(item.b.first, item.b.count);
     }
     Section* const section = files.find(name, *frame().section);
-    if (!section) raise_alarm(76, column, "<" + std::string(name) + ">");
+    if (!section) raise_language_alarm(76, column, "<" + std::string(name) + ">");
     remove(at_name);
     return section;
 }
@@ -105,7 +105,7 @@ ArgumentRules Interpreter::State::argument_rules() const {
 
 Section& Interpreter::State::called(int number, bool outside, int column) {
     Section* section = outside ? files.find_outside(number) : files.find(number, frame().section);
-    if (!section) raise_alarm(76, column, "O" + std::to_string(number));
+    if (!section) raise_language_alarm(76, column, "O" + std::to_string(number));
     return *section;
 }
 
@@ -113,15 +113,15 @@ Section& Interpreter::State::called(int number, bool outside, int column) {
 void Interpreter::State::macro_call(std::size_t at_word, Section* named, bool modal,
                                     bool every_block) {
     if (at_word != 0)
-        raise_alarm(127, words.words[0].column, "G65 and G66 stand first in their block");
+        raise_language_alarm(127, words.words[0].column, "G65 and G66 stand first in their block");
     const int column = words.words[0].column;
     remove(0);
     const double p = take('P', -1.0);
-    if (p < 0.0 && !named) raise_alarm(76, column, "P is missing");
+    if (p < 0.0 && !named) raise_language_alarm(76, column, "P is missing");
     const int repeats = whole_number(take('L', 1.0), column);
     Section& section = named ? *named : called(whole_number(p, column), false, column);
     if (modal) {
-        if (modal_count == modals.size()) raise_alarm(122, column);
+        if (modal_count == modals.size()) raise_language_alarm(122, column);
         ModalCall& call = modals[modal_count++];
         call.section = &section;
         call.repeats = repeats;
@@ -135,7 +135,8 @@ void Interpreter::State::macro_call(std::size_t at_word, Section* named, bool mo
 /// Starts a macro with the words left in the block as arguments.
 void Interpreter::State::start_macro(Section& section, int repeats, bool by_code) {
     const auto depth = static_cast<std::size_t>(frame().macro_depth) + 1;
-    if (depth >= levels.size()) raise_alarm(122, words.count > 0 ? words.words[0].column : 1);
+    if (depth >= levels.size())
+        raise_language_alarm(122, words.count > 0 ? words.words[0].column : 1);
     pass_arguments(words.begin(), words.end(), argument_rules(), levels[depth]);
     if (repeats < 1) return;
     if (repeats > 1) repeated[depth] = levels[depth];
@@ -148,10 +149,10 @@ void Interpreter::State::push(Section& section, int repeats, bool macro, bool by
     Frame f;
     f.macro_depth = caller.macro_depth + (macro ? 1 : 0);
     f.sub_depth = caller.sub_depth + (macro ? 0 : 1);
-    if (f.macro_depth > options.dialect.macro_call_levels) raise_alarm(122);
+    if (f.macro_depth > options.dialect.macro_call_levels) raise_language_alarm(122);
     if (f.sub_depth > options.dialect.subprogram_levels ||
         f.macro_depth + f.sub_depth > options.dialect.total_levels)
-        raise_alarm(77);
+        raise_language_alarm(77);
     f.section = &section;
     f.locals = caller.locals;
     f.start = {section.begin.byte, section.begin.line, section.first_block};
@@ -179,7 +180,7 @@ bool Interpreter::State::subprogram_words(std::size_t at_word, Section* named, b
     const int column = words.words[at_word].column;
     remove(at_word);
     const double p = take('P', -1.0);
-    if (p < 0.0 && !named) raise_alarm(76, column, "P is missing");
+    if (p < 0.0 && !named) raise_language_alarm(76, column, "P is missing");
     const int l = whole_number(take('L', -1.0), column);
     const bool packed = options.dialect.family == DialectFamily::fanuc;
     const int number = whole_number(p, column);
@@ -222,7 +223,7 @@ bool Interpreter::State::code_call(std::size_t at_word, const CodeCalls::Call& c
     const int repeats = whole_number(take('L', 1.0), column);
     Section& section = called(call.program, false, column);
     if (!call.modal) return start_macro(section, repeats, true), false;
-    if (modal_count == modals.size()) raise_alarm(122, column);
+    if (modal_count == modals.size()) raise_language_alarm(122, column);
     ModalCall& modal = modals[modal_count++];
     modal.section = &section;
     modal.repeats = repeats;
@@ -260,7 +261,7 @@ bool Interpreter::State::macro_file_value(const Block& block, const Code& code) 
     if (l != 85 || p < 0) return false;
     double v = 0.0;
     if (!read_hex_double(comment_of(block, code), v))
-        raise_alarm(1144, words.words[0].column, "sixteen hexadecimal digits expected");
+        raise_language_alarm(1144, words.words[0].column, "sixteen hexadecimal digits expected");
     memory.set(p, v);
     return true;
 }
@@ -304,7 +305,7 @@ void Interpreter::State::call_subprogram(const Pending& call) {
     if (call.repeats < 1) return;
     const int n = call.sequence_number;
     const auto place = n < 0 ? std::nullopt : files.find_sequence(section, n, section.begin.byte);
-    if (n >= 0 && !place) raise_alarm(78, 1, "N" + std::to_string(n));
+    if (n >= 0 && !place) raise_language_alarm(78, 1, "N" + std::to_string(n));
     push(section, call.repeats, false, call.by_code);
     if (place) frame().start = at = {place->byte, place->line, -1};
 }
@@ -333,7 +334,7 @@ void Interpreter::State::give_back(int n, int repeats) {
 /// M99 P: searched from the start of the program that goes on.
 TextPlace Interpreter::State::target_of_return(const Frame& caller, int n) {
     const auto place = files.find_sequence(*caller.section, n, caller.section->begin.byte);
-    if (!place) raise_alarm(78, 1, "N" + std::to_string(n));
+    if (!place) raise_language_alarm(78, 1, "N" + std::to_string(n));
     return *place;
 }
 

@@ -95,7 +95,8 @@ void Interpreter::State::go_to(const Block& block, Code& code, Item& item, bool 
     const int number = target < 1e9 ? whole_number(target, item.column) : 0;
     const auto place =
         number > 0 ? files.find_sequence(*frame().section, number, block.byte) : std::nullopt;
-    if (!place) raise_alarm(128, item.column, number > 0 ? "N" + std::to_string(number) : "");
+    if (!place)
+        raise_language_alarm(128, item.column, number > 0 ? "N" + std::to_string(number) : "");
     if (!cached || item.a.count != 0) return jump(*place);
     item.link = new_link(*place);
     follow(item.link);
@@ -106,7 +107,7 @@ void Interpreter::State::while_do(const Block& block, Item& item, int index) {
     if (item.link < 0 || index < 0) {
         const auto behind =
             files.find_loop_end(*frame().section, {block.end, block.line + 1}, item.number);
-        if (!behind) raise_alarm(124, item.column, "END" + std::to_string(item.number));
+        if (!behind) raise_language_alarm(124, item.column, "END" + std::to_string(item.number));
         if (index < 0) {
             loop = {block.byte, block.line, -1};
             const bool enter = item.kind == ItemKind::do_only || holds(value(scratch, item));
@@ -126,7 +127,7 @@ void Interpreter::State::while_do(const Block& block, Item& item, int index) {
 
 void Interpreter::State::end_loop(const Item& item) {
     const Place& loop = frame().loops[item.number];
-    if (loop.line == 0) raise_alarm(1124, item.column, "DO" + std::to_string(item.number));
+    if (loop.line == 0) raise_language_alarm(1124, item.column, "DO" + std::to_string(item.number));
     at = loop;
     link_from = -1;
 }

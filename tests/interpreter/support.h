@@ -16,7 +16,7 @@ namespace trunnion::test {
 struct PlainSystem : SystemVariables {
     double get(int number) override {
         const auto it = values.find(number);
-        if (it == values.end()) raise_alarm(115);
+        if (it == values.end()) raise_language_alarm(115);
         return it->second;
     }
     void set(int number, double value, const char* comment) override {
