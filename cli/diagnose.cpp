@@ -31,6 +31,10 @@ Json to_json(const HeldOut& heldout) {
             {"ci95", {heldout.low, heldout.high}}};
 }
 
+Json to_json(const DeviceNoise& noise) {
+    return {{"scale", noise.scale}, {"shared", noise.shared}, {"memory", noise.memory}};
+}
+
 Json to_json(const Cause& cause) {
     Json json{{"effect", cause.effect},
               {"probability", cause.probability},
@@ -73,6 +77,10 @@ Json to_json(const Diagnosis& d) {
                                             {"program", next.program},
                                             {"log_bayes_factor", next.log_bayes_factor},
                                             {"minutes", next.minutes}});
+    json["noise"] = {{"sphere", to_json(d.noise.sphere)},
+                     {"touch", to_json(d.noise.touch)},
+                     {"ballbar", to_json(d.noise.ballbar)},
+                     {"doubt", d.noise.doubt}};
     json["unseen"] = d.unseen;
     json["readings"] = d.readings;
     json["outliers"] = d.outliers;

@@ -124,6 +124,16 @@ Eigen::MatrixXd Design::covariance(const std::vector<Eigen::Index>& columns, dou
     return a.llt().solve(Eigen::MatrixXd::Identity(a.rows(), a.cols()));
 }
 
+Eigen::VectorXd Design::fit_variance(const std::vector<Eigen::Index>& columns,
+                                     double scale) const {
+    Eigen::MatrixXd a;
+    Eigen::VectorXd b;
+    normal_equations(columns, scale, a, b);
+    const Eigen::MatrixXd half =
+        a.llt().matrixL().solve(raw_(Eigen::all, places(columns)).transpose());
+    return half.colwise().squaredNorm().transpose();
+}
+
 Eigen::VectorXd Design::residual(const std::vector<Eigen::Index>& columns, double scale) const {
     const Eigen::VectorXd x = solve(columns, scale);
     Eigen::VectorXd left = model_.residual_mm - raw_.leftCols(base_) * x.head(base_);

@@ -48,6 +48,8 @@ class Design {
     Eigen::VectorXd solve(const std::vector<Eigen::Index>& columns, double scale) const;
     /// Covariance of that solution, same order.
     Eigen::MatrixXd covariance(const std::vector<Eigen::Index>& columns, double scale) const;
+    /// Expected square (mm^2) of each row's prediction error from the fit's own uncertainty.
+    Eigen::VectorXd fit_variance(const std::vector<Eigen::Index>& columns, double scale) const;
     /// Residual (mm) of all rows after base and columns are fitted.
     Eigen::VectorXd residual(const std::vector<Eigen::Index>& columns, double scale) const;
     /// Residual (mm) of the rows `test` after a fit to all the others.

@@ -141,15 +141,24 @@ class Diagnoser {
         return sum / std::max(1.0, rows - lost);
     }
 
+    /// Noise anew from what the best set leaves, then the best set anew.
     void refine_noise() {
-        if (noise_.source == NoiseSource::repeats) return;
         for (int pass = 0; pass < 2; ++pass) {
-            const double freedom =
-                std::clamp(freedom_after(set_) / static_cast<double>(replay_.size()), 0.3, 1.0);
-            noise_ = noise_from_residuals(replay_, blocks_, left_after(set_), base_.sigma_mm, noise_,
-                                          freedom);
+            const Eigen::VectorXd left = left_after(set_);
+            NoiseModel stated;
+            stated.source = noise_.source;
+            if (noise_.source == NoiseSource::repeats) {
+                if (set_.members.empty()) return;
+                noise_ = noise_from_repeats(replay_, table_, blocks_, left, base_.sigma_mm, stated);
+            } else {
+                const double freedom =
+                    std::clamp(freedom_after(set_) / static_cast<double>(replay_.size()), 0.3, 1.0);
+                noise_ = noise_from_residuals(replay_, blocks_, left, base_.sigma_mm, stated, freedom);
+            }
+            const std::vector<std::size_t> before = set_.members;
             rewhiten();
             set_ = best_set();
+            if (set_.members == before) return;
         }
     }
 
@@ -240,8 +249,19 @@ class Diagnoser {
         }
     }
 
+    /// What is left after the chosen set, as mean squared z.
+    struct Remainder {
+        std::vector<DriverTest> drivers;  ///< significant ones
+        double base = 0.0, after = 0.0, floor = 0.0, structured = 0.0;
+        double gap = 0.0, unexplained = 0.0;
+    };
+    Remainder remainder();
+    double unusual_square() const;
+    double ripple_square(const Eigen::VectorXd& left) const;
+    bool coincidence() const;
+    double noise_doubt() const;
     void judge();
-    void judge_size(double base, double after);
+    void describe_size(const Remainder& r);
     void describe_where();
     void claim(double gap);
     void add_unknown(double share, const std::vector<DriverTest>& left);
@@ -397,7 +417,7 @@ void Diagnoser::claim(double gap) {
         cause.rivals = rivals_of(m, cause.probability);
         cause.parameters = parameters_of(set_, m);
         cause.heldout = cross_validate(*design_, base_, folds_, {m}, set_.scale, noise_mm(), used_,
-                                       options_.seed);
+                                       options_.seed, noise_doubt());
         cause.what = effect.what;
         cause.usual_cause = effect.cause;
         cause.remedy = effect.remedy;
@@ -414,7 +434,8 @@ void Diagnoser::add_unknown(double share, const std::vector<DriverTest>& left) {
     cause.probability = 1.0;
     cause.what = "A gap with structure that no effect of the catalogue explains";
     if (!left.empty()) cause.what += ": it " + left.front().text;
-    cause.heldout = cross_validate(*design_, base_, folds_, {}, 1.0, noise_mm(), used_, options_.seed);
+    cause.heldout = cross_validate(*design_, base_, folds_, {}, 1.0, noise_mm(), used_, options_.seed,
+                                   noise_doubt());
     const auto at = std::find_if(result_.causes.begin(), result_.causes.end(),
                                  [&](const Cause& c) { return c.share < share; });
     result_.causes.insert(at, std::move(cause));
@@ -433,25 +454,115 @@ void Diagnoser::write_setup() {
     }
 }
 
-void Diagnoser::judge() {
-    const double base = left_square({}), after = left_square(set_.members);
-    const Eigen::VectorXd left = left_after(set_);
-    const auto drivers = test_drivers(replay_, table_, base_, known_columns(set_), left,
-                                      base_.sigma_mm, used_, *whitener_);
-    // Without repeats a remainder without structure is noise, whatever was stated.
-    double floor = floor_square();
-    const double structured = drivers.empty() || drivers.front().p_value > rules::driver_p
-                                  ? 0.0
-                                  : std::max(0.0, drivers.front().explained);
-    const bool trusted = noise_.source == NoiseSource::repeats;
-    const double doubt = trusted ? 4.0 * noise_.doubt : 1.1;
-    const double beyond = after - floor > doubt * floor ? after - floor : 0.0;
-    const double remainder = std::max(structured, beyond);
-    if (!trusted && structured == 0.0 && stated_noise_is_off()) noise_.source = NoiseSource::assumed;
-    const double unexplained = remainder > rules::least_square * floor ? remainder : 0.0;
-    const double gap = std::max(1e-9, base - after) + unexplained;
-    const double explained = std::clamp((base - after) / gap, 0.0, 1.0);
+/// What the chosen set explains only by parameters that let forms deviate from the textbook's, as
+/// mean squared z.
+double Diagnoser::unusual_square() const {
+    std::vector<Eigen::Index> usual;
+    for (const std::size_t m : set_.members) {
+        const Candidate& c = design_->candidates()[m];
+        for (Eigen::Index j = 0; j < c.size(); ++j)
+            if (c.effect->parameters[c.parameters[static_cast<std::size_t>(j)]].usual)
+                usual.push_back(c.first + j);
+    }
+    const auto all = columns_of(*design_, set_.members);
+    if (usual.size() == all.size()) return 0.0;
+    const double lost = static_cast<double>(replay_.size()) - design_->freedom();
+    const double with = mean_square(design_->residual(all, set_.scale),
+                                    lost + static_cast<double>(all.size()));
+    const double without = mean_square(design_->residual(usual, set_.scale),
+                                       lost + static_cast<double>(usual.size()));
+    return std::max(0.0, without - with);
+}
 
+/// What a further ripple (a keyed effect at keys not used yet) would explain of the remainder.
+double Diagnoser::ripple_square(const Eigen::VectorXd& left) const {
+    double most = 0.0;
+    const double rows = static_cast<double>(replay_.size());
+    for (const Effect& effect : catalogue_) {
+        if (modelled(effect) || effect.name.find(".cyclic") == std::string::npos) continue;
+        const auto keys = best_keys(replay_, base_, effect, left, sigma_mm_, 1);
+        if (keys.empty()) continue;
+        Eigen::MatrixXd a(left.size(), 2);
+        for (Eigen::Index c = 0; c < 2; ++c)
+            a.col(c) = effect_column(replay_, base_.gradient, effect, keys.front(),
+                                     static_cast<std::size_t>(c));
+        whitener_->apply(a);
+        const Eigen::VectorXd h = a.transpose() * whitener_->apply(left);
+        Eigen::Matrix2d information = a.transpose() * a;
+        information.diagonal().array() += 1e-6;
+        const double gain = h.dot(information.ldlt().solve(h));
+        if (1e4 * chi_squared_tail(gain, 2.0) > rules::driver_p) continue;
+        most = std::max(most, gain / rows * floor_square());
+    }
+    return most;
+}
+
+/// Several effects that all follow one driver, none of them the main one: a coincidence that rather
+/// says that something unknown follows that driver.
+bool Diagnoser::coincidence() const {
+    if (result_.causes.size() < 3) return false;
+    const double top = result_.causes.front().share;
+    if (result_.causes.size() >= 4) return top < 0.6;
+    if (top >= 0.6 || result_.where.empty()) return false;
+    double sum = 0.0;
+    for (const Cause& cause : result_.causes) sum += cause.share;
+    return result_.where.front().share >= 0.95 * sum;
+}
+
+Diagnoser::Remainder Diagnoser::remainder() {
+    Remainder r;
+    const Eigen::VectorXd left = left_after(set_);
+    r.drivers = test_drivers(replay_, table_, base_, known_columns(set_), left, base_.sigma_mm, used_,
+                             *whitener_);
+    std::erase_if(r.drivers, [](const DriverTest& t) { return t.p_value > rules::driver_p; });
+    r.base = left_square({});
+    r.after = left_square(set_.members);
+    r.floor = floor_square();
+    r.structured = r.drivers.empty() ? 0.0 : std::max(0.0, r.drivers.front().explained);
+    r.structured = std::max(r.structured, ripple_square(left));
+    const bool trusted = noise_.source == NoiseSource::repeats;
+    if (!trusted && r.structured == 0.0 && stated_noise_is_off())
+        noise_.source = NoiseSource::assumed;
+    // Without repeats a remainder without structure is noise, whatever was stated.
+    double rows = 0.0;
+    for (const NoiseBlock& block : blocks_)
+        rows += noise_.of(block.device).independent(static_cast<double>(block.rows.size()));
+    const double doubt = trusted ? 4.0 * std::hypot(noise_.doubt, std::sqrt(2.0 / rows)) : 1.1;
+    const double beyond = r.after - r.floor > doubt * r.floor ? r.after - r.floor : 0.0;
+    const double least = trusted ? std::max(rules::least_square, noise_.doubt) : rules::least_square;
+    r.unexplained = std::max(r.structured > least * r.floor ? r.structured : 0.0, beyond);
+    r.gap = std::max(1e-9, r.base - r.after) + r.unexplained;
+    r.unexplained = std::min(r.gap, r.unexplained + unusual_square());
+    return r;
+}
+
+void Diagnoser::judge() {
+    const Remainder r = remainder();
+    describe_size(r);
+    if (set_.members.empty() && r.unexplained == 0.0) {
+        result_.verdict = Verdict::no_gap;
+        write_setup();
+        return;
+    }
+    describe_where();
+    if (!set_.members.empty()) claim(r.gap);
+    double explained = std::clamp(1.0 - r.unexplained / r.gap, 0.0, 1.0);
+    if (coincidence()) explained = std::min(explained, result_.causes.front().share);
+    result_.unexplained_share = 1.0 - explained;
+    const bool rivalled = std::any_of(result_.causes.begin(), result_.causes.end(),
+                                      [](const Cause& c) { return !c.rivals.empty(); });
+    result_.verdict = explained >= 0.8   ? (rivalled ? Verdict::ambiguous : Verdict::explained)
+                      : explained >= 0.5 ? Verdict::partly_explained
+                                         : Verdict::unexplained;
+    if (result_.unexplained_share > rules::admit_share)
+        add_unknown(result_.unexplained_share, r.drivers);
+    result_.after = cross_validate(*design_, base_, folds_, set_.members, set_.scale, noise_mm(),
+                                   used_, options_.seed, noise_doubt());
+    write_setup();
+    if (options_.holdout) test_holdout();
+}
+
+void Diagnoser::describe_size(const Remainder& r) {
     result_.readings = replay_.size();
     result_.outliers = static_cast<std::size_t>(std::count(used_.begin(), used_.end(), false));
     result_.noise = noise_;
@@ -459,38 +570,25 @@ void Diagnoser::judge() {
     result_.noise_um = rms_um(noise_mm());
     result_.excess_um = std::sqrt(std::max(0.0, result_.rms_um * result_.rms_um -
                                                     result_.noise_um * result_.noise_um));
-    result_.after_rms_um = rms_um(left);
+    result_.after_rms_um = rms_um(left_after(set_));
     result_.inseparable = base_.inseparable;
     for (const Candidate& c : design_->candidates())
         if (!c.visible && std::find(result_.unseen.begin(), result_.unseen.end(), c.effect->name) ==
                               result_.unseen.end())
             result_.unseen.push_back(c.effect->name);
-    const double width = static_cast<double>(std::max<std::size_t>(1, columns_of(*design_, set_.members).size()));
+    const auto width = static_cast<double>(columns_of(*design_, set_.members).size());
     result_.p_value = set_.members.empty()
-                          ? (drivers.empty() ? 1.0 : drivers.front().p_value)
+                          ? (r.drivers.empty() ? 1.0 : r.drivers.front().p_value)
                           : std::min(1.0, 60.0 * chi_squared_tail(set_.explained, width));
+}
 
-    const bool any_cause = !set_.members.empty();
-    if (!any_cause && unexplained == 0.0) {
-        result_.verdict = Verdict::no_gap;
-        write_setup();
-        return;
-    }
-    describe_where();
-    if (any_cause) claim(gap);
-    result_.unexplained_share = 1.0 - explained;
-    if (result_.unexplained_share > rules::admit_share) add_unknown(result_.unexplained_share, drivers);
-    const bool rivalled = std::any_of(result_.causes.begin(), result_.causes.end(),
-                                      [](const Cause& c) { return !c.rivals.empty(); });
-    result_.verdict = explained >= 0.8   ? (rivalled ? Verdict::ambiguous : Verdict::explained)
-                      : explained >= 0.5 ? Verdict::partly_explained
-                                         : Verdict::unexplained;
-    if (result_.verdict == Verdict::unexplained && result_.unexplained_share <= rules::admit_share)
-        add_unknown(result_.unexplained_share, drivers);
-    result_.after = cross_validate(*design_, base_, folds_, set_.members, set_.scale, noise_mm(),
-                                   used_, options_.seed);
-    write_setup();
-    if (options_.holdout) test_holdout();
+/// Relative standard error of the noise variance: from repeats, or from the freedom that was left.
+double Diagnoser::noise_doubt() const {
+    if (noise_.source == NoiseSource::repeats) return noise_.doubt;
+    double rows = 0.0;
+    for (const NoiseBlock& block : blocks_)
+        rows += noise_.of(block.device).independent(static_cast<double>(block.rows.size()));
+    return std::sqrt(2.0 / std::max(1.0, rows));
 }
 
 void Diagnoser::test_holdout() {
@@ -519,7 +617,7 @@ void Diagnoser::test_holdout() {
         sums.noise.push_back(n);
         sums.rows.push_back(static_cast<double>(block.rows.size()));
     }
-    result_.after = summarise(sums, options_.seed);
+    result_.after = summarise(sums, options_.seed, noise_doubt());
     if (result_.causes.size() == 1) result_.causes.front().heldout = result_.after;
 }
 

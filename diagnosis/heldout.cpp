@@ -36,16 +36,17 @@ Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
     return folds;
 }
 
-HeldOut summarise(const SquaredSums& sums, std::uint64_t seed) {
+HeldOut summarise(const SquaredSums& sums, std::uint64_t seed, double doubt) {
     HeldOut result;
-    const auto shrink = [&](const std::vector<std::size_t>& groups) {
-        double before = 0, after = 0, noise = 0;
+    const auto shrink = [&](const std::vector<std::size_t>& groups, double noise_factor) {
+        double before = 0, after = 0, noise = 0, model = 0;
         for (const std::size_t g : groups) {
             before += sums.before[g];
             after += sums.after[g];
-            noise += sums.noise[g];
+            noise += sums.noise[g] * noise_factor;
+            if (!sums.model.empty()) model += sums.model[g];
         }
-        return shrink_of(before, after, noise);
+        return shrink_of(before, std::max(after, noise + model), noise);
     };
     std::vector<std::size_t> all;
     double before = 0, after = 0, noise = 0, rows = 0;
@@ -69,21 +70,23 @@ HeldOut summarise(const SquaredSums& sums, std::uint64_t seed) {
         for (std::size_t& g : sample)
             g = all[std::min(all.size() - 1, static_cast<std::size_t>(
                                                  random.uniform() * static_cast<double>(all.size())))];
-        draws.push_back(shrink(sample));
+        draws.push_back(shrink(sample, std::max(0.2, 1.0 + doubt * random.normal())));
     }
-    result.low = quantile(draws, 0.025);
-    result.high = quantile(draws, 0.975);
+    result.low = std::min(result.shrink, quantile(draws, 0.025));
+    result.high = std::max(result.shrink, quantile(draws, 0.975));
     return result;
 }
 
 HeldOut cross_validate(const Design& design, const BaseModel& base, const Folds& folds,
                        const std::vector<std::size_t>& members, double scale,
                        const Eigen::VectorXd& noise_mm, const std::vector<bool>& used,
-                       std::uint64_t seed) {
+                       std::uint64_t seed, double doubt) {
     const std::vector<Eigen::Index> columns = columns_of(design, members);
     const auto groups = folds.fold.size();
     SquaredSums sums{std::vector<double>(groups), std::vector<double>(groups),
-                     std::vector<double>(groups), std::vector<double>(groups)};
+                     std::vector<double>(groups), std::vector<double>(groups),
+                     std::vector<double>(groups)};
+    const Eigen::VectorXd model = design.fit_variance(columns, scale);
     const auto n = static_cast<std::size_t>(base.residual_mm.size());
     for (int f = 0; f < Folds::count; ++f) {
         std::vector<Eigen::Index> test;
@@ -101,9 +104,10 @@ HeldOut cross_validate(const Design& design, const BaseModel& base, const Folds&
             sums.after[g] += with(at) * with(at);
             sums.noise[g] += noise_mm(test[k]) * noise_mm(test[k]);
             sums.rows[g] += 1.0;
+            sums.model[g] += model(test[k]);
         }
     }
-    return summarise(sums, seed);
+    return summarise(sums, seed, doubt);
 }
 
 }  // namespace trunnion

@@ -22,8 +22,9 @@ struct DeviceNoise {
 
     /// Independent readings that know as much about the variance as `rows` of these.
     double independent(double rows) const {
-        const double m2 = memory * memory;
-        return rows / (1.0 + shared * shared * 2.0 * m2 / (1.0 - m2));
+        const double m2 = memory * memory;  // 0 for touches: eight neighbours, directions at random
+        const double pairs = m2 > 0.0 ? 2.0 * m2 / (1.0 - m2) : 8.0 / 3.0;
+        return rows / (1.0 + shared * shared * pairs);
     }
 };
 

@@ -11,22 +11,28 @@ double rounding_error(double value, double increment) {
     return increment > 0.0 ? std::round(value / increment) * increment - value : 0.0;
 }
 
-/// Linear acceleration and velocity of the commanded path, mm and s.
+/// Linear acceleration and speed of the commanded path, mm and s.
 struct PathTurn {
-    Vector3 acceleration = Vector3::Zero(), velocity = Vector3::Zero();
-    double rate_rad_s() const {
-        const double speed = velocity.norm();
-        return speed > 1e-6 ? acceleration.norm() / speed : 0.0;
-    }
+    Vector3 acceleration = Vector3::Zero();
+    double speed = 0.0;
 };
 
 PathTurn turn_of(const AxisSample& sample, const Contact& contact) {
     PathTurn turn;
+    Vector3 velocity;
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
         turn.acceleration(static_cast<int>(index_of(axis))) = contact.acceleration[axis];
-        turn.velocity(static_cast<int>(index_of(axis))) = sample.velocity[axis];
+        velocity(static_cast<int>(index_of(axis))) = sample.velocity[axis];
     }
+    turn.speed = velocity.norm();
     return turn;
+}
+
+std::vector<double> block_lengths() {
+    std::vector<double> grid;
+    for (int k = 4; k <= 120; ++k) grid.push_back(0.05 * k);
+    for (int k = 61; k <= 160; ++k) grid.push_back(0.1 * k);
+    return grid;
 }
 
 /// Nominal rotations of the table's rotary axes, from the bed: first, and first times second.
@@ -87,18 +93,17 @@ Effect control_chord(const Chain&) {
             "A curve is cut into straight pieces that pass inside it",
             "coarse tolerance of the post-processor, rotary moves without tool-centre control",
             "finer segments, or let the control interpolate (G02, G43.4)",
-            "linear axes + fraction a t (T - t) / 2, T = segment_deg / turn rate of the path",
+            "linear axes inwards by fraction s (block_mm - s) / (2 r), s along the straight block",
             {{"fraction", "1", 1.0, -1, {}, true},
-             {"segment_deg", "deg", 2.0, -1, {1.0, 1.5, 2.0, 2.5, 4.0, 5.0, 7.5, 10.0, 15.0}, false}},
+             {"block_mm", "mm", 2.0, -1, block_lengths(), false}},
             [](const AxisSample& sample, const Contact& contact, std::span<const double> value,
                Perturbation& out) {
                 if (contact.device != Device::ballbar) return;
                 const PathTurn turn = turn_of(sample, contact);
-                const double rate = turn.rate_rad_s();
-                if (rate < 1e-6) return;
-                const double block_s = rad_from_deg(value[1]) / rate;
-                const double t = std::fmod(contact.test_time_s, block_s);
-                move_axes(value[0] * 0.5 * t * (block_s - t) * turn.acceleration, out);
+                if (turn.speed < 1e-6) return;
+                const double s = std::fmod(contact.path_mm, value[1]);
+                const double time2 = s * (value[1] - s) / (turn.speed * turn.speed);
+                move_axes(value[0] * 0.5 * time2 * turn.acceleration, out);
             }};
 }
 

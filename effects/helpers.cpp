@@ -17,11 +17,12 @@ double harmonic_sum(double angle_rad, std::span<const double> values) {
 }
 
 void append_harmonics(std::vector<EffectParameter>& list, const std::string& prefix,
-                      const std::string& unit, int orders, double typical) {
+                      const std::string& unit, int orders, double typical, int usual_orders) {
     for (int n = 1; n <= orders; ++n)
         for (const char* wave : {"cos", "sin"})
             list.push_back(
-                {fmt::format("{}{}{}_{}", prefix, wave, n, unit), unit, typical / n, -1, {}, true});
+                {fmt::format("{}{}{}_{}", prefix, wave, n, unit), unit, typical / n, -1, {}, true,
+                 n <= usual_orders});
 }
 
 int main_direction(const AxisGeometry& axis) {

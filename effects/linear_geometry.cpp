@@ -29,8 +29,8 @@ Effect linear_scale(const AxisGeometry& axis) {
             "measure with laser or step gauge and correct the pitch compensation",
             "position + scale_ppm 1e-6 q + bow2_mm (q/200)^2 + bow3_mm (q/200)^3",
             {{"scale_ppm", "ppm", 20.0, -1, {}, true},
-             {"bow2_mm", "mm", 1e-3, -1, {}, true},
-             {"bow3_mm", "mm", 0.7e-3, -1, {}, true}},
+             {"bow2_mm", "mm", 1e-3, -1, {}, true, false},
+             {"bow3_mm", "mm", 0.7e-3, -1, {}, true, false}},
             [k = axis.axis](const AxisSample& sample, const Contact&, std::span<const double> value,
                             Perturbation& out) {
                 const double q = sample.position[k];
@@ -52,7 +52,7 @@ Effect linear_straightness(const AxisGeometry& axis) {
         directions.push_back(d);
         for (int n = 1; n <= 4; ++n)
             effect.parameters.push_back({fmt::format("{}_p{}_mm", motion_name(d, axis.axis), n),
-                                         "mm", n <= 2 ? 5e-3 : 3e-3, -1, {}, true});
+                                         "mm", n <= 2 ? 5e-3 : 3e-3, -1, {}, true, n <= 2});
     }
     effect.add = [k = axis.axis, directions](const AxisSample& sample, const Contact&,
                                              std::span<const double> value, Perturbation& out) {
@@ -75,7 +75,7 @@ Effect linear_angular(const AxisGeometry& axis) {
         for (int n = 1; n <= 2; ++n)
             effect.parameters.push_back(
                 {fmt::format("{}_p{}_rad", motion_name(3 + d, axis.axis), n), "rad", 25e-6 / n, -1,
-                 {}, true});
+                 {}, true, n == 1});
     effect.add = [k = axis.axis](const AxisSample& sample, const Contact&,
                                  std::span<const double> value, Perturbation& out) {
         for (std::size_t d = 0; d < 3; ++d)

@@ -54,7 +54,7 @@ Effect pivot_p1970x(const Chain& chain);
 double harmonic_sum(double angle_rad, std::span<const double> values);
 /// Parameters PREFIX cosN_UNIT and PREFIX sinN_UNIT whose typical size falls as 1 / N.
 void append_harmonics(std::vector<EffectParameter>& list, const std::string& prefix,
-                      const std::string& unit, int orders, double typical);
+                      const std::string& unit, int orders, double typical, int usual_orders);
 /// 0 for an axis along X (or about it), 1 for Y, 2 for Z: the largest component of its direction.
 int main_direction(const AxisGeometry& axis);
 /// Values from `low` to `high` with a constant ratio.

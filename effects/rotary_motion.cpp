@@ -9,10 +9,10 @@ constexpr std::size_t each = 2 * orders;
 
 /// Harmonics in each of `directions` (0..5 = X Y Z A B C, along and about the carrier's axes).
 Effect motion_effect(const AxisGeometry& axis, Effect effect, std::vector<int> directions,
-                     double typical) {
+                     double typical, int usual_orders = 2) {
     for (const int d : directions)
         append_harmonics(effect.parameters, motion_name(d, axis.axis) + "_", d < 3 ? "mm" : "rad",
-                         orders, typical);
+                         orders, typical, usual_orders);
     effect.add = [k = axis.axis, directions](const AxisSample& sample, const Contact&,
                                              std::span<const double> value, Perturbation& out) {
         SmallMotion& motion = out.motion[index_of(k)];
@@ -43,7 +43,7 @@ Effect rotary_radial(const AxisGeometry& axis) {
                           "E?R = sum cosN cos(N q) + sinN sin(N q), N = 1..3, across the axis",
                           {},
                           {}},
-                         across(axis, 0), 3e-3);
+                         across(axis, 0), 3e-3, 3);
 }
 
 Effect rotary_axial(const AxisGeometry& axis) {

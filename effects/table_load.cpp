@@ -30,18 +30,25 @@ Effect clamp_shift(const Chain& chain) {
                   "The table moves when its clamp closes",
                   "the clamp pulls to one side, worn clamp ring",
                   "readjust the clamp; measure and cut in the same clamp state",
-                  "clamped: table shifted by shift_mm, each rotary axis turned by turn_R_rad",
+                  "clamped: what rotary axis R carries shifted by shift_R_mm (in the carrier's axes) "
+                  "and turned by turn_R_rad",
                   {},
                   {}};
-    for (int d = 0; d < 3; ++d) effect.parameters.push_back({"shift_mm", "mm", 5e-3, d, {}, true});
-    for (const Axis axis : rotary)
+    for (const Axis axis : rotary) {
+        for (int d = 0; d < 3; ++d)
+            effect.parameters.push_back(
+                {axis_parameter("shift_", axis, "_mm"), "mm", 5e-3, d, {}, true});
         effect.parameters.push_back(
             {axis_parameter("turn_", axis, "_rad"), "rad", 20e-6, -1, {}, true});
+    }
     effect.add = [rotary](const AxisSample& sample, const Contact&, std::span<const double> value,
                           Perturbation& out) {
-        if (!sample.clamped || rotary.empty()) return;
-        out.motion[index_of(rotary.back())].shift_mm += Vector3(value[0], value[1], value[2]);
-        for (std::size_t j = 0; j < rotary.size(); ++j) out.axis[rotary[j]] += value[3 + j];
+        if (!sample.clamped) return;
+        for (std::size_t j = 0; j < rotary.size(); ++j) {
+            const auto v = value.subspan(4 * j, 4);
+            out.motion[index_of(rotary[j])].shift_mm += Vector3(v[0], v[1], v[2]);
+            out.axis[rotary[j]] += v[3];
+        }
     };
     return effect;
 }

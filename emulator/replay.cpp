@@ -48,6 +48,23 @@ double acceleration_at(const ReadingTable& table, const std::vector<std::size_t>
     return std::isfinite(fit(2)) ? fit(2) : 0.0;
 }
 
+Vector3 linear_position(const Reading& row) {
+    return {row.commanded[Axis::X], row.commanded[Axis::Y], row.commanded[Axis::Z]};
+}
+
+/// Length of the path from row k - 1 to row k of a test: the arc through three rows, not the chord.
+double arc_mm(const ReadingTable& table, const std::vector<std::size_t>& rows, std::size_t k) {
+    const Vector3 a = linear_position(table.rows[rows[k - 1]]);
+    const Vector3 b = linear_position(table.rows[rows[k]]);
+    const double chord = (b - a).norm();
+    if (rows.size() < 3) return chord;
+    const Vector3 c = linear_position(table.rows[rows[k + 1 < rows.size() ? k + 1 : k - 2]]);
+    const double area = (b - a).cross(c - a).norm();
+    if (area < 1e-9) return chord;
+    const double radius = chord * (c - a).norm() * (c - b).norm() / (2.0 * area);
+    return chord < 1.4 * radius ? 2.0 * radius * std::asin(chord / (2.0 * radius)) : chord;
+}
+
 }  // namespace
 
 Replay::Replay(const Setup& setup, const ReadingTable& table) : setup_(setup) {
@@ -62,11 +79,15 @@ Replay::Replay(const Setup& setup, const ReadingTable& table) : setup_(setup) {
     const int touches = touches_of(table);
     std::map<std::string, std::vector<std::size_t>> tests;
     std::vector<std::size_t> place(table.rows.size());
+    std::vector<double> path_mm(table.rows.size(), 0.0);
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         auto& rows = tests[table.rows[r].test];
         place[r] = rows.size();
         rows.push_back(r);
     }
+    for (const auto& [test, rows] : tests)
+        for (std::size_t k = 1; k < rows.size(); ++k)
+            path_mm[rows[k]] = path_mm[rows[k - 1]] + arc_mm(table, rows, k);
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const Reading& row = table.rows[r];
         if (row.device == Device::none) continue;
@@ -77,6 +98,7 @@ Replay::Replay(const Setup& setup, const ReadingTable& table) : setup_(setup) {
         contact.direction_M = row.direction_M;
         const auto& rows = tests[row.test];
         contact.test_time_s = row.time_s - table.rows[rows.front()].time_s;
+        contact.path_mm = path_mm[r];
         if (row.device == Device::ballbar) {
             if (!setup.ballbar) where.refuse(row, "a ballbar row, but no [ballbar] in the setup");
             for (const Axis axis : table.axes)

@@ -1,0 +1,150 @@
+#include <catch2/catch.hpp>
+
+#include "diagnosis/diagnosis.h"
+#include "diagnosis/statistics.h"
+#include "geometry/alarm.h"
+#include "tests/support/campaign.h"
+
+namespace trunnion {
+namespace {
+
+struct Bench {
+    Setup setup = campaign::bc_setup();
+    Setup real = campaign::real_machine(setup);
+    ReadingTable table = campaign::empty_table(setup);
+    Bench() {
+        campaign::add_sphere_map(table, setup, 50, 5);
+        campaign::add_ballbar(table, setup, 36);
+    }
+    Diagnosis of(const Setup& truth, std::uint64_t seed, double noise = 1.0) const {
+        return diagnose(setup, campaign::measured(truth, table, seed, noise));
+    }
+};
+
+}  // namespace
+
+TEST_CASE("distribution tails", "[diagnosis]") {
+    REQUIRE(chi_squared_tail(3.841458820694124, 1) == Approx(0.05));
+    REQUIRE(chi_squared_tail(18.307038053275146, 10) == Approx(0.05));
+    REQUIRE(chi_squared_tail(124.342113404004, 100) == Approx(0.05));
+    REQUIRE(f_tail(4.102821015, 2, 10) == Approx(0.05));
+    REQUIRE(f_tail(1.0, 7, 7) == Approx(0.5));
+    REQUIRE(normal_tail(1.959963984540054) == Approx(0.025));
+    REQUIRE(quantile({4, 1, 3, 2}, 0.5) == Approx(2.5));
+}
+
+TEST_CASE("Shapley shares add up and do not depend on the order", "[diagnosis]") {
+    // worth by mask: two players that overlap, one that adds nothing.
+    const std::vector<double> share = shapley({0, 4, 4, 5, 0, 4, 4, 5}, 3);
+    REQUIRE(share[0] == Approx(2.5));
+    REQUIRE(share[1] == Approx(2.5));
+    REQUIRE(share[2] == Approx(0.0).margin(1e-12));
+}
+
+TEST_CASE("nothing is claimed on noise alone", "[diagnosis]") {
+    const Bench bench;
+    int loud = 0;
+    for (std::uint64_t seed = 1; seed <= 25; ++seed)
+        if (bench.of(bench.real, seed).verdict != Verdict::no_gap) ++loud;
+    REQUIRE(loud == 0);
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        REQUIRE(bench.of(bench.real, seed, 1.3).verdict == Verdict::no_gap);
+        REQUIRE(bench.of(bench.real, seed, 0.7).verdict == Verdict::no_gap);
+    }
+    REQUIRE(bench.of(bench.real, 1, 1.3).noise.source == NoiseSource::assumed);
+    REQUIRE(bench.of(bench.real, 1, 1.0).noise.source == NoiseSource::given);
+}
+
+TEST_CASE("a single effect is named first, with its size and how far the gap shrinks",
+          "[diagnosis]") {
+    const Bench bench;
+    struct Case {
+        const char *injection, *effect, *parameter;
+        double value;
+    };
+    const Case cases[] = {
+        {"C.backlash: gap_rad=8e-5", "C.backlash", "gap_rad", 8e-5},
+        {"X.backlash: gap_mm=0.004", "X.backlash", "gap_mm", 0.004},
+        {"XY.squareness: angle_rad=4e-5", "XY.squareness", "angle_rad", 4e-5},
+        {"servo.mismatch: tau_x_s=4e-4", "servo.mismatch", "", 0},
+        {"servo.contour: lag2_s2=1e-4", "servo.contour", "lag2_s2", 1e-4},
+        {"thermal.drift: d_mm=[0.01, 0, 0.02], tau_s=900", "thermal.drift", "", 0},
+        {"pivot.g54: dg_mm=[0.005, 0.004, -0.005]", "pivot.g54", "", 0},
+        {"B.positioning: cos2_rad=2e-5, sin1_rad=2e-5", "B.positioning", "", 0},
+        {"C.cyclic: cos_rad=3e-5, periods_per_turn=45", "C.cyclic", "periods_per_turn", 45},
+        {"Y.reversal_spike: height_mm=0.006, decay_mm=4", "Y.reversal_spike", "", 0},
+        {"artefact.moved: shift_mm=[0.01, 0, 0.01], artefact=1, time_s=700", "artefact.moved",
+         "artefact", 1}};
+    for (const Case& c : cases) {
+        const Diagnosis result = bench.of(campaign::with_effect(bench.real, c.injection), 7);
+        INFO(c.injection);
+        REQUIRE(!result.causes.empty());
+        const Cause& first = result.causes.front();
+        INFO(first.effect);
+        REQUIRE(first.effect == c.effect);
+        REQUIRE(first.share > 0.9);
+        REQUIRE((result.verdict == Verdict::explained || result.verdict == Verdict::ambiguous));
+        REQUIRE(first.heldout.shrink > 0.75);
+        REQUIRE(first.heldout.low <= first.heldout.shrink);
+        REQUIRE(first.heldout.high >= first.heldout.shrink);
+        for (const FitParameter& p : first.parameters)
+            if (p.name == c.parameter) REQUIRE(p.value == Approx(c.value).epsilon(0.1));
+    }
+}
+
+TEST_CASE("two effects at once are both named", "[diagnosis]") {
+    const Bench bench;
+    const Setup truth = campaign::with_effect(
+        campaign::with_effect(bench.real, "C.backlash: gap_rad=8e-5"), "servo.contour: lag2_s2=1e-4");
+    const Diagnosis result = bench.of(truth, 3);
+    REQUIRE(result.causes.size() == 2);
+    double share = 0.0;
+    for (const Cause& cause : result.causes) share += cause.share;
+    REQUIRE(share == Approx(1.0).margin(0.08));
+}
+
+TEST_CASE("a gap outside the catalogue is said to be unknown", "[diagnosis]") {
+    const Bench bench;
+    ReadingTable readings = campaign::measured(bench.real, bench.table, 3);
+    for (Reading& row : readings.rows)  // a ripple of the readings with time that nothing makes
+        if (row.value_mm) *row.value_mm += 0.002 * std::sin(row.time_s / 60.0);
+    const Diagnosis result = diagnose(bench.setup, readings);
+    bool unknown = false;
+    for (const Cause& cause : result.causes) unknown = unknown || cause.effect == "unknown";
+    REQUIRE((unknown || result.verdict == Verdict::no_gap));
+    REQUIRE(result.verdict != Verdict::explained);
+}
+
+TEST_CASE("the closed loop: the setup written predicts new positions", "[diagnosis]") {
+    const Bench bench;
+    const Setup truth = campaign::with_effect(bench.real, "C.backlash: gap_rad=8e-5");
+    const Diagnosis result = bench.of(truth, 5);
+    ReadingTable fresh = campaign::empty_table(bench.setup);
+    campaign::add_sphere_map(fresh, bench.setup, 30, 99);
+    const ReadingTable real = predicted(truth, fresh, active_models(truth));
+    const ReadingTable simulated = predicted(result.setup, fresh, active_models(result.setup));
+    double sum = 0.0, rows = 0.0;
+    for (std::size_t i = 0; i < fresh.rows.size(); ++i) {
+        if (!real.rows[i].value_mm) continue;
+        sum += std::pow(*real.rows[i].value_mm - *simulated.rows[i].value_mm, 2);
+        rows += 1.0;
+    }
+    REQUIRE(1e3 * std::sqrt(sum / rows) < 0.6);
+}
+
+TEST_CASE("the same readings give the same diagnosis", "[diagnosis]") {
+    const Bench bench;
+    const Setup truth = campaign::with_effect(bench.real, "C.backlash: gap_rad=8e-5");
+    const Diagnosis a = bench.of(truth, 5), b = bench.of(truth, 5);
+    REQUIRE(a.causes.front().heldout.low == b.causes.front().heldout.low);
+    REQUIRE(a.causes.front().parameters.front().value == b.causes.front().parameters.front().value);
+}
+
+TEST_CASE("too few readings give a message and no verdict", "[diagnosis]") {
+    const Bench bench;
+    ReadingTable few = campaign::measured(bench.real, bench.table, 1);
+    few.rows.resize(4);
+    REQUIRE_THROWS_AS(diagnose(bench.setup, few), InputError);
+}
+
+}  // namespace trunnion

@@ -1,0 +1,157 @@
+// Columns of effects against the closed forms of the design page and of facts/kinematics.md.
+#include <catch2/catch.hpp>
+
+#include "identification/base_model.h"
+#include "tests/support/campaign.h"
+
+namespace trunnion {
+namespace {
+
+struct Bench {
+    Setup setup = campaign::bc_setup();
+    ReadingTable table = campaign::empty_table(setup);
+    Bench() {
+        campaign::add_sphere_map(table, setup, 12, 5);
+        campaign::add_ballbar(table, setup, 36);
+    }
+    /// Change of all readings when the effect is switched on, mm.
+    std::vector<double> change(const std::string& injection) const {
+        const ReadingTable off = predicted(setup, table, {});
+        const Setup on_setup = campaign::with_effect(setup, injection);
+        const ReadingTable on = predicted(on_setup, table, active_models(on_setup));
+        std::vector<double> result;
+        for (std::size_t i = 0; i < table.rows.size(); ++i)
+            result.push_back(off.rows[i].value_mm ? *on.rows[i].value_mm - *off.rows[i].value_mm : 0.0);
+        return result;
+    }
+    Vector3 bar_M(const Reading& row) const {
+        const MachinePose poses = setup.machine.poses(row.commanded);
+        const Artefact& pivot = *setup.find_artefact("P1");
+        return (poses.pose_MS * setup.ballbar->cup_S_mm - poses.pose_MW * pivot.center_W_mm)
+            .normalized();
+    }
+};
+
+}  // namespace
+
+TEST_CASE("squareness on an XY circle is -(R beta / 2) sin 2 theta up to set-up", "[effects]") {
+    const Bench bench;
+    const double beta = 4e-5;
+    const auto change = bench.change("XY.squareness: angle_rad=4e-5");
+    for (std::size_t i = 0; i < bench.table.rows.size(); ++i) {
+        const Reading& row = bench.table.rows[i];
+        if (row.test.rfind("plane0", 0) != 0) continue;
+        const Vector3 bar = bench.bar_M(row);
+        // Y leans towards -X by beta about Z: the cup moves by -beta y along X.
+        REQUIRE(change[i] == Approx(-beta * row.commanded[Axis::Y] * bar.x()).margin(1e-8));
+    }
+}
+
+TEST_CASE("servo mismatch flips with the sense of travel and grows with the feed", "[effects]") {
+    const Bench bench;
+    const auto change = bench.change("servo.mismatch: tau_x_s=1e-3, tau_y_s=0.5e-3");
+    double slow = 0.0, fast = 0.0;
+    for (std::size_t i = 0; i < bench.table.rows.size(); ++i) {
+        const Reading& row = bench.table.rows[i];
+        if (row.test.rfind("plane0_ccw", 0) != 0) continue;
+        const Vector3 bar = bench.bar_M(row);
+        // s F (tau_x - tau_y) / 2 sin 2 theta along the bar, measured outwards.
+        const double feed = row.feed_mm_min / 60.0;
+        const double expected = feed * (1e-3 - 0.5e-3) * bar.x() * bar.y();
+        if (i > 0 && i + 1 < bench.table.rows.size() && bench.table.rows[i - 1].test == row.test &&
+            bench.table.rows[i + 1].test == row.test)
+            REQUIRE(change[i] == Approx(expected).margin(3e-4));
+        (row.feed_mm_min < 2000 ? slow : fast) = std::max(row.feed_mm_min < 2000 ? slow : fast,
+                                                          std::abs(change[i]));
+    }
+    REQUIRE(fast == Approx(4.0 * slow).epsilon(0.05));
+}
+
+TEST_CASE("contour lag shrinks circles with the square of the feed", "[effects]") {
+    const Bench bench;
+    const auto change = bench.change("servo.contour: lag2_s2=1e-4");
+    for (std::size_t i = 0; i < bench.table.rows.size(); ++i) {
+        const Reading& row = bench.table.rows[i];
+        if (row.test.rfind("plane", 0) != 0) continue;
+        const double feed = row.feed_mm_min / 60.0;
+        REQUIRE(change[i] == Approx(-1e-4 * feed * feed / 100.0).epsilon(0.02));
+    }
+}
+
+TEST_CASE("backlash shifts by half the gap on the side it comes from", "[effects]") {
+    const Bench bench;
+    const auto change = bench.change("X.backlash=6um");
+    for (std::size_t i = 0; i < bench.table.rows.size(); ++i) {
+        const Reading& row = bench.table.rows[i];
+        if (row.device == Device::sphere) REQUIRE(change[i] == 0.0);
+        if (row.test.rfind("plane0", 0) != 0) continue;
+        const Vector3 bar = bench.bar_M(row);
+        REQUIRE(std::abs(change[i]) <= 0.003 * std::abs(bar.x()) + 1e-6);
+    }
+}
+
+TEST_CASE("rotary backlash moves the found sphere tangentially", "[effects]") {
+    const Bench bench;
+    const auto change = bench.change("C.backlash=60urad");
+    const auto samples = samples_of(bench.table);
+    for (std::size_t i = 0; i < bench.table.rows.size(); ++i) {
+        const Reading& row = bench.table.rows[i];
+        if (row.device != Device::sphere) continue;
+        AxisPositions turned = row.commanded;
+        turned[Axis::C] += 3e-5 * samples[i].travel[index_of(Axis::C)];
+        const Vector3 center = bench.setup.find_artefact(row.feature)->center_W_mm;
+        const Vector3 moved = bench.setup.machine.poses(turned).pose_MW * center -
+                              bench.setup.machine.poses(row.commanded).pose_MW * center;
+        REQUIRE(change[i] == Approx(row.direction_M.dot(moved)).margin(1e-9));
+    }
+}
+
+TEST_CASE("wrong stores move the axes by -e_G and -e_P in their modes only", "[effects]") {
+    const Bench bench;
+    const auto g54 = bench.change("pivot.g54: dg_mm=[0.01, -0.02, 0.03]");
+    const auto p1970x =
+        bench.change("pivot.p1970x: dp_mm=[0.01, 0.02, -0.01], dd_mm=[0.02, 0, 0.01]");
+    const Vector3 dg(0.01, -0.02, 0.03), dp(0.01, 0.02, -0.01), dd(0.02, 0, 0.01);
+    for (std::size_t i = 0; i < bench.table.rows.size(); ++i) {
+        const Reading& row = bench.table.rows[i];
+        if (row.device != Device::sphere) continue;
+        const Matrix3 rb = rotation_about(-Vector3::UnitY(), row.commanded[Axis::B]);
+        const Matrix3 rc = rotation_about(-Vector3::UnitZ(), row.commanded[Axis::C]);
+        const Vector3 eg = rb * rc * dg - dg;
+        const Vector3 ep = rb * rc * (dp + dd) - (dp + dd) - (rb * dd - dd);
+        const bool post = row.mode == PositioningMode::dpp || row.mode == PositioningMode::rtdfo;
+        REQUIRE(g54[i] == Approx(post ? row.direction_M.dot(eg) : 0.0).margin(1e-9));
+        REQUIRE(p1970x[i] == Approx(post ? 0.0 : row.direction_M.dot(ep)).margin(1e-9));
+    }
+}
+
+TEST_CASE("every column of the catalogue is what the emulator does", "[effects]") {
+    const Bench bench;
+    const Replay replay(bench.setup, bench.table);
+    const Catalogue catalogue =
+        make_catalogue(bench.setup, extent_of(bench.setup, bench.table));
+    const ForwardModel forward(bench.setup.machine);
+    std::vector<Perturbation> gradient;
+    for (std::size_t i = 0; i < replay.size(); ++i)
+        gradient.push_back(replay.gradient(i, forward, {}));
+    const std::vector<double> off = replay.predict({});
+    for (const Effect& effect : catalogue) {
+        for (std::size_t j = 0; j < effect.parameters.size(); ++j) {
+            if (effect.parameters[j].is_key()) continue;
+            std::vector<double> values = effect.zeros();
+            const Eigen::VectorXd column =
+                effect_column(replay, gradient, effect, values, j);
+            values[j] = effect.parameters[j].typical;
+            const std::vector<double> on = replay.predict({make_model(effect, values)});
+            double worst = 0.0, largest = 1e-6;
+            for (std::size_t i = 0; i < on.size(); ++i) {
+                worst = std::max(worst, std::abs(on[i] - off[i] - column(static_cast<long>(i))));
+                largest = std::max(largest, std::abs(column(static_cast<long>(i))));
+            }
+            INFO(effect.name << " " << effect.parameters[j].name);
+            REQUIRE(worst < 2e-3 * largest + 1e-7);
+        }
+    }
+}
+
+}  // namespace trunnion

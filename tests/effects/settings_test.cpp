@@ -1,0 +1,72 @@
+#include <catch2/catch.hpp>
+
+#include "effects/settings.h"
+#include "geometry/alarm.h"
+#include "tests/support/campaign.h"
+
+namespace trunnion {
+
+TEST_CASE("the catalogue has every name of the contract", "[effects]") {
+    const Catalogue catalogue = make_catalogue(campaign::bc_setup());
+    std::vector<std::string> names{
+        "location", "pivot.g54", "pivot.p1970x", "XY.squareness", "YZ.squareness", "ZX.squareness",
+        "servo.mismatch", "servo.contour", "thermal.drift", "thermal.expansion", "gravity.sag",
+        "probe.pretravel", "probe.radius", "probe.runout", "tool.length", "ballbar.length",
+        "artefact.position", "artefact.form", "artefact.moved", "control.rounding", "control.chord",
+        "clamp.shift"};
+    for (const char* axis : {"B", "C"})
+        for (const char* what :
+             {".zero", ".positioning", ".cyclic", ".radial", ".axial", ".tilt", ".backlash"})
+            names.push_back(std::string(axis) + what);
+    for (const char* axis : {"X", "Y", "Z"})
+        for (const char* what : {".scale", ".straightness", ".angular", ".cyclic", ".backlash",
+                                 ".reversal_spike", ".lateral_play"})
+            names.push_back(std::string(axis) + what);
+    for (const std::string& name : names) {
+        INFO(name);
+        const Effect* effect = find_effect(catalogue, name);
+        REQUIRE(effect != nullptr);
+        REQUIRE(effect->what.size() > 10);
+        REQUIRE(effect->cause.size() > 5);
+        REQUIRE(effect->remedy.size() > 5);
+    }
+    REQUIRE(catalogue.size() == names.size());
+}
+
+TEST_CASE("injections with names, vectors and units", "[effects]") {
+    const Catalogue catalogue = make_catalogue(campaign::bc_setup());
+    const auto value = [&](const std::string& text, const std::string& name) {
+        return parse_injection(text, catalogue).parameters.at(name);
+    };
+    REQUIRE(value("C.backlash: gap_rad=6e-5", "gap_rad").front() == 6e-5);
+    REQUIRE(value("C.backlash=60urad", "gap_rad").front() == Approx(6e-5));
+    REQUIRE(value("C.backlash = 12.375 arcsec", "gap_rad").front() == Approx(5.99957e-5));
+    REQUIRE(value("X.backlash=5um", "gap_mm").front() == Approx(0.005));
+    REQUIRE(value("pivot.g54: dg_mm=[10um, 0, -0.02]", "dg_mm") ==
+            std::vector<double>{10 * 1e-3, 0.0, -0.02});
+    REQUIRE(value("C.cyclic: cos_rad=1e-5, periods_per_turn=72", "periods_per_turn").front() == 72);
+    REQUIRE(value("servo.mismatch: tau_x_s=0.4ms", "tau_x_s").front() == Approx(4e-4));
+}
+
+TEST_CASE("injections that mean nothing are refused with their place", "[effects]") {
+    const Catalogue catalogue = make_catalogue(campaign::bc_setup());
+    for (const char* text : {"C.wobble=3", "C.backlash: gap=3", "C.backlash=", "C.backlash=3 um",
+                             "C.backlash: gap_rad", "C.backlash=1e-5 rest", "",
+                             "pivot.g54: dg_mm=[1, 2]", "A.backlash=1urad"}) {
+        INFO(text);
+        REQUIRE_THROWS_AS(parse_injection(text, catalogue), InputError);
+    }
+}
+
+TEST_CASE("values and settings are each other's inverse", "[effects]") {
+    const Catalogue catalogue = make_catalogue(campaign::bc_setup());
+    for (const Effect& effect : catalogue) {
+        std::vector<double> values = effect.zeros();
+        for (std::size_t j = 0; j < values.size(); ++j)
+            if (!effect.parameters[j].is_key()) values[j] = 0.1 * static_cast<double>(j + 1);
+        INFO(effect.name);
+        REQUIRE(values_of(effect, setting_of(effect, values)) == values);
+    }
+}
+
+}  // namespace trunnion

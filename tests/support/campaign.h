@@ -1,0 +1,198 @@
+// A small measuring campaign on a table machine, for tests: positions as the control commands them.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "effects/settings.h"
+#include "emulator/replay.h"
+#include "geometry/random.h"
+#include "geometry/units.h"
+
+namespace trunnion::campaign {
+
+inline Setup bc_setup() {
+    static const std::string text = R"(schema = "trunnion.setup/1"
+[machine]
+name = "test machine"
+chain = "w C B b X Y Z t"
+[machine.axis.B]
+direction = [0, -1, 0]
+point_mm = [12.0, -8.0, 20.0]
+limits_deg = [-120, 120]
+[machine.axis.C]
+direction = [0, 0, -1]
+point_mm = [12.0, -8.0, 65.0]
+[machine.axis.X]
+direction = [1, 0, 0]
+[machine.axis.Y]
+direction = [0, 1, 0]
+[machine.axis.Z]
+direction = [0, 0, 1]
+[control]
+dialect = "fanuc"
+[probe]
+tip_mm = [0, 0, -150.0]
+ball_diameter_mm = 6.0
+[ballbar]
+cup_mm = [0, 0, -120.0]
+length_mm = 100.0
+free = ["cup", "length"]
+[model]
+modelled = ["location"]
+noise_um = { sphere = 0.8, touch = 0.8, ballbar = 0.3 }
+[[artefact]]
+name = "S1"
+kind = "sphere"
+center_mm = [142.0, -8.0, 155.0]
+diameter_mm = 25.4
+free = ["center"]
+[[artefact]]
+name = "S2"
+kind = "sphere"
+center_mm = [-48.0, 102.0, 205.0]
+diameter_mm = 25.4
+free = ["center"]
+[[artefact]]
+name = "P1"
+kind = "center_pivot"
+center_mm = [87.0, 2.0, 175.0]
+diameter_mm = 25.4
+free = ["center"]
+)";
+    std::vector<std::string> notes;
+    return parse_setup(text, "test.toml", notes);
+}
+
+inline ReadingTable empty_table(const Setup& setup) {
+    ReadingTable table;
+    table.path = "test.csv";
+    for (const AxisGeometry& axis : setup.machine.chain.axes()) table.axes.push_back(axis.axis);
+    return table;
+}
+
+/// Linear positions that put the tip on a point of the table at the row's rotary positions.
+inline void aim(Reading& row, const Setup& setup, const Vector3& target_W, const Vector3& tip_S) {
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) row.commanded[axis] = 0.0;
+    const Vector3 at = setup.machine.poses(row.commanded).pose_MW * target_W - tip_S;
+    row.commanded[Axis::X] = at.x();
+    row.commanded[Axis::Y] = at.y();
+    row.commanded[Axis::Z] = at.z();
+}
+
+/// `poses` found spheres, three components each, with an approach row before each.
+inline void add_sphere_map(ReadingTable& table, const Setup& setup, int poses,
+                           std::uint64_t seed) {
+    SeededNoise random(seed);
+    double time_s = table.rows.empty() ? 0.0 : table.rows.back().time_s;
+    constexpr PositioningMode modes[] = {PositioningMode::dpp, PositioningMode::rtdfo,
+                                         PositioningMode::rtcp, PositioningMode::tw};
+    for (int p = 0; p < poses; ++p) {
+        Reading row;
+        row.test = "map";
+        row.feature = p % 2 ? "S1" : "S2";
+        row.mode = modes[static_cast<std::size_t>(random.uniform() * 4.0)];
+        const Artefact& sphere = *setup.find_artefact(row.feature);
+        const double b = rad_from_deg(-90.0 + 180.0 * random.uniform());
+        const double c = 2.0 * pi * random.uniform();
+        for (const double back : {random.uniform() < 0.5 ? -0.1 : 0.1, 0.0}) {
+            row.commanded[Axis::B] = b + back;
+            row.commanded[Axis::C] = c - back;
+            aim(row, setup, sphere.center_W_mm, setup.probe->tip_S_mm);
+            row.time_s = time_s += 10.0;
+            row.temperature_c = 20.0 + time_s / 5000.0;
+            row.device = back == 0.0 ? Device::sphere : Device::none;
+            row.direction_M = Vector3::UnitX();
+            table.rows.push_back(row);
+        }
+        for (const Vector3& d : {Vector3(Vector3::UnitY()), Vector3(Vector3::UnitZ())}) {
+            row.direction_M = d;
+            table.rows.push_back(row);
+        }
+    }
+}
+
+/// A full circle about the centre pivot in a plane (0 XY, 1 YZ, 2 ZX), both senses at two feeds, and
+/// rotary tests: the cup rides with the table's pivot, bar radial or axial.
+inline void add_ballbar(ReadingTable& table, const Setup& setup, int samples = 72) {
+    const Artefact& pivot = *setup.find_artefact("P1");
+    const double radius_mm = setup.ballbar->length_mm;
+    double time_s = table.rows.empty() ? 0.0 : table.rows.back().time_s + 60.0;
+    const auto pass = [&](const std::string& name, double feed, int sense, auto place) {
+        const double step_s = 2.0 * pi * radius_mm / samples / (feed / 60.0);
+        for (int k = 0; k <= samples; ++k) {
+            Reading row;
+            row.test = name;
+            row.device = Device::ballbar;
+            row.feature = "P1";
+            row.feed_mm_min = feed;
+            row.time_s = time_s += step_s;
+            place(row, sense * 2.0 * pi * k / samples);
+            table.rows.push_back(row);
+        }
+        time_s += 60.0;
+    };
+    for (int plane = 0; plane < 3; ++plane)
+        for (const double feed : {1000.0, 4000.0})
+            for (const int sense : {1, -1})
+                pass("plane" + std::to_string(plane) + (sense > 0 ? "_ccw_" : "_cw_") +
+                         std::to_string(static_cast<int>(feed)),
+                     feed, sense, [&](Reading& row, double angle) {
+                         Vector3 bar = Vector3::Zero();
+                         bar(plane) = radius_mm * std::cos(angle);
+                         bar((plane + 1) % 3) = radius_mm * std::sin(angle);
+                         aim(row, setup, pivot.center_W_mm + bar, setup.ballbar->cup_S_mm);
+                     });
+    for (const Axis axis : {Axis::B, Axis::C})
+        for (int d = 0; d < 3; ++d)
+            for (const int sense : {1, -1})
+                pass(std::string(1, letter_of(axis)) + "_bar_" + "xyz"[d] + (sense > 0 ? "_up" : "_down"),
+                     1000.0, sense, [&](Reading& row, double angle) {
+                         row.mode = PositioningMode::rtcp;
+                         row.commanded[axis] = axis == Axis::B ? 0.25 * angle : angle;
+                         aim(row, setup, pivot.center_W_mm, setup.ballbar->cup_S_mm);
+                         row.commanded[d == 0 ? Axis::X : d == 1 ? Axis::Y : Axis::Z] += radius_mm;
+                     });
+}
+
+/// Values as a machine with `truth` reads them, with independent noise of the setup's size.
+inline ReadingTable measured(const Setup& truth, const ReadingTable& table, std::uint64_t seed,
+                             double noise_scale = 1.0) {
+    ReadingTable result = predicted(truth, table, active_models(truth));
+    SeededNoise random(seed);
+    for (Reading& row : result.rows) {
+        if (row.device == Device::none) continue;
+        const double sigma_um = row.device == Device::ballbar ? 0.3 : 0.8;
+        *row.value_mm += noise_scale * 1e-3 * sigma_um * random.normal();
+    }
+    return result;
+}
+
+/// A machine that is not quite where the setup has it: location errors and set-up offsets.
+inline Setup real_machine(const Setup& setup) {
+    Setup truth = setup;
+    const auto set = [&](const char* name, double value) {
+        truth.machine.errors.location(*parse_error_name(name)) = value;
+    };
+    set("EX0B", 0.012);
+    set("EZ0B", -0.008);
+    set("EA0B", 3e-5);
+    set("EC0B", -2e-5);
+    set("EX0C", 0.006);
+    set("EY0C", -0.011);
+    set("EA0C", 4e-5);
+    set("EB0C", -3e-5);
+    truth.artefacts[0].center_W_mm += Vector3(0.02, -0.01, 0.015);
+    truth.artefacts[2].center_W_mm += Vector3(-0.015, 0.02, 0.01);
+    truth.ballbar->cup_S_mm += Vector3(0.01, -0.005, 0.012);
+    truth.ballbar->length_mm += 0.004;
+    return truth;
+}
+
+inline Setup with_effect(Setup setup, const std::string& injection) {
+    setup.effects.push_back(parse_injection(injection, make_catalogue(setup)));
+    return setup;
+}
+
+}  // namespace trunnion::campaign
