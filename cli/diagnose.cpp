@@ -11,6 +11,7 @@
 #include "cli/json_output.h"
 #include "cli/readings_command.h"
 #include "diagnosis/diagnosis.h"
+#include "report/diagnosis_page.h"
 
 namespace trunnion {
 namespace {
@@ -103,7 +104,7 @@ void print_cause(const Cause& cause) {
 }
 
 void print_report(const Diagnosis& d) {
-    fmt::print("verdict: {}\n", to_string(d.verdict));
+    fmt::print("verdict: {}\n{}\n", to_string(d.verdict), verdict_sentence(d));
     fmt::print("{} readings ({} set aside), rms {:.3f} um, noise {:.3f} um ({}), excess {:.3f} um\n",
                d.readings, d.outliers, d.rms_um, d.noise_um, to_string(d.noise.source), d.excess_um);
     for (const DriverShare& w : d.where) fmt::print("  {}\n", w.text);
@@ -124,6 +125,7 @@ int diagnose_command(const Options& options) {
     const Diagnosis result = diagnose(setup, table, how);
     OutputFiles files;
     if (!options.out.empty()) files.add(options.out, format_setup(result.setup));
+    if (!options.html.empty()) files.add(options.html, diagnosis_page(result, options.readings));
     if (options.json) files.add("-", to_json(result).dump(1) + "\n");
     files.write();
     if (!options.json) print_report(result);

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/drivers.h"
 #include "diagnosis/heldout.h"
+#include "diagnosis/next_measurement.h"
 #include "diagnosis/rules.h"
 #include "diagnosis/search.h"
 #include "diagnosis/statistics.h"
@@ -101,14 +103,18 @@ class Diagnoser {
             std::vector<double> size;
             for (Eigen::Index i = 0; i < z.size(); ++i) size.push_back(std::abs(z(i)));
             const double limit = 5.0 * std::max(0.5, 1.4826 * median(size));
-            bool found = false;
-            for (std::size_t i = 0; i < used_.size(); ++i) {
-                if (!used_[i] || size[i] < limit) continue;
+            std::vector<std::size_t> wild;
+            for (std::size_t i = 0; i < used_.size(); ++i)
+                if (used_[i] && size[i] > limit) wild.push_back(i);
+            // Many at once are no outliers but something that happened to the machine.
+            if (wild.empty() || static_cast<double>(wild.size()) >
+                                    rules::most_outliers * static_cast<double>(used_.size()))
+                return;
+            for (const std::size_t i : wild) {
+                const auto row = static_cast<Eigen::Index>(i);
                 used_[i] = false;
-                sigma_mm_(static_cast<Eigen::Index>(i)) = 1e3 * base_.sigma_mm(static_cast<Eigen::Index>(i));
-                found = true;
+                sigma_mm_(row) = 1e3 * base_.sigma_mm(row);
             }
-            if (!found) return;
             rewhiten();
         }
     }
@@ -141,10 +147,22 @@ class Diagnoser {
         return sum / std::max(1.0, rows - lost);
     }
 
+    /// Too little change for another round.
+    static bool same_noise(const NoiseModel& a, const NoiseModel& b) {
+        for (const Device device : {Device::sphere, Device::touch, Device::ballbar}) {
+            const DeviceNoise &x = a.of(device), &y = b.of(device);
+            if (std::abs(x.scale - y.scale) > 0.03 * x.scale) return false;
+            if (std::abs(x.shared - y.shared) > 0.03) return false;
+            if (x.shared > 0.03 && std::abs(x.memory - y.memory) > 0.03) return false;
+        }
+        return true;
+    }
+
     /// Noise anew from what the best set leaves, then the best set anew.
     void refine_noise() {
         for (int pass = 0; pass < 2; ++pass) {
             const Eigen::VectorXd left = left_after(set_);
+            const NoiseModel used = noise_;
             NoiseModel stated;
             stated.source = noise_.source;
             if (noise_.source == NoiseSource::repeats) {
@@ -155,6 +173,7 @@ class Diagnoser {
                     std::clamp(freedom_after(set_) / static_cast<double>(replay_.size()), 0.3, 1.0);
                 noise_ = noise_from_residuals(replay_, blocks_, left, base_.sigma_mm, stated, freedom);
             }
+            if (same_noise(used, noise_)) return;
             const std::vector<std::size_t> before = set_.members;
             rewhiten();
             set_ = best_set();
@@ -162,27 +181,31 @@ class Diagnoser {
         }
     }
 
+    /// Keys of chosen effects refined, beside the others and alone; further keys tried on the rest.
     void refine_set() {
-        for (int pass = 0; pass < 2; ++pass) {
-            const std::vector<std::size_t> before = set_.members;
-            const Eigen::VectorXd left = left_after(set_);
-            for (const std::size_t m : before) {
-                const Candidate candidate = design_->candidates()[m];
-                if (!has_keys(*candidate.effect)) continue;
-                std::vector<std::size_t> others;
-                for (const std::size_t o : before)
-                    if (o != m) others.push_back(o);
-                const Eigen::VectorXd without =
-                    design_->residual(columns_of(*design_, others), set_.scale);
-                design_->add(*candidate.effect,
-                             refine_keys(replay_, base_, *candidate.effect, candidate.values, without),
-                             candidate.log_prior);
+        for (int pass = 0; pass < 3; ++pass) {
+            const EffectSet before = set_;
+            for (const std::size_t m : before.members) {
+                if (!has_keys(*design_->candidates()[m].effect)) continue;
+                std::vector<std::size_t> others = before.members;
+                std::erase(others, m);
+                add_refined(m, others);
+                if (!others.empty()) add_refined(m, {});
             }
-            add_keyed(left, 1);
+            add_keyed(left_after(before), 1);
             design_->update();
             set_ = best_set();
-            if (set_.members == before) break;
+            if (set_.log_evidence < before.log_evidence + 1.0) break;
         }
+    }
+
+    /// Candidate `m` again with keys refined on what the effects `others` leave.
+    void add_refined(std::size_t m, const std::vector<std::size_t>& others) {
+        const Candidate candidate = design_->candidates()[m];
+        const Eigen::VectorXd left = design_->residual(columns_of(*design_, others), set_.scale);
+        design_->add(*candidate.effect,
+                     refine_keys(replay_, base_, *candidate.effect, candidate.values, left),
+                     candidate.log_prior);
     }
 
     /// What a subset of the chosen effects leaves, as mean squared z.
@@ -257,6 +280,7 @@ class Diagnoser {
     };
     Remainder remainder();
     double unusual_square() const;
+    double aliased_square() const;
     double ripple_square(const Eigen::VectorXd& left) const;
     bool coincidence() const;
     double noise_doubt() const;
@@ -268,6 +292,7 @@ class Diagnoser {
     std::vector<std::string> rivals_of(std::size_t member, double& probability) const;
     std::vector<FitParameter> parameters_of(const EffectSet& set, std::size_t member) const;
     void write_setup();
+    void ask_next();
     void test_holdout();
 
     Eigen::MatrixXd known_columns(const EffectSet& set) const {
@@ -474,6 +499,33 @@ double Diagnoser::unusual_square() const {
     return std::max(0.0, without - with);
 }
 
+/// What a ripple explains that stands beside positioning errors of the same axis while that axis
+/// stood in few places: any function of so few places can be written so.
+double Diagnoser::aliased_square() const {
+    const auto has = [&](const std::string& name) {
+        return std::any_of(set_.members.begin(), set_.members.end(), [&](std::size_t m) {
+            return design_->candidates()[m].effect->name == name;
+        });
+    };
+    double sum = 0.0;
+    for (const std::size_t m : set_.members) {
+        const Effect& effect = *design_->candidates()[m].effect;
+        const auto axis = axis_of(effect.name[0]);
+        if (effect.name.find(".cyclic") == std::string::npos || !axis || !is_rotary(*axis) ||
+            !has(effect.name.substr(0, 1) + ".positioning"))
+            continue;
+        std::set<long> places;
+        for (std::size_t i = 0; i < replay_.size(); ++i)
+            places.insert(std::lround(replay_.sample(i).position[*axis] * 1e4));
+        if (places.size() > 30) continue;
+        std::vector<std::size_t> others;
+        for (const std::size_t o : set_.members)
+            if (o != m) others.push_back(o);
+        sum += std::max(0.0, left_square(others) - left_square(set_.members));
+    }
+    return sum;
+}
+
 /// What a further ripple (a keyed effect at keys not used yet) would explain of the remainder.
 double Diagnoser::ripple_square(const Eigen::VectorXd& left) const {
     double most = 0.0;
@@ -529,10 +581,12 @@ Diagnoser::Remainder Diagnoser::remainder() {
         rows += noise_.of(block.device).independent(static_cast<double>(block.rows.size()));
     const double doubt = trusted ? 4.0 * std::hypot(noise_.doubt, std::sqrt(2.0 / rows)) : 1.1;
     const double beyond = r.after - r.floor > doubt * r.floor ? r.after - r.floor : 0.0;
-    const double least = trusted ? std::max(rules::least_square, noise_.doubt) : rules::least_square;
+    // A gap of structure alone, without any effect, must be plain to see.
+    const double plain = set_.members.empty() ? rules::plain_square : rules::least_square;
+    const double least = trusted ? std::max(plain, noise_.doubt) : plain;
     r.unexplained = std::max(r.structured > least * r.floor ? r.structured : 0.0, beyond);
     r.gap = std::max(1e-9, r.base - r.after) + r.unexplained;
-    r.unexplained = std::min(r.gap, r.unexplained + unusual_square());
+    r.unexplained = std::min(r.gap, r.unexplained + unusual_square() + aliased_square());
     return r;
 }
 
@@ -560,6 +614,27 @@ void Diagnoser::judge() {
                                    used_, options_.seed, noise_doubt());
     write_setup();
     if (options_.holdout) test_holdout();
+    if (options_.plan_next) ask_next();
+}
+
+/// The first two rivals of each claim, with the measurement that would tell them from it.
+void Diagnoser::ask_next() {
+    std::vector<AmbiguousPair> pairs;
+    const Eigen::VectorXd x = design_->solve(columns_of(*design_, set_.members), set_.scale);
+    Eigen::Index at = design_->base_count();
+    for (const std::size_t m : set_.members) {
+        const Candidate& claimed = design_->candidates()[m];
+        const auto cause = std::find_if(result_.causes.begin(), result_.causes.end(),
+                                        [&](const Cause& c) { return c.effect == claimed.effect->name; });
+        for (std::size_t k = 0; k < 2 && cause != result_.causes.end() && k < cause->rivals.size(); ++k)
+            for (const Candidate& rival : design_->candidates()) {
+                if (rival.effect->name != cause->rivals[k] || !rival.visible) continue;
+                pairs.push_back({&claimed, x.segment(at, claimed.size()), &rival});
+                break;
+            }
+        at += claimed.size();
+    }
+    result_.next = plan_next(*design_, base_, catalogue_, pairs, table_.rows.back().time_s);
 }
 
 void Diagnoser::describe_size(const Remainder& r) {

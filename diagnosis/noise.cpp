@@ -54,7 +54,6 @@ DeviceNoise& NoiseModel::of(Device device) {
 std::vector<NoiseBlock> noise_blocks(const Replay& replay, const ReadingTable& table) {
     std::vector<NoiseBlock> blocks;
     std::map<std::string, std::size_t> open;  // by test
-    std::size_t last_row = 0;
     for (std::size_t i = 0; i < replay.size(); ++i) {
         const Reading& row = table.rows[replay.table_row(i)];
         const auto it = open.find(row.test);
@@ -62,8 +61,7 @@ std::vector<NoiseBlock> noise_blocks(const Replay& replay, const ReadingTable& t
         if (same && row.device != Device::ballbar) {
             const auto before = static_cast<std::size_t>(blocks[it->second].rows.back());
             const Reading& other = table.rows[replay.table_row(before)];
-            same = before + 1 == i && replay.table_row(i) == last_row + 1 &&
-                   other.feature == row.feature && other.mode == row.mode &&
+            same = before + 1 == i && other.feature == row.feature && other.mode == row.mode &&
                    blocks[it->second].rows.size() < 64;
             for (const Axis axis : table.axes)
                 if (is_rotary(axis)) same = same && other.commanded[axis] == row.commanded[axis];
@@ -74,7 +72,6 @@ std::vector<NoiseBlock> noise_blocks(const Replay& replay, const ReadingTable& t
             blocks.push_back({row.device, {}});
         }
         blocks[open[row.test]].rows.push_back(static_cast<Eigen::Index>(i));
-        last_row = replay.table_row(i);
     }
     return blocks;
 }

@@ -15,6 +15,7 @@ namespace {
 struct Stretch {
     std::vector<Eigen::Index> rows;
     Eigen::VectorXd value;
+    bool free_shift = false;  ///< a shift of the machine is between the two passes of a difference
 };
 
 double touch_likelihood(const Replay& replay, const Stretch& s, const DeviceNoise& noise) {
@@ -36,26 +37,44 @@ double touch_likelihood(const Replay& replay, const Stretch& s, const DeviceNois
            llt.matrixLLT().diagonal().array().log().sum();
 }
 
-double pass_likelihood(const Stretch& s, const DeviceNoise& noise) {
+/// Innovations of the values and of `shift` columns under the noise of one pass; the columns are
+/// profiled out with their loss of freedom (restricted likelihood).
+double pass_likelihood(const Replay& replay, const Stretch& s, const DeviceNoise& noise) {
     const double scale2 = noise.scale * noise.scale;
     const double shared = scale2 * noise.shared, white = scale2 * (1.0 - noise.shared) + 1e-12;
-    double variance = shared, state = 0.0, sum = 0.0;
+    using Row = Eigen::Matrix<double, 4, 1>;
+    double variance = shared, sum = 0.0;
+    Row state = Row::Zero();
+    Eigen::Matrix4d square = Eigen::Matrix4d::Zero();
     for (Eigen::Index k = 0; k < s.value.size(); ++k) {
-        const double expected = variance + white, innovation = s.value(k) - state;
-        sum -= 0.5 * (innovation * innovation / expected + std::log(expected));
+        Row entry = Row::Zero();
+        entry(0) = s.value(k);
+        if (s.free_shift)
+            entry.tail<3>() =
+                replay.contact(static_cast<std::size_t>(s.rows[static_cast<std::size_t>(k)])).direction_M;
+        const double expected = variance + white;
+        const Row innovation = entry - state;
+        square += innovation * innovation.transpose() / expected;
+        sum -= 0.5 * std::log(expected);
         const double gain = variance / expected;
         state = noise.memory * (state + gain * innovation);
         variance = noise.memory * noise.memory * variance * (1.0 - gain) +
                    (1.0 - noise.memory * noise.memory) * shared;
     }
-    return sum;
+    if (!s.free_shift) return sum - 0.5 * square(0, 0);
+    Eigen::Matrix3d normal = square.bottomRightCorner<3, 3>();
+    normal.diagonal().array() += 1e-6;  // a bar that stays in a plane says nothing across it
+    const Eigen::LLT<Eigen::Matrix3d> llt(normal);
+    const Vector3 half = llt.matrixL().solve(square.bottomLeftCorner<3, 1>());
+    return sum - 0.5 * (square(0, 0) - half.squaredNorm()) -
+           llt.matrixLLT().diagonal().array().log().sum();
 }
 
 double likelihood(const Replay& replay, Device device, const std::vector<Stretch>& stretches,
                   const DeviceNoise& noise) {
     double sum = 0.0;
     for (const Stretch& s : stretches)
-        sum += device == Device::ballbar ? pass_likelihood(s, noise)
+        sum += device == Device::ballbar ? pass_likelihood(replay, s, noise)
                : device == Device::touch ? touch_likelihood(replay, s, noise)
                                          : -s.value.squaredNorm() / (2.0 * noise.scale * noise.scale) -
                                                static_cast<double>(s.value.size()) *
@@ -156,13 +175,13 @@ std::vector<std::pair<std::size_t, std::size_t>> repeated_blocks(
     return pairs;
 }
 
-/// Takes out of all differences together what a shift of the machine between passes leaves: for
-/// each stretch (ballbar) or over all (probe) a constant vector, growing with time for the probe.
+/// Takes out of the differences what a shift of the machine between passes leaves: a vector for
+/// each ballbar pass (within the likelihood), one that grows with time over all probe rows.
 void remove_shift(const Replay& replay, Device device, std::vector<Stretch>& stretches) {
-    const auto detrend = [&](std::vector<Stretch*> group, bool with_time) {
+    const auto detrend = [&](const std::vector<Stretch*>& group) {
         Eigen::Index n = 0;
         for (const Stretch* s : group) n += s->value.size();
-        const int p = with_time ? 6 : 3;
+        constexpr int p = 6;
         if (n < 2 * p) return;
         Eigen::MatrixXd a(n, p);
         Eigen::VectorXd y(n);
@@ -171,8 +190,7 @@ void remove_shift(const Replay& replay, Device device, std::vector<Stretch>& str
             for (Eigen::Index k = 0; k < s->value.size(); ++k, ++at) {
                 const auto i = static_cast<std::size_t>(s->rows[static_cast<std::size_t>(k)]);
                 a.row(at).head<3>() = replay.contact(i).direction_M.transpose();
-                if (with_time)
-                    a.row(at).tail<3>() = a.row(at).head<3>() * (replay.sample(i).time_s * 1e-4);
+                a.row(at).tail<3>() = a.row(at).head<3>() * (replay.sample(i).time_s * 1e-4);
                 y(at) = s->value(k);
             }
         Eigen::MatrixXd normal = a.transpose() * a;
@@ -185,12 +203,12 @@ void remove_shift(const Replay& replay, Device device, std::vector<Stretch>& str
             for (Eigen::Index k = 0; k < s->value.size(); ++k) s->value(k) = left(at++);
     };
     if (device == Device::ballbar) {
-        for (Stretch& s : stretches) detrend({&s}, false);
+        for (Stretch& s : stretches) s.free_shift = true;
         return;
     }
     std::vector<Stretch*> all;
     for (Stretch& s : stretches) all.push_back(&s);
-    detrend(all, true);
+    detrend(all);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@ namespace trunnion::rules {
 
 constexpr double least_share = 0.05;    ///< of the gap: below it an effect is background
 constexpr double least_square = 0.03;   ///< of the noise variance: below it nobody cares
+constexpr double plain_square = 0.08;   ///< ... and below it a driver alone makes no gap
+constexpr double most_outliers = 0.04;  ///< of the readings
 constexpr double driver_p = 1e-4;       ///< chance level at which a driver counts
 constexpr double driver_share = 0.05;
 constexpr double admit_share = 0.10;    ///< unexplained part from which "unknown" is named

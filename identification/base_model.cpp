@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "effects/settings.h"
 #include "geometry/alarm.h"
@@ -232,17 +233,25 @@ RowNoise row_noise(const Setup& setup, const ReadingTable& table, const Replay& 
 
 Eigen::VectorXd effect_column(const Replay& replay, const std::vector<Perturbation>& gradient,
                               const Effect& effect, const std::vector<double>& values,
-                              std::size_t j) {
+                              std::size_t j, const std::vector<std::size_t>& rows) {
     std::vector<double> at = values;
     for (std::size_t k = 0; k < at.size(); ++k)
         if (!effect.parameters[k].is_key()) at[k] = k == j ? effect.parameters[k].typical : 0.0;
-    Eigen::VectorXd column(static_cast<Eigen::Index>(replay.size()));
-    for (std::size_t i = 0; i < replay.size(); ++i) {
+    Eigen::VectorXd column(static_cast<Eigen::Index>(rows.size()));
+    for (std::size_t k = 0; k < rows.size(); ++k) {
         Perturbation change;
-        effect.add(replay.sample(i), replay.contact(i), at, change);
-        column(static_cast<Eigen::Index>(i)) = dot(gradient[i], change);
+        effect.add(replay.sample(rows[k]), replay.contact(rows[k]), at, change);
+        column(static_cast<Eigen::Index>(k)) = dot(gradient[rows[k]], change);
     }
     return column;
+}
+
+Eigen::VectorXd effect_column(const Replay& replay, const std::vector<Perturbation>& gradient,
+                              const Effect& effect, const std::vector<double>& values,
+                              std::size_t j) {
+    std::vector<std::size_t> rows(replay.size());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    return effect_column(replay, gradient, effect, values, j, rows);
 }
 
 void add_effect(Setup& setup, const Effect& effect, const std::vector<double>& values) {
@@ -261,6 +270,16 @@ void add_effect(Setup& setup, const Effect& effect, const std::vector<double>& v
         return;
     }
     setup.effects.push_back(setting_of(effect, values));
+}
+
+BaseColumns base_columns(const Setup& setup, const Replay& replay, const Catalogue& catalogue,
+                         const std::vector<std::string>& effects,
+                         const std::vector<Perturbation>& gradient) {
+    const Unknowns unknowns(setup, replay, catalogue, effects);
+    BaseColumns result;
+    for (const Slot& slot : unknowns.slots()) result.parameters.push_back(slot.fit);
+    result.columns = columns_of(unknowns.slots(), replay, gradient);
+    return result;
 }
 
 void shift_base(Setup& setup, const BaseModel& base, const Catalogue& catalogue,

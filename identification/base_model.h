@@ -59,6 +59,20 @@ Eigen::VectorXd effect_column(const Replay& replay, const std::vector<Perturbati
                               const Effect& effect, const std::vector<double>& values,
                               std::size_t j);
 
+/// The unknowns that a replay has for this setup and these effects, and their derivatives.
+struct BaseColumns {
+    std::vector<FitParameter> parameters;
+    Eigen::MatrixXd columns;  ///< mm for one typical change
+};
+BaseColumns base_columns(const Setup& setup, const Replay& replay, const Catalogue& catalogue,
+                         const std::vector<std::string>& effects,
+                         const std::vector<Perturbation>& gradient);
+
+/// The same for some rows only.
+Eigen::VectorXd effect_column(const Replay& replay, const std::vector<Perturbation>& gradient,
+                              const Effect& effect, const std::vector<double>& values,
+                              std::size_t j, const std::vector<std::size_t>& rows);
+
 /// Moves a fitted setup by a further step of the base parameters, in units of their typical size.
 void shift_base(Setup& setup, const BaseModel& base, const Catalogue& catalogue,
                 const Eigen::VectorXd& step);

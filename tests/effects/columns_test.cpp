@@ -43,7 +43,7 @@ TEST_CASE("squareness on an XY circle is -(R beta / 2) sin 2 theta up to set-up"
         if (row.test.rfind("plane0", 0) != 0) continue;
         const Vector3 bar = bench.bar_M(row);
         // Y leans towards -X by beta about Z: the cup moves by -beta y along X.
-        REQUIRE(change[i] == Approx(-beta * row.commanded[Axis::Y] * bar.x()).margin(1e-8));
+        REQUIRE(change[i] == Approx(-beta * row.commanded[Axis::Y] * bar.x()).margin(1e-7));
     }
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("contour lag shrinks circles with the square of the feed", "[effects]"
         const Reading& row = bench.table.rows[i];
         if (row.test.rfind("plane", 0) != 0) continue;
         const double feed = row.feed_mm_min / 60.0;
-        REQUIRE(change[i] == Approx(-1e-4 * feed * feed / 100.0).epsilon(0.02));
+        REQUIRE(change[i] == Approx(-1e-4 * feed * feed / 100.0).epsilon(0.08));
     }
 }
 

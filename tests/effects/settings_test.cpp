@@ -1,5 +1,8 @@
 #include <catch2/catch.hpp>
 
+#include <fstream>
+#include <sstream>
+
 #include "effects/settings.h"
 #include "geometry/alarm.h"
 #include "tests/support/campaign.h"
@@ -68,5 +71,28 @@ TEST_CASE("values and settings are each other's inverse", "[effects]") {
         REQUIRE(values_of(effect, setting_of(effect, values)) == values);
     }
 }
+
+namespace {
+
+std::string effects_page() {
+    return "# Effects\n\nEvery effect of the catalogue on a BC table machine (`effects/`). Names and "
+           "parameters are those of `--inject`, of `[effects]` in a setup file and of the JSON "
+           "results. Typical sizes are prior standard deviations; q is the axis position (mm, rad), "
+           "keys are searched. Written by `test_effects '[docs]'`.\n\n" +
+           describe_catalogue(make_catalogue(campaign::bc_setup()));
+}
+
+const char* page_path = TRUNNION_SOURCE_DIR "/docs/effects.md";
+
+}  // namespace
+
+TEST_CASE("docs/effects.md is the catalogue", "[effects]") {
+    std::ifstream in(page_path);
+    std::stringstream text;
+    text << in.rdbuf();
+    REQUIRE(text.str() == effects_page());
+}
+
+TEST_CASE("write docs/effects.md", "[.docs]") { std::ofstream(page_path) << effects_page(); }
 
 }  // namespace trunnion

@@ -1,0 +1,154 @@
+#include "diagnosis/next_measurement.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <optional>
+
+#include "diagnosis/measurements.h"
+
+namespace trunnion {
+namespace {
+
+/// Columns of one set of rows: base (by name), claimed and rival, in sigma.
+struct Block {
+    std::vector<std::string> names;
+    Eigen::MatrixXd base;
+};
+
+std::vector<std::string> names_of(const std::vector<FitParameter>& parameters) {
+    std::vector<std::string> names;
+    for (const FitParameter& p : parameters)
+        names.push_back(p.effect + "." + p.name + "." + std::to_string(p.component));
+    return names;
+}
+
+/// A measurement worked out: rows, derivatives and base columns.
+struct Worked {
+    Measurement measurement;
+    std::optional<Replay> replay;
+    std::vector<Perturbation> gradient;
+    Eigen::VectorXd weight;
+    Block block;
+};
+
+Worked work_out(Measurement m, const Catalogue& catalogue, const std::vector<std::string>& effects) {
+    Worked w;
+    w.measurement = std::move(m);
+    w.replay.emplace(w.measurement.setup, w.measurement.table);
+    const ForwardModel forward(w.measurement.setup.machine);
+    for (std::size_t i = 0; i < w.replay->size(); ++i)
+        w.gradient.push_back(w.replay->gradient(i, forward, {}));
+    w.weight = row_noise(w.measurement.setup, w.measurement.table, *w.replay).sigma_mm.cwiseInverse();
+    const BaseColumns base =
+        base_columns(w.measurement.setup, *w.replay, catalogue, effects, w.gradient);
+    w.block = {names_of(base.parameters), w.weight.asDiagonal() * base.columns};
+    return w;
+}
+
+Eigen::MatrixXd effect_block(const Replay& replay, const std::vector<Perturbation>& gradient,
+                             const Eigen::VectorXd& weight, const Candidate& c) {
+    Eigen::MatrixXd m(weight.size(), c.size());
+    for (Eigen::Index j = 0; j < c.size(); ++j)
+        m.col(j) = effect_column(replay, gradient, *c.effect, c.values,
+                                 c.parameters[static_cast<std::size_t>(j)])
+                       .cwiseProduct(weight);
+    return m;
+}
+
+/// Squared part of `target` that neither base nor rival can follow; base columns joined by name.
+class Mimic {
+  public:
+    void add(const Block& block, const Eigen::MatrixXd& rival, const Eigen::VectorXd& target) {
+        std::vector<Eigen::Index> place;
+        for (const std::string& name : block.names) {
+            const auto it = std::find(names_.begin(), names_.end(), name);
+            place.push_back(it - names_.begin());
+            if (it == names_.end()) names_.push_back(name);
+        }
+        pieces_.push_back({place, block.base, rival, target});
+    }
+
+    double left() const {
+        const auto q = pieces_.front().rival.cols();
+        const auto p = static_cast<Eigen::Index>(names_.size()) + q;
+        Eigen::MatrixXd square = Eigen::MatrixXd::Zero(p, p);
+        Eigen::VectorXd product = Eigen::VectorXd::Zero(p);
+        double energy = 0.0;
+        for (const Piece& piece : pieces_) {
+            Eigen::MatrixXd a = Eigen::MatrixXd::Zero(piece.target.size(), p);
+            for (std::size_t j = 0; j < piece.place.size(); ++j)
+                a.col(piece.place[j]) = piece.base.col(static_cast<Eigen::Index>(j));
+            a.rightCols(q) = piece.rival;
+            square.noalias() += a.transpose() * a;
+            product.noalias() += a.transpose() * piece.target;
+            energy += piece.target.squaredNorm();
+        }
+        square.diagonal().array() += 1e-3;
+        return std::max(0.0, energy - product.dot(square.llt().solve(product)));
+    }
+
+  private:
+    struct Piece {
+        std::vector<Eigen::Index> place;
+        Eigen::MatrixXd base, rival;
+        Eigen::VectorXd target;
+    };
+    std::vector<std::string> names_;
+    std::vector<Piece> pieces_;
+};
+
+NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& list,
+                         const Design& design, const BaseModel& base) {
+    const Eigen::VectorXd weight = base.sigma_mm.cwiseInverse();
+    const auto columns = [&](const Candidate& c) -> Eigen::MatrixXd {
+        return weight.asDiagonal() *
+               design.raw().middleCols(design.base_count() + c.first, c.size());
+    };
+    Mimic now;
+    const Block old{names_of(base.parameters), weight.asDiagonal() * base.columns};
+    const Eigen::MatrixXd rival = columns(*pair.rival);
+    const Eigen::VectorXd target = columns(*pair.claimed) * pair.values;
+    now.add(old, rival, target);
+    const double before = now.left();
+    NextMeasurement best{pair.claimed->effect->name, pair.rival->effect->name, "", "", 0.0, 0.0};
+    double rate = 0.0;
+    for (const Worked& w : list) {
+        Mimic then = now;
+        then.add(w.block, effect_block(*w.replay, w.gradient, w.weight, *pair.rival),
+                 effect_block(*w.replay, w.gradient, w.weight, *pair.claimed) * pair.values);
+        const double gain = 0.5 * (then.left() - before);
+        // More than twenty nats settle it: then the shorter measurement wins.
+        if (gain < 3.0 || std::min(gain, 20.0) / w.measurement.minutes <= rate) continue;
+        rate = std::min(gain, 20.0) / w.measurement.minutes;
+        best.log_bayes_factor = gain;
+        best.minutes = w.measurement.minutes;
+        best.program = nc_program(w.measurement);
+        best.text = fmt::format("to tell {} from {}: {} (about {:.0f} minutes, predicted {:.0f} nats)",
+                                best.first, best.second, w.measurement.text, best.minutes, gain);
+    }
+    if (best.text.empty())
+        best.text = fmt::format("no ready measurement tells {} from {} at this size", best.first,
+                                best.second);
+    return best;
+}
+
+}  // namespace
+
+std::vector<NextMeasurement> plan_next(const Design& design, const BaseModel& base,
+                                       const Catalogue& catalogue,
+                                       const std::vector<AmbiguousPair>& pairs, double end_s) {
+    std::vector<NextMeasurement> plan;
+    if (pairs.empty()) return plan;
+    std::vector<Worked> list;
+    for (Measurement& m : ready_measurements(base.setup, end_s + 600.0))
+        list.push_back(work_out(std::move(m), catalogue, base.setup.model.modelled));
+    for (const AmbiguousPair& pair : pairs) plan.push_back(best_for(pair, list, design, base));
+    std::stable_sort(plan.begin(), plan.end(), [](const NextMeasurement& a, const NextMeasurement& b) {
+        return a.log_bayes_factor > b.log_bayes_factor;
+    });
+    return plan;
+}
+
+}  // namespace trunnion

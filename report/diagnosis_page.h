@@ -1,0 +1,17 @@
+// A diagnosis as one self-contained HTML page.
+#pragma once
+
+#include <string>
+
+#include "diagnosis/diagnosis.h"
+
+namespace trunnion {
+
+/// Verdict in words, where the gap lives, the causes with their shares, and what to measure next.
+/// `title` is the name of the readings.
+std::string diagnosis_page(const Diagnosis& diagnosis, const std::string& title);
+
+/// The verdict in one sentence of the shop.
+std::string verdict_sentence(const Diagnosis& diagnosis);
+
+}  // namespace trunnion
