@@ -37,14 +37,10 @@ Json to_json(const DeviceNoise& noise) {
 }
 
 Json to_json(const Cause& cause) {
-    Json json{{"effect", cause.effect},
-              {"probability", cause.probability},
-              {"rivals", cause.rivals},
-              {"parameters", json_parameters(cause.parameters)},
-              {"share", cause.share},
-              {"heldout", to_json(cause.heldout)},
-              {"what", cause.what},
-              {"usual_cause", cause.usual_cause},
+    Json json{{"effect", cause.effect}, {"probability", cause.probability},
+              {"rivals", cause.rivals}, {"parameters", json_parameters(cause.parameters)},
+              {"share", cause.share},   {"heldout", to_json(cause.heldout)},
+              {"what", cause.what},     {"usual_cause", cause.usual_cause},
               {"remedy", cause.remedy}};
     return json;
 }
@@ -98,20 +94,23 @@ void print_cause(const Cause& cause) {
         fmt::print("  {:<20} {:>12.4g} {} (sigma {:.2g})\n", p.name, p.value, p.unit, p.sigma);
     if (!cause.rivals.empty())
         fmt::print("  cannot be told apart here from: {}\n", fmt::join(cause.rivals, ", "));
-    fmt::print("  held out: {:.3f} -> {:.3f} um (noise {:.3f}): shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
-               cause.heldout.rms_before_um, cause.heldout.rms_after_um, cause.heldout.noise_um,
-               100 * cause.heldout.shrink, 100 * cause.heldout.low, 100 * cause.heldout.high);
+    fmt::print(
+        "  held out: {:.3f} -> {:.3f} um (noise {:.3f}): shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
+        cause.heldout.rms_before_um, cause.heldout.rms_after_um, cause.heldout.noise_um,
+        100 * cause.heldout.shrink, 100 * cause.heldout.low, 100 * cause.heldout.high);
 }
 
 void print_report(const Diagnosis& d) {
     fmt::print("verdict: {}\n{}\n", to_string(d.verdict), verdict_sentence(d));
-    fmt::print("{} readings ({} set aside), rms {:.3f} um, noise {:.3f} um ({}), excess {:.3f} um\n",
-               d.readings, d.outliers, d.rms_um, d.noise_um, to_string(d.noise.source), d.excess_um);
+    fmt::print(
+        "{} readings ({} set aside), rms {:.3f} um, noise {:.3f} um ({}), excess {:.3f} um\n",
+        d.readings, d.outliers, d.rms_um, d.noise_um, to_string(d.noise.source), d.excess_um);
     for (const DriverShare& w : d.where) fmt::print("  {}\n", w.text);
     for (const Cause& cause : d.causes) print_cause(cause);
     if (!d.causes.empty())
-        fmt::print("\nafter: rms {:.3f} um; held out the gap shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
-                   d.after_rms_um, 100 * d.after.shrink, 100 * d.after.low, 100 * d.after.high);
+        fmt::print(
+            "\nafter: rms {:.3f} um; held out the gap shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
+            d.after_rms_um, 100 * d.after.shrink, 100 * d.after.low, 100 * d.after.high);
     for (const NextMeasurement& next : d.next) fmt::print("next: {}\n", next.text);
 }
 

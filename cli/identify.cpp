@@ -1,4 +1,6 @@
 // trunnion identify: fits effects to readings.
+#include "identification/identify.h"
+
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,7 +12,6 @@
 #include "cli/files.h"
 #include "cli/json_output.h"
 #include "cli/readings_command.h"
-#include "identification/identify.h"
 
 namespace trunnion {
 namespace {

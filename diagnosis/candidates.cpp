@@ -9,7 +9,8 @@
 namespace trunnion {
 namespace {
 
-/// A column that moves no reading by this many sigma when its parameter changes as usual is left out.
+/// A column that moves no reading by this many sigma when its parameter changes as usual is left
+/// out.
 constexpr double dead_column = 1e-6;
 constexpr double visible_part = 0.02;
 
@@ -33,8 +34,12 @@ bool has_keys(const Effect& effect) {
 }
 
 Design::Design(const Replay& replay, const BaseModel& base, const Whitener& whitener)
-    : replay_(replay), model_(base), whitener_(&whitener), base_(base.columns.cols()),
-      base_rank_(base.rank), raw_(base.columns) {}
+    : replay_(replay),
+      model_(base),
+      whitener_(&whitener),
+      base_(base.columns.cols()),
+      base_rank_(base.rank),
+      raw_(base.columns) {}
 
 std::size_t Design::add(const Effect& effect, std::vector<double> keys, double log_prior) {
     Candidate candidate;
@@ -71,7 +76,9 @@ void Design::update() {
     cross_.conservativeResize(all);
     const auto old = white_.leftCols(done_);
     full_.bottomRightCorner(fresh, fresh).setZero();
-    full_.bottomRightCorner(fresh, fresh).selfadjointView<Eigen::Lower>().rankUpdate(part.transpose());
+    full_.bottomRightCorner(fresh, fresh)
+        .selfadjointView<Eigen::Lower>()
+        .rankUpdate(part.transpose());
     full_.bottomRightCorner(fresh, fresh).triangularView<Eigen::StrictlyUpper>() =
         full_.bottomRightCorner(fresh, fresh).transpose();
     full_.bottomLeftCorner(fresh, done_).noalias() = part.transpose() * old;
@@ -126,8 +133,7 @@ Eigen::MatrixXd Design::covariance(const std::vector<Eigen::Index>& columns, dou
     return a.llt().solve(Eigen::MatrixXd::Identity(a.rows(), a.cols()));
 }
 
-Eigen::VectorXd Design::fit_variance(const std::vector<Eigen::Index>& columns,
-                                     double scale) const {
+Eigen::VectorXd Design::fit_variance(const std::vector<Eigen::Index>& columns, double scale) const {
     Eigen::MatrixXd a;
     Eigen::VectorXd b;
     normal_equations(columns, scale, a, b);
@@ -176,8 +182,12 @@ class RoughGain {
     RoughGain(const Replay& replay, const BaseModel& base, const Effect& effect,
               const Eigen::VectorXd& left_mm, const Eigen::VectorXd& sigma_mm,
               std::vector<std::size_t> rows)
-        : replay_(replay), base_(base), effect_(effect), rows_(std::move(rows)),
-          weight_(static_cast<Eigen::Index>(rows_.size())), left_(weight_.size()) {
+        : replay_(replay),
+          base_(base),
+          effect_(effect),
+          rows_(std::move(rows)),
+          weight_(static_cast<Eigen::Index>(rows_.size())),
+          left_(weight_.size()) {
         for (std::size_t k = 0; k < rows_.size(); ++k) {
             const auto i = static_cast<Eigen::Index>(rows_[k]), at = static_cast<Eigen::Index>(k);
             weight_(at) = 1.0 / sigma_mm(i);

@@ -1,4 +1,5 @@
-// The columns of all candidate effects: derivatives of the readings, whitened, with their Gram matrix.
+// The columns of all candidate effects: derivatives of the readings, whitened, with their Gram
+// matrix.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,20 +14,22 @@ namespace trunnion {
 /// One effect with its keys fixed: a block of columns, each for one typical change.
 struct Candidate {
     const Effect* effect = nullptr;
-    std::vector<double> values;          ///< keys; linear parameters 0
-    std::vector<std::size_t> parameters; ///< of the effect, one for each column
-    Eigen::Index first = 0;              ///< column of the Gram matrix
+    std::vector<double> values;           ///< keys; linear parameters 0
+    std::vector<std::size_t> parameters;  ///< of the effect, one for each column
+    Eigen::Index first = 0;               ///< column of the Gram matrix
     Eigen::Index size() const { return static_cast<Eigen::Index>(parameters.size()); }
     double log_prior = 0.0;
     bool visible = true;
 };
 
-/// Base columns first, then those of the candidates; each whitened. `data` is the whitened residual.
+/// Base columns first, then those of the candidates; each whitened. `data` is the whitened
+/// residual.
 class Design {
   public:
     Design(const Replay& replay, const BaseModel& base, const Whitener& whitener);
 
-    /// Adds a candidate; returns its index. Parameters that cannot change any reading have no column.
+    /// Adds a candidate; returns its index. Parameters that cannot change any reading have no
+    /// column.
     std::size_t add(const Effect& effect, std::vector<double> keys, double log_prior);
     /// Whitens everything anew, for another noise model or other row weights.
     void rewhiten(const Whitener& whitener);
@@ -38,9 +41,9 @@ class Design {
     Eigen::Index rows() const { return data_.size(); }
 
     // With the base projected out (set-up free, calibrated values with their prior):
-    const Eigen::MatrixXd& gram() const { return gram_; }      ///< of all candidate columns
+    const Eigen::MatrixXd& gram() const { return gram_; }        ///< of all candidate columns
     const Eigen::VectorXd& product() const { return product_; }  ///< columns . data
-    double energy() const { return energy_; }                  ///< data . data
+    double energy() const { return energy_; }                    ///< data . data
     double freedom() const { return static_cast<double>(rows()) - static_cast<double>(base_rank_); }
 
     const Eigen::MatrixXd& raw() const { return raw_; }  ///< unwhitened columns, base first, mm

@@ -23,7 +23,9 @@ namespace {
 class Diagnoser {
   public:
     Diagnoser(const Setup& setup, const ReadingTable& table, const DiagnosisOptions& options)
-        : table_(table), options_(options), replay_(setup, table),
+        : table_(table),
+          options_(options),
+          replay_(setup, table),
           catalogue_(make_catalogue(setup, extent_of(setup, table))) {
         refuse_poor_tables();
         base_ = fit_base(setup, table, replay_, catalogue_, setup.model.modelled);
@@ -83,8 +85,7 @@ class Diagnoser {
     void add_keyed(const Eigen::VectorXd& left_mm, int count) {
         for (const Effect& effect : catalogue_) {
             if (modelled(effect) || !has_keys(effect)) continue;
-            for (auto& keys :
-                 best_keys(replay_, base_, effect, left_mm, sigma_mm_, count)) {
+            for (auto& keys : best_keys(replay_, base_, effect, left_mm, sigma_mm_, count)) {
                 double trials = 1.0;
                 for (const EffectParameter& p : effect.parameters)
                     if (p.is_key()) trials *= static_cast<double>(p.grid.size());
@@ -93,22 +94,29 @@ class Diagnoser {
         }
     }
 
+    /// Do most of these rows follow each other?
+    static bool neighbours(const std::vector<std::size_t>& rows) {
+        std::size_t pairs = 0;
+        for (std::size_t k = 1; k < rows.size(); ++k) pairs += rows[k] - rows[k - 1] <= 2 ? 1 : 0;
+        return rows.size() > 8 && 10 * pairs > 4 * rows.size();
+    }
+
     /// Rows that stand out although everything was tried on them: left out from here on.
     void drop_outliers() {
         for (int pass = 0; pass < 2; ++pass) {
             std::vector<Eigen::Index> all(static_cast<std::size_t>(design_->gram().cols()));
             for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<Eigen::Index>(k);
-            const Eigen::VectorXd z =
-                design_->residual(all, 1.0).cwiseQuotient(base_.sigma_mm);
+            const Eigen::VectorXd z = design_->residual(all, 1.0).cwiseQuotient(base_.sigma_mm);
             std::vector<double> size;
             for (Eigen::Index i = 0; i < z.size(); ++i) size.push_back(std::abs(z(i)));
             const double limit = 5.0 * std::max(0.5, 1.4826 * median(size));
             std::vector<std::size_t> wild;
             for (std::size_t i = 0; i < used_.size(); ++i)
                 if (used_[i] && size[i] > limit) wild.push_back(i);
-            // Many at once are no outliers but something that happened to the machine.
-            if (wild.empty() || static_cast<double>(wild.size()) >
-                                    rules::most_outliers * static_cast<double>(used_.size()))
+            // Many at once, or in a row, are no outliers: something happened to the machine.
+            if (wild.empty() || neighbours(wild) ||
+                static_cast<double>(wild.size()) >
+                    rules::most_outliers * static_cast<double>(used_.size()))
                 return;
             for (const std::size_t i : wild) {
                 const auto row = static_cast<Eigen::Index>(i);
@@ -171,7 +179,8 @@ class Diagnoser {
             } else {
                 const double freedom =
                     std::clamp(freedom_after(set_) / static_cast<double>(replay_.size()), 0.3, 1.0);
-                noise_ = noise_from_residuals(replay_, blocks_, left, base_.sigma_mm, stated, freedom);
+                noise_ = noise_from_residuals(replay_, blocks_, left, base_.sigma_mm, stated,
+                                              freedom, base_.noise_given);
             }
             if (same_noise(used, noise_)) return;
             const std::vector<std::size_t> before = set_.members;
@@ -350,7 +359,8 @@ void Diagnoser::describe_where() {
         if (t.p_value > rules::driver_p || share < rules::driver_share) continue;
         if (result_.where.size() == 6) break;
         DriverShare driver{t.by, t.component, "", share, t.p_value};
-        driver.text = fmt::format("{:.0f} % of the gap {} ({})", 100.0 * share, t.text, t.component);
+        driver.text =
+            fmt::format("{:.0f} % of the gap {} ({})", 100.0 * share, t.text, t.component);
         result_.where.push_back(std::move(driver));
     }
 }
@@ -379,7 +389,10 @@ std::vector<std::string> Diagnoser::rivals_of(std::size_t member, double& probab
         std::sort(members.begin(), members.end());
         const EffectSet swapped = evaluate(*design_, members, search_options());
         const double loss = set_.explained - swapped.explained;
-        if (loss > std::max(rules::rival_loss, rules::rival_part * contribution)) continue;
+        if (loss > std::clamp(rules::rival_part * contribution, rules::rival_loss,
+                              std::max(rules::rival_loss, 0.3 * contribution)) ||
+            loss > 0.3 * contribution)
+            continue;
         const double worse = set_.log_evidence - swapped.log_evidence;
         const auto same = std::find_if(rivals.begin(), rivals.end(), [&](const Rival& r) {
             return r.name == candidates[k].effect->name;
@@ -417,7 +430,7 @@ std::vector<FitParameter> Diagnoser::parameters_of(const EffectSet& set, std::si
     for (std::size_t j = 0; j < candidate.effect->parameters.size(); ++j) {
         const EffectParameter& p = candidate.effect->parameters[j];
         FitParameter fit{candidate.effect->name, p.name, p.unit, p.component, p.typical, 0.0,
-                         std::nan(""), 0.0, 0.0};
+                         std::nan(""),           0.0,    0.0};
         if (p.is_key()) {
             fit.value = candidate.values[j];
         } else if (column < candidate.parameters.size() && candidate.parameters[column] == j) {
@@ -459,8 +472,8 @@ void Diagnoser::add_unknown(double share, const std::vector<DriverTest>& left) {
     cause.probability = 1.0;
     cause.what = "A gap with structure that no effect of the catalogue explains";
     if (!left.empty()) cause.what += ": it " + left.front().text;
-    cause.heldout = cross_validate(*design_, base_, folds_, {}, 1.0, noise_mm(), used_, options_.seed,
-                                   noise_doubt());
+    cause.heldout = cross_validate(*design_, base_, folds_, {}, 1.0, noise_mm(), used_,
+                                   options_.seed, noise_doubt());
     const auto at = std::find_if(result_.causes.begin(), result_.causes.end(),
                                  [&](const Cause& c) { return c.share < share; });
     result_.causes.insert(at, std::move(cause));
@@ -492,10 +505,10 @@ double Diagnoser::unusual_square() const {
     const auto all = columns_of(*design_, set_.members);
     if (usual.size() == all.size()) return 0.0;
     const double lost = static_cast<double>(replay_.size()) - design_->freedom();
-    const double with = mean_square(design_->residual(all, set_.scale),
-                                    lost + static_cast<double>(all.size()));
-    const double without = mean_square(design_->residual(usual, set_.scale),
-                                       lost + static_cast<double>(usual.size()));
+    const double with =
+        mean_square(design_->residual(all, set_.scale), lost + static_cast<double>(all.size()));
+    const double without =
+        mean_square(design_->residual(usual, set_.scale), lost + static_cast<double>(usual.size()));
     return std::max(0.0, without - with);
 }
 
@@ -564,8 +577,8 @@ bool Diagnoser::coincidence() const {
 Diagnoser::Remainder Diagnoser::remainder() {
     Remainder r;
     const Eigen::VectorXd left = left_after(set_);
-    r.drivers = test_drivers(replay_, table_, base_, known_columns(set_), left, base_.sigma_mm, used_,
-                             *whitener_);
+    r.drivers = test_drivers(replay_, table_, base_, known_columns(set_), left, base_.sigma_mm,
+                             used_, *whitener_);
     std::erase_if(r.drivers, [](const DriverTest& t) { return t.p_value > rules::driver_p; });
     r.base = left_square({});
     r.after = left_square(set_.members);
@@ -580,7 +593,9 @@ Diagnoser::Remainder Diagnoser::remainder() {
     for (const NoiseBlock& block : blocks_)
         rows += noise_.of(block.device).independent(static_cast<double>(block.rows.size()));
     const double doubt = trusted ? 4.0 * std::hypot(noise_.doubt, std::sqrt(2.0 / rows)) : 1.1;
-    const double beyond = r.after - r.floor > doubt * r.floor ? r.after - r.floor : 0.0;
+    double beyond = r.after - r.floor > doubt * r.floor ? r.after - r.floor : 0.0;
+    // A stated noise may be wrong by 30 %: what is left beyond that is no noise.
+    if (!trusted && base_.noise_given && r.after > rules::most_noise) beyond = r.after - 1.0;
     // A gap of structure alone, without any effect, must be plain to see.
     const double plain = set_.members.empty() ? rules::plain_square : rules::least_square;
     const double least = trusted ? std::max(plain, noise_.doubt) : plain;
@@ -624,9 +639,11 @@ void Diagnoser::ask_next() {
     Eigen::Index at = design_->base_count();
     for (const std::size_t m : set_.members) {
         const Candidate& claimed = design_->candidates()[m];
-        const auto cause = std::find_if(result_.causes.begin(), result_.causes.end(),
-                                        [&](const Cause& c) { return c.effect == claimed.effect->name; });
-        for (std::size_t k = 0; k < 2 && cause != result_.causes.end() && k < cause->rivals.size(); ++k)
+        const auto cause =
+            std::find_if(result_.causes.begin(), result_.causes.end(),
+                         [&](const Cause& c) { return c.effect == claimed.effect->name; });
+        for (std::size_t k = 0; k < 2 && cause != result_.causes.end() && k < cause->rivals.size();
+             ++k)
             for (const Candidate& rival : design_->candidates()) {
                 if (rival.effect->name != cause->rivals[k] || !rival.visible) continue;
                 pairs.push_back({&claimed, x.segment(at, claimed.size()), &rival});
@@ -643,8 +660,8 @@ void Diagnoser::describe_size(const Remainder& r) {
     result_.noise = noise_;
     result_.rms_um = rms_um(base_.residual_mm);
     result_.noise_um = rms_um(noise_mm());
-    result_.excess_um = std::sqrt(std::max(0.0, result_.rms_um * result_.rms_um -
-                                                    result_.noise_um * result_.noise_um));
+    result_.excess_um = std::sqrt(
+        std::max(0.0, result_.rms_um * result_.rms_um - result_.noise_um * result_.noise_um));
     result_.after_rms_um = rms_um(left_after(set_));
     result_.inseparable = base_.inseparable;
     for (const Candidate& c : design_->candidates())
@@ -700,11 +717,16 @@ void Diagnoser::test_holdout() {
 
 const char* to_string(Verdict verdict) {
     switch (verdict) {
-        case Verdict::no_gap: return "no-gap";
-        case Verdict::explained: return "explained";
-        case Verdict::partly_explained: return "partly-explained";
-        case Verdict::ambiguous: return "ambiguous";
-        case Verdict::unexplained: return "unexplained";
+        case Verdict::no_gap:
+            return "no-gap";
+        case Verdict::explained:
+            return "explained";
+        case Verdict::partly_explained:
+            return "partly-explained";
+        case Verdict::ambiguous:
+            return "ambiguous";
+        case Verdict::unexplained:
+            return "unexplained";
     }
     return "";
 }

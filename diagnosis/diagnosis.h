@@ -1,4 +1,5 @@
-// The sim-to-real gap of a set of readings: where it lies, which effect causes it, how far it shrinks.
+// The sim-to-real gap of a set of readings: where it lies, which effect causes it, how far it
+// shrinks.
 #pragma once
 
 #include <optional>
@@ -20,8 +21,8 @@ const char* to_string(NoiseSource source);
 /// The gap on readings that took no part in the fit, before and after, raw um.
 struct HeldOut {
     double rms_before_um = 0.0, rms_after_um = 0.0, noise_um = 0.0;
-    double shrink = 0.0;            ///< 1 - sqrt(max(0, after^2 - noise^2) / (before^2 - noise^2))
-    double low = 0.0, high = 0.0;   ///< 95 %, bootstrap over poses and arcs
+    double shrink = 0.0;           ///< 1 - sqrt(max(0, after^2 - noise^2) / (before^2 - noise^2))
+    double low = 0.0, high = 0.0;  ///< 95 %, bootstrap over poses and arcs
 };
 
 struct DriverShare {
@@ -34,7 +35,7 @@ struct Cause {
     double probability = 0.0;
     std::vector<std::string> rivals;
     std::vector<FitParameter> parameters;
-    double share = 0.0;             ///< of the gap, independent of order (Shapley)
+    double share = 0.0;  ///< of the gap, independent of order (Shapley)
     HeldOut heldout;
     std::string what, usual_cause, remedy;
 };
@@ -57,7 +58,7 @@ struct Diagnosis {
     std::vector<std::string> unseen;       ///< effects that these readings cannot show
     std::vector<Inseparable> inseparable;  ///< of the base
     std::size_t readings = 0, outliers = 0;
-    Setup setup;                           ///< with the re-identified and added effects
+    Setup setup;  ///< with the re-identified and added effects
 };
 
 struct DiagnosisOptions {

@@ -134,7 +134,8 @@ class DriverList {
                 const double s = replay_.sample(i).since_reversal[index_of(axis)];
                 return sign(i) * std::exp(-s / (is_rotary(axis) ? 0.1 : 3.0));
             };
-            add("direction of " + name, "machine frame", "changes sign with the direction of " + name,
+            add("direction of " + name, "machine frame",
+                "changes sign with the direction of " + name,
                 {sign, [=](std::size_t i) { return sign(i) * q(i); },
                  [=](std::size_t i) { return sign(i) * q(i) * q(i); }, since},
                 {machine(0), machine(1), machine(2), axis_response(axis)});
@@ -153,7 +154,8 @@ class DriverList {
         if (end - start > 60.0) {
             auto functions = smooth(t, start, end, false, 6);
             add("time", "machine frame", "drifts with time", functions, machine_axes());
-            add("time", "table frame", "moves with the table at some moment", functions, table_axes());
+            add("time", "table frame", "moves with the table at some moment", functions,
+                table_axes());
         }
         if (warm - cold < 0.3) return;
         const RowFunction warmth = [this](std::size_t i) {
@@ -186,7 +188,8 @@ class DriverList {
                 each.push_back([this, m = *it](std::size_t i) {
                     return replay_.sample(i).mode == m ? 1.0 : 0.0;
                 });
-            add("mode", "machine and table frame", "depends on the positioning function", each, both);
+            add("mode", "machine and table frame", "depends on the positioning function", each,
+                both);
         }
         if (load)
             add("load", "machine and table frame", "depends on the load",
@@ -288,8 +291,8 @@ class Gain {
 std::vector<DriverTest> test_drivers(const Replay& replay, const ReadingTable& table,
                                      const BaseModel& base, const Eigen::MatrixXd& known,
                                      const Eigen::VectorXd& left_mm,
-                                     const Eigen::VectorXd& sigma_mm,
-                                     const std::vector<bool>& used, const Whitener& whitener) {
+                                     const Eigen::VectorXd& sigma_mm, const std::vector<bool>& used,
+                                     const Whitener& whitener) {
     Eigen::VectorXd weight = sigma_mm.cwiseInverse();
     double rows = 0.0;
     for (Eigen::Index i = 0; i < weight.size(); ++i)
@@ -312,8 +315,9 @@ std::vector<DriverTest> test_drivers(const Replay& replay, const ReadingTable& t
         whitener.apply(columns);
         const double gain = white.of(columns);
         const double white_rest = std::max(1e-12, white.sum() - gain) / (freedom - q);
-        DriverTest test{driver.by, driver.component, driver.text, 0.0, 1.0,
-                        static_cast<int>(driver.columns.size())};
+        DriverTest test{driver.by,   driver.component,
+                        driver.text, 0.0,
+                        1.0,         static_cast<int>(driver.columns.size())};
         test.explained = plain.sum() / freedom - rest / (freedom - q);
         test.p_value = std::min(1.0, f_tail(gain / q / white_rest, q, freedom - q) *
                                          static_cast<double>(list.all().size()));

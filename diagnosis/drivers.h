@@ -10,14 +10,14 @@ namespace trunnion {
 /// share does not pass for structure. Rows with `used` 0 take no part. Strongest first.
 struct DriverTest {
     std::string by, component, text;
-    double explained = 0.0;   ///< fall of the mean squared z, freedom accounted for
-    double p_value = 1.0;     ///< corrected for the number of drivers tried
+    double explained = 0.0;  ///< fall of the mean squared z, freedom accounted for
+    double p_value = 1.0;    ///< corrected for the number of drivers tried
     int columns = 0;
 };
 std::vector<DriverTest> test_drivers(const Replay& replay, const ReadingTable& table,
                                      const BaseModel& base, const Eigen::MatrixXd& known,
                                      const Eigen::VectorXd& left_mm,
-                                     const Eigen::VectorXd& sigma_mm,
-                                     const std::vector<bool>& used, const Whitener& whitener);
+                                     const Eigen::VectorXd& sigma_mm, const std::vector<bool>& used,
+                                     const Whitener& whitener);
 
 }  // namespace trunnion

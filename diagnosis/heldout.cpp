@@ -68,8 +68,9 @@ HeldOut summarise(const SquaredSums& sums, std::uint64_t seed, double doubt) {
     for (int k = 0; k < 400; ++k) {
         std::vector<std::size_t> sample(all.size());
         for (std::size_t& g : sample)
-            g = all[std::min(all.size() - 1, static_cast<std::size_t>(
-                                                 random.uniform() * static_cast<double>(all.size())))];
+            g = all[std::min(
+                all.size() - 1,
+                static_cast<std::size_t>(random.uniform() * static_cast<double>(all.size())))];
         draws.push_back(shrink(sample, std::max(0.2, 1.0 + doubt * random.normal())));
     }
     result.low = std::min(result.shrink, quantile(draws, 0.025));

@@ -67,8 +67,7 @@ class Plan {
         row.feed_mm_min = 100.0;
         for (std::size_t k = 0; k < rotary_.size() && k < angles_deg.size(); ++k)
             row.commanded[rotary_[k].axis] = rad_from_deg(angles_deg[k]);
-        const double reach =
-            0.5 * (sphere.diameter_mm + result_.setup.probe->ball_diameter_mm);
+        const double reach = 0.5 * (sphere.diameter_mm + result_.setup.probe->ball_diameter_mm);
         for (int k = 0; k < azimuths; ++k) {
             const double a = 2.0 * pi * k / azimuths;
             row.direction_M = -Vector3(std::cos(a), std::sin(a), 0.0);
@@ -100,9 +99,13 @@ class Plan {
 
     void circle(int plane, double feed, bool clockwise) {
         const double sweep = plane == 0 ? 360.0 : 180.0;
-        pass(fmt::format("{}_{}_{:.0f}", plane == 0 ? "xy" : plane == 1 ? "yz" : "zx",
+        pass(fmt::format("{}_{}_{:.0f}",
+                         plane == 0   ? "xy"
+                         : plane == 1 ? "yz"
+                                      : "zx",
                          clockwise ? "cw" : "ccw", feed),
-             feed, clockwise ? sweep : 0.0, clockwise ? 0.0 : sweep, [&](Reading& row, double angle) {
+             feed, clockwise ? sweep : 0.0, clockwise ? 0.0 : sweep,
+             [&](Reading& row, double angle) {
                  // Upper half in the vertical planes.
                  const Vector3 bar = plane == 0   ? Vector3(std::cos(angle), std::sin(angle), 0.0)
                                      : plane == 1 ? Vector3(0.0, std::cos(angle), std::sin(angle))
@@ -133,8 +136,7 @@ class Plan {
     /// Linear axes so that `tip_S` meets a point of the table.
     void aim(Reading& row, const Vector3& target_W, const Vector3& tip_S) const {
         for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) row.commanded[axis] = 0.0;
-        const Vector3 at =
-            result_.setup.machine.poses(row.commanded).pose_MW * target_W - tip_S;
+        const Vector3 at = result_.setup.machine.poses(row.commanded).pose_MW * target_W - tip_S;
         row.commanded[Axis::X] = at.x();
         row.commanded[Axis::Y] = at.y();
         row.commanded[Axis::Z] = at.z();
@@ -166,34 +168,36 @@ std::vector<Measurement> ready_measurements(const Setup& setup, double start_s) 
         fill(plan);
         list.push_back(plan.done());
     };
-    make("both_ways", "find spheres at 12 poses, each rotary axis approached from both sides", false,
-         [](Plan& p) { spread(p, 6.0); });
+    make("both_ways", "find spheres at 12 poses, each rotary axis approached from both sides",
+         false, [](Plan& p) { spread(p, 6.0); });
     make("long_stylus", "find spheres at 12 poses with a stylus 60 mm longer", false, [](Plan& p) {
         p.setup().probe->tip_S_mm.z() -= 60.0;
         spread(p, 6.0);
     });
-    make("reference_sphere", "return to one sphere every 10 minutes for an hour", false, [](Plan& p) {
-        for (int k = 0; k < 7; ++k) {
-            p.sphere(0, {0.0, 0.0}, 6.0);
-            p.wait(560.0);
-        }
-    });
+    make("reference_sphere", "return to one sphere every 10 minutes for an hour", false,
+         [](Plan& p) {
+             for (int k = 0; k < 7; ++k) {
+                 p.sphere(0, {0.0, 0.0}, 6.0);
+                 p.wait(560.0);
+             }
+         });
     make("two_modes", "find spheres at 8 poses in each of dpp and rtcp", false, [](Plan& p) {
         for (const PositioningMode mode : {PositioningMode::dpp, PositioningMode::rtcp}) {
             p.state().mode = mode;
             spread(p, 6.0, 8);
         }
     });
-    make("spindle_turned", "find spheres at 6 poses with the spindle at 0 and at 180 degrees", false,
-         [](Plan& p) {
+    make("spindle_turned", "find spheres at 6 poses with the spindle at 0 and at 180 degrees",
+         false, [](Plan& p) {
              for (const double angle : {0.0, pi}) {
                  p.state().spindle_rad = angle;
                  spread(p, 6.0, 6);
              }
          });
-    make("eight_azimuths", "touch a sphere from 8 directions at 4 table angles", false, [](Plan& p) {
-        for (const double c : {0.0, 50.0, 130.0, 260.0}) p.touches(0, {0.0, c}, 8);
-    });
+    make("eight_azimuths", "touch a sphere from 8 directions at 4 table angles", false,
+         [](Plan& p) {
+             for (const double c : {0.0, 50.0, 130.0, 260.0}) p.touches(0, {0.0, c}, 8);
+         });
     make("added_load", "find spheres at 8 poses empty and at 8 with 80 kg on the table", false,
          [](Plan& p) {
              for (const double load : {0.0, 80.0}) {
@@ -223,8 +227,9 @@ std::vector<Measurement> ready_measurements(const Setup& setup, double start_s) 
              for (int plane = 0; plane < 3; ++plane)
                  for (const bool cw : {false, true}) p.circle(plane, 1000.0, cw);
          });
-    make("ballbar_turns", "ballbar with each rotary axis turning, bar along X, Y and Z, out and back",
-         true, [](Plan& p) {
+    make("ballbar_turns",
+         "ballbar with each rotary axis turning, bar along X, Y and Z, out and back", true,
+         [](Plan& p) {
              for (std::size_t k = 0; k < p.rotary_count(); ++k)
                  for (int d = 0; d < 3; ++d) {
                      const double end = k == 0 ? 80.0 : 360.0, begin = k == 0 ? -80.0 : 0.0;
@@ -239,9 +244,10 @@ std::string nc_program(const Measurement& m) {
     constexpr double above_mm = 40.0;  // where O8100 starts over a sphere
     std::string zeros;
     for (const Axis axis : m.table.axes) zeros += fmt::format(" {}0.", letter_of(axis));
-    std::string text = fmt::format("%\nO8900 ({})\n({})\n(G59 IS SET TO MACHINE ZERO)\n"
-                                   "G90 G17 G21 G40 G49 G80\nG10 L2 P6{}\nG59\n",
-                                   m.name, m.text, zeros);
+    std::string text = fmt::format(
+        "%\nO8900 ({})\n({})\n(G59 IS SET TO MACHINE ZERO)\n"
+        "G90 G17 G21 G40 G49 G80\nG10 L2 P6{}\nG59\n",
+        m.name, m.text, zeros);
     const auto words = [&](const Reading& row, bool linear, double lift_mm) {
         std::string line;
         for (const Axis axis : m.table.axes) {

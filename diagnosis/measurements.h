@@ -21,8 +21,8 @@ struct Measurement {
 /// All measurements that this machine and its artefacts allow.
 std::vector<Measurement> ready_measurements(const Setup& setup, double start_s);
 
-/// The measurement as an NC program: G53 positions; spheres call O8100 (programs/sphere9.nc), passes
-/// of the ballbar move at their feed. Machine coordinates in mm and deg.
+/// The measurement as an NC program: G53 positions; spheres call O8100 (programs/sphere9.nc),
+/// passes of the ballbar move at their feed. Machine coordinates in mm and deg.
 std::string nc_program(const Measurement& measurement);
 
 }  // namespace trunnion

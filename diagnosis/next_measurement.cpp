@@ -33,14 +33,16 @@ struct Worked {
     Block block;
 };
 
-Worked work_out(Measurement m, const Catalogue& catalogue, const std::vector<std::string>& effects) {
+Worked work_out(Measurement m, const Catalogue& catalogue,
+                const std::vector<std::string>& effects) {
     Worked w;
     w.measurement = std::move(m);
     w.replay.emplace(w.measurement.setup, w.measurement.table);
     const ForwardModel forward(w.measurement.setup.machine);
     for (std::size_t i = 0; i < w.replay->size(); ++i)
         w.gradient.push_back(w.replay->gradient(i, forward, {}));
-    w.weight = row_noise(w.measurement.setup, w.measurement.table, *w.replay).sigma_mm.cwiseInverse();
+    w.weight =
+        row_noise(w.measurement.setup, w.measurement.table, *w.replay).sigma_mm.cwiseInverse();
     const BaseColumns base =
         base_columns(w.measurement.setup, *w.replay, catalogue, effects, w.gradient);
     w.block = {names_of(base.parameters), w.weight.asDiagonal() * base.columns};
@@ -125,8 +127,9 @@ NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& l
         best.log_bayes_factor = gain;
         best.minutes = w.measurement.minutes;
         best.program = nc_program(w.measurement);
-        best.text = fmt::format("to tell {} from {}: {} (about {:.0f} minutes, predicted {:.0f} nats)",
-                                best.first, best.second, w.measurement.text, best.minutes, gain);
+        best.text =
+            fmt::format("to tell {} from {}: {} (about {:.0f} minutes, predicted {:.0f} nats)",
+                        best.first, best.second, w.measurement.text, best.minutes, gain);
     }
     if (best.text.empty())
         best.text = fmt::format("no ready measurement tells {} from {} at this size", best.first,
@@ -145,9 +148,10 @@ std::vector<NextMeasurement> plan_next(const Design& design, const BaseModel& ba
     for (Measurement& m : ready_measurements(base.setup, end_s + 600.0))
         list.push_back(work_out(std::move(m), catalogue, base.setup.model.modelled));
     for (const AmbiguousPair& pair : pairs) plan.push_back(best_for(pair, list, design, base));
-    std::stable_sort(plan.begin(), plan.end(), [](const NextMeasurement& a, const NextMeasurement& b) {
-        return a.log_bayes_factor > b.log_bayes_factor;
-    });
+    std::stable_sort(plan.begin(), plan.end(),
+                     [](const NextMeasurement& a, const NextMeasurement& b) {
+                         return a.log_bayes_factor > b.log_bayes_factor;
+                     });
     return plan;
 }
 

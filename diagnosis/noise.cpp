@@ -13,15 +13,20 @@ Eigen::MatrixXd touch_covariance(const Replay& replay, const std::vector<Eigen::
     Eigen::MatrixXd v(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
         for (Eigen::Index j = 0; j < n; ++j) {
-            const Vector3& a = replay.contact(static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])).direction_M;
-            const Vector3& b = replay.contact(static_cast<std::size_t>(rows[static_cast<std::size_t>(j)])).direction_M;
+            const Vector3& a =
+                replay.contact(static_cast<std::size_t>(rows[static_cast<std::size_t>(i)]))
+                    .direction_M;
+            const Vector3& b =
+                replay.contact(static_cast<std::size_t>(rows[static_cast<std::size_t>(j)]))
+                    .direction_M;
             v(i, j) = noise.scale * noise.scale *
                       (noise.shared * a.dot(b) + (i == j ? 1.0 - noise.shared : 0.0));
         }
     return v;
 }
 
-/// Innovations of "memory + white": what the Kalman filter of the shared state expects at each step.
+/// Innovations of "memory + white": what the Kalman filter of the shared state expects at each
+/// step.
 struct PassFilter {
     explicit PassFilter(const DeviceNoise& noise)
         : memory(noise.memory),
@@ -30,7 +35,7 @@ struct PassFilter {
           variance(shared) {}
 
     double memory, shared, white;
-    double variance;        ///< of the predicted state
+    double variance;  ///< of the predicted state
     double gain = 0.0, deviation = 1.0;
 
     void step() {
@@ -83,10 +88,12 @@ Whitener::Whitener(const Replay& replay, std::vector<NoiseBlock> blocks, const N
 void Whitener::whiten_touches(const NoiseBlock& block, Eigen::MatrixXd& m) const {
     const auto n = static_cast<Eigen::Index>(block.rows.size());
     Eigen::MatrixXd part(n, m.cols());
-    for (Eigen::Index k = 0; k < n; ++k) part.row(k) = m.row(block.rows[static_cast<std::size_t>(k)]);
+    for (Eigen::Index k = 0; k < n; ++k)
+        part.row(k) = m.row(block.rows[static_cast<std::size_t>(k)]);
     const Eigen::LLT<Eigen::MatrixXd> llt(touch_covariance(replay_, block.rows, noise_.touch));
     llt.matrixL().solveInPlace(part);
-    for (Eigen::Index k = 0; k < n; ++k) m.row(block.rows[static_cast<std::size_t>(k)]) = part.row(k);
+    for (Eigen::Index k = 0; k < n; ++k)
+        m.row(block.rows[static_cast<std::size_t>(k)]) = part.row(k);
 }
 
 void Whitener::whiten_pass(const NoiseBlock& block, Eigen::MatrixXd& m) const {

@@ -72,10 +72,10 @@ NoiseModel noise_from_repeats(const Replay& replay, const ReadingTable& table,
                               const NoiseModel& start);
 
 /// Noise from what a fit left over, by maximum likelihood: shared part, memory and a scale within
-/// 0.6..1.45 of what was stated. `freedom` = share of the rows' freedom that the fit left.
+/// 0.6..1.45 of what was stated (any scale when nothing was). `freedom` = share of the rows'
+/// freedom that the fit left.
 NoiseModel noise_from_residuals(const Replay& replay, const std::vector<NoiseBlock>& blocks,
-                                const Eigen::VectorXd& residual_mm,
-                                const Eigen::VectorXd& sigma_mm, const NoiseModel& start,
-                                double freedom);
+                                const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& sigma_mm,
+                                const NoiseModel& start, double freedom, bool stated);
 
 }  // namespace trunnion

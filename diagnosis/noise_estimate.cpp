@@ -25,16 +25,14 @@ double touch_likelihood(const Replay& replay, const Stretch& s, const DeviceNois
         for (Eigen::Index j = 0; j < n; ++j) {
             const auto a = static_cast<std::size_t>(s.rows[static_cast<std::size_t>(i)]);
             const auto b = static_cast<std::size_t>(s.rows[static_cast<std::size_t>(j)]);
-            const double along =
-                replay.contact(a).direction_M.dot(replay.contact(b).direction_M);
+            const double along = replay.contact(a).direction_M.dot(replay.contact(b).direction_M);
             v(i, j) = noise.shared * along + (i == j ? 1.0 - noise.shared + 1e-9 : 0.0);
         }
     const Eigen::LLT<Eigen::MatrixXd> llt(v);
     const Eigen::VectorXd w = llt.matrixL().solve(s.value);
     const double log_scale = std::log(noise.scale);
     return -w.squaredNorm() / (2.0 * noise.scale * noise.scale) -
-           static_cast<double>(n) * log_scale -
-           llt.matrixLLT().diagonal().array().log().sum();
+           static_cast<double>(n) * log_scale - llt.matrixLLT().diagonal().array().log().sum();
 }
 
 /// Innovations of the values and of `shift` columns under the noise of one pass; the columns are
@@ -51,7 +49,8 @@ double pass_likelihood(const Replay& replay, const Stretch& s, const DeviceNoise
         entry(0) = s.value(k);
         if (s.free_shift)
             entry.tail<3>() =
-                replay.contact(static_cast<std::size_t>(s.rows[static_cast<std::size_t>(k)])).direction_M;
+                replay.contact(static_cast<std::size_t>(s.rows[static_cast<std::size_t>(k)]))
+                    .direction_M;
         const double expected = variance + white;
         const Row innovation = entry - state;
         square += innovation * innovation.transpose() / expected;
@@ -75,10 +74,10 @@ double likelihood(const Replay& replay, Device device, const std::vector<Stretch
     double sum = 0.0;
     for (const Stretch& s : stretches)
         sum += device == Device::ballbar ? pass_likelihood(replay, s, noise)
-               : device == Device::touch ? touch_likelihood(replay, s, noise)
-                                         : -s.value.squaredNorm() / (2.0 * noise.scale * noise.scale) -
-                                               static_cast<double>(s.value.size()) *
-                                                   std::log(noise.scale);
+               : device == Device::touch
+                   ? touch_likelihood(replay, s, noise)
+                   : -s.value.squaredNorm() / (2.0 * noise.scale * noise.scale) -
+                         static_cast<double>(s.value.size()) * std::log(noise.scale);
     return sum;
 }
 
@@ -101,7 +100,8 @@ DeviceNoise estimate(const Replay& replay, Device device, const std::vector<Stre
     DeviceNoise best = plain;
     double most = likelihood(replay, device, stretches, plain) + 4.0;
     const bool pass = device == Device::ballbar;
-    for (const double memory : pass ? std::vector<double>{0.6, 0.9, 0.97} : std::vector<double>{0.0}) {
+    for (const double memory :
+         pass ? std::vector<double>{0.6, 0.9, 0.97} : std::vector<double>{0.0}) {
         nlopt::opt search(nlopt::LN_NELDERMEAD, pass ? 3 : 2);
         const auto noise_of = [&](const std::vector<double>& x) {
             return DeviceNoise{x[0], x[1], pass ? x[2] : 0.0};
@@ -111,11 +111,9 @@ DeviceNoise estimate(const Replay& replay, Device device, const std::vector<Stre
         } context{[&](const std::vector<double>& x) {
             return likelihood(replay, device, stretches, noise_of(x));
         }};
-        search.set_max_objective(
-            [](const std::vector<double>& x, std::vector<double>&, void* data) {
-                return static_cast<Context*>(data)->value(x);
-            },
-            &context);
+        search.set_max_objective([](const std::vector<double>& x, std::vector<double>&,
+                                    void* data) { return static_cast<Context*>(data)->value(x); },
+                                 &context);
         std::vector<double> lower{low, 0.0}, upper{high, 0.98}, x{plain.scale, 0.4};
         if (pass) {
             lower.push_back(0.2);
@@ -154,8 +152,8 @@ Key key_of(const Replay& replay, const ReadingTable& table, std::size_t i) {
     place.push_back(std::lround(sample.load_kg * 10.0));
     place.push_back(std::lround(sample.spindle_rad * 100.0));
     place.push_back(sample.clamped ? 1 : 0);
-    return {static_cast<int>(contact.device), contact.artefact, static_cast<int>(sample.mode), place,
-            travel};
+    return {static_cast<int>(contact.device), contact.artefact, static_cast<int>(sample.mode),
+            place, travel};
 }
 
 /// Pairs of blocks that repeat each other row by row.
@@ -253,9 +251,8 @@ NoiseModel noise_from_repeats(const Replay& replay, const ReadingTable& table,
 }
 
 NoiseModel noise_from_residuals(const Replay& replay, const std::vector<NoiseBlock>& blocks,
-                                const Eigen::VectorXd& residual_mm,
-                                const Eigen::VectorXd& sigma_mm, const NoiseModel& start,
-                                double freedom) {
+                                const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& sigma_mm,
+                                const NoiseModel& start, double freedom, bool stated) {
     NoiseModel noise = start;
     std::map<Device, std::vector<Stretch>> stretches;
     for (const NoiseBlock& block : blocks) {
@@ -264,11 +261,15 @@ NoiseModel noise_from_residuals(const Replay& replay, const std::vector<NoiseBlo
         s.value.resize(static_cast<Eigen::Index>(s.rows.size()));
         for (std::size_t k = 0; k < s.rows.size(); ++k) {
             const double z = residual_mm(s.rows[k]) / sigma_mm(s.rows[k]);
-            s.value(static_cast<Eigen::Index>(k)) = std::clamp(z, -5.0, 5.0) / std::sqrt(freedom);
+            const double limit = stated ? 5.0 : 1e6;
+            s.value(static_cast<Eigen::Index>(k)) =
+                std::clamp(z, -limit, limit) / std::sqrt(freedom);
         }
         stretches[block.device].push_back(std::move(s));
     }
-    for (auto& [device, list] : stretches) noise.of(device) = estimate(replay, device, list, 0.6, 1.45);
+    for (auto& [device, list] : stretches)
+        noise.of(device) =
+            estimate(replay, device, list, stated ? 0.6 : 0.02, stated ? 1.45 : 50.0);
     return noise;
 }
 

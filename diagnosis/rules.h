@@ -7,11 +7,13 @@ constexpr double least_share = 0.05;    ///< of the gap: below it an effect is b
 constexpr double least_square = 0.03;   ///< of the noise variance: below it nobody cares
 constexpr double plain_square = 0.08;   ///< ... and below it a driver alone makes no gap
 constexpr double most_outliers = 0.04;  ///< of the readings
+constexpr double most_noise = 2.0;      ///< times the stated variance: more is no noise
 constexpr double driver_p = 1e-4;       ///< chance level at which a driver counts
 constexpr double driver_share = 0.05;
-constexpr double admit_share = 0.10;    ///< unexplained part from which "unknown" is named
-constexpr double rival_loss = 12.0;     ///< chi-squared a rival may lose
-constexpr double rival_part = 0.04;     ///< ... or part of the contribution
-constexpr double parsimony_nats = 4.0;  ///< a simpler effect of equal fit is this much more probable
+constexpr double admit_share = 0.10;  ///< unexplained part from which "unknown" is named
+constexpr double rival_loss = 12.0;   ///< chi-squared a rival may lose
+constexpr double rival_part = 0.04;   ///< ... or part of the contribution
+constexpr double parsimony_nats =
+    4.0;  ///< a simpler effect of equal fit is this much more probable
 
 }  // namespace trunnion::rules

@@ -13,9 +13,8 @@ constexpr std::array<double, 4> prior_scales{0.3, 1.0, 3.0, 10.0};
 
 bool shares_effect(const Design& design, const std::vector<std::size_t>& members, std::size_t k) {
     const auto& candidates = design.candidates();
-    return std::any_of(members.begin(), members.end(), [&](std::size_t m) {
-        return candidates[m].effect == candidates[k].effect;
-    });
+    return std::any_of(members.begin(), members.end(),
+                       [&](std::size_t m) { return candidates[m].effect == candidates[k].effect; });
 }
 
 }  // namespace
@@ -90,7 +89,9 @@ std::vector<EffectSet> search_sets(const Design& design, const SearchOptions& op
         all.insert(all.end(), grown.begin(), grown.end());
         if (grown.empty()) break;
         const double before = beam.front().log_evidence;
-        if (grown.size() > options.width) grown.resize(options.width);
+        // All single effects go on to pairs: a pair may beat what neither of its members does
+        // alone.
+        if (size > 1 && grown.size() > options.width) grown.resize(options.width);
         beam = std::move(grown);
         if (beam.front().log_evidence < before - 10.0) break;
     }

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double tiny = 1e-300;
 
-/// Upper regularised incomplete gamma Q(a, x): series below a + 1, continued fraction above (Lentz).
+/// Upper regularised incomplete gamma Q(a, x): series below a + 1, continued fraction above
+/// (Lentz).
 double gamma_q(double a, double x) {
     if (x <= 0.0) return 1.0;
     const double front = std::exp(a * std::log(x) - x - std::lgamma(a));

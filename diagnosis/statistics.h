@@ -5,10 +5,10 @@
 
 namespace trunnion {
 
-double chi_squared_tail(double value, double freedom);          ///< P(X > value)
+double chi_squared_tail(double value, double freedom);              ///< P(X > value)
 double f_tail(double value, double numerator, double denominator);  ///< P(F > value)
-double normal_tail(double value);                               ///< P(Z > value)
-double median(std::vector<double> values);                      ///< 0 for none
+double normal_tail(double value);                                   ///< P(Z > value)
+double median(std::vector<double> values);                          ///< 0 for none
 /// Quantile by linear interpolation, `share` in 0..1.
 double quantile(std::vector<double> values, double share);
 

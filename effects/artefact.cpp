@@ -29,7 +29,8 @@ std::vector<double> slip_times(const DataExtent& extent, int count) {
     for (const auto& times : extent.times_s) {
         const std::size_t n = times.size();
         for (int k = 1; k <= count && n > 1; ++k) {
-            const std::size_t at = n * static_cast<std::size_t>(k) / static_cast<std::size_t>(count + 1);
+            const std::size_t at =
+                n * static_cast<std::size_t>(k) / static_cast<std::size_t>(count + 1);
             if (at > 0 && at < n) all.push_back(0.5 * (times[at - 1] + times[at]));
         }
     }
@@ -85,9 +86,9 @@ Effect artefact_form(const std::vector<Artefact>& artefacts) {
             out.reading_mm -= form(contact.direction_W, value);
         } else if (contact.touches > 0) {
             // Turn M into W with the two directions known in both: only the component read matters.
-            const Matrix3 turn_WM = Eigen::Quaterniond::FromTwoVectors(contact.direction_M,
-                                                                       contact.direction_W)
-                                        .toRotationMatrix();
+            const Matrix3 turn_WM =
+                Eigen::Quaterniond::FromTwoVectors(contact.direction_M, contact.direction_W)
+                    .toRotationMatrix();
             out.reading_mm += contact.direction_M.dot(
                 touch_pattern(contact.touches).center_shift([&](const Vector3& outward_M) {
                     return form(turn_WM * outward_M, value);
@@ -105,11 +106,10 @@ Effect artefact_moved(const std::vector<Artefact>& artefacts, const DataExtent& 
                   "artefact shifted by shift_mm in W from time_s on",
                   {},
                   {}};
-    for (int d = 0; d < 3; ++d)
-        effect.parameters.push_back({"shift_mm", "mm", 10e-3, d, {}, true});
+    for (int d = 0; d < 3; ++d) effect.parameters.push_back({"shift_mm", "mm", 10e-3, d, {}, true});
     effect.parameters.push_back({"artefact", "1", 0.0, -1, indices(artefacts.size()), false});
-    effect.parameters.push_back({"time_s", "s", 0.5 * (extent.start_s + extent.end_s), -1,
-                                 slip_times(extent, 16), true});
+    effect.parameters.push_back(
+        {"time_s", "s", 0.5 * (extent.start_s + extent.end_s), -1, slip_times(extent, 16), true});
     effect.add = [](const AxisSample& sample, const Contact& contact, std::span<const double> value,
                     Perturbation& out) {
         if (contact.artefact != static_cast<int>(value[3]) || sample.time_s < value[4]) return;

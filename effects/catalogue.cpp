@@ -7,12 +7,12 @@ namespace {
 
 using AxisMaker = Effect (*)(const AxisGeometry&);
 
-constexpr AxisMaker rotary_effects[] = {rotary_zero,  rotary_positioning, rotary_cyclic,
-                                        rotary_radial, rotary_axial,      rotary_tilt,
+constexpr AxisMaker rotary_effects[] = {rotary_zero,    rotary_positioning, rotary_cyclic,
+                                        rotary_radial,  rotary_axial,       rotary_tilt,
                                         rotary_backlash};
-constexpr AxisMaker linear_effects[] = {linear_scale,    linear_straightness,   linear_angular,
-                                        linear_cyclic,   linear_backlash,
-                                        linear_reversal_spike, linear_lateral_play};
+constexpr AxisMaker linear_effects[] = {
+    linear_scale,    linear_straightness,   linear_angular,     linear_cyclic,
+    linear_backlash, linear_reversal_spike, linear_lateral_play};
 
 /// The first rotary axis that carries the work: the one that gravity loads.
 const AxisGeometry* tilting_axis(const Chain& chain) {

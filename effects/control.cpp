@@ -63,7 +63,9 @@ void move_axes(const Vector3& shift_mm, Perturbation& out) {
     out.axis[Axis::Z] += shift_mm.z();
 }
 
-Vector3 three(std::span<const double> value) { return {value[0], value[1], value[2]}; }
+Vector3 three(std::span<const double> value) {
+    return {value[0], value[1], value[2]};
+}
 
 }  // namespace
 
@@ -76,7 +78,11 @@ Effect control_rounding(const Chain& chain) {
             "more decimals in the program, finer increment system (IS-C)",
             "position + fraction (round to increment - position); fraction 1 when it is so",
             {{"fraction", "1", 1.0, -1, {}, true},
-             {"increment_deg", "deg", 0.001, -1, {0.0, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1},
+             {"increment_deg",
+              "deg",
+              0.001,
+              -1,
+              {0.0, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1},
               false},
              {"increment_mm", "mm", 0.0, -1, {0.0, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05}, false}},
             [axes](const AxisSample& sample, const Contact&, std::span<const double> value,
@@ -89,22 +95,22 @@ Effect control_rounding(const Chain& chain) {
 }
 
 Effect control_chord(const Chain&) {
-    return {"control.chord",
-            "A curve is cut into straight pieces that pass inside it",
-            "coarse tolerance of the post-processor, rotary moves without tool-centre control",
-            "finer segments, or let the control interpolate (G02, G43.4)",
-            "linear axes inwards by fraction s (block_mm - s) / (2 r), s along the straight block",
-            {{"fraction", "1", 1.0, -1, {}, true},
-             {"block_mm", "mm", 2.0, -1, block_lengths(), false}},
-            [](const AxisSample& sample, const Contact& contact, std::span<const double> value,
-               Perturbation& out) {
-                if (contact.device != Device::ballbar) return;
-                const PathTurn turn = turn_of(sample, contact);
-                if (turn.speed < 1e-6) return;
-                const double s = std::fmod(contact.path_mm, value[1]);
-                const double time2 = s * (value[1] - s) / (turn.speed * turn.speed);
-                move_axes(value[0] * 0.5 * time2 * turn.acceleration, out);
-            }};
+    return {
+        "control.chord",
+        "A curve is cut into straight pieces that pass inside it",
+        "coarse tolerance of the post-processor, rotary moves without tool-centre control",
+        "finer segments, or let the control interpolate (G02, G43.4)",
+        "linear axes inwards by fraction s (block_mm - s) / (2 r), s along the straight block",
+        {{"fraction", "1", 1.0, -1, {}, true}, {"block_mm", "mm", 2.0, -1, block_lengths(), false}},
+        [](const AxisSample& sample, const Contact& contact, std::span<const double> value,
+           Perturbation& out) {
+            if (contact.device != Device::ballbar) return;
+            const PathTurn turn = turn_of(sample, contact);
+            if (turn.speed < 1e-6) return;
+            const double s = std::fmod(contact.path_mm, value[1]);
+            const double time2 = s * (value[1] - s) / (turn.speed * turn.speed);
+            move_axes(value[0] * 0.5 * time2 * turn.acceleration, out);
+        }};
 }
 
 Effect pivot_g54(const Chain& chain) {
@@ -115,8 +121,7 @@ Effect pivot_g54(const Chain& chain) {
                   "modes dpp, rtdfo: axes move by -(R1 R2 - 1) dg_mm",
                   {},
                   {}};
-    for (int d = 0; d < 3; ++d)
-        effect.parameters.push_back({"dg_mm", "mm", 30e-3, d, {}, true});
+    for (int d = 0; d < 3; ++d) effect.parameters.push_back({"dg_mm", "mm", 30e-3, d, {}, true});
     effect.add = [rotary = rotary_of(chain)](const AxisSample& sample, const Contact&,
                                              std::span<const double> value, Perturbation& out) {
         if (sample.mode != PositioningMode::dpp && sample.mode != PositioningMode::rtdfo) return;
@@ -135,8 +140,7 @@ Effect pivot_p1970x(const Chain& chain) {
                   {},
                   {}};
     for (const char* name : {"dp_mm", "dd_mm"})
-        for (int d = 0; d < 3; ++d)
-            effect.parameters.push_back({name, "mm", 30e-3, d, {}, true});
+        for (int d = 0; d < 3; ++d) effect.parameters.push_back({name, "mm", 30e-3, d, {}, true});
     effect.add = [rotary = rotary_of(chain)](const AxisSample& sample, const Contact&,
                                              std::span<const double> value, Perturbation& out) {
         if (sample.mode != PositioningMode::rtcp && sample.mode != PositioningMode::tw) return;

@@ -14,10 +14,10 @@ namespace trunnion {
 /// One scalar of an effect. A linear parameter enters the perturbation proportionally and is 0 when
 /// the effect is off; a key (pitch, time constant, moment) shapes it and is searched over `grid`.
 struct EffectParameter {
-    std::string name;          ///< as in files and JSON, with its unit: "gap_rad"
+    std::string name;  ///< as in files and JSON, with its unit: "gap_rad"
     std::string unit;
-    double typical = 1.0;      ///< linear: standard deviation expected in the trade; key: usual value
-    int component = -1;        ///< 0.. of a vector parameter of this name
+    double typical = 1.0;  ///< linear: standard deviation expected in the trade; key: usual value
+    int component = -1;    ///< 0.. of a vector parameter of this name
     std::vector<double> grid;  ///< a key: values to try first, rising; empty for a linear parameter
     bool refine = true;        ///< a key may lie between grid values
     bool usual = true;         ///< false: lets the form deviate from the textbook's; what only such

@@ -20,9 +20,13 @@ void append_harmonics(std::vector<EffectParameter>& list, const std::string& pre
                       const std::string& unit, int orders, double typical, int usual_orders) {
     for (int n = 1; n <= orders; ++n)
         for (const char* wave : {"cos", "sin"})
-            list.push_back(
-                {fmt::format("{}{}{}_{}", prefix, wave, n, unit), unit, typical / n, -1, {}, true,
-                 n <= usual_orders});
+            list.push_back({fmt::format("{}{}{}_{}", prefix, wave, n, unit),
+                            unit,
+                            typical / n,
+                            -1,
+                            {},
+                            true,
+                            n <= usual_orders});
 }
 
 int main_direction(const AxisGeometry& axis) {

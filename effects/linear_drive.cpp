@@ -36,23 +36,29 @@ Effect linear_backlash(const AxisGeometry& axis) {
 }
 
 Effect linear_reversal_spike(const AxisGeometry& axis) {
-    return {effect_name(axis.axis, ".reversal_spike"),
-            "The axis sticks for a moment when it turns round, then catches up",
-            "friction at standstill with a soft or slow velocity loop",
-            "raise the loop gain or switch on friction (quadrant) compensation",
-            "position - height_mm * sign of travel * exp(-(distance since reversal / decay_mm)^power); "
-            "power 1/2 on a circle decays with the angle since the quadrant",
-            {{"height_mm", "mm", 6e-3, -1, {}, true},
-             {"decay_mm", "mm", 1.0, -1, {0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 1.2, 2.0, 3.5, 6.0, 10.0, 16.0}, true},
-             {"power", "1", 1.0, -1, {0.5, 1.0}, false}},
-            [k = axis.axis](const AxisSample& sample, const Contact& contact,
-                            std::span<const double> value, Perturbation& out) {
-                if (is_probe(contact)) return;
-                const std::size_t i = index_of(k);
-                const double way = sample.since_reversal[i] / value[1];
-                out.axis[k] -= value[0] * sample.travel[i] *
-                               std::exp(-(value[2] == 0.5 ? std::sqrt(way) : way));
-            }};
+    return {
+        effect_name(axis.axis, ".reversal_spike"),
+        "The axis sticks for a moment when it turns round, then catches up",
+        "friction at standstill with a soft or slow velocity loop",
+        "raise the loop gain or switch on friction (quadrant) compensation",
+        "position - height_mm * sign of travel * exp(-(distance since reversal / decay_mm)^power); "
+        "power 1/2 on a circle decays with the angle since the quadrant",
+        {{"height_mm", "mm", 6e-3, -1, {}, true},
+         {"decay_mm",
+          "mm",
+          1.0,
+          -1,
+          {0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 1.2, 2.0, 3.5, 6.0, 10.0, 16.0},
+          true},
+         {"power", "1", 1.0, -1, {0.5, 1.0}, false}},
+        [k = axis.axis](const AxisSample& sample, const Contact& contact,
+                        std::span<const double> value, Perturbation& out) {
+            if (is_probe(contact)) return;
+            const std::size_t i = index_of(k);
+            const double way = sample.since_reversal[i] / value[1];
+            out.axis[k] -=
+                value[0] * sample.travel[i] * std::exp(-(value[2] == 0.5 ? std::sqrt(way) : way));
+        }};
 }
 
 Effect linear_lateral_play(const AxisGeometry& axis) {

@@ -52,7 +52,12 @@ Effect linear_straightness(const AxisGeometry& axis) {
         directions.push_back(d);
         for (int n = 1; n <= 4; ++n)
             effect.parameters.push_back({fmt::format("{}_p{}_mm", motion_name(d, axis.axis), n),
-                                         "mm", n <= 2 ? 5e-3 : 3e-3, -1, {}, true, n <= 2});
+                                         "mm",
+                                         n <= 2 ? 5e-3 : 3e-3,
+                                         -1,
+                                         {},
+                                         true,
+                                         n <= 2});
     }
     effect.add = [k = axis.axis, directions](const AxisSample& sample, const Contact&,
                                              std::span<const double> value, Perturbation& out) {
@@ -74,8 +79,13 @@ Effect linear_angular(const AxisGeometry& axis) {
     for (int d = 0; d < 3; ++d)
         for (int n = 1; n <= 2; ++n)
             effect.parameters.push_back(
-                {fmt::format("{}_p{}_rad", motion_name(3 + d, axis.axis), n), "rad", 25e-6 / n, -1,
-                 {}, true, n == 1});
+                {fmt::format("{}_p{}_rad", motion_name(3 + d, axis.axis), n),
+                 "rad",
+                 25e-6 / n,
+                 -1,
+                 {},
+                 true,
+                 n == 1});
     effect.add = [k = axis.axis](const AxisSample& sample, const Contact&,
                                  std::span<const double> value, Perturbation& out) {
         for (std::size_t d = 0; d < 3; ++d)
@@ -96,8 +106,7 @@ Effect squareness(const std::string& plane, Axis moving, int about) {
             {{"angle_rad", "rad", 40e-6, -1, {}, true}},
             [moving, stray](const AxisSample& sample, const Contact&, std::span<const double> value,
                             Perturbation& out) {
-                out.motion[index_of(moving)].shift_mm +=
-                    value[0] * sample.position[moving] * stray;
+                out.motion[index_of(moving)].shift_mm += value[0] * sample.position[moving] * stray;
             }};
 }
 

@@ -30,8 +30,12 @@ Effect location_effect(const Chain& chain) {
             places.push_back({axis.axis, k});
             const char* unit = k < 3 ? "mm" : "rad";
             effect.parameters.push_back(
-                {fmt::format("E{}0{}_{}", "XYZABC"[k], letter_of(axis.axis), unit), unit,
-                 k < 3 ? 0.05 : 3e-4, -1, {}, true});
+                {fmt::format("E{}0{}_{}", "XYZABC"[k], letter_of(axis.axis), unit),
+                 unit,
+                 k < 3 ? 0.05 : 3e-4,
+                 -1,
+                 {},
+                 true});
         }
     }
     effect.add = [places](const AxisSample&, const Contact&, std::span<const double> value,

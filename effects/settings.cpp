@@ -16,12 +16,18 @@ struct Unit {
     double factor;
 };
 
-constexpr Unit units[] = {{"um", "mm", 1e-3},     {"mm", "mm", 1.0},
-                          {"m", "mm", 1e3},       {"urad", "rad", 1e-6},
-                          {"mrad", "rad", 1e-3},  {"rad", "rad", 1.0},
-                          {"arcsec", "rad", pi / 648000.0}, {"deg", "deg", 1.0},
-                          {"ppm", "ppm", 1.0},    {"us", "s", 1e-6},
-                          {"ms", "s", 1e-3},      {"s", "s", 1.0}};
+constexpr Unit units[] = {{"um", "mm", 1e-3},
+                          {"mm", "mm", 1.0},
+                          {"m", "mm", 1e3},
+                          {"urad", "rad", 1e-6},
+                          {"mrad", "rad", 1e-3},
+                          {"rad", "rad", 1.0},
+                          {"arcsec", "rad", pi / 648000.0},
+                          {"deg", "deg", 1.0},
+                          {"ppm", "ppm", 1.0},
+                          {"us", "s", 1e-6},
+                          {"ms", "s", 1e-3},
+                          {"s", "s", 1.0}};
 
 [[noreturn]] void refuse(const std::string& message, const std::string& text, std::size_t at) {
     throw InputError(message, {"--inject", 1, static_cast<int>(at) + 1}, text);

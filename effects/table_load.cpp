@@ -26,14 +26,15 @@ Effect clamp_shift(const Chain& chain) {
     std::vector<Axis> rotary;
     for (const AxisGeometry& axis : chain.work)
         if (axis.rotary) rotary.push_back(axis.axis);
-    Effect effect{"clamp.shift",
-                  "The table moves when its clamp closes",
-                  "the clamp pulls to one side, worn clamp ring",
-                  "readjust the clamp; measure and cut in the same clamp state",
-                  "clamped: what rotary axis R carries shifted by shift_R_mm (in the carrier's axes) "
-                  "and turned by turn_R_rad",
-                  {},
-                  {}};
+    Effect effect{
+        "clamp.shift",
+        "The table moves when its clamp closes",
+        "the clamp pulls to one side, worn clamp ring",
+        "readjust the clamp; measure and cut in the same clamp state",
+        "clamped: what rotary axis R carries shifted by shift_R_mm (in the carrier's axes) "
+        "and turned by turn_R_rad",
+        {},
+        {}};
     for (const Axis axis : rotary) {
         for (int d = 0; d < 3; ++d)
             effect.parameters.push_back(

@@ -43,7 +43,8 @@ const TouchPattern& touch_pattern(int touches) {
     static std::map<int, TouchPattern> known;
     const std::lock_guard lock(mutex);
     const auto it = known.find(touches);
-    return it != known.end() ? it->second : known.emplace(touches, make_pattern(touches)).first->second;
+    return it != known.end() ? it->second
+                             : known.emplace(touches, make_pattern(touches)).first->second;
 }
 
 }  // namespace trunnion

@@ -28,7 +28,8 @@ class Unknowns {
     struct Slot {
         const Effect* effect = nullptr;  ///< nullptr: set-up
         std::size_t parameter = 0;       ///< of the effect
-        int artefact = -1, axis = 0;     ///< set-up: artefact centre, else the cup (axis < 3) or length
+        int artefact = -1,
+            axis = 0;  ///< set-up: artefact centre, else the cup (axis < 3) or length
         FitParameter fit;
     };
     const std::vector<Slot>& slots() const { return slots_; }
@@ -146,8 +147,8 @@ ReplayOffsets offsets_between(const Setup& from, const Setup& to) {
 }
 
 Eigen::VectorXd residual(const BaseModel& model, const Replay& replay, const Setup& setup) {
-    const std::vector<double> value = replay.predict(
-        setup.machine, offsets_between(replay.setup(), setup), active_models(setup));
+    const std::vector<double> value =
+        replay.predict(setup.machine, offsets_between(replay.setup(), setup), active_models(setup));
     return model.measured_mm -
            Eigen::Map<const Eigen::VectorXd>(value.data(), static_cast<Eigen::Index>(value.size()));
 }
@@ -189,10 +190,11 @@ void refuse_absurd(const BaseModel& model, const Replay& replay, const ReadingTa
     const double most = model.residual_mm.cwiseAbs().maxCoeff(&worst);
     if (most < absurd_mm) return;
     const Reading& row = table.rows[replay.table_row(static_cast<std::size_t>(worst))];
-    throw InputError(fmt::format("a residual of {:.3g} mm after fitting: wrong units, frame, or the "
-                                 "setup of another machine",
-                                 most),
-                     {table.path, row.line, 0});
+    throw InputError(
+        fmt::format("a residual of {:.3g} mm after fitting: wrong units, frame, or the "
+                    "setup of another machine",
+                    most),
+        {table.path, row.line, 0});
 }
 
 void name_null_space(BaseModel& model, const std::vector<Slot>& slots, const LinearFit& fit) {
@@ -215,7 +217,8 @@ void name_null_space(BaseModel& model, const std::vector<Slot>& slots, const Lin
 
 RowNoise row_noise(const Setup& setup, const ReadingTable& table, const Replay& replay) {
     static const std::map<Device, std::pair<const char*, double>> usual_um{
-        {Device::sphere, {"sphere", 1.0}}, {Device::touch, {"touch", 1.0}},
+        {Device::sphere, {"sphere", 1.0}},
+        {Device::touch, {"touch", 1.0}},
         {Device::ballbar, {"ballbar", 0.5}}};
     RowNoise noise;
     noise.sigma_mm.resize(static_cast<Eigen::Index>(replay.size()));
@@ -224,8 +227,10 @@ RowNoise row_noise(const Setup& setup, const ReadingTable& table, const Replay& 
         const auto& [name, otherwise_um] = usual_um.at(row.device);
         const auto it = setup.model.noise_um.find(name);
         double sigma_mm = 1e-3 * (it == setup.model.noise_um.end() ? otherwise_um : it->second);
-        if (row.sigma_mm && *row.sigma_mm > 0.0) sigma_mm = *row.sigma_mm;
-        else if (it == setup.model.noise_um.end()) noise.given = false;
+        if (row.sigma_mm && *row.sigma_mm > 0.0)
+            sigma_mm = *row.sigma_mm;
+        else if (it == setup.model.noise_um.end())
+            noise.given = false;
         noise.sigma_mm(static_cast<Eigen::Index>(i)) = std::max(sigma_mm, 1e-6);
     }
     return noise;
@@ -331,7 +336,8 @@ BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& 
     model.residual_mm = model.start_residual_mm = residual(model, replay, model.setup);
     const auto p = static_cast<Eigen::Index>(slots.size());
     Eigen::VectorXd typical(p);
-    for (Eigen::Index j = 0; j < p; ++j) typical(j) = slots[static_cast<std::size_t>(j)].fit.typical;
+    for (Eigen::Index j = 0; j < p; ++j)
+        typical(j) = slots[static_cast<std::size_t>(j)].fit.typical;
     LinearFit fit;
     for (int pass = 0; pass < 4; ++pass) {
         const Eigen::VectorXd weight = row_weights(model, model.residual_mm);
@@ -343,8 +349,8 @@ BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& 
             if (prior.prior_sigma <= 0.0) continue;
             const double pull = typical(j) / prior.prior_sigma;
             information(j, j) += pull * pull;
-            gradient(j) += pull * pull *
-                           (prior.prior_value - location_value(model.setup, prior)) / typical(j);
+            gradient(j) +=
+                pull * pull * (prior.prior_value - location_value(model.setup, prior)) / typical(j);
         }
         fit = solve_ranked(information, gradient);
         apply_step(model.setup, slots, typical.cwiseProduct(fit.value));

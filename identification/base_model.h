@@ -10,13 +10,14 @@
 
 namespace trunnion {
 
-/// One unknown of the fit. Set-up quantities (artefact centres, cup, bar length) have effect "setup".
+/// One unknown of the fit. Set-up quantities (artefact centres, cup, bar length) have effect
+/// "setup".
 struct FitParameter {
     std::string effect, name, unit;
     int component = -1;
-    double typical = 1.0;      ///< in `unit`
-    double value = 0.0;        ///< in `unit`: the correction found, or the total for a location error
-    double sigma = 0.0;        ///< of `value`; NaN when it cannot be told apart
+    double typical = 1.0;  ///< in `unit`
+    double value = 0.0;    ///< in `unit`: the correction found, or the total for a location error
+    double sigma = 0.0;    ///< of `value`; NaN when it cannot be told apart
     double prior_value = 0.0;
     double prior_sigma = 0.0;  ///< 0: no prior
 };
@@ -36,15 +37,15 @@ RowNoise row_noise(const Setup& setup, const ReadingTable& table, const Replay& 
 
 /// A replay with the fitted base and all that a linear analysis of what remains needs. mm inside.
 struct BaseModel {
-    Setup setup;                          ///< as fitted: loads again, predicts the same
+    Setup setup;  ///< as fitted: loads again, predicts the same
     std::vector<FitParameter> parameters;
     std::vector<Inseparable> inseparable;
-    EffectModels models;                  ///< of effects that the setup switched on
-    std::vector<Perturbation> gradient;   ///< of each device row
-    Eigen::MatrixXd columns;              ///< d reading / d parameter, for one typical change, mm
+    EffectModels models;                 ///< of effects that the setup switched on
+    std::vector<Perturbation> gradient;  ///< of each device row
+    Eigen::MatrixXd columns;             ///< d reading / d parameter, for one typical change, mm
     Eigen::VectorXd measured_mm, residual_mm, start_residual_mm, sigma_mm;
     bool noise_given = true;
-    Eigen::MatrixXd covariance;           ///< of the parameters, in their units
+    Eigen::MatrixXd covariance;  ///< of the parameters, in their units
     int rank = 0;
 };
 

@@ -14,12 +14,15 @@ bool keyed(const Effect& effect) {
                        [](const EffectParameter& p) { return p.is_key(); });
 }
 
-/// Part of the weighted squared sum of `left_mm` that an effect with these keys and the base explain.
+/// Part of the weighted squared sum of `left_mm` that an effect with these keys and the base
+/// explain.
 class KeyGain {
   public:
     KeyGain(const Replay& replay, const BaseModel& base, const Effect& effect,
             const Eigen::VectorXd& left_mm)
-        : replay_(replay), base_(base), effect_(effect),
+        : replay_(replay),
+          base_(base),
+          effect_(effect),
           weight_(base.sigma_mm.cwiseInverse()),
           left_(left_mm.cwiseProduct(weight_)),
           columns_(weight_.asDiagonal() * base.columns) {
@@ -32,8 +35,8 @@ class KeyGain {
         std::vector<Eigen::VectorXd> list;
         for (std::size_t j = 0; j < effect_.parameters.size(); ++j)
             if (!effect_.parameters[j].is_key())
-                list.push_back(effect_column(replay_, base_.gradient, effect_, keys, j)
-                                   .cwiseProduct(weight_));
+                list.push_back(
+                    effect_column(replay_, base_.gradient, effect_, keys, j).cwiseProduct(weight_));
         Eigen::MatrixXd a(left_.size(), static_cast<Eigen::Index>(list.size()));
         for (std::size_t c = 0; c < list.size(); ++c) a.col(static_cast<Eigen::Index>(c)) = list[c];
         const Eigen::MatrixXd cross = columns_.transpose() * a;
@@ -63,7 +66,8 @@ std::pair<double, double> neighbours(const std::vector<double>& grid, double val
 }
 
 double rms_um(const Eigen::VectorXd& v) {
-    return 1e3 * std::sqrt(v.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, v.size())));
+    return 1e3 *
+           std::sqrt(v.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, v.size())));
 }
 
 }  // namespace
@@ -143,10 +147,10 @@ Identification identify(const Setup& setup, const ReadingTable& table,
     if (plain.size() < effects.size()) {
         const BaseModel base = fit_base(setup, table, replay, catalogue, plain);
         for (Effect& effect : catalogue) {
-            if (!keyed(effect) || std::find(effects.begin(), effects.end(), effect.name) == effects.end())
+            if (!keyed(effect) ||
+                std::find(effects.begin(), effects.end(), effect.name) == effects.end())
                 continue;
-            const std::vector<double> keys =
-                search_keys(replay, base, effect, base.residual_mm);
+            const std::vector<double> keys = search_keys(replay, base, effect, base.residual_mm);
             for (std::size_t j = 0; j < keys.size(); ++j)
                 if (effect.parameters[j].is_key()) effect.parameters[j].typical = keys[j];
         }
@@ -157,8 +161,8 @@ Identification identify(const Setup& setup, const ReadingTable& table,
     for (const std::string& name : effects)
         for (const EffectParameter& p : find_effect(catalogue, name)->parameters)
             if (p.is_key())
-                result.parameters.push_back({name, p.name, p.unit, -1, p.typical, p.typical,
-                                             std::nan(""), 0.0, 0.0});
+                result.parameters.push_back(
+                    {name, p.name, p.unit, -1, p.typical, p.typical, std::nan(""), 0.0, 0.0});
     result.inseparable = base.inseparable;
     result.rms_before_um = rms_um(base.start_residual_mm);
     result.rms_after_um = rms_um(base.residual_mm);

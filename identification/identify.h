@@ -11,7 +11,7 @@ struct Identification {
     double rms_before_um = 0.0;  ///< with the setup as it stands
     double rms_after_um = 0.0;
     int dof = 0;
-    Setup setup;                 ///< with the values entered; loads again
+    Setup setup;  ///< with the values entered; loads again
 };
 
 /// Fits the named effects (none: those of [model].modelled) and the free set-up quantities to all

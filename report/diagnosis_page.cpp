@@ -13,10 +13,14 @@ namespace {
 std::string escaped(const std::string& text) {
     std::string out;
     for (const char c : text) {
-        if (c == '<') out += "&lt;";
-        else if (c == '>') out += "&gt;";
-        else if (c == '&') out += "&amp;";
-        else out += c;
+        if (c == '<')
+            out += "&lt;";
+        else if (c == '>')
+            out += "&gt;";
+        else if (c == '&')
+            out += "&amp;";
+        else
+            out += c;
     }
     return out;
 }
@@ -64,7 +68,10 @@ std::string before_after(const HeldOut& h) {
 std::string parameter_rows(const Cause& cause) {
     std::string text;
     for (const FitParameter& p : cause.parameters) {
-        const char* component = p.component < 0 ? "" : p.component == 0 ? " x" : p.component == 1 ? " y" : " z";
+        const char* component = p.component < 0    ? ""
+                                : p.component == 0 ? " x"
+                                : p.component == 1 ? " y"
+                                                   : " z";
         text += fmt::format("<tr><td>{}{}</td><td>{:.4g}</td><td>{}</td><td>{}</td></tr>\n",
                             escaped(p.name), component, p.value,
                             std::isfinite(p.sigma) ? fmt::format("{:.2g}", p.sigma) : "-",
@@ -74,8 +81,8 @@ std::string parameter_rows(const Cause& cause) {
 }
 
 std::string cause_section(const Cause& cause) {
-    std::string text = fmt::format("<h3>{} &ndash; {:.0f} % of the gap</h3>\n<p>{}.", escaped(cause.effect),
-                                   100.0 * cause.share, escaped(cause.what));
+    std::string text = fmt::format("<h3>{} &ndash; {:.0f} % of the gap</h3>\n<p>{}.",
+                                   escaped(cause.effect), 100.0 * cause.share, escaped(cause.what));
     if (!cause.usual_cause.empty())
         text += fmt::format(" Usual cause: {}. What to do: {}.", escaped(cause.usual_cause),
                             escaped(cause.remedy));
@@ -86,17 +93,18 @@ std::string cause_section(const Cause& cause) {
     if (cause.parameters.empty()) return text;
     text += "<table><tr><th>parameter</th><th>value</th><th>sigma</th><th>unit</th></tr>\n" +
             parameter_rows(cause) + "</table>\n";
-    text += fmt::format("<p>Alone on held-out readings: {:.2f} um before, {:.2f} um after, noise {:.2f} um: "
-                        "the gap shrinks by {:.0f} % ({:.0f} to {:.0f} %).</p>\n",
-                        cause.heldout.rms_before_um, cause.heldout.rms_after_um,
-                        cause.heldout.noise_um, 100.0 * cause.heldout.shrink,
-                        100.0 * cause.heldout.low, 100.0 * cause.heldout.high);
+    text += fmt::format(
+        "<p>Alone on held-out readings: {:.2f} um before, {:.2f} um after, noise {:.2f} um: "
+        "the gap shrinks by {:.0f} % ({:.0f} to {:.0f} %).</p>\n",
+        cause.heldout.rms_before_um, cause.heldout.rms_after_um, cause.heldout.noise_um,
+        100.0 * cause.heldout.shrink, 100.0 * cause.heldout.low, 100.0 * cause.heldout.high);
     return text;
 }
 
 const char* style =
     "body{font:15px/1.5 sans-serif;max-width:760px;margin:2em auto;color:#222}"
-    "h1{font-size:1.5em}table{border-collapse:collapse}td,th{padding:2px 12px 2px 0;text-align:left}"
+    "h1{font-size:1.5em}table{border-collapse:collapse}td,th{padding:2px 12px 2px "
+    "0;text-align:left}"
     ".verdict{background:#f2f4f7;padding:.8em 1em;border-left:5px solid #0072b2}"
     ".rival{color:#a04000}pre{background:#f7f7f7;padding:.6em;overflow:auto;max-height:16em}";
 
@@ -107,12 +115,15 @@ std::string verdict_sentence(const Diagnosis& d) {
                                          d.noise_um, to_string(d.noise.source));
     const std::string first = d.causes.empty() ? "" : d.causes.front().effect;
     switch (d.verdict) {
-        case Verdict::no_gap: return "No gap beyond noise: " + size + ".";
+        case Verdict::no_gap:
+            return "No gap beyond noise: " + size + ".";
         case Verdict::explained:
             return fmt::format("The gap is explained, most of it by {}: {}.", first, size);
         case Verdict::ambiguous:
-            return fmt::format("The gap is explained, but these readings cannot tell {} from its "
-                               "rivals: {}.", first, size);
+            return fmt::format(
+                "The gap is explained, but these readings cannot tell {} from its "
+                "rivals: {}.",
+                first, size);
         case Verdict::partly_explained:
             return fmt::format("The gap is explained in part: {}.", size);
         case Verdict::unexplained:
@@ -132,8 +143,10 @@ std::string diagnosis_page(const Diagnosis& d, const std::string& title) {
         for (const Cause& cause : d.causes) shares.emplace_back(cause.effect, cause.share);
         text += "<h2>Which effect</h2>\n" + bars(shares);
         for (const Cause& cause : d.causes) text += cause_section(cause);
-        text += "<h2>How far the gap shrinks</h2>\n<p>All causes together, on readings that took no "
-                "part in the fit:</p>\n" + before_after(d.after);
+        text +=
+            "<h2>How far the gap shrinks</h2>\n<p>All causes together, on readings that took no "
+            "part in the fit:</p>\n" +
+            before_after(d.after);
         text += fmt::format("<p>The gap shrinks by {:.0f} % ({:.0f} to {:.0f} %).</p>\n",
                             100.0 * d.after.shrink, 100.0 * d.after.low, 100.0 * d.after.high);
     }

@@ -21,7 +21,8 @@ struct Bench {
         const ReadingTable on = predicted(on_setup, table, active_models(on_setup));
         std::vector<double> result;
         for (std::size_t i = 0; i < table.rows.size(); ++i)
-            result.push_back(off.rows[i].value_mm ? *on.rows[i].value_mm - *off.rows[i].value_mm : 0.0);
+            result.push_back(off.rows[i].value_mm ? *on.rows[i].value_mm - *off.rows[i].value_mm
+                                                  : 0.0);
         return result;
     }
     Vector3 bar_M(const Reading& row) const {
@@ -61,8 +62,8 @@ TEST_CASE("servo mismatch flips with the sense of travel and grows with the feed
         if (i > 0 && i + 1 < bench.table.rows.size() && bench.table.rows[i - 1].test == row.test &&
             bench.table.rows[i + 1].test == row.test)
             REQUIRE(change[i] == Approx(expected).margin(3e-4));
-        (row.feed_mm_min < 2000 ? slow : fast) = std::max(row.feed_mm_min < 2000 ? slow : fast,
-                                                          std::abs(change[i]));
+        (row.feed_mm_min < 2000 ? slow : fast) =
+            std::max(row.feed_mm_min < 2000 ? slow : fast, std::abs(change[i]));
     }
     REQUIRE(fast == Approx(4.0 * slow).epsilon(0.05));
 }
@@ -128,8 +129,7 @@ TEST_CASE("wrong stores move the axes by -e_G and -e_P in their modes only", "[e
 TEST_CASE("every column of the catalogue is what the emulator does", "[effects]") {
     const Bench bench;
     const Replay replay(bench.setup, bench.table);
-    const Catalogue catalogue =
-        make_catalogue(bench.setup, extent_of(bench.setup, bench.table));
+    const Catalogue catalogue = make_catalogue(bench.setup, extent_of(bench.setup, bench.table));
     const ForwardModel forward(bench.setup.machine);
     std::vector<Perturbation> gradient;
     for (std::size_t i = 0; i < replay.size(); ++i)
@@ -139,8 +139,7 @@ TEST_CASE("every column of the catalogue is what the emulator does", "[effects]"
         for (std::size_t j = 0; j < effect.parameters.size(); ++j) {
             if (effect.parameters[j].is_key()) continue;
             std::vector<double> values = effect.zeros();
-            const Eigen::VectorXd column =
-                effect_column(replay, gradient, effect, values, j);
+            const Eigen::VectorXd column = effect_column(replay, gradient, effect, values, j);
             values[j] = effect.parameters[j].typical;
             const std::vector<double> on = replay.predict({make_model(effect, values)});
             double worst = 0.0, largest = 1e-6;

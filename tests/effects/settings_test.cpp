@@ -1,9 +1,9 @@
-#include <catch2/catch.hpp>
+#include "effects/settings.h"
 
+#include <catch2/catch.hpp>
 #include <fstream>
 #include <sstream>
 
-#include "effects/settings.h"
 #include "geometry/alarm.h"
 #include "tests/support/campaign.h"
 
@@ -12,11 +12,12 @@ namespace trunnion {
 TEST_CASE("the catalogue has every name of the contract", "[effects]") {
     const Catalogue catalogue = make_catalogue(campaign::bc_setup());
     std::vector<std::string> names{
-        "location", "pivot.g54", "pivot.p1970x", "XY.squareness", "YZ.squareness", "ZX.squareness",
-        "servo.mismatch", "servo.contour", "thermal.drift", "thermal.expansion", "gravity.sag",
-        "probe.pretravel", "probe.radius", "probe.runout", "tool.length", "ballbar.length",
-        "artefact.position", "artefact.form", "artefact.moved", "control.rounding", "control.chord",
-        "clamp.shift"};
+        "location",          "pivot.g54",         "pivot.p1970x",   "XY.squareness",
+        "YZ.squareness",     "ZX.squareness",     "servo.mismatch", "servo.contour",
+        "thermal.drift",     "thermal.expansion", "gravity.sag",    "probe.pretravel",
+        "probe.radius",      "probe.runout",      "tool.length",    "ballbar.length",
+        "artefact.position", "artefact.form",     "artefact.moved", "control.rounding",
+        "control.chord",     "clamp.shift"};
     for (const char* axis : {"B", "C"})
         for (const char* what :
              {".zero", ".positioning", ".cyclic", ".radial", ".axial", ".tilt", ".backlash"})
@@ -75,9 +76,11 @@ TEST_CASE("values and settings are each other's inverse", "[effects]") {
 namespace {
 
 std::string effects_page() {
-    return "# Effects\n\nEvery effect of the catalogue on a BC table machine (`effects/`). Names and "
+    return "# Effects\n\nEvery effect of the catalogue on a BC table machine (`effects/`). Names "
+           "and "
            "parameters are those of `--inject`, of `[effects]` in a setup file and of the JSON "
-           "results. Typical sizes are prior standard deviations; q is the axis position (mm, rad), "
+           "results. Typical sizes are prior standard deviations; q is the axis position (mm, "
+           "rad), "
            "keys are searched. Written by `test_effects '[docs]'`.\n\n" +
            describe_catalogue(make_catalogue(campaign::bc_setup()));
 }
@@ -93,6 +96,8 @@ TEST_CASE("docs/effects.md is the catalogue", "[effects]") {
     REQUIRE(text.str() == effects_page());
 }
 
-TEST_CASE("write docs/effects.md", "[.docs]") { std::ofstream(page_path) << effects_page(); }
+TEST_CASE("write docs/effects.md", "[.docs]") {
+    std::ofstream(page_path) << effects_page();
+}
 
 }  // namespace trunnion

@@ -1,8 +1,9 @@
 // Simulate with known errors, identify: the same numbers, and what cannot be told apart is named.
+#include "identification/identify.h"
+
 #include <catch2/catch.hpp>
 
 #include "geometry/alarm.h"
-#include "identification/identify.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {
@@ -21,8 +22,7 @@ TEST_CASE("eight location errors come back as they went in", "[identification]")
     const Setup setup = campaign::bc_setup(), truth = campaign::real_machine(setup);
     ReadingTable table = campaign::empty_table(setup);
     campaign::add_sphere_map(table, setup, 60, 3);
-    const Identification exact =
-        identify(setup, campaign::measured(truth, table, 1, 0.0), {});
+    const Identification exact = identify(setup, campaign::measured(truth, table, 1, 0.0), {});
     REQUIRE(exact.inseparable.empty());
     REQUIRE(exact.rms_after_um < 1e-4);
     for (const char* name : {"EX0B", "EZ0B", "EA0B", "EC0B", "EX0C", "EY0C", "EA0C", "EB0C"}) {
@@ -51,7 +51,8 @@ TEST_CASE("an identified setup loads again and predicts the readings", "[identif
     const ReadingTable prediction = predicted(again, table, active_models(again));
     for (std::size_t i = 0; i < table.rows.size(); ++i)
         if (readings.rows[i].value_mm)
-            REQUIRE(*prediction.rows[i].value_mm == Approx(*readings.rows[i].value_mm).margin(1e-6));
+            REQUIRE(*prediction.rows[i].value_mm ==
+                    Approx(*readings.rows[i].value_mm).margin(1e-6));
 }
 
 TEST_CASE("a ballbar alone cannot place axes and cup: three groups are named", "[identification]") {
@@ -101,8 +102,8 @@ TEST_CASE("keys are searched: time constant of a drift", "[identification]") {
                                               "thermal.drift: d_mm=[0.01, 0, 0.03], tau_s=700");
     ReadingTable table = campaign::empty_table(setup);
     campaign::add_sphere_map(table, setup, 120, 3);
-    const Identification result = identify(setup, campaign::measured(truth, table, 1),
-                                           {"location", "thermal.drift"});
+    const Identification result =
+        identify(setup, campaign::measured(truth, table, 1), {"location", "thermal.drift"});
     REQUIRE(found(result, "tau_s") == Approx(700).epsilon(0.1));
     REQUIRE(result.rms_after_um == Approx(0.8).epsilon(0.1));
 }

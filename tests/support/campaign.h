@@ -82,8 +82,7 @@ inline void aim(Reading& row, const Setup& setup, const Vector3& target_W, const
 }
 
 /// `poses` found spheres, three components each, with an approach row before each.
-inline void add_sphere_map(ReadingTable& table, const Setup& setup, int poses,
-                           std::uint64_t seed) {
+inline void add_sphere_map(ReadingTable& table, const Setup& setup, int poses, std::uint64_t seed) {
     SeededNoise random(seed);
     double time_s = table.rows.empty() ? 0.0 : table.rows.back().time_s;
     constexpr PositioningMode modes[] = {PositioningMode::dpp, PositioningMode::rtdfo,
@@ -113,8 +112,8 @@ inline void add_sphere_map(ReadingTable& table, const Setup& setup, int poses,
     }
 }
 
-/// A full circle about the centre pivot in a plane (0 XY, 1 YZ, 2 ZX), both senses at two feeds, and
-/// rotary tests: the cup rides with the table's pivot, bar radial or axial.
+/// A full circle about the centre pivot in a plane (0 XY, 1 YZ, 2 ZX), both senses at two feeds,
+/// and rotary tests: the cup rides with the table's pivot, bar radial or axial.
 inline void add_ballbar(ReadingTable& table, const Setup& setup, int samples = 72) {
     const Artefact& pivot = *setup.find_artefact("P1");
     const double radius_mm = setup.ballbar->length_mm;
@@ -147,7 +146,8 @@ inline void add_ballbar(ReadingTable& table, const Setup& setup, int samples = 7
     for (const Axis axis : {Axis::B, Axis::C})
         for (int d = 0; d < 3; ++d)
             for (const int sense : {1, -1})
-                pass(std::string(1, letter_of(axis)) + "_bar_" + "xyz"[d] + (sense > 0 ? "_up" : "_down"),
+                pass(std::string(1, letter_of(axis)) + "_bar_" + "xyz"[d] +
+                         (sense > 0 ? "_up" : "_down"),
                      1000.0, sense, [&](Reading& row, double angle) {
                          row.mode = PositioningMode::rtcp;
                          row.commanded[axis] = axis == Axis::B ? 0.25 * angle : angle;
