@@ -61,6 +61,7 @@ void read_expect(Expectation& e, std::istringstream& in) {
     if (what[0] == '#') return read_expected_variable(e, std::stoi(what.substr(1)), in);
     if (what == "MOVE") return e.moves.push_back(read_move(in));
     if (what == "LAST") return void(e.last = read_move(in));
+    if (what == "HALFWAY") return void(e.halfway = read_move(in));
     if (what == "MOVES") return void(e.move_count = std::stoul(rest_of(in)));
     if (what == "ALARM") {
         int number = 0, line = 0;
@@ -119,6 +120,18 @@ void set_reference(Expectation& e, std::istringstream& in) {
         value;
 }
 
+/// B carries C, both turn left-handed (ISO 841): the usual trunnion of five_axes().
+void set_table(Expectation& e, std::istringstream& in) {
+    constexpr std::pair<int, double> unit[] = {{19680, 12}, {19681, 4}, {19682, 2}, {19684, 1},
+                                               {19686, 5},  {19687, 3}, {19689, 1}, {19697, 3}};
+    for (const auto& [number, value] : unit) e.stores.parameters.set(number, value);
+    for (int number = 19700; number <= 19705; ++number) {
+        double value_mm = 0.0;
+        if (!(in >> value_mm)) throw std::runtime_error("SET TABLE wants six lengths");
+        e.stores.parameters.set(number, value_mm);
+    }
+}
+
 void read_set(Expectation& e, std::istringstream& in) {
     std::string what;
     in >> what;
@@ -162,6 +175,10 @@ void read_set(Expectation& e, std::istringstream& in) {
     } else if (what == "BLOCKS") {
         in >> number;
         e.config.max_blocks = static_cast<std::uint64_t>(number);
+    } else if (what == "TABLE") {
+        set_table(e, in);
+    } else if (what == "TCP") {
+        e.config.tcp_frame = TcpFrame::rotary_zero;
     } else if (what == "POSITIONS") {
         e.config.work_positions_with_length = false;
     } else {

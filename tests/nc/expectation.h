@@ -21,15 +21,17 @@ struct ExpectedMove {
 ///   (EXPECT LAST X1.) (EXPECT MOVES 3) (EXPECT ALARM 128) (EXPECT ALARM 10 LINE 4)
 ///   (EXPECT TEXT IMPROPER) of the alarm (EXPECT PRINT text) next line printed
 ///   (EXPECT NOTE part) (EXPECT NO NOTE) (EXPECT TIME 1.5) (EXPECT MODAL G01) (EXPECT MCODE 8)
-///   (EXPECT LIMIT)
+///   (EXPECT LIMIT) (EXPECT HALFWAY X1. Z2.) axes half way along the last move
 ///   (SET PARAMETER 3410 = 0.05) (SET BIT 5003#0 = 1) (SET TOOL 1 = 100. 5.) length, radius
 ///   (SET SKIP 0.25) (SET LIMIT X -100. 100.) (SET CLAMP C 10 11) (SET DIALECT HURCO)
 ///   (SET SWITCH 2) (SET SIGNAL 1000 = 1) (SET #100 = 5.) (SET BLOCKS 100)
 ///   (SET POSITIONS WITHOUT LENGTH) (SET REFERENCE 2 Z 50.)
+///   (SET TABLE 10. 0. -100. 5. 0. -50.) left-handed BC table: 19700-19702, 19703-19705
+///   (SET TCP FRAME ROTARY ZERO)
 struct Expectation {
     std::map<int, std::optional<double>> variables;
     std::vector<ExpectedMove> moves;
-    std::optional<ExpectedMove> last;
+    std::optional<ExpectedMove> last, halfway;
     std::optional<std::size_t> move_count;
     std::optional<int> alarm, alarm_line;
     std::string alarm_text;

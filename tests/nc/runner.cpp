@@ -21,12 +21,17 @@ class Recorder : public MotionSink {
     explicit Recorder(double skip_at) : skip_at_(skip_at) {}
     MoveResult move(const AxisMove& m) override {
         moves.push_back(m);
+        halfway = m;  // looked at now: the curve lives only as long as the call
+        halfway.to = m.at(0.5);
+        halfway.curve = nullptr;
+        moves.back().curve = nullptr;
         if (m.until_skip && skip_at_ >= 0.0) return {true, m.at(skip_at_)};
         return {};
     }
     void m_code(int code) override { m_codes.push_back(code); }
 
     std::vector<AxisMove> moves;
+    AxisMove halfway;
     std::vector<int> m_codes;
 
   private:
@@ -64,6 +69,7 @@ bool matches(const AxisMove& m, const ExpectedMove& expected) {
 struct Outcome {
     RunResult result;
     std::vector<AxisMove> moves;
+    AxisMove halfway;  ///< of the last move
     std::vector<int> m_codes;
     std::string printed;
     std::map<int, double> variables;
@@ -81,6 +87,7 @@ Outcome run(const std::string& name, const std::string& text, Expectation& e) {
     for (const auto& [number, value] : e.variables)
         out.variables[number] = control.variable(number);
     out.moves = std::move(sink.moves);
+    out.halfway = sink.halfway;
     out.m_codes = std::move(sink.m_codes);
     return out;
 }
@@ -134,6 +141,10 @@ void check_moves(const Expectation& e, const std::vector<AxisMove>& moves) {
 }
 
 void check_rest(const Expectation& e, const Outcome& out) {
+    if (e.halfway) {
+        INFO("halfway: " << describe(out.halfway));
+        CHECK(matches(out.halfway, *e.halfway));
+    }
     for (const auto& [number, value] : e.variables) {
         INFO("#" << number);
         const double is = out.variables.at(number);
