@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "controller/clamp.h"
 #include "controller/motion.h"
 #include "controller/tcp_frame.h"
 #include "geometry/alarm.h"
@@ -25,14 +26,6 @@ struct ControlAxis {
     std::optional<double> min, max;     ///< stored stroke limits, machine coordinates, mm or rad
     std::optional<double> rapid_speed;  ///< mm/s or rad/s
     std::optional<double> max_acceleration;  ///< mm/s^2 or rad/s^2
-};
-
-/// M codes that clamp and release an axis; `alarm`: a move of the clamped axis is an alarm.
-struct ClampCode {
-    Axis axis = Axis::C;
-    int m_clamp = 10;
-    int m_release = 11;
-    bool alarm = false;
 };
 
 struct ControlConfig {

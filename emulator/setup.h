@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "controller/clamp.h"
 #include "controller/tcp_frame.h"
 #include "geometry/axes.h"
 #include "geometry/pose.h"
@@ -69,6 +70,8 @@ struct Setup {
     std::vector<EffectSetting> effects;
     Dialect dialect;
     TcpFrame tcp_frame = TcpFrame::start;  ///< [control] tcp_frame = "start" or "rotary_zero"
+    std::vector<ClampCode> clamps;         ///< [control.clamps]
+    std::vector<int> block_skip;           ///< [control] block_skip: switches 1-9 that are on
     Stores stores;
     std::optional<ProbeSettings> probe;
     std::optional<BallbarSettings> ballbar;

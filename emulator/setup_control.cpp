@@ -127,6 +127,45 @@ void read_numbered(const TomlFile& file, const TomlValue& table, std::map<int, d
     }
 }
 
+/// C = { clamp = 10, release = 11, alarm = true }
+void read_clamps(const TomlFile& file, const TomlValue& table, Setup& setup) {
+    for (const auto& [key, value] : file.table(table).entries) {
+        value.used = true;
+        const auto axis = key.size() == 1 ? axis_of(key[0]) : std::nullopt;
+        if (!axis || !setup.machine.chain.find(*axis))
+            file.fail(value, "'" + key + "' is not an axis of this machine");
+        const auto code = [&](const char* name, int otherwise) {
+            const double m = file.find_number(file.table(value), name).value_or(otherwise);
+            if (m < 0 || m > 999 || m != static_cast<int>(m))
+                file.fail(value, std::string(name) + " is an M code, 0 to 999");
+            return static_cast<int>(m);
+        };
+        ClampCode clamp{*axis, code("clamp", 10), code("release", 11), true};
+        if (const TomlValue* alarm = value.find("alarm")) clamp.alarm = alarm->truth;
+        setup.clamps.push_back(clamp);
+    }
+}
+
+void read_block_skip(const TomlFile& file, const TomlValue& value, std::vector<int>& on) {
+    for (const double n : file.numbers(value)) {
+        if (n < 1 || n > 9 || n != static_cast<int>(n))
+            file.fail(value, "block_skip lists switches 1 to 9");
+        on.push_back(static_cast<int>(n));
+    }
+}
+
+/// Generations whose nesting limits and M98 forms differ (docs/control.md).
+Dialect read_dialect(const TomlFile& file, const TomlValue& control) {
+    const TomlValue* name = control.find("dialect");
+    if (name && file.text(*name) == "hurco") return hurco_dialect();
+    if (name && file.text(*name) != "fanuc") file.fail(*name, "dialect is \"fanuc\" or \"hurco\"");
+    const TomlValue* generation = control.find("generation");
+    if (!generation || file.text(*generation) == "30i") return fanuc_dialect();
+    if (generation->text == "16i") return fanuc_dialect(ControlGeneration::fanuc_16i);
+    if (generation->text == "0i-F") return fanuc_dialect(ControlGeneration::fanuc_0i_f);
+    file.fail(*generation, "generation is \"16i\", \"30i\" or \"0i-F\"");
+}
+
 void read_backup(const TomlFile& file, const TomlValue& value, const BackupReader& backup,
                  Stores& stores) {
     if (!backup) file.fail(value, "backups are not read here");
@@ -139,11 +178,10 @@ void read_backup(const TomlFile& file, const TomlValue& value, const BackupReade
 
 void read_control(const TomlFile& file, const TomlValue& control, const BackupReader& backup,
                   Setup& setup) {
-    if (const TomlValue* dialect = control.find("dialect")) {
-        if (file.text(*dialect) != "fanuc" && file.text(*dialect) != "hurco")
-            file.fail(*dialect, "dialect is \"fanuc\" or \"hurco\"");
-        setup.dialect = dialect->text == "hurco" ? hurco_dialect() : fanuc_dialect();
-    }
+    setup.dialect = read_dialect(file, control);
+    if (const TomlValue* table = control.find("clamps")) read_clamps(file, *table, setup);
+    if (const TomlValue* on = control.find("block_skip"))
+        read_block_skip(file, *on, setup.block_skip);
     if (const TomlValue* frame = control.find("tcp_frame")) {
         if (file.text(*frame) != "start" && file.text(*frame) != "rotary_zero")
             file.fail(*frame, "tcp_frame is \"start\" or \"rotary_zero\"");

@@ -193,11 +193,32 @@ std::string numbered_text(const char* title, const std::map<int, double>& store)
     return out.empty() ? out : std::string("\n[control.") + title + "]\n" + out;
 }
 
+std::string clamps_text(const std::vector<ClampCode>& clamps) {
+    std::string out = clamps.empty() ? "" : "\n[control.clamps]\n";
+    for (const ClampCode& c : clamps)
+        out += std::string(1, letter_of(c.axis)) + " = { clamp = " + std::to_string(c.m_clamp) +
+               ", release = " + std::to_string(c.m_release) +
+               ", alarm = " + (c.alarm ? "true" : "false") + " }\n";
+    return out;
+}
+
+std::string generation_text(ControlGeneration generation) {
+    if (generation == ControlGeneration::fanuc_16i) return "generation = \"16i\"\n";
+    return generation == ControlGeneration::fanuc_0i_f ? "generation = \"0i-F\"\n" : "";
+}
+
 std::string control_text(const Setup& setup) {
     std::string out =
         std::string("\n[control]\ndialect = ") +
         (setup.dialect.family == DialectFamily::hurco ? "\"hurco\"\n" : "\"fanuc\"\n");
+    out += generation_text(setup.dialect.generation);
+    if (!setup.block_skip.empty()) {
+        out += "block_skip = [";
+        for (const int n : setup.block_skip) out += std::to_string(n) + ", ";
+        out.replace(out.size() - 2, 2, "]\n");
+    }
     if (setup.tcp_frame == TcpFrame::rotary_zero) out += "tcp_frame = \"rotary_zero\"\n";
+    out += clamps_text(setup.clamps);
     out += work_text(setup.stores.work) + fixture_text(setup.stores.fixture);
     if (!setup.stores.parameters.entry.empty()) out += "\n[control.parameters]\n";
     for (const auto& [number, parameter] : setup.stores.parameters.entry)

@@ -1,0 +1,16 @@
+// Axis clamps as the machine builder wired them to M codes.
+#pragma once
+
+#include "geometry/axes.h"
+
+namespace trunnion {
+
+/// M codes that clamp and release an axis; `alarm`: a move of the clamped axis is an alarm.
+struct ClampCode {
+    Axis axis = Axis::C;
+    int m_clamp = 10;
+    int m_release = 11;
+    bool alarm = false;
+};
+
+}  // namespace trunnion
