@@ -12,12 +12,15 @@
 #include "cli/files.h"
 #include "cli/json_output.h"
 #include "cli/readings_command.h"
+#include "identification/monte_carlo.h"
 
 namespace trunnion {
 namespace {
 
 struct Options {
     std::string readings, setup, effects, out;
+    int runs = 0;
+    std::uint64_t seed = 1;
     bool json = false;
 };
 
@@ -47,11 +50,15 @@ nlohmann::ordered_json to_json(const Identification& result) {
     return json;
 }
 
-void print_table(const Identification& result) {
-    fmt::print("{:<18} {:<22} {:>14} {:>12} {}\n", "effect", "parameter", "value", "sigma", "unit");
+void print_table(const Identification& result, bool monte_carlo) {
+    const auto number = [](double v) {
+        return std::isfinite(v) ? fmt::format("{:.2g}", v) : std::string("-");
+    };
+    fmt::print("{:<18} {:<22} {:>14} {:>12} {:>12} {}\n", "effect", "parameter", "value", "sigma",
+               monte_carlo ? "Monte Carlo" : "", "unit");
     for (const FitParameter& p : result.parameters)
-        fmt::print("{:<18} {:<22} {:>14.7g} {:>12} {}\n", p.effect, p.name, p.value,
-                   std::isfinite(p.sigma) ? fmt::format("{:.2g}", p.sigma) : "-", p.unit);
+        fmt::print("{:<18} {:<22} {:>14.7g} {:>12} {:>12} {}\n", p.effect, p.name, p.value,
+                   number(p.sigma), monte_carlo ? number(p.sigma_monte_carlo) : "", p.unit);
     for (const Inseparable& group : result.inseparable)
         fmt::print("cannot be told apart here: {}\n", fmt::join(group.names, ", "));
     fmt::print("rms {:.3f} um before, {:.3f} um after, {} degrees of freedom\n",
@@ -60,13 +67,16 @@ void print_table(const Identification& result) {
 
 int identify_command(const Options& options) {
     const Setup setup = load_setup_option(options.setup);
-    const Identification result =
-        identify(setup, load_readings(options.readings), split_names(options.effects));
+    const ReadingTable table = load_readings(options.readings);
+    const std::vector<std::string> effects = split_names(options.effects);
+    Identification result = identify(setup, table, effects);
+    if (options.runs > 0)
+        add_monte_carlo(setup, table, effects, options.runs, options.seed, result);
     OutputFiles files;
     if (!options.out.empty()) files.add(options.out, format_setup(result.setup));
     if (options.json) files.add("-", to_json(result).dump(1) + "\n");
     files.write();
-    if (!options.json) print_table(result);
+    if (!options.json) print_table(result, options.runs > 0);
     return exit_done;
 }
 
@@ -80,6 +90,11 @@ void add_identify(CLI::App& app, Run& run) {
     command->add_option("--effects", options->effects,
                         "names, comma between; without it those of [model].modelled");
     command->add_option("--out", options->out, "setup with the values entered");
+    command
+        ->add_option("--monte-carlo", options->runs,
+                     "also the uncertainty by so many simulated repetitions")
+        ->check(CLI::Range(2, 100000));
+    command->add_option("--seed", options->seed, "of the repetitions' noise (1)");
     command->add_flag("--json", options->json, "result as JSON on stdout");
     command->callback([options, &run] { run = [options] { return identify_command(*options); }; });
 }

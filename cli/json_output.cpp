@@ -24,8 +24,13 @@ nlohmann::ordered_json json_parameters(const std::vector<FitParameter>& paramete
             entry["value"] = vector ? nlohmann::ordered_json::array() : number(p.value);
             entry["sigma"] = vector ? nlohmann::ordered_json::array() : number(p.sigma);
             entry["unit"] = p.unit;
+            if (p.sigma_monte_carlo != 0.0)
+                entry["sigma_monte_carlo"] =
+                    vector ? nlohmann::ordered_json::array() : number(p.sigma_monte_carlo);
         }
         if (!vector) continue;
+        if (p.sigma_monte_carlo != 0.0)
+            list.back()["sigma_monte_carlo"].push_back(number(p.sigma_monte_carlo));
         list.back()["value"].push_back(number(p.value));
         list.back()["sigma"].push_back(number(p.sigma));
     }

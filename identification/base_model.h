@@ -18,6 +18,7 @@ struct FitParameter {
     double typical = 1.0;  ///< in `unit`
     double value = 0.0;    ///< in `unit`: the correction found, or the total for a location error
     double sigma = 0.0;    ///< of `value`; NaN when it cannot be told apart
+    double sigma_monte_carlo = 0.0;  ///< the same by repetition, 0 when that was not asked for
     double prior_value = 0.0;
     double prior_sigma = 0.0;  ///< 0: no prior
 };

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/alarm.h"
+#include "identification/monte_carlo.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {
@@ -37,6 +38,24 @@ TEST_CASE("eight location errors come back as they went in", "[identification]")
         REQUIRE(std::abs(p.value - found(exact, p.name)) < 4.5 * p.sigma);
     }
     REQUIRE(noisy.rms_after_um == Approx(0.8).epsilon(0.12));
+}
+
+TEST_CASE("simulated repetitions scatter as the covariance says", "[identification]") {
+    const Setup setup = campaign::bc_setup(), truth = campaign::real_machine(setup);
+    ReadingTable table = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 24, 3);
+    const ReadingTable readings = campaign::measured(truth, table, 1);
+    Identification a = identify(setup, readings, {}), b = a, c = a;
+    add_monte_carlo(setup, readings, {}, 60, 5, a);
+    add_monte_carlo(setup, readings, {}, 60, 5, b);
+    add_monte_carlo(setup, readings, {}, 60, 6, c);
+    for (std::size_t k = 0; k < a.parameters.size(); ++k) {
+        INFO(a.parameters[k].name);
+        CHECK(a.parameters[k].sigma_monte_carlo == b.parameters[k].sigma_monte_carlo);
+        CHECK(a.parameters[k].sigma_monte_carlo != c.parameters[k].sigma_monte_carlo);
+        // 60 repetitions know a deviation to 9 %; four times that.
+        CHECK(a.parameters[k].sigma_monte_carlo == Approx(a.parameters[k].sigma).epsilon(0.36));
+    }
 }
 
 TEST_CASE("an identified setup loads again and predicts the readings", "[identification]") {

@@ -1,0 +1,49 @@
+#include "identification/monte_carlo.h"
+
+#include <cmath>
+#include <limits>
+
+#include "effects/settings.h"
+#include "geometry/random.h"
+
+namespace trunnion {
+
+namespace {
+
+/// `exact` with noise of each device row's sigma.
+ReadingTable noisy(const ReadingTable& exact, const Replay& replay, const RowNoise& noise,
+                   SeededNoise& random) {
+    ReadingTable table = exact;
+    for (std::size_t i = 0; i < replay.size(); ++i)
+        *table.rows[replay.table_row(i)].value_mm +=
+            noise.sigma_mm[static_cast<Eigen::Index>(i)] * random.normal();
+    return table;
+}
+
+}  // namespace
+
+void add_monte_carlo(const Setup& setup, const ReadingTable& table,
+                     const std::vector<std::string>& effects, int runs, std::uint64_t seed,
+                     Identification& fitted) {
+    const ReadingTable exact = predicted(fitted.setup, table, active_models(fitted.setup));
+    const Replay replay(setup, table);
+    const RowNoise noise = row_noise(setup, table, replay);
+    const std::size_t count = fitted.parameters.size();
+    std::vector<double> sum(count, 0.0), square(count, 0.0);
+    SeededNoise random(seed);
+    for (int run = 0; run < runs; ++run) {
+        const Identification again = identify(setup, noisy(exact, replay, noise, random), effects);
+        for (std::size_t k = 0; k < count; ++k) {
+            const double off = again.parameters[k].value - fitted.parameters[k].value;
+            sum[k] += off;
+            square[k] += off * off;
+        }
+    }
+    for (std::size_t k = 0; k < count; ++k)
+        fitted.parameters[k].sigma_monte_carlo =
+            std::isfinite(fitted.parameters[k].sigma)
+                ? std::sqrt(std::max(0.0, (square[k] - sum[k] * sum[k] / runs) / (runs - 1)))
+                : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace trunnion

@@ -1,0 +1,20 @@
+// Uncertainty of an identification by simulated repetition, beside the one by covariance.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "identification/identify.h"
+
+namespace trunnion {
+
+/// Fills `sigma_monte_carlo` of each parameter of `fitted`: its standard deviation over `runs` (2
+/// or more) repetitions of readings that the fitted setup would give, with fresh noise of each
+/// row's own sigma, identified again from `setup`. NaN for a parameter that cannot be told apart.
+/// Same seed, same numbers. Correlation between rows is not simulated.
+void add_monte_carlo(const Setup& setup, const ReadingTable& table,
+                     const std::vector<std::string>& effects, int runs, std::uint64_t seed,
+                     Identification& fitted);
+
+}  // namespace trunnion
