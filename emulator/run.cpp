@@ -45,6 +45,8 @@ ControlConfig control_config(const Setup& setup) {
             {axis.axis, axis.rotary, axis.min, axis.max, axis.max_speed, axis.max_acceleration});
     config.dialect = setup.dialect;
     config.tcp_frame = setup.tcp_frame;
+    config.work_positions_with_length = setup.work_positions_with_length;
+    config.g89_feeds_to_initial = setup.g89_feeds_to_initial;
     config.clamps = setup.clamps;
     for (const int n : setup.block_skip) config.skip_switches[static_cast<std::size_t>(n)] = true;
     return config;

@@ -69,9 +69,11 @@ struct Setup {
     Machine machine;
     std::vector<EffectSetting> effects;
     Dialect dialect;
-    TcpFrame tcp_frame = TcpFrame::start;  ///< [control] tcp_frame = "start" or "rotary_zero"
-    std::vector<ClampCode> clamps;         ///< [control.clamps]
-    std::vector<int> block_skip;           ///< [control] block_skip: switches 1-9 that are on
+    TcpFrame tcp_frame = TcpFrame::start;    ///< [control] tcp_frame = "start" or "rotary_zero"
+    bool work_positions_with_length = true;  ///< #5041.. and #5061.. include the tool length
+    bool g89_feeds_to_initial = true;        ///< G89 under G98 feeds out all the way
+    std::vector<ClampCode> clamps;           ///< [control.clamps]
+    std::vector<int> block_skip;             ///< [control] block_skip: switches 1-9 that are on
     Stores stores;
     std::optional<ProbeSettings> probe;
     std::optional<BallbarSettings> ballbar;

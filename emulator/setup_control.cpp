@@ -127,6 +127,14 @@ void read_numbered(const TomlFile& file, const TomlValue& table, std::map<int, d
     }
 }
 
+void read_switch(const TomlFile& file, const TomlValue& control, const char* name, bool& on) {
+    const TomlValue* value = control.find(name);
+    if (!value) return;
+    if (value->kind != TomlValue::Kind::boolean)
+        file.fail(*value, std::string(name) + " is true or false");
+    on = value->truth;
+}
+
 /// C = { clamp = 10, release = 11, alarm = true }
 void read_clamps(const TomlFile& file, const TomlValue& table, Setup& setup) {
     for (const auto& [key, value] : file.table(table).entries) {
@@ -141,7 +149,7 @@ void read_clamps(const TomlFile& file, const TomlValue& table, Setup& setup) {
             return static_cast<int>(m);
         };
         ClampCode clamp{*axis, code("clamp", 10), code("release", 11), true};
-        if (const TomlValue* alarm = value.find("alarm")) clamp.alarm = alarm->truth;
+        read_switch(file, value, "alarm", clamp.alarm);
         setup.clamps.push_back(clamp);
     }
 }
@@ -179,6 +187,8 @@ void read_backup(const TomlFile& file, const TomlValue& value, const BackupReade
 void read_control(const TomlFile& file, const TomlValue& control, const BackupReader& backup,
                   Setup& setup) {
     setup.dialect = read_dialect(file, control);
+    read_switch(file, control, "work_positions_with_length", setup.work_positions_with_length);
+    read_switch(file, control, "g89_feeds_to_initial", setup.g89_feeds_to_initial);
     if (const TomlValue* table = control.find("clamps")) read_clamps(file, *table, setup);
     if (const TomlValue* on = control.find("block_skip"))
         read_block_skip(file, *on, setup.block_skip);

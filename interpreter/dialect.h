@@ -6,7 +6,7 @@ namespace trunnion {
 enum class DialectFamily : unsigned char { fanuc, hurco };
 enum class ControlGeneration : unsigned char { fanuc_16i, fanuc_30i, fanuc_0i_f };
 
-/// The differences that matter to the language. Rows and sources in docs/dialects.md.
+/// The differences that matter to the language. Rows and sources in docs/control.md.
 struct Dialect {
     DialectFamily family = DialectFamily::fanuc;
     ControlGeneration generation = ControlGeneration::fanuc_30i;

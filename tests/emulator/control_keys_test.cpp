@@ -55,6 +55,15 @@ TEST_CASE("block skip switches and generation come from the setup") {
     CHECK_THROWS_AS(setup_with("generation = \"35i\"\n"), InputError);
 }
 
+TEST_CASE("whether #5043 includes the tool length is a switch of the setup") {
+    const std::string program = "G90G21\nG43Z10.H1\n#100=#5043-#5003\nM30\n";
+    const std::string tools = "tools.1 = { length_mm = 50 }\n";
+    CHECK(run_text(setup_with(tools), program).variables.at(100) == 50.0);
+    const std::string off = "work_positions_with_length = false\n";
+    CHECK(run_text(setup_with(off + tools), program).variables.at(100) == 0.0);
+    CHECK_THROWS_AS(setup_with("work_positions_with_length = 1\n"), InputError);
+}
+
 TEST_CASE("control keys survive a formatted setup") {
     const Setup first = setup_with(
         "generation = \"0i-F\"\nblock_skip = [1, 4]\nclamps.C = { clamp = 68, release = 69, alarm "
