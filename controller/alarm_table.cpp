@@ -1,5 +1,5 @@
 // Number, text, cause, remedy. Texts as remembered from 30i / 0i-F screens (assumed unless
-// shared/facts/control.md marks the alarm); PS = program, OT = overtravel, MC = macro.
+// docs/sources.md marks the alarm); PS = program, OT = overtravel, MC = macro.
 #include "controller/alarms.h"
 
 namespace trunnion {

@@ -26,7 +26,8 @@ Effect linear_backlash(const AxisGeometry& axis) {
     return {effect_name(axis.axis, ".backlash"),
             "The axis stops short by half the gap, on the side it comes from",
             "ballscrew nut or thrust bearing worn; negative: a drive that lags",
-            "readjust nut and bearing, or correct backlash compensation (parameter 1851)",
+            "readjust nut and bearing, or correct backlash compensation (on Fanuc parameter 1851, "
+            "assumed)",
             "position + gap_mm / 2 * sign of travel (cancels in a found sphere centre)",
             {{"gap_mm", "mm", 5e-3, -1, {}, true}},
             [k = axis.axis](const AxisSample& sample, const Contact&, std::span<const double> value,

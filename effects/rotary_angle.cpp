@@ -66,7 +66,8 @@ Effect rotary_backlash(const AxisGeometry& axis) {
     return {effect_name(axis.axis, ".backlash"),
             "The axis stops short by half the gap, on the side it comes from",
             "worn worm gear, loose preload, drive belt; negative: a drive that lags",
-            "readjust the preload, or enter the gap as backlash compensation (parameter 1851)",
+            "readjust the preload, or enter the gap as backlash compensation (on Fanuc parameter "
+            "1851, assumed)",
             "angle + gap_rad / 2 * sign of travel",
             {{"gap_rad", "rad", 40e-6, -1, {}, true}},
             [k = axis.axis](const AxisSample& sample, const Contact&, std::span<const double> value,

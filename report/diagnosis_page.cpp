@@ -6,24 +6,10 @@
 #include <cmath>
 
 #include "report/svg.h"
+#include "report/xml.h"
 
 namespace trunnion {
 namespace {
-
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '&')
-            out += "&amp;";
-        else
-            out += c;
-    }
-    return out;
-}
 
 /// Horizontal bars, one a line, of shares 0..1.
 std::string bars(const std::vector<std::pair<std::string, double>>& shares) {
@@ -73,23 +59,24 @@ std::string parameter_rows(const Cause& cause) {
                                 : p.component == 1 ? " y"
                                                    : " z";
         text += fmt::format("<tr><td>{}{}</td><td>{:.4g}</td><td>{}</td><td>{}</td></tr>\n",
-                            escaped(p.name), component, p.value,
+                            escape_xml(p.name), component, p.value,
                             std::isfinite(p.sigma) ? fmt::format("{:.2g}", p.sigma) : "-",
-                            escaped(p.unit));
+                            escape_xml(p.unit));
     }
     return text;
 }
 
 std::string cause_section(const Cause& cause) {
-    std::string text = fmt::format("<h3>{} &ndash; {:.0f} % of the gap</h3>\n<p>{}.",
-                                   escaped(cause.effect), 100.0 * cause.share, escaped(cause.what));
+    std::string text =
+        fmt::format("<h3>{} &ndash; {:.0f} % of the gap</h3>\n<p>{}.", escape_xml(cause.effect),
+                    100.0 * cause.share, escape_xml(cause.what));
     if (!cause.usual_cause.empty())
-        text += fmt::format(" Usual cause: {}. What to do: {}.", escaped(cause.usual_cause),
-                            escaped(cause.remedy));
+        text += fmt::format(" Usual cause: {}. What to do: {}.", escape_xml(cause.usual_cause),
+                            escape_xml(cause.remedy));
     text += "</p>\n";
     if (!cause.rivals.empty())
         text += fmt::format("<p class=\"rival\">These readings cannot tell it from: {}.</p>\n",
-                            escaped(fmt::format("{}", fmt::join(cause.rivals, ", "))));
+                            escape_xml(fmt::format("{}", fmt::join(cause.rivals, ", "))));
     if (cause.parameters.empty()) return text;
     text += "<table><tr><th>parameter</th><th>value</th><th>sigma</th><th>unit</th></tr>\n" +
             parameter_rows(cause) + "</table>\n";
@@ -137,7 +124,7 @@ std::string diagnosis_page(const Diagnosis& d, const std::string& title) {
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{0}</title>"
         "<style>{1}</style></head><body>\n<h1>Simulation against reality: {0}</h1>\n"
         "<p class=\"verdict\">{2}</p>\n<p>{3} readings, {4} set aside as outliers.</p>\n",
-        escaped(title), style, escaped(verdict_sentence(d)), d.readings, d.outliers);
+        escape_xml(title), style, escape_xml(verdict_sentence(d)), d.readings, d.outliers);
     if (!d.causes.empty()) {
         std::vector<std::pair<std::string, double>> shares;
         for (const Cause& cause : d.causes) shares.emplace_back(cause.effect, cause.share);
@@ -152,21 +139,21 @@ std::string diagnosis_page(const Diagnosis& d, const std::string& title) {
     }
     if (!d.where.empty()) {
         text += "<h2>Where</h2>\n<ul>\n";
-        for (const DriverShare& w : d.where) text += "<li>" + escaped(w.text) + "</li>\n";
+        for (const DriverShare& w : d.where) text += "<li>" + escape_xml(w.text) + "</li>\n";
         text += "</ul>\n";
     }
     if (!d.next.empty()) {
         text += "<h2>What to measure next</h2>\n";
         for (const NextMeasurement& next : d.next) {
-            text += "<p>" + escaped(next.text) + "</p>\n";
+            text += "<p>" + escape_xml(next.text) + "</p>\n";
             if (!next.program.empty())
-                text += "<details><summary>NC program</summary><pre>" + escaped(next.program) +
+                text += "<details><summary>NC program</summary><pre>" + escape_xml(next.program) +
                         "</pre></details>\n";
         }
     }
     if (!d.unseen.empty())
         text += fmt::format("<h2>Not to be seen in these readings</h2>\n<p>{}</p>\n",
-                            escaped(fmt::format("{}", fmt::join(d.unseen, ", "))));
+                            escape_xml(fmt::format("{}", fmt::join(d.unseen, ", "))));
     return text + "</body></html>\n";
 }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "report/xml.h"
+
 namespace trunnion {
 
 /// One result at one place.
@@ -36,9 +38,5 @@ std::string format_sarif(const std::vector<ReportRule>& rules, const std::vector
 /// Workflow commands: `::error file=..,line=..,title=..::text`.
 std::string format_github(const std::vector<ReportItem>& items);
 std::string format_junit(const std::string& suite, const std::vector<JUnitCase>& cases);
-
-std::string escape_xml(const std::string& text);
-/// Bytes that are not UTF-8 (comments of old controls) become '?': JSON and XML take nothing else.
-std::string valid_utf8(const std::string& text);
 
 }  // namespace trunnion

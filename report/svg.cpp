@@ -4,29 +4,14 @@
 
 #include <cmath>
 
+#include "report/xml.h"
+
 namespace trunnion {
 
 const std::vector<std::string> plot_colours{"#0072B2", "#E69F00", "#009E73", "#CC79A7",
                                             "#D55E00", "#56B4E9", "#000000", "#999999"};
 
 namespace {
-
-std::string escape(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '&')
-            out += "&amp;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
-    }
-    return out;
-}
 
 /// Two decimals, never "-0.00".
 std::string px(double value) {
@@ -85,7 +70,7 @@ void Svg::text(Point2 at, const std::string& text, double size, const std::strin
                                                            px(turn_deg), px(at.x), px(at.y));
     body_ += fmt::format(
         "<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\"{}>{}</text>\n",
-        px(at.x), px(at.y), px(size), anchor, colour, turn, escape(text));
+        px(at.x), px(at.y), px(size), anchor, colour, turn, escape_xml(text));
 }
 
 std::string Svg::str() const {
