@@ -1,7 +1,9 @@
 #include "emulator/trace.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstring>
 
 #include "controller/rotary_transform.h"
 #include "geometry/numbers.h"
@@ -11,13 +13,6 @@ namespace {
 
 constexpr std::size_t chunk_bytes = 1 << 16;
 constexpr const char* motion_names[] = {"G0", "G1", "G2", "G3"};
-
-void append(std::string& out, double value) {
-    out += ',';
-    if (value == 0.0) value = 0.0;  // no "-0"
-    std::array<char, 32> text;
-    out.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr);
-}
 
 template <class Integer>
 void append_integer(std::string& out, Integer value) {
@@ -34,10 +29,6 @@ void append_name(std::string& out, const std::string* name) {
     if (quoted) out += '"';
 }
 
-void append(std::string& out, const Vector3& v) {
-    for (int i = 0; i < 3; ++i) append(out, v[i]);
-}
-
 }  // namespace
 
 BelievedTool believed_tool(const AxisMove& move, const AxisPositions& q) {
@@ -46,8 +37,30 @@ BelievedTool believed_tool(const AxisMove& move, const AxisPositions& q) {
     return {Vector3(q[Axis::X], q[Axis::Y], q[Axis::Z]) - move.tool_vector_mm, Vector3::UnitZ()};
 }
 
+void TraceNumber::set(double value) {
+    if (value == value_) return;
+    value_ = value;
+    const double shown = value == 0.0 ? 0.0 : value;  // no "-0"
+    char* const end = std::to_chars(text_.data(), text_.data() + text_.size(), shown).ptr;
+    size_ = static_cast<std::size_t>(end - text_.data());
+}
+
+void TraceNumber::set_angle(double angle_rad) {
+    if (angle_rad == value_) return;
+    value_ = angle_rad;
+    size_ = shortest_degrees(angle_rad).copy(text_.data(), text_.size());
+}
+
+char* TraceNumber::write(char* out) const {
+    *out = ',';
+    std::memcpy(out + 1, text_.data(), text_.size());  // a fixed length is one or two instructions
+    return out + 1 + size_;
+}
+
 TraceWriter::TraceWriter(std::vector<Axis> axes, bool truth, TraceChunk chunk)
     : axes_(std::move(axes)), truth_(truth), chunk_(std::move(chunk)) {
+    constexpr std::size_t feed = 1, tip = 6, way = 2, arc = 7, true_tip = 3;
+    numbers_.resize(feed + axes_.size() + tip + way + arc + true_tip);
     text_ = "seq,program,line,motion,tool,feed_mm_min";
     for (const Axis axis : axes_) {
         const char lower = static_cast<char>(letter_of(axis) + ('a' - 'A'));
@@ -58,6 +71,16 @@ TraceWriter::TraceWriter(std::vector<Axis> axes, bool truth, TraceChunk chunk)
         "center_x_mm,center_y_mm,center_z_mm,normal_x,normal_y,normal_z,turns";
     if (truth_) text_ += ",true_x_mm,true_y_mm,true_z_mm";
     text_ += '\n';
+}
+
+void TraceWriter::add_numbers(std::span<const TraceNumber> numbers) {
+    std::array<char, 8 * TraceNumber::room> text;
+    for (; !numbers.empty(); numbers = numbers.subspan(std::min<std::size_t>(8, numbers.size()))) {
+        char* end = text.data();
+        for (const TraceNumber& n : numbers.first(std::min<std::size_t>(8, numbers.size())))
+            end = n.write(end);
+        text_.append(text.data(), end);
+    }
 }
 
 void TraceWriter::add(const AxisMove& move, double s, double time_s, bool end,
@@ -72,22 +95,34 @@ void TraceWriter::add(const AxisMove& move, double s, double time_s, bool end,
     text_ += end ? motion_names[static_cast<std::size_t>(move.kind)] : "SAMPLE";
     text_ += ',';
     append_integer(text_, move.tool);
-    append(text_, move.feed_mm_min);
+
+    TraceNumber* next = numbers_.data();
+    const auto set = [&next](const Vector3& v) {
+        for (int i = 0; i < 3; ++i) (next++)->set(v[i]);
+    };
+    (next++)->set(move.feed_mm_min);
     for (const Axis axis : axes_)
-        is_rotary(axis) ? void(text_ += ',' + shortest_degrees(q[axis])) : append(text_, q[axis]);
+        is_rotary(axis) ? (next++)->set_angle(q[axis]) : (next++)->set(q[axis]);
     const BelievedTool tool = believed_tool(move, q);
-    append(text_, tool.tip_W_mm);
-    append(text_, tool.direction_W);
-    append(text_, move.length_mm * s);
-    append(text_, time_s);
+    set(tool.tip_W_mm);
+    set(tool.direction_W);
+    (next++)->set(move.length_mm * s);
+    (next++)->set(time_s);
+    add_numbers({numbers_.data(), next});
     if (move.arc) {
-        append(text_, move.arc->centre_mm);
-        append(text_, move.arc->normal);
-        append(text_, move.arc->turns);
+        TraceNumber* const arc = next;
+        set(move.arc->centre_mm);
+        set(move.arc->normal);
+        (next++)->set(move.arc->turns);
+        add_numbers({arc, next});
     } else {
         text_ += ",,,,,,,";
     }
-    if (truth_) append(text_, true_tip_W ? *true_tip_W : Vector3::Zero());
+    if (truth_) {
+        TraceNumber* const truth = next = &numbers_[numbers_.size() - 3];
+        set(true_tip_W ? *true_tip_W : Vector3::Zero());
+        add_numbers({truth, next});
+    }
     text_ += '\n';
     if (chunk_ && text_.size() > chunk_bytes) {
         chunk_(text_);

@@ -1,8 +1,11 @@
 // The trace of a run as CSV: one row a programmed move, samples along it when asked for.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +24,24 @@ BelievedTool believed_tool(const AxisMove& move, const AxisPositions& q);
 /// Receives the trace piece by piece, whole lines.
 using TraceChunk = std::function<void(std::string_view)>;
 
+/// A number with its text: most columns of a row say what they said in the row before.
+class TraceNumber {
+  public:
+    /// The shortest text that reads back to the same double.
+    void set(double value);
+    /// The same, told in degrees.
+    void set_angle(double angle_rad);
+    /// Appends ",number" at `out`, where `room` bytes are free; returns the text's end.
+    char* write(char* out) const;
+
+    static constexpr std::size_t room = 33;
+
+  private:
+    double value_ = std::numeric_limits<double>::quiet_NaN();
+    std::size_t size_ = 0;
+    std::array<char, room - 1> text_{};
+};
+
 /// Columns as in formats.md.
 class TraceWriter {
   public:
@@ -33,10 +54,13 @@ class TraceWriter {
     std::string take() { return std::move(text_); }
 
   private:
+    void add_numbers(std::span<const TraceNumber> numbers);
+
     std::vector<Axis> axes_;
     bool truth_ = false;
     TraceChunk chunk_;
     std::uint64_t rows_ = 0;
+    std::vector<TraceNumber> numbers_;  ///< of the row, in the order of the columns
     std::string text_;
 };
 
