@@ -87,11 +87,11 @@ RunOptions run_options(const Options& o, const Setup& setup) {
     return options;
 }
 
-/// A run that did not come to its end leaves no files: none of them would be whole.
+/// An alarm or a limit ends a run as M30 does: the files tell what the control did until then.
 void write_files(const Options& o, const RunLog& log, OutputFiles& files) {
     if (!o.readings.empty()) files.add(o.readings, format_readings(log.readings));
     if (!o.print.empty()) files.add(o.print, log.printed);
-    if (log.result.status == RunStatus::ok) files.write();
+    files.write();
 }
 
 int exit_code(const RunResult& result) {

@@ -86,7 +86,7 @@ TEST_CASE("bad usage and bad input: one clear message, exit code 2, no files") {
                Catch::Contains("bad.toml:2:") && Catch::Contains("point_mm"));
 }
 
-TEST_CASE("alarm and limit have their exit codes and leave no half files") {
+TEST_CASE("alarm and limit have their exit codes and leave what was done until then") {
     const Bench bench;
     bench.write("a.nc", "O1\nG90 G0 X10.\nG54 G1 X9999. F100.\nM30\n");
     CHECK(bench.trunnion("run " + bench.file("a.nc") + " --json --trace " + bench.file("x.csv")) ==
@@ -95,10 +95,12 @@ TEST_CASE("alarm and limit have their exit codes and leave no half files") {
     CHECK(json["status"] == "alarm");
     CHECK(json["alarm"]["line"] == 3);
     CHECK_THAT(bench.read("err.txt"), Catch::Contains("a.nc:3:"));
-    CHECK_FALSE(fs::exists(bench.file("x.csv")));
-    bench.write("loop.nc", "O1\nN1 #100=#100+1\nGOTO 1\nM30\n");
-    CHECK(bench.trunnion("run " + bench.file("loop.nc") + " --max-blocks 1000 --json") == 4);
+    CHECK_THAT(bench.read("x.csv"), Catch::Contains("a.nc,2,G0") && !Catch::Contains("a.nc,3"));
+    bench.write("loop.nc", "O1\nN1 #100=#100+1\nDPRNT[N#100[40]]\nGOTO 1\nM30\n");
+    CHECK(bench.trunnion("run " + bench.file("loop.nc") + " --max-blocks 1000 --json --print " +
+                         bench.file("p.txt")) == 4);
     CHECK(Json::parse(bench.read("out.txt"))["status"] == "limit");
+    CHECK_THAT(bench.read("p.txt"), Catch::StartsWith("N    1\nN    2\n"));
 }
 
 TEST_CASE("subprograms are found beside the program and in the folders given") {
