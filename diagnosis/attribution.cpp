@@ -1,0 +1,159 @@
+// Which set of effects: candidates, outliers, noise, keys, and what is too small to be a cause.
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/diagnoser.h"
+#include "diagnosis/rules.h"
+#include "diagnosis/statistics.h"
+#include "identification/identify.h"
+
+namespace trunnion {
+
+void Diagnoser::build_design() {
+    design_.emplace(replay_, base_, *whitener_);
+    for (const Effect& effect : catalogue_) {
+        if (modelled(effect) || effect.parameters.empty()) continue;
+        if (!has_keys(effect)) design_->add(effect, effect.zeros(), prior_);
+    }
+    add_keyed(base_.residual_mm, 2);
+    design_->update();
+}
+
+void Diagnoser::add_keyed(const Eigen::VectorXd& left_mm, int count) {
+    for (const Effect& effect : catalogue_) {
+        if (modelled(effect) || !has_keys(effect)) continue;
+        for (auto& keys : best_keys(replay_, base_, effect, left_mm, sigma_mm_, count)) {
+            double trials = 1.0;
+            for (const EffectParameter& p : effect.parameters)
+                if (p.is_key()) trials *= static_cast<double>(p.grid.size());
+            design_->add(effect, std::move(keys), prior_ - std::log(trials));
+        }
+    }
+}
+
+bool Diagnoser::neighbours(const std::vector<std::size_t>& rows) {
+    std::size_t pairs = 0;
+    for (std::size_t k = 1; k < rows.size(); ++k) pairs += rows[k] - rows[k - 1] <= 2 ? 1 : 0;
+    return rows.size() > 8 && 10 * pairs > 4 * rows.size();
+}
+
+void Diagnoser::drop_outliers() {
+    for (int pass = 0; pass < 2; ++pass) {
+        std::vector<Eigen::Index> all(static_cast<std::size_t>(design_->gram().cols()));
+        for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<Eigen::Index>(k);
+        const Eigen::VectorXd z = design_->residual(all, 1.0).cwiseQuotient(base_.sigma_mm);
+        std::vector<double> size;
+        for (Eigen::Index i = 0; i < z.size(); ++i) size.push_back(std::abs(z(i)));
+        const double limit = 5.0 * std::max(0.5, 1.4826 * median(size));
+        std::vector<std::size_t> wild;
+        for (std::size_t i = 0; i < used_.size(); ++i)
+            if (used_[i] && size[i] > limit) wild.push_back(i);
+        // Many at once, or in a row, are no outliers: something happened to the machine.
+        if (wild.empty() || neighbours(wild) ||
+            static_cast<double>(wild.size()) >
+                rules::most_outliers * static_cast<double>(used_.size()))
+            return;
+        for (const std::size_t i : wild) {
+            const auto row = static_cast<Eigen::Index>(i);
+            used_[i] = false;
+            sigma_mm_(row) = 1e3 * base_.sigma_mm(row);
+        }
+        rewhiten();
+    }
+}
+
+SearchOptions Diagnoser::search_options() const {
+    SearchOptions options;
+    options.noise_variance = noise_variance_;
+    return options;
+}
+
+EffectSet Diagnoser::best_set() const {
+    return search_sets(*design_, search_options()).front();
+}
+
+Eigen::VectorXd Diagnoser::left_after(const EffectSet& set) const {
+    return design_->residual(columns_of(*design_, set.members), set.scale);
+}
+
+double Diagnoser::freedom_after(const EffectSet& set) const {
+    return design_->freedom() - static_cast<double>(columns_of(*design_, set.members).size());
+}
+
+bool Diagnoser::same_noise(const NoiseModel& a, const NoiseModel& b) {
+    for (const Device device : {Device::sphere, Device::touch, Device::ballbar}) {
+        const DeviceNoise &x = a.of(device), &y = b.of(device);
+        if (std::abs(x.scale - y.scale) > 0.03 * x.scale) return false;
+        if (std::abs(x.shared - y.shared) > 0.03) return false;
+        if (x.shared > 0.03 && std::abs(x.memory - y.memory) > 0.03) return false;
+    }
+    return true;
+}
+
+void Diagnoser::refine_noise() {
+    for (int pass = 0; pass < 2; ++pass) {
+        const Eigen::VectorXd left = left_after(set_);
+        const NoiseModel used = noise_;
+        NoiseModel stated;
+        stated.source = noise_.source;
+        if (noise_.source == NoiseSource::repeats) {
+            if (set_.members.empty()) return;
+            noise_ = noise_from_repeats(replay_, table_, blocks_, left, base_.sigma_mm, stated);
+        } else {
+            const double freedom =
+                std::clamp(freedom_after(set_) / static_cast<double>(replay_.size()), 0.3, 1.0);
+            noise_ = noise_from_residuals(replay_, blocks_, left, base_.sigma_mm, stated, freedom,
+                                          base_.noise_given);
+        }
+        if (same_noise(used, noise_)) return;
+        const std::vector<std::size_t> before = set_.members;
+        rewhiten();
+        set_ = best_set();
+        if (set_.members == before) return;
+    }
+}
+
+void Diagnoser::refine_set() {
+    for (int pass = 0; pass < 3; ++pass) {
+        const EffectSet before = set_;
+        for (const std::size_t m : before.members) {
+            if (!has_keys(*design_->candidates()[m].effect)) continue;
+            std::vector<std::size_t> others = before.members;
+            std::erase(others, m);
+            add_refined(m, others);
+            if (!others.empty()) add_refined(m, {});
+        }
+        add_keyed(left_after(before), 1);
+        design_->update();
+        set_ = best_set();
+        if (set_.log_evidence < before.log_evidence + 1.0) break;
+    }
+}
+
+void Diagnoser::add_refined(std::size_t m, const std::vector<std::size_t>& others) {
+    const Candidate candidate = design_->candidates()[m];
+    const Eigen::VectorXd left = design_->residual(columns_of(*design_, others), set_.scale);
+    design_->add(*candidate.effect,
+                 refine_keys(replay_, base_, *candidate.effect, candidate.values, left),
+                 candidate.log_prior);
+}
+
+void Diagnoser::prune() {
+    while (!set_.members.empty()) {
+        const std::vector<double> share = shares_of(set_.members);
+        const double base = left_square({});
+        const double floor = floor_square();
+        const double gap = std::max(1e-9, base - std::min(floor, left_square(set_.members)));
+        std::size_t least = 0;
+        for (std::size_t k = 1; k < share.size(); ++k)
+            if (share[k] < share[least]) least = k;
+        const bool small =
+            share[least] < rules::least_share * gap || share[least] < rules::least_square * floor;
+        if (!small) break;
+        std::vector<std::size_t> members = set_.members;
+        members.erase(members.begin() + static_cast<long>(least));
+        set_ = evaluate(*design_, members, search_options());
+    }
+}
+
+}  // namespace trunnion

@@ -1,0 +1,127 @@
+// One diagnosis in progress, shared by the stages of docs/diagnosis.md (diagnosis/*.cpp).
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/diagnosis.h"
+#include "diagnosis/drivers.h"
+#include "diagnosis/heldout.h"
+#include "diagnosis/search.h"
+
+namespace trunnion {
+
+/// One diagnosis in progress: the stages of docs/diagnosis.md in the order of run().
+class Diagnoser {
+  public:
+    Diagnoser(const Setup& setup, const ReadingTable& table, const DiagnosisOptions& options);
+    Diagnosis run();
+
+  private:
+    void refuse_poor_tables() const;
+
+    void start_noise();
+
+    void rewhiten();
+
+    bool modelled(const Effect& effect) const;
+
+    void build_design();
+
+    /// Candidates of effects with keys, at the settings that promise most on what is left.
+    void add_keyed(const Eigen::VectorXd& left_mm, int count);
+
+    /// Do most of these rows follow each other?
+    static bool neighbours(const std::vector<std::size_t>& rows);
+
+    /// Rows that stand out although everything was tried on them: left out from here on.
+    void drop_outliers();
+
+    SearchOptions search_options() const;
+
+    EffectSet best_set() const;
+
+    /// Residual (mm) of all rows after the set.
+    Eigen::VectorXd left_after(const EffectSet& set) const;
+
+    double freedom_after(const EffectSet& set) const;
+
+    /// Mean squared z (in stated sigma) of rows that count, freedom accounted for.
+    double mean_square(const Eigen::VectorXd& left_mm, double lost) const;
+
+    /// Too little change for another round.
+    static bool same_noise(const NoiseModel& a, const NoiseModel& b);
+
+    /// Noise anew from what the best set leaves, then the best set anew.
+    void refine_noise();
+
+    /// Keys of chosen effects refined, beside the others and alone; further keys tried on the rest.
+    void refine_set();
+
+    /// Candidate `m` again with keys refined on what the effects `others` leave.
+    void add_refined(std::size_t m, const std::vector<std::size_t>& others);
+
+    /// What a subset of the chosen effects leaves, as mean squared z.
+    double left_square(const std::vector<std::size_t>& members) const;
+
+    /// Mean squared z that noise alone leaves.
+    double floor_square() const;
+
+    /// What the fit leaves is noise of another size than the setup states.
+    bool stated_noise_is_off() const;
+
+    std::vector<double> shares_of(const std::vector<std::size_t>& members) const;
+
+    /// Effects that add little to what the others explain are background, not causes.
+    void prune();
+
+    /// What is left after the chosen set, as mean squared z.
+    struct Remainder {
+        std::vector<DriverTest> drivers;  ///< significant ones
+        double base = 0.0, after = 0.0, floor = 0.0, structured = 0.0;
+        double gap = 0.0, unexplained = 0.0;
+    };
+    Remainder remainder();
+    double unusual_square() const;
+    double aliased_square() const;
+    double ripple_square(const Eigen::VectorXd& left) const;
+    bool coincidence() const;
+    double noise_doubt() const;
+    void judge();
+    void describe_size(const Remainder& r);
+    void describe_where();
+    void claim(double gap);
+    void add_unknown(double share, const std::vector<DriverTest>& left);
+    std::vector<std::string> rivals_of(std::size_t member, double& probability) const;
+    std::vector<FitParameter> parameters_of(const EffectSet& set, std::size_t member) const;
+    void write_setup();
+    void ask_next();
+    void test_holdout();
+
+    Eigen::MatrixXd known_columns(const EffectSet& set) const;
+
+    Eigen::VectorXd noise_mm() const;
+
+    double rms_um(const Eigen::VectorXd& v) const;
+
+    const ReadingTable& table_;
+    DiagnosisOptions options_;
+    Replay replay_;
+    Catalogue catalogue_;
+    BaseModel base_;
+    std::vector<NoiseBlock> blocks_;
+    Folds folds_;
+    std::vector<bool> used_;
+    Eigen::VectorXd sigma_mm_;  ///< large for outliers
+    NoiseModel noise_;
+    double noise_variance_ = 1.0;
+    double prior_ = std::log(0.04);
+    std::optional<Whitener> whitener_;
+    std::optional<Design> design_;
+    EffectSet set_;
+    Diagnosis result_;
+};
+
+}  // namespace trunnion
