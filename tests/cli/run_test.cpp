@@ -1,37 +1,14 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
+
+#include "tests/cli/command_bench.h"
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 namespace {
 
-struct Bench {
-    fs::path path = fs::temp_directory_path() / ("trunnion_run_" + std::to_string(::getpid()));
-    Bench() { fs::create_directories(path); }
-    ~Bench() { fs::remove_all(path); }
-    std::string file(const std::string& name) const { return (path / name).string(); }
-    void write(const std::string& name, const std::string& text) const {
-        std::ofstream(path / name) << text;
-    }
-    std::string read(const std::string& name) const {
-        std::ostringstream text;
-        text << std::ifstream(path / name).rdbuf();
-        return text.str();
-    }
-    /// Exit code; stdout in out.txt, stderr in err.txt.
-    int trunnion(const std::string& words) const {
-        const std::string command = std::string(TRUNNION_BINARY_DIR) + "/bin/trunnion " + words +
-                                    " >" + file("out.txt") + " 2>" + file("err.txt");
-        return WEXITSTATUS(std::system(command.c_str()));
-    }
-};
+using Bench = CommandBench;
 
 const std::string touch_program =
     "O2\nG90 G54 G0 X170. Y0\nT1\nG43 H1 Z80.\nG31 X120. F100.\n#100=#5061\n"
