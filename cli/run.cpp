@@ -6,6 +6,7 @@
 #include "backup/control_files.h"
 #include "cli/command.h"
 #include "cli/files.h"
+#include "cli/long_work.h"
 #include "cli/program_choice.h"
 #include "cli/setups.h"
 #include "effects/settings.h"
@@ -96,7 +97,8 @@ void write_files(const Options& o, const RunLog& log, OutputFiles& files) {
 
 int exit_code(const RunResult& result) {
     if (result.status == RunStatus::limit) {
-        fmt::print(stderr, "trunnion: stopped after {} blocks (--max-blocks)\n", result.blocks);
+        fmt::print(stderr, "trunnion: stopped after {} blocks ({})\n", result.blocks,
+                   Interruption::asked() ? "interrupted" : "--max-blocks");
         return exit_limit;
     }
     if (!result.alarm) return exit_done;
@@ -105,6 +107,16 @@ int exit_code(const RunResult& result) {
                format_diagnostic(alarm.where, fmt::format("alarm {} {}", alarm.number, alarm.text),
                                  alarm.block));
     return exit_alarm;
+}
+
+/// Shows how far it is; Ctrl-C ends the run as a limit does.
+RunLog run_watched(const Setup& setup, ProgramAndFolders& program, RunOptions options) {
+    Progress progress;
+    options.go_on = [&](std::uint64_t blocks) {
+        progress.show([&] { return fmt::format("{:.1f} million blocks", 1e-6 * double(blocks)); });
+        return !Interruption::asked();
+    };
+    return run_program(setup, program.folders, program.program, options);
 }
 
 int run_command(const Options& o) {
@@ -117,7 +129,8 @@ int run_command(const Options& o) {
     OutputFiles files;
     if (options.trace)
         options.trace_chunk = [&out = files.open(o.trace)](std::string_view text) { out << text; };
-    const RunLog log = run_program(setup, program.folders, program.program, options);
+    const Interruption interruption;
+    const RunLog log = run_watched(setup, program, options);
     print_notes(log.notes);
     if (o.json)
         fmt::print("{}", run_json(log, setup.machine.chain));

@@ -34,6 +34,7 @@ InterpreterOptions Controller::State::language_options() const {
     options.skip_switches = control.config.skip_switches;
     options.asin_0_to_minus_90 = control.stores.parameters.bit(6004, 0);
     options.max_blocks = control.config.max_blocks;
+    options.go_on = control.config.go_on;
     options.calls = decode_code_calls(control.stores.parameters);
     options.whole_arguments_as_written = control.settings.bare_is_unit;
     options.print_suppresses_blanks = control.stores.parameters.bit(6001, 1);

@@ -39,6 +39,8 @@ struct ControlConfig {
     bool g89_feeds_to_initial = true;
     std::vector<bool> skip_switches = std::vector<bool>(10, false);
     std::uint64_t max_blocks = 0;  ///< 0: none
+    /// Asked every few thousand blocks with their number; false: the run ends with `limit`.
+    std::function<bool(std::uint64_t blocks)> go_on;
     std::int64_t clock_s = 0;      ///< #3011/#3012 and #3002 start here (seconds since 1970), so
                                    ///< that same inputs give the same bytes
     double chord_tolerance_mm = 0.001;

@@ -63,6 +63,7 @@ RunLog run_program(const Setup& setup, ProgramSource& programs, const ProgramCho
     MotionSink& door = compensating ? static_cast<MotionSink&>(*compensating) : sink;
     ControlConfig config = control_config(setup);
     config.max_blocks = options.max_blocks;
+    config.go_on = options.go_on;
     Controller controller(std::move(config), log.stores, programs, door,
                           [&](std::string_view text) {
                               log.printed += text;

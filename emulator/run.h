@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <variant>
@@ -22,6 +23,8 @@ struct RunOptions {
     bool truth = false;               ///< physical tip in the trace
     TraceChunk trace_chunk;           ///< receives the trace as it grows; empty: RunLog::trace_csv
     std::uint64_t max_blocks = 0;     ///< 0: no limit
+    /// Asked every few thousand blocks with their number; false: the run ends with `limit`.
+    std::function<bool(std::uint64_t blocks)> go_on;
     std::map<int, double> variables;  ///< set before the run
     std::vector<int> wanted_variables;  ///< reported after it; none: all common ones in use
     AxisPositions start;                ///< where the axes stand before the run

@@ -1,5 +1,7 @@
 #include "interpreter/runner.h"
 
+#include <algorithm>
+
 #include "interpreter/alarms.h"
 
 namespace trunnion {
@@ -50,9 +52,13 @@ void Interpreter::State::start(Section& section) {
 }
 
 bool Interpreter::State::limit_hit() {
-    if (options.max_blocks == 0 || executed < options.max_blocks) return false;
-    limit = ended = true;
-    return true;
+    if (executed < look_up_at) return false;
+    constexpr std::uint64_t stride = 4096, never = ~std::uint64_t{0};
+    const std::uint64_t most = options.max_blocks == 0 ? never : options.max_blocks;
+    limit = executed >= most || (options.go_on && !options.go_on(executed));
+    ended = ended || limit;
+    look_up_at = options.go_on ? std::min(most, executed + stride) : most;
+    return limit;
 }
 
 /// Runs blocks until one holds words for the control.

@@ -146,6 +146,7 @@ struct Interpreter::State {
     bool ended = true;
     bool limit = false;
     std::uint64_t executed = 0;
+    std::uint64_t look_up_at = 0;  ///< blocks executed when a limit may be there
     int sequence_number = 0;
 };
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -78,6 +79,23 @@ TEST_CASE("alarm and limit have their exit codes and leave what was done until t
                          bench.file("p.txt")) == 4);
     CHECK(Json::parse(bench.read("out.txt"))["status"] == "limit");
     CHECK_THAT(bench.read("p.txt"), Catch::StartsWith("N    1\nN    2\n"));
+}
+
+TEST_CASE("Ctrl-C ends a run that would never end, and what was done stays") {
+    const Bench bench;
+    bench.write("loop.nc", "O1\nG91\nN1 G0 X.01\nX-.01\nGOTO 1\nM30\n");
+    const std::string command = std::string(TRUNNION_BINARY_DIR) + "/bin/trunnion run " +
+                                bench.file("loop.nc") + " --json --trace " + bench.file("t.csv") +
+                                " >" + bench.file("out.txt") + " 2>" + bench.file("err.txt") +
+                                " & run=$!; while [ ! -s " + bench.file("t.csv.part") +
+                                " ]; do sleep 0.05; done; kill -TERM $run; wait $run";
+    CHECK(WEXITSTATUS(std::system(command.c_str())) == 4);
+    const Json json = Json::parse(bench.read("out.txt"));
+    CHECK(json["status"] == "limit");
+    const std::string trace = bench.read("t.csv"), errors = bench.read("err.txt");
+    CHECK(trace.back() == '\n');
+    CHECK(std::count(trace.begin(), trace.end(), '\n') == json["moves"].get<int>() + 1);
+    CHECK_THAT(errors, Catch::Contains("interrupted") && !Catch::Contains("million"));
 }
 
 TEST_CASE("subprograms are found beside the program and in the folders given") {

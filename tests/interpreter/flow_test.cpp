@@ -106,6 +106,24 @@ TEST_CASE("the block limit stops an endless loop") {
     CHECK_FALSE(r.alarm);
 }
 
+TEST_CASE("a watcher is asked now and then and may stop the run; the block limit still counts") {
+    std::vector<std::uint64_t> asked;
+    InterpreterOptions options;
+    options.max_blocks = 20000;
+    options.go_on = [&](std::uint64_t blocks) {
+        asked.push_back(blocks);
+        return blocks < 10000;
+    };
+    const Run stopped = run("N1GOTO1\n", options);
+    CHECK(stopped.limit);
+    CHECK(asked == std::vector<std::uint64_t>{0, 4096, 8192, 12288});
+    CHECK(stopped.executed == 12288);
+    options.go_on = [](std::uint64_t) { return true; };
+    CHECK(run("N1GOTO1\n", options).executed == 20000);
+    options.max_blocks = 4096;
+    CHECK(run("N1GOTO1\n", options).executed == 4096);
+}
+
 TEST_CASE("a loop larger than the block cache runs right") {
     std::string text = "#1=0\n#100=0\nWHILE[#1LT3]DO1\n";
     for (int i = 0; i < 40000; ++i) text += i % 4000 == 0 ? "#100=#100+1\n" : "X1.\n";

@@ -1,0 +1,45 @@
+// Work that takes long: a line of progress on a terminal, and Ctrl-C that ends it in order.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+
+namespace trunnion {
+
+/// While it lives, the first Ctrl-C (or SIGTERM) only sets `asked`; the second ends the program as
+/// usual. One at a time.
+class Interruption {
+  public:
+    Interruption();
+    ~Interruption();
+    Interruption(const Interruption&) = delete;
+    Interruption& operator=(const Interruption&) = delete;
+
+    static bool asked();
+
+  private:
+    void (*interrupt_before_)(int);
+    void (*terminate_before_)(int);
+};
+
+/// One line on stderr, written over and over and wiped at the end; nothing where stderr is no
+/// terminal, and nothing in the first half second.
+class Progress {
+  public:
+    Progress();
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// `text` is asked for only when it is time to show it.
+    void show(const std::function<std::string()>& text);
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    bool terminal_;
+    bool shown_ = false;
+    Clock::time_point next_;
+};
+
+}  // namespace trunnion
