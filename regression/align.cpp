@@ -16,15 +16,6 @@ bool close(const std::array<double, 3>& p, const std::array<double, 3>& q, doubl
            std::abs(p[2] - q[2]) <= tolerance;
 }
 
-bool alike(const Pass& p, const Pass& q, const Tolerances& t) {
-    // Without a cut it is the way to the end or to another tool: alike wherever it begins.
-    if (!p.cuts() || !q.cuts()) return p.tool == q.tool && p.cuts() == q.cuts();
-    const double place = 2.0 * t.position_mm;
-    return p.tool == q.tool && close(p.centroid_mm, q.centroid_mm, place) &&
-           close(p.start_mm, q.start_mm, place) && close(p.end_mm, q.end_mm, place) &&
-           std::abs(p.cut_mm - q.cut_mm) <= 1e-3 * p.cut_mm + 4.0 * t.position_mm;
-}
-
 /// Gives out ids, found again by the cells of a grid that the centroid may lie in.
 class PassIds {
   public:
@@ -102,9 +93,10 @@ class MyersWalk {
         std::vector<IndexPair> back;
         long x = n_, y = m_;
         for (long d = static_cast<long>(trace_.size()) - 1; d > 0; --d) {
-            const std::vector<long>& before = trace_[static_cast<std::size_t>(d - 1)];
+            const std::vector<std::int32_t>& before = trace_[static_cast<std::size_t>(d - 1)];
             const auto at = [&](long k) {
-                return std::abs(k) > d - 1 ? -1L : before[static_cast<std::size_t>(k + d - 1)];
+                return std::abs(k) > d - 1 ? -1L
+                                           : long{before[static_cast<std::size_t>(k + d - 1)]};
             };
             const long k = x - y;
             const bool down = k == -d || (k != d && at(k - 1) < at(k + 1));
@@ -134,7 +126,7 @@ class MyersWalk {
     const Keys &a_, &b_;
     IndexPair from_;
     long n_, m_;
-    std::vector<std::vector<long>> trace_;  ///< [d]: furthest x of the diagonals -d..d
+    std::vector<std::vector<std::int32_t>> trace_;  ///< [d]: furthest x of the diagonals -d..d
 };
 
 /// The n-th occurrence of an id on one side goes with the n-th on the other.
@@ -174,6 +166,15 @@ std::vector<IndexPair> longest_rising(const std::vector<IndexPair>& pairs) {
 
 }  // namespace
 
+bool alike(const Pass& p, const Pass& q, const Tolerances& t) {
+    // Without a cut it is the way to the end or to another tool: alike wherever it begins.
+    if (!p.cuts() || !q.cuts()) return p.tool == q.tool && p.cuts() == q.cuts();
+    const double place = 2.0 * t.position_mm;
+    return p.tool == q.tool && close(p.centroid_mm, q.centroid_mm, place) &&
+           close(p.start_mm, q.start_mm, place) && close(p.end_mm, q.end_mm, place) &&
+           std::abs(p.cut_mm - q.cut_mm) <= 1e-3 * p.cut_mm + 4.0 * t.position_mm;
+}
+
 void identify_passes(const std::vector<Pass>& a, const std::vector<Pass>& b,
                      const Tolerances& tolerances, Keys& ids_a, Keys& ids_b) {
     PassIds ids(tolerances);
@@ -202,54 +203,6 @@ std::vector<IndexPair> match_sequences(const Keys& a, const Keys& b, std::size_t
     }
     pairs.insert(pairs.end(), tail.rbegin(), tail.rend());
     return pairs;
-}
-
-std::vector<PassPair> align_passes(const Keys& ids_a, const Keys& ids_b, std::size_t most_edits) {
-    std::vector<IndexPair> pairs = match_sequences(ids_a, ids_b, most_edits);
-    // What is left over on both sides and alike was moved to another place in the order.
-    std::vector<char> used_a(ids_a.size(), 0), used_b(ids_b.size(), 0);
-    for (const IndexPair& p : pairs) used_a[p.a] = used_b[p.b] = 1;
-    std::unordered_map<std::uint64_t, std::deque<std::size_t>> left_b;
-    for (std::size_t j = 0; j < ids_b.size(); ++j)
-        if (used_b[j] == 0) left_b[ids_b[j]].push_back(j);
-    std::vector<PassPair> result;
-    std::vector<std::size_t> moved_to(ids_a.size(), ids_b.size());
-    for (std::size_t i = 0; i < ids_a.size(); ++i) {
-        if (used_a[i] != 0) continue;
-        const auto found = left_b.find(ids_a[i]);
-        if (found == left_b.end() || found->second.empty()) continue;
-        moved_to[i] = found->second.front();
-        used_b[moved_to[i]] = 2;
-        found->second.pop_front();
-    }
-    pairs.push_back({ids_a.size(), ids_b.size()});
-    std::size_t i = 0, j = 0;
-    for (const IndexPair& p : pairs) {
-        // Between two pairs: the reordered ones by themselves, the rest of both sides together.
-        while (i < p.a || j < p.b) {
-            if (i < p.a && moved_to[i] < ids_b.size()) {
-                result.push_back({Pairing::reordered, {i, i + 1}, {moved_to[i], moved_to[i] + 1}});
-                ++i;
-                continue;
-            }
-            if (j < p.b && used_b[j] == 2) {
-                ++j;
-                continue;
-            }
-            PassPair gap{Pairing::changed, {i, i}, {j, j}};
-            while (gap.a.last < p.a && moved_to[gap.a.last] == ids_b.size()) ++gap.a.last;
-            while (gap.b.last < p.b && used_b[gap.b.last] != 2) ++gap.b.last;
-            if (gap.a.size() == 0) gap.pairing = Pairing::only_b;
-            if (gap.b.size() == 0) gap.pairing = Pairing::only_a;
-            result.push_back(gap);
-            i = gap.a.last;
-            j = gap.b.last;
-        }
-        if (p.a < ids_a.size()) result.push_back({Pairing::same, {p.a, p.a + 1}, {p.b, p.b + 1}});
-        i = p.a + 1;
-        j = p.b + 1;
-    }
-    return result;
 }
 
 }  // namespace trunnion

@@ -57,16 +57,18 @@ class ProgramComparer {
     /// Compares by one layer, which replaces what an earlier one found; true when it decides.
     bool by_layer(Layer layer) {
         result_.by = layer;
+        equal_so_far_ = true;
         result_.differences.clear();
         result_.differences_left_out = 0;
         result_.compared = 0;
         result_.notes.clear();
         switch (layer) {
             case Layer::text:
-                gaps(text_keys(a_.text), text_keys(b_.text));
+                written(*text_keys(a_.text), *text_keys(b_.text));
                 break;
             case Layer::words:
-                gaps(word_keys(a_.text, setup_a_.dialect), word_keys(b_.text, setup_b_.dialect));
+                written(*word_keys(a_.text, setup_a_.dialect),
+                        *word_keys(b_.text, setup_b_.dialect));
                 break;
             case Layer::blocks:
                 record(PathSpace::tip);
@@ -84,13 +86,26 @@ class ProgramComparer {
                 compare_effects(*run_a_, *run_b_, options_.tolerances, result_);
                 break;
         }
-        const bool equal = result_.differences.empty();
+        const bool equal = equal_so_far_ && result_.differences.empty();
         result_.layers.push_back({layer, equal});
         return equal || stopped();
     }
 
+    /// A deeper layer will say what differs, so these only have to say that something does.
+    bool only_verdict() const { return !options_.by; }
+
+    void written(LineKeys& a, LineKeys& b) {
+        if (only_verdict())
+            equal_so_far_ = same_keys(a, b, result_.compared);
+        else
+            gaps(all_keys(a), all_keys(b));
+    }
+
     void gaps(const KeyedLines& a, const KeyedLines& b) {
-        describe_gaps(key_gaps(a, b), a, b, lines_a_, lines_b_, options_.most_differences, result_);
+        if (only_verdict())
+            equal_so_far_ = same_keys(a, b, result_.compared);
+        else
+            describe_gaps(a, b, lines_a_, lines_b_, options_.most_differences, result_);
     }
 
     void paths(PathSpace space) {
@@ -101,6 +116,7 @@ class ProgramComparer {
     void describe(const PathRecord& a, const PathRecord& b, PathSpace space) {
         WalkOptions walk;
         walk.tolerances = options_.tolerances;
+        walk.other_machine = &setup_a_ != &setup_b_ && !one_machine();
         const PathComparison found = compare_paths(a, b, walk, options_.most_differences);
         describe_paths(found, a, b, space, lines_a_, lines_b_, options_.tolerances, result_);
     }
@@ -210,6 +226,7 @@ class ProgramComparer {
     SourceLines lines_a_, lines_b_;
     PathSpace space_ = PathSpace::tip;
     std::optional<RecordedRun> run_a_, run_b_;
+    bool equal_so_far_ = true;  ///< of the layer at hand, where it keeps no differences
     Comparison result_;
 };
 

@@ -112,16 +112,19 @@ std::string sentence(const PathCluster& c, PathSpace space, const Tolerances& to
         default:
             break;
     }
+    const std::string places = times(c.count, "places");
     const bool turned = c.direction_rad > tolerances.direction_rad;
     const bool shifted = c.position_mm > tolerances.position_mm;
     const char* what = space == PathSpace::tip ? "tool direction" : "rotary axes";
     if (turned && shifted)
         return fmt::format("another path, up to {:.4f} mm and {:.4f} deg apart", c.position_mm,
                            deg) +
-               tool;
-    if (turned) return fmt::format("{} up to {:.4f} deg apart", what, deg) + tool;
-    if (shifted) return fmt::format("another path, up to {:.4f} mm apart", c.position_mm) + tool;
-    return "the same points by another motion (rapid or feed, or along the path to and fro)" + tool;
+               places + tool;
+    if (turned) return fmt::format("{} up to {:.4f} deg apart", what, deg) + places + tool;
+    if (shifted)
+        return fmt::format("another path, up to {:.4f} mm apart", c.position_mm) + places + tool;
+    return "the same points by another motion (rapid or feed, or along the path to and fro)" +
+           places + tool;
 }
 
 std::array<double, 3> array_of(const Vector3& v) {
@@ -146,7 +149,6 @@ ComparePicture::Line thin_line(const PathRecord& record, Stretch stretch, std::u
                 line.push_back(array_of(chords[c].position_mm));
         }
         line.push_back(array_of(segment.end().position_mm));
-        path.drop_before(k);
     }
     return line;
 }
@@ -206,46 +208,58 @@ void describe_paths(const PathComparison& found, const PathRecord& a, const Path
     result.tools = found.tools;
     result.compared = found.totals.compared;
     if (found.approaches_differ > 0)
-        result.notes.push_back(fmt::format(
-            "{} approaches differ between cuts; the two sides use different positioning functions, "
-            "so only where rapids end was compared (--by axes compares all of them)",
-            found.approaches_differ));
+        result.notes.push_back(
+            fmt::format("the rapids to {} cuts go another way, as they must with other positioning "
+                        "functions or "
+                        "machines; only where they end was compared",
+                        found.approaches_differ));
     draw(found, a, b, tolerances, result.picture);
 }
 
-void describe_gaps(const std::vector<KeyGap>& gaps, const KeyedLines& a, const KeyedLines& b,
-                   SourceLines& lines_a, SourceLines& lines_b, std::size_t most,
-                   Comparison& result) {
-    const auto place = [](const KeyedLines& keyed, std::size_t first, std::size_t last,
-                          SourceLines& lines) {
-        ComparePlace p;
-        p.program = lines.main_name();
-        if (keyed.lines.empty()) return p;
-        p.line = static_cast<int>(keyed.lines[std::min(first, keyed.lines.size() - 1)]);
-        p.last_line =
-            last > first ? std::max(p.line, static_cast<int>(keyed.lines[last - 1])) : p.line;
-        lines.show(p);
-        return p;
-    };
-    for (const KeyGap& gap : gaps) {
+namespace {
+
+ComparePlace place_in(SpilledWindow<KeyedLine>& keyed, std::uint64_t first, std::uint64_t last,
+                      SourceLines& lines) {
+    ComparePlace p;
+    p.program = lines.main_name();
+    if (keyed.size() == 0) return p;
+    p.line = static_cast<int>(keyed[std::min(first, keyed.size() - 1)].line);
+    p.last_line = last > first ? std::max(p.line, static_cast<int>(keyed[last - 1].line)) : p.line;
+    lines.show(p);
+    return p;
+}
+
+std::string counted(std::uint64_t count, const char* noun) {
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+void describe_gaps(const KeyedLines& a, const KeyedLines& b, SourceLines& lines_a,
+                   SourceLines& lines_b, std::size_t most, Comparison& result) {
+    SpilledWindow<KeyedLine> keyed_a(a), keyed_b(b);
+    const char* const noun = result.by == Layer::text     ? "line"
+                             : result.by == Layer::blocks ? "move"
+                                                          : "block";
+    key_gaps(a, b, [&](const KeyGap& gap) {
         if (result.differences.size() >= most) {
             ++result.differences_left_out;
-            continue;
+            return;
         }
         Difference d;
         d.kind = DifferenceKind::text;
-        const std::size_t in_a = gap.a_last - gap.a_first, in_b = gap.b_last - gap.b_first;
+        const std::uint64_t in_a = gap.a_last - gap.a_first, in_b = gap.b_last - gap.b_first;
         if (in_a == 0) d.kind = DifferenceKind::only_b;
         if (in_b == 0) d.kind = DifferenceKind::only_a;
-        d.what = in_a == 0                ? fmt::format("{} only in B", in_b)
-                 : in_b == 0              ? fmt::format("{} only in A", in_a)
-                 : in_a == 1 && in_b == 1 ? std::string("changed")
-                                          : fmt::format("{} of A became {} of B", in_a, in_b);
-        d.a = place(a, gap.a_first, gap.a_last, lines_a);
-        d.b = place(b, gap.b_first, gap.b_last, lines_b);
+        d.what = in_a == 0      ? counted(in_b, noun) + " only in B"
+                 : in_b == 0    ? counted(in_a, noun) + " only in A"
+                 : in_a == in_b ? counted(in_a, noun) + " changed"
+                                : fmt::format("{} of A became {} of B", counted(in_a, noun), in_b);
+        d.a = place_in(keyed_a, gap.a_first, gap.a_last, lines_a);
+        d.b = place_in(keyed_b, gap.b_first, gap.b_last, lines_b);
         result.differences.push_back(std::move(d));
-    }
-    result.compared = std::max(a.keys.size(), b.keys.size());
+    });
+    result.compared = std::max(a.size(), b.size());
 }
 
 void add_fingerprints(Comparison& result) {

@@ -36,9 +36,8 @@ void describe_paths(const PathComparison& found, const PathRecord& a, const Path
                     const Tolerances& tolerances, Comparison& result);
 
 /// Puts the gaps of a layer of lines or blocks into `result`.
-void describe_gaps(const std::vector<KeyGap>& gaps, const KeyedLines& a, const KeyedLines& b,
-                   SourceLines& lines_a, SourceLines& lines_b, std::size_t most,
-                   Comparison& result);
+void describe_gaps(const KeyedLines& a, const KeyedLines& b, SourceLines& lines_a,
+                   SourceLines& lines_b, std::size_t most, Comparison& result);
 
 /// Gives every difference its fingerprint: of its kind and its source lines without N numbers, and
 /// how often that occurred before. It does not change when lines are added or removed elsewhere.

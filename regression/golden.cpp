@@ -145,7 +145,6 @@ std::string format_golden(const PathRecord& path, const std::vector<std::string>
             start = pending->end();
         }
         pending = next;
-        window.drop_before(k);
     }
     if (pending) out += row(*pending);
     return out;

@@ -40,19 +40,37 @@ class PathComparer {
           options_(options),
           most_clusters_(most_clusters),
           walk_(a.segments(), b.segments(), options),
+          passes_a_(a.passes()),
+          passes_b_(b.passes()),
           seen_a_(a.segments()),
           seen_b_(b.segments()) {}
 
     PathComparison run() {
         fill_totals();
-        Keys ids_a, ids_b;
-        identify_passes(a_.passes(), b_.passes(), options_.tolerances, ids_a, ids_b);
-        for (const PassPair& pair : align_passes(ids_a, ids_b)) compare(pair);
+        align(source(), options_.align, [this](const PassPair& pair) { compare(pair); });
         for (auto& [tool, row] : rows_) result_.tools.push_back(row);
         return std::move(result_);
     }
 
   private:
+    AlignSource source() {
+        const Tolerances& t = options_.tolerances;
+        return {a_.passes().size(), b_.passes().size(),
+                [this, &t](std::uint64_t i, std::uint64_t j) {
+                    return alike(passes_a_[i], passes_b_[j], t);
+                },
+                [this, &t](PassRange a, PassRange b, Keys& keys_a, Keys& keys_b) {
+                    identify_passes(loaded(passes_a_, a), loaded(passes_b_, b), t, keys_a, keys_b);
+                }};
+    }
+
+    static std::vector<Pass> loaded(SpilledWindow<Pass>& passes, PassRange range) {
+        std::vector<Pass> result;
+        result.reserve(range.size());
+        for (std::uint64_t k = range.first; k < range.last; ++k) result.push_back(passes[k]);
+        return result;
+    }
+
     void compare(const PassPair& pair) {
         switch (pair.pairing) {
             case Pairing::same:
@@ -75,9 +93,9 @@ class PathComparer {
     }
 
     void compare_same(const PassPair& pair) {
-        const Pass &p = a_.passes()[pair.a.first], &q = b_.passes()[pair.b.first];
+        const Pass p = passes_a_[pair.a.first], q = passes_b_[pair.b.first];
         std::vector<PathRegion> regions;
-        if (p.modes != q.modes) {
+        if (p.modes != q.modes || options_.other_machine) {
             walk_.compare({p.first, p.cut_first}, {q.first, q.cut_first}, regions, unused_);
             result_.approaches_differ += regions.empty() ? 0 : 1;
             regions.clear();
@@ -91,22 +109,35 @@ class PathComparer {
     }
 
     void compare_changed(const PassPair& pair) {
-        const Pass &p = a_.passes()[pair.a.first], &q = b_.passes()[pair.b.first];
-        if (p.modes != q.modes && pair.a.size() == pair.b.size()) {
-            for (std::size_t k = 0; k < pair.a.size(); ++k)
+        if (one_to_one(pair)) {
+            for (std::uint64_t k = 0; k < pair.a.size(); ++k)
                 compare_same({Pairing::same,
                               {pair.a.first + k, pair.a.first + k + 1},
                               {pair.b.first + k, pair.b.first + k + 1}});
             return;
         }
+        const Pass p = passes_a_[pair.a.first], q = passes_b_[pair.b.first];
         std::vector<PathRegion> regions;
-        walk(p.first, a_.passes()[pair.a.last - 1].last, q.first, b_.passes()[pair.b.last - 1].last,
+        walk(p.first, passes_a_[pair.a.last - 1].last, q.first, passes_b_[pair.b.last - 1].last,
              regions);
         take(regions, pair.a);
     }
 
-    void compare_cut(std::size_t i, std::size_t j) {
-        const Pass &p = a_.passes()[i], &q = b_.passes()[j];
+    /// As many passes on both sides, with the same tools and about as long: moved or changed one by
+    /// one.
+    bool one_to_one(const PassPair& pair) {
+        if (pair.a.size() != pair.b.size()) return false;
+        for (std::uint64_t k = 0; k < pair.a.size(); ++k) {
+            const Pass p = passes_a_[pair.a.first + k], q = passes_b_[pair.b.first + k];
+            const double most = std::max(0.02 * p.cut_mm, 40.0 * options_.tolerances.position_mm);
+            if (p.tool != q.tool || p.cuts() != q.cuts()) return false;
+            if (p.modes == q.modes && std::abs(p.cut_mm - q.cut_mm) > most) return false;
+        }
+        return true;
+    }
+
+    void compare_cut(std::uint64_t i, std::uint64_t j) {
+        const Pass p = passes_a_[i], q = passes_b_[j];
         std::vector<PathRegion> regions;
         walk(p.cut_first, p.last, q.cut_first, q.last, regions);
         take(regions, {i, i + 1}, false);
@@ -130,8 +161,8 @@ class PathComparer {
         };
         std::stable_sort(regions.begin(), regions.end(), by_place);
         std::size_t next = 0, added = 0;
-        for (std::size_t k = range.first; k < range.last; ++k) {
-            const Pass& pass = a_.passes()[k];
+        for (std::uint64_t k = range.first; k < range.last; ++k) {
+            const Pass pass = passes_a_[k];
             const bool final = k + 1 == range.last;
             for (; added < regions.size() && (final || regions[added].a.first < pass.last); ++added)
                 add(kind_of(regions[added].kind), regions[added], pass.tool, 0.0, 0.0);
@@ -150,20 +181,19 @@ class PathComparer {
 
     void add_whole(DifferenceKind kind, const PassPair& pair) {
         PathRegion region;
-        const auto& a = a_.passes();
-        const auto& b = b_.passes();
+        auto &a = passes_a_, &b = passes_b_;
         // The first block that cuts names the place; an empty side stands before the next cut.
-        const auto at = [](const std::vector<Pass>& passes, std::size_t first, std::uint64_t end) {
+        const auto at = [](SpilledWindow<Pass>& passes, std::uint64_t first, std::uint64_t end) {
             return first < passes.size() ? std::min(passes[first].cut_first, end - 1) : end;
         };
         const std::uint64_t at_a = at(a, pair.a.first, a_.segments().size());
         const std::uint64_t at_b = at(b, pair.b.first, b_.segments().size());
-        region.a = {at_a, pair.a.size() ? std::max(at_a, a[pair.a.last - 1].last) : at_a};
-        region.b = {at_b, pair.b.size() ? std::max(at_b, b[pair.b.last - 1].last) : at_b};
-        const int tool = pair.a.size() ? a[pair.a.first].tool : b[pair.b.first].tool;
+        region.a = {at_a, pair.a.size() > 0 ? std::max(at_a, a[pair.a.last - 1].last) : at_a};
+        region.b = {at_b, pair.b.size() > 0 ? std::max(at_b, b[pair.b.last - 1].last) : at_b};
+        const int tool = pair.a.size() > 0 ? a[pair.a.first].tool : b[pair.b.first].tool;
         double cut_a = 0.0, cut_b = 0.0;
-        for (std::size_t k = pair.a.first; k < pair.a.last; ++k) cut_a += a[k].cut_mm;
-        for (std::size_t k = pair.b.first; k < pair.b.last; ++k) cut_b += b[k].cut_mm;
+        for (std::uint64_t k = pair.a.first; k < pair.a.last; ++k) cut_a += a[k].cut_mm;
+        for (std::uint64_t k = pair.b.first; k < pair.b.last; ++k) cut_b += b[k].cut_mm;
         ToolRow& row = rows_[tool];
         row.only_a += kind == DifferenceKind::only_a ? pair.a.size() : 0;
         row.only_b += kind == DifferenceKind::only_b ? pair.b.size() : 0;
@@ -201,6 +231,7 @@ class PathComparer {
                    result_.clusters.back().last_b.last == region.b.first) {
             cluster = &result_.clusters.back();
         }
+        if (cluster == nullptr && kind == DifferenceKind::path) cluster = last_of_many(tool);
         if (cluster == nullptr) {
             if (result_.clusters.size() >= most_clusters_) {
                 ++result_.left_out;
@@ -208,6 +239,7 @@ class PathComparer {
             }
             result_.clusters.push_back({kind, region, 0, 0.0, 0.0, tool, 0.0, 0.0, {}, {}});
             cluster = &result_.clusters.back();
+            if (kind == DifferenceKind::path) by_tool_[tool].push_back(result_.clusters.size() - 1);
         }
         ++cluster->count;
         cluster->position_mm = std::max(cluster->position_mm, region.position_mm);
@@ -216,6 +248,13 @@ class PathComparer {
         cluster->cut_b_mm += cut_b;
         cluster->last_a = region.a;
         cluster->last_b = region.b;
+    }
+
+    /// A tool whose path differs all over: the places after the first ones are one cluster.
+    PathCluster* last_of_many(int tool) {
+        constexpr std::size_t shown_by_tool = 50;
+        const std::vector<std::size_t>& clusters = by_tool_[tool];
+        return clusters.size() < shown_by_tool ? nullptr : &result_.clusters[clusters.back()];
     }
 
     void fill_totals() {
@@ -244,11 +283,13 @@ class PathComparer {
     WalkOptions options_;
     std::size_t most_clusters_;
     StretchComparer walk_;
+    SpilledWindow<Pass> passes_a_, passes_b_;
     SegmentWindow seen_a_, seen_b_;
     PathComparison result_;
     WalkTotals unused_;
     std::map<int, ToolRow> rows_;
     std::map<Key, std::size_t> by_key_;
+    std::map<int, std::vector<std::size_t>> by_tool_;  ///< clusters of kind path
 };
 
 }  // namespace

@@ -30,9 +30,9 @@ struct PathComparison {
     std::uint64_t approaches_differ = 0;  ///< rapids not compared strictly, see below
 };
 
-/// Where both sides use different positioning functions (G43.4 here, G68.2 there) rapids between
-/// cuts cannot agree on the way and only have to end alike; those that do not are counted in
-/// `approaches_differ`. With the same functions rapids count like cuts.
+/// Where both sides use different positioning functions (G43.4 here, G68.2 there) or machines,
+/// rapids between cuts cannot agree on the way and only have to end alike; those that do not are
+/// counted in `approaches_differ`. With the same functions rapids count like cuts.
 PathComparison compare_paths(const PathRecord& a, const PathRecord& b, const WalkOptions& options,
                              std::size_t most_clusters = 1000);
 

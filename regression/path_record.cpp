@@ -37,9 +37,9 @@ void PathRecord::add(Segment segment) {
     }
     if (stands(end_, segment)) return;
     const bool cut = segment.kind == SegmentKind::feed;
-    const bool was_cut = open_ && passes_.back().cut_first < file_.size();
-    if (!open_ || (was_cut && !cut) || segment.tool != passes_.back().tool) begin_pass(segment);
-    Pass& pass = passes_.back();
+    const bool was_cut = open_ && pass_.cut_first < file_.size();
+    if (!open_ || (was_cut && !cut) || segment.tool != pass_.tool) begin_pass(segment);
+    Pass& pass = pass_;
     const double length = length_mm(end_, segment);
     const Vector3 end = Vector3(segment.end_mm.data());
     if (cut && pass.cut_first == file_.size()) pass.start_mm = array_of(end_.position_mm);
@@ -65,17 +65,17 @@ void PathRecord::begin_pass(const Segment& segment) {
     pass.start_mm = array_of(end_.position_mm);
     pass.line = segment.line;
     pass.tool = segment.tool;
-    passes_.push_back(pass);
+    pass_ = pass;
     open_ = true;
     ++totals_[segment.tool].passes;
 }
 
 void PathRecord::finish() {
     if (!open_) return;
-    Pass& pass = passes_.back();
-    const double length = pass.cuts() ? pass.cut_mm : pass.rapid_mm;
+    const double length = pass_.cuts() ? pass_.cut_mm : pass_.rapid_mm;
     if (length > 0.0)
-        for (double& c : pass.centroid_mm) c /= length;
+        for (double& c : pass_.centroid_mm) c /= length;
+    passes_.append(pass_);
     open_ = false;
 }
 

@@ -43,7 +43,8 @@ class PathRecord {
     std::uint16_t program_index(const std::string& name);
 
     const SegmentFile& segments() const { return file_; }
-    const std::vector<Pass>& passes() const { return passes_; }
+    /// Complete after finish().
+    const SpilledArray<Pass>& passes() const { return passes_; }
     const std::vector<std::string>& programs() const { return programs_; }
     const std::map<int, ToolTotals>& totals() const { return totals_; }
     /// Motion segments added (the origin does not count).
@@ -54,7 +55,8 @@ class PathRecord {
     void count(const Segment& segment, double length_mm);
 
     SegmentFile file_;
-    std::vector<Pass> passes_;
+    SpilledArray<Pass> passes_;
+    Pass pass_;  ///< the open one
     std::vector<std::string> programs_;
     std::map<int, ToolTotals> totals_;
     PathPoint end_;

@@ -167,8 +167,19 @@ void PathRecorder::add_curve(const AxisMove& move, const Segment& segment) {
     points_.clear();
     const int pieces = 1 + static_cast<int>(turned_rad(move) / (pi / 4.0));
     sample_curve([&](double s) { return point(move, move.at(s)); }, pieces, tolerances_, points_);
+    Segment chord = segment;
+    if (space_ == PathSpace::tip && move.duration_s > 0.0) {
+        // However it is programmed (G43.4, or G93 with own kinematics), the tip's speed counts.
+        double length_mm = 0.0;
+        Vector3 from = point(move, move.from).position_mm;
+        for (const PathPoint& p : points_) {
+            length_mm += (p.position_mm - from).norm();
+            from = p.position_mm;
+        }
+        if (length_mm > tolerances_.position_mm)
+            chord.feed_mm_min = static_cast<float>(60.0 * length_mm / move.duration_s);
+    }
     for (const PathPoint& p : points_) {
-        Segment chord = segment;
         set_end(chord, p);
         record_.add(chord);
     }

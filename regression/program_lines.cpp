@@ -57,29 +57,78 @@ std::uint64_t hash_of(std::string_view text, std::uint64_t seed) {
     return h * 0x9E3779B97F4A7C15ULL;
 }
 
-KeyedLines text_keys(std::string_view text) {
-    KeyedLines result;
-    std::size_t last = 0;
-    each_line(text, [&](std::string_view line, int number) {
-        const std::string_view trimmed = without_trailing_blanks(line);
-        result.add(hash_of(trimmed), number);
-        if (!trimmed.empty()) last = result.keys.size();
-    });
-    result.keys.resize(last);
-    result.lines.resize(last);
-    return result;
+namespace {
+
+class TextKeys : public LineKeys {
+  public:
+    explicit TextKeys(std::string_view text) : text_(text) {
+        while (!text_.empty() && (is_blank(text_.back()) || is_line_end(text_.back())))
+            text_.remove_suffix(1);
+    }
+    std::optional<KeyedLine> next() override {
+        if (at_ >= text_.size()) return std::nullopt;
+        const char* const begin = text_.data() + at_;
+        const char* const end = text_.data() + text_.size();
+        const char* const line_end = find_line_end(begin, end);
+        const char* const after = line_end == end ? end : past_line_end(line_end, end);
+        at_ += static_cast<std::size_t>(after - begin);
+        const std::string_view line(begin, static_cast<std::size_t>(line_end - begin));
+        return KeyedLine{hash_of(without_trailing_blanks(line)), ++number_};
+    }
+
+  private:
+    std::string_view text_;
+    std::size_t at_ = 0;
+    std::uint32_t number_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<LineKeys> text_keys(std::string_view text) {
+    return std::make_unique<TextKeys>(text);
 }
 
-std::vector<KeyGap> key_gaps(const KeyedLines& a, const KeyedLines& b) {
-    std::vector<KeyGap> gaps;
-    std::vector<IndexPair> pairs = match_sequences(a.keys, b.keys);
-    pairs.push_back({a.keys.size(), b.keys.size()});
-    IndexPair next;
-    for (const IndexPair& pair : pairs) {
-        if (pair.a > next.a || pair.b > next.b) gaps.push_back({next.a, pair.a, next.b, pair.b});
-        next = {pair.a + 1, pair.b + 1};
+bool same_keys(LineKeys& a, LineKeys& b, std::uint64_t& compared) {
+    for (compared = 0;; ++compared) {
+        const auto p = a.next(), q = b.next();
+        if (!p || !q) return !p && !q;
+        if (p->key != q->key) return false;
     }
-    return gaps;
+}
+
+bool same_keys(const KeyedLines& a, const KeyedLines& b, std::uint64_t& compared) {
+    SpilledWindow<KeyedLine> p(a), q(b);
+    const std::uint64_t count = std::min(a.size(), b.size());
+    for (compared = 0; compared < count; ++compared)
+        if (p[compared].key != q[compared].key) return false;
+    return a.size() == b.size();
+}
+
+KeyedLines all_keys(LineKeys& keys) {
+    KeyedLines all;
+    while (const auto key = keys.next()) all.append(*key);
+    return all;
+}
+
+void key_gaps(const KeyedLines& a, const KeyedLines& b,
+              const std::function<void(const KeyGap&)>& found) {
+    SpilledWindow<KeyedLine> p(a), q(b);
+    const auto keys_in = [](SpilledWindow<KeyedLine>& lines, PassRange range, Keys& keys) {
+        keys.clear();
+        for (std::uint64_t k = range.first; k < range.last; ++k) keys.push_back(lines[k].key);
+    };
+    const AlignSource source{a.size(), b.size(),
+                             [&](std::uint64_t i, std::uint64_t j) { return p[i].key == q[j].key; },
+                             [&](PassRange in_a, PassRange in_b, Keys& keys_a, Keys& keys_b) {
+                                 keys_in(p, in_a, keys_a);
+                                 keys_in(q, in_b, keys_b);
+                             }};
+    AlignLimits limits;
+    limits.reordering = false;
+    align(source, limits, [&](const PassPair& pair) {
+        if (pair.pairing != Pairing::same)
+            found({pair.a.first, pair.a.last, pair.b.first, pair.b.last});
+    });
 }
 
 }  // namespace trunnion

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +12,7 @@
 #include "interpreter/dialect.h"
 #include "regression/align.h"
 #include "regression/comparison.h"
+#include "regression/spilled_array.h"
 
 namespace trunnion {
 
@@ -28,30 +32,41 @@ class ProgramLines {
 };
 
 /// What a layer compares: one key for each line or move that counts, and the source line it is
-/// from.
-struct KeyedLines {
-    Keys keys;
-    std::vector<std::uint32_t> lines;
-    void add(std::uint64_t key, int line) {
-        keys.push_back(key);
-        lines.push_back(static_cast<std::uint32_t>(line));
-    }
+/// from. On disk, as paths are.
+struct KeyedLine {
+    std::uint64_t key = 0;
+    std::uint32_t line = 0;
+};
+using KeyedLines = SpilledArray<KeyedLine>;
+
+/// Gives the keys of a text one by one.
+class LineKeys {
+  public:
+    virtual ~LineKeys() = default;
+    /// The next key, or nothing at the end.
+    virtual std::optional<KeyedLine> next() = 0;
 };
 
 /// Layer `text`: lines without their ends and trailing blanks; empty lines at the end do not count.
-KeyedLines text_keys(std::string_view text);
+std::unique_ptr<LineKeys> text_keys(std::string_view text);
 
 /// Layer `words`: each block as the control reads it. N numbers (unless the program jumps), blanks,
 /// comments, the way a number is written, the order of words and repeated modal words (G codes, F,
 /// S, positions) do not count. A line that cannot be read counts as it is written.
-KeyedLines word_keys(std::string_view text, const Dialect& dialect);
+std::unique_ptr<LineKeys> word_keys(std::string_view text, const Dialect& dialect);
+
+/// Stops at the first that differs, and keeps none; `compared`: how many were looked at.
+bool same_keys(LineKeys& a, LineKeys& b, std::uint64_t& compared);
+bool same_keys(const KeyedLines& a, const KeyedLines& b, std::uint64_t& compared);
+KeyedLines all_keys(LineKeys& keys);
 
 /// A stretch of keys that differs.
 struct KeyGap {
-    std::size_t a_first = 0, a_last = 0, b_first = 0, b_last = 0;
+    std::uint64_t a_first = 0, a_last = 0, b_first = 0, b_last = 0;
 };
-/// Aligns both sides; what stands between the matches.
-std::vector<KeyGap> key_gaps(const KeyedLines& a, const KeyedLines& b);
+/// Aligns both sides and calls `found` with what stands between the matches.
+void key_gaps(const KeyedLines& a, const KeyedLines& b,
+              const std::function<void(const KeyGap&)>& found);
 
 /// FNV-1a, 64 bits, mixed at the end: the same on every machine.
 std::uint64_t hash_of(std::string_view text, std::uint64_t seed = 0xCBF29CE484222325ULL);

@@ -34,11 +34,12 @@ class BlockKeys {
             h = mix(h, grid(deg_from_rad(m.arc->sweep_rad)));
         }
         line_ = m.line;
-        lines_.add(h, line_);
+        add(h);
     }
-    void event(std::uint64_t kind, double value) { lines_.add(mix(kind, grid(value)), line_); }
+    void event(std::uint64_t kind, double value) { add(mix(kind, grid(value))); }
 
   private:
+    void add(std::uint64_t key) { lines_.append({key, static_cast<std::uint32_t>(line_)}); }
     static std::uint64_t grid(double value) {
         return static_cast<std::uint64_t>(std::llround(value * 1e4));
     }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 
 #include "regression/deviation.h"
 
@@ -125,8 +124,6 @@ void StretchComparer::commit(Corner at) {
     if (commits_.size() == 2 * kept)
         commits_.erase(commits_.begin(), commits_.begin() + static_cast<std::ptrdiff_t>(kept));
     commits_.push_back(at);
-    a_.drop_before(at.i > 64 ? at.i - 64 : 0);
-    b_.drop_before(at.j > 64 ? at.j - 64 : 0);
 }
 
 /// Which segments to name: those whose ends are nearest among the ones where the walk came to a
@@ -233,11 +230,13 @@ StretchComparer::Corner StretchComparer::meet_again(Corner at, Stretch a, Stretc
     Corner found = at;
     if (meet_near(found, a, b)) return found;
     if (meet_shifted(found, a, b)) return found;
-    for (const std::size_t window : {std::size_t{2048}, std::size_t{1} << 15, resync_window}) {
+    const std::size_t most = options_.resync_segments;
+    for (std::size_t window = 2048;; window *= 12) {
+        window = std::min(window, most);
         if (meet_far(found, a, b, window)) return found;
         if (window > a.last - at.i && window > b.last - at.j) return {a.last, b.last};
+        if (window == most) return {std::min(a.last, at.i + most), std::min(b.last, at.j + most)};
     }
-    return {std::min(a.last, at.i + resync_window), std::min(b.last, at.j + resync_window)};
 }
 
 bool StretchComparer::meet_near(Corner& at, Stretch a, Stretch b) {
@@ -274,40 +273,59 @@ bool StretchComparer::meet_shifted(Corner& at, Stretch a, Stretch b) {
     return true;
 }
 
+namespace {
+
+/// The cell of a grid that a point lies in, as one number; `corner` 0..7 shifts the point by a
+/// quarter of a cell, so that near points share one of eight; -1: not shifted.
+std::uint64_t cell_of(const Vector3& p, double size, int corner) {
+    std::uint64_t h = 0x9E3779B97F4A7C15ULL;
+    for (int d = 0; d < 3; ++d) {
+        const double shift = corner < 0 ? 0.0 : ((corner >> d) & 1 ? 0.25 : -0.25);
+        const auto n = static_cast<std::int64_t>(std::floor(p[d] / size + shift));
+        h = (h ^ static_cast<std::uint64_t>(n)) * 0xBF58476D1CE4E5B9ULL;
+        h ^= h >> 29;
+    }
+    return h;
+}
+
+}  // namespace
+
+StretchComparer::CornerTable StretchComparer::corners_of_b(std::uint64_t first,
+                                                           std::uint64_t last) {
+    const double cell = 64.0 * options_.tolerances.position_mm;
+    CornerTable corners;
+    corners.reserve(last - first + 1);
+    for (std::uint64_t j = first; j <= last; ++j)
+        corners.emplace_back(cell_of(b_[j - 1].end().position_mm, cell, -1), j);
+    std::sort(corners.begin(), corners.end());
+    return corners;
+}
+
 /// The nearest corner of both that is common, found by a hash of B's corners.
 bool StretchComparer::meet_far(Corner& at, Stretch a, Stretch b, std::size_t window) {
     const double cell = 64.0 * options_.tolerances.position_mm;
-    const auto key = [](const Vector3& p, double size, int corner) {
-        std::uint64_t h = 0x9E3779B97F4A7C15ULL;
-        for (int d = 0; d < 3; ++d) {
-            const double shift = (corner >> d) & 1 ? 0.25 : -0.25;
-            const auto n =
-                static_cast<std::int64_t>(std::floor(p[d] / size + (corner < 0 ? 0.0 : shift)));
-            h = (h ^ static_cast<std::uint64_t>(n)) * 0xBF58476D1CE4E5B9ULL;
-            h ^= h >> 29;
-        }
-        return h;
-    };
-    std::unordered_multimap<std::uint64_t, std::uint64_t> corners;
     const std::uint64_t b_end = std::min<std::uint64_t>(b.last, at.j + window);
     const std::uint64_t a_end = std::min<std::uint64_t>(a.last, at.i + window);
-    for (std::uint64_t j = at.j; j <= b_end; ++j)
-        corners.emplace(key(b_[j - 1].end().position_mm, cell, -1), j);
+    const CornerTable corners = corners_of_b(at.j, b_end);
     std::uint64_t best = std::numeric_limits<std::uint64_t>::max();
     Corner found = at;
     int tries = 0;  // the same place met thousands of times must not cost its square
-    for (std::uint64_t i = at.i; i <= a_end && i - at.i < best; ++i)
+    for (std::uint64_t i = at.i; i <= a_end && i - at.i < best; ++i) {
+        const Vector3 p = a_[i - 1].end().position_mm;
         for (int corner = 0; corner < 8; ++corner) {
-            const auto range = corners.equal_range(key(a_[i - 1].end().position_mm, cell, corner));
-            for (auto k = range.first; k != range.second && tries < 200000; ++k, ++tries) {
+            const std::uint64_t key = cell_of(p, cell, corner);
+            auto k = std::lower_bound(corners.begin(), corners.end(), std::pair{key, at.j});
+            for (; k != corners.end() && k->first == key && tries < 200000; ++k, ++tries) {
                 const std::uint64_t j = k->second;
                 if (i == at.i && j == at.j) continue;
                 const std::uint64_t cost = (i - at.i) + (j - at.j);
-                if (cost >= best || !common(i, j) || !confirmed(i, j, a, b)) continue;
+                if (cost >= best) break;
+                if (!common(i, j) || !confirmed(i, j, a, b)) continue;
                 best = cost;
                 found = {i, j};
             }
         }
+    }
     if (best == std::numeric_limits<std::uint64_t>::max()) return false;
     at = found;
     return true;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "regression/align.h"
 #include "regression/frechet.h"
 
 namespace trunnion {
@@ -31,14 +33,18 @@ struct WalkTotals {
 struct WalkOptions {
     Tolerances tolerances;
     std::size_t max_regions = 100000;  ///< of one stretch; the rest goes into the last one
+    /// A place where two cuts meet again is looked for within so many segments of each; beyond,
+    /// such a stretch of both is one difference and the search goes on behind it.
+    std::size_t resync_segments = 1U << 18U;
+    AlignLimits align;
+    /// Rapids need not agree on their way, only the cuts they lead to: on another machine the way
+    /// there is another.
+    bool other_machine = false;
 };
 
-/// Compares the stretches, appends the regions that differ in order. Linear in their length; a
-/// place where the paths meet again is looked for within `resync_window` segments.
+/// Compares the stretches, appends the regions that differ in order. Linear in their length.
 class StretchComparer {
   public:
-    static constexpr std::size_t resync_window = 1U << 18;
-
     StretchComparer(const SegmentFile& a, const SegmentFile& b, WalkOptions options)
         : a_(a), b_(b), options_(options) {}
 
@@ -58,6 +64,8 @@ class StretchComparer {
     bool meet_near(Corner& at, Stretch a, Stretch b);
     bool meet_shifted(Corner& at, Stretch a, Stretch b);
     bool meet_far(Corner& at, Stretch a, Stretch b, std::size_t window);
+    using CornerTable = std::vector<std::pair<std::uint64_t, std::uint64_t>>;  ///< by hash
+    CornerTable corners_of_b(std::uint64_t first, std::uint64_t last);
     bool common(std::uint64_t i, std::uint64_t j);
     bool confirmed(std::uint64_t i, std::uint64_t j, Stretch a, Stretch b);
     void add_region(Corner from, Corner to);

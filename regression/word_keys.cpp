@@ -153,55 +153,69 @@ bool is_plain(const Block& block, const Code& code) {
     return true;
 }
 
+/// Case aside; `word` in upper case.
+bool holds(std::string_view text, std::string_view word) {
+    return std::search(text.begin(), text.end(), word.begin(), word.end(),
+                       [](char a, char b) { return upper(a) == b; }) != text.end();
+}
+
+class WordKeys : public LineKeys {
+  public:
+    WordKeys(std::string_view text, const Dialect& dialect)
+        : text_(text), jumps_(holds(text, "GO") || holds(text, "WH") || holds(text, "M99")) {
+        options_.dialect = dialect;
+        options_.keep_skips = true;
+    }
+
+    std::optional<KeyedLine> next() override {
+        while (byte_ < text_.size()) {
+            const char* const begin = text_.data() + byte_;
+            const char* const end = text_.data() + text_.size();
+            const char* const line_end = find_line_end(begin, end);
+            const char* const after = line_end == end ? end : past_line_end(line_end, end);
+            const auto key = key_of({begin, static_cast<std::size_t>(line_end - begin)}, ++number_);
+            byte_ += static_cast<std::uint64_t>(after - begin);
+            if (key) return KeyedLine{*key, static_cast<std::uint32_t>(number_)};
+        }
+        return std::nullopt;
+    }
+
+  private:
+    std::optional<std::uint64_t> key_of(std::string_view line, int number) {
+        code_.clear();
+        try {
+            const Block block = parse_block(text_, byte_, number, options_, code_);
+            if (is_plain(block, code_)) return key_of_words(block);
+        } catch (const Alarm&) {  // counts as it is written
+        }
+        memory_.forget();
+        const std::uint64_t written = key_of_text(line, jumps_);
+        return written != 0 ? std::optional(written) : std::nullopt;
+    }
+
+    std::optional<std::uint64_t> key_of_words(const Block& block) {
+        const bool numbered = jumps_ && block.sequence_number >= 0;
+        const auto number = static_cast<std::uint64_t>(numbered ? block.sequence_number : 0);
+        if (block.items.count == 0) return numbered ? std::optional(mix(3, number)) : std::nullopt;
+        if (jumps_) memory_.forget();
+        const auto key = memory_.key_of(code_.items.data() + block.items.first, block.items.count);
+        return key && numbered ? std::optional(mix(*key, number)) : key;
+    }
+
+    std::string_view text_;
+    /// Where a program jumps, N numbers are targets and what is in force depends on the way taken.
+    bool jumps_;
+    ParseOptions options_;
+    Code code_;
+    WordMemory memory_;
+    std::uint64_t byte_ = 0;
+    int number_ = 0;
+};
+
 }  // namespace
 
-KeyedLines word_keys(std::string_view text, const Dialect& dialect) {
-    KeyedLines result;
-    Code code;
-    ParseOptions options;
-    options.dialect = dialect;
-    options.keep_skips = true;
-    WordMemory memory;
-    // Where a program jumps, N numbers are targets and what is in force depends on the way taken.
-    const auto has = [&](std::string_view word) {
-        return std::search(text.begin(), text.end(), word.begin(), word.end(),
-                           [](char a, char b) { return upper(a) == b; }) != text.end();
-    };
-    const bool jumps = has("GO") || has("WH") || has("M99");
-    int number = 0;
-    for (std::uint64_t byte = 0; byte < text.size();) {
-        ++number;
-        const char* const begin = text.data() + byte;
-        const char* const end = text.data() + text.size();
-        const char* const line_end = find_line_end(begin, end);
-        const std::string_view line(begin, static_cast<std::size_t>(line_end - begin));
-        std::optional<std::uint64_t> key;
-        code.clear();
-        bool plain = false;
-        try {
-            const Block block = parse_block(text, byte, number, options, code);
-            plain = is_plain(block, code);
-            if (plain && block.items.count > 0) {
-                if (jumps) memory.forget();
-                key = memory.key_of(code.items.data() + block.items.first, block.items.count);
-                if (jumps && key && block.sequence_number >= 0)
-                    key = mix(*key, static_cast<std::uint64_t>(block.sequence_number));
-            } else if (plain && jumps && block.sequence_number >= 0) {
-                key = mix(3, static_cast<std::uint64_t>(block.sequence_number));
-            }
-        } catch (const Alarm&) {
-            plain = false;
-        }
-        if (!plain) {
-            memory.forget();
-            const std::uint64_t written = key_of_text(line, jumps);
-            if (written != 0) key = written;
-        }
-        if (key) result.add(*key, number);
-        byte += static_cast<std::uint64_t>((line_end == end ? end : past_line_end(line_end, end)) -
-                                           begin);
-    }
-    return result;
+std::unique_ptr<LineKeys> word_keys(std::string_view text, const Dialect& dialect) {
+    return std::make_unique<WordKeys>(text, dialect);
 }
 
 }  // namespace trunnion

@@ -4,9 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "controller/rotary_transform.h"
 #include "geometry/units.h"
-#include "offsets/pivot_parameters.h"
 #include "tests/regression/programs.h"
 
 using namespace trunnion;
@@ -207,79 +205,4 @@ TEST_CASE("a program of offsets alone is compared by its effects", "[compare]") 
     CHECK_FALSE(r.equal);
     CHECK(r.by == Layer::effects);
     CHECK(r.differences.front().what == "G54 Y: 20 -> 20.1");
-}
-
-namespace {
-
-/// Lines cut in the table frame at several orientations, as four posts would write them.
-class FourFunctions {
-  public:
-    explicit FourFunctions(const Setup& setup)
-        : transform_(*decode_pivot(setup.stores.parameters,
-                                   {Axis::X, Axis::Y, Axis::Z, Axis::B, Axis::C})) {}
-
-    std::string own_kinematics() const {
-        return program("G43 H1 Z300.\n", "", [this](const Vector3& p, double b, double c) {
-            return machine_tip(p, b, c);
-        });
-    }
-    std::string tool_centre_point() const {
-        return program("G43.4 H1\n", "", [](const Vector3& p, double, double) { return p; });
-    }
-
-  private:
-    template <typename Words>
-    std::string program(const std::string& start, const std::string& on, const Words& words) const {
-        std::string text = "%\nO1\nG90 G21 G17 G94 G54\nT1 M6\nS500 M3\n" + start;
-        for (const auto& [b, c] : {std::pair{0.0, 0.0}, {20.0, 45.0}, {-35.0, 160.0}}) {
-            text += fmt::format("G0 B{} C{}\n", b, c) + on;
-            const Vector3 lift = transform_.tool_direction_W(rotaries(b, c)) * 30.0;
-            const Vector3 p(30, 10, 5), q(50, -15, 8);
-            const auto move = [&, b = b, c = c](const char* g, const Vector3& at) {
-                const Vector3 w = words(at, b, c);
-                text += fmt::format("{} X{:.5f} Y{:.5f} Z{:.5f}\n", g, w.x(), w.y(), w.z());
-            };
-            move("G0", p + lift);
-            move("G1 F800.", p);
-            move("G1", q);
-            move("G0", q + lift);
-        }
-        return text + "M30\n%\n";
-    }
-
-    static AxisPositions rotaries(double b_deg, double c_deg) {
-        AxisPositions at;
-        at[Axis::B] = rad_from_deg(b_deg);
-        at[Axis::C] = rad_from_deg(c_deg);
-        return at;
-    }
-    Vector3 machine_tip(const Vector3& p_W, double b_deg, double c_deg) const {
-        const AxisPositions at =
-            transform_.machine_for_tip(p_W, rotaries(b_deg, c_deg), Vector3::Zero());
-        return {at[Axis::X], at[Axis::Y], at[Axis::Z]};
-    }
-
-    RotaryTransform transform_;
-};
-
-}  // namespace
-
-TEST_CASE("the same part by own kinematics and by G43.4 is equal", "[compare]") {
-    Setup setup = bc_table();
-    setup.stores.tools.tool[1].length_geometry_mm = 120.0;
-    setup.stores.work.standard[0] = {};
-    const FourFunctions part(setup);
-    const std::string dpp = part.own_kinematics(), tcp = part.tool_centre_point();
-    const Comparison r = compare_texts(dpp, tcp, setup);
-    INFO(r.verdict);
-    INFO(dpp);
-    CHECK(r.equal);
-    CHECK(r.by == Layer::path);
-    CHECK(r.position_mm < 0.001);
-    // On the same machine both are seen with A's stores: what the part loses when only B's change.
-    Setup moved = setup;
-    moved.stores.parameters.set(19700, moved.stores.parameters.get(19700) + 0.1);
-    const Comparison lost =
-        compare_programs(text_of("a.nc", tcp), setup, text_of("a.nc", tcp), moved, {});
-    CHECK_FALSE(lost.equal);
 }

@@ -127,9 +127,9 @@ TEST_CASE("a clearance changed once in 3000 lines is found at its line", "[compa
     REQUIRE(r.clusters.size() == 1);
     CHECK(r.clusters[0].kind == DifferenceKind::moved);
     CHECK(r.clusters[0].first.shift_mm.z() == Approx(-0.094));
-    CHECK(a.record.segments()
-              .read_chunk(r.clusters[0].first.a.first / 2048)[r.clusters[0].first.a.first % 2048]
-              .line == 300 * 7 + 1 + 6);
+    SegmentWindow segments_a(a.record.segments()), segments_b(b.record.segments());
+    CHECK(segments_a[r.clusters[0].first.a.first].line == 300 * 7 + 1 + 6);
+    CHECK(segments_b[r.clusters[0].first.b.first].line == 300 * 7 + 1 + 6);
     CHECK(r.totals.position_mm == Approx(0.094));
 }
 

@@ -1,0 +1,172 @@
+// The alignment in windows: nothing lost, nothing twice, whatever the size of the window.
+#include "regression/align.h"
+
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "geometry/random.h"
+#include "regression/program_lines.h"
+#include "tests/regression/paths.h"
+
+using namespace trunnion;
+using namespace trunnion::testing;
+
+namespace {
+
+std::vector<PassPair> aligned(const Keys& a, const Keys& b, AlignLimits limits) {
+    const AlignSource source{
+        a.size(), b.size(), [&](std::uint64_t i, std::uint64_t j) { return a[i] == b[j]; },
+        [&](PassRange in_a, PassRange in_b, Keys& keys_a, Keys& keys_b) {
+            const auto at = [](std::uint64_t k) { return static_cast<std::ptrdiff_t>(k); };
+            keys_a.assign(a.begin() + at(in_a.first), a.begin() + at(in_a.last));
+            keys_b.assign(b.begin() + at(in_b.first), b.begin() + at(in_b.last));
+        }};
+    std::vector<PassPair> pairs;
+    align(source, limits, [&](const PassPair& pair) { pairs.push_back(pair); });
+    return pairs;
+}
+
+AlignLimits windows(std::uint64_t size) {
+    AlignLimits limits;
+    limits.window = size;
+    limits.most_window = 4 * size;
+    return limits;
+}
+
+/// Every item of both sides stands in exactly one pairing, and what is called alike is.
+void check_complete(const Keys& a, const Keys& b, const std::vector<PassPair>& pairs) {
+    std::vector<int> seen_a(a.size()), seen_b(b.size());
+    for (const PassPair& p : pairs) {
+        for (std::uint64_t k = p.a.first; k < p.a.last; ++k) ++seen_a[k];
+        for (std::uint64_t k = p.b.first; k < p.b.last; ++k) ++seen_b[k];
+        if (p.pairing == Pairing::same || p.pairing == Pairing::reordered)
+            REQUIRE(a[p.a.first] == b[p.b.first]);
+        REQUIRE((p.pairing == Pairing::only_a) == (p.b.size() == 0));
+        REQUIRE((p.pairing == Pairing::only_b) == (p.a.size() == 0));
+    }
+    REQUIRE(std::count(seen_a.begin(), seen_a.end(), 1) == static_cast<long>(a.size()));
+    REQUIRE(std::count(seen_b.begin(), seen_b.end(), 1) == static_cast<long>(b.size()));
+}
+
+std::size_t count_of(const std::vector<PassPair>& pairs, Pairing pairing) {
+    std::size_t count = 0;
+    for (const PassPair& p : pairs)
+        if (p.pairing == pairing) count += std::max(p.a.size(), p.b.size());
+    return count;
+}
+
+Keys numbers(std::size_t count) {
+    Keys keys(count);
+    for (std::size_t k = 0; k < count; ++k) keys[k] = 1000 + k;
+    return keys;
+}
+
+}  // namespace
+
+TEST_CASE("random edits leave every item in exactly one pairing, in windows of any size",
+          "[compare]") {
+    SeededNoise noise(11);
+    const auto pick = [&](std::size_t count) {
+        return static_cast<std::size_t>(noise.bits() % count);
+    };
+    for (int round = 0; round < 300; ++round) {
+        Keys a(40 + pick(400));
+        for (auto& key : a) key = pick(round % 2 == 0 ? 100000 : 30);  // unique, or often repeated
+        Keys b = a;
+        for (std::size_t edits = pick(12); edits > 0 && !b.empty(); --edits) {
+            const auto at = b.begin() + static_cast<std::ptrdiff_t>(pick(b.size()));
+            const std::uint64_t key = *at;
+            if (pick(3) == 0)
+                b.insert(at, pick(100000));
+            else
+                b.erase(at);
+            if (pick(2) == 0)
+                b.insert(b.begin() + static_cast<std::ptrdiff_t>(pick(b.size() + 1)), key);
+        }
+        for (const std::uint64_t size : {4, 16, 100, 10000})
+            check_complete(a, b, aligned(a, b, windows(size)));
+    }
+}
+
+TEST_CASE("an item that moved farther than a window is reordered when the window holds both",
+          "[compare]") {
+    const Keys a = numbers(1000);
+    Keys b = a;
+    b.erase(b.begin() + 100);
+    b.insert(b.begin() + 190, a[100]);
+    const auto near = aligned(a, b, windows(128));
+    check_complete(a, b, near);
+    CHECK(count_of(near, Pairing::reordered) == 1);
+    CHECK(count_of(near, Pairing::same) == 999);
+    // Beyond the window it is missing here and added there: the verdict is the same.
+    const auto far = aligned(a, b, windows(16));
+    check_complete(a, b, far);
+    CHECK(count_of(far, Pairing::reordered) == 0);
+    CHECK(count_of(far, Pairing::only_a) == 1);
+    CHECK(count_of(far, Pairing::only_b) == 1);
+    CHECK(count_of(far, Pairing::same) == 999);
+}
+
+TEST_CASE("an insertion longer than the largest window leaves the rest to be compared in detail",
+          "[compare]") {
+    const Keys a = numbers(100);
+    for (const std::size_t inserted : {40, 63, 64, 65, 500}) {
+        Keys b = a;
+        const Keys more(inserted, 7);
+        b.insert(b.begin() + 50, more.begin(), more.end());
+        const auto pairs = aligned(a, b, windows(16));
+        check_complete(a, b, pairs);
+        INFO(inserted);
+        CHECK(count_of(pairs, Pairing::same) == (inserted < 64 ? 100 : 50));
+        CHECK(count_of(pairs, Pairing::changed) == (inserted < 64 ? 0 : 50 + inserted));
+    }
+}
+
+TEST_CASE("a spilled array gives back what went in, across the border of memory and disk",
+          "[compare]") {
+    using Array = SpilledArray<KeyedLine>;
+    Array array;
+    const std::uint64_t count = Array::kept_in_memory * 3 + 17;
+    for (std::uint64_t k = 0; k < count; ++k) array.append({k * k, static_cast<std::uint32_t>(k)});
+    REQUIRE(array.size() == count);
+    SpilledWindow<KeyedLine> window(array);
+    SeededNoise noise(2);
+    bool right = true;
+    for (std::uint64_t k = 0; k < count; ++k) right = right && window[k].key == k * k;
+    for (int n = 0; n < 100000; ++n) {
+        const std::uint64_t k = noise.bits() % count;
+        right = right && window[k].key == k * k && window[k].line == k;
+    }
+    CHECK(right);
+}
+
+TEST_CASE("beyond the resync window the verdict stays right and the search goes on behind it",
+          "[compare]") {
+    // A cut of 400 segments in which B has 60 more, far away; both run together again behind them.
+    const auto cut = [](Pen& pen, std::size_t from, std::size_t to, double y) {
+        SeededNoise noise(from + 3);
+        for (std::size_t k = from; k < to; ++k)
+            pen.cut(static_cast<double>(k) + 0.3 * noise.uniform(), y + noise.uniform(), 0);
+    };
+    const bool inserts = GENERATE(true, false);
+    for (const std::size_t window : {8, 59, 60, 61, 100, 1 << 18}) {
+        Pen a, b;
+        a.at(0, 0, 0);
+        b.at(0, 0, 0);
+        cut(a, 0, 200, 0);
+        cut(b, 0, 200, 0);
+        if (inserts) cut(b, 1000, 1060, 50);
+        cut(a, 200, 400, 0);
+        cut(b, 200, 400, 0);
+        WalkOptions options;
+        options.resync_segments = window;
+        const PathComparison r = compare(a, b, options);
+        INFO("window " << window);
+        CHECK(r.clusters.empty() == !inserts);
+        if (inserts && window >= 61) {
+            REQUIRE(r.clusters.size() == 1);
+            CHECK(r.clusters[0].first.a.last <= 202);
+        }
+        if (inserts) CHECK(r.clusters[0].first.b.first == 201);
+    }
+}
