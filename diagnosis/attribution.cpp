@@ -8,12 +8,23 @@
 #include "identification/identify.h"
 
 namespace trunnion {
+namespace {
+
+constexpr std::size_t kept_sets = 300;  ///< of those the search met
+constexpr int alternative_keys = 6;     ///< tried for each chosen effect with keys, for doubt
+
+}  // namespace
 
 void Diagnoser::build_design() {
     design_.emplace(replay_, base_, *whitener_);
     for (const Effect& effect : catalogue_) {
         if (modelled(effect) || effect.parameters.empty()) continue;
-        if (!has_keys(effect)) design_->add(effect, effect.zeros(), prior_);
+        if (has_keys(effect)) continue;
+        // An effect's prior is shared among its forms; the simpler ones have fewer parameters.
+        const auto forms = simpler_forms(effect);
+        const double prior = prior_ - std::log(1.0 + static_cast<double>(forms.size()));
+        design_->add(effect, effect.zeros(), prior);
+        for (const auto& takes : forms) design_->add(effect, effect.zeros(), prior, takes);
     }
     add_keyed(base_.residual_mm, 2);
     design_->update();
@@ -68,16 +79,23 @@ SearchOptions Diagnoser::search_options() const {
     return options;
 }
 
-EffectSet Diagnoser::best_set() const {
-    return search_sets(*design_, search_options()).front();
+EffectSet Diagnoser::best_set() {
+    visited_ = search_sets(*design_, search_options());
+    if (visited_.size() > kept_sets) visited_.resize(kept_sets);
+    return visited_.front();
 }
 
 Eigen::VectorXd Diagnoser::left_after(const EffectSet& set) const {
     return design_->residual(columns_of(*design_, set.members), set.scale);
 }
 
+double Diagnoser::outliers() const {
+    return static_cast<double>(std::count(used_.begin(), used_.end(), false));
+}
+
 double Diagnoser::freedom_after(const EffectSet& set) const {
-    return design_->freedom() - static_cast<double>(columns_of(*design_, set.members).size());
+    return design_->freedom() - outliers() -
+           static_cast<double>(columns_of(*design_, set.members).size());
 }
 
 bool Diagnoser::same_noise(const NoiseModel& a, const NoiseModel& b) {
@@ -97,12 +115,12 @@ void Diagnoser::refine_noise() {
         NoiseModel stated;
         stated.source = noise_.source;
         if (noise_.source == NoiseSource::repeats) {
-            if (set_.members.empty()) return;
-            noise_ = noise_from_repeats(replay_, table_, blocks_, left, base_.sigma_mm, stated);
+            if (set_.members.empty() && outliers() == 0.0) return;
+            noise_ = noise_from_repeats(replay_, table_, blocks_, left, sigma_mm_, stated);
         } else {
             const double freedom =
                 std::clamp(freedom_after(set_) / static_cast<double>(replay_.size()), 0.3, 1.0);
-            noise_ = noise_from_residuals(replay_, blocks_, left, base_.sigma_mm, stated, freedom,
+            noise_ = noise_from_residuals(replay_, blocks_, left, sigma_mm_, stated, freedom,
                                           base_.noise_given);
         }
         if (same_noise(used, noise_)) return;
@@ -136,6 +154,23 @@ void Diagnoser::add_refined(std::size_t m, const std::vector<std::size_t>& other
     design_->add(*candidate.effect,
                  refine_keys(replay_, base_, *candidate.effect, candidate.values, left),
                  candidate.log_prior);
+}
+
+/// Other settings of the keys of chosen effects: aliases that these readings may not exclude.
+void Diagnoser::add_alternatives() {
+    bool added = false;
+    for (const std::size_t m : set_.members) {
+        const Candidate chosen = design_->candidates()[m];
+        if (!has_keys(*chosen.effect)) continue;
+        std::vector<std::size_t> others = set_.members;
+        std::erase(others, m);
+        const Eigen::VectorXd left = design_->residual(columns_of(*design_, others), set_.scale);
+        for (auto& keys :
+             best_keys(replay_, base_, *chosen.effect, left, sigma_mm_, alternative_keys))
+            design_->add(*chosen.effect, std::move(keys), chosen.log_prior);
+        added = true;
+    }
+    if (added) design_->update();
 }
 
 void Diagnoser::prune() {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <set>
 
 namespace trunnion {
 namespace {
@@ -41,13 +42,30 @@ Design::Design(const Replay& replay, const BaseModel& base, const Whitener& whit
       base_rank_(base.rank),
       raw_(base.columns) {}
 
-std::size_t Design::add(const Effect& effect, std::vector<double> keys, double log_prior) {
+std::vector<std::function<bool(const EffectParameter&)>> simpler_forms(const Effect& effect) {
+    std::vector<std::function<bool(const EffectParameter&)>> forms;
+    std::set<std::string> vectors;
+    bool unusual = false;
+    for (const EffectParameter& p : effect.parameters) {
+        if (p.component >= 0 && !p.is_key()) vectors.insert(p.name);
+        unusual = unusual || !p.usual;
+    }
+    if (unusual) forms.push_back([](const EffectParameter& p) { return p.usual; });
+    if (vectors.size() > 1)
+        for (const std::string& name : vectors)
+            forms.push_back([name](const EffectParameter& p) { return p.name == name; });
+    return forms;
+}
+
+std::size_t Design::add(const Effect& effect, std::vector<double> keys, double log_prior,
+                        const std::function<bool(const EffectParameter&)>& takes) {
     Candidate candidate;
     candidate.effect = &effect;
     candidate.first = raw_.cols() - base_;
     candidate.log_prior = log_prior;
     for (std::size_t j = 0; j < effect.parameters.size(); ++j) {
-        if (effect.parameters[j].is_key()) continue;
+        const EffectParameter& p = effect.parameters[j];
+        if (p.is_key() || (takes && !takes(p))) continue;
         const Eigen::VectorXd column = effect_column(replay_, model_.gradient, effect, keys, j);
         if (column.cwiseQuotient(model_.sigma_mm).norm() < dead_column) continue;
         raw_.conservativeResize(Eigen::NoChange, raw_.cols() + 1);
@@ -151,8 +169,8 @@ Eigen::VectorXd Design::residual(const std::vector<Eigen::Index>& columns, doubl
 }
 
 Eigen::VectorXd Design::residual_without(const std::vector<Eigen::Index>& test,
-                                         const std::vector<Eigen::Index>& columns,
-                                         double scale) const {
+                                         const std::vector<Eigen::Index>& columns, double scale,
+                                         Eigen::VectorXd* fit_variance) const {
     Eigen::MatrixXd a;
     Eigen::VectorXd b;
     normal_equations(columns, scale, a, b);
@@ -160,8 +178,20 @@ Eigen::VectorXd Design::residual_without(const std::vector<Eigen::Index>& test,
     const Eigen::MatrixXd out = white_(test, place);
     a.noalias() -= out.transpose() * out;
     b.noalias() -= out.transpose() * data_(test);
-    const Eigen::VectorXd x = a.ldlt().solve(b);
-    return model_.residual_mm(test) - raw_(test, place) * x;
+    const Eigen::MatrixXd raw = raw_(test, place);
+    if (!fit_variance) return model_.residual_mm(test) - raw * a.ldlt().solve(b);
+    const Eigen::LLT<Eigen::MatrixXd> llt(a);
+    const Eigen::MatrixXd half = llt.matrixL().solve(raw.transpose());
+    *fit_variance = half.colwise().squaredNorm().transpose();
+    return model_.residual_mm(test) - raw * llt.solve(b);
+}
+
+Posterior Design::posterior(const std::vector<Eigen::Index>& columns, double scale) const {
+    Eigen::MatrixXd a;
+    Eigen::VectorXd b;
+    normal_equations(columns, scale, a, b);
+    const Eigen::LLT<Eigen::MatrixXd> llt(a);
+    return {llt.solve(b), llt.matrixL()};
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,16 @@ struct Candidate {
     bool visible = true;
 };
 
+/// Gaussian belief about base and columns, in units of their typical size.
+struct Posterior {
+    Eigen::VectorXd mean;
+    Eigen::MatrixXd half;  ///< L of the information matrix L L^T
+    /// Standard normal numbers made into an error of the mean.
+    Eigen::VectorXd spread(const Eigen::VectorXd& z) const {
+        return half.triangularView<Eigen::Lower>().transpose().solve(z);
+    }
+};
+
 /// Base columns first, then those of the candidates; each whitened. `data` is the whitened
 /// residual.
 class Design {
@@ -29,8 +40,9 @@ class Design {
     Design(const Replay& replay, const BaseModel& base, const Whitener& whitener);
 
     /// Adds a candidate; returns its index. Parameters that cannot change any reading have no
-    /// column.
-    std::size_t add(const Effect& effect, std::vector<double> keys, double log_prior);
+    /// column; nor have those that `takes` (where given) refuses.
+    std::size_t add(const Effect& effect, std::vector<double> keys, double log_prior,
+                    const std::function<bool(const EffectParameter&)>& takes = {});
     /// Whitens everything anew, for another noise model or other row weights.
     void rewhiten(const Whitener& whitener);
     /// Works out Gram matrix and projections of what was added since.
@@ -55,9 +67,13 @@ class Design {
     Eigen::VectorXd fit_variance(const std::vector<Eigen::Index>& columns, double scale) const;
     /// Residual (mm) of all rows after base and columns are fitted.
     Eigen::VectorXd residual(const std::vector<Eigen::Index>& columns, double scale) const;
-    /// Residual (mm) of the rows `test` after a fit to all the others.
+    /// Residual (mm) of the rows `test` after a fit to all the others, and the expected square of
+    /// that fit's own error there.
     Eigen::VectorXd residual_without(const std::vector<Eigen::Index>& test,
-                                     const std::vector<Eigen::Index>& columns, double scale) const;
+                                     const std::vector<Eigen::Index>& columns, double scale,
+                                     Eigen::VectorXd* fit_variance = nullptr) const;
+    /// The solution as a distribution.
+    Posterior posterior(const std::vector<Eigen::Index>& columns, double scale) const;
 
   private:
     /// Normal equations of base and columns, with their priors.
@@ -84,5 +100,9 @@ std::vector<std::vector<double>> best_keys(const Replay& replay, const BaseModel
                                            const Effect& effect, const Eigen::VectorXd& left_mm,
                                            const Eigen::VectorXd& sigma_mm, int count);
 bool has_keys(const Effect& effect);
+
+/// Simpler forms of an effect, each a choice of its linear parameters: the textbook's form, and
+/// single vectors where an effect has several (one artefact of many).
+std::vector<std::function<bool(const EffectParameter&)>> simpler_forms(const Effect& effect);
 
 }  // namespace trunnion

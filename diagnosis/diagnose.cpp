@@ -28,6 +28,7 @@ Diagnosis Diagnoser::run() {
     refine_noise();
     refine_set();
     prune();
+    add_alternatives();
     judge();
     return std::move(result_);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,7 +10,9 @@
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/drivers.h"
 #include "diagnosis/heldout.h"
+#include "diagnosis/rules.h"
 #include "diagnosis/search.h"
+#include "diagnosis/shrink_interval.h"
 
 namespace trunnion {
 
@@ -41,10 +44,12 @@ class Diagnoser {
 
     SearchOptions search_options() const;
 
-    EffectSet best_set() const;
+    EffectSet best_set();
 
     /// Residual (mm) of all rows after the set.
     Eigen::VectorXd left_after(const EffectSet& set) const;
+
+    double outliers() const;
 
     double freedom_after(const EffectSet& set) const;
 
@@ -70,7 +75,8 @@ class Diagnoser {
     double floor_square() const;
 
     /// What the fit leaves is noise of another size than the setup states.
-    bool stated_noise_is_off() const;
+    bool stated_noise_is_off(const NoiseModel& found) const;
+    NoiseModel noise_without_drivers(const Eigen::VectorXd& left) const;
 
     std::vector<double> shares_of(const std::vector<std::size_t>& members) const;
 
@@ -94,7 +100,13 @@ class Diagnoser {
     void describe_where();
     void claim(double gap);
     void add_unknown(double share, const std::vector<DriverTest>& left);
-    std::vector<std::string> rivals_of(std::size_t member, double& probability) const;
+    std::vector<EffectSet> swapped_sets(std::size_t member) const;
+    std::vector<EffectSet> possible_sets() const;
+    std::map<std::string, double> belief_of(const std::vector<EffectSet>& sets) const;
+    std::vector<std::string> rivals_of(std::size_t member) const;
+    void add_alternatives();
+    HeldOut held_out(const std::vector<std::size_t>& members, const ShrinkDraws& draws) const;
+    ShrinkDraws shrink_draws(const std::vector<EffectSet>& sets) const;
     std::vector<FitParameter> parameters_of(const EffectSet& set, std::size_t member) const;
     void write_setup();
     void ask_next();
@@ -117,10 +129,12 @@ class Diagnoser {
     Eigen::VectorXd sigma_mm_;  ///< large for outliers
     NoiseModel noise_;
     double noise_variance_ = 1.0;
-    double prior_ = std::log(0.04);
+    double prior_ = rules::effect_prior;
     std::optional<Whitener> whitener_;
     std::optional<Design> design_;
     EffectSet set_;
+    std::vector<EffectSet> visited_;    ///< the best sets of the last search
+    double unknown_evidence_ = -1e300;  ///< of one unknown cause that follows one driver
     Diagnosis result_;
 };
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "diagnosis/rules.h"
 #include "diagnosis/statistics.h"
 #include "geometry/units.h"
 
@@ -317,7 +318,8 @@ std::vector<DriverTest> test_drivers(const Replay& replay, const ReadingTable& t
         const double white_rest = std::max(1e-12, white.sum() - gain) / (freedom - q);
         DriverTest test{driver.by,   driver.component,
                         driver.text, 0.0,
-                        1.0,         static_cast<int>(driver.columns.size())};
+                        1.0,         static_cast<int>(driver.columns.size()),
+                        gain};
         test.explained = plain.sum() / freedom - rest / (freedom - q);
         test.p_value = std::min(1.0, f_tail(gain / q / white_rest, q, freedom - q) *
                                          static_cast<double>(list.all().size()));
@@ -327,6 +329,42 @@ std::vector<DriverTest> test_drivers(const Replay& replay, const ReadingTable& t
         return x.explained > y.explained;
     });
     return tests;
+}
+
+Eigen::VectorXd without_drivers(const Replay& replay, const ReadingTable& table,
+                                const BaseModel& base, const Eigen::MatrixXd& known,
+                                const Eigen::VectorXd& left_mm, const Eigen::VectorXd& sigma_mm,
+                                const std::vector<bool>& used, const Whitener& whitener,
+                                double& lost) {
+    lost = 0.0;
+    const DriverList list(replay, table, base);
+    std::vector<const Driver*> chosen;
+    for (const DriverTest& t :
+         test_drivers(replay, table, base, known, left_mm, sigma_mm, used, whitener)) {
+        if (t.p_value > rules::driver_p ||
+            lost + t.columns > static_cast<double>(left_mm.size()) / 3)
+            continue;
+        for (const Driver& d : list.all())
+            if (d.by == t.by && d.component == t.component) chosen.push_back(&d);
+        lost += t.columns;
+    }
+    const auto p = known.cols();
+    Eigen::MatrixXd a(left_mm.size(), p + static_cast<Eigen::Index>(lost));
+    a.leftCols(p) = known;
+    Eigen::Index at = p;
+    for (const Driver* d : chosen)
+        for (const auto& column : d->columns)
+            a.col(at++) = Eigen::Map<const Eigen::VectorXd>(column.data(), left_mm.size());
+    Eigen::VectorXd weight = sigma_mm.cwiseInverse();
+    for (Eigen::Index i = 0; i < weight.size(); ++i)
+        if (!used[static_cast<std::size_t>(i)]) weight(i) = 0.0;
+    a = weight.asDiagonal() * a;
+    for (Eigen::Index j = 0; j < a.cols(); ++j) a.col(j) /= std::max(1e-12, a.col(j).norm());
+    Eigen::MatrixXd square = a.transpose() * a;
+    square.diagonal().array() += 1e-7;
+    const Eigen::VectorXd z = weight.cwiseProduct(left_mm);
+    const Eigen::VectorXd rest = z - a * square.llt().solve(a.transpose() * z);
+    return sigma_mm.cwiseProduct(rest);
 }
 
 }  // namespace trunnion

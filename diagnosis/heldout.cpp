@@ -16,6 +16,23 @@ double shrink_of(double before, double after, double noise) {
     return 1.0 - std::sqrt(std::max(0.0, after - noise) / gap);
 }
 
+HeldOut figures_of(const SquaredSums& sums) {
+    double before = 0, after = 0, noise = 0, rows = 0;
+    for (std::size_t g = 0; g < sums.before.size(); ++g) {
+        before += sums.before[g];
+        after += sums.after[g];
+        noise += sums.noise[g];
+        rows += sums.rows[g];
+    }
+    HeldOut result;
+    if (rows == 0.0) return result;
+    result.rms_before_um = 1e3 * std::sqrt(before / rows);
+    result.rms_after_um = 1e3 * std::sqrt(after / rows);
+    result.noise_um = 1e3 * std::sqrt(noise / rows);
+    result.shrink = result.low = result.high = shrink_of(before, after, noise);
+    return result;
+}
+
 }  // namespace
 
 Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
@@ -37,61 +54,32 @@ Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
 }
 
 HeldOut summarise(const SquaredSums& sums, std::uint64_t seed, double doubt) {
-    HeldOut result;
-    const auto shrink = [&](const std::vector<std::size_t>& groups, double noise_factor) {
-        double before = 0, after = 0, noise = 0, model = 0;
-        for (const std::size_t g : groups) {
-            before += sums.before[g];
-            after += sums.after[g];
-            noise += sums.noise[g] * noise_factor;
-            if (!sums.model.empty()) model += sums.model[g];
-        }
-        return shrink_of(before, std::max(after, noise + model), noise);
-    };
-    std::vector<std::size_t> all;
-    double before = 0, after = 0, noise = 0, rows = 0;
-    for (std::size_t g = 0; g < sums.before.size(); ++g) {
-        if (sums.rows[g] == 0.0) continue;
-        all.push_back(g);
-        before += sums.before[g];
-        after += sums.after[g];
-        noise += sums.noise[g];
-        rows += sums.rows[g];
-    }
-    if (all.empty()) return result;
-    result.rms_before_um = 1e3 * std::sqrt(before / rows);
-    result.rms_after_um = 1e3 * std::sqrt(after / rows);
-    result.noise_um = 1e3 * std::sqrt(noise / rows);
-    result.shrink = shrink_of(before, after, noise);
+    HeldOut result = figures_of(sums);
     SeededNoise random(seed);
     std::vector<double> draws;
     for (int k = 0; k < 400; ++k) {
-        std::vector<std::size_t> sample(all.size());
-        for (std::size_t& g : sample)
-            g = all[std::min(
-                all.size() - 1,
-                static_cast<std::size_t>(random.uniform() * static_cast<double>(all.size())))];
-        draws.push_back(shrink(sample, std::max(0.2, 1.0 + doubt * random.normal())));
+        double before = 0, after = 0, noise = 0;
+        for (std::size_t g = 0; g < sums.before.size(); ++g) {
+            const double weight = -std::log(random.uniform());
+            before += weight * sums.before[g];
+            after += weight * sums.after[g];
+            noise += weight * sums.noise[g];
+        }
+        noise *= std::max(0.2, 1.0 + doubt * random.normal());
+        draws.push_back(shrink_of(before, after, noise));
     }
     result.low = std::min(result.shrink, quantile(draws, 0.025));
-    // Fresh readings meet the fit's own error only, however the held-out noise fell.
-    double model = 0.0;
-    for (const double m : sums.model) model += m;
-    const double best = sums.model.empty() ? 0.0 : shrink_of(before, noise + 0.5 * model, noise);
-    result.high = std::max({result.shrink, quantile(draws, 0.975), best});
+    result.high = std::max(result.shrink, quantile(draws, 0.975));
     return result;
 }
 
 HeldOut cross_validate(const Design& design, const BaseModel& base, const Folds& folds,
                        const std::vector<std::size_t>& members, double scale,
-                       const Eigen::VectorXd& noise_mm, const std::vector<bool>& used,
-                       std::uint64_t seed, double doubt) {
+                       const Eigen::VectorXd& noise_mm, const std::vector<bool>& used) {
     const std::vector<Eigen::Index> columns = columns_of(design, members);
     const auto groups = folds.fold.size();
     SquaredSums sums{std::vector<double>(groups), std::vector<double>(groups),
-                     std::vector<double>(groups), std::vector<double>(groups),
-                     std::vector<double>(groups)};
-    const Eigen::VectorXd model = design.fit_variance(columns, scale);
+                     std::vector<double>(groups), std::vector<double>(groups)};
     const auto n = static_cast<std::size_t>(base.residual_mm.size());
     for (int f = 0; f < Folds::count; ++f) {
         std::vector<Eigen::Index> test;
@@ -109,10 +97,9 @@ HeldOut cross_validate(const Design& design, const BaseModel& base, const Folds&
             sums.after[g] += with(at) * with(at);
             sums.noise[g] += noise_mm(test[k]) * noise_mm(test[k]);
             sums.rows[g] += 1.0;
-            sums.model[g] += model(test[k]);
         }
     }
-    return summarise(sums, seed, doubt);
+    return figures_of(sums);
 }
 
 }  // namespace trunnion

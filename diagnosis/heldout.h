@@ -18,7 +18,6 @@ Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows);
 /// Readings before and after, with what each expects from noise alone, by group.
 struct SquaredSums {
     std::vector<double> before, after, noise, rows;  ///< sums over each group, mm^2
-    std::vector<double> model;  ///< expected square of the fit's own error (may be empty)
 };
 
 /// From sums to the reported figures: shrink and its bootstrap interval.
@@ -26,10 +25,9 @@ struct SquaredSums {
 HeldOut summarise(const SquaredSums& sums, std::uint64_t seed, double doubt);
 
 /// Group-wise cross-validation of the base with the effects `members` added, against the base
-/// alone. `used` marks rows that count.
+/// alone. `used` marks rows that count. The interval is left at the shrink (ShrinkDraws has it).
 HeldOut cross_validate(const Design& design, const BaseModel& base, const Folds& folds,
                        const std::vector<std::size_t>& members, double scale,
-                       const Eigen::VectorXd& noise_mm, const std::vector<bool>& used,
-                       std::uint64_t seed, double doubt);
+                       const Eigen::VectorXd& noise_mm, const std::vector<bool>& used);
 
 }  // namespace trunnion

@@ -224,7 +224,7 @@ NoiseModel noise_from_repeats(const Replay& replay, const ReadingTable& table,
         for (std::size_t k = 0; k < s.rows.size(); ++k) {
             const Eigen::Index a = blocks[first].rows[k], b = s.rows[k];
             s.value(static_cast<Eigen::Index>(k)) =
-                (residual_mm(b) - residual_mm(a)) / (std::sqrt(2.0) * sigma_mm(b));
+                (residual_mm(b) - residual_mm(a)) / std::hypot(sigma_mm(a), sigma_mm(b));
         }
         stretches[blocks[second].device].push_back(std::move(s));
     }

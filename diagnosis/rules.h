@@ -13,7 +13,6 @@ constexpr double driver_share = 0.05;
 constexpr double admit_share = 0.10;  ///< unexplained part from which "unknown" is named
 constexpr double rival_loss = 12.0;   ///< chi-squared a rival may lose
 constexpr double rival_part = 0.04;   ///< ... or part of the contribution
-constexpr double parsimony_nats =
-    4.0;  ///< a simpler effect of equal fit is this much more probable
+constexpr double effect_prior = -3.2188758248682006;  ///< log 0.04: one effect in 25 is there
 
 }  // namespace trunnion::rules

@@ -10,12 +10,12 @@
 
 namespace trunnion {
 
-bool Diagnoser::stated_noise_is_off() const {
+bool Diagnoser::stated_noise_is_off(const NoiseModel& found) const {
     std::map<Device, double> rows;
     for (const NoiseBlock& block : blocks_)
         rows[block.device] += static_cast<double>(block.rows.size());
     return std::any_of(rows.begin(), rows.end(), [&](const auto& entry) {
-        const DeviceNoise& noise = noise_.of(entry.first);
+        const DeviceNoise& noise = found.of(entry.first);
         const double chance = 3.0 / std::sqrt(2.0 * noise.independent(entry.second));
         return std::abs(std::log(noise.scale)) > std::max(0.1, chance);
     });
@@ -68,6 +68,18 @@ double Diagnoser::aliased_square() const {
     return sum;
 }
 
+/// Noise of what is left when the drivers that matter most are taken out as well: the size of the
+/// noise shows although something unknown happened to the machine.
+NoiseModel Diagnoser::noise_without_drivers(const Eigen::VectorXd& left) const {
+    double lost = 0.0;
+    const Eigen::VectorXd rest = without_drivers(replay_, table_, base_, known_columns(set_), left,
+                                                 base_.sigma_mm, used_, *whitener_, lost);
+    const double freedom =
+        std::clamp((freedom_after(set_) - lost) / static_cast<double>(replay_.size()), 0.2, 1.0);
+    return noise_from_residuals(replay_, blocks_, rest, sigma_mm_, NoiseModel{}, freedom,
+                                base_.noise_given);
+}
+
 /// What a further ripple (a keyed effect at keys not used yet) would explain of the remainder.
 double Diagnoser::ripple_square(const Eigen::VectorXd& left) const {
     double most = 0.0;
@@ -115,7 +127,7 @@ Diagnoser::Remainder Diagnoser::remainder() {
     r.structured = r.drivers.empty() ? 0.0 : std::max(0.0, r.drivers.front().explained);
     r.structured = std::max(r.structured, ripple_square(left));
     const bool trusted = noise_.source == NoiseSource::repeats;
-    if (!trusted && r.structured == 0.0 && stated_noise_is_off())
+    if (!trusted && stated_noise_is_off(r.structured == 0.0 ? noise_ : noise_without_drivers(left)))
         noise_.source = NoiseSource::assumed;
     // Without repeats a remainder without structure is noise, whatever was stated.
     double rows = 0.0;

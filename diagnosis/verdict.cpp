@@ -9,6 +9,17 @@
 #include "diagnosis/statistics.h"
 
 namespace trunnion {
+namespace {
+
+/// Log evidence of an unknown cause that follows a driver, against noise alone: Laplace, with the
+/// prior size that suits the data best, and the prior of an effect.
+double evidence_of(const DriverTest& t) {
+    const double q = t.columns;
+    const double size = std::max(1.0, t.gain / q);  // prior variance over the estimate's, plus 1
+    return 0.5 * t.gain * (1.0 - 1.0 / size) - 0.5 * q * std::log(size) + rules::effect_prior;
+}
+
+}  // namespace
 
 void Diagnoser::judge() {
     const Remainder r = remainder();
@@ -19,6 +30,7 @@ void Diagnoser::judge() {
         return;
     }
     describe_where();
+    result_.unexplained_share = std::clamp(r.unexplained / r.gap, 0.0, 1.0);
     if (!set_.members.empty()) claim(r.gap);
     double explained = std::clamp(1.0 - r.unexplained / r.gap, 0.0, 1.0);
     if (coincidence()) explained = std::min(explained, result_.causes.front().share);
@@ -30,8 +42,8 @@ void Diagnoser::judge() {
                                          : Verdict::unexplained;
     if (result_.unexplained_share > rules::admit_share)
         add_unknown(result_.unexplained_share, r.drivers);
-    result_.after = cross_validate(*design_, base_, folds_, set_.members, set_.scale, noise_mm(),
-                                   used_, options_.seed, noise_doubt());
+    if (set_.members.empty())
+        result_.after = cross_validate(*design_, base_, folds_, {}, 1.0, noise_mm(), used_);
     write_setup();
     if (options_.holdout) test_holdout();
     if (options_.plan_next) ask_next();
@@ -61,6 +73,8 @@ void Diagnoser::describe_where() {
     const auto tests = test_drivers(replay_, table_, base_, known_columns({}), base_.residual_mm,
                                     base_.sigma_mm, used_, *whitener_);
     const double gap = std::max(1e-9, left_square({}) - floor_square());
+    for (const DriverTest& t : tests)
+        unknown_evidence_ = std::max(unknown_evidence_, evidence_of(t));
     for (const DriverTest& t : tests) {
         const double share = std::min(1.0, t.explained / gap);
         if (t.p_value > rules::driver_p || share < rules::driver_share) continue;
@@ -101,18 +115,38 @@ std::vector<FitParameter> Diagnoser::parameters_of(const EffectSet& set, std::si
     return list;
 }
 
+/// The chosen set and others that may be true instead, as truths to draw from.
+ShrinkDraws Diagnoser::shrink_draws(const std::vector<EffectSet>& sets) const {
+    constexpr std::size_t most = 24;
+    std::vector<PossibleTruth> truths;
+    const double best = sets.front().log_evidence;
+    const auto add = [&](const EffectSet& s) {
+        truths.push_back(
+            {columns_of(*design_, s.members), s.scale, std::exp(s.log_evidence - best)});
+    };
+    add(set_);
+    for (const EffectSet& s : sets)
+        if (s.members != set_.members && truths.size() < most) add(s);
+    return {*design_,      blocks_,           noise_mm(),
+            used_,         std::move(truths), result_.unexplained_share,
+            options_.seed, noise_doubt()};
+}
+
 void Diagnoser::claim(double gap) {
     const std::vector<double> share = shares_of(set_.members);
+    const std::vector<EffectSet> possible = possible_sets();
+    const auto belief = belief_of(possible);
+    const ShrinkDraws draws = shrink_draws(possible);
     for (std::size_t k = 0; k < set_.members.size(); ++k) {
         const std::size_t m = set_.members[k];
         const Effect& effect = *design_->candidates()[m].effect;
         Cause cause;
         cause.effect = effect.name;
         cause.share = std::clamp(share[k] / gap, 0.0, 1.0);
-        cause.rivals = rivals_of(m, cause.probability);
+        cause.probability = belief.at(effect.name);
+        cause.rivals = rivals_of(m);
         cause.parameters = parameters_of(set_, m);
-        cause.heldout = cross_validate(*design_, base_, folds_, {m}, set_.scale, noise_mm(), used_,
-                                       options_.seed, noise_doubt());
+        cause.heldout = held_out({m}, draws);
         cause.what = effect.what;
         cause.usual_cause = effect.cause;
         cause.remedy = effect.remedy;
@@ -120,6 +154,18 @@ void Diagnoser::claim(double gap) {
     }
     std::stable_sort(result_.causes.begin(), result_.causes.end(),
                      [](const Cause& a, const Cause& b) { return a.share > b.share; });
+    result_.after = held_out(set_.members, draws);
+}
+
+/// How far the gap shrinks with some of the chosen effects: by folds, with the interval drawn.
+HeldOut Diagnoser::held_out(const std::vector<std::size_t>& members,
+                            const ShrinkDraws& draws) const {
+    HeldOut result =
+        cross_validate(*design_, base_, folds_, members, set_.scale, noise_mm(), used_);
+    const auto [low, high] = draws.interval(columns_of(*design_, members), set_.scale);
+    result.low = std::min(low, result.shrink);
+    result.high = std::max(high, result.shrink);
+    return result;
 }
 
 void Diagnoser::add_unknown(double share, const std::vector<DriverTest>& left) {
@@ -129,8 +175,7 @@ void Diagnoser::add_unknown(double share, const std::vector<DriverTest>& left) {
     cause.probability = 1.0;
     cause.what = "A gap with structure that no effect of the catalogue explains";
     if (!left.empty()) cause.what += ": it " + left.front().text;
-    cause.heldout = cross_validate(*design_, base_, folds_, {}, 1.0, noise_mm(), used_,
-                                   options_.seed, noise_doubt());
+    cause.heldout = cross_validate(*design_, base_, folds_, {}, 1.0, noise_mm(), used_);
     const auto at = std::find_if(result_.causes.begin(), result_.causes.end(),
                                  [&](const Cause& c) { return c.share < share; });
     result_.causes.insert(at, std::move(cause));

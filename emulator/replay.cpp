@@ -194,14 +194,16 @@ Perturbation Replay::gradient(std::size_t i, const ForwardModel& model,
 }
 
 double dot(const Perturbation& gradient, const Perturbation& delta) {
-    double sum = gradient.reading_mm * delta.reading_mm;
+    // Component by component: independent sums that a processor adds side by side.
+    Vector3 sum = gradient.tip_shift_mm.cwiseProduct(delta.tip_shift_mm);
+    Vector3 tilts = gradient.work_shift_mm.cwiseProduct(delta.work_shift_mm);
+    double axes = gradient.reading_mm * delta.reading_mm;
     for (std::size_t k = 0; k < axis_count; ++k) {
-        sum += gradient.axis.value[k] * delta.axis.value[k];
-        sum += gradient.motion[k].shift_mm.dot(delta.motion[k].shift_mm);
-        sum += gradient.motion[k].tilt_rad.dot(delta.motion[k].tilt_rad);
+        axes += gradient.axis.value[k] * delta.axis.value[k];
+        sum += gradient.motion[k].shift_mm.cwiseProduct(delta.motion[k].shift_mm);
+        tilts += gradient.motion[k].tilt_rad.cwiseProduct(delta.motion[k].tilt_rad);
     }
-    sum += gradient.tip_shift_mm.dot(delta.tip_shift_mm);
-    return sum + gradient.work_shift_mm.dot(delta.work_shift_mm);
+    return axes + (sum + tilts).sum();
 }
 
 ReadingTable predicted(const Setup& setup, const ReadingTable& table, const EffectModels& models) {

@@ -56,12 +56,13 @@ class KeyGain {
     Eigen::LLT<Eigen::MatrixXd> llt_;
 };
 
-/// Bounds of a key's search: its neighbours on the grid.
+/// Bounds of a key's search: the grid's values on both sides, none of them next to it.
 std::pair<double, double> neighbours(const std::vector<double>& grid, double value) {
-    const auto at = std::lower_bound(grid.begin(), grid.end(), value);
-    const auto k = std::min(static_cast<std::size_t>(at - grid.begin()), grid.size() - 1);
-    const double low = k == 0 ? grid[0] * 0.7 : grid[k - 1];
-    const double high = k + 1 >= grid.size() ? grid.back() * 1.4 : grid[k + 1];
+    double low = grid.front() * 0.7, high = grid.back() * 1.4;
+    for (const double g : grid) {
+        if (g < 0.97 * value) low = g;
+        if (g > 1.03 * value) high = std::min(high, g);
+    }
     return {low, high};
 }
 
@@ -80,30 +81,36 @@ std::vector<double> refine_keys(const Replay& replay, const BaseModel& base, con
     for (std::size_t j = 0; j < keys.size(); ++j) {
         const EffectParameter& p = effect.parameters[j];
         if (!p.is_key() || !p.refine) continue;
-        auto [low, high] = neighbours(p.grid, keys[j]);
         const auto at = [&](double value) {
             std::vector<double> trial = keys;
             trial[j] = value;
             return gain(trial);
         };
-        double a = high - golden * (high - low), b = low + golden * (high - low);
-        double fa = at(a), fb = at(b);
-        for (int step = 0; step < 18; ++step) {
-            if (fa > fb) {
-                high = b;
-                b = a;
-                fb = fa;
-                fa = at(a = high - golden * (high - low));
-            } else {
-                low = a;
-                a = b;
-                fa = fb;
-                fb = at(b = low + golden * (high - low));
+        for (int round = 0; round < 4; ++round) {
+            const auto [from, to] = neighbours(p.grid, keys[j]);
+            double low = from, high = to;
+            double a = high - golden * (high - low), b = low + golden * (high - low);
+            double fa = at(a), fb = at(b);
+            for (int step = 0; step < 14; ++step) {
+                if (fa > fb) {
+                    high = b;
+                    b = a;
+                    fb = fa;
+                    fa = at(a = high - golden * (high - low));
+                } else {
+                    low = a;
+                    a = b;
+                    fa = fb;
+                    fb = at(b = low + golden * (high - low));
+                }
             }
+            if (std::max(fa, fb) <= best) break;
+            best = std::max(fa, fb);
+            keys[j] = fa > fb ? a : b;
+            // At an end of the bracket: the best lies beyond, look again from there.
+            const double edge = 0.02 * (to - from);
+            if (keys[j] > from + edge && keys[j] < to - edge) break;
         }
-        if (std::max(fa, fb) <= best) continue;
-        best = std::max(fa, fb);
-        keys[j] = fa > fb ? a : b;
     }
     return keys;
 }

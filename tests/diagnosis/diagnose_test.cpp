@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/statistics.h"
 #include "geometry/alarm.h"
+#include "geometry/random.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {
@@ -53,11 +56,11 @@ TEST_CASE("nothing is claimed on noise alone", "[diagnosis]") {
     ReadingTable small = campaign::empty_table(bench.setup);
     campaign::add_sphere_map(small, bench.setup, 30, 2);
     int loud = 0;
-    for (std::uint64_t seed = 1; seed <= 40; ++seed)
+    for (std::uint64_t seed = 1; seed <= 100; ++seed)
         if (diagnose(bench.setup, campaign::measured(bench.real, small, seed)).verdict !=
             Verdict::no_gap)
             ++loud;
-    REQUIRE(loud <= 1);
+    REQUIRE(loud <= 2);
 }
 
 TEST_CASE("a single effect is named first, with its size and how far the gap shrinks",
@@ -90,7 +93,7 @@ TEST_CASE("a single effect is named first, with its size and how far the gap shr
             all += cause.effect + " " + std::to_string(cause.share) + "  ";
         INFO(all);
         REQUIRE(first.effect == c.effect);
-        REQUIRE(first.share > 0.85);
+        REQUIRE(first.share > 0.95);
         REQUIRE((result.verdict == Verdict::explained || result.verdict == Verdict::ambiguous));
         REQUIRE(first.heldout.shrink > 0.75);
         REQUIRE(first.heldout.low <= first.heldout.shrink);
@@ -118,10 +121,94 @@ TEST_CASE("a gap outside the catalogue is said to be unknown", "[diagnosis]") {
     for (Reading& row : readings.rows)  // a ripple of the readings with time that nothing makes
         if (row.value_mm) *row.value_mm += 0.002 * std::sin(row.time_s / 60.0);
     const Diagnosis result = diagnose(bench.setup, readings);
-    bool unknown = false;
-    for (const Cause& cause : result.causes) unknown = unknown || cause.effect == "unknown";
-    REQUIRE((unknown || result.verdict == Verdict::no_gap));
-    REQUIRE(result.verdict != Verdict::explained);
+    REQUIRE(result.verdict == Verdict::unexplained);
+    const auto unknown = std::find_if(result.causes.begin(), result.causes.end(),
+                                      [](const Cause& c) { return c.effect == "unknown"; });
+    REQUIRE(unknown != result.causes.end());
+    REQUIRE(unknown->share > 0.5);
+    REQUIRE(std::any_of(result.where.begin(), result.where.end(),
+                        [](const DriverShare& d) { return d.by == "time"; }));
+}
+
+TEST_CASE("a few wild readings change neither the noise nor the claim", "[diagnosis]") {
+    const Bench bench;
+    const auto with_outliers = [&](const Setup& truth, bool repeat) {
+        ReadingTable table = bench.table;
+        if (repeat)
+            for (Reading row : bench.table.rows) {
+                row.time_s += bench.table.rows.back().time_s + 60.0;
+                row.test += "_again";
+                table.rows.push_back(row);
+            }
+        table = campaign::measured(truth, table, 11);
+        for (std::size_t k = 17; k < table.rows.size(); k += 50)  // 2 %, 8 um
+            if (table.rows[k].value_mm) *table.rows[k].value_mm += k % 100 == 17 ? 8e-3 : -8e-3;
+        return diagnose(bench.setup, table);
+    };
+    const Setup truth = campaign::with_effect(bench.real, "C.backlash: gap_rad=8e-5");
+    for (const bool repeat : {false, true}) {
+        INFO("repeats: " << repeat);
+        const Diagnosis null = with_outliers(bench.real, repeat);
+        REQUIRE(null.verdict == Verdict::no_gap);
+        REQUIRE(null.outliers > 10);
+        REQUIRE(null.noise.source == (repeat ? NoiseSource::repeats : NoiseSource::given));
+        REQUIRE(null.noise.ballbar.scale == Approx(1.0).margin(0.1));
+        REQUIRE(null.noise.sphere.scale == Approx(1.0).margin(0.15));
+        const Diagnosis gap = with_outliers(truth, repeat);
+        REQUIRE(gap.causes.size() == 1);
+        REQUIRE(gap.causes.front().effect == "C.backlash");
+        REQUIRE(gap.causes.front().parameters.front().value == Approx(8e-5).epsilon(0.1));
+    }
+}
+
+TEST_CASE("touches that share a centre error and neighbours along a pass make no gap",
+          "[diagnosis]") {
+    const Bench bench;
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        ReadingTable table = bench.table;
+        for (Reading row : bench.table.rows) {  // all passes twice: the repeats show the memory
+            row.time_s += bench.table.rows.back().time_s + 60.0;
+            row.test += "_again";
+            table.rows.push_back(row);
+        }
+        table = campaign::measured(bench.real, table, seed, 0.6);
+        SeededNoise random(100 + seed);
+        double shared = 0.0;
+        std::string test;
+        for (Reading& row : table.rows) {
+            if (row.device != Device::ballbar) continue;
+            if (row.test != test) shared = random.normal();
+            test = row.test;
+            shared = 0.9 * shared + std::sqrt(1.0 - 0.81) * random.normal();
+            *row.value_mm += 0.3e-3 * 0.8 * shared;
+        }
+        const Diagnosis result = diagnose(bench.setup, table);
+        INFO("seed " << seed);
+        REQUIRE(result.verdict == Verdict::no_gap);
+        REQUIRE(result.noise.source == NoiseSource::repeats);
+        REQUIRE(result.noise.ballbar.shared > 0.4);
+        REQUIRE(result.noise.ballbar.memory > 0.75);
+    }
+}
+
+TEST_CASE("noise that the setup states wrongly is said to be assumed, whatever else is found",
+          "[diagnosis]") {
+    const Bench bench;
+    const Setup gap = campaign::with_effect(bench.real, "C.backlash: gap_rad=8e-5");
+    for (const double factor : {0.75, 1.33}) {
+        INFO("noise times " << factor);
+        REQUIRE(bench.of(bench.real, 4, factor).noise.source == NoiseSource::assumed);
+        REQUIRE(bench.of(gap, 4, factor).noise.source == NoiseSource::assumed);
+        ReadingTable odd = campaign::measured(bench.real, bench.table, 4, factor);
+        for (Reading& row : odd.rows)
+            if (row.value_mm) *row.value_mm += 0.002 * std::sin(row.time_s / 60.0);
+        REQUIRE(diagnose(bench.setup, odd).noise.source == NoiseSource::assumed);
+        ReadingTable wild = campaign::measured(bench.real, bench.table, 4, factor);
+        for (std::size_t k = 9; k < wild.rows.size(); k += 50)
+            if (wild.rows[k].value_mm) *wild.rows[k].value_mm += 8e-3;
+        REQUIRE(diagnose(bench.setup, wild).noise.source == NoiseSource::assumed);
+    }
+    REQUIRE(bench.of(gap, 4).noise.source == NoiseSource::given);
 }
 
 TEST_CASE("the closed loop: the setup written predicts new positions", "[diagnosis]") {

@@ -1,0 +1,168 @@
+#include "diagnosis/shrink_interval.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/statistics.h"
+#include "geometry/random.h"
+
+namespace trunnion {
+namespace {
+
+constexpr int draw_count = 400;
+constexpr std::size_t probe_stretches =
+    24;  ///< into which the poses of the probe are cut, in order
+
+/// Index of a truth drawn with its weight.
+std::size_t pick(const std::vector<PossibleTruth>& truths, double at) {
+    double sum = 0.0;
+    for (const PossibleTruth& t : truths) sum += t.weight;
+    at *= sum;
+    for (std::size_t k = 0; k < truths.size(); ++k)
+        if ((at -= truths[k].weight) <= 0.0) return k;
+    return truths.size() - 1;
+}
+
+/// Is there a remainder at all? Evidence for a normal mean of unit information against zero.
+double chance_of_remainder(const std::vector<double>& miss) {
+    double sum = 0.0, square = 0.0;
+    for (const double m : miss) {
+        sum += m;
+        square += m * m;
+    }
+    if (sum <= 0.0 || square <= 0.0) return 0.0;
+    const double n = static_cast<double>(miss.size());
+    const double factor = std::exp(0.5 * sum * sum / square * n / (n + 1.0)) / std::sqrt(n + 1.0);
+    return factor / (1.0 + factor);
+}
+
+}  // namespace
+
+ShrinkDraws::ShrinkDraws(const Design& design, const std::vector<NoiseBlock>& blocks,
+                         const Eigen::VectorXd& noise_mm, const std::vector<bool>& used,
+                         std::vector<PossibleTruth> truths, double unknown, std::uint64_t seed,
+                         double doubt)
+    : design_(design), truths_(std::move(truths)) {
+    cut(blocks);
+    take_places();
+    std::vector<double> noise;
+    const std::vector<double> miss = missed(noise_mm, used, noise);
+    std::vector<Posterior> posterior;
+    for (const PossibleTruth& t : truths_)
+        posterior.push_back(design.posterior(t.columns, t.scale));
+    const double real = chance_of_remainder(miss);
+    SeededNoise random(seed);
+    const auto count = static_cast<Eigen::Index>(stretches_.size());
+    for (int d = 0; d < draw_count; ++d) {
+        const std::size_t k = pick(truths_, random.uniform());
+        const double noise_factor = std::max(0.2, 1.0 + doubt * random.normal());
+        Eigen::VectorXd z(posterior[k].mean.size());
+        for (double& v : z) v = std::sqrt(noise_factor) * random.normal();
+        Draw draw;
+        draw.machine = over_places(truths_[k].columns, posterior[k].mean + posterior[k].spread(z));
+        draw.weight.resize(count);
+        double remainder = 0.0;
+        for (Eigen::Index b = 0; b < count; ++b) {
+            const auto at = static_cast<std::size_t>(b);
+            // Fresh readings are fewer and elsewhere: squared exponential weights leave as much
+            // as a sixth of the stretches.
+            const double even = -std::log(random.uniform());
+            draw.weight(b) = even * even;
+            remainder += draw.weight(b) * (miss[at] - (noise_factor - 1.0) * noise[at]);
+        }
+        if (random.uniform() < real) draw.remainder = std::max(0.0, remainder);
+        if (random.uniform() < unknown)
+            draw.false_part = -std::log(random.uniform()) * random.uniform();
+        draws_.push_back(std::move(draw));
+    }
+}
+
+/// Stretches: every pass of the ballbar; the poses of the probe, in order, in parts.
+void ShrinkDraws::cut(const std::vector<NoiseBlock>& blocks) {
+    std::vector<const NoiseBlock*> poses;
+    for (const NoiseBlock& block : blocks) {
+        if (block.device == Device::ballbar)
+            stretches_.push_back(block.rows);
+        else
+            poses.push_back(&block);
+    }
+    const std::size_t parts = std::min(probe_stretches, poses.size());
+    for (std::size_t k = 0; k < parts; ++k) {
+        std::vector<Eigen::Index> rows;
+        for (std::size_t p = k * poses.size() / parts; p < (k + 1) * poses.size() / parts; ++p)
+            rows.insert(rows.end(), poses[p]->rows.begin(), poses[p]->rows.end());
+        stretches_.push_back(std::move(rows));
+    }
+}
+
+/// The columns of all truths once, and their squares over each stretch.
+void ShrinkDraws::take_places() {
+    for (Eigen::Index k = 0; k < design_.base_count(); ++k) places_.push_back(k);
+    std::vector<Eigen::Index> effects;
+    for (const PossibleTruth& t : truths_)
+        effects.insert(effects.end(), t.columns.begin(), t.columns.end());
+    std::sort(effects.begin(), effects.end());
+    effects.erase(std::unique(effects.begin(), effects.end()), effects.end());
+    for (const Eigen::Index k : effects) places_.push_back(design_.base_count() + k);
+    for (const auto& rows : stretches_) {
+        const Eigen::MatrixXd a = design_.raw()(rows, places_);
+        square_.push_back(a.transpose() * a);
+    }
+}
+
+Eigen::VectorXd ShrinkDraws::over_places(const std::vector<Eigen::Index>& columns,
+                                         const Eigen::VectorXd& x) const {
+    const Eigen::Index base = design_.base_count();
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(places_.size()));
+    all.head(base) = x.head(base);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        const auto at = std::lower_bound(places_.begin() + base, places_.end(), base + columns[k]);
+        all(at - places_.begin()) = x(base + static_cast<Eigen::Index>(k));
+    }
+    return all;
+}
+
+/// By stretch: what predictions without it miss, squared, beyond noise and the fit's own error.
+std::vector<double> ShrinkDraws::missed(const Eigen::VectorXd& noise_mm,
+                                        const std::vector<bool>& used,
+                                        std::vector<double>& noise) const {
+    std::vector<double> miss;
+    for (const auto& rows : stretches_) {
+        Eigen::VectorXd fit_variance;
+        const Eigen::VectorXd left = design_.residual_without(rows, truths_.front().columns,
+                                                              truths_.front().scale, &fit_variance);
+        double sum = 0.0, floor = 0.0;
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            if (!used[static_cast<std::size_t>(rows[k])]) continue;
+            const auto at = static_cast<Eigen::Index>(k);
+            const double own = noise_mm(rows[k]) * noise_mm(rows[k]);
+            sum += left(at) * left(at) - own - fit_variance(at);
+            floor += own;
+        }
+        miss.push_back(sum);
+        noise.push_back(floor);
+    }
+    return miss;
+}
+
+std::pair<double, double> ShrinkDraws::interval(const std::vector<Eigen::Index>& columns,
+                                                double scale) const {
+    const Eigen::VectorXd with = over_places(columns, design_.solve(columns, scale));
+    const Eigen::VectorXd without = over_places({}, design_.solve({}, scale));
+    std::vector<double> shrink;
+    for (const Draw& draw : draws_) {
+        double before = draw.remainder, after = draw.remainder;
+        const Eigen::VectorXd off_with = draw.machine - with, off_without = draw.machine - without;
+        for (std::size_t b = 0; b < square_.size(); ++b) {
+            const double weight = draw.weight(static_cast<Eigen::Index>(b));
+            after += weight * off_with.dot(square_[b] * off_with);
+            before += weight * off_without.dot(square_[b] * off_without);
+        }
+        after += 2.0 * draw.false_part * std::max(0.0, before - after);
+        shrink.push_back(before > 0.0 ? 1.0 - std::sqrt(std::max(0.0, after) / before) : 0.0);
+    }
+    return {quantile(shrink, 0.025), quantile(shrink, 0.975)};
+}
+
+}  // namespace trunnion

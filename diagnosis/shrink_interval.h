@@ -1,0 +1,61 @@
+// How sure the shrink of the gap is: what fresh readings may show, drawn from everything that is
+// not known for certain.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "diagnosis/candidates.h"
+
+namespace trunnion {
+
+/// A set of effects that may be the truth, with its weight among all (the first is the chosen one).
+struct PossibleTruth {
+    std::vector<Eigen::Index> columns;  ///< of the candidates
+    double scale = 1.0;                 ///< of the prior
+    double weight = 1.0;
+};
+
+/// Draws machines that agree with the readings and fresh readings of them, without noise. Unknown
+/// are: which set of effects is true, the values of its parameters and of the base (their joint
+/// covariance), the size of the noise, which of the measured positions fresh readings will stress
+/// (weights of whole passes and stretches of poses), and the remainder that no set explains (what
+/// predictions of left-out passes miss beyond all this). With a chance of `unknown` the effects are
+/// stand-ins for something the catalogue lacks: elsewhere a part of what they explained is wrong.
+class ShrinkDraws {
+  public:
+    /// `used` marks rows that count; `doubt`: relative standard error of the noise variance.
+    ShrinkDraws(const Design& design, const std::vector<NoiseBlock>& blocks,
+                const Eigen::VectorXd& noise_mm, const std::vector<bool>& used,
+                std::vector<PossibleTruth> truths, double unknown, std::uint64_t seed,
+                double doubt);
+
+    /// 95 % interval of the shrink that the effects in `columns`, fitted beside the base, give.
+    std::pair<double, double> interval(const std::vector<Eigen::Index>& columns,
+                                       double scale) const;
+
+  private:
+    struct Draw {
+        Eigen::VectorXd machine;  ///< over `places_`
+        Eigen::VectorXd weight;   ///< of the stretches
+        double remainder = 0.0;   ///< mm^2, weighted
+        double false_part = 0.0;  ///< of what the effects explain: comes twice, in other places
+    };
+    void cut(const std::vector<NoiseBlock>& blocks);
+    void take_places();
+    Eigen::VectorXd over_places(const std::vector<Eigen::Index>& columns,
+                                const Eigen::VectorXd& x) const;
+    std::vector<double> missed(const Eigen::VectorXd& noise_mm, const std::vector<bool>& used,
+                               std::vector<double>& noise) const;
+
+    const Design& design_;
+    std::vector<PossibleTruth> truths_;
+    std::vector<std::vector<Eigen::Index>> stretches_;  ///< rows
+    std::vector<Eigen::Index> places_;                  ///< columns of any truth, base first
+    std::vector<Eigen::MatrixXd> square_;               ///< of the raw columns, by stretch
+    std::vector<Draw> draws_;
+};
+
+}  // namespace trunnion
