@@ -11,12 +11,28 @@ namespace trunnion {
 namespace {
 
 constexpr std::size_t kept_sets = 300;  ///< of those the search met
-constexpr int alternative_keys = 6;     ///< tried for each chosen effect with keys, for doubt
+/// Prior of key settings: even over their grids, but even in the logarithm where the grid counts
+/// periods: a period and its alias fit alike, and the coarse one is what machines have.
+double log_prior_of_keys(const Effect& effect, const std::vector<double>& keys) {
+    double sum = 0.0;
+    for (std::size_t j = 0; j < keys.size(); ++j) {
+        const EffectParameter& p = effect.parameters[j];
+        if (!p.is_key()) continue;
+        double all = 0.0;
+        const bool counts = p.name == "periods_per_turn";
+        for (const double g : p.grid) all += counts ? 1.0 / g : 1.0;
+        sum += std::log((counts ? 1.0 / keys[j] : 1.0) / all);
+    }
+    return sum;
+}
+
+constexpr int alternative_keys = 6;  ///< tried for each chosen effect with keys, for doubt
 
 }  // namespace
 
 void Diagnoser::build_design() {
     design_.emplace(replay_, base_, *whitener_);
+    keys_.emplace(replay_, base_);
     for (const Effect& effect : catalogue_) {
         if (modelled(effect) || effect.parameters.empty()) continue;
         if (has_keys(effect)) continue;
@@ -33,11 +49,9 @@ void Diagnoser::build_design() {
 void Diagnoser::add_keyed(const Eigen::VectorXd& left_mm, int count) {
     for (const Effect& effect : catalogue_) {
         if (modelled(effect) || !has_keys(effect)) continue;
-        for (auto& keys : best_keys(replay_, base_, effect, left_mm, sigma_mm_, count)) {
-            double trials = 1.0;
-            for (const EffectParameter& p : effect.parameters)
-                if (p.is_key()) trials *= static_cast<double>(p.grid.size());
-            design_->add(effect, std::move(keys), prior_ - std::log(trials));
+        for (auto& keys : keys_->best(effect, left_mm, sigma_mm_, count)) {
+            const double log_prior = prior_ + log_prior_of_keys(effect, keys);
+            design_->add(effect, std::move(keys), log_prior);
         }
     }
 }
@@ -165,9 +179,10 @@ void Diagnoser::add_alternatives() {
         std::vector<std::size_t> others = set_.members;
         std::erase(others, m);
         const Eigen::VectorXd left = design_->residual(columns_of(*design_, others), set_.scale);
-        for (auto& keys :
-             best_keys(replay_, base_, *chosen.effect, left, sigma_mm_, alternative_keys))
-            design_->add(*chosen.effect, std::move(keys), chosen.log_prior);
+        for (auto& keys : keys_->best(*chosen.effect, left, sigma_mm_, alternative_keys)) {
+            const double log_prior = prior_ + log_prior_of_keys(*chosen.effect, keys);
+            design_->add(*chosen.effect, std::move(keys), log_prior);
+        }
         added = true;
     }
     if (added) design_->update();
@@ -189,6 +204,27 @@ void Diagnoser::prune() {
         members.erase(members.begin() + static_cast<long>(least));
         set_ = evaluate(*design_, members, search_options());
     }
+}
+
+/// With small effects gone the best set of what remains may be another: each effect is replaced by
+/// any other candidate as long as that raises the evidence.
+void Diagnoser::settle() {
+    for (int pass = 0; pass < 6; ++pass) {
+        EffectSet best = set_;
+        for (const std::size_t m : set_.members)
+            for (EffectSet& s : swapped_sets(m))
+                if (s.log_evidence > best.log_evidence + 1e-6) best = std::move(s);
+        if (best.members == set_.members) break;
+        set_ = std::move(best);
+        prune();
+    }
+    if (!set_.members.empty() && by_chance()) set_ = EffectSet{};
+}
+
+/// Noise alone would explain as much with one effect of the catalogue too often.
+bool Diagnoser::by_chance() const {
+    const auto width = static_cast<double>(columns_of(*design_, set_.members).size());
+    return rules::effects_tried * chi_squared_tail(set_.explained, width) > rules::gap_p;
 }
 
 }  // namespace trunnion

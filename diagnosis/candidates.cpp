@@ -3,8 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <numeric>
 #include <set>
 
 namespace trunnion {
@@ -51,6 +49,11 @@ std::vector<std::function<bool(const EffectParameter&)>> simpler_forms(const Eff
         unusual = unusual || !p.usual;
     }
     if (unusual) forms.push_back([](const EffectParameter& p) { return p.usual; });
+    // ISO 230-1: straightness is what departs from the mean line; the line is squareness.
+    if (effect.name.ends_with(".straightness"))
+        forms.push_back([](const EffectParameter& p) {
+            return p.usual && p.name.find("_p1_") == std::string::npos;
+        });
     if (vectors.size() > 1)
         for (const std::string& name : vectors)
             forms.push_back([name](const EffectParameter& p) { return p.name == name; });
@@ -192,109 +195,6 @@ Posterior Design::posterior(const std::vector<Eigen::Index>& columns, double sca
     normal_equations(columns, scale, a, b);
     const Eigen::LLT<Eigen::MatrixXd> llt(a);
     return {llt.solve(b), llt.matrixL()};
-}
-
-namespace {
-
-/// A fixed scatter of about `count` rows, without the rhythm of poses and passes.
-std::vector<std::size_t> scattered_rows(std::size_t all, std::size_t count) {
-    std::vector<std::size_t> rows;
-    for (std::size_t i = 0; i < all; ++i) {
-        const std::uint64_t mixed = (i + 1) * 0x9E3779B97F4A7C15ULL;
-        if ((mixed >> 33) % all < count) rows.push_back(i);
-    }
-    return rows;
-}
-
-/// Weighted least-squares gain of an effect at given keys on some rows, without projection.
-class RoughGain {
-  public:
-    RoughGain(const Replay& replay, const BaseModel& base, const Effect& effect,
-              const Eigen::VectorXd& left_mm, const Eigen::VectorXd& sigma_mm,
-              std::vector<std::size_t> rows)
-        : replay_(replay),
-          base_(base),
-          effect_(effect),
-          rows_(std::move(rows)),
-          weight_(static_cast<Eigen::Index>(rows_.size())),
-          left_(weight_.size()) {
-        for (std::size_t k = 0; k < rows_.size(); ++k) {
-            const auto i = static_cast<Eigen::Index>(rows_[k]), at = static_cast<Eigen::Index>(k);
-            weight_(at) = 1.0 / sigma_mm(i);
-            left_(at) = left_mm(i) * weight_(at);
-        }
-        for (std::size_t j = 0; j < effect.parameters.size(); ++j)
-            if (!effect.parameters[j].is_key()) linear_.push_back(j);
-    }
-
-    /// Negative when the effect moves nothing.
-    double operator()(const std::vector<double>& keys) const {
-        Eigen::MatrixXd a(left_.size(), static_cast<Eigen::Index>(linear_.size()));
-        for (std::size_t c = 0; c < linear_.size(); ++c)
-            a.col(static_cast<Eigen::Index>(c)) =
-                effect_column(replay_, base_.gradient, effect_, keys, linear_[c], rows_)
-                    .cwiseProduct(weight_);
-        Eigen::MatrixXd information = a.transpose() * a;
-        if (information.trace() < 1e-9) return -1.0;
-        const Eigen::VectorXd h = a.transpose() * left_;
-        information.diagonal().array() += 1.0;
-        return h.dot(information.ldlt().solve(h));
-    }
-
-  private:
-    const Replay& replay_;
-    const BaseModel& base_;
-    const Effect& effect_;
-    std::vector<std::size_t> rows_, linear_;
-    Eigen::VectorXd weight_, left_;
-};
-
-}  // namespace
-
-std::vector<std::vector<double>> best_keys(const Replay& replay, const BaseModel& base,
-                                           const Effect& effect, const Eigen::VectorXd& left_mm,
-                                           const Eigen::VectorXd& sigma_mm, int count) {
-    struct Found {
-        std::vector<double> keys;
-        double gain;
-        std::size_t order;
-    };
-    const auto better = [](const Found& a, const Found& b) { return a.gain > b.gain; };
-    const RoughGain rough(replay, base, effect, left_mm, sigma_mm,
-                          scattered_rows(replay.size(), 1000));
-    std::vector<Found> found;
-    std::vector<std::size_t> key;
-    for (std::size_t j = 0; j < effect.parameters.size(); ++j)
-        if (effect.parameters[j].is_key()) key.push_back(j);
-    std::vector<std::size_t> at(key.size(), 0);
-    for (std::size_t order = 0;; ++order) {
-        std::vector<double> values = effect.zeros();
-        for (std::size_t k = 0; k < key.size(); ++k)
-            values[key[k]] = effect.parameters[key[k]].grid[at[k]];
-        if (const double gain = rough(values); gain >= 0.0) found.push_back({values, gain, order});
-        std::size_t k = 0;
-        while (k < key.size() && ++at[k] == effect.parameters[key[k]].grid.size()) at[k++] = 0;
-        if (k == key.size()) break;
-    }
-    std::stable_sort(found.begin(), found.end(), better);
-    if (found.size() > 12) found.resize(12);
-    std::vector<std::size_t> all(replay.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    const RoughGain fine(replay, base, effect, left_mm, sigma_mm, std::move(all));
-    for (Found& f : found) f.gain = fine(f.keys);
-    std::stable_sort(found.begin(), found.end(), better);
-    std::vector<std::vector<double>> best;
-    std::vector<std::size_t> taken;
-    for (const Found& f : found) {
-        if (static_cast<int>(best.size()) == count) break;
-        const bool near = std::any_of(taken.begin(), taken.end(), [&](std::size_t o) {
-            return f.order + 1 >= o && f.order <= o + 1;
-        });
-        if (near) continue;
-        best.push_back(f.keys);
-        taken.push_back(f.order);
-    }
-    return best;
 }
 
 }  // namespace trunnion

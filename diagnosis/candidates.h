@@ -94,15 +94,11 @@ class Design {
     double energy_ = 0.0;
 };
 
-/// Gain of the best few key settings of a keyed effect on the residual `left_mm`, without
-/// projection: where to look. Returns up to `count` settings, best first, not next to each other.
-std::vector<std::vector<double>> best_keys(const Replay& replay, const BaseModel& base,
-                                           const Effect& effect, const Eigen::VectorXd& left_mm,
-                                           const Eigen::VectorXd& sigma_mm, int count);
 bool has_keys(const Effect& effect);
 
-/// Simpler forms of an effect, each a choice of its linear parameters: the textbook's form, and
-/// single vectors where an effect has several (one artefact of many).
+/// Simpler forms of an effect, each a choice of its linear parameters: the textbook's form, a
+/// straightness without slope, and single vectors where an effect has several (one artefact of
+/// many).
 std::vector<std::function<bool(const EffectParameter&)>> simpler_forms(const Effect& effect);
 
 }  // namespace trunnion

@@ -29,6 +29,7 @@ Diagnosis Diagnoser::run() {
     refine_set();
     prune();
     add_alternatives();
+    settle();
     judge();
     return std::move(result_);
 }

@@ -10,6 +10,7 @@
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/drivers.h"
 #include "diagnosis/heldout.h"
+#include "diagnosis/key_search.h"
 #include "diagnosis/rules.h"
 #include "diagnosis/search.h"
 #include "diagnosis/shrink_interval.h"
@@ -92,7 +93,7 @@ class Diagnoser {
     Remainder remainder();
     double unusual_square() const;
     double aliased_square() const;
-    double ripple_square(const Eigen::VectorXd& left) const;
+    double ripple_square(const Eigen::VectorXd& left);
     bool coincidence() const;
     double noise_doubt() const;
     void judge();
@@ -105,6 +106,8 @@ class Diagnoser {
     std::map<std::string, double> belief_of(const std::vector<EffectSet>& sets) const;
     std::vector<std::string> rivals_of(std::size_t member) const;
     void add_alternatives();
+    void settle();
+    bool by_chance() const;
     HeldOut held_out(const std::vector<std::size_t>& members, const ShrinkDraws& draws) const;
     ShrinkDraws shrink_draws(const std::vector<EffectSet>& sets) const;
     std::vector<FitParameter> parameters_of(const EffectSet& set, std::size_t member) const;
@@ -132,6 +135,7 @@ class Diagnoser {
     double prior_ = rules::effect_prior;
     std::optional<Whitener> whitener_;
     std::optional<Design> design_;
+    std::optional<KeySearch> keys_;
     EffectSet set_;
     std::vector<EffectSet> visited_;    ///< the best sets of the last search
     double unknown_evidence_ = -1e300;  ///< of one unknown cause that follows one driver

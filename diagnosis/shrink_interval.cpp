@@ -54,28 +54,46 @@ ShrinkDraws::ShrinkDraws(const Design& design, const std::vector<NoiseBlock>& bl
     const double real = chance_of_remainder(miss);
     SeededNoise random(seed);
     const auto count = static_cast<Eigen::Index>(stretches_.size());
-    for (int d = 0; d < draw_count; ++d) {
+    machines_.resize(static_cast<Eigen::Index>(places_.size()), draw_count);
+    weights_.resize(count, draw_count);
+    for (Eigen::Index d = 0; d < draw_count; ++d) {
         const std::size_t k = pick(truths_, random.uniform());
         const double noise_factor = std::max(0.2, 1.0 + doubt * random.normal());
         Eigen::VectorXd z(posterior[k].mean.size());
         for (double& v : z) v = std::sqrt(noise_factor) * random.normal();
         Draw draw;
-        draw.machine = over_places(truths_[k].columns, posterior[k].mean + posterior[k].spread(z));
-        draw.weight.resize(count);
+        machines_.col(d) =
+            over_places(truths_[k].columns, posterior[k].mean + posterior[k].spread(z));
         double remainder = 0.0;
         for (Eigen::Index b = 0; b < count; ++b) {
             const auto at = static_cast<std::size_t>(b);
             // Fresh readings are fewer and elsewhere: squared exponential weights leave as much
             // as a sixth of the stretches.
             const double even = -std::log(random.uniform());
-            draw.weight(b) = even * even;
-            remainder += draw.weight(b) * (miss[at] - (noise_factor - 1.0) * noise[at]);
+            weights_(b, d) = even * even;
+            remainder += weights_(b, d) * (miss[at] - (noise_factor - 1.0) * noise[at]);
         }
         if (random.uniform() < real) draw.remainder = std::max(0.0, remainder);
         if (random.uniform() < unknown)
             draw.false_part = -std::log(random.uniform()) * random.uniform();
-        draws_.push_back(std::move(draw));
+        draws_.push_back(draw);
     }
+    for (const Eigen::MatrixXd& square : square_)
+        moved_.push_back((square * machines_).cwiseProduct(machines_).colwise().sum().transpose());
+}
+
+/// Squares of what a prediction x misses of each drawn machine, weighted over the stretches:
+/// (m - x)' S (m - x) with the part of m alone known already.
+std::vector<double> ShrinkDraws::squares_off(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(draw_count);
+    for (std::size_t b = 0; b < square_.size(); ++b) {
+        const Eigen::VectorXd turned = square_[b] * x;
+        const Eigen::VectorXd off = moved_[b] - 2.0 * machines_.transpose() * turned +
+                                    Eigen::VectorXd::Constant(draw_count, turned.dot(x));
+        sum +=
+            off.cwiseMax(0.0).cwiseProduct(weights_.row(static_cast<Eigen::Index>(b)).transpose());
+    }
+    return {sum.begin(), sum.end()};
 }
 
 /// Stretches: every pass of the ballbar; the poses of the probe, in order, in parts.
@@ -150,17 +168,13 @@ std::pair<double, double> ShrinkDraws::interval(const std::vector<Eigen::Index>&
                                                 double scale) const {
     const Eigen::VectorXd with = over_places(columns, design_.solve(columns, scale));
     const Eigen::VectorXd without = over_places({}, design_.solve({}, scale));
+    const std::vector<double> off_with = squares_off(with), off_without = squares_off(without);
     std::vector<double> shrink;
-    for (const Draw& draw : draws_) {
-        double before = draw.remainder, after = draw.remainder;
-        const Eigen::VectorXd off_with = draw.machine - with, off_without = draw.machine - without;
-        for (std::size_t b = 0; b < square_.size(); ++b) {
-            const double weight = draw.weight(static_cast<Eigen::Index>(b));
-            after += weight * off_with.dot(square_[b] * off_with);
-            before += weight * off_without.dot(square_[b] * off_without);
-        }
-        after += 2.0 * draw.false_part * std::max(0.0, before - after);
-        shrink.push_back(before > 0.0 ? 1.0 - std::sqrt(std::max(0.0, after) / before) : 0.0);
+    for (std::size_t d = 0; d < draws_.size(); ++d) {
+        const double before = draws_[d].remainder + off_without[d];
+        double after = draws_[d].remainder + off_with[d];
+        after += 2.0 * draws_[d].false_part * std::max(0.0, before - after);
+        shrink.push_back(before > 0.0 ? 1.0 - std::sqrt(after / before) : 0.0);
     }
     return {quantile(shrink, 0.025), quantile(shrink, 0.975)};
 }

@@ -38,11 +38,10 @@ class ShrinkDraws {
 
   private:
     struct Draw {
-        Eigen::VectorXd machine;  ///< over `places_`
-        Eigen::VectorXd weight;   ///< of the stretches
         double remainder = 0.0;   ///< mm^2, weighted
         double false_part = 0.0;  ///< of what the effects explain: comes twice, in other places
     };
+    std::vector<double> squares_off(const Eigen::VectorXd& x) const;
     void cut(const std::vector<NoiseBlock>& blocks);
     void take_places();
     Eigen::VectorXd over_places(const std::vector<Eigen::Index>& columns,
@@ -56,6 +55,9 @@ class ShrinkDraws {
     std::vector<Eigen::Index> places_;                  ///< columns of any truth, base first
     std::vector<Eigen::MatrixXd> square_;               ///< of the raw columns, by stretch
     std::vector<Draw> draws_;
+    Eigen::MatrixXd machines_;            ///< a column a draw, over `places_`
+    Eigen::MatrixXd weights_;             ///< of the stretches, a column a draw
+    std::vector<Eigen::VectorXd> moved_;  ///< square of each draw's own readings, by stretch
 };
 
 }  // namespace trunnion

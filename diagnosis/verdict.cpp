@@ -64,9 +64,10 @@ void Diagnoser::describe_size(const Remainder& r) {
                               result_.unseen.end())
             result_.unseen.push_back(c.effect->name);
     const auto width = static_cast<double>(columns_of(*design_, set_.members).size());
-    result_.p_value = set_.members.empty()
-                          ? (r.drivers.empty() ? 1.0 : r.drivers.front().p_value)
-                          : std::min(1.0, 60.0 * chi_squared_tail(set_.explained, width));
+    result_.p_value =
+        set_.members.empty()
+            ? (r.drivers.empty() ? 1.0 : r.drivers.front().p_value)
+            : std::min(1.0, rules::effects_tried * chi_squared_tail(set_.explained, width));
 }
 
 void Diagnoser::describe_where() {

@@ -1,0 +1,120 @@
+#include "diagnosis/key_search.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cstdint>
+
+namespace trunnion {
+namespace {
+
+constexpr std::size_t rough_count = 1000, fine_count = 3200;  ///< rows at most
+constexpr std::size_t finalists = 12;
+
+/// A fixed scatter of about `count` rows, without the rhythm of poses and passes.
+std::vector<std::size_t> scattered_rows(std::size_t all, std::size_t count) {
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < all; ++i) {
+        const std::uint64_t mixed = (i + 1) * 0x9E3779B97F4A7C15ULL;
+        if ((mixed >> 33) % all < count) rows.push_back(i);
+    }
+    return rows;
+}
+
+/// Fall of the weighted squared sum of `left` (already over its sigma); negative when the columns
+/// move nothing.
+double gain(const Eigen::MatrixXd& columns, const Eigen::VectorXd& weight,
+            const Eigen::VectorXd& left) {
+    const Eigen::MatrixXd a = weight.asDiagonal() * columns;
+    Eigen::MatrixXd information = a.transpose() * a;
+    if (information.trace() < 1e-9) return -1.0;
+    const Eigen::VectorXd h = a.transpose() * left;
+    information.diagonal().array() += 1.0;
+    return h.dot(information.ldlt().solve(h));
+}
+
+struct Weighted {
+    Eigen::VectorXd weight, left;
+    Weighted(const Eigen::VectorXd& left_mm, const Eigen::VectorXd& sigma_mm,
+             const std::vector<std::size_t>& rows) {
+        weight = sigma_mm(rows).cwiseInverse();
+        left = left_mm(rows).cwiseProduct(weight);
+    }
+};
+
+}  // namespace
+
+KeySearch::KeySearch(const Replay& replay, const BaseModel& base)
+    : replay_(replay),
+      base_(base),
+      rough_rows_(scattered_rows(replay.size(), rough_count)),
+      fine_rows_(scattered_rows(replay.size(), fine_count)) {}
+
+Eigen::MatrixXd KeySearch::columns(const Effect& effect, const std::vector<double>& keys,
+                                   const std::vector<std::size_t>& rows) const {
+    std::vector<Eigen::VectorXd> list;
+    for (std::size_t j = 0; j < effect.parameters.size(); ++j)
+        if (!effect.parameters[j].is_key())
+            list.push_back(effect_column(replay_, base_.gradient, effect, keys, j, rows));
+    Eigen::MatrixXd a(static_cast<Eigen::Index>(rows.size()),
+                      static_cast<Eigen::Index>(list.size()));
+    for (std::size_t c = 0; c < list.size(); ++c) a.col(static_cast<Eigen::Index>(c)) = list[c];
+    return a;
+}
+
+/// Every point of the grid of the effect's keys, the first key fastest.
+std::vector<KeySearch::Setting>& KeySearch::settings_of(const Effect& effect) {
+    std::vector<Setting>& list = settings_[&effect];
+    if (!list.empty()) return list;
+    std::vector<std::size_t> key;
+    for (std::size_t j = 0; j < effect.parameters.size(); ++j)
+        if (effect.parameters[j].is_key()) key.push_back(j);
+    std::vector<std::size_t> at(key.size(), 0);
+    for (std::size_t k = 0; k < key.size();) {
+        std::vector<double> values = effect.zeros();
+        for (std::size_t i = 0; i < key.size(); ++i)
+            values[key[i]] = effect.parameters[key[i]].grid[at[i]];
+        Eigen::MatrixXd rough = columns(effect, values, rough_rows_);
+        list.push_back({std::move(values), std::move(rough), {}});
+        for (k = 0; k < key.size() && ++at[k] == effect.parameters[key[k]].grid.size(); ++k)
+            at[k] = 0;
+    }
+    return list;
+}
+
+std::vector<std::vector<double>> KeySearch::best(const Effect& effect,
+                                                 const Eigen::VectorXd& left_mm,
+                                                 const Eigen::VectorXd& sigma_mm, int count) {
+    struct Found {
+        std::size_t order;
+        double gain;
+    };
+    const auto better = [](const Found& a, const Found& b) { return a.gain > b.gain; };
+    std::vector<Setting>& settings = settings_of(effect);
+    const Weighted rough(left_mm, sigma_mm, rough_rows_), fine(left_mm, sigma_mm, fine_rows_);
+    std::vector<Found> found;
+    for (std::size_t k = 0; k < settings.size(); ++k)
+        if (const double g = gain(settings[k].rough, rough.weight, rough.left); g >= 0.0)
+            found.push_back({k, g});
+    std::stable_sort(found.begin(), found.end(), better);
+    if (found.size() > finalists) found.resize(finalists);
+    for (Found& f : found) {
+        Setting& s = settings[f.order];
+        if (s.fine.size() == 0) s.fine = columns(effect, s.values, fine_rows_);
+        f.gain = gain(s.fine, fine.weight, fine.left);
+    }
+    std::stable_sort(found.begin(), found.end(), better);
+    std::vector<std::vector<double>> best;
+    std::vector<std::size_t> taken;
+    for (const Found& f : found) {
+        if (static_cast<int>(best.size()) == count) break;
+        const bool near = std::any_of(taken.begin(), taken.end(), [&](std::size_t o) {
+            return f.order + 1 >= o && f.order <= o + 1;
+        });
+        if (near) continue;
+        best.push_back(settings[f.order].values);
+        taken.push_back(f.order);
+    }
+    return best;
+}
+
+}  // namespace trunnion

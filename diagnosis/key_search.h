@@ -1,0 +1,38 @@
+// Where to look for keys: pitches, periods, time constants and moments that promise most.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <vector>
+
+#include "identification/base_model.h"
+
+namespace trunnion {
+
+/// Tries the grids of effects with keys on residuals. Columns of the effects depend on positions
+/// only: they are worked out once, on a fixed scatter of rows, and serve every residual.
+class KeySearch {
+  public:
+    KeySearch(const Replay& replay, const BaseModel& base);
+
+    /// The best few settings of an effect's keys by weighted least squares on `left_mm`, without
+    /// projection of the base; best first, none next to another on the grid.
+    std::vector<std::vector<double>> best(const Effect& effect, const Eigen::VectorXd& left_mm,
+                                          const Eigen::VectorXd& sigma_mm, int count);
+
+  private:
+    struct Setting {
+        std::vector<double> values;
+        Eigen::MatrixXd rough, fine;  ///< columns (mm) on the scatters, empty until asked for
+    };
+    std::vector<Setting>& settings_of(const Effect& effect);
+    Eigen::MatrixXd columns(const Effect& effect, const std::vector<double>& keys,
+                            const std::vector<std::size_t>& rows) const;
+
+    const Replay& replay_;
+    const BaseModel& base_;
+    std::vector<std::size_t> rough_rows_, fine_rows_;
+    std::map<const Effect*, std::vector<Setting>> settings_;
+};
+
+}  // namespace trunnion
