@@ -92,12 +92,15 @@ bool BallbarFit::determined(int parameter) const {
 
 BallbarModel::BallbarModel(const Machine& nominal, const BallbarLayout& layout,
                            const std::vector<Reading>& rows, const BallbarUnknowns& unknowns)
-    : nominal_(nominal), layout_(layout), passes_(ballbar_passes(rows)) {
+    : nominal_(nominal),
+      layout_(layout),
+      pivot_place_(unknowns.pivot),
+      passes_(ballbar_passes(rows)) {
     const auto [first, second] = table_axes(nominal.chain);
     add_location(parameters_, first);
     add_location(parameters_, second);
     if (unknowns.cup) add_vector(parameters_, Kind::cup, "ballbar.cup");
-    if (unknowns.pivot) add_vector(parameters_, Kind::pivot, "ballbar.pivot");
+    if (pivot_place_ == PivotPlace::unknown) add_vector(parameters_, Kind::pivot, "ballbar.pivot");
     if (unknowns.constant == BarConstant::length)
         parameters_.push_back({Kind::length, {}, 0, "ballbar.length"});
     std::vector<std::string> tests;
@@ -154,6 +157,7 @@ BallbarState BallbarModel::state(const Eigen::VectorXd& scaled) const {
                 break;
         }
     }
+    if (pivot_place_ == PivotPlace::at_spindle) pivot = machine.poses({}).pose_MW.inverse() * pivot;
     return {ForwardModel(machine), cup, pivot, length, constant};
 }
 

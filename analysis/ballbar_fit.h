@@ -16,9 +16,14 @@ namespace trunnion {
 /// nominal - error), or a constant for each test (drift between tests, a new set-up).
 enum class BarConstant : unsigned char { none, length, per_test };
 
+/// What is known of the centre pivot: nothing but about where it is, its place on the table (W), or
+/// that it was clamped where the spindle stood with the rotary axes at zero: its place in M then,
+/// so that errors of the axes show only once they turn (the 2015 paper, facts/kinematics.md 1.4).
+enum class PivotPlace : unsigned char { unknown, on_table, at_spindle };
+
 struct BallbarUnknowns {
-    bool cup = false;   ///< tool length and cup run-out unknown: then the rank drops by three
-    bool pivot = true;  ///< place of the centre pivot on the table
+    bool cup = false;  ///< tool length and cup run-out unknown: then the rank drops by three
+    PivotPlace pivot = PivotPlace::unknown;
     BarConstant constant = BarConstant::length;
 };
 
@@ -94,6 +99,7 @@ class BallbarModel {
 
     Machine nominal_;
     BallbarLayout layout_;
+    PivotPlace pivot_place_;
     std::vector<BallbarParameter> parameters_;
     Eigen::VectorXd scale_;
     std::vector<BallbarPass> passes_;

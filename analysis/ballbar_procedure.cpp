@@ -48,13 +48,19 @@ std::vector<double> readings_of(const BallbarModel& model, const ReadingTable& t
     return values;
 }
 
-/// All seven tests both ways, or a message that names the pass that is missing.
+/// All seven tests both ways and in range all the way, or a message that names what is missing.
 void check_complete(const BallbarModel& model, const std::vector<std::string>& notes) {
-    if (model.passes().size() >= 14) return;
-    std::string why;
+    std::vector<std::string> left;
     for (const std::string& note : notes)
-        if (note.find("ballbar") != std::string::npos) why += "; " + note;
-    throw InputError(fmt::format("the ballbar read {} of 14 passes{}", model.passes().size(), why));
+        if (note.find("out of its range") != std::string::npos) left.push_back(note);
+    if (!left.empty())
+        throw InputError(fmt::format(
+            "{}{}. Where the pivot is clamped or an axis stands is further off than the bar can "
+            "follow: set it up anew",
+            left.front(),
+            left.size() > 1 ? fmt::format("; so in {} more passes", left.size() - 1) : ""));
+    if (model.passes().size() < 14)
+        throw InputError(fmt::format("the ballbar read {} of 14 passes", model.passes().size()));
 }
 
 std::vector<BallbarErrorRow> rows_of(const std::vector<ErrorEstimate>& before,
@@ -84,8 +90,8 @@ std::vector<ErrorEstimate> left_over(std::vector<ErrorEstimate> now,
 }
 
 /// Planar passes as means of neighbouring readings: figures of a range must not grow with the
-/// sampling rate.
-ReadingTable thinned(const ReadingTable& table) {
+/// sampling rate. Values count from the nominal length of the bar.
+ReadingTable thinned(const ReadingTable& table, double warm_mm) {
     ReadingTable out = table;
     out.rows.clear();
     for (const BallbarPass& pass : ballbar_passes(table.rows)) {
@@ -93,10 +99,15 @@ ReadingTable thinned(const ReadingTable& table) {
         for (std::size_t b = 0; b < blocks; ++b) {
             const std::size_t begin = pass.begin + count * b / blocks;
             const std::size_t end = pass.begin + count * (b + 1) / blocks;
+            // Place and time of the mean: halfway between the middle two of an even number.
             Reading row = table.rows[(begin + end - 1) / 2];
+            const Reading& other = table.rows[(begin + end) / 2];
+            row.time_s = 0.5 * (row.time_s + other.time_s);
+            for (const Axis axis : all_axes)
+                row.commanded[axis] = 0.5 * (row.commanded[axis] + other.commanded[axis]);
             double sum = 0.0;
             for (std::size_t i = begin; i < end; ++i) sum += *table.rows[i].value_mm;
-            row.value_mm = sum / static_cast<double>(end - begin);
+            row.value_mm = sum / static_cast<double>(end - begin) + warm_mm;
             out.rows.push_back(std::move(row));
         }
     }
@@ -141,6 +152,20 @@ double BallbarResult::two_setups_s() const {
     return 2.0 * times.setup_s + changes * times.remount_s + before.time_s;
 }
 
+BarLength bar_length(const BallbarResult& result) {
+    const int k = result.fit.find("ballbar.length");
+    if (k < 0) return {};
+    return {result.fit.value(k), result.reading_sigma_mm * std::sqrt(result.fit.cofactor(k, k))};
+}
+
+Vector3 pivot_found_mm(const BallbarResult& result) {
+    Vector3 out = Vector3::Zero();
+    for (int i = 0; i < 3; ++i)
+        if (const int k = result.fit.find(std::string("ballbar.pivot.") + "xyz"[i]); k >= 0)
+            out(i) = result.fit.value(k);
+    return out;
+}
+
 BallbarLayout stated_layout(const Setup& setup, int& tool_offset) {
     if (!setup.ballbar) throw InputError(setup.path + ": the setup has no [ballbar]");
     const auto pivot =
@@ -167,16 +192,31 @@ BallbarLayout stated_layout(const Setup& setup, int& tool_offset) {
     return layout;
 }
 
-BallbarResult run_ballbar(const Setup& setup, const BallbarProcedureOptions& options) {
+BallbarProgramData stated_program_data(const Setup& setup, bool inside) {
+    int tool_offset = 0;
+    BallbarLayout layout = stated_layout(setup, tool_offset);
+    layout.inside = inside;
+    BallbarProgramData data = ballbar_program_data(nominal_of(setup), layout);
+    data.tool_offset = tool_offset;
+    data.hurco = setup.dialect.family == DialectFamily::hurco;
+    return data;
+}
+
+BallbarResult run_ballbar(const Setup& stated, const BallbarProcedureOptions& options) {
+    Setup setup = stated;
     BallbarResult result;
     result.machine = setup.name;
     result.setup_path = setup.path;
     result.times = options.times;
     const Machine nominal = nominal_of(setup);
-    int tool_offset = 0;
-    const BallbarLayout layout = stated_layout(setup, tool_offset);
-    result.data = ballbar_program_data(nominal, layout);
-    result.data.tool_offset = tool_offset;
+    result.data = stated_program_data(setup, options.inside);
+    // Programs go on the nominal circle, readings count from the bar as warm as it was read.
+    BallbarLayout layout = result.data.layout;
+    for (Artefact& artefact : setup.artefacts)
+        if (artefact.kind == Artefact::Kind::center_pivot)
+            artefact.center_W_mm += options.pivot_offset_mm;
+    layout.length_mm = setup.ballbar->length_at_mm(setup.ballbar->read_temperature_c);
+    result.reference_mm = layout.length_mm;
     result.program = ballbar_program(nominal, result.data);
 
     result.before = run_once(setup, result, options, options.seed, {}, result.notes);
@@ -186,7 +226,8 @@ BallbarResult run_ballbar(const Setup& setup, const BallbarProcedureOptions& opt
     const std::vector<double> values = readings_of(model, first);
     result.fit = model.fit(values);
     result.open_fit =
-        BallbarModel(nominal, layout, first.rows, {true, true, BarConstant::length}).fit(values);
+        BallbarModel(nominal, layout, first.rows, {true, PivotPlace::unknown, BarConstant::length})
+            .fit(values);
     result.verdict = judge_residuals(model, result.fit);
     result.published = evaluate_as_published(nominal, layout, first.rows);
 
@@ -202,6 +243,7 @@ BallbarResult run_ballbar(const Setup& setup, const BallbarProcedureOptions& opt
 
     const double declared_mm = mm_from_um(setup.ballbar->noise_um);
     const double sigma_1 = reading_sigma_mm(result.fit, declared_mm);
+    result.reading_sigma_mm = sigma_1;
     const double sigma_2 = reading_sigma_mm(rest, declared_mm);
     result.errors = rows_of(chain_estimates(result.fit, sigma_1), chain_estimates(rest, sigma_2),
                             result.published.chain);
@@ -210,8 +252,13 @@ BallbarResult run_ballbar(const Setup& setup, const BallbarProcedureOptions& opt
     result.at_intersection =
         rows_of(lines, left_over(intersection_estimates(known, rest, sigma_2), lines),
                 result.published.intersection);
-    for (const CircularTest& test : circular_tests(thinned(first), layout.length_mm))
-        result.planar.push_back({test, circular_figures(test), diagnose_circle(test)});
+    const double radius_mm = result.data.layout.length_mm;
+    // Figures and plots of means, the diagnosis of every reading: a mean across a reversal is
+    // neither side's.
+    const auto every = circular_tests(first, radius_mm);
+    const auto means = circular_tests(thinned(first, result.reference_mm - radius_mm), radius_mm);
+    for (std::size_t i = 0; i < means.size(); ++i)
+        result.planar.push_back({means[i], circular_figures(means[i]), diagnose_circle(every[i])});
     result.pivot_parameters = pivot_parameters(nominal, known, setup.stores.parameters);
     return result;
 }

@@ -47,6 +47,9 @@ struct BallbarResult {
     std::string machine;
     std::string setup_path;
     BallbarProgramData data;
+    double reading_sigma_mm = 0.0;  ///< standard uncertainty of one reading of the first run
+    double reference_mm = 100.0;  ///< length of the bar that the evaluation counts from: warm when
+                                  ///< its temperature was read
     std::string program;
     BallbarRun before, after;
     std::vector<BallbarErrorRow> errors;           ///< as the setup file means them
@@ -69,14 +72,29 @@ struct BallbarProcedureOptions {
     std::uint64_t seed = 1;
     EffectModels effects;
     SetupTimes times;
+    bool inside = false;  ///< bar turned round where it lies flat
+    /// Where the pivot really stands, from where the setup says: an error of the set-up, in W.
+    Vector3 pivot_offset_mm = Vector3::Zero();
 };
+
+/// Length of the bar that the exact fit found, minus the reference length.
+struct BarLength {
+    double error_mm = 0.0, sigma_mm = 0.0;
+};
+BarLength bar_length(const BallbarResult& result);
+
+/// Place of the pivot that the exact fit found, from the stated one, in W.
+Vector3 pivot_found_mm(const BallbarResult& result);
 
 /// The bar as the operator states it: pivot from the setup's center_pivot, cup from the tool table
 /// (the offset whose length is nearest the cup's). Throws InputError when the setup lacks them.
 BallbarLayout stated_layout(const Setup& setup, int& tool_offset);
 
+/// What the NC programs of this setup start from: stated layout, dialect of the control.
+BallbarProgramData stated_program_data(const Setup& setup, bool inside);
+
 /// Throws Alarm when the program stops, InputError when the setup cannot carry the test or a pass
 /// has no readings (out of range).
-BallbarResult run_ballbar(const Setup& setup, const BallbarProcedureOptions& options);
+BallbarResult run_ballbar(const Setup& stated, const BallbarProcedureOptions& options);
 
 }  // namespace trunnion

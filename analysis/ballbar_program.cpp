@@ -80,7 +80,8 @@ Words words_of(const Machine& nominal, const BallbarProgramData& data) {
                    {"R2", deg(data.layout.first_rad.second)},
                    {"C1", deg(data.layout.second_rad.first)},
                    {"C2", deg(data.layout.second_rad.second)},
-                   {"ARC", deg(data.layout.partial_rad)}};
+                   {"ARC", deg(data.layout.partial_rad)},
+                   {"SIDE", data.layout.inside ? "-1." : "1."}};
     add_stations(words, u == 'X');
     words["ON"] = data.hurco ? "M128" : "G43.4H#557X#24Y#25Z#26";
     words["OFF"] = data.hurco ? "M129" : "G0G49Z[#26+#5083]\nG43H#557Z#26";

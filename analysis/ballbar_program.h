@@ -9,6 +9,9 @@ namespace trunnion {
 
 /// What a generated program starts from; every value can be changed at its head.
 struct BallbarProgramData {
+    /// `inside` turns the bar round in the two tests in which it lies flat (axial of the first
+    /// axis, radial of the second). In the other two the cup stays above the pivot: below it a
+    /// spindle would stand in the table.
     BallbarLayout layout;
     int tool_offset = 2;          ///< H number of the tool cup
     double safe_z_mm = 450.0;     ///< machine Z that clears everything

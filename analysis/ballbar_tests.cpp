@@ -136,7 +136,9 @@ double travel_of(const std::vector<Reading>& rows, const BallbarPass& pass) {
         const double cross = u.dot(a) * v.dot(b) - v.dot(a) * u.dot(b);
         if (a.squaredNorm() > 0.0 && b.squaredNorm() > 0.0) turned += std::atan2(cross, a.dot(b));
     }
-    return turned;
+    // Between n points the tangent turns n - 2 times: the rest of the arc is as evenly run.
+    const auto n = static_cast<double>(pass.end - pass.begin);
+    return turned * (n - 1.0) / std::max(1.0, n - 2.0);
 }
 
 }  // namespace

@@ -34,7 +34,8 @@ struct BallbarLayout {
     Vector3 pivot_W_mm = Vector3::Zero();    ///< centre pivot
     Vector3 cup_S_mm = Vector3(0, 0, -120);  ///< tool cup: (0, 0, -tool length)
     double length_mm = 100.0;                ///< nominal bar length L0
-    bool inside = false;                     ///< cup on the smaller concentric circle
+    bool inside = false;                     ///< cup on the smaller concentric circle, or on the
+                                             ///< other side of it along the axis
     std::pair<double, double> first_rad = {-0.5235987755982988, 1.5707963267948966};
     std::pair<double, double> second_rad = {0.0, 6.283185307179586};
     double partial_rad = 3.839724354387525;  ///< arc of YZ and ZX tests, half of it each side

@@ -203,7 +203,7 @@ class ShapeFit {
             CircularCause cause = term.cause;
             cause.value = x(k) / shape.norm();
             cause.sigma = std::sqrt(variance() * cofactor(k, k)) / shape.norm();
-            const Eigen::VectorXd trace = cause.value * shape;
+            const Eigen::VectorXd trace = cause.value * centred(shape);
             cause.share_um = um_from_mm(trace.maxCoeff() - trace.minCoeff());
             cause.significant = std::abs(cause.value) > 3.0 * cause.sigma;
             causes.push_back(cause);
@@ -214,6 +214,13 @@ class ShapeFit {
     double residual_um() const { return um_from_mm(std::sqrt(variance())); }
 
   private:
+    /// Without what only moves or resizes the circle: that is no circularity.
+    Eigen::VectorXd centred(Eigen::VectorXd shape) const {
+        for (std::size_t k = 0; k < terms_.size(); ++k)
+            if (terms_[k].nuisance) shape -= basis_[k].dot(shape) * basis_[k];
+        return shape;
+    }
+
     const std::vector<CirclePoint>& points_;
     std::vector<Eigen::VectorXd> basis_, columns_;
     std::vector<Term> terms_;

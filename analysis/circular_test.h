@@ -53,7 +53,7 @@ struct CircularCause {
     double value = 0.0;
     double sigma = 0.0;
     std::string unit;
-    double share_um = 0.0;     ///< peak to peak of its trace
+    double share_um = 0.0;     ///< peak to peak of its trace about the trace's own circle
     double share = 0.0;        ///< of the sum of all traces
     int rank = 0;              ///< 1: largest
     bool significant = false;  ///< |value| > 3 sigma

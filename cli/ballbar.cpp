@@ -15,21 +15,20 @@ namespace trunnion {
 namespace {
 
 struct BallbarOptions {
-    std::string setup, svg_folder, readings, readings_after, program, kinematic_program;
+    std::string setup, svg_folder, csv, readings, readings_after, program, kinematic_program;
     std::vector<std::string> injections;
+    std::vector<double> pivot_offset_mm;
     std::uint64_t seed = 1;
     SetupTimes times;
-    bool json = false, hurco = false;
+    bool json = false, hurco = false, inside = false;
 };
 
 /// --program and --kinematic-program only write; nothing runs.
 int write_programs(const Setup& setup, const BallbarOptions& o) {
     Machine nominal = setup.machine;
     nominal.errors = {};
-    int tool_offset = 0;
-    BallbarProgramData data = ballbar_program_data(nominal, stated_layout(setup, tool_offset));
-    data.tool_offset = tool_offset;
-    data.hurco = o.hurco;
+    BallbarProgramData data = stated_program_data(setup, o.inside);
+    data.hurco = data.hurco || o.hurco;
     OutputFiles files;
     if (!o.program.empty()) files.add(o.program, ballbar_program(nominal, data));
     if (!o.kinematic_program.empty())
@@ -48,15 +47,20 @@ int run_command(const BallbarOptions& o) {
     options.seed = o.seed;
     options.effects = active_models(setup);
     options.times = o.times;
+    options.inside = o.inside;
+    if (!o.pivot_offset_mm.empty())
+        options.pivot_offset_mm = {o.pivot_offset_mm[0], o.pivot_offset_mm[1],
+                                   o.pivot_offset_mm[2]};
     const BallbarResult result = run_ballbar(setup, options);
     print_notes(result.notes);
     OutputFiles files;
     files.add("-", o.json ? ballbar_json(result) : ballbar_table(result));
+    if (!o.csv.empty()) files.add(o.csv, ballbar_csv(result));
     if (!o.readings.empty()) files.add(o.readings, format_readings(result.before.readings));
     if (!o.readings_after.empty())
         files.add(o.readings_after, format_readings(result.after.readings));
     if (!o.svg_folder.empty()) {
-        std::filesystem::create_directories(o.svg_folder);
+        make_folder(o.svg_folder);
         for (const auto& [name, text] : ballbar_pictures(result))
             files.add((std::filesystem::path(o.svg_folder) / name).string(), text);
     }
@@ -71,9 +75,11 @@ void add_ballbar(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand(
         "ballbar", "the single-set-up ballbar test: run, identify, compensate, run again");
     command->add_option("--setup", o->setup, "setup file (default machines/bc_table.toml)");
-    command->add_option("--seed", o->seed, "of the noise (second run: the next one)");
+    command->add_option("--seed", o->seed, "of the noise (second run: the next one)")
+        ->check(CLI::NonNegativeNumber);
     command->add_option("--inject", o->injections, "an effect on the machine, as in trunnion run");
     command->add_option("--svg", o->svg_folder, "folder for the polar plots");
+    command->add_option("--csv", o->csv, "write the table of errors (CSV)");
     command->add_option("--readings", o->readings, "write the first run's readings (CSV)");
     command->add_option("--readings-after", o->readings_after,
                         "write the readings of the run after compensation (CSV)");
@@ -82,9 +88,19 @@ void add_ballbar(CLI::App& app, Run& run) {
     command->add_option("--kinematic-program", o->kinematic_program,
                         "only write the NC program of BK1, BK2 and BK4 for this machine");
     command->add_flag("--hurco", o->hurco, "M128 and M129 in the written program");
-    command->add_option("--setup-time", o->times.setup_s, "assumed seconds for one set-up");
-    command->add_option("--remount-time", o->times.remount_s,
-                        "assumed seconds to move the bar between two tests");
+    command->add_flag("--inside", o->inside,
+                      "bar towards the second rotary axis where it lies flat");
+    command
+        ->add_option("--pivot-offset", o->pivot_offset_mm,
+                     "X,Y,Z in mm: the pivot really stands this far from its stated place")
+        ->delimiter(',')
+        ->expected(3);
+    command->add_option("--setup-time", o->times.setup_s, "assumed seconds for one set-up")
+        ->check(CLI::NonNegativeNumber);
+    command
+        ->add_option("--remount-time", o->times.remount_s,
+                     "assumed seconds to move the bar between two tests")
+        ->check(CLI::NonNegativeNumber);
     command->add_flag("--json", o->json, "one JSON object on stdout");
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });
 }

@@ -43,7 +43,7 @@ void BallbarStation::stop() {
 double BallbarStation::deviation_mm(const PathSampler& path, double s,
                                     const PhysicalMachine& machine, Contact contact,
                                     Contact* filled) const {
-    Ballbar bar{setup_.ballbar->cup_S_mm, pivot_->center_W_mm, setup_.ballbar->length_mm};
+    Ballbar bar{setup_.ballbar->cup_S_mm, pivot_->center_W_mm, setup_.ballbar->warm_length_mm()};
     const AxisSample sample = path.at(s);
     const MachinePose nominal = machine.at(sample, contact).poses;
     contact.direction_M = cup_to_pivot_M(nominal, bar).normalized();

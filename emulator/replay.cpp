@@ -136,7 +136,7 @@ double Replay::read(std::size_t i, const ForwardModel& model, const ReplayOffset
     const Vector3 center_M = poses.pose_MW * center_W;
     if (contact.device == Device::ballbar) {
         const Vector3 cup_S = setup_.ballbar->cup_S_mm + offsets.cup_S + extra.tip_shift_mm;
-        return (center_M - poses.pose_MS * cup_S).norm() - setup_.ballbar->length_mm -
+        return (center_M - poses.pose_MS * cup_S).norm() - setup_.ballbar->warm_length_mm() -
                offsets.length + extra.reading_mm;
     }
     const Vector3 tip_M = poses.pose_MS * (setup_.probe->tip_S_mm + extra.tip_shift_mm);

@@ -27,12 +27,21 @@ struct ProbeSettings {
 
 struct BallbarSettings {
     Vector3 cup_S_mm = Vector3(0, 0, -120);  ///< physical tool-cup ball centre in S
-    double length_mm = 100.0;
+    double length_mm = 100.0;                ///< ball to ball at 20 degrees
+    double expansion_per_k = 0.0;            ///< of the bar
+    double temperature_c = 20.0;             ///< of the bar, physical
+    double read_temperature_c = 20.0;        ///< what the operator's thermometer said
     double noise_um = 0.0;
     double sample_hz = 1000.0;
     double sample_deg = 0.0;  ///< above 0: sampled by swept angle instead of time
     bool free_cup = false;
     bool free_length = false;
+
+    double length_at_mm(double celsius) const {
+        return length_mm * (1.0 + expansion_per_k * (celsius - 20.0));
+    }
+    /// Of the bar as it is: readings count from here.
+    double warm_length_mm() const { return length_at_mm(temperature_c); }
 };
 
 struct Artefact {

@@ -34,6 +34,9 @@ void read_ballbar(const TomlFile& file, const TomlValue& table, Setup& setup) {
     if (const TomlValue* step = table.find("sample_deg")) bar.sample_deg = file.positive(*step);
     if (const TomlValue* rate = table.find("sample_hz")) bar.sample_hz = file.positive(*rate);
     bar.noise_um = file.find_number(table, "noise_um").value_or(0.0);
+    bar.expansion_per_k = file.find_number(table, "expansion_per_k").value_or(0.0);
+    bar.temperature_c = file.find_number(table, "temperature_c").value_or(20.0);
+    bar.read_temperature_c = file.find_number(table, "read_temperature_c").value_or(20.0);
     if (const TomlValue* free = table.find("free")) {
         const auto list = file.texts(*free);
         check_free(file, *free, list, {"cup", "length"});

@@ -248,8 +248,11 @@ std::string ballbar_text(const BallbarSettings& bar) {
     if (bar.free_cup) free.push_back("cup");
     if (bar.free_length) free.push_back("length");
     return "\n[ballbar]\ncup_mm = " + numbers(bar.cup_S_mm) +
-           "\nlength_mm = " + shortest(bar.length_mm) + "\nnoise_um = " + shortest(bar.noise_um) +
-           "\nsample_hz = " + shortest(bar.sample_hz) +
+           "\nlength_mm = " + shortest(bar.length_mm) +
+           "\nexpansion_per_k = " + shortest(bar.expansion_per_k) +
+           "\ntemperature_c = " + shortest(bar.temperature_c) +
+           "\nread_temperature_c = " + shortest(bar.read_temperature_c) +
+           "\nnoise_um = " + shortest(bar.noise_um) + "\nsample_hz = " + shortest(bar.sample_hz) +
            (bar.sample_deg > 0.0 ? "\nsample_deg = " + shortest(bar.sample_deg) : "") +
            "\nfree = " + texts(free) + '\n';
 }

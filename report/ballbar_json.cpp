@@ -106,6 +106,11 @@ std::string ballbar_json(const BallbarResult& r) {
     out["location_check"] = {{"pivot_offset_mm", {p.x(), p.y(), p.z()}},
                              {"length_error_mm", r.published.length_error_mm},
                              {"rms_um", um_from_mm(r.published.setup_rms_mm)}};
+    const BarLength bar = bar_length(r);
+    out["bar_length"] = {
+        {"reference_mm", r.reference_mm}, {"error_mm", bar.error_mm}, {"sigma_mm", bar.sigma_mm}};
+    const Vector3 pivot = pivot_found_mm(r);
+    out["pivot_found_mm"] = {pivot.x(), pivot.y(), pivot.z()};
     out["parameters"] = Json::object();
     for (const auto& [number, value] : r.pivot_parameters)
         out["parameters"][std::to_string(number)] = value;

@@ -10,36 +10,72 @@ namespace trunnion {
 
 namespace {
 
-PolarPlot planar_plot(const PlanarResult& planar) {
+constexpr std::size_t lines_shown = 6;  ///< of the diagnosis
+
+std::string um(double value) {
+    return fmt::format("{:.2f} µm", std::abs(value) < 0.005 ? 0.0 : value);
+}
+
+std::string set_up_line(const BallbarResult& r) {
+    return fmt::format("{}  ·  single set-up, L0 {:g} mm", r.machine, r.data.layout.length_mm);
+}
+
+PolarSection figures_section(const CircularFigures& f) {
+    return {"ISO 230-4",
+            {{"circularity, ccw", um(f.circularity_ccw_um)},
+             {"circularity, cw", um(f.circularity_cw_um)},
+             {"bidirectional circularity", um(f.bidirectional_circularity_um)},
+             {"mean radial deviation", um(f.mean_radial_deviation_um)},
+             {"radial deviation, largest", um(f.radial_deviation_max_um)},
+             {"radial deviation, smallest", um(f.radial_deviation_min_um)},
+             {"hysteresis", um(f.hysteresis_um)}}};
+}
+
+PolarSection diagnosis_section(const CircularDiagnosis& diagnosis) {
+    PolarSection section{"Diagnosis (share of all traces)", {}};
+    for (const CircularCause& c : diagnosis.causes) {
+        if (!c.significant || section.rows.size() == lines_shown) continue;
+        section.rows.emplace_back(fmt::format("{}. {}", c.rank, c.name),
+                                  fmt::format("{:.2f} {}  {:.0f} %", c.value,
+                                              c.unit == "um"     ? "µm"
+                                              : c.unit == "um/m" ? "µm/m"
+                                                                 : c.unit,
+                                              100.0 * c.share));
+    }
+    if (section.rows.empty()) section.rows.emplace_back("nothing significant", "");
+    return section;
+}
+
+PolarPlot planar_plot(const BallbarResult& r, const PlanarResult& planar) {
     const auto [u, v] = axes_of_plane(planar.test.plane);
+    const double feed = planar.test.passes.front().feed_mm_min;
     PolarPlot plot;
-    plot.title = fmt::format("{} circle, R {:g} mm, {:.0f} mm/min", plane_name(planar.test.plane),
-                             planar.test.radius_mm, planar.test.passes.front().feed_mm_min);
-    plot.right = letter_of(u);
-    plot.top = letter_of(v);
+    plot.title = fmt::format("{} circle, radius {:g} mm, {:.0f}°, {:.0f} mm/min",
+                             plane_name(planar.test.plane), planar.test.radius_mm,
+                             deg_from_rad(planar.test.arc_rad), feed);
+    plot.subtitle = set_up_line(r);
+    plot.right = std::string("+") + letter_of(u);
+    plot.top = std::string("+") + letter_of(v);
+    plot.left = std::string("-") + letter_of(u);
+    plot.bottom = std::string("-") + letter_of(v);
     for (const CircularPass& pass : planar.test.passes) {
-        PolarTrace trace{pass.name, pass.angle_rad, {}};
+        PolarTrace trace{pass.ccw ? "counter-clockwise" : "clockwise",
+                         pass.angle_rad,
+                         {},
+                         rad_from_deg(r.data.overshoot_deg)};
         for (const double mm : centred_radial_mm(pass, planar.test.circle, planar.test.radius_mm))
             trace.radial_um.push_back(um_from_mm(mm));
         plot.traces.push_back(std::move(trace));
     }
     plot.fitted_um = {planar.figures.mean_radial_deviation_um, 0.0, 0.0};
-    plot.captions = {
-        fmt::format("circularity {:.2f} / {:.2f} um, bidirectional {:.2f} um, "
-                    "hysteresis {:.2f} um",
-                    planar.figures.circularity_ccw_um, planar.figures.circularity_cw_um,
-                    planar.figures.bidirectional_circularity_um, planar.figures.hysteresis_um)};
-    for (const CircularCause& c : planar.diagnosis.causes)
-        if (c.rank <= 3 && c.significant)
-            plot.captions.push_back(fmt::format("{}. {}: {:.2f} {} ({:.0f} %)", c.rank, c.name,
-                                                c.value, c.unit, 100.0 * c.share));
+    plot.sections = {figures_section(planar.figures), diagnosis_section(planar.diagnosis)};
     return plot;
 }
 
 /// Means over neighbouring readings, less the mean of the pass.
 PolarTrace rotary_trace(const std::vector<Reading>& rows, const BallbarPass& pass,
-                        const std::string& name) {
-    PolarTrace trace{name, {}, {}};
+                        const std::string& name, double feed_in_rad) {
+    PolarTrace trace{name, {}, {}, feed_in_rad};
     const std::size_t count = pass.end - pass.begin;
     const std::size_t blocks = std::min<std::size_t>(count, 720);
     double mean = 0.0;
@@ -56,28 +92,64 @@ PolarTrace rotary_trace(const std::vector<Reading>& rows, const BallbarPass& pas
     return trace;
 }
 
+std::string direction_of(const BallbarPass& pass) {
+    return pass.travel > 0.0 ? "angle rising" : "angle falling";
+}
+
+PolarPlot rotary_plot(const BallbarResult& r, const BallbarPass& pass) {
+    const char axis = letter_of(*pass.test.rotary);
+    PolarPlot plot;
+    plot.title = fmt::format("{} test of {}, {:.0f}°, TCP on",
+                             pass.test.kind == BallbarTestKind::radial ? "Radial" : "Axial", axis,
+                             std::abs(deg_from_rad(pass.travel)));
+    plot.subtitle = set_up_line(r) + ", bar length about its mean";
+    plot.right = fmt::format("{} 0°", axis);
+    plot.top = fmt::format("{} 90°", axis);
+    plot.left = fmt::format("{} 180°", axis);
+    plot.bottom = fmt::format("{} 270°", axis);
+    return plot;
+}
+
+double largest_um(const std::vector<PolarTrace>& traces, std::size_t from, std::size_t to) {
+    double out = 0.0;
+    for (std::size_t k = from; k < std::min(to, traces.size()); ++k) {
+        const auto [low, high] =
+            std::minmax_element(traces[k].radial_um.begin(), traces[k].radial_um.end());
+        out = std::max(out, *high - *low);
+    }
+    return out;
+}
+
 void add_rotary_plots(const BallbarResult& r, std::map<std::string, std::string>& out) {
     std::map<std::string, PolarPlot> plots;
     for (const BallbarPass& pass : ballbar_passes(r.before.readings.rows)) {
         if (!pass.test.rotary) continue;
-        const std::string name = to_string(pass.test);
-        PolarPlot& plot = plots[name];
-        plot.title = name + ", bar length about its mean, before compensation and after";
-        plot.right = std::string(1, letter_of(*pass.test.rotary)) + "0";
-        plot.top = std::string(1, letter_of(*pass.test.rotary)) + "90";
-        plot.traces.push_back(rotary_trace(r.before.readings.rows, pass, pass.name + " before"));
+        const auto [at, added] = plots.try_emplace(to_string(pass.test));
+        if (added) at->second = rotary_plot(r, pass);
+        at->second.traces.push_back(rotary_trace(r.before.readings.rows, pass,
+                                                 "before, " + direction_of(pass),
+                                                 rad_from_deg(r.data.overshoot_deg)));
     }
+    std::map<std::string, std::size_t> before;
     for (auto& [name, plot] : plots) {
         plot.fitted_um = fit_eccentric_circle(plot.traces);
-        plot.captions = {
-            fmt::format("fitted circle off centre by {:.2f} um (cos) and {:.2f} um (sin)",
-                        plot.fitted_um[1], plot.fitted_um[2])};
+        before[name] = plot.traces.size();
     }
     for (const BallbarPass& pass : ballbar_passes(r.after.readings.rows))
         if (pass.test.rotary)
             plots[to_string(pass.test)].traces.push_back(
-                rotary_trace(r.after.readings.rows, pass, pass.name + " after"));
-    for (const auto& [name, plot] : plots) out[name + ".svg"] = polar_svg(plot);
+                rotary_trace(r.after.readings.rows, pass, "after, " + direction_of(pass), 0.0));
+    for (auto& [name, plot] : plots) {
+        const std::size_t n = before[name];
+        plot.sections = {
+            {"Peak to peak",
+             {{"before compensation", um(largest_um(plot.traces, 0, n))},
+              {"after compensation", um(largest_um(plot.traces, n, plot.traces.size()))}}},
+            {"Fitted circle, before",
+             {{"off centre towards 0°", um(plot.fitted_um[1])},
+              {"off centre towards 90°", um(plot.fitted_um[2])}}}};
+        out[name + ".svg"] = polar_svg(plot);
+    }
 }
 
 }  // namespace
@@ -86,7 +158,8 @@ std::map<std::string, std::string> ballbar_pictures(const BallbarResult& r) {
     std::map<std::string, std::string> out;
     for (const PlanarResult& planar : r.planar)
         out[fmt::format("{}_{:.0f}.svg", to_string(BallbarTest{planar.test.plane, std::nullopt}),
-                        planar.test.passes.front().feed_mm_min)] = polar_svg(planar_plot(planar));
+                        planar.test.passes.front().feed_mm_min)] =
+            polar_svg(planar_plot(r, planar));
     add_rotary_plots(r, out);
     return out;
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "geometry/numbers.h"
 #include "geometry/units.h"
 
 namespace trunnion {
@@ -38,18 +39,22 @@ std::string group_text(const InseparableGroup& group) {
     return text;
 }
 
+/// Letter of the axis next to the bed.
+char first_axis(const BallbarResult& r) {
+    return r.errors.empty() ? '?' : letter_of(r.errors.front().name.axis);
+}
+
 std::string rank_text(const BallbarResult& r) {
     std::string text = fmt::format(
         "rank {} of {}: with the cup's place unknown these move together and change no reading\n",
         r.open_fit.rank, r.open_fit.parameters.size());
     for (const InseparableGroup& group : r.open_fit.inseparable)
         text += "  " + group_text(group) + "\n";
-    return text +
-           fmt::format(
-               "taken as known: tool length {:.3f} mm (offset H{}) and a cup that runs true; "
-               "an error of it in Z\nappears in the first axis's Z position with opposite "
-               "sign, 1 um for 1 um\n",
-               -r.data.layout.cup_S_mm.z(), r.data.tool_offset);
+    return text + fmt::format(
+                      "taken as known: tool length {:.3f} mm (offset H{}) and a cup that runs "
+                      "true; a tool "
+                      "longer by 1 um reads\nas +1 um of EZ0{}\n",
+                      -r.data.layout.cup_S_mm.z(), r.data.tool_offset, first_axis(r));
 }
 
 std::string residual_text(const BallbarResult& r) {
@@ -66,11 +71,19 @@ std::string residual_text(const BallbarResult& r) {
 
 std::string setup_text(const BallbarResult& r) {
     const Vector3& p = r.published.pivot_offset_mm;
+    const BarLength bar = bar_length(r);
+    const Vector3 pivot = pivot_found_mm(r);
     return fmt::format(
-        "location check (sphere through the three circles): pivot off by ({:.2f} {:.2f} {:.2f}) "
-        "um, readings {:+.2f} um long, rms {:.2f} um\n",
-        um_from_mm(p.x()), um_from_mm(p.y()), um_from_mm(p.z()),
-        um_from_mm(r.published.length_error_mm), um_from_mm(r.published.setup_rms_mm));
+               "exact fit of the set-up: bar {:.4f} mm {:+.3f} +- {:.3f} um, pivot ({:.2f} {:.2f} "
+               "{:.2f}) um from its stated place on the table\n",
+               r.reference_mm, um_from_mm(bar.error_mm), um_from_mm(bar.sigma_mm),
+               um_from_mm(pivot.x()), um_from_mm(pivot.y()), um_from_mm(pivot.z())) +
+           fmt::format(
+               "location check (sphere through the three circles): pivot off by ({:.2f} {:.2f} "
+               "{:.2f}) "
+               "um, readings {:+.2f} um long, rms {:.2f} um\n",
+               um_from_mm(p.x()), um_from_mm(p.y()), um_from_mm(p.z()),
+               um_from_mm(r.published.length_error_mm), um_from_mm(r.published.setup_rms_mm));
 }
 
 std::string planar_text(const PlanarResult& planar) {
@@ -111,7 +124,23 @@ std::string parameters_text(const BallbarResult& r) {
     return text + "\n";
 }
 
+std::string csv_rows(const char* where, const std::vector<BallbarErrorRow>& rows) {
+    std::string text;
+    for (const BallbarErrorRow& row : rows)
+        text += fmt::format("{},{},{},{},{},{},{},{},{}\n", where, to_string(row.name),
+                            shortest(row.before), shortest(row.sigma_before), shortest(row.after),
+                            shortest(row.sigma), shortest(row.change_percent()),
+                            row.published_before ? shortest(*row.published_before) : "",
+                            row.name.angular() ? "rad" : "mm");
+    return text;
+}
+
 }  // namespace
+
+std::string ballbar_csv(const BallbarResult& r) {
+    return "where,name,before,u_before,after,u_after,change_percent,published_before,unit\n" +
+           csv_rows("point_mm", r.errors) + csv_rows("intersection", r.at_intersection);
+}
 
 std::string ballbar_table(const BallbarResult& r) {
     std::string text = fmt::format(

@@ -13,6 +13,9 @@ namespace trunnion {
 std::string ballbar_table(const BallbarResult& result);
 /// `{"schema":"trunnion.ballbar/1",...}` of formats.md.
 std::string ballbar_json(const BallbarResult& result);
+/// Both error tables, one line an error: where (point_mm or intersection), name, before, u_before,
+/// after, u_after, change_percent, published_before, unit (mm or rad).
+std::string ballbar_csv(const BallbarResult& result);
 /// Polar plots by file name: planar ones centred, rotary ones about their mean with the fitted
 /// eccentric circle.
 std::map<std::string, std::string> ballbar_pictures(const BallbarResult& result);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace trunnion {
@@ -9,20 +10,27 @@ namespace trunnion {
 /// One pass. Angle counter-clockwise, 0 to the right.
 struct PolarTrace {
     std::string name;
-    std::vector<double> angle_rad;
+    std::vector<double> angle_rad;  ///< in the order run
     std::vector<double> radial_um;  ///< deviation from the nominal circle
+    double feed_in_rad = 0.0;       ///< run before the first angle; 0: where it starts is not shown
+};
+
+/// A headed list beside the plot: name and value.
+struct PolarSection {
+    std::string head;
+    std::vector<std::pair<std::string, std::string>> rows;
 };
 
 struct PolarPlot {
-    std::string title;
-    std::string right, top;  ///< axis names at 0 and 90 deg
+    std::string title, subtitle;
+    std::string right, top, left, bottom;  ///< what stands at 0, 90, 180, 270 deg
     std::vector<PolarTrace> traces;
-    std::vector<double> fitted_um;      ///< mean, cos, sin: the fitted circle; empty for none
-    std::vector<std::string> captions;  ///< figures, one line each
+    std::vector<double> fitted_um;  ///< mean, cos, sin: the fitted circle; empty for none
+    std::vector<PolarSection> sections;
 };
 
 /// um per division: 1, 2 or 5 times a power of ten, so that everything stays within four divisions
-/// of the nominal circle.
+/// of the nominal circle; not below 0.5, where a ballbar shows its own noise.
 double um_per_division(const PolarPlot& plot);
 
 /// Mean, cosine and sine part of all traces together: an eccentric circle, drawn magnified.

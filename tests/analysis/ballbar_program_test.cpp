@@ -7,19 +7,13 @@
 #include <sstream>
 
 #include "analysis/ballbar_fit.h"
-#include "analysis/ballbar_procedure.h"
 #include "analysis/ballbar_result.h"
-#include "emulator/program_folders.h"
-#include "emulator/run.h"
+#include "ballbar_runs.h"
 
 using namespace trunnion;
+using namespace trunnion::ballbar_test;
 
 namespace {
-
-Setup load(const std::string& name) {
-    std::vector<std::string> notes;
-    return load_setup(std::string(TRUNNION_SOURCE_DIR) + "/machines/" + name, notes);
-}
 
 BallbarLayout layout_of(const Setup& setup) {
     BallbarLayout layout;
@@ -29,35 +23,11 @@ BallbarLayout layout_of(const Setup& setup) {
     return layout;
 }
 
-Machine without_errors(Machine machine) {
-    machine.errors = {};
-    return machine;
-}
-
 std::string file_text(const std::string& path) {
     std::ifstream in(path);
     std::ostringstream out;
     out << in.rdbuf();
     return out.str();
-}
-
-RunLog run(const Setup& setup, const std::string& text, double trace_step_mm = 0.0) {
-    const auto owner = std::make_shared<std::string>(text);
-    const ProgramText program{"O8200.nc", *owner, owner};
-    ProgramFolders folders({});
-    folders.add_file(program);
-    RunOptions options;
-    options.trace = trace_step_mm > 0.0;
-    options.trace_step_mm = trace_step_mm;
-    return run_program(setup, folders, program, options);
-}
-
-void require_no_alarm(const RunLog& log) {
-    if (const auto& alarm = log.result.alarm)
-        FAIL(alarm->number << " " << alarm->text << " line " << alarm->where.line << " "
-                           << alarm->block);
-    for (const std::string& note : log.notes)
-        CHECK(note.find("out of its range") == std::string::npos);
 }
 
 std::vector<std::string> split(const std::string& line) {
@@ -84,14 +54,12 @@ std::vector<double> values_at(const ReadingTable& table, const std::vector<std::
 }
 
 /// Seven tests both ways, exact; every error found.
-void check_single_run(Setup setup, bool hurco = false) {
+void check_single_run(Setup setup, bool inside = false) {
     setup.ballbar->noise_um = 0.0;
     setup.ballbar->sample_hz = 5.0;
     const Machine nominal = without_errors(setup.machine);
     const BallbarLayout layout = layout_of(setup);
-    BallbarProgramData data = ballbar_program_data(nominal, layout);
-    data.hurco = hurco;
-    const RunLog log = run(setup, ballbar_program(nominal, data));
+    const RunLog log = run(setup, test_program(setup, inside));
     require_no_alarm(log);
     const BallbarModel model(nominal, layout, log.readings.rows, {});
     CHECK(model.passes().size() == 14);
@@ -105,39 +73,42 @@ void check_single_run(Setup setup, bool hurco = false) {
     }
 }
 
-}  // namespace
+struct Variant {
+    const char* name;
+    const char* setup;
+    double length_mm;
+    Vector3 pivot_mm;
+    bool inside;
+};
 
-TEST_CASE("one run of the NC program does all seven tests both ways and finds the errors") {
-    check_single_run(load("ac_trunnion.toml"));
-}
+/// Machines, bars, places of the pivot and sides of the cup.
+const std::vector<Variant> variants = {
+    {"A-C", "ac_trunnion.toml", 100, {75, 0, 110}, false},
+    {"A-C inside", "ac_trunnion.toml", 100, {75, 0, 110}, true},
+    {"A-C short bar, pivot to the left and back", "ac_trunnion.toml", 50, {-90, 60, 80}, false},
+    {"A-C long bar inside", "ac_trunnion.toml", 150, {-90, 60, 80}, true},
+    {"B-C", "bc_table.toml", 100, {75, 0, 110}, false},
+    {"B-C inside", "bc_table.toml", 100, {75, 0, 110}, true},
+    {"B-C long bar, pivot in front", "bc_table.toml", 150, {0, -90, 70}, false},
+    {"B-C short bar inside", "bc_table.toml", 50, {40, 80, 90}, true}};
 
-TEST_CASE("the Hurco program with M128 finds the same errors") {
-    Setup setup = load("ac_trunnion.toml");
-    setup.dialect = hurco_dialect();
-    check_single_run(setup, true);
-}
-
-TEST_CASE("the generator serves a B-C table, other radii and other places of the pivot") {
-    Setup setup = load("bc_table.toml");
+Setup setup_of(const Variant& v) {
+    Setup setup = load(v.setup);
+    setup.ballbar->length_mm = v.length_mm;
+    for (Artefact& artefact : setup.artefacts)
+        if (artefact.name == "P1") artefact.center_W_mm = v.pivot_mm;
+    if (setup.machine.chain.work[0].axis != Axis::B) return setup;
     for (const char* name : {"EX0B", "EZ0B", "EX0C", "EY0C"})
         setup.machine.errors.location(*parse_error_name(name)) = 0.02;
     for (const char* name : {"EA0B", "EC0B", "EA0C", "EB0C"})
         setup.machine.errors.location(*parse_error_name(name)) = 5e-5;
-    SECTION("pivot beside the tilting axis") {}
-    SECTION("other bar, other side") {
-        setup.ballbar->length_mm = 150.0;
-        for (Artefact& artefact : setup.artefacts)
-            if (artefact.name == "P1") artefact.center_W_mm = Vector3(0, -90, 70);
-    }
-    check_single_run(setup);
+    return setup;
 }
 
-TEST_CASE("the bar keeps its length from the first test to the last") {
-    const Setup setup = load("ac_trunnion.toml");
-    const Machine nominal = without_errors(setup.machine);
+/// Ball-to-ball lengths that an ideal machine runs through while the bar is mounted.
+std::vector<double> bar_lengths_mm(const Setup& setup, bool inside) {
     const BallbarLayout layout = layout_of(setup);
-    const RunLog log =
-        run(setup, ballbar_program(nominal, ballbar_program_data(nominal, layout)), 5.0);
+    const RunLog log = run(setup, test_program(setup, inside), 5.0);
     require_no_alarm(log);
     std::vector<double> bar_mm, pending_mm;  // of feed moves, of the move being read
     std::istringstream lines(log.trace_csv);
@@ -156,31 +127,75 @@ TEST_CASE("the bar keeps its length from the first test to the last") {
         pending_mm.clear();
     }
     // The first feed move comes down from 10 mm above.
-    while (!bar_mm.empty() && bar_mm.front() > 100.1) bar_mm.erase(bar_mm.begin());
-    CHECK(bar_mm.size() > 500);
-    CHECK(*std::min_element(bar_mm.begin(), bar_mm.end()) > 99.998);
-    CHECK(*std::max_element(bar_mm.begin(), bar_mm.end()) < 100.002);
+    while (!bar_mm.empty() && bar_mm.front() > layout.length_mm + 0.1) bar_mm.erase(bar_mm.begin());
+    return bar_mm;
 }
 
-TEST_CASE("BK1 BK2 and BK4 run and read along the whole path") {
-    Setup setup = load("ac_trunnion.toml");
-    setup.ballbar->sample_hz = 5.0;
-    const Machine nominal = without_errors(setup.machine);
-    const BallbarLayout layout = layout_of(setup);
-    const RunLog log =
-        run(setup, kinematic_test_program(nominal, ballbar_program_data(nominal, layout)));
-    require_no_alarm(log);
-    std::map<std::string, int> tests;
-    bool five_axes = false;
-    for (const Reading& row : log.readings.rows) {
-        if (row.device == Device::ballbar) ++tests[row.test];
-        five_axes |=
-            row.test == "bk4_pos" && row.commanded[Axis::A] > 0.3 && row.commanded[Axis::C] > 2.0;
+}  // namespace
+
+TEST_CASE("one run does all seven tests both ways and finds the errors - every machine and side") {
+    for (const Variant& v : variants) {
+        INFO(v.name);
+        check_single_run(setup_of(v), v.inside);
     }
-    CHECK(tests.size() == 10);
-    CHECK(tests["bk4_pos"] == tests["bk4_neg"]);
-    CHECK(tests["bk4_pos"] > 100);
-    CHECK(five_axes);
+}
+
+TEST_CASE("inside the flat bar points to the second rotary axis and the upright one stays up") {
+    Setup setup = load("ac_trunnion.toml");
+    setup.ballbar->sample_hz = 1.0;
+    const Machine nominal = without_errors(setup.machine);
+    for (const bool inside : {false, true}) {
+        const RunLog log = run(setup, test_program(setup, inside));
+        std::map<std::string, Vector3> bar;
+        for (const Reading& row : log.readings.rows) {
+            const MachinePose pose = nominal.poses(row.commanded);
+            const Vector3 cup_W = pose.pose_MW.inverse() * (pose.pose_MS * setup.ballbar->cup_S_mm);
+            bar[row.test] = cup_W - Vector3(75, 0, 110);
+        }
+        const double x = inside ? -100.0 : 100.0;
+        CHECK((bar["radial_C_pos"] - Vector3(x, 0, 0)).norm() < 1e-6);
+        CHECK((bar["axial_A_neg"] - Vector3(x, 0, 0)).norm() < 1e-6);
+        CHECK((bar["radial_A_pos"] - Vector3(0, 0, 100)).norm() < 1e-6);
+        CHECK((bar["axial_C_neg"] - Vector3(0, 0, 100)).norm() < 1e-6);
+    }
+}
+
+TEST_CASE("the Hurco program with M128 gives the readings of the Fanuc program") {
+    Setup setup = load("ac_trunnion.toml");
+    setup.ballbar->noise_um = 0.0;
+    setup.ballbar->sample_hz = 5.0;
+    const RunLog fanuc = run(setup, test_program(setup));
+    setup.dialect = hurco_dialect();
+    const std::string program = test_program(setup);
+    CHECK(program.find("M128") != std::string::npos);
+    CHECK(program.find("G43.4") == std::string::npos);
+    const RunLog hurco = run(setup, program);
+    require_no_alarm(hurco);
+    REQUIRE(hurco.readings.rows.size() == fanuc.readings.rows.size());
+    double worst_mm = 0.0;
+    int tests = 0;
+    for (std::size_t i = 0; i < hurco.readings.rows.size(); ++i) {
+        const Reading &a = fanuc.readings.rows[i], &b = hurco.readings.rows[i];
+        REQUIRE(a.test == b.test);
+        REQUIRE(a.value_mm.has_value() == b.value_mm.has_value());
+        tests += i > 0 && a.test != fanuc.readings.rows[i - 1].test;
+        if (a.value_mm) worst_mm = std::max(worst_mm, std::abs(*a.value_mm - *b.value_mm));
+    }
+    CHECK(tests >= 13);
+    CHECK(worst_mm < 1e-9);
+    check_single_run(setup);
+}
+
+TEST_CASE("the bar keeps its length from the first test to the last - every machine and side") {
+    for (const Variant& v : variants) {
+        Setup setup = setup_of(v);
+        tell_the_pivots(setup);
+        const auto bar_mm = bar_lengths_mm(setup, v.inside);
+        CAPTURE(v.name);
+        CHECK(bar_mm.size() > 400);
+        CHECK(*std::min_element(bar_mm.begin(), bar_mm.end()) > v.length_mm - 0.002);
+        CHECK(*std::max_element(bar_mm.begin(), bar_mm.end()) < v.length_mm + 0.002);
+    }
 }
 
 TEST_CASE("the programs that ship are what the generator writes") {
@@ -193,9 +208,7 @@ TEST_CASE("the programs that ship are what the generator writes") {
           Shipped{"ac_trunnion.toml", "hurco/", true}}) {
         const Setup setup = load(s.setup);
         const Machine nominal = without_errors(setup.machine);
-        int tool_offset = 0;
-        auto data = ballbar_program_data(nominal, stated_layout(setup, tool_offset));
-        data.tool_offset = tool_offset;
+        auto data = stated_program_data(setup, false);
         data.hurco = s.hurco;
         const std::string folder =
             std::string(TRUNNION_SOURCE_DIR) + "/programs/ballbar/" + s.folder;
