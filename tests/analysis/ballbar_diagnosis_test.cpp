@@ -87,7 +87,7 @@ TEST_CASE("without an error no line of any circle is significant") {
 TEST_CASE("an eccentric set-up leaves nothing on a noise-free circle") {
     Setup setup = load("ac_trunnion.toml");  // the errors move the pivot by 0.17 mm at home
     setup.ballbar->noise_um = 0.0;
-    for (const double hz : {100.0, 1000.0}) {
+    for (const double hz : {50.0, 300.0}) {
         setup.ballbar->sample_hz = hz;
         for (const PlanarResult& planar : run_ballbar(setup, {}).planar) {
             CAPTURE(hz, plane_name(planar.test.plane));

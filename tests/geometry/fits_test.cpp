@@ -1,8 +1,9 @@
+#include "geometry/fits.h"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
 
-#include "geometry/fits.h"
 #include "geometry/random.h"
 #include "geometry/units.h"
 
@@ -41,6 +42,23 @@ TEST_CASE("circle fits reproduce Chernov's programs on six points") {
     require_circle(CircleMethod::taubin, 4.613933, 2.795209, 4.879213);
     require_circle(CircleMethod::hyper, 4.615482, 2.807354, 4.827575);
     CHECK(std::abs(fit_circle(gander)->rms_mm - 0.4571757) < 6e-8);
+}
+
+TEST_CASE("the reference's Kasa line halves one unknown too early") {
+    // Cholesky of the centred moments: G G^T (B', C') = (Mxz, Myz), centre = half of (B', C').
+    Vector2 mean = Vector2::Zero();
+    for (const Vector2& p : gander) mean += p / 6.0;
+    double xx = 0, yy = 0, xy = 0, xz = 0, yz = 0;
+    for (const Vector2& p : gander) {
+        const Vector2 d = p - mean;
+        const double z = d.squaredNorm();
+        xx += d.x() * d.x(), yy += d.y() * d.y(), xy += d.x() * d.y();
+        xz += d.x() * z, yz += d.y() * z;
+    }
+    const double c = (yz * xx - xz * xy) / (xx * yy - xy * xy);
+    CHECK(mean.y() + 0.5 * c == Approx(3.835123).margin(6e-7));
+    CHECK(mean.x() + 0.5 * (xz - xy * c) / xx == Approx(4.742331).margin(6e-7));
+    CHECK(mean.x() + 0.5 * (xz - xy * 0.5 * c) / xx == Approx(4.921166).margin(6e-7));
 }
 
 TEST_CASE("every circle method returns an exact arc far from the origin") {
