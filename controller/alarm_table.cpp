@@ -60,6 +60,8 @@ const std::vector<AlarmRow>& control_alarms() {
         {176, "PS", "ILLEGAL G-CODE USE(G07.1 MODE)",
          "A G code that cylindrical interpolation does not allow.",
          "Command G7.1 with radius 0 before."},
+        {190, "PS", "ILLEGAL AXIS SELECT (G96)", "P of G96 or parameter 3770 names no linear axis.",
+         "Correct P or the parameter."},
         {231, "PS", "ILLEGAL FORMAT IN G10 L52",
          "Parameter entry without N or R, or with a wrong value.", "Correct the block."},
         {500, "OT", "+ OVERTRAVEL ( SOFT 1 )",

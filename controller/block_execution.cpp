@@ -1,15 +1,18 @@
 #include "controller/block_execution.h"
 
 #include <bit>
+#include <cmath>
 
 #include "controller/arcs.h"
 #include "controller/cycles.h"
 #include "controller/five_axis.h"
 #include "controller/g10.h"
 #include "controller/g_codes.h"
+#include "controller/g_handlers.h"
 #include "controller/m_codes.h"
 #include "controller/moves.h"
 #include "controller/readings.h"
+#include "controller/surface_speed.h"
 #include "controller/wrapped_motion.h"
 
 namespace trunnion {
@@ -69,6 +72,8 @@ void add_letter(ControlState& c, const WordValue& word) {
     const std::uint32_t bit = SortedWords::bit(word.letter);
     if ((w.present & bit) && c.settings.duplicates_alarm) raise_alarm(5074, word.column);
     const auto i = static_cast<std::size_t>(word.letter - 'A');
+    const double largest = word.decimal_point ? c.largest[i] : c.largest_bare[i];
+    if (std::abs(word.value) > largest) raise_alarm(3, word.column);
     w.present |= bit;
     w.value[i] = word.value;
     w.column[i] = word.column;
@@ -95,13 +100,21 @@ void run_phase(ControlState& c, Phase phase) {
     }
 }
 
+/// G92 S_ limits the speed of G96; S is no spindle command then.
+bool limits_spindle(const SortedWords& w) {
+    for (std::size_t i = 0; i < w.code_count; ++i)
+        if (w.code[i]->handler == g_preset) return true;
+    return false;
+}
+
 void feed_speed_tool(ControlState& c) {
     const SortedWords& w = c.words;
+    c.feed.in_block = w.has('F');
     constexpr std::uint32_t fst =
         SortedWords::bit('F') | SortedWords::bit('S') | SortedWords::bit('T');
     if (!(w.present & fst)) return;
     if (w.has('F')) c.feed.programmed = w.get('F') * feed_word_unit(c);
-    if (w.has('S')) c.spindle.programmed = w.get('S');
+    if (w.has('S') && !limits_spindle(w)) take_s_word(c, w.get('S'));
     if (w.has('F') || w.has('S')) c.feed_changed();
     if (w.has('T')) c.tool_selected = c.whole_word('T');
 }
@@ -120,11 +133,25 @@ void note_bare_words(ControlState& c) {
     }
 }
 
+/// One-shot codes that neither move nor change frames: G4, G5, G5.1, G8, G39, G10 of tool data.
+bool keeps_path(const ControlState& c, const GCode& code) {
+    if (code.handler == g_data_setting) {
+        const double l = c.words.get('L', 10.0);
+        return l >= 10.0 && l <= 13.0;
+    }
+    return code.handler == g_dwell || code.handler == g_accepted || code.handler == g_corner_arc;
+}
+
 /// Codes that change frames or move by themselves: a compensated path ends before them.
 bool pauses_path(const ControlState& c) {
     constexpr std::uint32_t mask = phase_bit(Phase::shot) | phase_bit(Phase::work_offset) |
                                    phase_bit(Phase::frame) | phase_bit(Phase::cycle);
-    return (c.words.phases & mask) != 0;
+    if ((c.words.phases & mask) == 0) return false;
+    for (std::size_t i = 0; i < c.words.code_count; ++i) {
+        const GCode& code = *c.words.code[i];
+        if ((phase_bit(code.phase) & mask) && !keeps_path(c, code)) return true;
+    }
+    return false;
 }
 
 void queue_motion(ControlState& c, int code) {
@@ -145,6 +172,7 @@ void run_motion(ControlState& c) {
             move_line(c, MotionKind::rapid, c.target());
             return;
         case 10:
+            if (c.cylinder) return move_cylinder_line(c);
             move_line(c, MotionKind::linear, c.target());
             return;
         case 20:

@@ -64,8 +64,11 @@ void ControlState::note(std::string text) {
 }
 
 void ControlState::frame_changed() {
+    const bool pause = path.engaged && !path.paused;
+    if (pause) pause_path(*this);
     coordinates.compile();
     program = program_at(machine);
+    if (pause) resume_path(*this, false);
 }
 
 void ControlState::parameters_changed() {
@@ -79,18 +82,37 @@ void ControlState::units_changed() {
     const double increment_mm = inch() ? 0.0001 * 25.4 : 0.001;
     bare_linear = settings.bare_is_unit ? unit_mm : increment_mm;
     bare_rotary = settings.bare_is_unit ? 1.0 : 0.001;
+    set_largest_words();
     feed_changed();
 }
 
+/// Nine digits of least increments (30i, A-79348E p. 84), eight on a 16i (A-78712E p. 1416), for
+/// positions; eight digits for the rest (assumed).
+void ControlState::set_largest_words() {
+    constexpr std::string_view positions = "ABCIJKQRUVWXYZ";
+    const bool old = config.dialect.generation == ControlGeneration::fanuc_16i;
+    const double increments = old ? 99999999.0 : 999999999.0;
+    for (std::size_t i = 0; i < 26; ++i) {
+        const char letter = static_cast<char>('A' + i);
+        const bool position = positions.find(letter) != positions.npos;
+        const auto axis = axis_of(letter);
+        const bool in_inch = inch() && !(axis && is_rotary(*axis));
+        const double digits = in_inch ? 1e4 : 1e3;
+        largest[i] = position ? increments / digits : 99999999.0;
+        largest_bare[i] = position && !settings.bare_is_unit ? increments : largest[i];
+    }
+}
+
 double ControlState::spindle_rpm() const {
-    return modal.is(ModalGroup::surface_speed, 970) ? spindle.programmed * spindle.direction : 0.0;
+    return spindle.rpm * spindle.direction;
 }
 
 void ControlState::feed_changed() {
     const double rpm = spindle_rpm();
     double mm_min = feed.programmed * unit_mm;
     if (modal.is(ModalGroup::feed_mode, 950)) mm_min *= std::abs(rpm);
-    if (modal.is(ModalGroup::feed_mode, 930)) mm_min = 0.0;
+    feed.inverse_time = modal.is(ModalGroup::feed_mode, 930);
+    if (feed.inverse_time) mm_min = 0.0;
     feed.mm_min = mm_min;
     feed.seconds_per_mm = mm_min > 0.0 ? 60.0 / mm_min : 0.0;
     move.spindle_rpm = rpm;

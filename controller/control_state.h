@@ -9,6 +9,7 @@
 #include "controller/alarms.h"
 #include "controller/controller.h"
 #include "controller/coordinates.h"
+#include "controller/feed_state.h"
 #include "controller/five_axis_state.h"
 #include "controller/modal.h"
 #include "controller/path_queue.h"
@@ -17,16 +18,15 @@
 
 namespace trunnion {
 
-/// Feed as programmed and as the axes need it.
-struct FeedState {
-    double programmed = 0.0;      ///< F as written: mm or inch a minute, a turn, or 1/min
-    double mm_min = 0.0;          ///< in force (G94, G95); 0: none
-    double seconds_per_mm = 0.0;  ///< 60 / mm_min, 0 when there is none
-};
-
 struct SpindleState {
-    double programmed = 0.0;  ///< S as written: rpm, or m/min under G96
+    double programmed = 0.0;  ///< the last S as written (#4119)
+    double rpm = 0.0;         ///< in force, without sign
     int direction = 0;        ///< +1 M3, -1 M4, 0 M5
+    // Constant surface speed, G96.
+    bool by_surface = false;
+    double surface = 0.0;   ///< S under G96: m/min, or ft/min in inch
+    double most_rpm = 0.0;  ///< G92 S; 0: none
+    Axis radius_axis = Axis::X;
 };
 
 /// What the skip signal left behind.
@@ -89,6 +89,8 @@ struct ControlState {
     double unit_mm = 1.0;      ///< mm in one programmed unit: 1 or 25.4
     double bare_linear = 1.0;  ///< mm for one unit of a word without a point
     double bare_rotary = 1.0;  ///< deg for the same
+    /// The largest value of each address, written with a point and without.
+    std::array<double, 26> largest{}, largest_bare{};
     FeedState feed;
     SpindleState spindle;
     SkipState skip;
@@ -128,6 +130,7 @@ struct ControlState {
     void parameters_changed();
     /// After G20/G21, F, S or the feed mode changed.
     void units_changed();
+    void set_largest_words();
     void feed_changed();
     /// Takes the active work offset and the external one from the stores.
     void read_work_offset();

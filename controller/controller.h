@@ -38,6 +38,7 @@ struct ControlConfig {
     /// feeds to R and rapids on like G85 (Fanuc's drawing, from memory).
     bool g89_feeds_to_initial = true;
     std::vector<bool> skip_switches = std::vector<bool>(10, false);
+    bool optional_stop = false;    ///< M01 stops
     std::uint64_t max_blocks = 0;  ///< 0: none
     /// Asked every few thousand blocks with their number; false: the run ends with `limit`.
     std::function<bool(std::uint64_t blocks)> go_on;

@@ -40,6 +40,7 @@ constexpr GCode table[] = {
     {290, one_shot, Phase::shot, g_from_reference, "from the reference position"},
     {300, one_shot, Phase::shot, g_reference, "to the 2nd to 4th reference position"},
     {310, one_shot, Phase::shot, g_skip, "skip function"},
+    {390, one_shot, Phase::shot, g_corner_arc, "corner arc of cutter compensation"},
     {400, cutter, Phase::offsets, g_cutter, "cutter compensation off"},
     {410, cutter, Phase::offsets, g_cutter, "cutter compensation, tool left"},
     {420, cutter, Phase::offsets, g_cutter, "cutter compensation, tool right"},

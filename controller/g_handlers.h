@@ -16,6 +16,9 @@ void g_exact_stop(ControlState& c, const GCode& code);   // G9
 void g_accepted(ControlState& c, const GCode& code);     // without effect on positions: a note
 void g_dwell(ControlState& c, const GCode& code);        // G4
 
+// surface_speed.cpp
+void g_speed_mode(ControlState& c, const GCode& code);  // G96 G97
+
 // work_frames.cpp
 void g_work_offset(ControlState& c, const GCode& code);       // G54-G59, G54.1
 void g_local_shift(ControlState& c, const GCode& code);       // G52
@@ -48,7 +51,8 @@ void g_data_setting_end(ControlState& c, const GCode& code);  // G11
 void g_cycle(ControlState& c, const GCode& code);  // G73-G89
 
 // cutter_compensation.cpp
-void g_cutter(ControlState& c, const GCode& code);  // G40 G41 G42
+void g_cutter(ControlState& c, const GCode& code);      // G40 G41 G42
+void g_corner_arc(ControlState& c, const GCode& code);  // G39
 
 // wrapped_motion.cpp
 void g_polar_motion(ControlState& c, const GCode& code);  // G12.1 G13.1

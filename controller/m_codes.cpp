@@ -84,18 +84,26 @@ void change_state(ControlState& c, int code) {
     }
 }
 
+/// These stop the reading ahead: a compensated path ends square before them.
+bool stops_reading(int code) {
+    return code == 0 || code == 1 || code == 2 || code == 30;
+}
+
 void carry_out(ControlState& c, int code) {
     c.last_m = code;
+    if (stops_reading(code)) flush_path(c);
+    if (code == 0) c.note("M00: program stop, continued");
+    if (code == 1 && c.config.optional_stop) c.note("M01: optional stop, continued");
     if (const DialectCode* row = find_dialect_code(c, code)) {
         row->handler(c);
-        return c.sink.m_code(code);
+        return queue_m_code(c, code);
     }
     if (const ClampCode* clamp = clamp_of(c, code))
         c.clamped[index_of(clamp->axis)] = code == clamp->m_clamp;
     else if (!find_row(code))
         c.note(fmt::format("M{:02} is not known to the control: passed on without effect", code));
     change_state(c, code);
-    c.sink.m_code(code);
+    queue_m_code(c, code);
 }
 
 bool acts_after(const ControlState& c, int code) {

@@ -5,6 +5,7 @@
 
 #include "controller/feed_time.h"
 #include "controller/five_axis.h"
+#include "controller/surface_speed.h"
 
 namespace trunnion {
 
@@ -77,6 +78,7 @@ MoveResult move_straight(ControlState& c, MotionKind kind, const ControlPosition
         return {};
     }
     m.length_mm = xyz_length(m.from, m.to);
+    if (c.spindle.by_surface) follow_surface_speed(c, target);
     m.duration_s = kind == MotionKind::rapid
                        ? rapid_time(c.limits, m.from, m.to)
                        : cutting_time(c, feed_length(c.machine, machine_target), m.from, m.to);
@@ -132,6 +134,7 @@ void move_arc(ControlState& c, MotionKind kind, const ControlPosition& target,
         const double d = machine_target.value[i] - c.machine.value[i];
         feed_squared += d * d;
     }
+    if (c.spindle.by_surface) follow_surface_speed(c, target);
     m.duration_s = cutting_time(c, std::sqrt(feed_squared), m.from, m.to);
     m.arc = path;
     send(c, kind, target, machine_target);
@@ -149,6 +152,7 @@ MoveResult move_along(ControlState& c, MotionKind kind, const ControlPosition& t
         return {};
     }
     m.length_mm = way.length_mm;
+    if (c.spindle.by_surface) follow_surface_speed(c, target);
     m.duration_s = kind == MotionKind::rapid ? rapid_time(c.limits, m.from, m.to)
                                              : cutting_time(c, way.feed_length_mm, m.from, m.to);
     if (way.curve) {

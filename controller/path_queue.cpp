@@ -5,6 +5,7 @@
 #include "controller/arcs.h"
 #include "controller/control_state.h"
 #include "controller/moves.h"
+#include "controller/plane_crossing.h"
 
 namespace trunnion {
 
@@ -32,17 +33,6 @@ PlanePoint foot_on(const PlaneElement& e, PlanePoint p) {
     }
     const PlanePoint r = p - e.centre;
     return e.centre + (e.radius() / length_of(r)) * r;
-}
-
-bool on_element(const PlaneElement& e, PlanePoint p) {
-    constexpr double slack = 1e-6;
-    if (!e.arc) {
-        const double s = dot(p - e.start, tangent_at_start(e));
-        return s > -slack && s < length_of(e.end - e.start) + slack;
-    }
-    const PlaneElement part = between(e, e.start, p);
-    return std::abs(part.sweep_rad) < std::abs(e.sweep_rad) + slack / e.radius() &&
-           part.sweep_rad * e.sweep_rad >= 0.0;
 }
 
 void set_plane(const ControlState& c, ControlPosition& p, PlanePoint point) {
@@ -79,8 +69,8 @@ void make_corner(ControlState& c, PathMove first, PathMove& second) {
     if (std::abs(turn) > 1e-9) {
         PathMove corner = first;
         corner.plane = corner_piece(first, second);
-        if (!on_element(first.plane, corner.plane.start) ||
-            !on_element(second.plane, corner.plane.end))
+        if (!within(first.plane, corner.plane.start, 1e-6) ||
+            !within(second.plane, corner.plane.end, 1e-6))
             raise_alarm(55);
         first.plane = between(first.plane, first.plane.start, corner.plane.start);
         set_plane(c, first.to, corner.plane.start);
@@ -93,6 +83,29 @@ void make_corner(ControlState& c, PathMove first, PathMove& second) {
     }
     first.chamfer = first.round = false;
     compensate(c, first);
+}
+
+BlockMarks marks_of(const ControlState& c) {
+    BlockMarks marks;
+    marks.feed = c.feed;
+    marks.spindle_rpm = c.move.spindle_rpm;
+    marks.coolant = c.move.coolant;
+    marks.gap_free = c.move.gap_free;
+    marks.tool = c.move.tool;
+    marks.line = c.words.line;
+    marks.byte = c.words.byte;
+    marks.program = c.move.program;
+    return marks;
+}
+
+void queue_event(ControlState& c, PathOutput event) {
+    PathQueue& q = c.path;
+    if (q.corner) raise_alarm(51);
+    event.move.marks = marks_of(c);
+    if (q.first)
+        q.idle.push_back(event);
+    else
+        send_event(c, event);
 }
 
 }  // namespace
@@ -118,10 +131,7 @@ PathMove path_move_of(ControlState& c, const ControlPosition& target, bool clock
     m.chamfer = c.words.corner_chamfer;
     m.round = c.words.corner_radius;
     m.corner_mm = c.words.corner;
-    m.feed_mm_min = c.feed.mm_min;
-    m.seconds_per_mm = c.feed.seconds_per_mm;
-    m.line = c.words.line;
-    m.byte = c.words.byte;
+    m.marks = marks_of(c);
     return m;
 }
 
@@ -146,38 +156,44 @@ void queue_move(ControlState& c, const PathMove& move) {
     q.engaged = q.engaged || q.corner.has_value();
 }
 
+void queue_dwell(ControlState& c, double duration_s) {
+    if (!c.path.engaged) return dwell(c, duration_s);
+    PathOutput event;
+    event.dwell_s = duration_s;
+    queue_event(c, event);
+}
+
+void queue_m_code(ControlState& c, int code) {
+    if (!c.path.engaged) return c.sink.m_code(code);
+    PathOutput event;
+    event.m_code = code;
+    queue_event(c, event);
+}
+
 void flush_path(ControlState& c) {
     if (!c.path.engaged) return;
     if (c.path.corner) raise_alarm(51);
     flush_compensation(c);
+    release_path(c);
 }
 
-void send_path(ControlState& c, const PathMove& move, const PlaneElement& way,
-               const ControlPosition& to) {
-    const ControlPosition programmed = c.program;
-    const FeedState feed = c.feed;
+void pause_path(ControlState& c) {
+    flush_path(c);
+    c.path.paused = true;
+    for (std::size_t i = 0; i < axis_count; ++i)
+        c.path.programmed_from_tool.value[i] = c.program.value[i] - c.path.tool.value[i];
     c.program = c.path.tool;
-    c.feed.mm_min = move.feed_mm_min;
-    c.feed.seconds_per_mm = move.seconds_per_mm;
-    c.move.line = move.line;
-    c.move.byte = move.byte;
-    ControlPosition target = to;
-    set_plane(c, target, way.end);
-    if (way.arc) {
-        const PlaneAxes& plane = plane_axes(c.modal);
-        ProgramArc arc;
-        arc.centre = xyz_of(c.program);
-        arc.centre[static_cast<Eigen::Index>(index_of(plane.first))] = way.centre.x;
-        arc.centre[static_cast<Eigen::Index>(index_of(plane.second))] = way.centre.y;
-        arc.normal = Vector3::Unit(static_cast<Eigen::Index>(index_of(plane.normal)));
-        arc.sweep_rad = way.sweep_rad;
-        move_arc(c, way.sweep_rad < 0.0 ? MotionKind::arc_cw : MotionKind::arc_ccw, target, arc);
-    } else {
-        move_line(c, move.rapid ? MotionKind::rapid : MotionKind::linear, target);
-    }
+}
+
+void resume_path(ControlState& c, bool axes_moved) {
+    c.path.paused = false;
     c.path.tool = c.program;
-    c.program = programmed;
-    c.feed = feed;
+    if (axes_moved) {  // G28, G53 and the like: compensation starts anew
+        c.path.last_offset_mm = 0.0;
+        return;
+    }
+    for (std::size_t i = 0; i < axis_count; ++i)
+        c.program.value[i] += c.path.programmed_from_tool.value[i];
 }
 
 }  // namespace trunnion

@@ -6,7 +6,6 @@
 #include "controller/control_state.h"
 #include "controller/g_codes.h"
 #include "controller/g_handlers.h"
-#include "controller/moves.h"
 #include "controller/polar_words.h"
 
 namespace trunnion {
@@ -42,13 +41,6 @@ void g_feed_mode(ControlState& c, const GCode& code) {
     c.feed_changed();
 }
 
-void g_speed_mode(ControlState& c, const GCode& code) {
-    c.modal.set(ModalGroup::surface_speed, code.code10);
-    if (code.code10 == 960)
-        c.note("G96 is accepted: spindle speed by surface speed is not emulated");
-    c.feed_changed();
-}
-
 void g_polar_words(ControlState& c, const GCode& code) {
     c.modal.set(ModalGroup::polar_words, code.code10);
     start_polar_words(c);
@@ -73,7 +65,7 @@ void g_dwell(ControlState& c, const GCode&) {
         duration_s = w.get(letter) * (in_ms ? 0.001 : 1.0);
     }
     if (duration_s < 0.0) raise_alarm(6, w.column_of(w.has('P') ? 'P' : 'X'));
-    dwell(c, duration_s);
+    queue_dwell(c, duration_s);
 }
 
 }  // namespace trunnion

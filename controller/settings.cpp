@@ -1,5 +1,7 @@
 #include "controller/settings.h"
 
+#include <algorithm>
+
 namespace trunnion {
 
 namespace {
@@ -41,8 +43,14 @@ ControlSettings decode_settings(const Parameters& parameters, const ControlConfi
     s.length_axis_type = parameters.bit(5001, 0) ? 2 : parameters.bit(5001, 1) ? 1 : 0;
     s.radius_is_diameter = parameters.bit(5004, 2);
     s.startup_type_b = parameters.bit(5003, 0);
+    s.startup_type_c = parameters.bit(5003, 1);
+    s.circular_corners = parameters.bit(19607, 2);
+    s.blocks_ahead = std::clamp(static_cast<int>(parameters.get(19625, 3.0)), 3, 8);
     s.work_positions_with_length = config.work_positions_with_length;
     s.wear_first = parameters.bit(6000, 3);
+    s.least_surface_rpm = parameters.get(3771);
+    if (const double most = parameters.get(3772); most > 0.0) s.most_rpm = most;
+    s.surface_axis_number = std::max(1, static_cast<int>(parameters.get(3770)));
     decode_axes(parameters, config, s);
     return s;
 }

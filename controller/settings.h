@@ -21,12 +21,18 @@ struct ControlSettings {
     bool length_shifts = false;      ///< 5006#6 TOS: G43 shifts the coordinates instead of moving
     int length_axis_type =
         0;  ///< 5001#0 TLC, #1 TLB: 0 A (always Z), 1 B (normal of plane), 2 C (axis in block)
-    bool radius_is_diameter = false;         ///< 5004#2 ODI: D holds diameters
-    bool startup_type_b = false;             ///< 5003#0 SUP
+    bool radius_is_diameter = false;  ///< 5004#2 ODI: D holds diameters
+    bool startup_type_b = false;      ///< 5003#0 SUP: outside corners of start-up, cancel
+    bool startup_type_c = false;      ///< 5003#1 SUV: G41, G40 alone in a block shift the tool
+    bool circular_corners = false;    ///< 19607#2 CCC (assumed): outside corners by an arc
+    int blocks_ahead = 3;             ///< 19625 (assumed; absent: 3): read ahead under G41, G42
     bool work_positions_with_length = true;  ///< #5041, #5061 include length (own option, see docs)
     bool wear_first = false;                 ///< 6000#3 V15: #2001 geometry instead of wear
     std::uint16_t rollover = 0;              ///< 1008#0 ROA by axis letter bit
-    std::uint16_t rollover_signed = 0;  ///< 1008#1 RAB: such an axis turns by the word's sign
+    std::uint16_t rollover_signed = 0;       ///< 1008#1 RAB: such an axis turns by the word's sign
+    double least_surface_rpm = 0.0;          ///< 3771: least speed under G96
+    double most_rpm = 99999.0;               ///< 3772; absent or 0: five digits (assumed)
+    int surface_axis_number = 1;  ///< 3770: radius axis of G96 without P; 0 and absent: 1
     std::array<std::array<double, axis_count>, 4> reference{};  ///< 1240-1243, mm and deg
 };
 

@@ -1,7 +1,6 @@
 #include "controller/system_variables.h"
 
 #include "controller/five_axis.h"
-
 #include "controller/offset_variables.h"
 #include "controller/state_variables.h"
 

@@ -42,6 +42,7 @@ void g_machine_position(ControlState& c, const GCode&) {
 }
 
 void g_preset(ControlState& c, const GCode&) {
+    if (c.words.has('S')) c.spindle.most_rpm = c.words.get('S');  // the limit of G96
     // The present position gets the coordinates given; G52 of these axes is cancelled; every work
     // coordinate system shifts alike.
     for (const ControlAxis& entry : c.config.axes) {

@@ -185,6 +185,22 @@ void g_cylinder(ControlState& c, const GCode&) {
     if (radius > 0.0) c.cylinder = CylinderMotion{*axis, radius};
 }
 
+/// F is the speed on the cylinder: a rotary axis counts its way at the radius.
+void move_cylinder_line(ControlState& c) {
+    const CylinderMotion& cylinder = *c.cylinder;
+    const ControlPosition target = c.target();
+    const ControlPosition machine = c.coordinates.machine_from_program(target);
+    double square = 0.0;
+    for (std::size_t i = 0; i < axis_count; ++i) {
+        const bool wound = all_axes[i] == cylinder.rotary;
+        const double d = machine.value[i] - c.machine.value[i];
+        square += std::pow(wound ? rad_from_deg(d) * cylinder.radius_mm : d, 2);
+    }
+    CurveMove way;
+    way.length_mm = way.feed_length_mm = std::sqrt(square);
+    move_along(c, MotionKind::linear, target, machine, axis_positions_of(machine), way);
+}
+
 void move_cylinder_arc(ControlState& c, bool clockwise) {
     const CylinderMotion& cylinder = *c.cylinder;
     const PlaneAxes& plane = plane_axes(c.modal);

@@ -48,6 +48,7 @@ ControlConfig control_config(const Setup& setup) {
     config.work_positions_with_length = setup.work_positions_with_length;
     config.g89_feeds_to_initial = setup.g89_feeds_to_initial;
     config.clamps = setup.clamps;
+    config.optional_stop = setup.optional_stop;
     for (const int n : setup.block_skip) config.skip_switches[static_cast<std::size_t>(n)] = true;
     return config;
 }

@@ -83,6 +83,7 @@ struct Setup {
     bool g89_feeds_to_initial = true;        ///< G89 under G98 feeds out all the way
     std::vector<ClampCode> clamps;           ///< [control.clamps]
     std::vector<int> block_skip;             ///< [control] block_skip: switches 1-9 that are on
+    bool optional_stop = false;              ///< [control] optional_stop: M01 stops
     Stores stores;
     std::optional<ProbeSettings> probe;
     std::optional<BallbarSettings> ballbar;

@@ -189,6 +189,7 @@ void read_control(const TomlFile& file, const TomlValue& control, const BackupRe
     setup.dialect = read_dialect(file, control);
     read_switch(file, control, "work_positions_with_length", setup.work_positions_with_length);
     read_switch(file, control, "g89_feeds_to_initial", setup.g89_feeds_to_initial);
+    read_switch(file, control, "optional_stop", setup.optional_stop);
     if (const TomlValue* table = control.find("clamps")) read_clamps(file, *table, setup);
     if (const TomlValue* on = control.find("block_skip"))
         read_block_skip(file, *on, setup.block_skip);

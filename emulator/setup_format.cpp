@@ -214,6 +214,7 @@ std::string control_text(const Setup& setup) {
     out += generation_text(setup.dialect.generation);
     if (!setup.work_positions_with_length) out += "work_positions_with_length = false\n";
     if (!setup.g89_feeds_to_initial) out += "g89_feeds_to_initial = false\n";
+    if (setup.optional_stop) out += "optional_stop = true\n";
     if (!setup.block_skip.empty()) {
         out += "block_skip = [";
         for (const int n : setup.block_skip) out += std::to_string(n) + ", ";

@@ -26,9 +26,10 @@ struct Place {
 struct Frame {
     Section* section = nullptr;
     Locals* locals = nullptr;
-    std::array<Place, 4> loops;  ///< [1..3]: the DO block of the loop that runs
-    Place start;                 ///< where a repeat begins
-    Place back;                  ///< in the caller
+    std::array<Place, 4> loops;        ///< [1..3]: the DO block of the loop that runs
+    std::array<int, 4> behind_loop{};  ///< [1..3]: the line behind its END
+    Place start;                       ///< where a repeat begins
+    Place back;                        ///< in the caller
     int back_link = -1;
     int repeats = 1;  ///< left, this one included
     int macro_depth = 0;

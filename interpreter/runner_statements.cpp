@@ -108,6 +108,7 @@ void Interpreter::State::while_do(const Block& block, Item& item, int index) {
         const auto behind =
             files.find_loop_end(*frame().section, {block.end, block.line + 1}, item.number);
         if (!behind) raise_language_alarm(124, item.column, "END" + std::to_string(item.number));
+        frame().behind_loop[item.number] = behind->line;
         if (index < 0) {
             loop = {block.byte, block.line, -1};
             const bool enter = item.kind == ItemKind::do_only || holds(value(scratch, item));
@@ -120,14 +121,17 @@ void Interpreter::State::while_do(const Block& block, Item& item, int index) {
         item.link = new_link(*behind);
     }
     loop = {block.byte, block.line, index};
+    frame().behind_loop[item.number] = cache.links[static_cast<std::size_t>(item.link)].place.line;
     if (item.kind == ItemKind::do_only || holds(value(cache.code, item))) return;
     loop.line = 0;
     follow(item.link);
 }
 
+/// Back to the DO, which must be this END's own: a jump into a loop has none that runs.
 void Interpreter::State::end_loop(const Item& item) {
     const Place& loop = frame().loops[item.number];
-    if (loop.line == 0) raise_language_alarm(1124, item.column, "DO" + std::to_string(item.number));
+    if (loop.line == 0 || frame().behind_loop[item.number] != current.line + 1)
+        raise_language_alarm(1124, item.column, "DO" + std::to_string(item.number));
     at = loop;
     link_from = -1;
 }

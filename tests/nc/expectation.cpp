@@ -69,6 +69,7 @@ void read_expect(Expectation& e, std::istringstream& in) {
         in >> number;
         e.alarm = number;
         if (in >> word >> line) e.alarm_line = line;
+        if (in >> word >> line) e.alarm_column = line;
         return;
     }
     if (what == "TEXT") return void(e.alarm_text = rest_of(in));
@@ -172,6 +173,11 @@ void read_set(Expectation& e, std::istringstream& in) {
     } else if (what == "SIGNAL") {
         in >> number;
         e.stores.signals[number] = value_after_equals(in);
+    } else if (what == "OUTSIDE") {
+        in >> number;
+        e.outside.push_back(number);
+    } else if (what == "OPTIONAL") {
+        e.config.optional_stop = true;
     } else if (what == "BLOCKS") {
         in >> number;
         e.config.max_blocks = static_cast<std::uint64_t>(number);

@@ -19,6 +19,7 @@ struct ExpectedMove {
 /// Comments of a program, one thing each:
 ///   (EXPECT #100 = 3.5) (EXPECT #100 = VACANT) (EXPECT MOVE G1 X10. Y5.) all moves in order
 ///   (EXPECT LAST X1.) (EXPECT MOVES 3) (EXPECT ALARM 128) (EXPECT ALARM 10 LINE 4)
+///   (EXPECT ALARM 10 LINE 4 COLUMN 3)
 ///   (EXPECT TEXT IMPROPER) of the alarm (EXPECT PRINT text) next line printed
 ///   (EXPECT NOTE part) (EXPECT NO NOTE) (EXPECT TIME 1.5) (EXPECT MODAL G01) (EXPECT MCODE 8)
 ///   (EXPECT LIMIT) (EXPECT HALFWAY X1. Z2.) axes half way along the last move
@@ -27,13 +28,14 @@ struct ExpectedMove {
 ///   (SET SWITCH 2) (SET SIGNAL 1000 = 1) (SET #100 = 5.) (SET BLOCKS 100)
 ///   (SET POSITIONS WITHOUT LENGTH) (SET REFERENCE 2 Z 50.)
 ///   (SET TABLE 10. 0. -100. 5. 0. -50.) left-handed BC table: 19700-19702, 19703-19705
+///   (SET OUTSIDE 50) the folder has this file as O50 (M198) (SET OPTIONAL STOP)
 ///   (SET TCP FRAME ROTARY ZERO)
 struct Expectation {
     std::map<int, std::optional<double>> variables;
     std::vector<ExpectedMove> moves;
     std::optional<ExpectedMove> last, halfway;
     std::optional<std::size_t> move_count;
-    std::optional<int> alarm, alarm_line;
+    std::optional<int> alarm, alarm_line, alarm_column;
     std::string alarm_text;
     std::vector<std::string> printed, notes, modal;
     std::vector<int> m_codes;
@@ -44,6 +46,7 @@ struct Expectation {
     ControlConfig config;
     Stores stores;
     std::map<int, double> preset;
+    std::vector<int> outside;  ///< the file stands in the program folder under these numbers too
     double skip_at = -1.0;
 };
 

@@ -1,6 +1,5 @@
 // Law 3 on every program of the corpus: parse, print, parse gives the same blocks.
 #include <catch2/catch.hpp>
-
 #include <filesystem>
 #include <fstream>
 #include <sstream>

@@ -79,6 +79,7 @@ Outcome run(const std::string& name, const std::string& text, Expectation& e) {
     Outcome out;
     Recorder sink(e.skip_at);
     ProgramsInMemory programs;
+    for (const int number : e.outside) programs.add(number, text);
     Controller control(e.config, e.stores, programs, sink,
                        [&](std::string_view printed) { out.printed += printed; });
     for (const auto& [number, value] : e.preset) control.set_variable(number, value);
@@ -122,6 +123,7 @@ void check_alarm(const Expectation& e, const RunResult& result) {
     CHECK(result.alarm->number == *e.alarm);
     CHECK(result.alarm->where.line > 0);
     if (e.alarm_line) CHECK(result.alarm->where.line == *e.alarm_line);
+    if (e.alarm_column) CHECK(result.alarm->where.column == *e.alarm_column);
     CHECK(result.alarm->text.find(e.alarm_text) != std::string::npos);
 }
 

@@ -1,0 +1,14 @@
+%
+O0001 (GOTO FROM ONE LOOP INTO ANOTHER)
+(the END of the second loop belongs to no DO that runs)
+(EXPECT ALARM 1124 LINE 12)
+(EXPECT #100 = 1)
+WHILE[#1LT3]DO1
+#1=#1+1
+GOTO5
+END1
+WHILE[#2LT3]DO1
+N5 #100=#1
+END1
+M30
+%

@@ -1,0 +1,8 @@
+%
+O0001 (M0 IS NOTED)
+(EXPECT NOTE M00: program stop)
+(EXPECT LAST X1.)
+M0
+G0 X1.
+M30
+%

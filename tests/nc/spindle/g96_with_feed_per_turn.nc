@@ -1,0 +1,11 @@
+%
+O0001 (G96 WITH FEED PER TURN)
+(time of a face cut: 60 pi [100 100 - 50 50] / [1000 200 0.18], and a quarter second of rapid)
+(EXPECT TIME 39.5199081699)
+(EXPECT LAST G1 X50.)
+G92 S5000
+G96 S200 M3
+G0 X100.
+G95 G1 X50. F0.18
+M30
+%

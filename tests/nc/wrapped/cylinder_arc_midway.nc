@@ -1,0 +1,9 @@
+%
+O0001 (CYLINDER ARC MIDWAY)
+(R10 quarter on the unrolled cylinder of radius 57.2957795: 1 mm is 1 deg)
+(EXPECT HALFWAY Z2.928932188 C7.071067812)
+G7.1 C57.295779513
+G18 G2 Z10. C10. R10. F60.
+G7.1 C0.
+M30
+%

@@ -1,0 +1,10 @@
+%
+O0001 (POLAR ARC MIDWAY)
+(quarter of a circle about 50 50 from 50 0 to 0 50)
+(EXPECT HALFWAY X20.710678119 C45.)
+G0 X50.
+G12.1
+G2 X0. C50. I0. J50. F100.
+G13.1
+M30
+%
