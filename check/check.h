@@ -33,6 +33,8 @@ struct CheckOptions {
     std::function<bool(int code10)> knows_g;
     /// Is program O`number` known outside the file? Not checked when empty.
     std::function<bool(int o_number)> finds_program;
+    /// Is the program `<name>` known outside the file? Not known when empty.
+    std::function<bool(const std::string& name)> finds_named;
     double arc_tolerance_mm = 0.02;  ///< radius at the arc's end against its start (parameter 3410)
 };
 

@@ -1,6 +1,8 @@
 // Jumps, loops, calls and what is never reached.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "check/section.h"
 
 namespace trunnion {
@@ -50,15 +52,49 @@ void close_loop(std::vector<OpenLoop>& loops, const Block& block, const Item& it
         }
 }
 
+/// The loops round a block, from the outermost: their DO blocks.
+using Nest = std::vector<const Block*>;
+
+/// A constant GOTO into a loop that does not hold the GOTO: its END has no DO that runs.
+void check_entries(const CheckSection& section, const std::map<const Block*, Nest>& nests,
+                   Findings& findings) {
+    for (const auto& [block, nest] : nests)
+        for (const Item& item : section.program->items(*block)) {
+            if (item.kind != ItemKind::go_to) continue;
+            const auto value = constant_value(*section.program, item);
+            const auto found = section.numbered.find(value ? static_cast<int>(*value) : -1);
+            if (found == section.numbered.end() || found->second.size() != 1) continue;
+            const auto target = nests.find(found->second[0]);
+            if (target == nests.end()) continue;
+            const Nest& inside = target->second;
+            const bool entered = inside.size() > nest.size() ||
+                                 !std::equal(inside.begin(), inside.end(), nest.begin());
+            if (entered)
+                findings.add("loop", Severity::error, *block, item.column,
+                             fmt::format("GOTO {} jumps into the loop of line {}", found->first,
+                                         inside.back()->line),
+                             "Jump to the DO, or to a block outside the loop.");
+        }
+}
+
 void check_statements(const CheckSection& section, Findings& findings) {
     std::vector<OpenLoop> loops;
-    for (const Block* block : section.blocks)
+    std::map<const Block*, Nest> nests;  // of blocks that jump or are jumped to
+    for (const Block* block : section.blocks) {
+        bool jumps = section.targets.contains(block->sequence_number);
+        for (const Item& item : section.program->items(*block))
+            jumps = jumps || item.kind == ItemKind::go_to;
+        if (jumps)
+            for (const OpenLoop& loop : loops) nests[block].push_back(loop.block);
+        if (jumps && loops.empty()) nests[block];
         for (const Item& item : section.program->items(*block)) {
             if (item.kind == ItemKind::go_to) check_jump(section, *block, item, findings);
             if (item.kind == ItemKind::while_do || item.kind == ItemKind::do_only)
                 loops.push_back({item.number, block, item.column});
             if (item.kind == ItemKind::end) close_loop(loops, *block, item, findings);
         }
+    }
+    check_entries(section, nests, findings);
     for (const OpenLoop& loop : loops)
         findings.add("loop", Severity::error, *loop.block, loop.column,
                      fmt::format("DO{} without END{}", loop.number, loop.number),
@@ -121,6 +157,19 @@ std::optional<int> called_program(const ParsedProgram& program, const Block& blo
     return std::nullopt;
 }
 
+void check_named_call(const ParsedProgram& program, const Block& block,
+                      const std::set<std::string, std::less<>>& own, const CheckOptions& options,
+                      Findings& findings) {
+    for (const Item& item : program.items(block)) {
+        if (item.kind != ItemKind::word || item.letter != '<') continue;
+        const std::string name = program.code.text.substr(item.b.first, item.b.count);
+        if (own.contains(name) || (options.finds_named && options.finds_named(name))) continue;
+        findings.add("subprogram-missing", Severity::error, block, item.column,
+                     fmt::format("program <{}> is called and nowhere to be found", name),
+                     "Put it into the folder of this program, or name its folder with --programs.");
+    }
+}
+
 }  // namespace
 
 void check_flow(const CheckSection& section, Findings& findings) {
@@ -132,14 +181,20 @@ void check_calls(const ParsedProgram& program, const std::vector<CheckSection>& 
                  const CheckOptions& options, Findings& findings) {
     if (!options.finds_program) return;
     std::set<int> own;
+    std::set<std::string, std::less<>> own_names;
     for (const CheckSection& section : sections)
-        for (const Block* block : section.blocks)
-            if (block->kind == BlockKind::program) own.insert(block->o_number);
+        for (const Block* block : section.blocks) {
+            if (block->kind != BlockKind::program) continue;
+            own.insert(block->o_number);
+            own_names.emplace(
+                program.source.text.substr(block->byte + block->name.first, block->name.count));
+        }
     const auto known = [&](int number) {
         return own.contains(number) || options.finds_program(number);
     };
     for (const CheckSection& section : sections)
         for (const Block* block : section.blocks) {
+            check_named_call(program, *block, own_names, options, findings);
             int column = 1;
             const auto number = called_program(program, *block, column);
             if (!number || known(*number)) continue;

@@ -101,6 +101,9 @@ int check(const CheckCommand& c) {
                    (code10 >= 650 && code10 <= 670);  // G65 to G67 belong to the language
         };
         options.finds_program = [&](int number) { return programs.find(number).has_value(); };
+        options.finds_named = [&](const std::string& name) {
+            return programs.find(std::string_view(name)).has_value();
+        };
         const auto found = check_program(program, options);
         findings.insert(findings.end(), found.begin(), found.end());
         if (c.run) run_without_devices(setup, program, c, findings);

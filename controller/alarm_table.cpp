@@ -88,6 +88,9 @@ const std::vector<AlarmRow>& control_alarms() {
         {9001, "EX", "MOVE OF A CLAMPED AXIS",
          "The axis is clamped by an M code and the setup forbids its moves.",
          "Release the clamp before the move."},
+        {9002, "EX", "G41/G42 UNDER G7.1 OR G12.1",
+         "A control compensates the figure on the cylinder; this emulator does not.",
+         "Program the cutter's centre there."},
     };
     return rows;
 }

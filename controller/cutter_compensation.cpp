@@ -133,6 +133,7 @@ void g_cutter(ControlState& c, const GCode& code) {
     if (c.words.has('D')) c.radius_number = c.whole_word('D');
     if (c.radius_number < 0 || c.radius_number >= static_cast<int>(c.stores.tools.tool.size()))
         raise_alarm(30, c.words.column_of('D'));
+    if (code.code10 != 400 && (c.polar || c.cylinder)) raise_alarm(9002);
     const int motion = c.modal[ModalGroup::motion];
     const bool arc = motion == 20 || motion == 30;
     const bool alone = !c.words.has_axis();

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "report/places.h"
@@ -33,7 +34,13 @@ std::string fingerprint_of(const ReportItem& item) {
     return fmt::format("{:016x}", h);
 }
 
-Json result_of(const ReportItem& item, std::size_t rule_index) {
+/// The same finding at several places of a file is told apart by its count.
+std::string numbered(std::map<std::string, int>& seen, const std::string& fingerprint) {
+    const int before = seen[fingerprint]++;
+    return before == 0 ? fingerprint : fmt::format("{}:{}", fingerprint, before);
+}
+
+Json result_of(const ReportItem& item, std::size_t rule_index, const std::string& fingerprint) {
     Json region = Json::object();
     if (item.line > 0) region["startLine"] = item.line;
     if (item.line > 0 && item.column > 0) region["startColumn"] = item.column;
@@ -46,7 +53,7 @@ Json result_of(const ReportItem& item, std::size_t rule_index) {
             {"level", item.level},
             {"message", {{"text", valid_utf8(item.text + remedy)}}},
             {"locations", Json::array({{{"physicalLocation", location}}})},
-            {"partialFingerprints", {{"trunnion/v1", fingerprint_of(item)}}}};
+            {"partialFingerprints", {{"trunnion/v1", fingerprint}}}};
 }
 
 }  // namespace
@@ -57,11 +64,13 @@ std::string format_sarif(const std::vector<ReportRule>& rules, const std::vector
     for (const ReportRule& rule : rules)
         rule_list.push_back({{"id", rule.id}, {"shortDescription", {{"text", rule.description}}}});
     Json results = Json::array();
+    std::map<std::string, int> seen;
     for (const ReportItem& item : items) {
         if (results.size() == most_results) break;
         const auto rule = std::find_if(rules.begin(), rules.end(),
                                        [&](const ReportRule& r) { return r.id == item.rule; });
-        results.push_back(result_of(item, static_cast<std::size_t>(rule - rules.begin())));
+        results.push_back(result_of(item, static_cast<std::size_t>(rule - rules.begin()),
+                                    numbered(seen, fingerprint_of(item))));
     }
     Json run = {
         {"tool", {{"driver", {{"name", "trunnion"}, {"version", "0.1.0"}, {"rules", rule_list}}}}},

@@ -1,7 +1,10 @@
 #include "check/check.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
 
 #include "report/findings_report.h"
 
@@ -15,6 +18,7 @@ std::vector<Finding> check_text(const std::string& text) {
     options.dialect = fanuc_dialect();
     options.knows_g = [](int code10) { return code10 != 7770; };
     options.finds_program = [](int number) { return number == 5; };
+    options.finds_named = [](const std::string& name) { return name == "BORE"; };
     return check_program({"p.nc", *owner, owner}, options);
 }
 
@@ -32,6 +36,23 @@ TEST_CASE("each rule finds its fault at its line, once, and not in the mended pr
          "O1\nIF[#1EQ1]GOTO8\nN7X1.\nN7X2.\nN8M30\n", 2},
         {"loop", "O1\nEND1\nM30\n", "O1\nWHILE[#1LT3]DO1\nEND1\nM30\n", 2},
         {"loop", "O1\nWHILE[#1LT3]DO2\nM30\n", "O1\nWH[#1LT3]DO2\nEND2\nM30\n", 2},
+        {"loop", "O1\nGOTO5\nWHILE[#1LT3]DO1\nN5#1=#1+1\nEND1\nM30\n",
+         "O1\nGOTO5\nN5WHILE[#1LT3]DO1\n#1=#1+1\nEND1\nM30\n", 2},
+        {"loop",
+         "O1\nWHILE[#1LT3]DO1\nIF[#1EQ1]GOTO5\nEND1\nDO1\nN5#1=#1+1\nIF[#1GT9]GOTO6\n"
+         "END1\nN6M30\n",
+         "O1\nWHILE[#1LT3]DO1\nIF[#1EQ1]GOTO5\nDO2\n#1=#1+1\nIF[#1GT9]GOTO6\nEND2\n"
+         "N5#1=#1+1\nEND1\nN6M30\n",
+         3},
+        {"subprogram-missing", "O1\nM98<DRILL>\nM30\n",
+         "O1\nM98<BORE>\nG65<TAP>A1.\nM30\n<TAP>\nM99\n", 2},
+        {"skip-compensation", "O1\nG42D1\nG31X5.F9.\nG40\nM30\n",
+         "O1\nG42D1\nX1.\nG40\nG31X5.F9.\nM30\n", 3},
+        {"arc-radius", "O1\nG19G91G3Y10.Z0.J4.K0.F9.\nM30\n", "O1\nG19G91G3Y10.Z0.J5.K0.F9.\nM30\n",
+         2},
+        {"left-on", "O1\nG43.5H1\nM2\n", "O1\nG43.5H1\nG49\nM2\n", 3},
+        {"unreachable", "O1\nM99\nX1.\n", "O1\nM99\nN5X1.\n", 3},
+        {"syntax", "O1\nIF[#1EQ2]THEN\nM30\n", "O1\nIF[#1EQ2]THEN#1=3\nM30\n", 2},
         {"arc-radius", "O1\nG17G90G0X0.Y0.\nG2X20.Y5.I5.J0.F9.\nM30\n",
          "O1\nG17G90G0X0.Y0.\nG2X5.Y5.I5.J0.F9.\nM30\n", 3},
         {"arc-radius", "O1\nG17G90G0X0.Y0.\nG2X20.Y0.R9.F9.\nM30\n",
@@ -63,6 +84,75 @@ TEST_CASE("findings in every format carry the place", "[check]") {
     const auto findings = check_text("O1\nGOTO 50\nM30\n");
     for (const char* format : {"text", "json", "junit", "sarif", "github"})
         CHECK(format_findings(findings, {"p.nc"}, format).find("GOTO 50") != std::string::npos);
+    CHECK_THROWS(format_findings(findings, {"p.nc"}, "xml"));
     CHECK(format_findings({}, {"p.nc"}, "text") == "0 findings in 1 file\n");
     CHECK(format_findings({}, {"p.nc"}, "github").empty());
+}
+
+TEST_CASE("text has one line for each finding, with place, rule and remedy", "[check]") {
+    const auto findings = check_text("O1\nGOTO 50\nG777\nM30\n");
+    const std::string text = format_findings(findings, {"p.nc"}, "text");
+    CHECK(std::count(text.begin(), text.end(), '\n') == 4);  // and the sum
+    CHECK(text.starts_with("p.nc:2:1: error: GOTO 50 but the program has no N50 [jump-target] "));
+    CHECK(text.find("p.nc:3:1: error: this control has no G777 [unknown-code] Use") !=
+          std::string::npos);
+    CHECK(text.ends_with("3 findings in 1 file\n"));
+}
+
+TEST_CASE("SARIF is what 2.1.0 asks for", "[check]") {
+    using Json = nlohmann::json;
+    const auto findings = check_text("O1\nG777\nG777\nG2X1.I1.\nM30\n");
+    REQUIRE(findings.size() == 3);
+    const Json log = Json::parse(format_findings(findings, {"my part.nc"}, "sarif"));
+    CHECK(log["version"] == "2.1.0");
+    CHECK(log["$schema"].get<std::string>().find("sarif-2.1.0") != std::string::npos);
+    REQUIRE(log["runs"].size() == 1);
+    const Json& run = log["runs"][0];
+    const Json& driver = run["tool"]["driver"];
+    CHECK(driver["name"] == "trunnion");
+    CHECK(driver["rules"].size() == check_rules().size());
+    std::set<std::string> ids, fingerprints;
+    for (const Json& rule : driver["rules"]) {
+        CHECK(ids.insert(rule["id"].get<std::string>()).second);
+        CHECK_FALSE(rule["shortDescription"]["text"].get<std::string>().empty());
+    }
+    REQUIRE(run["results"].size() == 3);
+    for (const Json& result : run["results"]) {
+        const std::string id = result["ruleId"];
+        CHECK(ids.contains(id));
+        CHECK(driver["rules"][result["ruleIndex"].get<std::size_t>()]["id"] == id);
+        CHECK((result["level"] == "error" || result["level"] == "warning"));
+        CHECK(result["message"]["text"].is_string());
+        const Json& place = result["locations"].at(0)["physicalLocation"];
+        CHECK(place["artifactLocation"]["uri"] == "p.nc");
+        CHECK(place["region"]["startLine"].get<int>() >= 1);
+        CHECK(place["region"]["startColumn"].get<int>() >= 1);
+        for (const auto& [name, value] : result["partialFingerprints"].items())
+            CHECK(fingerprints.insert(value.get<std::string>()).second);
+    }
+    CHECK(fingerprints.size() == 3);
+    CHECK(run["results"][0]["ruleId"] == "unknown-code");
+    CHECK(run["results"][2]["level"] == "warning");
+}
+
+TEST_CASE("a SARIF fingerprint stays when lines move", "[check]") {
+    using Json = nlohmann::json;
+    const auto fingerprint = [](const std::string& text) {
+        const Json log = Json::parse(format_findings(check_text(text), {"p.nc"}, "sarif"));
+        return log["runs"][0]["results"][0]["partialFingerprints"];
+    };
+    CHECK(fingerprint("O1\nG777\nM30\n") == fingerprint("O1\n(A)\n(B)\nG777\nM30\n"));
+    CHECK(fingerprint("O1\nG777\nM30\n") != fingerprint("O1\nGOTO5\nM30\n"));
+}
+
+TEST_CASE("JUnit has a case for each file, GitHub a line for each finding", "[check]") {
+    const auto findings = check_text("O1\nGOTO 50\nM98<A,B>\nM30\n");
+    REQUIRE(findings.size() >= 2);
+    const std::string junit = format_findings(findings, {"p.nc", "clean.nc"}, "junit");
+    CHECK(junit.find("tests=\"2\" failures=\"1\"") != std::string::npos);
+    CHECK(junit.find("name=\"clean.nc\"") != std::string::npos);
+    const std::string github = format_findings(findings, {"p.nc"}, "github");
+    CHECK(github.starts_with("::error file=p.nc,line=2,col=1,title=trunnion jump-target::GOTO"));
+    CHECK(std::count(github.begin(), github.end(), '\n') ==
+          static_cast<std::ptrdiff_t>(findings.size()));
 }

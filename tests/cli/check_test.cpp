@@ -1,0 +1,114 @@
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+struct Bench {
+    fs::path path = fs::temp_directory_path() / ("trunnion_check_" + std::to_string(::getpid()));
+    Bench() { fs::create_directories(path / "sub"); }
+    ~Bench() { fs::remove_all(path); }
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(path / name) << text;
+    }
+    std::string out() const {
+        std::ostringstream text;
+        text << std::ifstream(path / "out.txt").rdbuf();
+        return text.str();
+    }
+    /// Exit code of `trunnion check WORDS` in the folder; stdout in out.txt.
+    int check(const std::string& words) const {
+        const std::string command = "cd " + path.string() + " && " + TRUNNION_BINARY_DIR +
+                                    "/bin/trunnion check " + words + " >out.txt 2>err.txt";
+        return WEXITSTATUS(std::system(command.c_str()));
+    }
+};
+
+}  // namespace
+
+TEST_CASE("check: exit codes, folders, subprograms beside the file, --run") {
+    const Bench bench;
+    bench.write("good.nc", "O1\nG17 G90 G0 X1.\nM98 P9001\nM30\n");
+    bench.write("sub/O9001.nc", "O9001\nM99\n");
+    bench.write("sub/bad.nc", "O2\nGOTO 50\nM30\n");
+    bench.write("far.nc", "O3\nG0 X9000.\nM30\n");
+    CHECK(bench.check("good.nc --programs sub") == 0);
+    CHECK(bench.check("good.nc") == 1);
+    CHECK_THAT(bench.out(), Catch::Contains("O9001 is called"));
+    CHECK(bench.check("sub") == 1);
+    CHECK_THAT(bench.out(), Catch::Contains("bad.nc:2:1") && Catch::Contains("in 2 files"));
+    CHECK(bench.check("far.nc") == 0);
+    CHECK(bench.check("far.nc --run") == 1);
+    CHECK_THAT(bench.out(), Catch::Contains("far.nc:2:") && Catch::Contains("OT0500"));
+    CHECK(bench.check("nowhere.nc") == 2);
+    CHECK(bench.check("good.nc --format xml") == 2);
+}
+
+TEST_CASE("check --json and check --run find the alarm of a macro with its place") {
+    const Bench bench;
+    bench.write("part.nc", "O1\nG65 P9002 A0.\nM30\nO9002\n#100=1/#1\nM99\n");
+    CHECK(bench.check("part.nc --json") == 0);
+    CHECK(bench.check("part.nc --run --json") == 1);
+    const Json json = Json::parse(bench.out());
+    CHECK(json["schema"] == "trunnion.check/1");
+    REQUIRE(json["findings"].size() == 1);
+    const Json& finding = json["findings"][0];
+    CHECK(finding["rule"] == "alarm");
+    CHECK(finding["line"] == 5);
+    CHECK(finding["path"] == "part.nc");
+    CHECK_THAT(finding["text"].get<std::string>(), Catch::Contains("PS0112"));
+    CHECK_FALSE(finding["remedy"].get<std::string>().empty());
+}
+
+TEST_CASE("check ends a program that loops for ever") {
+    const Bench bench;
+    bench.write("loop.nc", "O1\nN1 #1=#1+1\nGOTO 1\n");
+    CHECK(bench.check("loop.nc --run --max-blocks 1000") == 1);
+    CHECK_THAT(bench.out(), Catch::Contains("does not end within 1000 blocks"));
+}
+
+TEST_CASE("parameters of a setup change what a program does") {
+    const Bench bench;
+    std::ifstream table(std::string(TRUNNION_SOURCE_DIR) + "/machines/bc_table.toml");
+    std::stringstream machine;
+    machine << table.rdbuf();
+    const auto run = [&](const std::string& parameters, const std::string& program) {
+        std::string text = machine.str();
+        const std::string head = "[control.parameters]\n";
+        const std::size_t at = text.find(head);
+        if (at == std::string::npos)
+            text += "\n" + head + parameters;
+        else
+            text.insert(at + head.size(), parameters);
+        bench.write("s.toml", text);
+        bench.write("p.nc", program);
+        const std::string command = "cd " + bench.path.string() + " && " + TRUNNION_BINARY_DIR +
+                                    "/bin/trunnion run p.nc --setup s.toml --json --vars 100-101 "
+                                    ">out.txt 2>err.txt";
+        const int code = WEXITSTATUS(std::system(command.c_str()));
+        REQUIRE((code == 0 || code == 3));
+        return Json::parse(bench.out());
+    };
+    const std::string argument = "O1\nG65 P9 A10\nM30\nO9\n#100=#1\nM99\n";
+    CHECK(run("3401 = \"00000001\"\n", argument)["variables"]["100"] == 10.0);
+    CHECK(run("3401 = \"00000000\"\n", argument)["variables"]["100"] == 0.01);
+    const std::string print = "O1\n#1=1.5\nDPRNT[X#1[42]]\nM30\n";
+    CHECK(run("", print)["printed"] == "X    1.50\n");
+    CHECK(run("6001 = \"00000010\"\n", print)["printed"] == "X1.50\n");
+    const std::string wanted = "O1\n#1=0.12345\nG20 G91 G0 X[ROUND[#1]]\n#100=#5001\nM30\n";
+    CHECK(run("", wanted)["variables"]["100"].get<double>() == Approx(0.1235).margin(1e-9));
+    const std::string angle = "O1\n#100=ASIN[-1]\nM30\n";
+    CHECK(run("6004 = \"00000000\"\n", angle)["variables"]["100"] == 270.0);
+    CHECK(run("6004 = \"00000001\"\n", angle)["variables"]["100"] == -90.0);
+    const std::string mapped = "O1\nM66\nM30\nO9001\n#100=7\nM99\n";
+    CHECK(run("6071 = 66\n", mapped)["variables"]["100"] == 7.0);
+    CHECK(run("", mapped)["variables"]["100"].is_null());
+}

@@ -1,0 +1,14 @@
+%
+O0001 (BY NAME)
+(EXPECT #100 = 7)
+(EXPECT #101 = 1)
+M98<SUB-A>
+G65<SUB-B>A7.
+M30
+<SUB-A>
+#101=#101+1
+M99
+<SUB-B>
+#100=#1
+M99
+%

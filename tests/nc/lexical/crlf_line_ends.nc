@@ -1,0 +1,7 @@
+%
+O0001 (CRLF)
+(EXPECT LAST G0 X3.)
+G0X1.
+X3.
+M30
+%

@@ -1,0 +1,4 @@
+&F=/MTB1/
+<101>G0X5.(EXPECT LAST G0 X5.)
+M30
+%

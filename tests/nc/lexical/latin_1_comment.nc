@@ -1,0 +1,6 @@
+%
+O0001 (LATIN)
+(EXPECT LAST G0 X3.)
+G0(Fräser)X3.
+M30
+%

@@ -1,0 +1,8 @@
+%
+O0001 (LF CR CR)
+(EXPECT ALARM 10 LINE 5)
+G0X1.
+G777
+M30
+%
+

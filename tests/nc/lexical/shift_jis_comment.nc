@@ -1,0 +1,6 @@
+%
+O0001 (SJIS ƒVƒŠŽ²)
+(EXPECT LAST G0 X3.)
+G0X3.
+M30
+%

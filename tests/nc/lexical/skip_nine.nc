@@ -1,0 +1,9 @@
+%
+O0001 (SKIP NINE)
+(SET SWITCH 9)
+(EXPECT LAST G0 X1.)
+G0 X1.
+/9 X2.
+/ X1.
+M30
+%

@@ -1,0 +1,28 @@
+%
+O0001 (BOLT CIRCLE BY MODAL MACRO)
+(six holes on a circle of 40, each by the modal macro; the third at 135 degrees)
+(EXPECT #500 = 6.)
+(EXPECT #503 = -28.284271247)
+(EXPECT #513 = 28.284271247)
+(EXPECT LAST G0 X34.641016151 Y-20. Z5.)
+G90 G17 G0 Z5.
+#1=0
+#2=15.
+G66 P9200 Z-8. R2. F120.
+WHILE[#1LT6]DO1
+X[40.*COS[#2]] Y[40.*SIN[#2]]
+#1=#1+1
+#2=#2+60.
+END1
+G67
+X[40.*COS[-30.]] Y[40.*SIN[-30.]]
+M30
+O9200
+#500=#500+1
+#[500+#500]=#5001
+#[510+#500]=#5002
+G0 Z#18
+G1 Z#26 F#9
+G0 Z5.
+M99
+%

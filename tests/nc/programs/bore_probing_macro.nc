@@ -1,0 +1,33 @@
+%
+O0001 (BORE PROBING MACRO)
+(four touches at a quarter of 40 mm: bore of 20 plus ball 6, centre at 100 50; G54 is set to it)
+(SET SKIP 0.25)
+(SET TOOL 1 = 150. 3.)
+(EXPECT #120 = 26.)
+(EXPECT #5221 = 100.)
+(EXPECT #5222 = 50.)
+(EXPECT LAST G0 X100. Y50.)
+G90 G54 G0 X100. Y50.
+G43 H1 Z-10.
+G65 P9814 D40. B6.
+M30
+O9814
+#1=#5021
+#2=#5022
+G91
+G31 X#7 F100.
+#10=#5061
+G90 G0 X#1
+G91 G31 X-#7 F100.
+#11=#5061
+G90 G0 X#1
+G91 G31 Y#7 F100.
+#12=#5062
+G90 G0 Y#2
+G91 G31 Y-#7 F100.
+#13=#5062
+G90 G0 Y#2
+#120=[#10-#11+#12-#13]/2+#2*0+6.
+G90 G10 L2 P1 X[[#10+#11]/2] Y[[#12+#13]/2]
+M99
+%

@@ -1,0 +1,22 @@
+%
+O0001 (CONTOUR WITH LEAD IN ARCS)
+(a circle inside by G41 with tangent lead-in: tool 4, contour 20, so the tool runs on 16)
+(SET TOOL 2 = 0. 4.)
+(EXPECT MOVE G0 X0. Y0. Z2.)
+(EXPECT MOVE G1 X0. Y0. Z-3.)
+(EXPECT MOVE G1 X10. Y-6.)
+(EXPECT MOVE G3 X16. Y0. I10. J0.)
+(EXPECT MOVE G3 X16. Y0. I0. J0.)
+(EXPECT MOVE G3 X10. Y6. I10. J0.)
+(EXPECT MOVE G1 X0. Y0. Z-3.)
+(EXPECT MOVE G0 Z2.)
+G90 G17 G54 G0 X0. Y0. Z2.
+G1 Z-3. F100.
+G41 D2 X10. Y-10. F300.
+G3 X20. Y0. R10.
+I-20.
+X10. Y10. R10.
+G1 G40 X0. Y0.
+G0 Z2.
+M30
+%

@@ -1,0 +1,21 @@
+%
+O0001 (OFFSETS LOADED BY A PROGRAM)
+(the form of an offset file: tool, work and additional offsets, then a parameter)
+(EXPECT #11001 = 120.5)
+(EXPECT #13002 = 4.995)
+(EXPECT #5223 = -310.25)
+(EXPECT #7003 = -12.)
+(EXPECT #100 = 1.5)
+(EXPECT LAST G0 Z-189.75)
+G90 G10 L10 P1 R120.5
+G10 L12 P2 R5.
+G91 G10 L12 P2 R-0.005
+G90 G10 L2 P1 X0. Y0. Z-310.25
+G10 L20 P1 Z-12.
+G10 L52
+N5114 R1.5
+G11
+#100=PRM[5114]
+G54 G43 H1 G0 Z0.
+M30
+%

@@ -1,0 +1,36 @@
+%
+O0001 (POST 3 PLUS 2)
+(rotaries turned first, G68.2 and G53.1 confirm: no second turn; drilled along the plane's normal)
+(SET TABLE 0. 0. 0. 0. 0. 0.)
+(SET TOOL 3 = 100. 5.)
+(EXPECT #100 = 30.)
+(EXPECT #101 = 0.)
+(EXPECT #102 = 20.)
+(EXPECT #103 = 69.)
+(EXPECT MODAL G49)
+(EXPECT MODAL G80)
+(EXPECT MODAL G69)
+G21 G17 G40 G49 G80 G90 G94
+T3 M6
+G54
+S3000 M3
+G0 B30. C0.
+G68.2 X0. Y0. Z0. I90. J30. K0.
+G53.1
+#100=#5024
+#101=#5025
+G0 X0. Y0.
+G43 H3 Z20. M8
+G81 Z-5. R5. F200.
+G80
+#102=#5003
+G0 Z50.
+M9
+G69
+#103=#4016
+G49
+G91 G28 Z0.
+G90
+M5
+M30
+%

@@ -1,0 +1,28 @@
+%
+O0001 (SUBPROGRAM TREE OVER WORK OFFSETS)
+(three fixtures G54 to G56, two parts each by G52, one hole a part: machine X of the last one)
+(EXPECT #100 = 6.)
+(EXPECT LAST G0 X330. Y7. Z5.)
+G10 L2 P1 X100. Y0.
+G10 L2 P2 X200. Y0.
+G10 L2 P3 X300. Y0.
+G90 G0 Z5.
+#1=1
+WHILE[#1LE3]DO1
+G[53+#1]
+M98 P100
+#1=#1+1
+END1
+M30
+O100
+M98 P110
+G52 X20.
+M98 P110
+G52 X0.
+M99
+O110
+#100=#100+1
+G81 X10. Y7. Z-4. R1. F90.
+G80
+M99
+%

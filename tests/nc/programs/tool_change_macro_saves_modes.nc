@@ -1,0 +1,31 @@
+%
+O0001 (TOOL CHANGE MACRO SAVES MODES)
+(M6 calls O9001: G91 and G21 come back as they were, Z goes home, the T in force gets into the spindle)
+(SET PARAMETER 6071 = 6.)
+(EXPECT #100 = 91.)
+(EXPECT #101 = 1.)
+(EXPECT #102 = 12.)
+(EXPECT MODAL G91)
+(EXPECT MCODE 6)
+(EXPECT MOVE G0 Z10.)
+(EXPECT MOVE G0 Z0.)
+(EXPECT MOVE G1 Z0. X5.)
+G91 G1 F100.
+G0 Z10.
+G1
+T12 M6
+#100=#4003
+#101=#4001
+#102=#4120
+X5.
+M30
+O9001
+#1=#4001
+#3=#4003
+G80 G40 G49
+G91 G28 Z0.
+M19
+M6
+G#1 G#3
+M99
+%

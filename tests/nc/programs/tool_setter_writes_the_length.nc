@@ -1,0 +1,21 @@
+%
+O0001 (TOOL SETTER WRITES THE LENGTH)
+(setter top at machine Z-400; the skip comes half way from -300 to -460, at -380: length 20)
+(SET SKIP 0.5)
+(EXPECT #11007 = 20.)
+(EXPECT #10007 = 0.)
+(EXPECT LAST G0 Z0.)
+T7 M6
+G65 P9851 T7. K-400.
+M30
+O9851
+#30=#4003
+G49 G90 G53 G0 Z-300.
+G91 G31 Z-160. F200.
+#[11000+#20]=#5063-#6
+#[10000+#20]=0
+G[#30]
+G91 G28 Z0.
+G90
+M99
+%
