@@ -2,8 +2,12 @@
 #pragma once
 
 #include "controller/path_queue.h"
+#include "geometry/alarm.h"
 
 namespace trunnion {
+
+/// An alarm without a place gets that of the block the move stands in.
+void place_alarm(Alarm& alarm, const BlockMarks& marks);
 
 /// Points at the cutter's offset square to the end or start of a move.
 PlanePoint square_to_end(const PathMove& m);

@@ -3,6 +3,8 @@
 #include "controller/block_execution.h"
 #include "controller/code_calls.h"
 #include "controller/system_variables.h"
+#include "interpreter/lexical.h"
+#include "interpreter/line_scan.h"
 
 namespace trunnion {
 
@@ -20,6 +22,7 @@ struct Controller::State {
     template <typename Program>
     RunResult run(const Program& program);
     void run_blocks();
+    void release_held(Alarm& alarm);
     void switch_units();
     void finish();
 
@@ -58,6 +61,37 @@ void Controller::State::run_blocks() {
     }
 }
 
+/// Compensated moves that were worked out before the alarm's block still go out, unless their path
+/// is the fault; an alarm of theirs comes first.
+void Controller::State::release_held(Alarm& alarm) {
+    for (const int number : {33, 34, 38, 41})
+        if (alarm.number == number) return;
+    try {
+        release_path(control);
+    } catch (const Alarm& earlier) {
+        alarm = earlier;
+    }
+}
+
+namespace {
+
+/// The line of an alarm, when its program is this one.
+std::string line_of(const SourceRef& where, const ProgramText& program) {
+    if (where.program != program.name) return {};
+    for (LineScan scan(program.text, start_of_text(program.text)); scan.next();) {
+        const TextPlace place = scan.head().place;
+        if (place.line != where.line) continue;
+        const char* const first = program.text.data() + place.byte;
+        return {first, find_line_end(first, program.text.data() + program.text.size())};
+    }
+    return {};
+}
+std::string line_of(const SourceRef&, int) {
+    return {};
+}
+
+}  // namespace
+
 template <typename Program>
 RunResult Controller::State::run(const Program& program) {
     control.result = {};
@@ -74,9 +108,13 @@ RunResult Controller::State::run(const Program& program) {
         if (language.limit_reached()) control.result.status = RunStatus::limit;
     } catch (Alarm& alarm) {
         const SourceRef place = language.where();
-        if (alarm.where.program.empty()) alarm.where.program = place.program;
         if (alarm.where.line == 0) alarm.where.line = place.line;
-        if (alarm.block.empty()) alarm.block = language.block_text();
+        release_held(alarm);
+        if (alarm.where.program.empty()) alarm.where.program = place.program;
+        if (alarm.block.empty())
+            alarm.block = alarm.where.line == place.line && alarm.where.program == place.program
+                              ? language.block_text()
+                              : line_of(alarm.where, program);
         control.result.status = RunStatus::alarm;
         control.result.alarm = alarm;
     }

@@ -11,6 +11,17 @@ namespace trunnion {
 
 namespace {
 
+/// The alarms of a side belong to its block, not to the one that made it known.
+template <typename Work>
+void at_block(const BlockMarks& marks, Work work) {
+    try {
+        work();
+    } catch (Alarm& alarm) {
+        place_alarm(alarm, marks);
+        throw;
+    }
+}
+
 /// Moves of other axes, dwells and M codes go out where the tool stands in the plane.
 void run_idle(ControlState& c) {
     const std::vector<PathOutput> idle = std::move(c.path.idle);
@@ -92,7 +103,9 @@ void flush_compensation(ControlState& c) {
     if (q.first) {
         const PathMove first = *q.first;
         q.first.reset();
-        run_beside(c, first, first.offset_mm == 0.0 ? first.plane.end : square_to_end(first));
+        at_block(first.marks, [&] {
+            run_beside(c, first, first.offset_mm == 0.0 ? first.plane.end : square_to_end(first));
+        });
         q.last_offset_mm = first.offset_mm;
     }
     run_idle(c);
@@ -114,7 +127,7 @@ void compensate(ControlState& c, const PathMove& move) {
     if (q.first) {
         const PathMove first = *q.first;
         q.first.reset();
-        finish_first(c, first, move);
+        at_block(first.marks, [&] { finish_first(c, first, move); });
         q.last_offset_mm = first.offset_mm;
         run_idle(c);
     } else if (move.offset_mm != 0.0 && (q.last_offset_mm != 0.0 || q.starts_by_shift)) {

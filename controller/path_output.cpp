@@ -1,8 +1,10 @@
 // Compensated moves on their way out: some are held back, so that the interference check sees
 // several sides before the first of them goes out.
+#include <algorithm>
+
+#include "controller/compensated_corner.h"
 #include "controller/control_state.h"
 #include "controller/moves.h"
-#include "controller/path_queue.h"
 #include "controller/plane_crossing.h"
 
 namespace trunnion {
@@ -43,7 +45,8 @@ void emit(ControlState& c, const PathOutput& out) {
     try {
         move_out(c, out);
     } catch (Alarm& alarm) {
-        if (alarm.where.line == 0) alarm.where.line = marks.line;
+        place_alarm(alarm, marks);
+        c.path.ahead.clear();
         throw;
     }
     c.move.spindle_rpm = now.spindle_rpm;
@@ -79,6 +82,13 @@ void push(ControlState& c, const PathOutput& out) {
 
 }  // namespace
 
+void place_alarm(Alarm& alarm, const BlockMarks& marks) {
+    if (alarm.where.line != 0) return;
+    if (marks.program) alarm.where.program = *marks.program;
+    alarm.where.line = marks.line;
+    alarm.where.column = std::max(1, alarm.where.column);
+}
+
 void send_path(ControlState& c, const PathMove& move, const PlaneElement& way,
                const ControlPosition& to, bool beside) {
     PathOutput out;
@@ -105,8 +115,9 @@ void send_event(ControlState& c, const PathOutput& event) {
 }
 
 void release_path(ControlState& c) {
-    for (const PathOutput& out : c.path.ahead) emit(c, out);
+    const std::vector<PathOutput> ahead = std::move(c.path.ahead);
     c.path.ahead.clear();
+    for (const PathOutput& out : ahead) emit(c, out);
 }
 
 }  // namespace trunnion

@@ -36,8 +36,8 @@ TEST_CASE("each rule finds its fault at its line, once, and not in the mended pr
          "O1\nIF[#1EQ1]GOTO8\nN7X1.\nN7X2.\nN8M30\n", 2},
         {"loop", "O1\nEND1\nM30\n", "O1\nWHILE[#1LT3]DO1\nEND1\nM30\n", 2},
         {"loop", "O1\nWHILE[#1LT3]DO2\nM30\n", "O1\nWH[#1LT3]DO2\nEND2\nM30\n", 2},
-        {"loop", "O1\nGOTO5\nWHILE[#1LT3]DO1\nN5#1=#1+1\nEND1\nM30\n",
-         "O1\nGOTO5\nN5WHILE[#1LT3]DO1\n#1=#1+1\nEND1\nM30\n", 2},
+        {"loop", "O1\nIF[#1EQ1]GOTO5\nWHILE[#1LT3]DO1\nN5#1=#1+1\nEND1\nM30\n",
+         "O1\nIF[#1EQ1]GOTO5\nN5WHILE[#1LT3]DO1\n#1=#1+1\nEND1\nM30\n", 2},
         {"loop",
          "O1\nWHILE[#1LT3]DO1\nIF[#1EQ1]GOTO5\nEND1\nDO1\nN5#1=#1+1\nIF[#1GT9]GOTO6\n"
          "END1\nN6M30\n",
