@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "cli/readings_command.h"
 #include "diagnosis/diagnosis.h"
 #include "report/diagnosis_page.h"
+#include "report/diagnosis_words.h"
 
 namespace trunnion {
 namespace {
@@ -19,7 +21,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-    std::string readings, setup, holdout, out, html;
+    std::vector<std::string> readings;
+    std::string setup, holdout, out, html;
     std::optional<double> limit_um;
     bool json = false;
 };
@@ -37,10 +40,15 @@ Json to_json(const DeviceNoise& noise) {
 }
 
 Json to_json(const Cause& cause) {
-    Json json{{"effect", cause.effect}, {"probability", cause.probability},
-              {"rivals", cause.rivals}, {"parameters", json_parameters(cause.parameters)},
-              {"share", cause.share},   {"heldout", to_json(cause.heldout)},
-              {"what", cause.what},     {"usual_cause", cause.usual_cause},
+    Json json{{"effect", cause.effect},
+              {"probability", cause.probability},
+              {"rivals", cause.rivals},
+              {"parameters", json_parameters(cause.parameters)},
+              {"inseparable", json_inseparable(cause.unseen)},
+              {"share", cause.share},
+              {"heldout", to_json(cause.heldout)},
+              {"what", cause.what},
+              {"usual_cause", cause.usual_cause},
               {"remedy", cause.remedy}};
     return json;
 }
@@ -73,12 +81,14 @@ Json to_json(const Diagnosis& d) {
                                             {"text", next.text},
                                             {"program", next.program},
                                             {"log_bayes_factor", next.log_bayes_factor},
-                                            {"minutes", next.minutes}});
+                                            {"minutes", next.minutes},
+                                            {"settles", next.settles}});
     json["noise"] = {{"sphere", to_json(d.noise.sphere)},
                      {"touch", to_json(d.noise.touch)},
                      {"ballbar", to_json(d.noise.ballbar)},
                      {"doubt", d.noise.doubt}};
     json["unseen"] = d.unseen;
+    json["inseparable"] = json_inseparable(d.inseparable);
     json["readings"] = d.readings;
     json["outliers"] = d.outliers;
     return json;
@@ -91,7 +101,11 @@ void print_cause(const Cause& cause) {
     if (!cause.usual_cause.empty())
         fmt::print("  Usual cause: {}. What to do: {}.\n", cause.usual_cause, cause.remedy);
     for (const FitParameter& p : cause.parameters)
-        fmt::print("  {:<20} {:>12.4g} {} (sigma {:.2g})\n", p.name, p.value, p.unit, p.sigma);
+        fmt::print("  {:<20} {:>12.4g} {} {}\n", with_component(p), p.value, p.unit,
+                   std::isfinite(p.sigma) ? fmt::format("(sigma {:.2g})", p.sigma)
+                                          : std::string("(no sigma of its own)"));
+    for (const Inseparable& group : cause.unseen)
+        fmt::print("  no reading here sees: {}\n", to_string(group));
     if (!cause.rivals.empty())
         fmt::print("  cannot be told apart here from: {}\n", fmt::join(cause.rivals, ", "));
     fmt::print(
@@ -111,7 +125,14 @@ void print_report(const Diagnosis& d) {
         fmt::print(
             "\nafter: rms {:.3f} um; held out the gap shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
             d.after_rms_um, 100 * d.after.shrink, 100 * d.after.low, 100 * d.after.high);
+    if (d.causes.empty())
+        for (const Inseparable& group : d.inseparable)
+            fmt::print("no reading here sees: {}\n", to_string(group));
     for (const NextMeasurement& next : d.next) fmt::print("next: {}\n", next.text);
+}
+
+std::string title_of(const std::vector<std::string>& readings) {
+    return fmt::format("{}", fmt::join(readings, " + "));
 }
 
 int diagnose_command(const Options& options) {
@@ -124,7 +145,8 @@ int diagnose_command(const Options& options) {
     const Diagnosis result = diagnose(setup, table, how);
     OutputFiles files;
     if (!options.out.empty()) files.add(options.out, format_setup(result.setup));
-    if (!options.html.empty()) files.add(options.html, diagnosis_page(result, options.readings));
+    if (!options.html.empty())
+        files.add(options.html, diagnosis_page(result, title_of(options.readings)));
     if (options.json) files.add("-", to_json(result).dump(1) + "\n");
     files.write();
     if (!options.json) print_report(result);
@@ -136,7 +158,10 @@ int diagnose_command(const Options& options) {
 void add_diagnose(CLI::App& app, Run& run) {
     auto* command = app.add_subcommand("diagnose", "the gap between simulation and readings");
     const auto options = std::make_shared<Options>();
-    command->add_option("readings", options->readings, "table of readings (CSV)")->required();
+    command
+        ->add_option("readings", options->readings,
+                     "table of readings (CSV); several are joined in this order")
+        ->required();
     command->add_option("--setup", options->setup, "setup file (TOML)");
     command->add_option("--holdout", options->holdout, "readings that take no part in the fit");
     command->add_option("--limit-um", options->limit_um, "exit 1 when the gap is larger");

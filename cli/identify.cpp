@@ -18,7 +18,8 @@ namespace trunnion {
 namespace {
 
 struct Options {
-    std::string readings, setup, effects, out;
+    std::vector<std::string> readings;
+    std::string setup, effects, out;
     int runs = 0;
     std::uint64_t seed = 1;
     bool json = false;
@@ -41,9 +42,7 @@ nlohmann::ordered_json to_json(const Identification& result) {
     nlohmann::ordered_json json;
     json["schema"] = "trunnion.identification/1";
     json["parameters"] = json_parameters(result.parameters);
-    json["inseparable"] = nlohmann::ordered_json::array();
-    for (const Inseparable& group : result.inseparable)
-        json["inseparable"].push_back({{"names", group.names}, {"direction", group.direction}});
+    json["inseparable"] = json_inseparable(result.inseparable);
     json["rms_before_um"] = result.rms_before_um;
     json["rms_after_um"] = result.rms_after_um;
     json["dof"] = result.dof;
@@ -57,10 +56,11 @@ void print_table(const Identification& result, bool monte_carlo) {
     fmt::print("{:<18} {:<22} {:>14} {:>12} {:>12} {}\n", "effect", "parameter", "value", "sigma",
                monte_carlo ? "Monte Carlo" : "", "unit");
     for (const FitParameter& p : result.parameters)
-        fmt::print("{:<18} {:<22} {:>14.7g} {:>12} {:>12} {}\n", p.effect, p.name, p.value,
-                   number(p.sigma), monte_carlo ? number(p.sigma_monte_carlo) : "", p.unit);
+        fmt::print("{:<18} {:<22} {:>14.7g} {:>12} {:>12} {}\n", p.effect, with_component(p),
+                   p.value, number(p.sigma), monte_carlo ? number(p.sigma_monte_carlo) : "",
+                   p.unit);
     for (const Inseparable& group : result.inseparable)
-        fmt::print("cannot be told apart here: {}\n", fmt::join(group.names, ", "));
+        fmt::print("no reading here sees: {}\n", to_string(group));
     fmt::print("rms {:.3f} um before, {:.3f} um after, {} degrees of freedom\n",
                result.rms_before_um, result.rms_after_um, result.dof);
 }
@@ -85,7 +85,10 @@ int identify_command(const Options& options) {
 void add_identify(CLI::App& app, Run& run) {
     auto* command = app.add_subcommand("identify", "fits effects to readings");
     const auto options = std::make_shared<Options>();
-    command->add_option("readings", options->readings, "table of readings (CSV)")->required();
+    command
+        ->add_option("readings", options->readings,
+                     "table of readings (CSV); several are joined in this order")
+        ->required();
     command->add_option("--setup", options->setup, "setup file (TOML)");
     command->add_option("--effects", options->effects,
                         "names, comma between; without it those of [model].modelled");

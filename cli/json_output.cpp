@@ -37,4 +37,15 @@ nlohmann::ordered_json json_parameters(const std::vector<FitParameter>& paramete
     return list;
 }
 
+std::string with_component(const FitParameter& p) {
+    return p.component < 0 ? p.name : p.name + '[' + "xyz"[p.component] + ']';
+}
+
+nlohmann::ordered_json json_inseparable(const std::vector<Inseparable>& groups) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const Inseparable& group : groups)
+        list.push_back({{"names", group.names}, {"direction", group.direction}});
+    return list;
+}
+
 }  // namespace trunnion

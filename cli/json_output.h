@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <vector>
 
 #include "identification/base_model.h"
@@ -11,5 +12,10 @@ namespace trunnion {
 /// [{"effect", "name", "value", "sigma", "unit"}]: components of a vector parameter in one entry
 /// with arrays; a sigma that does not exist is null.
 nlohmann::ordered_json json_parameters(const std::vector<FitParameter>& parameters);
+
+/// "dp_mm[y]"
+std::string with_component(const FitParameter& parameter);
+/// [{"names": [...], "direction": [...]}]
+nlohmann::ordered_json json_inseparable(const std::vector<Inseparable>& groups);
 
 }  // namespace trunnion

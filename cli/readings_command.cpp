@@ -12,6 +12,12 @@ ReadingTable load_readings(const std::string& path) {
     return table;
 }
 
+ReadingTable load_readings(const std::vector<std::string>& paths) {
+    std::vector<ReadingTable> tables;
+    for (const std::string& path : paths) tables.push_back(load_readings(path));
+    return join_readings(std::move(tables));
+}
+
 Setup load_setup_option(const std::string& path, const std::vector<std::string>& inject) {
     std::vector<std::string> notes;
     Setup setup = load_setup(path.empty() ? shipped("machines/bc_table.toml") : path, notes);

@@ -14,6 +14,7 @@ Diagnoser::Diagnoser(const Setup& setup, const ReadingTable& table, const Diagno
       catalogue_(make_catalogue(setup, extent_of(setup, table))) {
     refuse_poor_tables();
     base_ = fit_base(setup, table, replay_, catalogue_, setup.model.modelled);
+    if (options.holdout) refuse_poor_holdout(*options.holdout);
     blocks_ = noise_blocks(replay_, table);
     folds_ = make_folds(blocks_, replay_.size());
     used_.assign(replay_.size(), true);
@@ -27,6 +28,8 @@ Diagnosis Diagnoser::run() {
     set_ = best_set();
     refine_noise();
     refine_set();
+    for (int pass = 0; pass < 3 && relinearise(); ++pass) {
+    }
     prune();
     add_alternatives();
     settle();
@@ -38,6 +41,24 @@ void Diagnoser::refuse_poor_tables() const {
     if (replay_.size() < 12)
         throw InputError(fmt::format("{} readings allow no diagnosis", replay_.size()),
                          {table_.path, 0, 0});
+}
+
+void Diagnoser::refuse_poor_holdout(const ReadingTable& table) const {
+    constexpr double absurd_mm = 5.0;
+    const Replay replay(base_.setup, table);
+    const std::vector<double> read = replay.predict(base_.models);
+    if (replay.size() == 0) throw InputError("no held-out reading", {table.path, 0, 0});
+    for (std::size_t i = 0; i < replay.size(); ++i) {
+        const Reading& row = table.rows[replay.table_row(i)];
+        if (!row.value_mm)
+            throw InputError("a held-out row with a device but without value_mm",
+                             place_of(table, row));
+        if (std::abs(*row.value_mm - read[i]) > absurd_mm)
+            throw InputError(fmt::format("held out, {:.3g} mm away from what the simulation reads: "
+                                         "wrong units (um for mm?), wrong frame, another machine",
+                                         *row.value_mm - read[i]),
+                             place_of(table, row));
+    }
 }
 
 void Diagnoser::start_noise() {

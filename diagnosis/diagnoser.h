@@ -25,6 +25,7 @@ class Diagnoser {
 
   private:
     void refuse_poor_tables() const;
+    void refuse_poor_holdout(const ReadingTable& table) const;
 
     void start_noise();
 
@@ -65,6 +66,11 @@ class Diagnoser {
 
     /// Keys of chosen effects refined, beside the others and alone; further keys tried on the rest.
     void refine_set();
+
+    /// Large effects bend the readings (a stylus that meets a sphere aside): what the emulator
+    /// reads with the chosen set takes the place of the straight line. False when that changed
+    /// next to nothing.
+    bool relinearise();
 
     /// Candidate `m` again with keys refined on what the effects `others` leave.
     void add_refined(std::size_t m, const std::vector<std::size_t>& others);
@@ -112,6 +118,8 @@ class Diagnoser {
     ShrinkDraws shrink_draws(const std::vector<EffectSet>& sets) const;
     std::vector<FitParameter> parameters_of(const EffectSet& set, std::size_t member) const;
     void write_setup();
+    /// Directions of an effect's parameters that these readings cannot show.
+    std::vector<Inseparable> unseen_of(const Candidate& candidate) const;
     void ask_next();
     void test_holdout();
 

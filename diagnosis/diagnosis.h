@@ -35,7 +35,8 @@ struct Cause {
     double probability = 0.0;
     std::vector<std::string> rivals;
     std::vector<FitParameter> parameters;
-    double share = 0.0;  ///< of the gap, independent of order (Shapley)
+    std::vector<Inseparable> unseen;  ///< directions of the parameters that nothing here shows
+    double share = 0.0;               ///< of the gap, independent of order (Shapley)
     HeldOut heldout;
     std::string what, usual_cause, remedy;
 };
@@ -44,6 +45,7 @@ struct NextMeasurement {
     std::string first, second, text, program;
     double log_bayes_factor = 0.0;  ///< predicted
     double minutes = 0.0;
+    bool settles = false;  ///< predicted: afterwards the rival stands no longer
 };
 
 struct Diagnosis {
@@ -56,8 +58,9 @@ struct Diagnosis {
     HeldOut after;
     std::vector<NextMeasurement> next;
     std::vector<std::string> unseen;       ///< effects that these readings cannot show
-    std::vector<Inseparable> inseparable;  ///< of the base
+    std::vector<Inseparable> inseparable;  ///< of the base, and of the stores (pivot.*)
     std::size_t readings = 0, outliers = 0;
+    std::vector<double> before_um, after_um;  ///< machine minus simulation, by reading
     Setup setup;  ///< with the re-identified and added effects
 };
 

@@ -9,20 +9,16 @@
 
 namespace trunnion {
 
-/// One ready measurement: what to do in words, positions as the control commands them, and how long
-/// it takes. `setup` differs from the given one where the measurement needs another stylus or cup.
+/// One ready measurement: what to do in words, the rows that its program reads, the program
+/// (O8900, calls O8100) and how long it takes.
 struct Measurement {
-    std::string name, text;
-    Setup setup;
+    std::string name, text, program;
     ReadingTable table;
     double minutes = 0.0;
 };
 
-/// All measurements that this machine and its artefacts allow.
+/// All measurements that this machine and its artefacts allow. `start_s`: when they would begin, on
+/// the clock of the readings so far.
 std::vector<Measurement> ready_measurements(const Setup& setup, double start_s);
-
-/// The measurement as an NC program: G53 positions; spheres call O8100 (programs/sphere9.nc),
-/// passes of the ballbar move at their feed. Machine coordinates in mm and deg.
-std::string nc_program(const Measurement& measurement);
 
 }  // namespace trunnion

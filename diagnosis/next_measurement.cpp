@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "diagnosis/measurements.h"
+#include "diagnosis/rules.h"
 
 namespace trunnion {
 namespace {
@@ -33,18 +34,16 @@ struct Worked {
     Block block;
 };
 
-Worked work_out(Measurement m, const Catalogue& catalogue,
+Worked work_out(Measurement m, const Setup& setup, const Catalogue& catalogue,
                 const std::vector<std::string>& effects) {
     Worked w;
     w.measurement = std::move(m);
-    w.replay.emplace(w.measurement.setup, w.measurement.table);
-    const ForwardModel forward(w.measurement.setup.machine);
+    w.replay.emplace(setup, w.measurement.table);
+    const ForwardModel forward(setup.machine);
     for (std::size_t i = 0; i < w.replay->size(); ++i)
         w.gradient.push_back(w.replay->gradient(i, forward, {}));
-    w.weight =
-        row_noise(w.measurement.setup, w.measurement.table, *w.replay).sigma_mm.cwiseInverse();
-    const BaseColumns base =
-        base_columns(w.measurement.setup, *w.replay, catalogue, effects, w.gradient);
+    w.weight = row_noise(setup, w.measurement.table, *w.replay).sigma_mm.cwiseInverse();
+    const BaseColumns base = base_columns(setup, *w.replay, catalogue, effects, w.gradient);
     w.block = {names_of(base.parameters), w.weight.asDiagonal() * base.columns};
     return w;
 }
@@ -72,8 +71,9 @@ class Mimic {
         pieces_.push_back({place, block.base, rival, target});
     }
 
-    double left() const {
-        const auto q = pieces_.front().rival.cols();
+    /// Without the rival: all that the base cannot follow, the target's contribution.
+    double left(bool with_rival = true) const {
+        const auto q = with_rival ? pieces_.front().rival.cols() : 0;
         const auto p = static_cast<Eigen::Index>(names_.size()) + q;
         Eigen::MatrixXd square = Eigen::MatrixXd::Zero(p, p);
         Eigen::VectorXd product = Eigen::VectorXd::Zero(p);
@@ -82,7 +82,7 @@ class Mimic {
             Eigen::MatrixXd a = Eigen::MatrixXd::Zero(piece.target.size(), p);
             for (std::size_t j = 0; j < piece.place.size(); ++j)
                 a.col(piece.place[j]) = piece.base.col(static_cast<Eigen::Index>(j));
-            a.rightCols(q) = piece.rival;
+            if (with_rival) a.rightCols(q) = piece.rival;
             square.noalias() += a.transpose() * a;
             product.noalias() += a.transpose() * piece.target;
             energy += piece.target.squaredNorm();
@@ -100,6 +100,9 @@ class Mimic {
     std::vector<std::string> names_;
     std::vector<Piece> pieces_;
 };
+
+/// Times the loss at which a rival is dropped: room for the noise of the new readings.
+constexpr double settled_margin = 1.5;
 
 NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& list,
                          const Design& design, const BaseModel& base) {
@@ -120,16 +123,21 @@ NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& l
         Mimic then = now;
         then.add(w.block, effect_block(*w.replay, w.gradient, w.weight, *pair.rival),
                  effect_block(*w.replay, w.gradient, w.weight, *pair.claimed) * pair.values);
-        const double gain = 0.5 * (then.left() - before);
-        // More than twenty nats settle it: then the shorter measurement wins.
-        if (gain < 3.0 || std::min(gain, 20.0) / w.measurement.minutes <= rate) continue;
-        rate = std::min(gain, 20.0) / w.measurement.minutes;
+        const double lost = then.left(), gain = 0.5 * (lost - before);
+        if (gain < 3.0) continue;
+        // As far as it settles the matter, for each minute; more than settled is worth no more.
+        const double settled =
+            std::min(1.0, lost / (settled_margin * rules::rival_limit(then.left(false))));
+        if (settled * settled / w.measurement.minutes <= rate) continue;
+        rate = settled * settled / w.measurement.minutes;
         best.log_bayes_factor = gain;
         best.minutes = w.measurement.minutes;
-        best.program = nc_program(w.measurement);
+        best.settles = settled == 1.0;
+        best.program = w.measurement.program;
         best.text =
-            fmt::format("to tell {} from {}: {} (about {:.0f} minutes, predicted {:.0f} nats)",
-                        best.first, best.second, w.measurement.text, best.minutes, gain);
+            fmt::format("to tell {} from {}: {} (about {:.0f} minutes, predicted {:.0f} nats{})",
+                        best.first, best.second, w.measurement.text, best.minutes, gain,
+                        best.settles ? "" : "; it may take more than this one");
     }
     if (best.text.empty())
         best.text = fmt::format("no ready measurement tells {} from {} at this size", best.first,
@@ -146,7 +154,7 @@ std::vector<NextMeasurement> plan_next(const Design& design, const BaseModel& ba
     if (pairs.empty()) return plan;
     std::vector<Worked> list;
     for (Measurement& m : ready_measurements(base.setup, end_s + 600.0))
-        list.push_back(work_out(std::move(m), catalogue, base.setup.model.modelled));
+        list.push_back(work_out(std::move(m), base.setup, catalogue, base.setup.model.modelled));
     for (const AmbiguousPair& pair : pairs) plan.push_back(best_for(pair, list, design, base));
     std::stable_sort(plan.begin(), plan.end(),
                      [](const NextMeasurement& a, const NextMeasurement& b) {

@@ -77,8 +77,7 @@ std::map<std::string, double> Diagnoser::belief_of(const std::vector<EffectSet>&
 std::vector<std::string> Diagnoser::rivals_of(std::size_t member) const {
     const EffectSet rest = evaluate(*design_, without(set_.members, member), search_options());
     const double contribution = set_.explained - rest.explained;
-    const double most =
-        std::min(0.3 * contribution, std::max(rules::rival_loss, rules::rival_part * contribution));
+    const double most = rules::rival_limit(contribution);
     const auto& candidates = design_->candidates();
     std::vector<std::pair<double, std::string>> rivals;  // evidence lost, name
     for (const EffectSet& swapped : swapped_sets(member)) {

@@ -1,6 +1,8 @@
 // The thresholds of the verdict in one place; docs/diagnosis.md says why.
 #pragma once
 
+#include <algorithm>
+
 namespace trunnion::rules {
 
 constexpr double least_share = 0.05;    ///< of the gap: below it an effect is background
@@ -16,5 +18,12 @@ constexpr double admit_share = 0.10;  ///< unexplained part from which "unknown"
 constexpr double rival_loss = 12.0;   ///< chi-squared a rival may lose
 constexpr double rival_part = 0.04;   ///< ... or part of the contribution
 constexpr double effect_prior = -3.2188758248682006;  ///< log 0.04: one effect in 25 is there
+
+/// Chi-squared that an effect may lose against the claimed one and still be its rival.
+inline double rival_limit(double contribution) {
+    const double most = 0.3 * contribution;
+    return std::min(most, std::clamp(rival_part * contribution, rival_loss,
+                                     std::max(rival_loss, most)));
+}
 
 }  // namespace trunnion::rules

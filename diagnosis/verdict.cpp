@@ -57,8 +57,16 @@ void Diagnoser::describe_size(const Remainder& r) {
     result_.noise_um = rms_um(noise_mm());
     result_.excess_um = std::sqrt(
         std::max(0.0, result_.rms_um * result_.rms_um - result_.noise_um * result_.noise_um));
-    result_.after_rms_um = rms_um(left_after(set_));
+    const Eigen::VectorXd left_mm = left_after(set_);
+    result_.after_rms_um = rms_um(left_mm);
+    for (Eigen::Index i = 0; i < left_mm.size(); ++i) {
+        result_.before_um.push_back(1e3 * base_.residual_mm(i));
+        result_.after_um.push_back(1e3 * left_mm(i));
+    }
     result_.inseparable = base_.inseparable;
+    for (const Candidate& c : design_->candidates())
+        if (c.visible && c.effect->name.starts_with("pivot."))
+            for (Inseparable& group : unseen_of(c)) result_.inseparable.push_back(std::move(group));
     for (const Candidate& c : design_->candidates())
         if (!c.visible && std::find(result_.unseen.begin(), result_.unseen.end(), c.effect->name) ==
                               result_.unseen.end())
@@ -147,6 +155,7 @@ void Diagnoser::claim(double gap) {
         cause.probability = belief.at(effect.name);
         cause.rivals = rivals_of(m);
         cause.parameters = parameters_of(set_, m);
+        cause.unseen = unseen_of(design_->candidates()[m]);
         cause.heldout = held_out({m}, draws);
         cause.what = effect.what;
         cause.usual_cause = effect.cause;

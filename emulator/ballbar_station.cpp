@@ -11,6 +11,8 @@ namespace {
 
 /// Places of a move at which "stays within range" is looked at.
 constexpr int range_checks = 16;
+/// A sample this close to the end of a move is at its end, not at the next one's beginning.
+constexpr double end_rad = 1e-9;
 
 double swept_rad(const AxisMove& move) {
     double most = move.arc ? std::abs(move.arc->sweep_rad) : 0.0;
@@ -43,7 +45,8 @@ void BallbarStation::stop() {
 double BallbarStation::deviation_mm(const PathSampler& path, double s,
                                     const PhysicalMachine& machine, Contact contact,
                                     Contact* filled) const {
-    Ballbar bar{setup_.ballbar->cup_S_mm, pivot_->center_W_mm, setup_.ballbar->warm_length_mm()};
+    Ballbar bar{setup_.ballbar->cup_with(path.shop.extension_mm), pivot_->center_W_mm,
+                setup_.ballbar->warm_length_mm()};
     const AxisSample sample = path.at(s);
     const MachinePose nominal = machine.at(sample, contact).poses;
     contact.direction_M = cup_to_pivot_M(nominal, bar).normalized();
@@ -74,10 +77,11 @@ const Artefact* BallbarStation::mounted_pivot(const PathSampler& path,
 std::vector<double> BallbarStation::places(const PathSampler& path) {
     const AxisMove& move = path.move;
     std::vector<double> places;
-    const double angle = swept_rad(move), step = rad_from_deg(setup_.ballbar->sample_deg);
+    const double angle = swept_rad(move),
+                 step = rad_from_deg(sample_deg_ > 0.0 ? sample_deg_ : setup_.ballbar->sample_deg);
     if (step > 0.0 && angle > 0.0) {
-        for (; angle_left_rad_ < angle; angle_left_rad_ += step)
-            places.push_back(angle_left_rad_ / angle);
+        for (; angle_left_rad_ < angle + end_rad; angle_left_rad_ += step)
+            places.push_back(std::clamp(angle_left_rad_ / angle, 0.0, 1.0));
         angle_left_rad_ -= angle;
     } else if (move.duration_s > 0.0) {
         for (const double t :
@@ -94,6 +98,7 @@ void BallbarStation::read(PathSampler path, double s, const PhysicalMachine& mac
     contact.artefact = static_cast<int>(pivot_ - setup_.artefacts.data());
     contact.test_time_s = path.time_s(s) - start_s_;
     contact.acceleration = path.acceleration(s);
+    contact.extension_mm = path.shop.extension_mm;
     const double noise_mm = mm_from_um(setup_.ballbar->noise_um) * noise_.normal();
     const double value_mm = deviation_mm(path, s, machine, contact, &contact) + noise_mm;
     if (!in_range(value_mm, Ballbar{})) {
@@ -111,6 +116,7 @@ void BallbarStation::read(PathSampler path, double s, const PhysicalMachine& mac
     row.commanded = path.move.at(s);
     row.value_mm = value_mm;
     row.feed_mm_min = path.move.feed_mm_min;
+    set_up_like(path.shop, row);
     log.add(std::move(row));
 }
 

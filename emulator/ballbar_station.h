@@ -24,6 +24,8 @@ class BallbarStation {
     void start(double time_s);
     void stop();
     bool commanded() const { return commanded_; }
+    /// From now on a reading every so many degrees of the swept angle.
+    void sample_every(double degrees) { sample_deg_ = degrees; }
 
     /// Readings along the move, appended to the log. False when the bar did not read.
     bool record(const PathSampler& path, const PhysicalMachine& machine, ReadingLog& log,
@@ -41,6 +43,7 @@ class BallbarStation {
     SeededNoise noise_;
     bool commanded_ = false, ever_commanded_ = false, running_ = false, out_of_range_ = false;
     double start_s_ = 0.0;
+    double sample_deg_ = 0.0;      ///< above 0: instead of the setup's
     double angle_left_rad_ = 0.0;  ///< to the next sample, when sampling by angle
     int passes_ = 0;
     const Artefact* pivot_ = nullptr;

@@ -3,8 +3,14 @@
 #include <cctype>
 #include <cmath>
 
+#include "geometry/numbers.h"
+#include "geometry/units.h"
+
 namespace trunnion {
 namespace {
+
+/// Less is rounding of an axis that stands.
+constexpr double standing_rad = 1e-9;
 
 std::vector<Axis> axes_of(const Chain& chain) {
     std::vector<Axis> axes;
@@ -12,9 +18,15 @@ std::vector<Axis> axes_of(const Chain& chain) {
     return axes;
 }
 
+std::string_view trimmed(std::string_view text) {
+    while (text.starts_with(' ')) text.remove_prefix(1);
+    while (text.ends_with(' ')) text.remove_suffix(1);
+    return text;
+}
+
 bool turns(const AxisMove& move) {
     for (const Axis axis : {Axis::A, Axis::B, Axis::C})
-        if (move.from[axis] != move.to[axis]) return true;
+        if (std::abs(move.from[axis] - move.to[axis]) > standing_rad) return true;
     return false;
 }
 
@@ -44,7 +56,7 @@ MachineSink::MachineSink(const Setup& setup, EffectModels effects, const SinkOpt
       bar_(setup, options.seed ^ 0x5bd1e995u),  // another stream than the probe's
       log_(axes_of(setup.machine.chain), options.test) {
     for (const AxisGeometry& axis : setup.machine.chain.axes()) has_rotary_ |= axis.rotary;
-    if (has_rotary_) mode_ = PositioningMode::dpp;
+    if (has_rotary_) mode_ = plain_mode_ = PositioningMode::dpp;
     if (options.trace)
         trace_.emplace(axes_of(setup.machine.chain), options.truth, options.trace_chunk);
 }
@@ -72,6 +84,24 @@ void MachineSink::obey(std::string_view line) {
         test_start_s_ = clock_s_;
         if (line.starts_with(on)) bar_.start(clock_s_);
     }
+    set_shop(line);
+}
+
+void MachineSink::set_shop(std::string_view line) {
+    const std::size_t space = line.find(' ');
+    if (space == std::string_view::npos) return;
+    const std::string_view word = line.substr(0, space);
+    if (word == "POSITIONS" && has_rotary_)
+        plain_mode_ = mode_ = line.substr(space + 1).starts_with("DIRECT") ? PositioningMode::none
+                                                                           : PositioningMode::dpp;
+    const auto value = parse_number(trimmed(line.substr(space + 1)));
+    if (!value) return;
+    if (word == "SPINDLE") shop_.spindle_rad = rad_from_deg(*value);
+    if (word == "LOAD") shop_.load_kg = *value;
+    if (word == "TEMPERATURE") shop_.temperature_c = *value;
+    if (word == "CLAMPED") shop_.clamped = *value != 0.0;
+    if (word == "SAMPLE" && *value > 0.0) bar_.sample_every(*value);
+    if (word == "EXTENSION") shop_.extension_mm = *value;
 }
 
 /// A move under a function sets the mode; a turn without any function is the program's own
@@ -80,11 +110,12 @@ void MachineSink::follow_mode(const AxisMove& move) {
     if (move.mode != PositioningMode::none && move.mode != PositioningMode::dpp)
         mode_ = move.mode;
     else if (has_rotary_ && turns(move))
-        mode_ = PositioningMode::dpp;
+        mode_ = plain_mode_;
 }
 
 Vector3 MachineSink::true_tip_W(const PathSampler& path, double s) const {
-    return physical_tip_W(machine_.at(path.at(s), {}), physical_tip_S(setup_, path.move));
+    return physical_tip_W(machine_.at(path.at(s), {}),
+                          physical_tip_S(setup_, path.move, shop_.extension_mm));
 }
 
 void MachineSink::write_trace(const PathSampler& path, double end_s) {
@@ -112,13 +143,15 @@ std::optional<Touch> MachineSink::probe(const PathSampler& path) {
     row.direction_M = touch->direction_M;
     row.value_mm = touch->value_mm;
     row.feed_mm_min = path.move.feed_mm_min;
+    set_up_like(path.shop, row);
     log_.add(std::move(row));
     return touch;
 }
 
 MoveResult MachineSink::move(const AxisMove& move) {
     follow_mode(move);
-    const PathSampler path{move, tracker_, clock_s_, mode_};
+    PathSampler path{move, tracker_, clock_s_, mode_};
+    path.shop = shop_;
     std::optional<Touch> touch;
     if (move.until_skip && touch_.mounted(move)) touch = probe(path);
     const double end_s = touch ? touch->s : 1.0;

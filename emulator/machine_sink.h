@@ -27,7 +27,11 @@ struct SinkOptions {
 /// Advances the clock, follows the axes, answers G31 from the probe, reads the ballbar, writes the
 /// trace. Lines that the program prints steer it as a PC on the serial line would be steered:
 /// `TEST words` names the test, `BALLBAR ON words` and `BALLBAR OFF` bound a pass. A name is the
-/// words joined by '_', in lower case except single letters: RADIAL A POS is radial_A_pos.
+/// words joined by '_', in lower case except single letters: RADIAL A POS is radial_A_pos. What the
+/// operator set up is told the same way: SPINDLE 180, LOAD 80, TEMPERATURE 24, CLAMPED 1, EXTENSION
+/// 60 (deg, kg, deg C, 0 or 1, mm). SAMPLE 5: the ballbar
+/// reads every 5 degrees of the swept angle. POSITIONS DIRECT: turns without a function come from
+/// no store (empty mode); POSITIONS STORE ends that.
 class MachineSink : public MotionSink {
   public:
     /// `setup` must outlive the sink.
@@ -45,6 +49,7 @@ class MachineSink : public MotionSink {
 
   private:
     void obey(std::string_view line);
+    void set_shop(std::string_view line);
     void follow_mode(const AxisMove& move);
     std::optional<Touch> probe(const PathSampler& path);
     void write_trace(const PathSampler& path, double end_s);
@@ -61,6 +66,8 @@ class MachineSink : public MotionSink {
     double clock_s_ = 0.0, test_start_s_ = 0.0;
     bool has_rotary_ = false;
     PositioningMode mode_ = PositioningMode::none;  ///< function that positioned the rotary axes
+    PositioningMode plain_mode_ = PositioningMode::none;  ///< of turns without a function
+    ShopState shop_;
     std::string line_;
 };
 

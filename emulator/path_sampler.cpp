@@ -17,6 +17,10 @@ AxisSample PathSampler::at(double s) const {
     sample.time_s = time_s(s);
     sample.feed_mm_min = move.feed_mm_min;
     sample.mode = mode;
+    sample.spindle_rad = shop.spindle_rad;
+    sample.temperature_c = shop.temperature_c;
+    sample.load_kg = shop.load_kg;
+    sample.clamped = shop.clamped;
     tracker.describe(sample);
     const auto last_travel = sample.travel;
     if (by_velocity) sample.travel.fill(0);

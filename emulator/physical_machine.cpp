@@ -17,9 +17,9 @@ PhysicalState PhysicalMachine::at(const AxisSample& sample, const Contact& conta
     return state;
 }
 
-Vector3 physical_tip_S(const Setup& setup, const AxisMove& move) {
+Vector3 physical_tip_S(const Setup& setup, const AxisMove& move, double extension_mm) {
     if (setup.probe && setup.probe->tool != 0 && move.tool == setup.probe->tool)
-        return setup.probe->tip_S_mm;
+        return setup.probe->tip_with(extension_mm);
     return -move.tool_vector_mm;
 }
 

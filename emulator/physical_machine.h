@@ -27,7 +27,7 @@ class PhysicalMachine {
 
 /// The physical tip in S during a move: the stylus when the setup's probe is in the spindle, else a
 /// tool just as long as the control believes (the gauge point when no length is in force).
-Vector3 physical_tip_S(const Setup& setup, const AxisMove& move);
+Vector3 physical_tip_S(const Setup& setup, const AxisMove& move, double extension_mm = 0.0);
 
 /// Where that tip is in W, effects included.
 Vector3 physical_tip_W(const PhysicalState& state, const Vector3& tip_S_mm);

@@ -32,6 +32,19 @@ ReadingLog::ReadingLog(std::vector<Axis> axes, std::string test) : test_(std::mo
     table_.comment = {{"schema", "trunnion.readings/1"}, {"source", "simulated"}};
 }
 
+ReadingTable ReadingLog::take() {
+    const auto column = [&](const char* name, const auto& differs) {
+        if (std::any_of(table_.rows.begin(), table_.rows.end(), differs))
+            table_.optional_columns.emplace_back(name);
+    };
+    column("spindle_deg", [](const Reading& r) { return r.spindle_rad != 0.0; });
+    column("temperature_c", [](const Reading& r) { return r.temperature_c != 20.0; });
+    column("load_kg", [](const Reading& r) { return r.load_kg != 0.0; });
+    column("clamped", [](const Reading& r) { return r.clamped; });
+    column("extension_mm", [](const Reading& r) { return r.extension_mm != 0.0; });
+    return std::move(table_);
+}
+
 void ReadingLog::set_test(std::string test) {
     test_ = std::move(test);
 }

@@ -20,7 +20,8 @@ class ReadingLog {
     void add(Reading row);
 
     const std::string& test() const { return test_; }
-    ReadingTable take() { return std::move(table_); }
+    /// The table, with a column for each quantity that a row sets beside its usual value.
+    ReadingTable take();
 
   private:
     struct Stop {

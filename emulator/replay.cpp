@@ -12,7 +12,7 @@ struct Place {
     const Setup& setup;
     const ReadingTable& table;
     [[noreturn]] void refuse(const Reading& row, const std::string& message) const {
-        throw InputError(message + " (setup " + setup.path + ")", {table.path, row.line, 0});
+        throw InputError(message + " (setup " + setup.path + ")", place_of(table, row));
     }
 };
 
@@ -65,6 +65,11 @@ double arc_mm(const ReadingTable& table, const std::vector<std::size_t>& rows, s
     return chord < 1.4 * radius ? 2.0 * radius * std::asin(chord / (2.0 * radius)) : chord;
 }
 
+Vector3 shift_of(const ExtensionErrors& errors, const Contact& contact) {
+    const auto it = errors.find(contact.extension_mm);
+    return it == errors.end() ? Vector3(Vector3::Zero()) : it->second;
+}
+
 }  // namespace
 
 Replay::Replay(const Setup& setup, const ReadingTable& table) : setup_(setup) {
@@ -74,6 +79,13 @@ Replay::Replay(const Setup& setup, const ReadingTable& table) : setup_(setup) {
                                  " of the setup's machine: readings of another machine?",
                              {table.path, 0, 0});
     const Place where{setup, table};
+    for (const Axis axis : table.axes) {
+        if (setup.machine.chain.find(axis)) continue;
+        for (const Reading& row : table.rows)
+            if (row.commanded[axis] != 0.0)
+                where.refuse(row, std::string("axis ") + letter_of(axis) +
+                                      " moves, but the setup's machine has no such axis");
+    }
     const std::vector<AxisSample> all = samples_of(table);
     const ForwardModel model(setup.machine);
     const int touches = touches_of(table);
@@ -96,6 +108,7 @@ Replay::Replay(const Setup& setup, const ReadingTable& table) : setup_(setup) {
         contact.device = row.device;
         contact.artefact = artefact_index(where, row);
         contact.direction_M = row.direction_M;
+        contact.extension_mm = row.extension_mm;
         const auto& rows = tests[row.test];
         contact.test_time_s = row.time_s - table.rows[rows.front()].time_s;
         contact.path_mm = path_mm[r];
@@ -111,9 +124,9 @@ Replay::Replay(const Setup& setup, const ReadingTable& table) : setup_(setup) {
             where.refuse(row, "a probe row on '" + artefact.name + "', which is no sphere");
         const MachinePose poses = model.poses(row.commanded);
         if (row.device == Device::ballbar)
-            contact.direction_M =
-                (poses.pose_MW * artefact.center_W_mm - poses.pose_MS * setup.ballbar->cup_S_mm)
-                    .normalized();
+            contact.direction_M = (poses.pose_MW * artefact.center_W_mm -
+                                   poses.pose_MS * setup.ballbar->cup_with(row.extension_mm))
+                                      .normalized();
         if (row.device == Device::sphere) {
             contact.touches = touches;
             for (const Axis axis : all_axes)
@@ -135,11 +148,14 @@ double Replay::read(std::size_t i, const ForwardModel& model, const ReplayOffset
     if (a < offsets.artefact_W.size()) center_W += offsets.artefact_W[a];
     const Vector3 center_M = poses.pose_MW * center_W;
     if (contact.device == Device::ballbar) {
-        const Vector3 cup_S = setup_.ballbar->cup_S_mm + offsets.cup_S + extra.tip_shift_mm;
+        const Vector3 cup_S = setup_.ballbar->cup_with(contact.extension_mm) + offsets.cup_S +
+                              shift_of(offsets.long_cup_S, contact) + extra.tip_shift_mm;
         return (center_M - poses.pose_MS * cup_S).norm() - setup_.ballbar->warm_length_mm() -
                offsets.length + extra.reading_mm;
     }
-    const Vector3 tip_M = poses.pose_MS * (setup_.probe->tip_S_mm + extra.tip_shift_mm);
+    const Vector3 tip_S = setup_.probe->tip_with(contact.extension_mm) +
+                          shift_of(offsets.stylus_S, contact) + extra.tip_shift_mm;
+    const Vector3 tip_M = poses.pose_MS * tip_S;
     const Vector3 away = tip_M - center_M;
     const double along = away.dot(contact.direction_M);
     if (contact.device == Device::sphere) return -along + extra.reading_mm;

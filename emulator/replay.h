@@ -21,6 +21,7 @@ struct Contact {
     Vector3 direction_W = Vector3::Zero();  ///< the same seen from the table
     int touches = 0;                        ///< of the pattern behind a sphere row, 0 = unknown
     double test_time_s = 0.0;               ///< since the test began
+    double extension_mm = 0.0;              ///< of stylus or cup, beyond the setup's
     double path_mm = 0.0;                   ///< of the linear axes since the test began
     AxisPositions acceleration;             ///< mm/s^2, rad/s^2 along the commanded path
 };
@@ -41,7 +42,8 @@ using EffectModels = std::vector<std::shared_ptr<const EffectModel>>;
 struct ReplayOffsets {
     std::vector<Vector3> artefact_W;  ///< by artefact
     Vector3 cup_S = Vector3::Zero();
-    double length = 0.0;  ///< of the ballbar
+    double length = 0.0;                   ///< of the ballbar
+    ExtensionErrors stylus_S, long_cup_S;  ///< by extension
 };
 
 /// All device rows of a table, ready to be predicted many times.

@@ -47,6 +47,25 @@ std::string read_file(const std::string& path) {
 
 }  // namespace
 
+namespace {
+
+Vector3 extended(const Vector3& ball_S_mm, double extension_mm, const ExtensionErrors& errors) {
+    if (extension_mm == 0.0) return ball_S_mm;
+    const auto it = errors.find(extension_mm);
+    const Vector3 below = ball_S_mm - extension_mm * Vector3::UnitZ();
+    return it == errors.end() ? below : Vector3(below + it->second);
+}
+
+}  // namespace
+
+Vector3 ProbeSettings::tip_with(double extension_mm) const {
+    return extended(tip_S_mm, extension_mm, extension_errors);
+}
+
+Vector3 BallbarSettings::cup_with(double extension_mm) const {
+    return extended(cup_S_mm, extension_mm, extension_errors);
+}
+
 const Artefact* Setup::find_artefact(const std::string& wanted) const {
     for (const Artefact& artefact : artefacts)
         if (artefact.name == wanted) return &artefact;

@@ -17,12 +17,18 @@
 
 namespace trunnion {
 
+/// Where the ball of a longer stylus or cup was found beside its place straight below, by length
+/// of the extension (readings column extension_mm), in S.
+using ExtensionErrors = std::map<double, Vector3>;
+
 struct ProbeSettings {
     int tool = 0;                            ///< control tool it is called as, 0 = any
     Vector3 tip_S_mm = Vector3(0, 0, -150);  ///< physical stylus ball centre in S
     double ball_diameter_mm = 6.0;
     double repeatability_um = 0.0;
     double pretravel_um = 0.0;
+    ExtensionErrors extension_errors;
+    Vector3 tip_with(double extension_mm) const;  ///< stylus ball centre with a longer stylus
 };
 
 struct BallbarSettings {
@@ -36,6 +42,8 @@ struct BallbarSettings {
     double sample_deg = 0.0;  ///< above 0: sampled by swept angle instead of time
     bool free_cup = false;
     bool free_length = false;
+    ExtensionErrors extension_errors;
+    Vector3 cup_with(double extension_mm) const;  ///< cup ball centre with a longer cup
 
     double length_at_mm(double celsius) const {
         return length_mm * (1.0 + expansion_per_k * (celsius - 20.0));

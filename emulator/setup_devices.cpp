@@ -4,6 +4,19 @@
 namespace trunnion {
 namespace {
 
+/// Four numbers an entry: length of the extension, then the place of its ball beside that below.
+ExtensionErrors read_extensions(const TomlFile& file, const TomlValue& table) {
+    ExtensionErrors errors;
+    const TomlValue* list = table.find("extension_errors_mm");
+    if (!list) return errors;
+    const std::vector<double> v = file.numbers(*list);
+    if (v.size() % 4 != 0)
+        file.fail(*list, "extension_errors_mm holds four numbers an extension: length, x, y, z");
+    for (std::size_t k = 0; k < v.size(); k += 4)
+        errors[v[k]] = Vector3(v[k + 1], v[k + 2], v[k + 3]);
+    return errors;
+}
+
 void read_probe(const TomlFile& file, const TomlValue& table, Setup& setup) {
     ProbeSettings probe;
     probe.tool = static_cast<int>(file.find_number(file.table(table), "tool").value_or(0.0));
@@ -12,6 +25,7 @@ void read_probe(const TomlFile& file, const TomlValue& table, Setup& setup) {
         probe.ball_diameter_mm = file.positive(*ball);
     probe.repeatability_um = file.find_number(table, "repeatability_um").value_or(0.0);
     probe.pretravel_um = file.find_number(table, "pretravel_um").value_or(0.0);
+    probe.extension_errors = read_extensions(file, table);
     setup.probe = probe;
 }
 
@@ -43,6 +57,7 @@ void read_ballbar(const TomlFile& file, const TomlValue& table, Setup& setup) {
         bar.free_cup = lists(list, "cup");
         bar.free_length = lists(list, "length");
     }
+    bar.extension_errors = read_extensions(file, table);
     setup.ballbar = bar;
 }
 

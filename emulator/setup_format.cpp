@@ -231,13 +231,21 @@ std::string control_text(const Setup& setup) {
     return out + numbered_text("signals", setup.stores.signals);
 }
 
+std::string extensions_text(const ExtensionErrors& errors) {
+    std::vector<double> flat;
+    for (const auto& [length_mm, shift] : errors)
+        for (const double v : {length_mm, shift.x(), shift.y(), shift.z()}) flat.push_back(v);
+    return flat.empty() ? "" : "extension_errors_mm = " + numbers(flat) + '\n';
+}
+
 std::string probe_text(const ProbeSettings& probe) {
     std::string out = "\n[probe]\n";
     if (probe.tool != 0) out += "tool = " + std::to_string(probe.tool) + '\n';
     return out + "tip_mm = " + numbers(probe.tip_S_mm) +
            "\nball_diameter_mm = " + shortest(probe.ball_diameter_mm) +
            "\nrepeatability_um = " + shortest(probe.repeatability_um) +
-           "\npretravel_um = " + shortest(probe.pretravel_um) + '\n';
+           "\npretravel_um = " + shortest(probe.pretravel_um) + '\n' +
+           extensions_text(probe.extension_errors);
 }
 
 std::string texts(const std::vector<std::string>& list) {
@@ -255,7 +263,7 @@ std::string ballbar_text(const BallbarSettings& bar) {
            "\nread_temperature_c = " + shortest(bar.read_temperature_c) +
            "\nnoise_um = " + shortest(bar.noise_um) + "\nsample_hz = " + shortest(bar.sample_hz) +
            (bar.sample_deg > 0.0 ? "\nsample_deg = " + shortest(bar.sample_deg) : "") +
-           "\nfree = " + texts(free) + '\n';
+           "\nfree = " + texts(free) + '\n' + extensions_text(bar.extension_errors);
 }
 
 std::string artefact_text(const Artefact& artefact) {

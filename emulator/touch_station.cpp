@@ -25,6 +25,8 @@ std::optional<Touch> TouchStation::touch(const PathSampler& path, const Physical
     Contact contact;
     contact.device = Device::touch;
     contact.test_time_s = path.start_s - test_start_s;
+    contact.extension_mm = path.shop.extension_mm;
+    const Vector3 tip_S_mm = settings.tip_with(path.shop.extension_mm);
     if (way.norm() > 0.0) contact.direction_M = way.normalized();
     std::optional<double> first;
     for (std::size_t i = 0; i < setup_.artefacts.size(); ++i) {
@@ -34,7 +36,7 @@ std::optional<Touch> TouchStation::touch(const PathSampler& path, const Physical
         here.artefact = static_cast<int>(i);
         const auto separation = [&](double s) -> Vector3 {
             const PhysicalState state = machine.at(path.at(s), here);
-            return state.poses.pose_MS * (settings.tip_S_mm + state.extra.tip_shift_mm) -
+            return state.poses.pose_MS * (tip_S_mm + state.extra.tip_shift_mm) -
                    state.poses.pose_MW * (artefact.center_W_mm + state.extra.work_shift_mm);
         };
         const double reach_mm = 0.5 * (settings.ball_diameter_mm + artefact.diameter_mm);

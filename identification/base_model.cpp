@@ -5,15 +5,24 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "effects/settings.h"
 #include "geometry/alarm.h"
+#include "geometry/numbers.h"
 #include "identification/least_squares.h"
 
 namespace trunnion {
 namespace {
 
 constexpr double absurd_mm = 5.0;  ///< a residual that no machine has: units, frame or setup wrong
+constexpr double absurd_rms_mm = 0.5;
+constexpr double absurd_rad = 0.03;  ///< of a location error
+
+/// "stylus+60.": a longer stylus or cup, followed by a direction.
+std::string extension_name(bool stylus, double extension_mm) {
+    return fmt::format("{}{:+}.", stylus ? "stylus" : "cup", extension_mm);
+}
 
 /// Where the unknowns of a fit live: first those of effects, then those of the set-up.
 class Unknowns {
@@ -29,7 +38,9 @@ class Unknowns {
         const Effect* effect = nullptr;  ///< nullptr: set-up
         std::size_t parameter = 0;       ///< of the effect
         int artefact = -1,
-            axis = 0;  ///< set-up: artefact centre, else the cup (axis < 3) or length
+            axis = 0;               ///< set-up: artefact centre, else the cup (axis < 3) or length
+        double extension_mm = 0.0;  ///< not 0: ball of this longer stylus or cup
+        bool stylus = false;
         FitParameter fit;
     };
     const std::vector<Slot>& slots() const { return slots_; }
@@ -73,6 +84,21 @@ class Unknowns {
         if (bar && setup_.ballbar->free_cup)
             for (int d = 0; d < 3; ++d) push_set_up(std::string("cup.") + "xyz"[d] + "_mm", -1, d);
         if (bar && setup_.ballbar->free_length) push_set_up("length_mm", -1, 3);
+        add_extensions(replay);
+    }
+
+    /// A longer stylus or cup hangs only roughly below the usual one.
+    void add_extensions(const Replay& replay) {
+        std::set<std::pair<bool, double>> used;
+        for (std::size_t i = 0; i < replay.size(); ++i)
+            if (const Contact& c = replay.contact(i); c.extension_mm != 0.0)
+                used.insert({c.device != Device::ballbar, c.extension_mm});
+        for (const auto& [stylus, extension_mm] : used)
+            for (int d = 0; d < 3; ++d) {
+                push_set_up(extension_name(stylus, extension_mm) + "xyz"[d] + "_mm", -1, d);
+                slots_.back().extension_mm = extension_mm;
+                slots_.back().stylus = stylus;
+            }
     }
 
     void push_set_up(const std::string& name, int artefact, int axis) {
@@ -92,7 +118,12 @@ using Slot = Unknowns::Slot;
 double set_up_derivative(const Slot& slot, const Contact& contact, const Perturbation& gradient) {
     if (slot.artefact >= 0)
         return contact.artefact == slot.artefact ? gradient.work_shift_mm(slot.axis) : 0.0;
-    if (contact.device != Device::ballbar) return 0.0;
+    const bool stylus = contact.device != Device::ballbar;
+    if (slot.extension_mm != 0.0)
+        return slot.extension_mm == contact.extension_mm && slot.stylus == stylus
+                   ? gradient.tip_shift_mm(slot.axis)
+                   : 0.0;
+    if (stylus) return 0.0;
     return slot.axis < 3 ? gradient.tip_shift_mm(slot.axis) : -1.0;
 }
 
@@ -114,6 +145,12 @@ Eigen::MatrixXd columns_of(const std::vector<Slot>& slots, const Replay& replay,
     return columns;
 }
 
+Vector3& extension_error(Setup& setup, const Slot& slot) {
+    ExtensionErrors& errors =
+        slot.stylus ? setup.probe->extension_errors : setup.ballbar->extension_errors;
+    return errors.try_emplace(slot.extension_mm, Vector3::Zero()).first->second;
+}
+
 /// Applies a step of the fit (in units) to the setup.
 void apply_step(Setup& setup, const std::vector<Slot>& slots, const Eigen::VectorXd& step) {
     std::map<const Effect*, std::vector<double>> by_effect;
@@ -126,6 +163,8 @@ void apply_step(Setup& setup, const std::vector<Slot>& slots, const Eigen::Vecto
             values[slot.parameter] = by;
         } else if (slot.artefact >= 0) {
             setup.artefacts[static_cast<std::size_t>(slot.artefact)].center_W_mm(slot.axis) += by;
+        } else if (slot.extension_mm != 0.0) {
+            extension_error(setup, slot)(slot.axis) += by;
         } else if (slot.axis < 3) {
             setup.ballbar->cup_S_mm(slot.axis) += by;
         } else {
@@ -135,12 +174,21 @@ void apply_step(Setup& setup, const std::vector<Slot>& slots, const Eigen::Vecto
     for (const auto& [effect, values] : by_effect) add_effect(setup, *effect, values);
 }
 
+ExtensionErrors difference(const ExtensionErrors& from, ExtensionErrors to) {
+    for (auto& [length_mm, shift] : to)
+        if (const auto it = from.find(length_mm); it != from.end()) shift -= it->second;
+    return to;
+}
+
 /// Difference to the setup's own set-up quantities: the replay keeps those of the file.
 ReplayOffsets offsets_between(const Setup& from, const Setup& to) {
     ReplayOffsets offsets;
     for (std::size_t k = 0; k < from.artefacts.size(); ++k)
         offsets.artefact_W.push_back(to.artefacts[k].center_W_mm - from.artefacts[k].center_W_mm);
+    if (from.probe)
+        offsets.stylus_S = difference(from.probe->extension_errors, to.probe->extension_errors);
     if (!from.ballbar) return offsets;
+    offsets.long_cup_S = difference(from.ballbar->extension_errors, to.ballbar->extension_errors);
     offsets.cup_S = to.ballbar->cup_S_mm - from.ballbar->cup_S_mm;
     offsets.length = to.ballbar->length_mm - from.ballbar->length_mm;
     return offsets;
@@ -156,6 +204,33 @@ Eigen::VectorXd residual(const BaseModel& model, const Replay& replay, const Set
 double location_value(const Setup& setup, const FitParameter& fit) {
     const auto name = parse_error_name(fit.name.substr(0, 4));
     return name ? setup.machine.errors.location(*name) : 0.0;
+}
+
+/// Weighted squares of the residuals and of what calibrated values are off.
+double misfit(const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& weight, const Setup& setup,
+              const std::vector<Slot>& slots) {
+    double sum = residual_mm.cwiseProduct(weight).squaredNorm();
+    for (const Slot& slot : slots)
+        if (const FitParameter& p = slot.fit; p.prior_sigma > 0.0)
+            sum += std::pow((location_value(setup, p) - p.prior_value) / p.prior_sigma, 2);
+    return sum;
+}
+
+/// Takes the step, or a part of it where the whole one makes all fit worse: along a direction that
+/// is hardly seen it may lead far beyond where derivatives hold.
+void take_step(BaseModel& model, const Replay& replay, const std::vector<Slot>& slots,
+               const Eigen::VectorXd& weight, const Eigen::VectorXd& step) {
+    const double before = misfit(model.residual_mm, weight, model.setup, slots);
+    for (double part = 1.0;; part *= 0.5) {
+        Setup trial = model.setup;
+        apply_step(trial, slots, part * step);
+        Eigen::VectorXd left = residual(model, replay, trial);
+        const bool worse = misfit(left, weight, trial, slots) > 1.01 * before + 1.0;
+        if (worse && part > 0.01) continue;
+        model.setup = std::move(trial);
+        model.residual_mm = std::move(left);
+        return;
+    }
 }
 
 /// Weight of each row: 1 / sigma, less for rows that stand out (Huber at 3 sigma of the median).
@@ -180,21 +255,37 @@ void take_measured(BaseModel& model, const ReadingTable& table, const Replay& re
     for (Eigen::Index i = 0; i < n; ++i) {
         const Reading& row = table.rows[replay.table_row(static_cast<std::size_t>(i))];
         if (!row.value_mm)
-            throw InputError("a row with a device but without value_mm", {table.path, row.line, 0});
+            throw InputError("a row with a device but without value_mm", place_of(table, row));
         model.measured_mm(i) = *row.value_mm;
     }
+}
+
+[[noreturn]] void refuse_machine(const std::string& what, const SourceRef& where) {
+    throw InputError(what +
+                         " after fitting: wrong units (um for mm?), wrong frame, or the setup of "
+                         "another machine",
+                     where);
 }
 
 void refuse_absurd(const BaseModel& model, const Replay& replay, const ReadingTable& table) {
     Eigen::Index worst = 0;
     const double most = model.residual_mm.cwiseAbs().maxCoeff(&worst);
-    if (most < absurd_mm) return;
-    const Reading& row = table.rows[replay.table_row(static_cast<std::size_t>(worst))];
-    throw InputError(
-        fmt::format("a residual of {:.3g} mm after fitting: wrong units, frame, or the "
-                    "setup of another machine",
-                    most),
-        {table.path, row.line, 0});
+    if (most > absurd_mm)
+        refuse_machine(
+            fmt::format("a residual of {:.3g} mm", most),
+            place_of(table, table.rows[replay.table_row(static_cast<std::size_t>(worst))]));
+    const double rms =
+        std::sqrt(model.residual_mm.squaredNorm() / static_cast<double>(model.residual_mm.size()));
+    if (rms > absurd_rms_mm)
+        refuse_machine(fmt::format("residuals of {:.3g} mm rms", rms), {table.path, 0, 0});
+}
+
+/// A location error that no assembly has means that the setup describes another machine.
+void refuse_absurd_location(const FitParameter& p, const ReadingTable& table) {
+    if (p.effect == "location" && std::isfinite(p.sigma) &&
+        std::abs(p.value) > (p.unit == "mm" ? absurd_mm : absurd_rad))
+        refuse_machine(fmt::format("{} comes out as {:.3g} {}", p.name, p.value, p.unit),
+                       {table.path, 0, 0});
 }
 
 void name_null_space(BaseModel& model, const std::vector<Slot>& slots, const LinearFit& fit) {
@@ -204,7 +295,7 @@ void name_null_space(BaseModel& model, const std::vector<Slot>& slots, const Lin
         for (Eigen::Index j = 0; j < v.size(); ++j) {
             const FitParameter& p = slots[static_cast<std::size_t>(j)].fit;
             if (v(j) == 0.0) continue;
-            group.names.push_back(p.effect == "setup" ? p.name : p.effect + "." + p.name);
+            group.names.push_back(full_name(p));
             group.direction.push_back(v(j) * p.typical);
             largest = std::max(largest, std::abs(v(j) * p.typical));
         }
@@ -214,6 +305,21 @@ void name_null_space(BaseModel& model, const std::vector<Slot>& slots, const Lin
 }
 
 }  // namespace
+
+std::string full_name(const FitParameter& p) {
+    const std::string name = p.effect == "setup" ? p.name : p.effect + "." + p.name;
+    return p.component < 0 ? name : fmt::format("{}[{}]", name, "xyz"[p.component]);
+}
+
+std::string to_string(const Inseparable& group) {
+    std::string text;
+    for (std::size_t k = 0; k < group.names.size(); ++k) {
+        const double by = group.direction[k];
+        text += k == 0 ? (by < 0.0 ? "-" : "") : (by < 0.0 ? " - " : " + ");
+        text += fmt::format("{:.3g} {}", std::abs(by), group.names[k]);
+    }
+    return text;
+}
 
 RowNoise row_noise(const Setup& setup, const ReadingTable& table, const Replay& replay) {
     static const std::map<Device, std::pair<const char*, double>> usual_um{
@@ -287,6 +393,21 @@ BaseColumns base_columns(const Setup& setup, const Replay& replay, const Catalog
     return result;
 }
 
+namespace {
+
+/// The slot of "stylus+60" or "cup+60".
+void read_extension(const std::string& owner, Slot& slot) {
+    const auto sign = owner.find_first_of("+-");
+    if (sign == std::string::npos) return;
+    const std::string word = owner.substr(0, sign);
+    const auto length = parse_number(owner.substr(owner[sign] == '+' ? sign + 1 : sign));
+    if (!length || (word != "stylus" && word != "cup")) return;
+    slot.extension_mm = *length;
+    slot.stylus = word == "stylus";
+}
+
+}  // namespace
+
 void shift_base(Setup& setup, const BaseModel& base, const Catalogue& catalogue,
                 const Eigen::VectorXd& step) {
     std::vector<Slot> slots;
@@ -305,6 +426,7 @@ void shift_base(Setup& setup, const BaseModel& base, const Catalogue& catalogue,
             const auto dot_at = p.name.rfind('.');
             slot.axis = p.name[dot_at + 1] - 'x';
             const std::string owner = p.name.substr(0, dot_at);
+            read_extension(owner, slot);
             for (std::size_t k = 0; k < setup.artefacts.size(); ++k)
                 if (setup.artefacts[k].name == owner && p.typical > 0.0 && owner != "cup")
                     slot.artefact = static_cast<int>(k);
@@ -339,7 +461,7 @@ BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& 
     for (Eigen::Index j = 0; j < p; ++j)
         typical(j) = slots[static_cast<std::size_t>(j)].fit.typical;
     LinearFit fit;
-    for (int pass = 0; pass < 4; ++pass) {
+    for (int pass = 0; pass < 8; ++pass) {
         const Eigen::VectorXd weight = row_weights(model, model.residual_mm);
         const Eigen::MatrixXd a = weight.asDiagonal() * model.columns;
         Eigen::MatrixXd information = a.transpose() * a;
@@ -353,8 +475,7 @@ BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& 
                 pull * pull * (prior.prior_value - location_value(model.setup, prior)) / typical(j);
         }
         fit = solve_ranked(information, gradient);
-        apply_step(model.setup, slots, typical.cwiseProduct(fit.value));
-        model.residual_mm = residual(model, replay, model.setup);
+        take_step(model, replay, slots, weight, typical.cwiseProduct(fit.value));
         if (fit.value.cwiseAbs().maxCoeff() < 1e-7) break;
     }
     refuse_absurd(model, replay, table);
@@ -367,9 +488,10 @@ BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& 
         done.sigma = typical(j) * fit.sigma(j);
         if (!slot.effect) {
             const auto a = static_cast<std::size_t>(std::max(0, slot.artefact));
-            done.value = slot.artefact >= 0 ? model.setup.artefacts[a].center_W_mm(slot.axis)
-                         : slot.axis < 3    ? model.setup.ballbar->cup_S_mm(slot.axis)
-                                            : model.setup.ballbar->length_mm;
+            done.value = slot.extension_mm != 0.0 ? extension_error(model.setup, slot)(slot.axis)
+                         : slot.artefact >= 0     ? model.setup.artefacts[a].center_W_mm(slot.axis)
+                         : slot.axis < 3          ? model.setup.ballbar->cup_S_mm(slot.axis)
+                                                  : model.setup.ballbar->length_mm;
         } else if (slot.effect->name == "location") {
             done.value = location_value(model.setup, slot.fit);
         } else {
@@ -377,6 +499,7 @@ BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& 
                 if (setting.name == slot.effect->name)
                     done.value = values_of(*slot.effect, setting)[slot.parameter];
         }
+        refuse_absurd_location(done, table);
         model.parameters.push_back(done);
     }
     model.models = active_models(model.setup);

@@ -29,6 +29,11 @@ struct Inseparable {
     std::vector<double> direction;
 };
 
+/// "pivot.p1970x.dd_mm[z]"; set-up quantities without "setup.".
+std::string full_name(const FitParameter& parameter);
+/// "1 dp_mm[y] - 1 dd_mm[y]": the change that no reading shows.
+std::string to_string(const Inseparable& group);
+
 /// One sigma of each device row, mm, and whether every row had one in the table or in the setup.
 struct RowNoise {
     Eigen::VectorXd sigma_mm;

@@ -1,10 +1,13 @@
 #include "identification/identify.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "geometry/alarm.h"
+#include "identification/keys.h"
 
 namespace trunnion {
 namespace {
@@ -139,11 +142,52 @@ std::vector<double> search_keys(const Replay& replay, const BaseModel& base, con
     return refine_keys(replay, base, effect, best, left_mm);
 }
 
+namespace {
+
+/// Each keyed effect at the keys that explain most beside those found before it.
+std::vector<KeyedEffect> search_all_keys(const Replay& replay, const BaseModel& base,
+                                         const Catalogue& catalogue,
+                                         const std::vector<std::string>& effects) {
+    std::vector<KeyedEffect> list;
+    BaseModel grown = base;
+    for (const Effect& effect : catalogue) {
+        if (!keyed(effect) ||
+            std::find(effects.begin(), effects.end(), effect.name) == effects.end())
+            continue;
+        KeyedEffect entry{&effect, search_keys(replay, grown, effect, base.residual_mm), {}};
+        for (std::size_t j = 0; j < effect.parameters.size(); ++j) {
+            const EffectParameter& p = effect.parameters[j];
+            if (p.is_key()) {
+                if (p.refine) entry.free.push_back(j);
+                continue;
+            }
+            grown.columns.conservativeResize(Eigen::NoChange, grown.columns.cols() + 1);
+            grown.columns.col(grown.columns.cols() - 1) =
+                effect_column(replay, base.gradient, effect, entry.values, j);
+        }
+        list.push_back(std::move(entry));
+    }
+    return list;
+}
+
+/// Fitted amplitudes beside the keys.
+void take_values(const BaseModel& base, std::vector<KeyedEffect>& effects) {
+    for (KeyedEffect& e : effects)
+        for (std::size_t j = 0; j < e.values.size(); ++j)
+            for (const FitParameter& f : base.parameters)
+                if (f.effect == e.effect->name && f.name == e.effect->parameters[j].name &&
+                    f.component == e.effect->parameters[j].component)
+                    e.values[j] = f.value;
+}
+
+}  // namespace
+
 Identification identify(const Setup& setup, const ReadingTable& table,
                         std::vector<std::string> effects) {
     if (effects.empty()) effects = setup.model.modelled;
     const Replay replay(setup, table);
-    if (replay.size() < 2) throw InputError("fewer than two readings with a device");
+    if (replay.size() < 2)
+        throw InputError("fewer than two readings with a device", {table.path, 0, 0});
     Catalogue catalogue = make_catalogue(setup, extent_of(setup, table));
     std::vector<std::string> plain;
     for (const std::string& name : effects) {
@@ -151,15 +195,15 @@ Identification identify(const Setup& setup, const ReadingTable& table,
         if (!effect) throw InputError("no effect is named '" + name + "'");
         if (!keyed(*effect)) plain.push_back(name);
     }
+    std::vector<KeyedEffect> with_keys;
     if (plain.size() < effects.size()) {
         const BaseModel base = fit_base(setup, table, replay, catalogue, plain);
-        for (Effect& effect : catalogue) {
-            if (!keyed(effect) ||
-                std::find(effects.begin(), effects.end(), effect.name) == effects.end())
-                continue;
-            const std::vector<double> keys = search_keys(replay, base, effect, base.residual_mm);
-            for (std::size_t j = 0; j < keys.size(); ++j)
-                if (effect.parameters[j].is_key()) effect.parameters[j].typical = keys[j];
+        with_keys = search_all_keys(replay, base, catalogue, effects);
+        refine_together(replay, base, with_keys);
+        for (const KeyedEffect& e : with_keys) {
+            Effect& effect = catalogue[static_cast<std::size_t>(e.effect - catalogue.data())];
+            for (std::size_t j = 0; j < e.values.size(); ++j)
+                if (effect.parameters[j].is_key()) effect.parameters[j].typical = e.values[j];
         }
     }
     BaseModel base = fit_base(setup, table, replay, catalogue, effects);
@@ -170,10 +214,17 @@ Identification identify(const Setup& setup, const ReadingTable& table,
             if (p.is_key())
                 result.parameters.push_back(
                     {name, p.name, p.unit, -1, p.typical, p.typical, std::nan(""), 0.0, 0.0});
+    take_values(base, with_keys);
+    add_key_uncertainty(replay, with_keys, base, result.parameters);
     result.inseparable = base.inseparable;
     result.rms_before_um = rms_um(base.start_residual_mm);
     result.rms_after_um = rms_um(base.residual_mm);
     result.dof = static_cast<int>(replay.size()) - base.rank;
+    if (result.dof < 1)
+        throw InputError(
+            fmt::format("{} readings cannot fix {} unknowns and show how well they fit",
+                        replay.size(), base.rank),
+            {table.path, 0, 0});
     result.setup = std::move(base.setup);
     return result;
 }

@@ -148,6 +148,8 @@ const std::map<std::string_view, Store>& optional_columns() {
          number("temperature_c", 20.0, [](Reading& r, double v) { r.temperature_c = v; })},
         {"load_kg", number("load_kg", 0.0, [](Reading& r, double v) { r.load_kg = v; })},
         {"clamped", store_clamped},
+        {"extension_mm",
+         number("extension_mm", 0.0, [](Reading& r, double v) { r.extension_mm = v; })},
         {"sigma_mm", optional_number("sigma_mm", &Reading::sigma_mm)},
     };
     return columns;
@@ -235,6 +237,7 @@ Reading read_row(const Line& line, const std::vector<Store>& stores,
     for (std::size_t i = 0; i < cells.size(); ++i)
         if (stores[i]) stores[i](row, line, cells[i]);
     check_direction(line, row);
+    if (row.sigma_mm && *row.sigma_mm < 0.0) line.fail("sigma_mm is not below zero", 1);
     return row;
 }
 
@@ -296,6 +299,7 @@ std::string optional_text(const Reading& row, std::string_view column) {
     if (column == "temperature_c") return shortest(row.temperature_c);
     if (column == "load_kg") return shortest(row.load_kg);
     if (column == "clamped") return row.clamped ? "1" : "0";
+    if (column == "extension_mm") return shortest(row.extension_mm);
     return row.sigma_mm ? shortest(*row.sigma_mm) : "";
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geometry/alarm.h"
 #include "geometry/axes.h"
 #include "geometry/pose.h"
 
@@ -35,12 +36,15 @@ struct Reading {
     double temperature_c = 20.0;
     double load_kg = 0.0;
     bool clamped = false;
+    double extension_mm = 0.0;  ///< stylus ball or cup hangs so much lower than the setup says
     std::optional<double> sigma_mm;
     int line = 0;  ///< in the file, 0 when simulated
+    int part = 0;  ///< of a joined table: which file
 };
 
 struct ReadingTable {
-    std::string path;                             ///< of the file, for messages
+    std::string path;                            ///< of the file, for messages
+    std::vector<std::string> parts;              ///< of a joined table: path of each file
     std::map<std::string, std::string> comment;  ///< `# key = value`
     std::vector<Axis> axes;                      ///< machine axes with a column
     std::vector<std::string> optional_columns;   ///< optional columns present, in file order
@@ -51,6 +55,12 @@ struct ReadingTable {
 /// `notes`.
 ReadingTable parse_readings(std::string_view text, const std::string& path,
                             std::vector<std::string>& notes);
+/// Several tables as one, in the order given: one that starts before the last one ended is taken as
+/// 60 s later, a test name that was used already gets a number. Throws InputError when the axes or
+/// the touch patterns differ.
+ReadingTable join_readings(std::vector<ReadingTable> tables);
+/// Where a row stands, for messages.
+SourceRef place_of(const ReadingTable& table, const Reading& row);
 /// The same table as text; numbers read back to the same double.
 std::string format_readings(const ReadingTable& table);
 

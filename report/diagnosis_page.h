@@ -11,7 +11,4 @@ namespace trunnion {
 /// `title` is the name of the readings.
 std::string diagnosis_page(const Diagnosis& diagnosis, const std::string& title);
 
-/// The verdict in one sentence of the shop.
-std::string verdict_sentence(const Diagnosis& diagnosis);
-
 }  // namespace trunnion

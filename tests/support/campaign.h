@@ -65,6 +65,27 @@ free = ["center"]
     return parse_setup(text, "test.toml", notes);
 }
 
+/// The same with A (about X) carrying C.
+inline Setup ac_setup() {
+    std::string text = format_setup(bc_setup());
+    const auto swap = [&](const std::string& from, const std::string& to) {
+        for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at))
+            text.replace(at, from.size(), to), at += to.size();
+    };
+    swap("w C B b", "w C A b");
+    swap("machine.axis.B", "machine.axis.A");
+    swap("[0, -1, 0]", "[-1, 0, 0]");
+    const auto stores = text.find("[control.parameters]");  // they are derived anew
+    if (stores != std::string::npos) text.erase(stores, text.find("\n[", stores) - stores);
+    std::vector<std::string> notes;
+    return parse_setup(text, "test_ac.toml", notes);
+}
+
+/// The rotary axis that carries the other.
+inline Axis tilting(const Setup& setup) {
+    return setup.machine.chain.find(Axis::B) ? Axis::B : Axis::A;
+}
+
 inline ReadingTable empty_table(const Setup& setup) {
     ReadingTable table;
     table.path = "test.csv";
@@ -96,7 +117,7 @@ inline void add_sphere_map(ReadingTable& table, const Setup& setup, int poses, s
         const double b = rad_from_deg(-90.0 + 180.0 * random.uniform());
         const double c = 2.0 * pi * random.uniform();
         for (const double back : {random.uniform() < 0.5 ? -0.1 : 0.1, 0.0}) {
-            row.commanded[Axis::B] = b + back;
+            row.commanded[tilting(setup)] = b + back;
             row.commanded[Axis::C] = c - back;
             aim(row, setup, sphere.center_W_mm, setup.probe->tip_S_mm);
             row.time_s = time_s += 10.0;
@@ -143,14 +164,14 @@ inline void add_ballbar(ReadingTable& table, const Setup& setup, int samples = 7
                          bar((plane + 1) % 3) = radius_mm * std::sin(angle);
                          aim(row, setup, pivot.center_W_mm + bar, setup.ballbar->cup_S_mm);
                      });
-    for (const Axis axis : {Axis::B, Axis::C})
+    for (const Axis axis : {tilting(setup), Axis::C})
         for (int d = 0; d < 3; ++d)
             for (const int sense : {1, -1})
                 pass(std::string(1, letter_of(axis)) + "_bar_" + "xyz"[d] +
                          (sense > 0 ? "_up" : "_down"),
                      1000.0, sense, [&](Reading& row, double angle) {
                          row.mode = PositioningMode::rtcp;
-                         row.commanded[axis] = axis == Axis::B ? 0.25 * angle : angle;
+                         row.commanded[axis] = axis != Axis::C ? 0.25 * angle : angle;
                          aim(row, setup, pivot.center_W_mm, setup.ballbar->cup_S_mm);
                          row.commanded[d == 0 ? Axis::X : d == 1 ? Axis::Y : Axis::Z] += radius_mm;
                      });
@@ -172,7 +193,9 @@ inline ReadingTable measured(const Setup& truth, const ReadingTable& table, std:
 /// A machine that is not quite where the setup has it: location errors and set-up offsets.
 inline Setup real_machine(const Setup& setup) {
     Setup truth = setup;
-    const auto set = [&](const char* name, double value) {
+    const auto set = [&](std::string name, double value) {
+        if (tilting(setup) == Axis::A && name[3] == 'B')  // across and about: X -> Y, A -> B
+            name = {'E', name[1] == 'X' ? 'Y' : name[1] == 'A' ? 'B' : name[1], '0', 'A'};
         truth.machine.errors.location(*parse_error_name(name)) = value;
     };
     set("EX0B", 0.012);

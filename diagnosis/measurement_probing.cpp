@@ -1,0 +1,218 @@
+// Spheres found and touched: rows and program of a measurement.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "diagnosis/measurement_plan.h"
+#include "geometry/units.h"
+
+namespace trunnion {
+namespace {
+
+constexpr double above_mm = sphere_start_mm;
+constexpr double stand_off_mm = 3.0;   ///< R of O8100
+constexpr double overtravel_mm = 2.0;  ///< Q of O8100
+constexpr double probing_feed = 100.0;
+constexpr double touch_s = 4.0;
+
+}  // namespace
+
+void MeasurementPlan::touch(const AxisPositions& stand_off, const AxisPositions& end,
+                            const Vector3& direction, const std::string& feature) {
+    AxisPositions up = last_;
+    up[Axis::X] = stand_off[Axis::X];
+    up[Axis::Y] = stand_off[Axis::Y];
+    const double z = up[Axis::Z];
+    pass_through(up);
+    pass_through(stand_off);
+    Reading row = state_;
+    row.commanded = end;
+    row.device = Device::touch;
+    row.feature = feature;
+    row.direction_M = direction;
+    row.feed_mm_min = probing_feed;
+    row.clamped = clamped_;
+    row.time_s = time_s_ += touch_s;
+    result_.table.rows.push_back(row);
+    pass_through(stand_off);
+    up[Axis::Z] = z;
+    pass_through(up);
+}
+
+void MeasurementPlan::nine_touches(const Artefact& sphere, const AxisPositions& center) {
+    const double reach = 0.5 * (sphere.diameter_mm + setup_.probe->ball_diameter_mm);
+    for (int k = 0; k < 9; ++k) {
+        const double lift = rad_from_deg(k == 0 ? 90.0 : k < 5 ? 45.0 : 15.0);
+        const double turn = rad_from_deg(k == 0  ? 0.0
+                                         : k < 5 ? 90.0 * (k - 1)
+                                                 : 90.0 * (k - 5) + 45.0);
+        const Vector3 out(std::cos(lift) * std::cos(turn), std::cos(lift) * std::sin(turn),
+                          std::sin(lift));
+        const auto at = [&](double distance) {
+            AxisPositions q = center;
+            for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
+                q[axis] += distance * out(static_cast<int>(index_of(axis)));
+            return q;
+        };
+        touch(at(reach + stand_off_mm), at(reach - overtravel_mm), -out, sphere.name);
+    }
+    AxisPositions home = center;
+    home[Axis::Z] = last_[Axis::Z];
+    pass_through(home);
+}
+
+void MeasurementPlan::call_sphere(const Artefact& sphere, const AxisPositions& center) {
+    const ClampCode* clamp = setup_.clamps.empty() ? nullptr : &setup_.clamps.front();
+    if (clamped_) {
+        clamp ? void(result_.program += fmt::format("M{}\n", clamp->m_clamp))
+              : stop("CLOSE THE CLAMPS");
+        tell("CLAMPED 1");
+    }
+    result_.program += fmt::format("G65 P8100 D{:.4f} S{:.4f} H{:.1f}\n", sphere.diameter_mm,
+                                   setup_.probe->ball_diameter_mm, above_mm);
+    nine_touches(sphere, center);
+    if (!clamped_) return;
+    clamp ? void(result_.program += fmt::format("M{}\n", clamp->m_release))
+          : stop("OPEN THE CLAMPS");
+    tell("CLAMPED 0");
+}
+
+bool MeasurementPlan::sphere(std::size_t which, const std::vector<double>& angles_deg,
+                             double approach_deg) {
+    const Artefact& sphere = spheres_[which % spheres_.size()];
+    const AxisPositions before = rotary_at(angles_deg, approach_deg);
+    const Target target = aim(rotary_at(angles_deg, 0.0), sphere.center_W_mm, tip_S());
+    if (!target.reachable || !aim(before, sphere.center_W_mm, tip_S()).reachable) return false;
+    AxisPositions over = target.at;
+    over[Axis::Z] += above_mm;
+    go_clear();
+    go(before, false);
+    go(target.at, false);
+    AxisPositions high = over;
+    high[Axis::Z] = last_[Axis::Z];
+    go(high, true);
+    go(over, true);
+    call_sphere(sphere, target.at);
+    return true;
+}
+
+/// Where the sphere was found at home: into #520-#522 relative to G54, or into G55.
+void MeasurementPlan::keep_home(bool dpp) {
+    if (dpp) {
+        result_.program += fmt::format(
+            "G54\n(SPHERE FOUND AT HOME, IN G54. FROM HERE ON THE PROGRAM TURNS IT ABOUT G54.)\n"
+            "#520=#5041+#100\n#521=#5042+#101\n#522=#5043-{:.1f}+#102\nG59\n",
+            above_mm);
+        return;
+    }
+    const double tip_z = tip_S().z();
+    std::string zeros;
+    for (const AxisGeometry& axis : rotary_) zeros += fmt::format("{}0.", letter_of(axis.axis));
+    result_.program += fmt::format(
+        "(SPHERE FOUND AT HOME INTO G55, PROBE LENGTH INTO OFFSET 99)\n"
+        "G10 L2 P2 X[#5041+#100] Y[#5042+#101] Z[#5043-{:.1f}+#102{:+.4f}] {}\n"
+        "G10 L10 P99 R{:.4f}\n",
+        above_mm, tip_z, zeros, -tip_z);
+}
+
+/// The gauge point above the turned sphere as a postprocessor would place it: relative to G54.
+void MeasurementPlan::lead_by_g54(const AxisPositions& rotary) {
+    const Vector3 tip = tip_S();
+    Vector3 g54 = Vector3::Zero();
+    for (std::size_t d = 0; d < 3; ++d)
+        g54(static_cast<int>(d)) = setup_.stores.work.standard[0][all_axes[d]];
+    const Pose turned = setup_.machine.poses(rotary).pose_MW;
+    const Matrix3& a = turned.rotation;
+    const Vector3 c = turned * Vector3(g54 + tip) - tip - g54;
+    const auto point = [&](int d, double lift) {
+        return fmt::format("{}[{:.7f}*#520{:+.7f}*#521{:+.7f}*#522{:+.4f}]", "XYZ"[d], a(d, 0),
+                           a(d, 1), a(d, 2), c(d) + lift);
+    };
+    result_.program += fmt::format("G54\nG0 {} {}\nG0 {}\nG59\n", point(0, 0.0), point(1, 0.0),
+                                   point(2, above_mm));
+}
+
+/// The same by tool centre point control; the control turns the point about 19700-19705.
+void MeasurementPlan::lead_by_tcp(const AxisPositions& before, const AxisPositions& rotary) {
+    const Vector3 over_W =
+        setup_.machine.poses(rotary).pose_MW.rotation.transpose() * (above_mm * Vector3::UnitZ());
+    const auto lead = [&](const AxisPositions& at) {
+        return fmt::format("G0 X{:.4f} Y{:.4f} Z{:.4f}{}\n", plan_rounded(over_W.x(), 1e-4),
+                           plan_rounded(over_W.y(), 1e-4), plan_rounded(over_W.z(), 1e-4),
+                           words(at, false));
+    };
+    result_.program +=
+        fmt::format("G0{}\nG55\nG43.4 H99 X0. Y0. Z{:.1f}\n", words({}, false), above_mm + 60.0) +
+        lead(before) + lead(rotary) + "#7=#5021\n#8=#5022\n#9=#5023\nG49 G53 G0 X#7 Y#8 Z#9\nG59\n";
+    const Vector3 center_W = spheres_.front().center_W_mm;
+    pass_through(aim({}, center_W + (above_mm + 60.0) * Vector3::UnitZ(), tip_S()).at);
+    pass_through(aim(before, center_W + over_W, tip_S()).at);
+    pass_through(aim(rotary, center_W + over_W, tip_S()).at);
+}
+
+void MeasurementPlan::sphere_by_store(PositioningMode mode,
+                                      const std::vector<std::vector<double>>& angles_deg,
+                                      double approach_deg) {
+    const Artefact& sphere = spheres_.front();
+    if (!this->sphere(0, {0.0, 0.0}, approach_deg)) return;
+    const bool dpp = mode == PositioningMode::dpp;
+    keep_home(dpp);
+    for (const auto& angles : angles_deg) {
+        const AxisPositions at = rotary_at(angles, 0.0), before = rotary_at(angles, approach_deg);
+        const Target target = aim(at, sphere.center_W_mm, tip_S());
+        if (!target.reachable || !aim(before, sphere.center_W_mm, tip_S()).reachable) continue;
+        go_clear();
+        state_.mode = mode;
+        if (dpp) {
+            tell("POSITIONS STORE");
+            go(before, false);
+            go(at, false);
+            lead_by_g54(at);
+        } else {
+            lead_by_tcp(before, at);
+        }
+        AxisPositions over = target.at;
+        if (dpp) {
+            over[Axis::Z] = last_[Axis::Z];
+            pass_through(over);
+        }
+        over[Axis::Z] = target.at[Axis::Z] + above_mm;
+        pass_through(over);
+        call_sphere(sphere, target.at);
+        if (dpp) tell("POSITIONS DIRECT");
+        state_.mode = PositioningMode::none;
+    }
+}
+
+void MeasurementPlan::azimuth_touches(const std::vector<double>& angles_deg, int azimuths) {
+    const Artefact& sphere = spheres_.front();
+    const Target target = aim(rotary_at(angles_deg, 0.0), sphere.center_W_mm, tip_S());
+    if (!target.reachable) return;
+    go_clear();
+    go(target.at, false);
+    const double reach = 0.5 * (sphere.diameter_mm + setup_.probe->ball_diameter_mm);
+    AxisPositions over = target.at;
+    over[Axis::Z] = last_[Axis::Z];
+    go(over, true);
+    over[Axis::Z] = target.at[Axis::Z] + above_mm;
+    go(over, true);
+    for (int k = 0; k < azimuths; ++k) {
+        const double angle = 2.0 * pi * k / azimuths;
+        const auto at = [&](double distance) {
+            AxisPositions q = target.at;
+            q[Axis::X] = plan_rounded(q[Axis::X] + distance * std::cos(angle), 1e-4);
+            q[Axis::Y] = plan_rounded(q[Axis::Y] + distance * std::sin(angle), 1e-4);
+            return q;
+        };
+        const AxisPositions off = at(reach + stand_off_mm), end = at(reach - overtravel_mm);
+        AxisPositions up = off;
+        up[Axis::Z] = over[Axis::Z];
+        result_.program += "G0" + words(up, true) + "\nG0" + words(off, true) + "\nG31" +
+                           words(end, true) + fmt::format(" F{:.0f}\nG0", probing_feed) +
+                           words(off, true) + "\nG0" + words(up, true) + '\n';
+        const Vector3 way(end[Axis::X] - off[Axis::X], end[Axis::Y] - off[Axis::Y], 0.0);
+        touch(off, end, way.normalized(), sphere.name);
+    }
+}
+
+}  // namespace trunnion

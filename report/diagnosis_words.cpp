@@ -1,0 +1,157 @@
+#include "report/diagnosis_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace trunnion {
+namespace {
+
+struct ShopUnit {
+    const char *from, *to;
+    double factor, below;  ///< used for values below this
+};
+
+constexpr ShopUnit shop_units[] = {
+    {"mm", "µm", 1e3, 1.0}, {"rad", "µrad", 1e6, 0.01}, {"s", "ms", 1e3, 0.1}};
+
+/// "gap_rad" in rad is "gap"; vector components get their letter.
+std::string plain_name(const FitParameter& p) {
+    std::string name = p.name;
+    const std::string end = '_' + p.unit;
+    if (name.size() > end.size() && name.ends_with(end)) name.erase(name.size() - end.size());
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return p.component < 0 ? name : fmt::format("{} {}", name, "xyz"[p.component]);
+}
+
+std::string size_words(const Diagnosis& d) {
+    return fmt::format("{:.2f} um rms, {:.2f} um of it noise ({})", d.rms_um, d.noise_um,
+                       to_string(d.noise.source));
+}
+
+std::string shrink_words(const HeldOut& h) {
+    return fmt::format(
+        "With that in the simulation the gap beyond noise shrinks by {:.0f} % ({:.0f} to {:.0f} %) "
+        "on readings that took no part in the fit.",
+        100.0 * h.shrink, 100.0 * h.low, 100.0 * h.high);
+}
+
+std::string causes_words(const Diagnosis& d) {
+    std::string text;
+    for (const Cause& cause : d.causes) {
+        if (cause.effect == "unknown") continue;
+        text += fmt::format("{}{} ({:.0f} %)", text.empty() ? "" : ", ", cause.effect,
+                            100.0 * cause.share);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string upper_first(std::string text) {
+    if (!text.empty())
+        text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    return text;
+}
+
+ShopValue shop_value(const FitParameter& p) {
+    ShopValue v{plain_name(p), "", "–", p.unit == "1" ? "" : p.unit};
+    double factor = 1.0;
+    for (const ShopUnit& unit : shop_units)
+        if (p.unit == unit.from && std::abs(p.value) < unit.below &&
+            (std::isfinite(p.sigma) || p.value == 0.0 || p.unit != "s")) {
+            factor = unit.factor;
+            v.unit = unit.to;
+        }
+    const double value = factor * p.value, sigma = factor * p.sigma;
+    if (!std::isfinite(p.sigma)) {
+        v.value = fmt::format("{:.4g}", value);
+        return v;
+    }
+    const int digits =
+        sigma > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(sigma))), 0, 6) : 3;
+    v.value = fmt::format("{:.{}f}", value, digits);
+    v.sigma = fmt::format("{:.{}f}", sigma, digits);
+    return v;
+}
+
+std::string main_size(const Cause& cause) {
+    const FitParameter* most = nullptr;
+    const auto strength = [](const FitParameter& p) {
+        return std::isfinite(p.sigma) && p.sigma > 0.0 ? std::abs(p.value) / p.sigma : 0.0;
+    };
+    for (const FitParameter& p : cause.parameters)
+        if (!most || strength(p) > strength(*most)) most = &p;
+    if (!most) return "–";
+    const ShopValue v = shop_value(*most);
+    return fmt::format("{} {} ± {} {}", v.name, v.value, v.sigma, v.unit);
+}
+
+std::string verdict_sentence(const Diagnosis& d) {
+    const std::string size = size_words(d);
+    const std::string first = d.causes.empty() ? "" : d.causes.front().effect;
+    switch (d.verdict) {
+        case Verdict::no_gap:
+            return "No gap beyond noise: " + size + ".";
+        case Verdict::explained:
+            return fmt::format("The gap is explained, most of it by {}: {}.", first, size);
+        case Verdict::ambiguous:
+            return fmt::format(
+                "The gap is explained, but these readings cannot tell {} from its rivals: {}.",
+                first, size);
+        case Verdict::partly_explained:
+            return fmt::format("The gap is explained in part: {}.", size);
+        case Verdict::unexplained:
+            return fmt::format("There is a gap that the catalogue does not explain: {}.", size);
+    }
+    return size;
+}
+
+std::string answer(const Diagnosis& d) {
+    if (d.verdict == Verdict::no_gap)
+        return fmt::format(
+            "No gap. Machine and simulation differ by {:.2f} µm rms, and noise alone "
+            "makes {:.2f} µm.",
+            d.rms_um, d.noise_um);
+    const std::string size = fmt::format(
+        "Machine and simulation differ by {:.2f} µm rms; noise alone would make {:.2f} µm. ",
+        d.rms_um, d.noise_um);
+    const std::string causes = causes_words(d);
+    switch (d.verdict) {
+        case Verdict::explained:
+            return size + "The cause is " + causes + ". " + shrink_words(d.after);
+        case Verdict::ambiguous:
+            return size + "The cause is " + causes +
+                   ", or another effect that these readings cannot tell from it: see below. " +
+                   shrink_words(d.after);
+        case Verdict::partly_explained:
+            return size + "Part of it is " + causes +
+                   fmt::format("; {:.0f} % has a structure that no known effect explains. ",
+                               100.0 * d.unexplained_share) +
+                   shrink_words(d.after);
+        default:
+            return size + fmt::format(
+                              "{:.0f} % of the gap has a structure that no known effect explains{}",
+                              100.0 * d.unexplained_share,
+                              causes.empty() ? "." : "; the rest looks like " + causes + ".");
+    }
+}
+
+std::string noise_words(const Diagnosis& d) {
+    const std::string size = fmt::format("{:.2f} µm rms, ", d.noise_um);
+    switch (d.noise.source) {
+        case NoiseSource::repeats:
+            return size + "measured from poses and passes that were repeated.";
+        case NoiseSource::given:
+            return size + "as the setup states it; nothing was repeated to check it.";
+        case NoiseSource::assumed:
+            return size +
+                   "assumed: nothing was repeated, and what the fit leaves is of another size than "
+                   "stated. Repeat some poses to be sure.";
+    }
+    return size;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,239 @@
+// What next: the programs do what was predicted, and what they read tells the rivals apart.
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "diagnosis/diagnosis.h"
+#include "diagnosis/measurements.h"
+#include "emulator/program_folders.h"
+#include "emulator/run.h"
+#include "identification/identify.h"
+#include "tests/support/campaign.h"
+
+namespace trunnion {
+namespace {
+
+/// Runs a measurement's program on the emulated control of `machine`.
+ReadingTable run_measurement(const Setup& machine, const std::string& program, std::uint64_t seed) {
+    ProgramFolders folders({std::string(TRUNNION_SOURCE_DIR) + "/programs"});
+    RunOptions options;
+    options.seed = seed;
+    options.effects = active_models(machine);
+    const ProgramText text{"O8900", program, {}};
+    RunLog log = run_program(machine, folders, text, options);
+    INFO((log.result.alarm ? log.result.alarm->text + " in " + log.result.alarm->block : ""));
+    REQUIRE(log.result.status == RunStatus::ok);
+    return std::move(log.readings);
+}
+
+std::vector<std::size_t> device_rows(const ReadingTable& table) {
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < table.rows.size(); ++i)
+        if (table.rows[i].device != Device::none) rows.push_back(i);
+    return rows;
+}
+
+/// Rows that differ in what a prediction depends on, time aside.
+void require_same_rows(const Measurement& planned, const ReadingTable& run) {
+    const auto a = device_rows(planned.table), b = device_rows(run);
+    INFO(planned.name);
+    REQUIRE(a.size() == b.size());
+    const auto sa = samples_of(planned.table), sb = samples_of(run);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Reading &p = planned.table.rows[a[i]], &r = run.rows[b[i]];
+        INFO("reading " << i << " of test " << r.test << " line " << p.test);
+        REQUIRE(p.device == r.device);
+        REQUIRE(p.feature == r.feature);
+        REQUIRE(p.mode == r.mode);
+        REQUIRE(p.test == r.test);
+        for (const Axis axis : planned.table.axes) {
+            INFO("axis " << letter_of(axis));
+            REQUIRE(p.commanded[axis] == Approx(r.commanded[axis]).margin(2e-4));
+            if (p.device == Device::touch)
+                REQUIRE(static_cast<int>(sa[a[i]].travel[index_of(axis)]) ==
+                        static_cast<int>(sb[b[i]].travel[index_of(axis)]));
+        }
+        if (p.device == Device::touch) REQUIRE((p.direction_M - r.direction_M).norm() < 1e-5);
+        REQUIRE(p.spindle_rad == Approx(r.spindle_rad));
+        REQUIRE(p.temperature_c == r.temperature_c);
+        REQUIRE(p.load_kg == r.load_kg);
+        REQUIRE(p.clamped == r.clamped);
+        REQUIRE(p.extension_mm == r.extension_mm);
+    }
+}
+
+/// What the run read is what a replay of its rows predicts.
+void require_predicted(const Setup& machine, const ReadingTable& run) {
+    const ReadingTable replayed = predicted(machine, run, active_models(machine));
+    for (std::size_t i = 0; i < run.rows.size(); ++i)
+        if (run.rows[i].value_mm) {
+            INFO(run.rows[i].test << " row " << i);
+            REQUIRE(*run.rows[i].value_mm == Approx(*replayed.rows[i].value_mm).margin(1e-6));
+        }
+}
+
+Setup shipped(const char* name) {
+    std::vector<std::string> notes;
+    return load_setup(std::string(TRUNNION_SOURCE_DIR) + "/machines/" + name, notes);
+}
+
+}  // namespace
+
+TEST_CASE("every program of the list reads the rows that were predicted", "[diagnosis][next]") {
+    for (Setup setup : {campaign::bc_setup(), campaign::ac_setup(), shipped("bc_table.toml"),
+                        shipped("ac_trunnion.toml")}) {
+        INFO(setup.name);
+        setup.machine.errors = {};
+        const auto list = ready_measurements(setup, 100.0);
+        REQUIRE(list.size() == 14);
+        setup.probe->repeatability_um = setup.ballbar->noise_um = 0.0;
+        for (const Measurement& m : list) {
+            const ReadingTable run = run_measurement(setup, m.program, 1);
+            require_same_rows(m, run);
+            require_predicted(setup, run);
+        }
+    }
+}
+
+namespace {
+
+struct Bench {
+    Setup setup, real;
+    ReadingTable table;
+    Bench(const Setup& machine, bool ballbar)
+        : setup(machine),
+          real(campaign::real_machine(machine)),
+          table(campaign::empty_table(machine)) {
+        ballbar ? campaign::add_ballbar(table, setup, 36)
+                : campaign::add_sphere_map(table, setup, 70, 5);
+        real.probe->repeatability_um = 0.8;
+        real.ballbar->noise_um = 0.3;
+    }
+};
+
+std::string names(const std::vector<std::string>& list) {
+    std::string text;
+    for (const std::string& name : list) text += name + ' ';
+    return text;
+}
+
+}  // namespace
+
+namespace {
+
+/// Weighted squares left when `effect` (with the location) is fitted.
+double left_by(const Bench& bench, const ReadingTable& table, const std::string& effect) {
+    const Identification fit = identify(bench.setup, table, {"location", effect});
+    const ReadingTable read = predicted(fit.setup, table, active_models(fit.setup));
+    double sum = 0.0;
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        if (!table.rows[i].value_mm) continue;
+        const double sigma_um = table.rows[i].device == Device::ballbar ? 0.3 : 0.8;
+        sum += std::pow(1e3 * (*table.rows[i].value_mm - *read.rows[i].value_mm) / sigma_um, 2);
+    }
+    return sum;
+}
+
+bool lists(const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+}
+
+struct Pair {
+    bool ac, ballbar;
+    const char *truth, *other;  ///< injections; each is the truth in turn
+};
+
+std::string name_of_effect(const std::string& injection) {
+    return injection.substr(0, injection.find_first_of(":="));
+}
+
+/// From ambiguous readings through the program that was asked for to one claim.
+void go_the_whole_way(const Bench& bench, const std::string& injection, const std::string& rival,
+                      std::uint64_t seed) {
+    const std::string right = name_of_effect(injection), wrong = name_of_effect(rival);
+    INFO(bench.setup.chain_text << ": " << injection << " against " << wrong);
+    const Setup truth = campaign::with_effect(bench.real, injection);
+    const ReadingTable first = campaign::measured(truth, bench.table, seed);
+    const Diagnosis before = diagnose(bench.setup, first);
+    REQUIRE(before.verdict == Verdict::ambiguous);
+    REQUIRE(before.causes.size() == 1);
+    const Cause& claim = before.causes.front();
+    INFO("first " << claim.effect << " rivals " << names(claim.rivals));
+    REQUIRE((claim.effect == right || lists(claim.rivals, right)));
+    REQUIRE((claim.effect == wrong || lists(claim.rivals, wrong)));
+    const NextMeasurement* next = nullptr;
+    for (const NextMeasurement& n : before.next)
+        if (!next && n.settles && (lists({n.first, n.second}, right))) next = &n;
+    REQUIRE(next);
+    INFO(next->text);
+    const ReadingTable all =
+        join_readings({first, run_measurement(truth, next->program, seed + 1)});
+    const Diagnosis after = diagnose(bench.setup, all);
+    INFO("then " << after.causes.front().effect << " rivals "
+                 << names(after.causes.front().rivals));
+    REQUIRE(after.causes.size() == 1);
+    CHECK(after.causes.front().effect == right);
+    const std::string other = next->first == right ? next->second : next->first;
+    CHECK_FALSE(lists(after.causes.front().rivals, other));
+    // What was predicted came true: half the chi-squared that the other one loses more than before.
+    const double achieved = 0.5 * (left_by(bench, all, other) - left_by(bench, all, right) -
+                                   left_by(bench, first, other) + left_by(bench, first, right));
+    INFO("predicted " << next->log_bayes_factor << " achieved " << achieved);
+    CHECK(achieved > 0.4 * next->log_bayes_factor);
+    CHECK(achieved < 2.5 * next->log_bayes_factor);
+}
+
+}  // namespace
+
+TEST_CASE("ambiguous, measured as asked, diagnosed together: the right one is claimed",
+          "[diagnosis][next]") {
+    const Pair pairs[] = {
+        {false, false, "pivot.g54: dg_mm=[0.005, 0.004, -0.006]",
+         "pivot.p1970x: dp_mm=[-0.005, -0.004, 0.006]"},
+        {false, false, "X.scale: scale_ppm=40", "X.angular: EBX_p1_rad=5e-5"},
+    };
+    std::uint64_t seed = 7;
+    for (const Pair& pair : pairs) {
+        const Bench bench(pair.ac ? campaign::ac_setup() : campaign::bc_setup(), pair.ballbar);
+        go_the_whole_way(bench, pair.truth, pair.other, seed += 10);
+        go_the_whole_way(bench, pair.other, pair.truth, seed += 10);
+    }
+}
+
+TEST_CASE("explore", "[.explore]") {
+    for (const bool ac : {false, true})
+        for (const bool bar : {false, true}) {
+            const Bench bench(ac ? campaign::ac_setup() : campaign::bc_setup(), bar);
+            fmt::print("== {} {}\n", ac ? "AC" : "BC", bar ? "ballbar" : "probe");
+            for (const Effect& effect : make_catalogue(bench.setup)) {
+                if (effect.name == "location" || effect.parameters.empty()) continue;
+                EffectSetting setting{effect.name, {}};
+                std::vector<double> values = effect.zeros();
+                for (std::size_t j = 0; j < values.size(); ++j)
+                    if (!effect.parameters[j].is_key() && effect.parameters[j].usual)
+                        values[j] = 2.0 * effect.parameters[j].typical * (j % 3 == 1 ? -0.7 : 1.0);
+                Setup truth = bench.real;
+                truth.effects.push_back(setting_of(effect, values));
+                const ReadingTable first = campaign::measured(truth, bench.table, 7);
+                const Diagnosis d = diagnose(bench.setup, first);
+                if (d.causes.empty() || d.next.empty()) continue;
+                fmt::print("{:<18} {} first {} rivals {}\n", effect.name, to_string(d.verdict),
+                           d.causes.front().effect, names(d.causes.front().rivals));
+                for (const NextMeasurement& next : d.next) {
+                    fmt::print("     {}\n", next.text);
+                    if (next.program.empty()) continue;
+                    const Diagnosis both =
+                        diagnose(bench.setup,
+                                 join_readings({first, run_measurement(truth, next.program, 11)}));
+                    fmt::print("     -> {} {}", to_string(both.verdict), both.noise_um);
+                    for (const Cause& c : both.causes)
+                        fmt::print(" [{} {:.2f} rivals {}]", c.effect, c.share, names(c.rivals));
+                    fmt::print("\n");
+                }
+                std::fflush(stdout);
+            }
+        }
+}
+
+}  // namespace trunnion
