@@ -78,6 +78,13 @@ Setup shipped(const char* name) {
     return load_setup(std::string(TRUNNION_SOURCE_DIR) + "/machines/" + name, notes);
 }
 
+/// bc_table.toml holds wrong stores on purpose.
+void tell_truth(Setup& setup) {
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) setup.stores.work.standard[0][axis] = 0.0;
+    if (setup.name == "BC rotary table")
+        for (int n = 19700; n <= 19705; ++n) setup.stores.parameters.set(n, 0.0);
+}
+
 }  // namespace
 
 TEST_CASE("every program of the list reads the rows that were predicted", "[diagnosis][next]") {
@@ -85,6 +92,7 @@ TEST_CASE("every program of the list reads the rows that were predicted", "[diag
                         shipped("ac_trunnion.toml")}) {
         INFO(setup.name);
         setup.machine.errors = {};
+        tell_truth(setup);
         const auto list = ready_measurements(setup, 100.0);
         REQUIRE(list.size() == 14);
         setup.probe->repeatability_um = setup.ballbar->noise_um = 0.0;
@@ -164,7 +172,7 @@ void go_the_whole_way(const Bench& bench, const std::string& injection, const st
     REQUIRE((claim.effect == wrong || lists(claim.rivals, wrong)));
     const NextMeasurement* next = nullptr;
     for (const NextMeasurement& n : before.next)
-        if (!next && n.settles && (lists({n.first, n.second}, right))) next = &n;
+        if (!next && !n.program.empty() && (lists({n.first, n.second}, right))) next = &n;
     REQUIRE(next);
     INFO(next->text);
     const ReadingTable all =
@@ -175,7 +183,7 @@ void go_the_whole_way(const Bench& bench, const std::string& injection, const st
     REQUIRE(after.causes.size() == 1);
     CHECK(after.causes.front().effect == right);
     const std::string other = next->first == right ? next->second : next->first;
-    CHECK_FALSE(lists(after.causes.front().rivals, other));
+    if (next->settles) CHECK_FALSE(lists(after.causes.front().rivals, other));
     // What was predicted came true: half the chi-squared that the other one loses more than before.
     const double achieved = 0.5 * (left_by(bench, all, other) - left_by(bench, all, right) -
                                    left_by(bench, first, other) + left_by(bench, first, right));
@@ -191,7 +199,12 @@ TEST_CASE("ambiguous, measured as asked, diagnosed together: the right one is cl
     const Pair pairs[] = {
         {false, false, "pivot.g54: dg_mm=[0.005, 0.004, -0.006]",
          "pivot.p1970x: dp_mm=[-0.005, -0.004, 0.006]"},
+        {true, false, "pivot.g54: dg_mm=[0.005, 0.004, -0.006]",
+         "pivot.p1970x: dp_mm=[-0.005, -0.004, 0.006]"},
         {false, false, "X.scale: scale_ppm=40", "X.angular: EBX_p1_rad=5e-5"},
+        {true, false, "X.scale: scale_ppm=40", "X.angular: EBX_p1_rad=5e-5"},
+        {false, true, "ZX.squareness: angle_rad=4e-5", "Z.angular: EBZ_p1_rad=6e-5"},
+        {true, true, "ZX.squareness: angle_rad=4e-5", "Z.angular: EBZ_p1_rad=6e-5"},
     };
     std::uint64_t seed = 7;
     for (const Pair& pair : pairs) {

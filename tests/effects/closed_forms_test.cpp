@@ -1,6 +1,8 @@
 // Every effect against physics written down here: an own forward model of a BC table machine (plain
 // sines and cosines, exact contact and bar length), an own law for each effect, no product code but
 // the door that reads.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <functional>
 #include <set>
@@ -185,13 +187,19 @@ struct Physics {
         const Setup with = campaign::with_effect(setup, injection);
         const ReadingTable on = predicted(with, table, active_models(with));
         double worst = 0.0, largest = 0.0;
+        std::string where_worst;
         for (std::size_t i = 0; i < table.rows.size(); ++i) {
             if (!off.rows[i].value_mm || (where && !where(seen[i]))) continue;
             const double change = *on.rows[i].value_mm - *off.rows[i].value_mm;
             const double expected = reading(seen[i], law(seen[i])) - reading(seen[i], {});
-            worst = std::max(worst, std::abs(change - expected));
+            if (std::abs(change - expected) > worst) {
+                worst = std::abs(change - expected);
+                where_worst = fmt::format("row {} of {}: changes by {} mm, expected {} mm", i,
+                                          seen[i].row->test, change, expected);
+            }
             largest = std::max(largest, std::abs(expected));
         }
+        UNSCOPED_INFO(where_worst);
         REQUIRE(largest > 1e-4);  // a law that says nothing proves nothing
         return worst / largest;
     }

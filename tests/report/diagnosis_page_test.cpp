@@ -1,0 +1,78 @@
+// The page of a diagnosis: plain words first, shop units, rivals beside the claim, nothing broken.
+#include "report/diagnosis_page.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "report/diagnosis_words.h"
+
+namespace trunnion {
+namespace {
+
+Diagnosis one_cause() {
+    Diagnosis d;
+    d.verdict = Verdict::ambiguous;
+    d.rms_um = 2.0;
+    d.noise_um = 0.5;
+    d.readings = 4;
+    d.before_um = {2.0, -2.0, 2.0, -2.0};
+    d.after_um = {0.5, -0.5, 0.4, -0.4};
+    Cause cause;
+    cause.effect = "C.backlash";
+    cause.share = 0.93;
+    cause.rivals = {"C.zero & co"};
+    cause.what = "The axis stops short";
+    cause.usual_cause = "worn worm gear";
+    cause.remedy = "readjust the preload";
+    cause.parameters = {{"C.backlash", "gap_rad", "rad", -1, 4e-5, 8.123e-5, 9e-7},
+                        {"C.backlash", "dp_mm", "mm", 1, 0.03, 0.0412, std::nan("")}};
+    cause.heldout = {2.0, 0.55, 0.5, 0.9, 0.85, 0.95};
+    d.causes = {cause};
+    d.after = cause.heldout;
+    return d;
+}
+
+std::size_t count(const std::string& text, const std::string& word) {
+    std::size_t n = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+        ++n;
+    return n;
+}
+
+}  // namespace
+
+TEST_CASE("values stand in the units of the shop, digits as sure as sigma") {
+    const Diagnosis d = one_cause();
+    const ShopValue gap = shop_value(d.causes[0].parameters[0]);
+    CHECK(gap.name == "gap");
+    CHECK(gap.value == "81.23");
+    CHECK(gap.sigma == "0.90");
+    CHECK(gap.unit == "µrad");
+    const ShopValue dp = shop_value(d.causes[0].parameters[1]);
+    CHECK(dp.name == "dp y");
+    CHECK(dp.value == "41.2");
+    CHECK(dp.unit == "µm");
+    CHECK(main_size(d.causes[0]) == "gap 81.23 ± 0.90 µrad");
+}
+
+TEST_CASE("the page says size, cause, rivals and shrink, and is whole") {
+    const std::string page = diagnosis_page(one_cause(), "a <b>.csv");
+    for (const char* text :
+         {"2.00 µm rms", "C.backlash", "93 %", "C.zero &amp; co", "a &lt;b&gt;.csv", "90 %",
+          "85 to 95 %", "worn worm gear", "readjust the preload", "gap 81.23"})
+        CHECK_THAT(page, Catch::Contains(text));
+    CHECK_THAT(page, !Catch::Contains("nan") && !Catch::Contains("inf\""));
+    for (const char* tag : {"table", "svg", "ul", "dl", "h2", "p", "tr", "td"})
+        CHECK(count(page, std::string("<") + tag + ">") +
+                  count(page, std::string("<") + tag + " ") ==
+              count(page, std::string("</") + tag + ">"));
+}
+
+TEST_CASE("a page without a gap says so and shows no cause") {
+    Diagnosis d;
+    d.rms_um = d.noise_um = 0.8;
+    const std::string page = diagnosis_page(d, "x.csv");
+    CHECK_THAT(page, Catch::Contains("No gap.") && !Catch::Contains("Which effect"));
+}
+
+}  // namespace trunnion
