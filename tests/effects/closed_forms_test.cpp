@@ -171,13 +171,10 @@ struct Physics {
         for (int d = 0; d < 3; ++d)
             s.travel(d) = std::abs(s.velocity(d)) > 0.03 * speed ? sign(s.velocity(d)) : 0;
         s.path = angle * bar_mm;
-        // X turns where the bar lies along X: after 0 and half a turn in the planes that hold X.
-        if (p == 0 || q == 0) {
-            const double phase = p == 0 ? angle : angle - 0.5 * pi;  // 0 at a turning point
-            const double turned = phase >= pi ? phase - pi : phase;
-            if (phase >= pi || (p != 0 && phase >= 0.0))
-                s.since_x = bar_mm * (1.0 - std::cos(turned));
-        }
+        // X turns where the bar lies along X; a pass that begins there begins with the turn.
+        if (p != 0 && q != 0) return;
+        const double phase = p == 0 ? angle : angle - 0.5 * pi;  // 0 at a turning point
+        if (phase >= 0.0) s.since_x = bar_mm * (1.0 - std::cos(phase >= pi ? phase - pi : phase));
     }
 
     /// Largest difference between the product's change and the law's, over the largest change.
