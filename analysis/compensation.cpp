@@ -86,28 +86,38 @@ std::optional<FittedArc> fit_arc(const Vector3& a, const Vector3& m, const Vecto
     return arc;
 }
 
+/// Errors at one place, added to the worst so far.
+void include(CompensatedProgram::Worst& worst, const BelievedTool& is, const BelievedTool& meant,
+             bool turned) {
+    worst.tip_mm = std::max(worst.tip_mm, (is.tip_W_mm - meant.tip_W_mm).norm());
+    double& direction_rad = turned ? worst.turned_rad : worst.kept_rad;
+    direction_rad = std::max(direction_rad, angle_between(is.direction_W, meant.direction_W));
+}
+
 /// Rewrites every move as it comes from the control.
 class RewritingSink : public MotionSink {
   public:
     RewritingSink(const Setup& setup, const EffectModels& effects,
                   const CompensationOptions& options, CompensatedProgram& out)
-        : corrector_(setup, effects),
+        : corrector_(setup, effects, options.largest_turn_rad),
           text_(setup, options.decimals),
           options_(options),
           out_(out) {}
 
     MoveResult move(const AxisMove& move) override {
-        if (move.until_skip)
-            throw InputError("G31: a program that measures cannot be compensated beforehand",
-                             {move.program ? *move.program : "", move.line, 1});
         const PathSampler path{move, tracker_, clock_s_, move.mode};
-        const double before =
-            (corrector_.true_W(path, 1.0, move.to) - corrector_.meant_W(move, 1.0)).norm();
-        out_.worst_before_mm = std::max(out_.worst_before_mm, before);
+        const bool turned = corrector_.turns_tool(move);
+        include(out_.before, corrector_.truth(path, 1.0, move.to), corrector_.meant(move, 1.0),
+                turned);
+        note_tapping(move);
         text_.prepare(move);
-        if (move.kind == MotionKind::rapid)
+        if (turned != turned_ && !out_.blocks.empty()) begin_turned(path, turned);
+        turned_ = turned;
+        if (move.until_skip)
+            write_skip(path);
+        else if (move.kind == MotionKind::rapid)
             write_line(path, 0.0, 1.0);
-        else if (plane_normal(move) >= 0)
+        else if (plane_normal(move) >= 0 && !turned)
             write_arcs(path);
         else
             split_line(path, {0.0, corrector_.corrected(path, 0.0)},
@@ -117,8 +127,12 @@ class RewritingSink : public MotionSink {
         return {false, move.to};
     }
     void dwell(double duration_s) override { text_.dwell(duration_s); }
-    void m_code(int code) override { text_.m_code(code); }
+    void m_code(int code) override {
+        spindle_commanded_ = true;
+        text_.m_code(code);
+    }
     std::string take() { return text_.take(); }
+    const std::optional<SourceRef>& last_skip() const { return last_skip_; }
 
   private:
     struct Place {
@@ -127,7 +141,31 @@ class RewritingSink : public MotionSink {
     };
 
     void note(const PathSampler& path, double s) {
-        out_.blocks.push_back({path.move.line, corrector_.meant_W(path.move, s)});
+        out_.blocks.push_back({path.move.line, corrector_.meant(path.move, s), turned_});
+    }
+
+    /// The rotaries begin, or cease, to correct the direction: they go there with the tip at rest.
+    void begin_turned(const PathSampler& path, bool turned) {
+        turned_ = turned;
+        if (text_.line(path.move, corrector_.corrected(path, 0.0), 0.05)) note(path, 0.0);
+    }
+
+    /// A spindle that turns round without M3, M4 or M5: G74 or G84.
+    void note_tapping(const AxisMove& move) {
+        if (move.spindle_rpm * spindle_rpm_ < 0.0 && !spindle_commanded_ && !tapping_noted_) {
+            tapping_noted_ = true;
+            out_.notes.push_back(
+                "line " + std::to_string(move.line) +
+                ": tapping is written as feed moves with the spindle turning round between them; "
+                "rigid taps lose their synchronisation");
+        }
+        spindle_rpm_ = move.spindle_rpm;
+        spindle_commanded_ = false;
+    }
+
+    void write_skip(const PathSampler& path) {
+        last_skip_ = SourceRef{path.move.program ? *path.move.program : "", path.move.line, 1};
+        if (text_.skip(path.move, corrector_.corrected(path, 1.0))) note(path, 1.0);
     }
 
     void write_line(const PathSampler& path, double a, double b) {
@@ -184,6 +222,10 @@ class RewritingSink : public MotionSink {
     CompensatedProgram& out_;
     AxisTracker tracker_;
     double clock_s_ = 0.0;
+    bool turned_ = false;
+    double spindle_rpm_ = 0.0;
+    bool spindle_commanded_ = false, tapping_noted_ = false;
+    std::optional<SourceRef> last_skip_;
 };
 
 /// Executes the program written and looks where the physical tip ends.
@@ -195,9 +237,8 @@ class CheckingSink : public MotionSink {
     MoveResult move(const AxisMove& move) override {
         const PathSampler path{move, tracker_, clock_s_, move.mode};
         if (next_ < out_.blocks.size()) {
-            const double off =
-                (corrector_.true_W(path, 1.0, move.to) - out_.blocks[next_++].meant_W_mm).norm();
-            out_.worst_after_mm = std::max(out_.worst_after_mm, off);
+            const CompensatedBlock& block = out_.blocks[next_++];
+            include(out_.after, corrector_.truth(path, 1.0, move.to), block.meant, block.turned);
         }
         tracker_.advance(move.to);
         clock_s_ += move.duration_s;
@@ -232,7 +273,11 @@ CompensatedProgram compensate_program(const Setup& setup, ProgramSource& program
     RewritingSink sink(setup, effects, options, out);
     out.original =
         std::visit([&](const auto& p) { return execute(setup, programs, sink, p); }, program);
-    out.notes = out.original.notes;
+    out.notes.insert(out.notes.end(), out.original.notes.begin(), out.original.notes.end());
+    if (out.original.reads_skip && sink.last_skip())
+        throw InputError(
+            "the program asks where G31 touched: what it does then cannot be written beforehand",
+            *sink.last_skip());
     if (out.original.status != RunStatus::ok) return out;
     out.program = sink.take();
     CheckingSink check(setup, effects, out);

@@ -5,34 +5,47 @@
 #include <vector>
 
 #include "emulator/run.h"
+#include "emulator/trace.h"
 
 namespace trunnion {
 
 struct CompensationOptions {
     double tolerance_mm = 5e-5;  ///< deviation of the path between the points that are met exactly
     int decimals = 6;            ///< of the words written
+    double largest_turn_rad = 2e-3;  ///< a rotary axis is turned by at most this; 0: never
 };
 
 /// One motion block of the program written.
 struct CompensatedBlock {
-    int line = 0;                          ///< of the original
-    Vector3 meant_W_mm = Vector3::Zero();  ///< tip at its end, as the control believed it
+    int line = 0;         ///< of the original
+    BelievedTool meant;   ///< at its end, as the control believed it
+    bool turned = false;  ///< the rotaries correct the tool's direction
 };
 
 struct CompensatedProgram {
     std::string program;  ///< flat: what the original executed, without loops and calls
     std::vector<CompensatedBlock> blocks;
     RunResult original, executed;  ///< of the original and of the program written
-    double worst_before_mm = 0.0;  ///< largest tip error at a block's end of the original
-    double worst_after_mm = 0.0;   ///< the same for the program written, executed
+    /// Largest errors at a block's end: of the tip; of the direction where the rotaries correct it;
+    /// of the direction where they keep their words.
+    struct Worst {
+        double tip_mm = 0.0, turned_rad = 0.0, kept_rad = 0.0;
+    };
+    Worst before;  ///< of the original
+    Worst after;   ///< of the program written, executed
     std::vector<std::string> notes;
 };
 
 /// Executes the program on the setup's control and writes, for each move, axis words that put the
-/// physical tip (errors and effects of the setup) where the control believed the tip to be. Rotary
-/// axes keep their positions. Lines and arcs stay lines and arcs, split where one does not hold the
-/// tolerance; moves under G43.4, and arcs in inclined planes, become short lines. Throws InputError
-/// for programs that measure (G31) and for machines without X, Y and Z.
+/// physical tip (errors and effects of the setup) where the control believed the tip to be. Under
+/// tool centre point control and where rotary axes turn, both of them also bring the tool into the
+/// direction that the control believed; elsewhere (three axes, positioned planes, whose axes may be
+/// clamped) they keep their words and the direction keeps its error. Lines and arcs stay lines and
+/// arcs, split where one does not hold the tolerance; moves under G43.4, and arcs in inclined
+/// planes, become short lines. Cycles become the moves they are made of; tapping gets a note. G31
+/// goes out with a corrected target as long as the program never asks where it touched. Throws
+/// InputError for programs that do (what they do next cannot be written beforehand) and for
+/// machines without X, Y and Z.
 CompensatedProgram compensate_program(const Setup& setup, ProgramSource& programs,
                                       const ProgramChoice& program, const EffectModels& effects,
                                       const CompensationOptions& options = {});

@@ -110,6 +110,14 @@ bool FlatProgram::line(const AxisMove& move, const AxisPositions& to, double dur
     return true;
 }
 
+bool FlatProgram::skip(const AxisMove& move, const AxisPositions& to) {
+    const std::string words = axis_words(to, first_);
+    if (words.empty()) return false;
+    motion_ += motion_.empty() ? "G31" : " G31";
+    block(move, words + feed_words(move, false, 0.0));
+    return true;
+}
+
 void FlatProgram::arc(const AxisMove& move, const AxisPositions& to, int normal,
                       bool counter_clockwise, const Vector3& centre_mm) {
     const Vector3 start(at_[Axis::X], at_[Axis::Y], at_[Axis::Z]);

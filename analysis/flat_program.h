@@ -20,6 +20,8 @@ class FlatProgram {
     void prepare(const AxisMove& move);
     /// A line to machine position `to` that takes `duration_s`; false when nothing would move.
     bool line(const AxisMove& move, const AxisPositions& to, double duration_s);
+    /// G31 to `to` with the feed of the move.
+    bool skip(const AxisMove& move, const AxisPositions& to);
     /// An arc in the plane whose normal is + axis `normal` (0 X, 1 Y, 2 Z); centre in machine mm.
     void arc(const AxisMove& move, const AxisPositions& to, int normal, bool counter_clockwise,
              const Vector3& centre_mm);

@@ -12,24 +12,31 @@ namespace trunnion {
 namespace {
 
 constexpr double default_reach_mm = 200.0;
-constexpr double rotary_reach_rad = 60.0 * pi / 180.0;
 
-std::vector<double> steps_of(const AxisGeometry& axis, int grid) {
-    const double reach = axis.rotary ? rotary_reach_rad : default_reach_mm;
-    double low = axis.min.value_or(-reach), high = axis.max.value_or(reach);
-    if (axis.rotary) low = std::max(low, -reach), high = std::min(high, reach);
-    const int count = axis.rotary ? 3 : std::max(2, grid);
+std::vector<double> evenly(double low, double step, int count) {
     std::vector<double> steps;
-    for (int i = 0; i < count; ++i) steps.push_back(low + (high - low) * i / (count - 1));
+    for (int i = 0; i < count; ++i) steps.push_back(low + step * i);
     return steps;
 }
 
-std::vector<AxisPositions> grid_of(const Chain& chain, int grid) {
+std::vector<double> steps_of(const AxisGeometry& axis, const VolumetricOptions& options) {
+    const int count = axis.rotary ? options.rotary_grid : options.grid;
+    const double reach = axis.rotary ? pi : default_reach_mm;
+    const double low = axis.min.value_or(-reach), high = axis.max.value_or(reach);
+    if (count == 1) return {std::clamp(0.0, low, high)};
+    if (axis.rotary && high - low > 2.0 * pi - 1e-9) {
+        const double step = 2.0 * pi / count;
+        return evenly(-step * ((count - 1) / 2), step, count);
+    }
+    return evenly(low, (high - low) / (count - 1), count);
+}
+
+std::vector<AxisPositions> grid_of(const Chain& chain, const VolumetricOptions& options) {
     std::vector<AxisPositions> all{AxisPositions{}};
     for (const AxisGeometry& axis : chain.axes()) {
         std::vector<AxisPositions> next;
         for (const AxisPositions& base : all)
-            for (const double step : steps_of(axis, grid)) {
+            for (const double step : steps_of(axis, options)) {
                 next.push_back(base);
                 next.back()[axis.axis] = step;
             }
@@ -158,10 +165,12 @@ VolumetricMap volumetric_map(const Setup& setup, const std::vector<std::string>&
                              const EffectModels& effects, const VolumetricOptions& options) {
     const Mapper mapper(setup, effects, options.length_mm);
     VolumetricMap map;
+    map.machine = setup.name;
+    map.length_mm = options.length_mm;
     for (const AxisGeometry& axis : setup.machine.chain.axes()) map.axes.push_back(axis.axis);
     for (const std::string& name : mapper.names(effect_names)) map.causes.push_back({name});
     std::vector<Vector3> parts;
-    for (const AxisPositions& q : grid_of(setup.machine.chain, options.grid)) {
+    for (const AxisPositions& q : grid_of(setup.machine.chain, options)) {
         VolumetricPoint point = mapper.point(q, parts);
         for (std::size_t i = 0; i < parts.size(); ++i) {
             map.causes[i].largest_mm = std::max(map.causes[i].largest_mm, parts[i].norm());

@@ -26,6 +26,8 @@ struct VolumetricCause {
 };
 
 struct VolumetricMap {
+    std::string machine;     ///< name of the setup
+    double length_mm = 0.0;  ///< tool
     std::vector<Axis> axes;
     std::vector<VolumetricPoint> points;
     std::vector<VolumetricCause> causes;  ///< largest rms first; points refer to this order
@@ -34,13 +36,14 @@ struct VolumetricMap {
 };
 
 struct VolumetricOptions {
-    int grid = 5;              ///< points along each linear axis; rotary axes take three angles
+    int grid = 5;              ///< points along each linear axis
+    int rotary_grid = 5;       ///< angles of each rotary axis
     double length_mm = 150.0;  ///< tool
 };
 
-/// The linear axes step through their limits (+-200 mm where the setup gives none), each rotary
-/// axis through -60, 0 and 60 degrees as far as its limits allow. Errors one by one come from the
-/// Jacobian, effects from switching them on alone.
+/// Each axis steps through its limits, ends included (+-200 mm and +-180 degrees where the setup
+/// gives none). An axis that can turn round steps through one turn instead, each angle once, 0
+/// among them. Errors one by one come from the Jacobian, effects from switching them on alone.
 VolumetricMap volumetric_map(const Setup& setup, const std::vector<std::string>& effect_names,
                              const EffectModels& effects, const VolumetricOptions& options);
 

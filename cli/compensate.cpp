@@ -18,7 +18,7 @@ namespace {
 struct Options {
     std::string program, setup, out = "-";
     std::vector<std::string> folders;
-    double tolerance_um = 0.05;
+    double tolerance_um = 0.05, largest_turn_deg = 0.1;
     int decimals = 6;
 };
 
@@ -29,14 +29,21 @@ int report_alarm(const Alarm& alarm) {
     return exit_alarm;
 }
 
+void print_direction(const char* where, double before_rad, double after_rad) {
+    if (before_rad <= 0.0 && after_rad <= 0.0) return;
+    fmt::print(stderr, "direction of the tool {}: {:.3f} urad before, {:.3f} urad after\n", where,
+               1e6 * before_rad, 1e6 * after_rad);
+}
+
 int run_command(const Options& o) {
     if (o.tolerance_um <= 0.0) throw InputError("--tol-um: a tolerance above zero is needed");
+    if (o.largest_turn_deg < 0.0) throw InputError("--max-turn-deg: 0 or more");
     if (o.decimals < 1 || o.decimals > 9) throw InputError("--decimals: 1 to 9");
     const Setup setup = open_setup(o.setup);
     ProgramAndFolders program = open_program(o.program, o.folders);
-    const CompensatedProgram c =
-        compensate_program(setup, program.folders, program.program, active_models(setup),
-                           {mm_from_um(o.tolerance_um), o.decimals});
+    const CompensatedProgram c = compensate_program(
+        setup, program.folders, program.program, active_models(setup),
+        {mm_from_um(o.tolerance_um), o.decimals, rad_from_deg(o.largest_turn_deg)});
     print_notes(c.notes);
     if (c.original.alarm) return report_alarm(*c.original.alarm);
     if (c.executed.alarm) return report_alarm(*c.executed.alarm);
@@ -45,7 +52,9 @@ int run_command(const Options& o) {
     files.write();
     fmt::print(stderr,
                "{} blocks; largest tip error at a block's end {:.3f} um before, {:.3f} um after\n",
-               c.blocks.size(), um_from_mm(c.worst_before_mm), um_from_mm(c.worst_after_mm));
+               c.blocks.size(), um_from_mm(c.before.tip_mm), um_from_mm(c.after.tip_mm));
+    print_direction("where the rotaries correct it", c.before.turned_rad, c.after.turned_rad);
+    print_direction("where they keep their words", c.before.kept_rad, c.after.kept_rad);
     return exit_done;
 }
 
@@ -61,6 +70,9 @@ void add_compensate(CLI::App& app, Run& run) {
     command->add_option("--programs", o->folders, "folder with more programs")
         ->allow_extra_args(false);
     command->add_option("--tol-um", o->tolerance_um, "path tolerance between exact points (0.05)");
+    command->add_option("--max-turn-deg", o->largest_turn_deg,
+                        "rotary axes turn by at most this to correct the tool's direction (0.1; 0: "
+                        "they keep their words)");
     command->add_option("--decimals", o->decimals, "of the words written (6)");
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });
 }

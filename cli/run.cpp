@@ -22,7 +22,7 @@ struct Options {
     std::string program, setup, control, trace, readings, print, variables;
     std::vector<std::string> folders, sets, injections;
     std::uint64_t seed = 1, max_blocks = most_blocks;
-    double trace_step_mm = 0.0;
+    double trace_step_mm = 0.0, trace_chord_mm = 0.0;
     bool truth = false, json = false;
 };
 
@@ -80,6 +80,7 @@ RunOptions run_options(const Options& o, const Setup& setup) {
     options.seed = o.seed;
     options.trace = !o.trace.empty();
     options.trace_step_mm = o.trace_step_mm;
+    options.trace_chord_mm = o.trace_chord_mm;
     options.truth = o.truth;
     options.max_blocks = o.max_blocks;
     options.variables = parse_sets(o.sets);
@@ -121,8 +122,9 @@ RunLog run_watched(const Setup& setup, ProgramAndFolders& program, RunOptions op
 
 int run_command(const Options& o) {
     if (o.trace_step_mm < 0.0) throw InputError("--trace-step: a length above zero is needed");
-    if ((o.truth || o.trace_step_mm > 0.0) && o.trace.empty())
-        throw InputError("--truth and --trace-step belong to --trace FILE");
+    if (o.trace_chord_mm < 0.0) throw InputError("--trace-chord: a length above zero is needed");
+    if ((o.truth || o.trace_step_mm > 0.0 || o.trace_chord_mm > 0.0) && o.trace.empty())
+        throw InputError("--truth, --trace-step and --trace-chord belong to --trace FILE");
     const Setup setup = setup_of(o);
     ProgramAndFolders program = open_program(o.program, o.folders);
     RunOptions options = run_options(o, setup);
@@ -156,6 +158,8 @@ void add_run(CLI::App& app, Run& run) {
     command->add_option("--seed", o->seed, "seed of the devices' noise (1)");
     command->add_option("--trace", o->trace, "CSV with a row for each move");
     command->add_option("--trace-step", o->trace_step_mm, "also a SAMPLE row every so many mm");
+    command->add_option("--trace-chord", o->trace_chord_mm,
+                        "also SAMPLE rows that follow arcs and G43.4 within so many mm");
     command->add_flag("--truth", o->truth, "also where the physical tip was");
     command->add_option("--readings", o->readings, "CSV of what probe and ballbar read");
     command->add_option("--print", o->print, "file for what DPRNT prints");

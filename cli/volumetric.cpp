@@ -9,6 +9,7 @@
 #include "cli/setups.h"
 #include "effects/settings.h"
 #include "geometry/alarm.h"
+#include "report/volumetric_pictures.h"
 #include "report/volumetric_report.h"
 
 namespace trunnion {
@@ -19,9 +20,23 @@ struct Options {
     VolumetricOptions map;
 };
 
+/// A grid of five axes grows fast; each pose is kept.
+void check_size(const Setup& setup, const VolumetricOptions& options) {
+    constexpr double most_poses = 3e6;
+    double poses = 1.0;
+    for (const AxisGeometry& axis : setup.machine.chain.axes())
+        poses *= axis.rotary ? options.rotary_grid : options.grid;
+    if (poses > most_poses)
+        throw InputError(fmt::format("--grid, --rotary-grid: {:.0f} poses are more than {:.0f}",
+                                     poses, most_poses));
+}
+
 int run_command(const Options& o) {
     if (o.map.grid < 2 || o.map.grid > 50) throw InputError("--grid: 2 to 50 points along an axis");
+    if (o.map.rotary_grid < 1 || o.map.rotary_grid > 72)
+        throw InputError("--rotary-grid: 1 to 72 angles of an axis");
     const Setup setup = open_setup(o.setup);
+    check_size(setup, o.map);
     std::vector<std::string> names;
     for (const EffectSetting& effect : setup.effects) names.push_back(effect.name);
     const VolumetricMap map = volumetric_map(setup, names, active_models(setup), o.map);
@@ -44,9 +59,12 @@ void add_volumetric(CLI::App& app, Run& run) {
         app.add_subcommand("volumetric", "tool point errors over the working volume");
     command->add_option("--setup", o->setup, "setup file (machines/bc_table.toml)");
     command->add_option("--grid", o->map.grid, "points along each linear axis (5)");
+    command->add_option("--rotary-grid", o->map.rotary_grid,
+                        "angles of each rotary axis (5; 1: at zero)");
     command->add_option("--length", o->map.length_mm, "tool length in mm (150)");
     command->add_option("--csv", o->csv, "every pose with its error");
-    command->add_option("--svg", o->svg, "folder for pictures, one for each height");
+    command->add_option("--svg", o->svg,
+                        "folder for pictures: one for each height, one of the axes");
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });
 }
 

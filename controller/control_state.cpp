@@ -21,6 +21,8 @@ AxisLimits limits_of(const ControlConfig& config) {
     out.min.fill(-infinity);
     out.max.fill(infinity);
     out.seconds_per_unit.fill(0.0);
+    out.per_acceleration.fill(0.0);
+    out.per_jump.fill(0.0);
     for (const ControlAxis& axis : config.axes) {
         const std::size_t i = index_of(axis.axis);
         out.min[i] = axis.min.value_or(-infinity);
@@ -28,6 +30,9 @@ AxisLimits limits_of(const ControlConfig& config) {
         const double speed =
             axis.rapid_speed.value_or(axis.rotary ? default_rapid_rad_s : default_rapid_mm_s);
         out.seconds_per_unit[i] = speed > 0.0 ? 1.0 / speed : 0.0;
+        if (axis.max_acceleration.value_or(0.0) <= 0.0) continue;
+        out.per_acceleration[i] = 1.0 / *axis.max_acceleration;
+        out.accelerates = true;
     }
     return out;
 }
@@ -73,6 +78,11 @@ void ControlState::frame_changed() {
 
 void ControlState::parameters_changed() {
     settings = decode_settings(stores.parameters, config);
+    for (const ControlAxis& axis : config.axes) {
+        const std::size_t i = index_of(axis.axis);
+        const double jump = settings.corner_jump[i] / 60.0;
+        limits.per_jump[i] = 1.0 / (axis.rotary ? rad_from_deg(jump) : jump);
+    }
     decode_five_axis(*this);
     units_changed();
 }

@@ -7,11 +7,13 @@
 #include <string_view>
 
 #include "controller/alarms.h"
+#include "controller/axis_limits.h"
 #include "controller/controller.h"
 #include "controller/coordinates.h"
 #include "controller/feed_state.h"
 #include "controller/five_axis_state.h"
 #include "controller/modal.h"
+#include "controller/pace.h"
 #include "controller/path_queue.h"
 #include "controller/settings.h"
 #include "controller/sorted_words.h"
@@ -62,12 +64,6 @@ struct CylinderMotion {
     double radius_mm = 0.0;
 };
 
-/// Speed and stroke of each axis letter, in what the axes are driven with (mm, rad).
-struct AxisLimits {
-    std::array<double, axis_count> min, max;
-    std::array<double, axis_count> seconds_per_unit;  ///< at rapid; 0 for axes that are not there
-};
-
 struct ControlState {
     ControlState(ControlConfig config_, Stores& stores_, MotionSink& sink_);
 
@@ -116,6 +112,7 @@ struct ControlState {
     std::array<bool, axis_count> clamped{};
 
     PathQueue path;
+    Pace pace;
     AxisMove move;  ///< the one that goes out; fields that rarely change stay
     RunResult result;
     std::set<std::string, std::less<>> noted;
@@ -123,6 +120,11 @@ struct ControlState {
     std::array<double, 8> controls{};  ///< #3003, #3004, ...: [n] = #3000+n
 
     /// One line in the result's notes, the first time it is said.
+    /// Carries an M code out: the block behind it waits for its completion.
+    void send_m_code(int code) {
+        pace.stop();
+        sink.m_code(code);
+    }
     void note(std::string text);
     /// After a coordinate stage changed: compiles and derives the program position anew.
     void frame_changed();

@@ -101,6 +101,7 @@ RunResult Controller::State::run(const Program& program) {
     control.move.arc.reset();
     control.move.curve = nullptr;
     control.move.until_skip = false;
+    control.pace.stop();
     try {
         language.open(program);
         run_blocks();

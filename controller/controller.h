@@ -44,7 +44,6 @@ struct ControlConfig {
     std::function<bool(std::uint64_t blocks)> go_on;
     std::int64_t clock_s = 0;      ///< #3011/#3012 and #3002 start here (seconds since 1970), so
                                    ///< that same inputs give the same bytes
-    double chord_tolerance_mm = 0.001;
     TcpFrame tcp_frame = TcpFrame::start;  ///< G43.4 with the table turned
 };
 
@@ -60,6 +59,7 @@ struct RunResult {
     AxisPositions machine;           ///< final, mm and rad
     AxisPositions work;              ///< final, in the active work frame, mm and rad
     std::vector<std::string> modal;  ///< "G00", "G17", ... one for each modal group, in group order
+    bool reads_skip = false;         ///< the program asked where G31 touched (#5061..)
     std::vector<std::string> notes;  ///< unknown M codes, codes accepted without effect, ...
 };
 

@@ -1,5 +1,7 @@
 // G41, G42, G40, G39: the tool runs beside the programmed path. Start-up and cancel types A, B, C
 // (5003#0, #1), outside corners by lines or arcs (19607#2), look-ahead (19625).
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "controller/compensated_corner.h"
@@ -167,6 +169,11 @@ void g_corner_arc(ControlState& c, const GCode& code) {
     if (c.words.has(plane.centre_first)) first.corner_arc_to.x = c.length_word(plane.centre_first);
     if (c.words.has(plane.centre_second))
         first.corner_arc_to.y = c.length_word(plane.centre_second);
+}
+
+/// The tool side offset across a turning tool is not emulated: better an alarm than a wrong part.
+void g_five_axis_cutter(ControlState&, const GCode& code) {
+    raise_alarm(5460, fmt::format("G{}.{}", code.code10 / 10, code.code10 % 10));
 }
 
 }  // namespace trunnion

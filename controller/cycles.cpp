@@ -56,6 +56,7 @@ void shift_tool(ControlState& c, double by) {
 }
 
 void turn_spindle(ControlState& c, int direction) {
+    if (c.spindle.direction != direction) c.pace.stop();
     c.spindle.direction = direction;
     c.feed_changed();
 }

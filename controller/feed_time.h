@@ -1,5 +1,5 @@
-// How long a move takes, simply: length / feed, no faster than the slowest axis; rapids by the
-// slowest axis. No acceleration: a real control takes longer, most for short moves.
+// How long a move takes at constant rate: length / feed, no faster than the slowest axis; rapids by
+// the slowest axis. What speeding up and slowing down add: controller/pace.h.
 #pragma once
 
 #include "controller/control_state.h"

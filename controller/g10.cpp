@@ -4,6 +4,7 @@
 #include "controller/control_state.h"
 #include "controller/g_codes.h"
 #include "controller/g_handlers.h"
+#include "offsets/parameter_units.h"
 
 namespace trunnion {
 
@@ -108,7 +109,8 @@ void enter_data(ControlState& c, const BlockWords& block) {
     if (block.sequence_number < 0 || !w.has('R')) raise_alarm(231);
     Parameter& parameter = c.stores.parameters.entry[block.sequence_number];
     if (!w.has('P'))
-        parameter.value = w.get('R');
+        parameter.value =
+            w.get('R') * parameter_unit_mm(c.stores.parameters, block.sequence_number);
     else
         parameter.by_axis[c.whole_word('P')] = w.get('R');
     c.parameters_changed();

@@ -51,8 +51,9 @@ void g_data_setting_end(ControlState& c, const GCode& code);  // G11
 void g_cycle(ControlState& c, const GCode& code);  // G73-G89
 
 // cutter_compensation.cpp
-void g_cutter(ControlState& c, const GCode& code);      // G40 G41 G42
-void g_corner_arc(ControlState& c, const GCode& code);  // G39
+void g_cutter(ControlState& c, const GCode& code);            // G40 G41 G42
+void g_corner_arc(ControlState& c, const GCode& code);        // G39
+void g_five_axis_cutter(ControlState& c, const GCode& code);  // G41.2, G42.2, ...: PS5460
 
 // wrapped_motion.cpp
 void g_polar_motion(ControlState& c, const GCode& code);  // G12.1 G13.1

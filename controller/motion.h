@@ -48,11 +48,11 @@ struct AxisMove {
     std::optional<ArcPath> arc;
     const PathCurve* curve = nullptr;  ///< valid during the call only
     double length_mm = 0.0;            ///< path length of the programmed point
-    double duration_s = 0.0;
-    double feed_mm_min = 0.0;  ///< 0 for G0
-    int tool = 0;              ///< T in the spindle
-    int tool_offset = 0;       ///< H in force
-    double spindle_rpm = 0.0;  ///< signed: negative is M4
+    double duration_s = 0.0;           ///< ramps included
+    double feed_mm_min = 0.0;          ///< between the ramps; 0 for G0
+    int tool = 0;                      ///< T in the spindle
+    int tool_offset = 0;               ///< H in force
+    double spindle_rpm = 0.0;          ///< signed: negative is M4
     bool coolant = false;
     PositioningMode mode = PositioningMode::none;
     Vector3 tool_vector_mm =
@@ -70,6 +70,7 @@ struct AxisMove {
 struct MoveResult {
     bool skipped = false;   ///< the skip signal came before the end
     AxisPositions stopped;  ///< where, when it did
+    double part = 1.0;      ///< of the move that was made: s
 };
 
 /// What the control drives: the emulator, a trace, a comparer.

@@ -29,20 +29,22 @@ void check_clamps(const ControlState& c, const AxisPositions& to) {
     }
 }
 
-/// Everything is in c.move but the place: sends it and keeps where the axes stopped.
+/// Everything is in c.move but the place: sends it and keeps where the axes stopped. `way`: what F
+/// divides, mm.
 MoveResult send(ControlState& c, MotionKind kind, const ControlPosition& target,
-                const ControlPosition& machine_target) {
+                const ControlPosition& machine_target, double way) {
     AxisMove& m = c.move;
     m.kind = kind;
     check_stroke(c, m.to);
     if (!c.config.clamps.empty()) check_clamps(c, m.to);
-    m.feed_mm_min = kind == MotionKind::rapid                 ? 0.0
-                    : m.length_mm > 0.0 && m.duration_s > 0.0 ? 60.0 * m.length_mm / m.duration_s
-                                                              : c.feed.mm_min;
+    const double cruise_s = c.pace.take(m, c.limits, way);
+    m.feed_mm_min = kind == MotionKind::rapid           ? 0.0
+                    : m.length_mm > 0.0 && cruise_s > 0 ? 60.0 * m.length_mm / cruise_s
+                                                        : c.feed.mm_min;
     const MoveResult result = c.sink.move(m);
     ++c.result.moves;
-    c.result.time_s += m.duration_s;
-    c.result.path_mm += m.length_mm;
+    c.result.time_s += result.part * m.duration_s;
+    c.result.path_mm += result.part * m.length_mm;
     if (result.skipped) {
         c.machine = control_position_of(result.stopped);
         m.from = m.to = result.stopped;
@@ -79,10 +81,10 @@ MoveResult move_straight(ControlState& c, MotionKind kind, const ControlPosition
     }
     m.length_mm = xyz_length(m.from, m.to);
     if (c.spindle.by_surface) follow_surface_speed(c, target);
-    m.duration_s = kind == MotionKind::rapid
-                       ? rapid_time(c.limits, m.from, m.to)
-                       : cutting_time(c, feed_length(c.machine, machine_target), m.from, m.to);
-    return send(c, kind, target, machine_target);
+    const double way = feed_length(c.machine, machine_target);
+    m.duration_s = kind == MotionKind::rapid ? rapid_time(c.limits, m.from, m.to)
+                                             : cutting_time(c, way, m.from, m.to);
+    return send(c, kind, target, machine_target, way);
 }
 
 void move_machine(ControlState& c, MotionKind kind, const ControlPosition& target) {
@@ -95,10 +97,10 @@ void move_machine(ControlState& c, MotionKind kind, const ControlPosition& targe
         return;
     }
     m.length_mm = xyz_length(m.from, m.to);
-    m.duration_s = kind == MotionKind::rapid
-                       ? rapid_time(c.limits, m.from, m.to)
-                       : cutting_time(c, feed_length(c.machine, target), m.from, m.to);
-    send(c, kind, program, target);
+    const double way = feed_length(c.machine, target);
+    m.duration_s = kind == MotionKind::rapid ? rapid_time(c.limits, m.from, m.to)
+                                             : cutting_time(c, way, m.from, m.to);
+    send(c, kind, program, target, way);
 }
 
 void move_arc(ControlState& c, MotionKind kind, const ControlPosition& target,
@@ -135,9 +137,10 @@ void move_arc(ControlState& c, MotionKind kind, const ControlPosition& target,
         feed_squared += d * d;
     }
     if (c.spindle.by_surface) follow_surface_speed(c, target);
-    m.duration_s = cutting_time(c, std::sqrt(feed_squared), m.from, m.to);
+    const double way = std::sqrt(feed_squared);
+    m.duration_s = cutting_time(c, way, m.from, m.to);
     m.arc = path;
-    send(c, kind, target, machine_target);
+    send(c, kind, target, machine_target, way);
     m.arc.reset();
 }
 
@@ -157,15 +160,13 @@ MoveResult move_along(ControlState& c, MotionKind kind, const ControlPosition& t
                                              : cutting_time(c, way.feed_length_mm, m.from, m.to);
     if (way.curve) {
         m.curve = way.curve;
-        m.duration_s =
-            std::max(m.duration_s, least_curve_time_s(*way.curve, c.limits.seconds_per_unit));
         // The axes may swing further out on the way than where they end.
         const int parts = curve_parts(m.from, m.to);
         for (int k = 1; k < parts; ++k)
             check_stroke(c, way.curve->at(static_cast<double>(k) / parts));
     }
     if (way.arc) m.arc = *way.arc;
-    const MoveResult result = send(c, kind, target, machine_target);
+    const MoveResult result = send(c, kind, target, machine_target, way.feed_length_mm);
     m.curve = nullptr;
     m.arc.reset();
     return result;
@@ -181,6 +182,7 @@ MoveResult move_curve(ControlState& c, MotionKind kind, const ControlPosition& t
 }
 
 void dwell(ControlState& c, double duration_s) {
+    c.pace.stop();
     c.result.time_s += duration_s;
     c.sink.dwell(duration_s);
 }

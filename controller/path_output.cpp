@@ -28,7 +28,7 @@ void move_out(ControlState& c, const PathOutput& out) {
 
 /// The move with the states of its block, which may lie behind the one that runs now.
 void emit(ControlState& c, const PathOutput& out) {
-    if (out.m_code >= 0) return c.sink.m_code(out.m_code);
+    if (out.m_code >= 0) return c.send_m_code(out.m_code);
     if (out.dwell_s >= 0.0) return dwell(c, out.dwell_s);
     const BlockMarks& marks = out.move.marks;
     const ControlPosition programmed = c.program;

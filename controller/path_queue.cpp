@@ -164,7 +164,7 @@ void queue_dwell(ControlState& c, double duration_s) {
 }
 
 void queue_m_code(ControlState& c, int code) {
-    if (!c.path.engaged) return c.sink.m_code(code);
+    if (!c.path.engaged) return c.send_m_code(code);
     PathOutput event;
     event.m_code = code;
     queue_event(c, event);

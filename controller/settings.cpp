@@ -6,6 +6,8 @@ namespace trunnion {
 
 namespace {
 
+constexpr double default_corner_jump = 400.0;  // mm/min, deg/min: what handbooks set (assumed)
+
 /// Value of an axis parameter: the axis's own, or the one for all.
 double for_axis(const Parameters& parameters, int number, int axis_number) {
     const auto it = parameters.entry.find(number);
@@ -20,6 +22,8 @@ void decode_axes(const Parameters& parameters, const ControlConfig& config, Cont
         const std::size_t i = index_of(config.axes[k].axis);
         for (int r = 0; r < 4; ++r)
             s.reference[static_cast<std::size_t>(r)][i] = for_axis(parameters, 1240 + r, number);
+        const double jump = for_axis(parameters, 1783, number);
+        s.corner_jump[i] = jump > 0.0 ? jump : default_corner_jump;
         const auto roa = static_cast<unsigned>(for_axis(parameters, 1008, number));
         if (config.axes[k].rotary && (roa & 1U))
             s.rollover = static_cast<std::uint16_t>(s.rollover | (1U << i));

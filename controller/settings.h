@@ -33,6 +33,7 @@ struct ControlSettings {
     double least_surface_rpm = 0.0;          ///< 3771: least speed under G96
     double most_rpm = 99999.0;               ///< 3772; absent or 0: five digits (assumed)
     int surface_axis_number = 1;  ///< 3770: radius axis of G96 without P; 0 and absent: 1
+    std::array<double, axis_count> corner_jump{};  ///< 1783, mm/min and deg/min; 0: 400 (assumed)
     std::array<std::array<double, axis_count>, 4> reference{};  ///< 1240-1243, mm and deg
 };
 

@@ -182,7 +182,7 @@ bool write_state_variable(ControlState& c, int number, double value, std::string
             return true;
         case 3006:
             c.note(fmt::format("#3006 = {}: stop with message \"{}\", continued", value, comment));
-            c.sink.m_code(0);
+            c.send_m_code(0);
             return true;
         default:
             break;

@@ -16,6 +16,7 @@ ControlPosition work_position(const ControlState& c) {
 
 double ControlVariables::get(int number) {
     double value = 0.0;
+    if (number >= 5061 && number <= 5080) c_.result.reads_skip = true;
     if (read_offset_variable(c_, number, value) || read_state_variable(c_, number, value))
         return value;
     raise_alarm(115);

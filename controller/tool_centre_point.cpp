@@ -119,20 +119,4 @@ int curve_parts(const AxisPositions& from, const AxisPositions& to) {
     return std::clamp(static_cast<int>(turn_rad / rad_from_deg(5.0)) + 1, 1, 256);
 }
 
-double least_curve_time_s(const PathCurve& curve,
-                          const std::array<double, axis_count>& seconds_per_unit) {
-    const AxisPositions from = curve.at(0.0), to = curve.at(1.0);
-    const int parts = curve_parts(from, to);
-    double longest_s = 0.0;
-    AxisPositions before = from;
-    for (int k = 1; k <= parts; ++k) {
-        const AxisPositions now = k == parts ? to : curve.at(static_cast<double>(k) / parts);
-        for (std::size_t i = 0; i < axis_count; ++i)
-            longest_s = std::max(
-                longest_s, parts * seconds_per_unit[i] * std::abs(now.value[i] - before.value[i]));
-        before = now;
-    }
-    return longest_s;
-}
-
 }  // namespace trunnion

@@ -78,9 +78,4 @@ std::vector<double> chord_steps(const PathCurve& curve, double tolerance_mm);
 /// most.
 int curve_parts(const AxisPositions& from, const AxisPositions& to);
 
-/// Least time (s) in which the axes can follow the curve at constant rate of s: each axis's
-/// steepest run times its `seconds_per_unit`.
-double least_curve_time_s(const PathCurve& curve,
-                          const std::array<double, axis_count>& seconds_per_unit);
-
 }  // namespace trunnion

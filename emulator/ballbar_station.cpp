@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/numbers.h"
 #include "geometry/units.h"
@@ -13,6 +14,17 @@ namespace {
 constexpr int range_checks = 16;
 /// A sample this close to the end of a move is at its end, not at the next one's beginning.
 constexpr double end_rad = 1e-9;
+
+constexpr double farthest_reach_mm = 5000.0;  ///< of a point from a rotary axis, on the safe side
+constexpr double effects_mm = 5.0;            ///< more than errors and effects change a distance
+
+/// No two points of the machine come nearer to each other than by this between two positions.
+double farthest_way_mm(const AxisPositions& a, const AxisPositions& b) {
+    double way_mm = 0.0;
+    for (const Axis axis : all_axes)
+        way_mm += std::abs(b[axis] - a[axis]) * (is_rotary(axis) ? farthest_reach_mm : 1.0);
+    return way_mm;
+}
 
 double swept_rad(const AxisMove& move) {
     double most = move.arc ? std::abs(move.arc->sweep_rad) : 0.0;
@@ -61,14 +73,20 @@ double BallbarStation::deviation_mm(const PathSampler& path, double s,
 const Artefact* BallbarStation::mounted_pivot(const PathSampler& path,
                                               const PhysicalMachine& machine) {
     const Ballbar bar;
+    if (!commanded_ && apart_mm_ > farthest_way_mm(apart_at_, path.move.from)) return nullptr;
+    apart_mm_ = std::numeric_limits<double>::infinity();
+    apart_at_ = path.move.from;
     for (const Artefact& artefact : setup_.artefacts) {
         if (artefact.kind != Artefact::Kind::center_pivot) continue;
         pivot_ = &artefact;
         bool inside = true;
-        for (int i = 0; i <= range_checks && inside; ++i)
-            inside = in_range(
-                deviation_mm(path, static_cast<double>(i) / range_checks, machine, {}, nullptr),
-                bar);
+        for (int i = 0; i <= range_checks && inside; ++i) {
+            const double off_mm =
+                deviation_mm(path, static_cast<double>(i) / range_checks, machine, {}, nullptr);
+            if (i == 0)
+                apart_mm_ = std::min(apart_mm_, std::abs(off_mm) - bar.range_mm - effects_mm);
+            inside = in_range(off_mm, bar);
+        }
         if (inside || commanded_) return pivot_;
     }
     return nullptr;

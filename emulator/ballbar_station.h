@@ -47,6 +47,10 @@ class BallbarStation {
     double angle_left_rad_ = 0.0;  ///< to the next sample, when sampling by angle
     int passes_ = 0;
     const Artefact* pivot_ = nullptr;
+    /// Of all pivots beyond the bar's range when the axes stood at `apart_at_`: until they have
+    /// gone that far nobody need look again.
+    double apart_mm_ = -1.0;
+    AxisPositions apart_at_;
     std::vector<std::string> notes_;
 };
 

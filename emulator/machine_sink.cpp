@@ -1,8 +1,10 @@
 #include "emulator/machine_sink.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 
+#include "controller/tool_centre_point.h"
 #include "geometry/numbers.h"
 #include "geometry/units.h"
 
@@ -28,6 +30,31 @@ bool turns(const AxisMove& move) {
     for (const Axis axis : {Axis::A, Axis::B, Axis::C})
         if (std::abs(move.from[axis] - move.to[axis]) > standing_rad) return true;
     return false;
+}
+
+class MovePath : public PathCurve {
+  public:
+    explicit MovePath(const AxisMove& move) : move_(move) {}
+    AxisPositions at(double s) const override { return move_.at(s); }
+
+  private:
+    const AxisMove& move_;
+};
+
+/// Length of the programmed point's path, or of the way of X Y Z if that is longer: under G43.4 the
+/// axes swing while the tip rests.
+double longer_way_mm(const AxisMove& move) {
+    if (!move.curve) return move.length_mm;
+    const int parts = 4 * curve_parts(move.from, move.to);
+    double way_mm = 0.0;
+    AxisPositions before = move.from;
+    for (int k = 1; k <= parts; ++k) {
+        const AxisPositions now = move.at(static_cast<double>(k) / parts);
+        way_mm += std::hypot(now[Axis::X] - before[Axis::X], now[Axis::Y] - before[Axis::Y],
+                             now[Axis::Z] - before[Axis::Z]);
+        before = now;
+    }
+    return std::max(move.length_mm, way_mm);
 }
 
 /// RADIAL A POS -> radial_A_pos
@@ -123,11 +150,24 @@ void MachineSink::write_trace(const PathSampler& path, double end_s) {
         const Vector3 tip = options_.truth ? true_tip_W(path, s) : Vector3::Zero();
         trace_->add(path.move, s, path.time_s(s), end, &tip);
     };
-    const double step = options_.trace_step_mm > 0.0 && path.move.length_mm > 0.0
-                            ? options_.trace_step_mm / path.move.length_mm
-                            : 2.0;
-    for (int i = 1; i * step < end_s - 1e-9; ++i) row(i * step, false);
+    for (const double s : sample_places(path.move))
+        if (s < end_s - 1e-9) row(s, false);
     row(end_s, true);
+}
+
+/// Places (s) of the SAMPLE rows of a move, rising.
+std::vector<double> MachineSink::sample_places(const AxisMove& move) const {
+    std::vector<double> places;
+    const double way_mm = options_.trace_step_mm > 0.0 ? longer_way_mm(move) : 0.0;
+    if (way_mm > 0.0)
+        for (int i = 1; i * options_.trace_step_mm < way_mm; ++i)
+            places.push_back(i * options_.trace_step_mm / way_mm);
+    if (options_.trace_chord_mm <= 0.0 || !(move.arc || move.curve)) return places;
+    const auto steps = chord_steps(MovePath(move), options_.trace_chord_mm);
+    places.insert(places.end(), steps.begin() + 1, steps.end());
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    return places;
 }
 
 std::optional<Touch> MachineSink::probe(const PathSampler& path) {
@@ -161,7 +201,7 @@ MoveResult MachineSink::move(const AxisMove& move) {
     clock_s_ = path.time_s(end_s);
     if (!read && !touch) log_.passed(end, clock_s_, mode_);
     tracker_.advance(end);
-    return {touch.has_value(), end};
+    return {touch.has_value(), end, end_s};
 }
 
 }  // namespace trunnion

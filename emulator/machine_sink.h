@@ -18,7 +18,9 @@ namespace trunnion {
 struct SinkOptions {
     std::uint64_t seed = 1;
     bool trace = false;
-    double trace_step_mm = 0.0;  ///< above 0: SAMPLE rows at this distance along the path
+    double trace_step_mm = 0.0;   ///< above 0: SAMPLE rows at this distance along the path
+    double trace_chord_mm = 0.0;  ///< above 0: SAMPLE rows so close that X Y Z stay within this of
+                                  ///< the straight lines between rows
     bool truth = false;
     TraceChunk trace_chunk;    ///< empty: the trace waits for take_trace
     std::string test = "run";  ///< name of the test until the program names one
@@ -52,6 +54,7 @@ class MachineSink : public MotionSink {
     void set_shop(std::string_view line);
     void follow_mode(const AxisMove& move);
     std::optional<Touch> probe(const PathSampler& path);
+    std::vector<double> sample_places(const AxisMove& move) const;
     void write_trace(const PathSampler& path, double end_s);
     Vector3 true_tip_W(const PathSampler& path, double s) const;
 

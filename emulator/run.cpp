@@ -10,6 +10,7 @@ SinkOptions sink_options(const RunOptions& options, const ProgramChoice& program
     sink.seed = options.seed;
     sink.trace = options.trace;
     sink.trace_step_mm = options.trace_step_mm;
+    sink.trace_chord_mm = options.trace_chord_mm;
     sink.truth = options.truth;
     sink.trace_chunk = options.trace_chunk;
     if (const auto* number = std::get_if<int>(&program)) {

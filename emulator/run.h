@@ -20,6 +20,7 @@ struct RunOptions {
     std::uint64_t seed = 1;
     bool trace = false;
     double trace_step_mm = 0.0;       ///< above 0: SAMPLE rows at this distance along the path
+    double trace_chord_mm = 0.0;      ///< above 0: SAMPLE rows that follow curves this closely
     bool truth = false;               ///< physical tip in the trace
     TraceChunk trace_chunk;           ///< receives the trace as it grows; empty: RunLog::trace_csv
     std::uint64_t max_blocks = 0;     ///< 0: no limit

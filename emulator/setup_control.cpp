@@ -3,6 +3,7 @@
 
 #include "emulator/setup_reader.h"
 #include "geometry/numbers.h"
+#include "offsets/parameter_units.h"
 
 namespace trunnion {
 namespace {
@@ -111,11 +112,17 @@ Parameter read_parameter(const TomlFile& file, const TomlValue& value, const Cha
 }
 
 void read_parameters(const TomlFile& file, const TomlValue& table, Setup& setup) {
+    std::vector<int> read;
     for (const auto& [key, value] : file.table(table).entries) {
         value.used = true;
         const int number = whole_number(file, key, value, 0, 99999, "a parameter number");
         setup.stores.parameters.entry[number] = read_parameter(file, value, setup.machine.chain);
+        read.push_back(number);
     }
+    // 1001 may stand anywhere, in the backup too.
+    for (const int number : read)
+        setup.stores.parameters.entry[number].value *=
+            parameter_unit_mm(setup.stores.parameters, number);
 }
 
 void read_numbered(const TomlFile& file, const TomlValue& table, std::map<int, double>& store) {

@@ -4,6 +4,7 @@
 #include "emulator/setup.h"
 #include "geometry/numbers.h"
 #include "geometry/units.h"
+#include "offsets/parameter_units.h"
 
 namespace trunnion {
 namespace {
@@ -178,8 +179,9 @@ std::string tools_text(const ToolOffsets& tools) {
     return out.empty() ? out : "\n[control.tools]\n" + out;
 }
 
-std::string parameter_text(const Parameter& parameter) {
-    if (parameter.by_axis.empty()) return shortest(parameter.value);
+/// `unit_mm`: of the number as typed.
+std::string parameter_text(const Parameter& parameter, double unit_mm) {
+    if (parameter.by_axis.empty()) return shortest(parameter.value / unit_mm);
     std::string out;
     for (const auto& [axis, value] : parameter.by_axis)
         out += (out.empty() ? "" : ", ") + std::to_string(axis) + " = " + shortest(value);
@@ -225,7 +227,8 @@ std::string control_text(const Setup& setup) {
     out += work_text(setup.stores.work) + fixture_text(setup.stores.fixture);
     if (!setup.stores.parameters.entry.empty()) out += "\n[control.parameters]\n";
     for (const auto& [number, parameter] : setup.stores.parameters.entry)
-        out += std::to_string(number) + " = " + parameter_text(parameter) + '\n';
+        out += std::to_string(number) + " = " +
+               parameter_text(parameter, parameter_unit_mm(setup.stores.parameters, number)) + '\n';
     out += tools_text(setup.stores.tools);
     out += numbered_text("variables", setup.stores.variables);
     return out + numbered_text("signals", setup.stores.signals);

@@ -1,8 +1,7 @@
-// A volumetric map as CSV, text and pictures.
+// A volumetric map as CSV and text; its pictures are in volumetric_pictures.h.
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "analysis/volumetric.h"
@@ -14,7 +13,10 @@ namespace trunnion {
 std::string volumetric_csv(const VolumetricMap& map);
 /// Worst place, rms, and a table of causes.
 std::string volumetric_text(const VolumetricMap& map);
-/// File name and SVG: one map of error vectors for each height, rotary axes nearest to zero.
-std::vector<std::pair<std::string, std::string>> volumetric_pictures(const VolumetricMap& map);
+
+/// The cause that contributes most at a point; empty when there is none.
+std::string cause_name(const VolumetricMap& map, const VolumetricPoint& point);
+/// "X-200 Y0 B30": mm and deg.
+std::string place_text(const std::vector<Axis>& axes, const AxisPositions& q);
 
 }  // namespace trunnion

@@ -1,6 +1,9 @@
 #include "analysis/volumetric.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
+
+#include "geometry/units.h"
 
 using namespace trunnion;
 
@@ -28,7 +31,7 @@ TEST_CASE("a volumetric map finds the place and the error that dominates") {
 TEST_CASE("contributions add up to the whole error of a five-axis machine") {
     std::vector<std::string> notes;
     const Setup setup = load_setup(TRUNNION_SOURCE_DIR "/machines/ac_trunnion.toml", notes);
-    const VolumetricMap map = volumetric_map(setup, {}, {}, {3, 150.0});
+    const VolumetricMap map = volumetric_map(setup, {}, {}, {3, 3, 150.0});
     CHECK(map.points.size() == 27 * 9);
     CHECK(map.causes.size() == 8);
     double squares = 0.0;
@@ -36,4 +39,27 @@ TEST_CASE("contributions add up to the whole error of a five-axis machine") {
     CHECK(map.rms_mm > 0.05);
     CHECK(map.rms_mm < 2.0 * std::sqrt(squares));
     CHECK(map.causes[0].name == "EY0C");  // 0.104 mm
+}
+
+TEST_CASE("one location error shows its length everywhere, and the rotaries go all the way") {
+    std::vector<std::string> notes;
+    Setup setup = load_setup(TRUNNION_SOURCE_DIR "/machines/bc_table.toml", notes);
+    setup.machine.errors = {};
+    setup.machine.errors.location(*parse_error_name("EX0C")) = 0.02;
+    const VolumetricMap map = volumetric_map(setup, {}, {}, {2, 6, 150.0});
+    CHECK(map.points.size() == 8 * 6 * 6);
+    double low_b = 1e9, high_b = -1e9, low_c = 1e9, high_c = -1e9;
+    for (const VolumetricPoint& p : map.points) {
+        CHECK(p.error_W_mm.norm() == Approx(0.02).epsilon(1e-9));
+        // The table has gone + X, so the tip is off to - X of the table as it stands.
+        CHECK(p.error_W_mm.x() == Approx(-0.02 * std::cos(p.at[Axis::C])).margin(1e-12));
+        low_b = std::min(low_b, p.at[Axis::B]), high_b = std::max(high_b, p.at[Axis::B]);
+        low_c = std::min(low_c, p.at[Axis::C]), high_c = std::max(high_c, p.at[Axis::C]);
+    }
+    CHECK(rad_from_deg(110) == Approx(high_b));
+    CHECK(rad_from_deg(-110) == Approx(low_b));
+    CHECK(high_c - low_c == Approx(rad_from_deg(300)));  // six angles of one turn
+    REQUIRE(map.causes.size() == 1);
+    CHECK(map.causes[0].share == 1.0);
+    CHECK(volumetric_map(setup, {}, {}, {2, 1, 150.0}).points.size() == 8);
 }

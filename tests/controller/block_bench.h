@@ -25,7 +25,7 @@ class Recorder : public MotionSink {
   public:
     MoveResult move(const AxisMove& m) override {
         moves.push_back(m);
-        if (m.until_skip && trigger_at >= 0.0) return {true, m.at(trigger_at)};
+        if (m.until_skip && trigger_at >= 0.0) return {true, m.at(trigger_at), trigger_at};
         return {};
     }
     void dwell(double duration_s) override { dwells.push_back(duration_s); }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "controller/fixture_offset.h"
+#include "controller/path_rates.h"
 #include "controller/rotary_choice.h"
 #include "controller/tilted_plane.h"
 #include "controller/tool_centre_point.h"
@@ -340,6 +341,26 @@ TEST_CASE("the tip runs straight in W, the chords stay within tolerance") {
     }
 }
 
+TEST_CASE("chords split when their rise is above the tolerance, not at it") {
+    PivotParameters pivot = bc_table();
+    pivot.table_point_mm = pivot.table_offset_mm = Vector3::Zero();
+    const RotaryTransform belief(pivot);
+    AxisPositions from, to;
+    to[Axis::C] = pi / 2;
+    const Vector3 tip(80, 0, 0);
+    from = belief.machine_for_tip(tip, from, Vector3::Zero());
+    to = belief.machine_for_tip(tip, to, Vector3::Zero());
+    const auto tcp = ToolCentrePoint::start(belief, {}, TcpFrame::start, Vector3::Zero());
+    const TipLine line(tcp, from, to, tip, tip);
+    // The axes run on a quarter circle of 80 mm: four chords rise by 80 (1 - cos 11.25 deg).
+    const double rise_mm = 80.0 * (1.0 - std::cos(11.25 * deg));
+    CHECK(chord_steps(line, rise_mm * (1 + 1e-9)).size() == 5);
+    CHECK(chord_steps(line, rise_mm * (1 - 1e-9)).size() == 9);
+    const double next_mm = 80.0 * (1.0 - std::cos(5.625 * deg));
+    CHECK(chord_steps(line, next_mm * (1 + 1e-9)).size() == 9);
+    CHECK(chord_steps(line, next_mm * (1 - 1e-9)).size() == 17);
+}
+
 TEST_CASE("WKP and the frame at rotary zero") {
     PivotParameters pivot = bc_table();
     AxisPositions start;
@@ -368,19 +389,20 @@ TEST_CASE("G43.5 Q leans the tool towards the travel") {
 
 TEST_CASE("an axis's speed bounds the time of a tip line") {
     const RotaryTransform belief(bc_table());
-    AxisPositions from, to;
-    to[Axis::C] = pi;
-    from = belief.machine_for_tip({100, 0, 0}, from, Vector3::Zero());
-    to = belief.machine_for_tip({100, 0, 0}, to, Vector3::Zero());
+    AxisMove move;
+    move.to[Axis::C] = pi;
+    move.from = belief.machine_for_tip({100, 0, 0}, move.from, Vector3::Zero());
+    move.to = belief.machine_for_tip({100, 0, 0}, move.to, Vector3::Zero());
     const auto tcp = ToolCentrePoint::start(belief, {}, TcpFrame::start, Vector3::Zero());
-    const TipLine line(tcp, from, to, {100, 0, 0}, {100, 0, 0});
-    std::array<double, axis_count> seconds{};
-    seconds[index_of(Axis::C)] = 2.0 / pi;
-    CHECK(least_curve_time_s(line, seconds) == Approx(2.0));
-    seconds = {};
-    seconds[index_of(Axis::Y)] = 0.01;  // 100 mm/s: Y = r sin, steepest r pi a unit of s
+    const TipLine line(tcp, move.from, move.to, {100, 0, 0}, {100, 0, 0});
+    move.curve = &line;
+    AxisLimits limits{};
+    limits.seconds_per_unit[index_of(Axis::C)] = 2.0 / pi;
+    CHECK(path_rates(move, limits).least_s == Approx(2.0));
+    limits.seconds_per_unit = {};
+    limits.seconds_per_unit[index_of(Axis::Y)] = 0.01;  // 100 mm/s: Y = r sin, steepest r pi
     const double radius = std::hypot(100 - 3.4, 40 - 0.2 + 0.0);
-    CHECK(least_curve_time_s(line, seconds) == Approx(0.01 * pi * radius).epsilon(2e-3));
+    CHECK(path_rates(move, limits).least_s == Approx(0.01 * pi * radius).epsilon(2e-3));
 }
 
 }  // namespace trunnion

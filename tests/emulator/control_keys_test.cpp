@@ -97,3 +97,24 @@ TEST_CASE("running a backup's G10 files gives the stores that loading them gives
     CHECK(tools.stores.tools.tool[1].radius_mm() == loaded.tools.tool[1].radius_mm());
     CHECK(loaded.tools.tool[1].length_wear_mm == -0.01);
 }
+
+TEST_CASE("pivots of an inch machine are typed in inches and kept in mm") {
+    const std::string pivots = "19700 = 0.5\n19705 = -2.0\n19680 = 12\n5114 = 3\n";
+    const Setup metric = setup_with("[control.parameters]\n" + pivots);
+    CHECK(metric.stores.parameters.get(19700) == 0.5);
+    // 1001 may stand behind what it rules; 0000#2 (the unit of programs) rules nothing here.
+    const Setup inch = setup_with("[control.parameters]\n" + pivots + "1001 = \"00000001\"\n");
+    CHECK(inch.stores.parameters.get(19700) == Approx(12.7));
+    CHECK(inch.stores.parameters.get(19705) == Approx(-50.8));
+    CHECK(inch.stores.parameters.get(19680) == 12);
+    CHECK(inch.stores.parameters.get(5114) == 3);
+    const Setup typed = setup_with("[control.parameters]\n" + pivots + "0 = \"00000100\"\n");
+    CHECK(typed.stores.parameters.get(19700) == 0.5);
+    std::vector<std::string> notes;
+    const Setup again = parse_setup(format_setup(inch), "again.toml", notes);
+    CHECK(again.stores.parameters.get(19700) == Approx(12.7).epsilon(1e-15));
+    CHECK_THAT(format_setup(inch), Catch::Contains("19700 = 0.5\n"));
+    // A program under G20 (also by 0000#2) on the metric machine.
+    const RunLog log = run_text(typed, "G90 G54\nG0 X1.\nM30\n");
+    CHECK(log.result.machine[Axis::X] == Approx(25.4));
+}

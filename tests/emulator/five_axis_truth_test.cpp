@@ -144,6 +144,170 @@ TEST_CASE("G68.2 and G53.1 on every machine: the physical tool stands square on 
     CHECK(reached >= 150);
 }
 
+namespace {
+
+/// What a post-processor knows: the true machine, a point of the table, and where to bring it.
+struct Post {
+    const Setup& setup;
+    AxisPositions angles;
+
+    MachinePose pose() const { return setup.machine.poses(angles); }
+    /// Gauge point that puts the tip on q_W.
+    Vector3 gauge(const Vector3& q_W) const {
+        return pose().pose_MW * q_W - pose().pose_MS * Vector3(0, 0, -137.5);
+    }
+    std::string turn() const {
+        std::string words;
+        for (const Axis axis : rotaries(setup))
+            words += fmt::format(" {}{:.6f}", letter_of(axis), deg_from_rad(angles[axis]));
+        return words;
+    }
+};
+
+std::string at(const Vector3& v) {
+    return fmt::format(" X{:.12f} Y{:.12f} Z{:.12f}", v.x(), v.y(), v.z());
+}
+
+/// Where the axes stand after a program.
+Vector3 reached(const Setup& setup, const std::string& program, PositioningMode mode) {
+    struct Last : MotionSink {
+        MoveResult move(const AxisMove& m) override {
+            to = m.to;
+            mode = m.mode;
+            return {};
+        }
+        AxisPositions to;
+        PositioningMode mode = PositioningMode::none;
+    } last;
+    Stores stores = setup.stores;
+    const RunResult result = run_text(setup, stores, last, "G90 G21 G94 G0\n" + program);
+    INFO((result.alarm ? fmt::format("{} line {}", result.alarm->number, result.alarm->where.line)
+                       : ""));
+    REQUIRE(result.status == RunStatus::ok);
+    CHECK(last.mode == mode);
+    return {last.to[Axis::X], last.to[Axis::Y], last.to[Axis::Z]};
+}
+
+std::string by_tcp(const Post& post, const Vector3& q) {
+    return "G54\nG43.4 H1 X0 Y0 Z50.\n" + at(q) + post.turn() + '\n';
+}
+
+/// The plane square to the tool as it stands, from two vectors.
+std::string by_plane(const Post& post, const Vector3& q) {
+    const MachinePose pose = post.pose();
+    const Vector3 n = pose.pose_MW.rotation.transpose() * pose.pose_MS.rotation.col(2);
+    const Vector3 x = n.unitOrthogonal(), origin(1, 2, 3);
+    Matrix3 frame;
+    frame << x, n.cross(x), n;
+    const auto vector = [](const Vector3& v) {
+        return fmt::format(" I{:.15f} J{:.15f} K{:.15f}\n", v.x(), v.y(), v.z());
+    };
+    return "G54" + post.turn() + "\nG68.2 P3 Q1" + at(origin) + vector(x) + "G68.2 P3 Q2" +
+           vector(n) + "G53.1\nG43 H1" + at(frame.transpose() * (q - origin)) + '\n';
+}
+
+/// The table's rotaries meet in one point and each turns in a plane of the axes: G54.2 can do it.
+std::optional<Vector3> fixture_centre(const Setup& setup) {
+    std::optional<Vector3> centre;
+    for (const AxisGeometry& axis : setup.machine.chain.work) {
+        if (!axis.rotary) continue;
+        if (axis.direction.cwiseAbs().maxCoeff() < 1 - 1e-12) return std::nullopt;
+        if (centre && *centre != axis.point_mm) return std::nullopt;
+        centre = axis.point_mm;
+    }
+    return centre;
+}
+
+std::string by_fixture(const Post& post, const Vector3& q) {
+    const Vector3 words = post.pose().pose_MW.rotation * q + post.gauge(q) -
+                          post.pose().pose_MW * q - Vector3(0, 0, 137.5);
+    return "G55 G54.2 P1\nG43 H1" + at(words) + post.turn() + '\n';
+}
+
+}  // namespace
+
+TEST_CASE("one point by DPP, G54.2, G43.4 and G68.2/G53.1: one place of the axes, any machine") {
+    SeededNoise noise(9);
+    int machines = 0, with_fixture = 0;
+    for (const std::string& path : machine_files()) {
+        auto setup = truthful(path);
+        if (!setup) continue;
+        INFO(path);
+        ++machines;
+        const auto centre = fixture_centre(*setup);
+        with_fixture += centre.has_value();
+        for (const std::size_t i : {0U, 1U, 2U}) {
+            const double c = centre ? (*centre)[static_cast<int>(i)] : 0.0;
+            setup->stores.work.standard[1].value[i] = c;
+            setup->stores.fixture.set[0].offset.value[i] = -c;
+        }
+        for (int k = 0; k < 40; ++k) {
+            Post post{*setup, {}};
+            const auto turn = rotaries(*setup);
+            const auto typed = [&](double size) {
+                return std::round(size * 1e3 * (noise.uniform() - 0.5)) / 1e3;
+            };
+            post.angles[turn[0]] = rad_from_deg(typed(140));
+            post.angles[turn[1]] = rad_from_deg(typed(300));
+            const Vector3 q(typed(150), typed(150), typed(150)), gauge = post.gauge(q);
+            const Vector3 length(0, 0, 137.5);
+            const Vector3 dpp = reached(*setup, "G54 G43 H1" + at(gauge - length) + post.turn(),
+                                        PositioningMode::dpp);
+            CHECK((dpp - gauge).norm() < 1e-9);
+            CHECK((reached(*setup, by_tcp(post, q), PositioningMode::rtcp) - dpp).norm() < 1e-9);
+            CHECK((reached(*setup, by_plane(post, q), PositioningMode::tw) - dpp).norm() < 1e-9);
+            if (!centre) continue;
+            CHECK((reached(*setup, by_fixture(post, q), PositioningMode::rtdfo) - dpp).norm() <
+                  1e-9);
+        }
+    }
+    CHECK(machines >= 6);
+    CHECK(with_fixture >= 3);
+}
+
+TEST_CASE("heads and mixed machines whose stores are wrong move by the closed forms") {
+    SeededNoise noise(10);
+    const Vector3 dp(0.08, 0.06, -0.07), dt(0.15, -0.12, 0.16), ds(-0.15, 0.11, 0.06);
+    const auto add = [](Setup& setup, int number, const Vector3& d) {
+        for (int i = 0; i < 3; ++i)
+            setup.stores.parameters.set(number + i, setup.stores.parameters.get(number + i) + d[i]);
+    };
+    int machines = 0;
+    for (const char* file : {"head_head", "nutating_head", "head_table"}) {
+        const auto setup = truthful(fmt::format("{}/machines/{}.toml", TRUNNION_SOURCE_DIR, file));
+        REQUIRE(setup);
+        INFO(file);
+        ++machines;
+        const bool mixed = setup->stores.parameters.get(19680) == 21;
+        Setup wrong = *setup;
+        add(wrong, 19709, dt);
+        add(wrong, mixed ? 19700 : 19712, mixed ? dp : ds);
+        for (int k = 0; k < 40; ++k) {
+            Post post{*setup, {}};
+            const auto turn = rotaries(*setup);
+            post.angles[turn[0]] = rad_from_deg(std::round(140 * (noise.uniform() - 0.5)));
+            post.angles[turn[1]] = rad_from_deg(std::round(300 * (noise.uniform() - 0.5)));
+            const Vector3 q(30 * noise.uniform(), 20, -10);
+            const MachinePose pose = post.pose();
+            // The head whole, and its first axis alone (the second at zero).
+            const Matrix3 whole = pose.pose_MS.rotation, unit = Matrix3::Identity();
+            AxisPositions first = post.angles;
+            first[setup->machine.chain.tool.back().axis] = 0.0;
+            const Matrix3 carrier = setup->machine.poses(first).pose_MS.rotation;
+            const Vector3 expected =
+                (whole - unit) * dt + (mixed ? Vector3((unit - pose.pose_MW.rotation) * dp)
+                                             : Vector3(-(whole - carrier) * ds));
+            const Vector3 by_tip = reached(wrong, by_tcp(post, q), PositioningMode::rtcp) -
+                                   reached(*setup, by_tcp(post, q), PositioningMode::rtcp);
+            CHECK((by_tip - expected).norm() < 1e-9);
+            const Vector3 by_frame = reached(wrong, by_plane(post, q), PositioningMode::tw) -
+                                     reached(*setup, by_plane(post, q), PositioningMode::tw);
+            CHECK((by_frame - expected).norm() < 1e-9);
+        }
+    }
+    CHECK(machines == 3);
+}
+
 TEST_CASE("the setup says to what the frame of G43.4 is tied, and says it again") {
     std::vector<std::string> notes;
     Setup setup = load_setup(TRUNNION_SOURCE_DIR "/machines/bc_table.toml", notes);

@@ -1,8 +1,10 @@
 #include "emulator/machine_sink.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "emulator/run.h"
 #include "geometry/units.h"
 #include "kinematics/machine.h"
 
@@ -271,4 +273,27 @@ TEST_CASE("trace rows hold the contract's columns and the physical tip") {
     CHECK_THAT(lines[4],
                Catch::StartsWith("3,o1.nc,7,G1,0,0,35,0,200,0,0,35,0,50,0,0,1,35,0.5,,,,,,,,"));
     CHECK_THAT(lines[4], Catch::EndsWith(",34.98,0,50"));
+}
+
+TEST_CASE("trace rows follow a curve while the tip rests, by step or by chord") {
+    const Setup setup = bc_setup();
+    ProgramsInMemory none;
+    const auto rows = [&](double step_mm, double chord_mm) {
+        RunOptions options;
+        options.trace = true;
+        options.trace_step_mm = step_mm;
+        options.trace_chord_mm = chord_mm;
+        // The tip stays at X80 of the table, so the axes run a quarter circle of 80 mm or so.
+        const RunLog log = run_program(
+            setup, none,
+            ProgramText{"c.nc", "G90 G21 G54\nG0 B0 C0\nG43.4 H1 X80. Y0 Z0\nC90.\nM30\n", nullptr},
+            options);
+        REQUIRE(log.result.status == RunStatus::ok);
+        return std::count(log.trace_csv.begin(), log.trace_csv.end(), '\n') - 1;
+    };
+    const auto plain = rows(0, 0);
+    CHECK(std::abs(rows(10, 0) - plain - (12 + 17)) <= 2);  // 80 pi / 2 = 126; the way there, 170
+    const double rise_mm = 80.0 * (1.0 - std::cos(pi / 16));
+    CHECK(rows(0, 1.05 * rise_mm) == plain + 3);  // three places between four chords
+    CHECK(rows(0, 0.95 * rise_mm) == plain + 7);
 }

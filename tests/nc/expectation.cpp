@@ -1,6 +1,7 @@
 #include "expectation.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <sstream>
 #include <stdexcept>
 
@@ -121,16 +122,32 @@ void set_reference(Expectation& e, std::istringstream& in) {
         value;
 }
 
-/// B carries C, both turn left-handed (ISO 841): the usual trunnion of five_axes().
-void set_table(Expectation& e, std::istringstream& in) {
-    constexpr std::pair<int, double> unit[] = {{19680, 12}, {19681, 4}, {19682, 2}, {19684, 1},
-                                               {19686, 5},  {19687, 3}, {19689, 1}, {19697, 3}};
+/// 19680-19689 of a machine, then six lengths from `first` and `second` on.
+void set_unit(Expectation& e, std::istringstream& in,
+              std::initializer_list<std::pair<int, double>> unit, int first, int second) {
     for (const auto& [number, value] : unit) e.stores.parameters.set(number, value);
-    for (int number = 19700; number <= 19705; ++number) {
-        double value_mm = 0.0;
-        if (!(in >> value_mm)) throw std::runtime_error("SET TABLE wants six lengths");
-        e.stores.parameters.set(number, value_mm);
-    }
+    e.stores.parameters.set(19697, 3);
+    for (const int vector : {first, second})
+        for (int i = 0; i < 3; ++i) {
+            double value_mm = 0.0;
+            if (!(in >> value_mm)) throw std::runtime_error("SET TABLE, HEAD, MIXED: six lengths");
+            e.stores.parameters.set(vector + i, value_mm);
+        }
+}
+
+/// Table: B carries C, both turn left-handed (ISO 841), the usual trunnion of five_axes(). Head: C
+/// carries B. Mixed: B in the head, C left-handed in the table.
+void set_machine(Expectation& e, const std::string& what, std::istringstream& in) {
+    if (what == "TABLE")
+        set_unit(
+            e, in,
+            {{19680, 12}, {19681, 4}, {19682, 2}, {19684, 1}, {19686, 5}, {19687, 3}, {19689, 1}},
+            19700, 19703);
+    else if (what == "HEAD")
+        set_unit(e, in, {{19680, 2}, {19681, 5}, {19682, 3}, {19686, 4}, {19687, 2}}, 19709, 19712);
+    else
+        set_unit(e, in, {{19680, 21}, {19681, 4}, {19682, 2}, {19686, 5}, {19687, 3}, {19689, 1}},
+                 19709, 19700);
 }
 
 void read_set(Expectation& e, std::istringstream& in) {
@@ -181,8 +198,8 @@ void read_set(Expectation& e, std::istringstream& in) {
     } else if (what == "BLOCKS") {
         in >> number;
         e.config.max_blocks = static_cast<std::uint64_t>(number);
-    } else if (what == "TABLE") {
-        set_table(e, in);
+    } else if (what == "TABLE" || what == "HEAD" || what == "MIXED") {
+        set_machine(e, what, in);
     } else if (what == "TCP") {
         e.config.tcp_frame = TcpFrame::rotary_zero;
     } else if (what == "POSITIONS") {
