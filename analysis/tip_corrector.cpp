@@ -17,9 +17,11 @@ bool rotaries_turn(const AxisMove& move) {
     return false;
 }
 
-/// What to add to a so far corrected angle: towards the wish, never beyond the limit in all.
+/// What to add to an angle corrected by `so_far_rad`: all of the wish while the sum is well within
+/// the limit, nothing in all when the sum would be far beyond it (and help little), smooth between.
 double within(double so_far_rad, double wish_rad, double limit_rad) {
-    return std::clamp(so_far_rad + wish_rad, -limit_rad, limit_rad) - so_far_rad;
+    const double sum_rad = so_far_rad + wish_rad;
+    return sum_rad / (1.0 + std::pow(sum_rad / limit_rad, 4)) - so_far_rad;
 }
 
 }  // namespace

@@ -97,17 +97,24 @@ TEST_CASE("a line in any number of pieces takes the time of the line") {
     }
 }
 
-TEST_CASE("200 random chains against the phase plane") {
+TEST_CASE("400 random chains against the phase plane") {
     SeededNoise noise(32);
-    for (int k = 0; k < 200; ++k) {
+    for (int k = 0; k < 400; ++k) {
         std::vector<SpeedLink> links;
         const int count = 1 + k % 12;
+        const bool one_acceleration = k % 2 == 0;
+        const double acceleration = 300.0 + 2000.0 * noise.uniform();
         for (int i = 0; i < count; ++i)
             links.push_back(link(0.05 + 8.0 * noise.uniform() * noise.uniform(),
-                                 5.0 + 95.0 * noise.uniform(), 300.0 + 2000.0 * noise.uniform(),
+                                 5.0 + 95.0 * noise.uniform(),
+                                 one_acceleration ? acceleration : 300.0 + 2000.0 * noise.uniform(),
                                  noise.uniform() < 0.3 ? no_limit : 100.0 * noise.uniform()));
         // The mean of two speeds is exact at constant acceleration, whatever the step.
-        CHECK(time_of(links) == Approx(integrated(links, 4000)).epsilon(1e-5));
+        const double expected_s = integrated(links, 4000);
+        if (one_acceleration)
+            CHECK(time_of(links) == Approx(expected_s).epsilon(1e-5));
+        else  // a chain that ends where a strong link saved a weak one its stop may owe some
+            CHECK(time_of(links) > expected_s * (1 - 1e-5));
     }
 }
 

@@ -200,7 +200,7 @@ std::string by_plane(const Post& post, const Vector3& q) {
     Matrix3 frame;
     frame << x, n.cross(x), n;
     const auto vector = [](const Vector3& v) {
-        return fmt::format(" I{:.15f} J{:.15f} K{:.15f}\n", v.x(), v.y(), v.z());
+        return fmt::format(" I{:.13f} J{:.13f} K{:.13f}\n", v.x(), v.y(), v.z());
     };
     return "G54" + post.turn() + "\nG68.2 P3 Q1" + at(origin) + vector(x) + "G68.2 P3 Q2" +
            vector(n) + "G53.1\nG43 H1" + at(frame.transpose() * (q - origin)) + '\n';
