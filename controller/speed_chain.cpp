@@ -51,8 +51,11 @@ std::size_t SpeedChain::slow_down_before(std::size_t last, double& growth_s) {
     double exit = links_[last].entry;
     for (std::size_t k = last; k-- > settled_;) {
         Joined& joined = links_[k];
-        const double entry = std::min(joined.top, reach(exit, joined.link));
-        const double time_s = time_of_link_s(joined.link, entry, exit);
+        const double braking = reach(exit, joined.link);
+        const double entry = std::min(joined.top, braking);
+        const double time_s = braking < joined.top  // it slows down all the way
+                                  ? (entry - exit) / joined.link.acceleration
+                                  : time_of_link_s(joined.link, entry, exit);
         growth_s += time_s - joined.time_s;
         joined.time_s = time_s;
         const bool as_before = entry == joined.entry;

@@ -134,7 +134,7 @@ std::string slice_picture(const VolumetricMap& map, const AxisPositions& middle,
     const double largest_um = std::max(error_um(map.points[map.worst]), 1e-6);
     const auto xs = places(points, Axis::X), ys = places(points, Axis::Y);
     const double dx = spacing(xs), dy = spacing(ys);
-    Svg svg(960, 860);
+    Svg svg(960, 870);
     svg.text({90, 30}, "Error of the tool point: " + map.machine, 17);
     svg.text({90, 52},
              fmt::format("Z {:.6g} mm{}; tool {:.6g} mm; actual - nominal, in the table's frame", z,
@@ -164,9 +164,11 @@ std::string slice_picture(const VolumetricMap& map, const AxisPositions& middle,
               {at.x + scale * um_from_mm(p->error_W_mm.x()),
                at.y - scale * um_from_mm(p->error_W_mm.y())});
         if (!roomy) continue;
-        svg.text({at.x, at.y + 18}, fmt::format("{:.1f}", error_um(*p)), 10, "middle", ink);
-        svg.text({at.x, at.y + 30}, fmt::format("z {:+.1f}", um_from_mm(p->error_W_mm.z())), 9,
-                 "middle", ink);
+        const Point2 corner = plot.at(p->at[Axis::X] + 0.5 * dx, p->at[Axis::Y] + 0.5 * dy);
+        svg.text({corner.x - 4, corner.y + 12}, fmt::format("{:.1f}", error_um(*p)), 10, "end",
+                 ink);
+        svg.text({corner.x - 4, corner.y + 23},
+                 fmt::format("z {:+.1f}", um_from_mm(p->error_W_mm.z())), 9, "end", ink);
     }
     svg.circle(plot.at(worst->at[Axis::X], worst->at[Axis::Y]), 11, {"white", 4.5, "none", ""});
     svg.circle(plot.at(worst->at[Axis::X], worst->at[Axis::Y]), 11, {"#D55E00", 2.5, "none", ""});
@@ -177,14 +179,13 @@ std::string slice_picture(const VolumetricMap& map, const AxisPositions& middle,
     svg.circle({808, 520}, 8, {"#D55E00", 2.5, "none", ""});
     svg.text({824, 524}, "worst here", 12);
     if (roomy) svg.text({800, 552}, "numbers: length, and Z", 11);
-    svg.text({90, 640},
-             fmt::format("Worst at this height: {:.2f} um at {}, mostly {}.  In the whole grid: "
-                         "{:.2f} um at {}, mostly {}.",
-                         error_um(*worst), place_text(map.axes, worst->at), cause_name(map, *worst),
-                         largest_um, place_text(map.axes, map.points[map.worst].at),
-                         cause_name(map, map.points[map.worst])),
-             12);
-    cause_bars(svg, {90, 685}, 780, map);
+    const auto worst_line = [&](const char* where, const VolumetricPoint& p) {
+        return fmt::format("{}: {:.2f} um at {}, mostly {}", where, error_um(p),
+                           place_text(map.axes, p.at), cause_name(map, p));
+    };
+    svg.text({90, 634}, worst_line("Worst at this height", *worst), 12);
+    svg.text({90, 652}, worst_line("Worst in the whole grid", map.points[map.worst]), 12);
+    cause_bars(svg, {90, 695}, 780, map);
     return svg.str();
 }
 
