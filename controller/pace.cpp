@@ -40,7 +40,8 @@ double Pace::take(AxisMove& move, const AxisLimits& limits, double way) {
     if (way <= 0.0) way = 1.0;
     SpeedLink link;
     link.way = way;
-    link.speed = cruise_s > 0.0 ? way / cruise_s : std::numeric_limits<double>::infinity();
+    const double even_s = std::max(cruise_s, rates.least_bend_s);
+    link.speed = even_s > 0.0 ? way / even_s : std::numeric_limits<double>::infinity();
     link.acceleration = way / rates.least_acceleration;
     link.entry = corner_speed(scaled(rates.start, 1.0 / way), limits);
     move.duration_s = chain_.add(link);

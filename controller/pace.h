@@ -14,8 +14,8 @@ namespace trunnion {
 class Pace {
   public:
     /// `move.duration_s`: at the commanded rate; becomes the time by which the run grows when it
-    /// ends with this move. `way`: what F divides, mm. Returns the time at the rate that the axes
-    /// allow, without ramps.
+    /// ends with this move. `way`: what F divides, mm. Returns the time at the rate that feed and
+    /// axis speeds allow: what accelerations cost is in the duration alone, not in the feed.
     double take(AxisMove& move, const AxisLimits& limits, double way);
     void stop() { chain_.stop(); }
 

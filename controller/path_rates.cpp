@@ -31,8 +31,9 @@ void set_xyz(AxisPositions& q, const Vector3& v) {
 
 void limit(PathRates& out, const AxisPositions& rate, const AxisPositions& bend,
            const AxisLimits& limits) {
-    out.least_s = std::max({out.least_s, largest(rate, limits.seconds_per_unit),
-                            std::sqrt(largest(bend, limits.per_acceleration))});
+    out.least_s = std::max(out.least_s, largest(rate, limits.seconds_per_unit));
+    out.least_bend_s =
+        std::max(out.least_bend_s, std::sqrt(largest(bend, limits.per_acceleration)));
     out.least_acceleration =
         std::max(out.least_acceleration, largest(rate, limits.per_acceleration));
 }

@@ -9,7 +9,8 @@ namespace trunnion {
 /// Of a move whose s runs from 0 to 1; axis units are mm and rad.
 struct PathRates {
     AxisPositions start, end;         ///< d axis / d s; of curves 0 where nothing accelerates
-    double least_s = 0.0;             ///< the move takes so long at constant ds/dt
+    double least_s = 0.0;             ///< the speeds let it take so long at constant ds/dt
+    double least_bend_s = 0.0;        ///< the same of v^2/r at the sharpest place
     double least_acceleration = 0.0;  ///< s^2: its inverse is the highest d2s/dt2
 };
 

@@ -10,6 +10,12 @@ namespace trunnion {
 
 namespace {
 
+/// Time of a move at its even rate, without the ramps that its neighbours decide about.
+double even_time_s(const AxisMove& move) {
+    const bool even = move.length_mm > 0.0 && move.feed_mm_min > 0.0;
+    return even ? 60.0 * move.length_mm / move.feed_mm_min : move.duration_s;
+}
+
 Vector3 linear_of(const AxisPositions& p) {
     return {p[Axis::X], p[Axis::Y], p[Axis::Z]};
 }
@@ -177,7 +183,7 @@ void PathRecorder::add_curve(const AxisMove& move, const Segment& segment) {
             from = p.position_mm;
         }
         if (length_mm > tolerances_.position_mm)
-            chord.feed_mm_min = static_cast<float>(60.0 * length_mm / move.duration_s);
+            chord.feed_mm_min = static_cast<float>(60.0 * length_mm / even_time_s(move));
     }
     for (const PathPoint& p : points_) {
         set_end(chord, p);
