@@ -4,10 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <thread>
 
 #include "cli/command.h"
 #include "cli/files.h"
+#include "cli/long_work.h"
 #include "cli/setups.h"
 #include "emulator/program_folders.h"
 #include "geometry/alarm.h"
@@ -115,7 +117,16 @@ int compare_many(const CompareCommand& c, const SuiteCase& like, ReportFormat fo
     if (c.update) return update(c, suite);
     const auto shard = shard_of(c);
     const unsigned threads = c.threads > 0 ? c.threads : std::thread::hardware_concurrency();
-    SuiteRun run = run_suite(suite, shard.value_or(Shard{}), open_setup, threads);
+    const Interruption interruption;
+    Progress progress;
+    std::mutex showing;
+    const SuiteWatch watch{
+        [&](std::size_t done, std::size_t total) {
+            const std::lock_guard<std::mutex> lock(showing);
+            progress.show([&] { return fmt::format("compared {} of {} programs", done, total); });
+        },
+        [] { return Interruption::asked(); }};
+    SuiteRun run = run_suite(suite, shard.value_or(Shard{}), open_setup, threads, watch);
     const int code = exit_code(run.report);
     if (shard)
         put(shard_path(c.out, *shard),

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "emulator/program_folders.h"
 #include "geometry/units.h"
@@ -197,13 +198,28 @@ class ProgramComparer {
             return "limit: a program was not run to its end";
         if (result_.equal) return equal_verdict();
         const std::uint64_t count = result_.differences.size() + result_.differences_left_out;
-        const Difference& first = result_.differences.front();
-        std::string text = fmt::format("differs by {}: {}", name_of(result_.by), first.what);
-        if (first.b.line > 0)
-            text += fmt::format(" at A line {}, B line {}", first.a.line, first.b.line);
-        if (count > 1)
-            text += fmt::format(", and {} more difference{}", count - 1, count > 2 ? "s" : "");
-        return text;
+        const std::size_t gravest = gravest_difference(result_);
+        std::string text = fmt::format("differs by {}: ", name_of(result_.by));
+        if (count > 1) text += fmt::format("{} differences, the gravest: ", count);
+        text += with_place(result_.differences[gravest]);
+        if (gravest > 0) text += ", the first: " + with_place(result_.differences.front());
+        return text + longer_cut();
+    }
+
+    static std::string with_place(const Difference& d) {
+        if (d.b.line == 0) return d.what;
+        return fmt::format("{} at A line {}, B line {}", d.what, d.a.line, d.b.line);
+    }
+
+    /// How much more or less is cut, when that is more than rounding.
+    std::string longer_cut() const {
+        double cut_a = 0.0, cut_b = 0.0;
+        for (const ToolRow& row : result_.tools) {
+            cut_a += row.cut_a_mm;
+            cut_b += row.cut_b_mm;
+        }
+        if (std::abs(cut_b - cut_a) < std::max(0.1, 1e-4 * cut_a)) return {};
+        return fmt::format("; cut {:.3f} -> {:.3f} mm", cut_a, cut_b);
     }
 
     std::string equal_verdict() const {

@@ -4,6 +4,51 @@
 
 namespace trunnion {
 
+namespace {
+
+double gravity(const Difference& d) {
+    switch (d.kind) {
+        case DifferenceKind::alarm:
+            return 1e9;
+        case DifferenceKind::only_a:
+        case DifferenceKind::only_b:
+        case DifferenceKind::tool:
+            return 1e6 + d.position_mm;
+        case DifferenceKind::reordered:
+            return 1e-6;
+        default:
+            return d.position_mm + d.direction_deg;
+    }
+}
+
+}  // namespace
+
+std::size_t gravest_difference(const Comparison& comparison) {
+    const auto& list = comparison.differences;
+    const auto graver = [](const Difference& p, const Difference& q) {
+        return gravity(p) < gravity(q);
+    };
+    return static_cast<std::size_t>(std::max_element(list.begin(), list.end(), graver) -
+                                    list.begin());
+}
+
+std::vector<ExpectedDifference> no_longer_occurring(const CompareReport& report) {
+    std::vector<ExpectedDifference> result;
+    for (const ExpectedDifference& e : report.expected) {
+        const auto shows = [&](const Comparison& c) {
+            if (!e.case_name.empty() && e.case_name != c.name) return false;
+            // A program that was not compared to its end says nothing.
+            if (c.status == CompareStatus::limit || c.status == CompareStatus::bad_input)
+                return true;
+            return std::any_of(c.differences.begin(), c.differences.end(), [&](const auto& d) {
+                return d.expected && d.fingerprint == e.fingerprint;
+            });
+        };
+        if (std::none_of(report.cases.begin(), report.cases.end(), shows)) result.push_back(e);
+    }
+    return result;
+}
+
 int exit_code(const CompareReport& report) {
     const auto any = [&](CompareStatus status) {
         return std::any_of(report.cases.begin(), report.cases.end(),

@@ -74,6 +74,12 @@ struct ToolRow {
     double cut_a_s = 0.0, cut_b_s = 0.0;
     std::array<double, 2> feed_a{}, feed_b{};        ///< least and largest, mm/min
     std::array<double, 2> spindle_a{}, spindle_b{};  ///< rpm
+
+    /// Not just the way home on both sides.
+    bool says_something() const {
+        return cut_a_mm > 0.0 || cut_b_mm > 0.0 ||
+               moved + changed + reordered + only_a + only_b > 0;
+    }
 };
 
 struct LayerVerdict {
@@ -84,8 +90,13 @@ struct LayerVerdict {
 /// Both paths as polylines of tips, thinned out, and the differing parts: for the picture.
 struct ComparePicture {
     using Line = std::vector<std::array<double, 3>>;
-    Line a, b;
-    std::vector<Line> differing_a, differing_b;
+    struct Mark {
+        std::size_t difference = 0;  ///< which of Comparison::differences
+        Line a, b;                   ///< its first place on each side
+    };
+    std::vector<Line> cuts_a, cuts_b, rapids_a, rapids_b;
+    std::vector<Mark> marks;
+    bool empty() const { return cuts_a.empty() && cuts_b.empty(); }
 };
 
 enum class CompareStatus : std::uint8_t { equal, differs, alarm, bad_input, limit };
@@ -114,12 +125,25 @@ struct Comparison {
     ComparePicture picture;
 };
 
+/// Index of the difference to name first: an alarm, then machining that is missing, added or with
+/// another tool, then what lies farthest apart. Where nothing ranks higher, the first.
+std::size_t gravest_difference(const Comparison& comparison);
+
+/// A difference that is meant, in one case (or any: empty name), by fingerprint.
+struct ExpectedDifference {
+    std::string case_name, fingerprint, reason;
+};
+
 /// Folders and suites: the cases in order.
 struct CompareReport {
     std::string suite;  ///< name of the suite file or folders; empty for two single files
     bool single = true;
     std::vector<Comparison> cases;
+    std::vector<ExpectedDifference> expected = {};  ///< what the suite lists
 };
+
+/// Those of `expected` that no case shows any more: to be taken out of the suite.
+std::vector<ExpectedDifference> no_longer_occurring(const CompareReport& report);
 
 /// 0 equal, 1 differs, 2 bad input, 3 alarm, 4 limit: the gravest of all cases, alarm before
 /// differs.

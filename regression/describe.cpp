@@ -98,17 +98,17 @@ std::string sentence(const PathCluster& c, PathSpace space, const Tolerances& to
                    tool;
         case DifferenceKind::feed:
             return fmt::format("feed {:g} -> {:g} mm/min", c.first.value_a, c.first.value_b) +
-                   times(c.count, "passes") + tool;
+                   times(c.count, "places") + tool;
         case DifferenceKind::spindle:
             return fmt::format("spindle {:g} -> {:g} rpm", c.first.value_a, c.first.value_b) +
-                   times(c.count, "passes") + tool;
+                   times(c.count, "places") + tool;
         case DifferenceKind::coolant:
             return fmt::format("coolant {} -> {}", c.first.value_a != 0.0 ? "on" : "off",
                                c.first.value_b != 0.0 ? "on" : "off") +
-                   times(c.count, "passes") + tool;
+                   times(c.count, "places") + tool;
         case DifferenceKind::tool:
             return fmt::format("tool T{:g} -> T{:g}", c.first.value_a, c.first.value_b) +
-                   times(c.count, "passes");
+                   times(c.count, "places");
         default:
             break;
     }
@@ -140,6 +140,7 @@ ComparePicture::Line thin_line(const PathRecord& record, Stretch stretch, std::u
     for (std::uint64_t k = stretch.first; k < stretch.last; k += step) {
         const PathPoint start = path[k - 1].end();
         const Segment segment = path[k];
+        if (segment.kind == SegmentKind::jump) continue;  // no motion
         if (line.empty()) line.push_back(array_of(start.position_mm));
         if (segment.is_arc() && step == 1) {
             chords.clear();
@@ -153,19 +154,35 @@ ComparePicture::Line thin_line(const PathRecord& record, Stretch stretch, std::u
     return line;
 }
 
+/// Cuts and the rapids between them; of many passes evenly chosen ones.
+void draw_path(const PathRecord& record, const Tolerances& tolerances,
+               std::vector<ComparePicture::Line>& cuts, std::vector<ComparePicture::Line>& rapids) {
+    constexpr std::uint64_t most_passes = 300, most_points = 3000;
+    const std::uint64_t count = record.passes().size();
+    const std::uint64_t step = 1 + count / most_passes;
+    const std::uint64_t points = most_points / std::max<std::uint64_t>(1, count / step) + 4;
+    SpilledWindow<Pass> passes(record.passes());
+    for (std::uint64_t k = 0; k < count; k += step) {
+        const Pass pass = passes[k];
+        auto rapid = thin_line(record, {pass.first, pass.cut_first}, 8, tolerances);
+        if (rapid.size() > 1) rapids.push_back(std::move(rapid));
+        auto cut = thin_line(record, {pass.cut_first, pass.last}, points, tolerances);
+        if (cut.size() > 1) cuts.push_back(std::move(cut));
+    }
+}
+
 void draw(const PathComparison& found, const PathRecord& a, const PathRecord& b,
           const Tolerances& tolerances, ComparePicture& picture) {
     if (found.clusters.empty()) return;
     Tolerances coarse = tolerances;
     coarse.position_mm = std::max(0.5, tolerances.position_mm);
-    constexpr std::uint64_t points = 1500;
     constexpr std::size_t marked = 40;
-    if (a.size() > 0) picture.a = thin_line(a, {1, a.segments().size()}, points, coarse);
-    if (b.size() > 0) picture.b = thin_line(b, {1, b.segments().size()}, points, coarse);
+    draw_path(a, coarse, picture.cuts_a, picture.rapids_a);
+    draw_path(b, coarse, picture.cuts_b, picture.rapids_b);
     for (std::size_t k = 0; k < std::min(marked, found.clusters.size()); ++k) {
         const PathRegion& r = found.clusters[k].first;
-        if (r.a.last > r.a.first) picture.differing_a.push_back(thin_line(a, r.a, 100, coarse));
-        if (r.b.last > r.b.first) picture.differing_b.push_back(thin_line(b, r.b, 100, coarse));
+        picture.marks.push_back(
+            {k, thin_line(a, r.a, 100, coarse), thin_line(b, r.b, 100, coarse)});
     }
 }
 

@@ -62,7 +62,11 @@ void StretchComparer::compare(Stretch a, Stretch b, std::vector<PathRegion>& reg
             continue;
         }
         if (retry_exact(at, a, b)) continue;
-        const Corner from = first_failing(walk, at, a, b);
+        Corner from = first_failing(walk, at, a, b);
+        // Blocks that begin together and end apart differ, even where the next ones still agree.
+        if (from.i > at.i && from.j > at.j && !common(from.i, from.j) &&
+            common(from.i - 1, from.j - 1))
+            --from.i, --from.j;
         const Corner to = regions.size() - first_region_ + 1 >= options_.max_regions
                               ? Corner{a.last, b.last}
                               : meet_again(from, a, b);

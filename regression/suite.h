@@ -1,6 +1,7 @@
 // Many comparisons at once: folders and suite files, run on all cores or as one shard of many.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -19,11 +20,6 @@ struct SuiteCase {
     std::string golden;          ///< instead of `a`: numbers written by --update
     std::string setup, setup_b;  ///< files; empty: the default one
     CompareOptions options;
-};
-
-/// A difference that is meant, in one case (or any: empty name), by fingerprint.
-struct ExpectedDifference {
-    std::string case_name, fingerprint, reason;
 };
 
 struct Suite {
@@ -59,8 +55,14 @@ struct SuiteRun {
 };
 /// Loads setups by path ("" is the default one).
 using SetupLoader = Setup (*)(const std::string& path);
+/// Who looks on while a suite runs; both may be empty, both are called from any thread.
+struct SuiteWatch {
+    std::function<void(std::size_t done, std::size_t total)> progress;
+    std::function<bool()> stop;  ///< true: what has not begun is left, and says so
+};
 /// The same results whatever the number of threads.
-SuiteRun run_suite(const Suite& suite, Shard shard, SetupLoader load, unsigned threads);
+SuiteRun run_suite(const Suite& suite, Shard shard, SetupLoader load, unsigned threads,
+                   const SuiteWatch& watch = {});
 
 /// Golden files (path, text) of the cases that differ from theirs or have none.
 std::map<std::string, std::string> updated_goldens(const Suite& suite, const std::string& reason,

@@ -113,21 +113,27 @@ void on_threads(std::size_t count, unsigned threads, const Work& work) {
 
 }  // namespace
 
-SuiteRun run_suite(const Suite& suite, Shard shard, SetupLoader load, unsigned threads) {
+SuiteRun run_suite(const Suite& suite, Shard shard, SetupLoader load, unsigned threads,
+                   const SuiteWatch& watch) {
     const Setups setups(suite, load);
     SuiteRun run;
     run.report.suite = suite.name;
     run.report.single = false;
+    run.report.expected = suite.expected;
     for (auto k = static_cast<std::size_t>(shard.index - 1); k < suite.cases.size();
          k += static_cast<std::size_t>(shard.count))
         run.places.push_back(k);
     run.report.cases.resize(run.places.size());
+    std::atomic<std::size_t> done{0};
     on_threads(run.places.size(), threads, [&](std::size_t k) {
         const SuiteCase& c = suite.cases[run.places[k]];
         Comparison& result = run.report.cases[k];
-        result = guarded(c, setups);
+        result = watch.stop && watch.stop()
+                     ? not_compared(c, "not compared: interrupted", CompareStatus::limit)
+                     : guarded(c, setups);
         result.name = c.name;
         mark_expected(suite, result);
+        if (watch.progress) watch.progress(++done, run.places.size());
     });
     return run;
 }

@@ -1,12 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
+#include "report/comparison_picture.h"
 #include "report/comparison_report.h"
 #include "report/places.h"
-#include "report/svg.h"
 
 namespace trunnion {
 
@@ -34,51 +32,6 @@ std::string place_html(const char* side, const ComparePlace& p) {
                        lines);
 }
 
-/// Looks along (-1, -1, -0.8) at the part: x to the right, z up.
-Point2 seen(const std::array<double, 3>& p) {
-    return {0.7071 * (p[0] - p[1]), 0.35 * (p[0] + p[1]) + 0.8 * p[2]};
-}
-
-struct View {
-    double low_x = std::numeric_limits<double>::infinity(), low_y = low_x;
-    double high_x = -low_x, high_y = -low_x;
-    void widen(const ComparePicture::Line& line) {
-        for (const auto& p : line) {
-            const Point2 q = seen(p);
-            low_x = std::min(low_x, q.x);
-            high_x = std::max(high_x, q.x);
-            low_y = std::min(low_y, q.y);
-            high_y = std::max(high_y, q.y);
-        }
-    }
-};
-
-std::string picture_html(const ComparePicture& picture) {
-    if (picture.a.empty() && picture.b.empty()) return {};
-    View view;
-    view.widen(picture.a);
-    view.widen(picture.b);
-    const double size = std::max({view.high_x - view.low_x, view.high_y - view.low_y, 1e-6});
-    const double scale = 760.0 / size;
-    const double height = (view.high_y - view.low_y) * scale + 60.0;
-    Svg svg(820.0, height);
-    const auto draw = [&](const ComparePicture::Line& line, const SvgStyle& line_style) {
-        std::vector<Point2> points;
-        for (const auto& p : line) {
-            const Point2 q = seen(p);
-            points.push_back(
-                {30.0 + (q.x - view.low_x) * scale, height - 20.0 - (q.y - view.low_y) * scale});
-        }
-        if (points.size() > 1) svg.polyline(points, line_style);
-    };
-    draw(picture.a, {"#9a9a9a", 1.0, "none", ""});
-    draw(picture.b, {"#56B4E9", 1.0, "none", "4 3"});
-    for (const auto& line : picture.differing_a) draw(line, {"#D55E00", 2.5, "none", ""});
-    for (const auto& line : picture.differing_b) draw(line, {"#0072B2", 2.5, "none", "5 3"});
-    svg.text({30, 18}, "grey A, light blue B; where they differ: orange A, blue B", 12);
-    return "<figure>" + svg.str() + "</figure>";
-}
-
 std::string range_html(const std::array<double, 2>& r) {
     return r[0] == r[1] ? fmt::format("{:g}", r[1]) : fmt::format("{:g}–{:g}", r[0], r[1]);
 }
@@ -89,21 +42,40 @@ std::string table_html(const Comparison& c) {
         "<table><tr><th>tool<th>cut A mm<th>cut B mm<th>longer by<th>feed A<th>feed B<th>spindle A"
         "<th>spindle B<th>equal<th>moved<th>changed<th>reordered<th>only A<th>only B</tr>\n";
     for (const ToolRow& r : c.tools)
-        out += fmt::format(
-            "<tr><td>T{}<td>{:.3f}<td>{:.3f}<td>{:+.3f}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}"
-            "<td>{}<td>{}<td>{}</tr>\n",
-            r.tool, r.cut_a_mm, r.cut_b_mm, r.cut_b_mm - r.cut_a_mm, range_html(r.feed_a),
-            range_html(r.feed_b), range_html(r.spindle_a), range_html(r.spindle_b), r.equal,
-            r.moved, r.changed, r.reordered, r.only_a, r.only_b);
+        if (r.says_something())
+            out += fmt::format(
+                "<tr><td>T{}<td>{:.3f}<td>{:.3f}<td>{:+.3f}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>"
+                "{}"
+                "<td>{}<td>{}<td>{}</tr>\n",
+                r.tool, r.cut_a_mm, r.cut_b_mm, r.cut_b_mm - r.cut_a_mm, range_html(r.feed_a),
+                range_html(r.feed_b), range_html(r.spindle_a), range_html(r.spindle_b), r.equal,
+                r.moved, r.changed, r.reordered, r.only_a, r.only_b);
     return out + "</table>\n";
 }
 
-std::string case_html(const Comparison& c) {
-    std::string out = fmt::format("<h2>{}</h2><p class=\"{}\">{}</p>\n",
-                                  escape_xml(c.name.empty() ? c.b : c.name),
-                                  c.equal ? "equal" : "differs", escape_xml(c.verdict));
+/// What was compared, by which layers, how long it takes, what else there is to know.
+std::string facts_html(const Comparison& c) {
+    std::string out =
+        fmt::format("<p>A: {}{}<br>B: {}{}<br>layers:", escape_xml(c.a),
+                    c.setup.empty() ? "" : " on " + escape_xml(c.setup), escape_xml(c.b),
+                    c.setup_b.empty() ? "" : " on " + escape_xml(c.setup_b));
+    for (const LayerVerdict& l : c.layers)
+        out += fmt::format(" {} {}", name_of(l.layer), l.equal ? "equal" : "differs");
+    if (c.time_a_s > 0.0 || c.time_b_s > 0.0)
+        out += fmt::format("<br>cycle time {:.1f} → {:.1f} s", c.time_a_s, c.time_b_s);
+    for (const std::string& note : c.notes) out += "<br>note: " + escape_xml(note);
+    return out + "</p>\n";
+}
+
+std::string case_html(const Comparison& c, bool single) {
+    std::string out;
+    if (!single)
+        out = fmt::format("<h2>{}</h2><p class=\"{}\">{}</p>\n",
+                          escape_xml(c.name.empty() ? c.b : c.name), c.equal ? "equal" : "differs",
+                          escape_xml(c.verdict));
+    if (single || !c.equal) out += facts_html(c);
     if (c.equal && c.differences.empty()) return out;
-    out += picture_html(c.picture) + table_html(c);
+    out += picture_html(c) + table_html(c);
     constexpr std::size_t shown = 200;
     for (std::size_t k = 0; k < std::min(shown, c.differences.size()); ++k) {
         const Difference& d = c.differences[k];
@@ -118,11 +90,16 @@ std::string case_html(const Comparison& c) {
 }  // namespace
 
 std::string comparison_html(const CompareReport& report) {
+    const bool single = report.single && report.cases.size() == 1;
     std::string out = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>trunnion "
-        "compare</title><style>{}</style></head><body>\n<h1>{}</h1>\n",
-        style, escape_xml(verdict_of(report)));
-    for (const Comparison& c : report.cases) out += case_html(c);
+        "compare</title><style>{}</style></head><body>\n<h1 class=\"{}\">{}</h1>\n",
+        style, exit_code(report) == 0 ? "equal" : "differs", escape_xml(verdict_of(report)));
+    for (const Comparison& c : report.cases) out += case_html(c, single);
+    for (const ExpectedDifference& e : no_longer_occurring(report))
+        out +=
+            fmt::format("<p>Expected, but no longer there: {} {} ({}).</p>\n",
+                        escape_xml(e.case_name), escape_xml(e.fingerprint), escape_xml(e.reason));
     return out + "</body></html>\n";
 }
 

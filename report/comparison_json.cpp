@@ -186,16 +186,38 @@ Comparison case_of(const Json& j) {
 }
 
 Json picture_json(const ComparePicture& p) {
-    return {{"a", p.a}, {"b", p.b}, {"differing_a", p.differing_a}, {"differing_b", p.differing_b}};
+    Json j = {{"cuts_a", p.cuts_a},
+              {"cuts_b", p.cuts_b},
+              {"rapids_a", p.rapids_a},
+              {"rapids_b", p.rapids_b},
+              {"marks", Json::array()}};
+    for (const ComparePicture::Mark& m : p.marks)
+        j["marks"].push_back({{"difference", m.difference}, {"a", m.a}, {"b", m.b}});
+    return j;
 }
 
 ComparePicture picture_of(const Json& j) {
     ComparePicture p;
-    j.at("a").get_to(p.a);
-    j.at("b").get_to(p.b);
-    j.at("differing_a").get_to(p.differing_a);
-    j.at("differing_b").get_to(p.differing_b);
+    j.at("cuts_a").get_to(p.cuts_a);
+    j.at("cuts_b").get_to(p.cuts_b);
+    j.at("rapids_a").get_to(p.rapids_a);
+    j.at("rapids_b").get_to(p.rapids_b);
+    for (const Json& m : j.at("marks")) {
+        p.marks.emplace_back();
+        m.at("difference").get_to(p.marks.back().difference);
+        m.at("a").get_to(p.marks.back().a);
+        m.at("b").get_to(p.marks.back().b);
+    }
     return p;
+}
+
+Json expected_json(const std::vector<ExpectedDifference>& list) {
+    Json j = Json::array();
+    for (const ExpectedDifference& e : list)
+        j.push_back({{"case", valid_utf8(e.case_name)},
+                     {"fingerprint", valid_utf8(e.fingerprint)},
+                     {"reason", valid_utf8(e.reason)}});
+    return j;
 }
 
 Json suite_json(const CompareReport& report) {
@@ -216,6 +238,7 @@ Json suite_json(const CompareReport& report) {
     j["verdict"] = valid_utf8(verdict_of(report));
     j["cases"] = Json::array();
     for (const Comparison& c : report.cases) j["cases"].push_back(case_json(c));
+    j["no_longer_occurring"] = expected_json(no_longer_occurring(report));
     return j;
 }
 
@@ -233,6 +256,7 @@ std::string format_part(const ComparePart& part) {
               {"suite", part.report.suite},
               {"single", part.report.single},
               {"total", part.total},
+              {"expected", expected_json(part.report.expected)},
               {"cases", Json::array()}};
     for (std::size_t k = 0; k < part.report.cases.size(); ++k) {
         Json c = case_json(part.report.cases[k]);
@@ -251,6 +275,8 @@ ComparePart parse_part(const std::string& text, const std::string& path) {
         part.report.suite = j.at("suite");
         part.report.single = j.at("single");
         part.total = j.at("total");
+        for (const Json& e : j.at("expected"))
+            part.report.expected.push_back({e.at("case"), e.at("fingerprint"), e.at("reason")});
         for (const Json& c : j.at("cases")) {
             part.report.cases.push_back(case_of(c));
             part.report.cases.back().picture = picture_of(c.at("picture"));

@@ -26,7 +26,8 @@ const std::vector<ReportRule>& rules() {
         {"value", "Another result: variable, offset or printed line"},
         {"alarm", "An NC alarm stopped a program"},
         {"text", "What is written differs"},
-        {"case", "A program could not be compared"}};
+        {"case", "A program could not be compared"},
+        {"stale-expectation", "An expected difference no longer occurs"}};
     return table;
 }
 
@@ -58,7 +59,22 @@ std::vector<ReportItem> items_of(const CompareReport& report) {
         whole.text = c.verdict;
         items.push_back(whole);
     }
+    for (const ExpectedDifference& e : no_longer_occurring(report)) {
+        ReportItem item;
+        item.rule = "stale-expectation";
+        item.level = "warning";
+        item.path = report.suite;
+        item.text = fmt::format("expected, but no longer there: {} {} ({})", e.case_name,
+                                e.fingerprint, e.reason);
+        items.push_back(item);
+    }
     return items;
+}
+
+std::uint64_t left_out_of(const CompareReport& report) {
+    std::uint64_t count = 0;
+    for (const Comparison& c : report.cases) count += c.differences_left_out;
+    return count;
 }
 
 std::string junit_of(const CompareReport& report) {
@@ -100,7 +116,7 @@ std::string format_comparison(const CompareReport& report, ReportFormat format) 
         case ReportFormat::junit:
             return junit_of(report);
         case ReportFormat::sarif:
-            return format_sarif(rules(), items_of(report));
+            return format_sarif(rules(), items_of(report), {}, left_out_of(report));
         case ReportFormat::github:
             return format_github(items_of(report));
     }
@@ -110,7 +126,7 @@ std::string format_comparison(const CompareReport& report, ReportFormat format) 
 CompareReport merge_parts(const std::vector<ComparePart>& parts) {
     if (parts.empty()) throw InputError("merge: no parts given");
     const ComparePart& first = parts.front();
-    CompareReport whole{first.report.suite, first.report.single, {}};
+    CompareReport whole{first.report.suite, first.report.single, {}, first.report.expected};
     whole.cases.resize(first.total);
     std::vector<bool> seen(first.total, false);
     for (const ComparePart& part : parts) {

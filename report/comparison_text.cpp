@@ -56,9 +56,11 @@ std::string table_text(const Comparison& c) {
         "\n  tool  cut A mm    cut B mm    longer by   feed mm/min       spindle rpm       "
         "passes\n";
     for (const ToolRow& r : c.tools)
-        out += fmt::format("  T{:<4} {:<11.3f} {:<11.3f} {:<+11.3f} {:<17} {:<17} {}\n", r.tool,
-                           r.cut_a_mm, r.cut_b_mm, r.cut_b_mm - r.cut_a_mm + 0.0,
-                           both(r.feed_a, r.feed_b), both(r.spindle_a, r.spindle_b), fate_text(r));
+        if (r.says_something())
+            out +=
+                fmt::format("  T{:<4} {:<11.3f} {:<11.3f} {:<+11.3f} {:<17} {:<17} {}\n", r.tool,
+                            r.cut_a_mm, r.cut_b_mm, r.cut_b_mm - r.cut_a_mm + 0.0,
+                            both(r.feed_a, r.feed_b), both(r.spindle_a, r.spindle_b), fate_text(r));
     return out;
 }
 
@@ -74,24 +76,22 @@ std::string case_text(const Comparison& c, bool single) {
     if (c.equal && !single && c.differences.empty()) return out;
     if (!c.layers.empty()) out += layers_text(c);
     constexpr std::size_t shown = 20;
-    const auto worst = std::max_element(
-        c.differences.begin(), c.differences.end(),
-        [](const Difference& p, const Difference& q) { return p.position_mm < q.position_mm; });
+    const std::size_t gravest = gravest_difference(c);
     for (std::size_t k = 0; k < std::min(shown, c.differences.size()); ++k)
         out += difference_text(c.differences[k], k + 1);
     const std::uint64_t more =
         c.differences.size() - std::min(shown, c.differences.size()) + c.differences_left_out;
     if (more > 0) {
-        if (worst - c.differences.begin() >= static_cast<std::ptrdiff_t>(shown))
-            out += "  the worst:\n" +
-                   difference_text(*worst,
-                                   static_cast<std::size_t>(worst - c.differences.begin()) + 1);
+        if (gravest >= shown)
+            out += "  the gravest:\n" + difference_text(c.differences[gravest], gravest + 1);
         out += fmt::format("  and {} more (--format json lists them)\n", more);
     }
     if (c.position_mm > 0.0 || c.direction_deg > 0.0)
         out += fmt::format("  worst: {:.4f} mm, {:.4f} deg, A line {}, B line {}\n", c.position_mm,
                            c.direction_deg, c.worst_a.line, c.worst_b.line);
     out += table_text(c);
+    if (c.time_a_s > 0.0 || c.time_b_s > 0.0)
+        out += fmt::format("  cycle time {:.1f} -> {:.1f} s\n", c.time_a_s, c.time_b_s);
     for (const std::string& note : c.notes) out += "  note: " + note + "\n";
     return out;
 }
@@ -103,6 +103,9 @@ std::string comparison_text(const CompareReport& report) {
     std::string out;
     if (!single) out = verdict_of(report) + "\n";
     for (const Comparison& c : report.cases) out += case_text(c, single);
+    for (const ExpectedDifference& e : no_longer_occurring(report))
+        out += fmt::format("expected, but no longer there: {} {} ({}); take it out of the suite\n",
+                           e.case_name, e.fingerprint, e.reason);
     return out;
 }
 

@@ -1,6 +1,7 @@
 // Results that point at lines of files, in the forms other tools read: SARIF, JUnit, GitHub lines.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -31,10 +32,16 @@ struct JUnitCase {
     std::string failure, details;
 };
 
-/// SARIF 2.1.0, at most `most_results` results (5,000 is what GitHub takes from one run) and a
-/// note of how many were left out.
+/// What GitHub takes and shows of one run: it refuses files above 10 MB compressed and 25,000
+/// results, and shows 5,000.
+struct SarifLimits {
+    std::size_t results = 5000;
+    std::size_t bytes = 9'000'000;  ///< of the results, before compression
+};
+/// SARIF 2.1.0. Beyond the limits errors stay before notes, and a property of the run says how many
+/// were left out, `left_out` (by the caller already) included.
 std::string format_sarif(const std::vector<ReportRule>& rules, const std::vector<ReportItem>& items,
-                         std::size_t most_results = 5000);
+                         const SarifLimits& limits = {}, std::uint64_t left_out = 0);
 /// Workflow commands: `::error file=..,line=..,title=..::text`.
 std::string format_github(const std::vector<ReportItem>& items);
 std::string format_junit(const std::string& suite, const std::vector<JUnitCase>& cases);

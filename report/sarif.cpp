@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "report/places.h"
 
@@ -26,18 +27,42 @@ std::string uri_of(const std::string& path) {
     return path.starts_with("/") ? "file://" + uri : uri;
 }
 
-std::string fingerprint_of(const ReportItem& item) {
-    if (!item.fingerprint.empty()) return item.fingerprint;
-    std::uint64_t h = 0xCBF29CE484222325ULL;
-    for (const char c : item.rule + "|" + item.path + "|" + item.text)
-        h = (h ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
-    return fmt::format("{:016x}", h);
+/// The text without the numbers of lines, which change when lines come and go above.
+std::string without_line_numbers(const std::string& text) {
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+        out += text[at++];
+        if (!out.ends_with("line ")) continue;
+        while (at < text.size() && text[at] >= '0' && text[at] <= '9') ++at;
+    }
+    return out;
 }
 
-/// The same finding at several places of a file is told apart by its count.
-std::string numbered(std::map<std::string, int>& seen, const std::string& fingerprint) {
-    const int before = seen[fingerprint]++;
-    return before == 0 ? fingerprint : fmt::format("{}:{}", fingerprint, before);
+/// One for each item; equal ones are told apart by their order.
+std::vector<std::string> fingerprints_of(const std::vector<ReportItem>& items) {
+    std::map<std::string, int> before;
+    std::vector<std::string> result;
+    for (const ReportItem& item : items) {
+        const std::string what =
+            item.path + "|" +
+            (item.fingerprint.empty() ? item.rule + "|" + without_line_numbers(item.text)
+                                      : item.fingerprint);
+        std::uint64_t h = 0xCBF29CE484222325ULL;
+        for (const char c : what) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
+        result.push_back(fmt::format("{:016x}:{}", h, ++before[what]));
+    }
+    return result;
+}
+
+/// Which items are written when there are too many: errors before notes, else in order.
+std::vector<std::size_t> most_telling(const std::vector<ReportItem>& items, std::size_t most) {
+    std::vector<std::size_t> order(items.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (items.size() <= most) return order;
+    std::stable_partition(order.begin(), order.end(),
+                          [&](std::size_t k) { return items[k].level != "note"; });
+    order.resize(most);
+    return order;
 }
 
 Json result_of(const ReportItem& item, std::size_t rule_index, const std::string& fingerprint) {
@@ -53,31 +78,39 @@ Json result_of(const ReportItem& item, std::size_t rule_index, const std::string
             {"level", item.level},
             {"message", {{"text", valid_utf8(item.text + remedy)}}},
             {"locations", Json::array({{{"physicalLocation", location}}})},
-            {"partialFingerprints", {{"trunnion/v1", fingerprint}}}};
+            // The key that GitHub follows a result by.
+            {"partialFingerprints", {{"primaryLocationLineHash", fingerprint}}}};
 }
 
 }  // namespace
 
 std::string format_sarif(const std::vector<ReportRule>& rules, const std::vector<ReportItem>& items,
-                         std::size_t most_results) {
+                         const SarifLimits& limits, std::uint64_t left_out) {
     Json rule_list = Json::array();
     for (const ReportRule& rule : rules)
-        rule_list.push_back({{"id", rule.id}, {"shortDescription", {{"text", rule.description}}}});
+        rule_list.push_back({{"id", rule.id},
+                             {"shortDescription", {{"text", rule.description}}},
+                             {"fullDescription", {{"text", rule.description + "."}}},
+                             {"help", {{"text", rule.description + ". See docs/compare.md."}}}});
+    const std::vector<std::string> fingerprints = fingerprints_of(items);
     Json results = Json::array();
-    std::map<std::string, int> seen;
-    for (const ReportItem& item : items) {
-        if (results.size() == most_results) break;
+    std::size_t bytes = 0;
+    for (const std::size_t k : most_telling(items, limits.results)) {
+        const ReportItem& item = items[k];
         const auto rule = std::find_if(rules.begin(), rules.end(),
                                        [&](const ReportRule& r) { return r.id == item.rule; });
-        results.push_back(result_of(item, static_cast<std::size_t>(rule - rules.begin()),
-                                    numbered(seen, fingerprint_of(item))));
+        Json result =
+            result_of(item, static_cast<std::size_t>(rule - rules.begin()), fingerprints[k]);
+        bytes += result.dump(2).size();
+        if (bytes > limits.bytes) break;
+        results.push_back(std::move(result));
     }
+    left_out += items.size() - results.size();
     Json run = {
         {"tool", {{"driver", {{"name", "trunnion"}, {"version", "0.1.0"}, {"rules", rule_list}}}}},
         {"columnKind", "utf16CodeUnits"},
         {"results", results}};
-    if (items.size() > results.size())
-        run["properties"] = {{"resultsLeftOut", items.size() - results.size()}};
+    if (left_out > 0) run["properties"] = {{"resultsLeftOut", left_out}};
     const Json log = {{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
                       {"version", "2.1.0"},
                       {"runs", Json::array({run})}};

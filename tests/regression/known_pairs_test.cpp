@@ -141,6 +141,8 @@ TEST_CASE("every change of machining is named with its place", "[compare]") {
         const Difference d = first(compare_texts(a, b, setup));
         CHECK(d.kind == DifferenceKind::path);
         CHECK(d.a.line == line_with(a, "N1014 "));
+        CHECK(d.b.line == line_with(a, "N1014 "));
+        CHECK(d.a.last_line == d.a.line);
     }
     SECTION("feed by one percent in one block") {
         const std::string b = replaced(a, "N1003 X89.500 F500.", "N1003 X89.500 F505.");
@@ -152,6 +154,8 @@ TEST_CASE("every change of machining is named with its place", "[compare]") {
         CHECK(d.value_a == Approx(500));
         CHECK(d.value_b == Approx(505));
         CHECK(d.a.line == line_with(a, "N1003 "));
+        CHECK(d.b.line == line_with(a, "N1003 "));
+        CHECK(d.a.last_line == line_with(a, "N1005 "));
     }
     SECTION("a pass missing") {
         std::vector<Slot> fewer = passes;
@@ -161,6 +165,8 @@ TEST_CASE("every change of machining is named with its place", "[compare]") {
         CHECK(r.differences.size() == 1);
         CHECK(d.kind == DifferenceKind::only_a);
         CHECK(d.a.line == line_with(a, "N1012 "));
+        CHECK(d.a.last_line == line_with(a, "N1015 "));
+        CHECK(d.b.line == d.a.line);  // before the pass that follows there
         CHECK(r.tools.front().cut_a_mm - r.tools.front().cut_b_mm ==
               Approx(2.0 + 1.5 + 80.0 + 5.0 * pi));
     }
@@ -171,6 +177,10 @@ TEST_CASE("every change of machining is named with its place", "[compare]") {
         const Difference d = first(r);
         CHECK(r.differences.size() == 1);
         CHECK(d.kind == DifferenceKind::reordered);
+        // The same plunge, ten numbers and a pass of seven lines apart.
+        CHECK(d.a.block.substr(d.a.block.find(' ')) == d.b.block.substr(d.b.block.find(' ')));
+        CHECK(std::abs(d.a.line - d.b.line) == 7);
+        CHECK(std::min(d.a.line, d.b.line) == line_with(a, "N512 "));
         CHECK(r.tools.front().cut_a_mm == Approx(r.tools.front().cut_b_mm));
     }
     SECTION("merge markers in one file") {
@@ -179,6 +189,8 @@ TEST_CASE("every change of machining is named with its place", "[compare]") {
         CHECK(r.status == CompareStatus::alarm);
         CHECK(r.differences.front().kind == DifferenceKind::alarm);
         CHECK(r.differences.front().b.line == line_with(b, "<<<<<<<"));
+        CHECK(r.differences.front().b.block == "<<<<<<< HEAD");
+        CHECK(r.differences.front().a.line == 0);
         CHECK(exit_code({"", true, {r}}) == 3);
     }
 }

@@ -66,7 +66,7 @@ TEST_CASE("a suite gives the same bytes whatever the shards and threads", "[suit
     const SuiteRun whole = run_suite(suite, {}, load_default, 1);
     CHECK(exit_code(whole.report) == 1);
     CHECK(verdict_of(whole.report) == "differs: 2 of 5 programs");
-    for (const int count : {1, 2, 3, 7}) {
+    for (const int count : {1, 2, 3, 5, 6, 7, 40}) {
         std::vector<ComparePart> parts;
         for (int index = count; index >= 1; --index) {
             SuiteRun run = run_suite(suite, {index, count}, load_default, 2);
@@ -96,10 +96,46 @@ TEST_CASE("a difference that is expected by fingerprint does not fail, others do
     CHECK(after.report.cases[3].equal);
     CHECK(after.report.cases[3].differences.front().reason == "faster on purpose");
     CHECK_FALSE(after.report.cases[1].equal);
+    CHECK(no_longer_occurring(after.report).empty());
+    CHECK(comparison_text(after.report).find("no longer there") == std::string::npos);
     // Lines added elsewhere leave the fingerprint as it is.
     folder.write("new/p3.nc", "(A)\n(B)\n" + replaced(part_program, "F200.", "F210."));
     const SuiteRun moved = run_suite(suite, {}, load_default, 1);
     CHECK(moved.report.cases[3].equal);
+    // When the difference is gone the suite is told so; in a merged report as well.
+    folder.write("new/p3.nc", part_program);
+    const SuiteRun gone = run_suite(suite, {}, load_default, 1);
+    REQUIRE(no_longer_occurring(gone.report).size() == 1);
+    CHECK(no_longer_occurring(gone.report)[0].reason == "faster on purpose");
+    for (const char* format : {"text", "json", "sarif", "github", "html"}) {
+        const std::string whole = format_comparison(gone.report, report_format(format));
+        CHECK(whole.find("faster on purpose") != std::string::npos);
+        std::vector<ComparePart> parts;
+        for (const int index : {2, 1}) {
+            SuiteRun run = run_suite(suite, {index, 2}, load_default, 1);
+            parts.push_back(
+                parse_part(format_part({run.report, run.places, suite.cases.size()}), "part.json"));
+        }
+        CHECK(format_comparison(merge_parts(parts), report_format(format)) == whole);
+    }
+}
+
+TEST_CASE("an interrupted suite keeps what is finished and says what is not", "[suite]") {
+    const Folder folder;
+    std::vector<std::string> notes;
+    const Suite suite = read_suite(write_suite(folder), {}, notes);
+    std::size_t finished = 0;
+    const SuiteWatch watch{[&](std::size_t done, std::size_t total) {
+                               finished = done;
+                               CHECK(total == 5);
+                           },
+                           [&] { return finished >= 2; }};
+    const SuiteRun run = run_suite(suite, {}, load_default, 1, watch);
+    CHECK(run.report.cases[0].equal);
+    CHECK(run.report.cases[1].status == CompareStatus::differs);
+    CHECK(run.report.cases[2].verdict == "not compared: interrupted");
+    CHECK(run.report.cases[4].status == CompareStatus::limit);
+    CHECK(exit_code(run.report) == 4);
 }
 
 TEST_CASE("a golden holds a path as numbers and finds what moved", "[suite]") {
