@@ -16,7 +16,8 @@ constexpr const char* style =
     "table{border-collapse:collapse}td,th{padding:.2rem .7rem;border-bottom:1px solid #ddd;"
     "text-align:right}td:last-child,th:last-child,td:first-child{text-align:left}"
     "pre{background:#f6f6f4;padding:.5rem;overflow-x:auto;margin:.2rem 0}mark{background:#ffe28a}"
-    ".pair{display:grid;grid-template-columns:1fr 1fr;gap:1rem}.equal{color:#00664a}"
+    ".pair{display:grid;grid-template-columns:1fr "
+    "1fr;gap:1rem}.pair>div{min-width:0}.equal{color:#00664a}"
     ".differs{color:#a33b00}svg{max-width:100%;height:auto}";
 
 std::string place_html(const char* side, const ComparePlace& p) {
