@@ -120,12 +120,12 @@ struct ControlState {
     std::array<double, 8> controls{};  ///< #3003, #3004, ...: [n] = #3000+n
 
     /// One line in the result's notes, the first time it is said.
+    void note(std::string text);
     /// Carries an M code out: the block behind it waits for its completion.
     void send_m_code(int code) {
         pace.stop();
         sink.m_code(code);
     }
-    void note(std::string text);
     /// After a coordinate stage changed: compiles and derives the program position anew.
     void frame_changed();
     /// After parameters changed.

@@ -82,6 +82,7 @@ MachineSink::MachineSink(const Setup& setup, EffectModels effects, const SinkOpt
       touch_(setup, options.seed),
       bar_(setup, options.seed ^ 0x5bd1e995u),  // another stream than the probe's
       log_(axes_of(setup.machine.chain), options.test) {
+    can_read_ = setup.probe || setup.ballbar;
     for (const AxisGeometry& axis : setup.machine.chain.axes()) has_rotary_ |= axis.rotary;
     if (has_rotary_) mode_ = plain_mode_ = PositioningMode::dpp;
     if (options.trace)
@@ -199,7 +200,7 @@ MoveResult MachineSink::move(const AxisMove& move) {
     const bool read = !touch && !move.until_skip && bar_.record(path, machine_, log_, tracker_);
     const AxisPositions end = touch ? touch->stopped : move.to;
     clock_s_ = path.time_s(end_s);
-    if (!read && !touch) log_.passed(end, clock_s_, mode_);
+    if (!read && !touch && can_read_) log_.passed(end, clock_s_, mode_);
     tracker_.advance(end);
     return {touch.has_value(), end, end_s};
 }

@@ -68,6 +68,7 @@ class MachineSink : public MotionSink {
     AxisTracker tracker_;
     double clock_s_ = 0.0, test_start_s_ = 0.0;
     bool has_rotary_ = false;
+    bool can_read_ = false;  ///< there is a device, so the way to its readings counts
     PositioningMode mode_ = PositioningMode::none;  ///< function that positioned the rotary axes
     PositioningMode plain_mode_ = PositioningMode::none;  ///< of turns without a function
     ShopState shop_;
