@@ -26,38 +26,37 @@ void move_out(ControlState& c, const PathOutput& out) {
     move_arc(c, way.sweep_rad < 0.0 ? MotionKind::arc_cw : MotionKind::arc_ccw, out.to, arc);
 }
 
+/// Puts the states of a block in force; returns those that were.
+BlockMarks exchange_marks(ControlState& c, const BlockMarks& marks) {
+    AxisMove& m = c.move;
+    const BlockMarks before{c.feed, m.spindle_rpm, m.coolant, m.gap_free,
+                            m.tool, m.line,        m.byte,    m.program};
+    c.feed = marks.feed;
+    m.spindle_rpm = marks.spindle_rpm;
+    m.coolant = marks.coolant;
+    m.gap_free = marks.gap_free;
+    m.tool = marks.tool;
+    m.line = marks.line;
+    m.byte = marks.byte;
+    m.program = marks.program;
+    return before;
+}
+
 /// The move with the states of its block, which may lie behind the one that runs now.
 void emit(ControlState& c, const PathOutput& out) {
     if (out.m_code >= 0) return c.send_m_code(out.m_code);
     if (out.dwell_s >= 0.0) return dwell(c, out.dwell_s);
-    const BlockMarks& marks = out.move.marks;
     const ControlPosition programmed = c.program;
-    const FeedState feed = c.feed;
-    const AxisMove now = c.move;
-    c.feed = marks.feed;
-    c.move.spindle_rpm = marks.spindle_rpm;
-    c.move.coolant = marks.coolant;
-    c.move.gap_free = marks.gap_free;
-    c.move.tool = marks.tool;
-    c.move.line = marks.line;
-    c.move.byte = marks.byte;
-    c.move.program = marks.program;
+    const BlockMarks now = exchange_marks(c, out.move.marks);
     try {
         move_out(c, out);
     } catch (Alarm& alarm) {
-        place_alarm(alarm, marks);
+        place_alarm(alarm, out.move.marks);
         c.path.ahead.clear();
         throw;
     }
-    c.move.spindle_rpm = now.spindle_rpm;
-    c.move.coolant = now.coolant;
-    c.move.gap_free = now.gap_free;
-    c.move.tool = now.tool;
-    c.move.line = now.line;
-    c.move.byte = now.byte;
-    c.move.program = now.program;
+    exchange_marks(c, now);
     c.program = programmed;
-    c.feed = feed;
 }
 
 /// The ways of two sides that do not touch as programmed may not cross: the cutter would cut into

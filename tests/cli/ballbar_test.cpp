@@ -1,14 +1,10 @@
 // trunnion ballbar: outputs, bad input, and the hand-over to diagnosis, as a user calls it.
-#include <unistd.h>
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
+
+#include "tests/cli/command_bench.h"
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
@@ -21,12 +17,7 @@ std::string whole(const fs::path& path) {
     return text.str();
 }
 
-struct Bench {
-    fs::path path = fs::temp_directory_path() / ("trunnion_ballbar_" + std::to_string(::getpid()));
-    Bench() { fs::create_directories(path); }
-    ~Bench() { fs::remove_all(path); }
-    std::string file(const std::string& name) const { return (path / name).string(); }
-    std::string read(const std::string& name) const { return whole(path / name); }
+struct Bench : CommandBench {
     /// The A-C machine that reads 20 times a second, with lines replaced.
     std::string setup(const std::string& from = "", const std::string& to = "") const {
         std::string text = whole(std::string(TRUNNION_SOURCE_DIR) + "/machines/ac_trunnion.toml");
@@ -38,12 +29,6 @@ struct Bench {
         }
         std::ofstream(path / "S.toml") << text;
         return file("S.toml");
-    }
-    /// Exit code; stdout in out.txt, stderr in err.txt.
-    int trunnion(const std::string& words) const {
-        const std::string command = std::string(TRUNNION_BINARY_DIR) + "/bin/trunnion " + words +
-                                    " >" + file("out.txt") + " 2>" + file("err.txt");
-        return WEXITSTATUS(std::system(command.c_str()));
     }
 };
 

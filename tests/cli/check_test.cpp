@@ -1,29 +1,15 @@
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
-namespace fs = std::filesystem;
+#include "tests/cli/command_bench.h"
+
 using Json = nlohmann::json;
 
 namespace {
 
-struct Bench {
-    fs::path path = fs::temp_directory_path() / ("trunnion_check_" + std::to_string(::getpid()));
-    Bench() { fs::create_directories(path / "sub"); }
-    ~Bench() { fs::remove_all(path); }
-    void write(const std::string& name, const std::string& text) const {
-        std::ofstream(path / name) << text;
-    }
-    std::string out() const {
-        std::ostringstream text;
-        text << std::ifstream(path / "out.txt").rdbuf();
-        return text.str();
-    }
+struct Bench : CommandBench {
+    Bench() { std::filesystem::create_directories(path / "sub"); }
+    std::string out() const { return read("out.txt"); }
     /// Exit code of `trunnion check WORDS` in the folder; stdout in out.txt.
     int check(const std::string& words) const {
         const std::string command = "cd " + path.string() + " && " + TRUNNION_BINARY_DIR +

@@ -12,15 +12,17 @@
 
 struct CommandBench {
     std::filesystem::path path =
-        std::filesystem::temp_directory_path() / ("trunnion_run_" + std::to_string(::getpid()));
+        std::filesystem::temp_directory_path() / ("trunnion_cli_" + std::to_string(::getpid()));
     CommandBench() { std::filesystem::create_directories(path); }
     ~CommandBench() { std::filesystem::remove_all(path); }
     CommandBench(const CommandBench&) = delete;
     CommandBench& operator=(const CommandBench&) = delete;
 
     std::string file(const std::string& name) const { return (path / name).string(); }
-    void write(const std::string& name, const std::string& text) const {
+    /// The file's whole path.
+    std::string write(const std::string& name, const std::string& text) const {
         std::ofstream(path / name) << text;
+        return file(name);
     }
     std::string read(const std::string& name) const {
         std::ostringstream text;

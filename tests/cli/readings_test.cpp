@@ -1,14 +1,9 @@
 // identify, diagnose, predict, compensate at the command line: what they refuse, and the whole loop
 // from readings to a compensated program.
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "tests/cli/command_bench.h"
 #include "tests/support/campaign.h"
 
 using namespace trunnion;
@@ -17,27 +12,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-struct Bench {
-    fs::path path = fs::temp_directory_path() / ("trunnion_readings_" + std::to_string(::getpid()));
-    Bench() { fs::create_directories(path); }
-    ~Bench() { fs::remove_all(path); }
-    std::string file(const std::string& name) const { return (path / name).string(); }
-    std::string write(const std::string& name, const std::string& text) const {
-        std::ofstream(path / name) << text;
-        return file(name);
-    }
-    std::string read(const std::string& name) const {
-        std::ostringstream text;
-        text << std::ifstream(path / name).rdbuf();
-        return text.str();
-    }
-    /// Exit code; stdout in out.txt, stderr in err.txt.
-    int trunnion(const std::string& words) const {
-        const std::string command = std::string(TRUNNION_BINARY_DIR) + "/bin/trunnion " + words +
-                                    " >" + file("out.txt") + " 2>" + file("err.txt");
-        return WEXITSTATUS(std::system(command.c_str()));
-    }
-};
+using Bench = CommandBench;
 
 std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> lines;
