@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "controller/motion.h"
 #include "emulator/setup.h"
+#include "motion/motion.h"
 
 namespace trunnion {
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "controller/rotary_transform.h"
 #include "geometry/alarm.h"
 #include "kinematics/jacobian.h"
+#include "positioning/rotary_transform.h"
 
 namespace trunnion {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "controller/control_state.h"
 #include "controller/moves.h"
-#include "controller/plane_path.h"
+#include "geometry/plane_path.h"
 
 namespace trunnion {
 

@@ -7,16 +7,16 @@
 #include <string_view>
 
 #include "controller/alarms.h"
-#include "controller/axis_limits.h"
 #include "controller/controller.h"
 #include "controller/coordinates.h"
 #include "controller/feed_state.h"
 #include "controller/five_axis_state.h"
 #include "controller/modal.h"
-#include "controller/pace.h"
 #include "controller/path_queue.h"
 #include "controller/settings.h"
 #include "controller/sorted_words.h"
+#include "motion/axis_limits.h"
+#include "motion/pace.h"
 
 namespace trunnion {
 

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "controller/clamp.h"
-#include "controller/motion.h"
-#include "controller/tcp_frame.h"
 #include "geometry/alarm.h"
 #include "interpreter/dialect.h"
 #include "interpreter/interpreter.h"
 #include "interpreter/program_source.h"
+#include "motion/motion.h"
 #include "offsets/stores.h"
+#include "positioning/tcp_frame.h"
 
 namespace trunnion {
 
@@ -42,8 +42,8 @@ struct ControlConfig {
     std::uint64_t max_blocks = 0;  ///< 0: none
     /// Asked every few thousand blocks with their number; false: the run ends with `limit`.
     std::function<bool(std::uint64_t blocks)> go_on;
-    std::int64_t clock_s = 0;      ///< #3011/#3012 and #3002 start here (seconds since 1970), so
-                                   ///< that same inputs give the same bytes
+    std::int64_t clock_s = 0;  ///< #3011/#3012 and #3002 start here (seconds since 1970), so
+                               ///< that same inputs give the same bytes
     TcpFrame tcp_frame = TcpFrame::start;  ///< G43.4 with the table turned
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "controller/g_codes.h"
-#include "controller/rotary_choice.h"
+#include "positioning/rotary_choice.h"
 
 namespace trunnion {
 

@@ -3,11 +3,11 @@
 
 #include <optional>
 
-#include "controller/fixture_offset.h"
-#include "controller/rotary_transform.h"
-#include "controller/tilted_plane.h"
-#include "controller/tool_centre_point.h"
 #include "geometry/alarm.h"
+#include "motion/tool_centre_point.h"
+#include "positioning/fixture_offset.h"
+#include "positioning/rotary_transform.h"
+#include "positioning/tilted_plane.h"
 
 namespace trunnion {
 

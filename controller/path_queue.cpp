@@ -5,7 +5,7 @@
 #include "controller/arcs.h"
 #include "controller/control_state.h"
 #include "controller/moves.h"
-#include "controller/plane_crossing.h"
+#include "geometry/plane_crossing.h"
 
 namespace trunnion {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "controller/feed_state.h"
-#include "controller/plane_path.h"
 #include "controller/position.h"
+#include "geometry/plane_path.h"
 
 namespace trunnion {
 

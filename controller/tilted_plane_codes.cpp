@@ -4,8 +4,8 @@
 #include "controller/five_axis.h"
 #include "controller/g_codes.h"
 #include "controller/g_handlers.h"
-#include "controller/rotary_choice.h"
 #include "controller/tool_length.h"
+#include "positioning/rotary_choice.h"
 
 namespace trunnion {
 

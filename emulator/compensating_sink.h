@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "controller/motion.h"
+#include "motion/motion.h"
 
 namespace trunnion {
 

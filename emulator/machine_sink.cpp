@@ -4,9 +4,9 @@
 #include <cctype>
 #include <cmath>
 
-#include "controller/tool_centre_point.h"
 #include "geometry/numbers.h"
 #include "geometry/units.h"
+#include "motion/tool_centre_point.h"
 
 namespace trunnion {
 namespace {

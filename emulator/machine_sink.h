@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "controller/motion.h"
 #include "emulator/ballbar_station.h"
 #include "emulator/reading_log.h"
 #include "emulator/touch_station.h"
 #include "emulator/trace.h"
+#include "motion/motion.h"
 
 namespace trunnion {
 

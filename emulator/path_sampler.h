@@ -1,8 +1,8 @@
 // An axis sample at any place of a move, with velocity, direction of travel and time.
 #pragma once
 
-#include "controller/motion.h"
 #include "emulator/axis_tracker.h"
+#include "motion/motion.h"
 #include "records/readings.h"
 
 namespace trunnion {

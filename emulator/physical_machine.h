@@ -1,9 +1,9 @@
 // The machine as it stands in the shop: geometry with its errors, backlash and effects.
 #pragma once
 
-#include "controller/motion.h"
 #include "emulator/replay.h"
 #include "kinematics/forward.h"
+#include "motion/motion.h"
 
 namespace trunnion {
 

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "controller/clamp.h"
-#include "controller/tcp_frame.h"
 #include "geometry/axes.h"
 #include "geometry/pose.h"
 #include "interpreter/dialect.h"
 #include "kinematics/machine.h"
 #include "offsets/stores.h"
+#include "positioning/tcp_frame.h"
 
 namespace trunnion {
 

@@ -5,8 +5,8 @@
 #include <charconv>
 #include <cstring>
 
-#include "controller/rotary_transform.h"
 #include "geometry/numbers.h"
+#include "positioning/rotary_transform.h"
 
 namespace trunnion {
 namespace {

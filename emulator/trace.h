@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "controller/motion.h"
+#include "motion/motion.h"
 
 namespace trunnion {
 

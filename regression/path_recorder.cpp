@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "controller/rotary_transform.h"
 #include "geometry/units.h"
+#include "positioning/rotary_transform.h"
 
 namespace trunnion {
 

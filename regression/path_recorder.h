@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "controller/motion.h"
+#include "motion/motion.h"
 #include "regression/chords.h"
 #include "regression/path_record.h"
 

@@ -4,10 +4,10 @@
 #include <cstring>
 #include <filesystem>
 
-#include "controller/rotary_transform.h"
 #include "emulator/program_folders.h"
 #include "emulator/run.h"
 #include "geometry/units.h"
+#include "positioning/rotary_transform.h"
 
 namespace trunnion {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "block_bench.h"
-#include "controller/path_rates.h"
 #include "geometry/units.h"
+#include "motion/path_rates.h"
 
 namespace trunnion {
 

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "block_bench.h"
-#include "controller/rotary_transform.h"
 #include "geometry/random.h"
 #include "geometry/units.h"
+#include "positioning/rotary_transform.h"
 
 namespace trunnion::bench {
 

@@ -2,10 +2,10 @@
 #include <array>
 #include <catch2/catch.hpp>
 
-#include "controller/rotary_transform.h"
 #include "emulator/setup.h"
 #include "geometry/random.h"
 #include "geometry/units.h"
+#include "positioning/rotary_transform.h"
 
 namespace trunnion {
 

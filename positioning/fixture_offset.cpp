@@ -1,4 +1,4 @@
-#include "controller/fixture_offset.h"
+#include "positioning/fixture_offset.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "controller/tilted_plane.h"
+#include "positioning/tilted_plane.h"
 
 #include <cmath>
 

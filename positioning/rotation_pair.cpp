@@ -1,4 +1,4 @@
-#include "controller/rotation_pair.h"
+#include "positioning/rotation_pair.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "controller/motion.h"
+#include "motion/motion.h"
 
 #include <cmath>
 

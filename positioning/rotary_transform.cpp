@@ -1,9 +1,9 @@
-#include "controller/rotary_transform.h"
+#include "positioning/rotary_transform.h"
 
 #include <cmath>
 
-#include "controller/rotation_pair.h"
 #include "geometry/units.h"
+#include "positioning/rotation_pair.h"
 
 namespace trunnion {
 

@@ -1,5 +1,5 @@
 // The believed transform against formulas that share no code with it.
-#include "controller/rotary_transform.h"
+#include "positioning/rotary_transform.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "controller/motion.h"
-#include "controller/rotary_transform.h"
-#include "controller/tcp_frame.h"
+#include "motion/motion.h"
+#include "positioning/rotary_transform.h"
+#include "positioning/tcp_frame.h"
 
 namespace trunnion {
 

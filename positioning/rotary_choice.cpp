@@ -1,4 +1,4 @@
-#include "controller/rotary_choice.h"
+#include "positioning/rotary_choice.h"
 
 #include <array>
 #include <cmath>

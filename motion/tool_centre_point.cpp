@@ -1,4 +1,4 @@
-#include "controller/tool_centre_point.h"
+#include "motion/tool_centre_point.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "controller/plane_crossing.h"
+#include "geometry/plane_crossing.h"
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Trapezoids of speed: closed forms, splitting changes nothing, and numbers made another way.
-#include "controller/speed_chain.h"
+#include "motion/speed_chain.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "controller/rotary_transform.h"
+#include "positioning/rotary_transform.h"
 
 namespace trunnion {
 

@@ -1,7 +1,7 @@
 // Whether two lines or arcs of a plane meet.
 #pragma once
 
-#include "controller/plane_path.h"
+#include "geometry/plane_path.h"
 
 namespace trunnion {
 

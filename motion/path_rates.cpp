@@ -1,9 +1,9 @@
-#include "controller/path_rates.h"
+#include "motion/path_rates.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "controller/tool_centre_point.h"
+#include "motion/tool_centre_point.h"
 
 namespace trunnion {
 

@@ -1,4 +1,4 @@
-#include "controller/speed_chain.h"
+#include "motion/speed_chain.h"
 
 #include <algorithm>
 #include <cmath>

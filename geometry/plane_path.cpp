@@ -1,4 +1,4 @@
-#include "controller/plane_path.h"
+#include "geometry/plane_path.h"
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
 // How the axes run along a move: what their speeds and accelerations allow it.
 #pragma once
 
-#include "controller/axis_limits.h"
-#include "controller/motion.h"
+#include "motion/axis_limits.h"
+#include "motion/motion.h"
 
 namespace trunnion {
 

@@ -1,10 +1,10 @@
-#include "controller/pace.h"
+#include "motion/pace.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "controller/path_rates.h"
+#include "motion/path_rates.h"
 
 namespace trunnion {
 

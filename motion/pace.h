@@ -1,9 +1,9 @@
 // When a move is over: its rate by feed and axes, and what speeding up and slowing down add.
 #pragma once
 
-#include "controller/axis_limits.h"
-#include "controller/motion.h"
-#include "controller/speed_chain.h"
+#include "motion/axis_limits.h"
+#include "motion/motion.h"
+#include "motion/speed_chain.h"
 
 namespace trunnion {
 

@@ -1,0 +1,177 @@
+// G68.2 P0-P4 and G68.3: the frames their words define.
+#include "positioning/tilted_plane.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "geometry/units.h"
+#include "tests/support/alarm_of.h"
+
+namespace trunnion {
+
+namespace {
+
+constexpr double deg = pi / 180.0;
+
+PlaneWords angles(double i, double j, double k) {
+    PlaneWords w;
+    w.i = i;
+    w.j = j;
+    w.k = k;
+    return w;
+}
+
+PlaneWords block(double p, double q) {
+    PlaneWords w;
+    w.p = p;
+    w.q = q;
+    return w;
+}
+
+PlaneWords point(double q, double x, double y, double z) {
+    PlaneWords w = block(2, q);
+    w.x = x;
+    w.y = y;
+    w.z = z;
+    return w;
+}
+
+Pose complete(const PlaneWords& w) {
+    return *PlaneDefinition().add(w);
+}
+
+}  // namespace
+
+TEST_CASE("G68.2 P0 Euler angles about moved axes") {
+    const Pose frame = complete(angles(30, 50, 70));
+    const Matrix3 expected = rotation_about(Vector3::UnitZ(), 30 * deg) *
+                             rotation_about(Vector3::UnitX(), 50 * deg) *
+                             rotation_about(Vector3::UnitZ(), 70 * deg);
+    CHECK((frame.rotation - expected).norm() < 1e-15);
+    PlaneWords w = angles(30, 50, 70);
+    w.q = 232;
+    CHECK((complete(w).rotation - rotation_about(Vector3::UnitY(), 30 * deg) *
+                                      rotation_about(Vector3::UnitZ(), 50 * deg) *
+                                      rotation_about(Vector3::UnitY(), 70 * deg))
+              .norm() < 1e-15);
+    w = angles(0, 90, 0);
+    w.x = 5;
+    w.z = -2;
+    w.r = 90;
+    const Pose shifted = complete(w);
+    CHECK(shifted.translation_mm == Vector3(5, 0, -2));
+    CHECK((shifted.rotation.col(0) - Vector3::UnitZ()).norm() < 1e-15);
+}
+
+TEST_CASE("G68.2 P1 roll, pitch, yaw about the work frame's axes") {
+    const Matrix3 x = rotation_about(Vector3::UnitX(), 10 * deg);
+    const Matrix3 y = rotation_about(Vector3::UnitY(), 20 * deg);
+    const Matrix3 z = rotation_about(Vector3::UnitZ(), 30 * deg);
+    PlaneWords w = angles(10, 20, 30);
+    w.p = 1;
+    CHECK((complete(w).rotation - z * y * x).norm() < 1e-15);
+    w.q = 312;  // about Z first, then X, then Y; I stays the angle about X
+    CHECK((complete(w).rotation - y * x * z).norm() < 1e-15);
+    w.q = 313;
+    CHECK(alarm_of([&] { complete(w); }) == 5457);
+}
+
+TEST_CASE("G68.2 P2 three points and P3 two vectors") {
+    PlaneDefinition plane;
+    PlaneWords shift = block(2, 0);
+    shift.x = 1;
+    shift.y = 2;
+    shift.z = 3;
+    shift.r = 90;
+    CHECK_FALSE(plane.add(shift));
+    CHECK(plane.pending());
+    CHECK_FALSE(plane.add(point(1, 10, 0, 0)));
+    CHECK_FALSE(plane.add(point(3, 10, 0, 7)));
+    const auto frame = plane.add(point(2, 10, 5, 0));  // x = +Y, y = +Z, z = +X of the work
+    REQUIRE(frame);
+    CHECK_FALSE(plane.pending());
+    CHECK((frame->translation_mm - Vector3(13, 1, 2)).norm() < 1e-14);
+    CHECK((frame->rotation.col(0) - Vector3::UnitZ()).norm() < 1e-15);
+    CHECK((frame->rotation.col(2) - Vector3::UnitX()).norm() < 1e-15);
+
+    const auto vector = [](double q, double i, double j, double k) {
+        PlaneWords w = angles(i, j, k);
+        w.p = 3;
+        w.q = q;
+        return w;
+    };
+    PlaneWords origin = vector(1, 0, 2, 0);
+    origin.x = 4;
+    REQUIRE_FALSE(plane.add(origin));
+    const auto made = plane.add(vector(2, 1, 0.05, 0));  // 2.9 deg off square: made square
+    REQUIRE(made);
+    CHECK(made->translation_mm == Vector3(4, 0, 0));
+    CHECK((made->rotation.col(0) - Vector3::UnitY()).norm() < 1e-15);
+    CHECK((made->rotation.col(2) - Vector3::UnitX()).norm() < 1e-15);
+    CHECK(alarm_of([&] {
+              PlaneDefinition crooked;
+              crooked.add(origin);
+              crooked.add(vector(2, 1, 0.09, 0));
+          }) == 5457);
+}
+
+TEST_CASE("G68.2 P4 projection angles") {
+    PlaneWords w = angles(30, 20, 0);
+    w.p = 4;
+    const Pose frame = complete(w);
+    const Vector3 x = frame.rotation.col(0), z = frame.rotation.col(2);
+    CHECK((x - Vector3(std::cos(30 * deg), 0, -std::sin(30 * deg))).norm() < 1e-15);
+    CHECK(z.dot(Vector3(0, std::cos(20 * deg), std::sin(20 * deg))) == Approx(0).margin(1e-15));
+    CHECK(frame.rotation.determinant() == Approx(1.0));
+    CHECK((frame.rotation * frame.rotation.transpose()).isIdentity(1e-14));
+}
+
+TEST_CASE("G68.2 format errors are alarm 5457") {
+    const auto alarm = [](const PlaneWords& w) {
+        return alarm_of([&] { PlaneDefinition().add(w); });
+    };
+    CHECK(alarm(PlaneWords{}) == 5457);  // no angle at all
+    CHECK(alarm(block(5, 1)) == 5457);
+    CHECK(alarm(block(2.5, 1)) == 5457);
+    PlaneWords w = block(2, 1);
+    CHECK(alarm(w) == 5457);  // a point without X Y Z
+    w.q.reset();
+    CHECK(alarm(w) == 5457);
+    CHECK(alarm(block(2, 4)) == 5457);
+    CHECK(alarm(block(3, 1)) == 5457);  // no vector
+    const auto points = [](Vector3 second, Vector3 third) {
+        return alarm_of([&] {
+            PlaneDefinition plane;
+            plane.add(point(1, 1, 1, 1));
+            plane.add(point(2, second.x(), second.y(), second.z()));
+            plane.add(point(3, third.x(), third.y(), third.z()));
+        });
+    };
+    CHECK(points({2, 2, 2}, {3, 3, 3}) == 5457);
+    CHECK(points({1, 1, 1}, {3, 3, 4}) == 5457);
+    CHECK(points({2, 2, 2}, {3, 3, 4}) == 0);
+    CHECK(alarm_of([] {
+              PlaneDefinition plane;
+              plane.add(point(1, 0, 0, 0));
+              plane.add(point(1, 0, 0, 0));
+          }) == 5457);
+    CHECK(alarm_of([] {
+              PlaneDefinition plane;
+              plane.add(point(1, 0, 0, 0));
+              plane.add(angles(0, 0, 0));
+          }) == 5457);
+}
+
+TEST_CASE("G68.3: Z along the tool, X square to the vertical") {
+    const Vector3 tool = Vector3(1, 2, 3).normalized();
+    const Pose frame = plane_of_tool(tool, {7, 8, 9}, 0, {});
+    CHECK((frame.rotation.col(2) - tool).norm() < 1e-15);
+    CHECK((frame.rotation.col(0) - Vector3::UnitZ().cross(tool).normalized()).norm() < 1e-15);
+    CHECK(frame.translation_mm == Vector3(7, 8, 9));
+    CHECK(frame.rotation.determinant() == Approx(1.0));
+    CHECK(plane_of_tool(Vector3::UnitZ(), {}, 0, {}).rotation.isIdentity(1e-15));
+    const Matrix3 turned = plane_of_tool(Vector3::UnitZ(), {}, 30, {}).rotation;
+    CHECK((turned - rotation_about(Vector3::UnitZ(), 30 * deg)).norm() < 1e-15);
+}
+
+}  // namespace trunnion
