@@ -1,4 +1,4 @@
-// Which set of effects: candidates, outliers, noise, keys, and what is too small to be a cause.
+// Which set of effects: candidates, noise, keys, and what is too small to be a cause.
 #include <algorithm>
 #include <cmath>
 
@@ -19,11 +19,22 @@ double log_prior_of_keys(const Effect& effect, const std::vector<double>& keys) 
         const EffectParameter& p = effect.parameters[j];
         if (!p.is_key()) continue;
         double all = 0.0;
-        const bool counts = p.name == "periods_per_turn";
+        const bool counts = p.name == periods_key;
         for (const double g : p.grid) all += counts ? 1.0 / g : 1.0;
         sum += std::log((counts ? 1.0 / keys[j] : 1.0) / all);
     }
     return sum;
+}
+
+/// A key that might lie between grid values stands on one.
+bool on_the_grid(const Candidate& candidate) {
+    for (std::size_t j = 0; j < candidate.values.size(); ++j) {
+        const EffectParameter& p = candidate.effect->parameters[j];
+        if (p.is_key() && p.refine &&
+            std::find(p.grid.begin(), p.grid.end(), candidate.values[j]) != p.grid.end())
+            return true;
+    }
+    return false;
 }
 
 constexpr int alternative_keys = 6;  ///< tried for each chosen effect with keys, for doubt
@@ -56,37 +67,6 @@ void Diagnoser::add_keyed(const Eigen::VectorXd& left_mm, int count) {
     }
 }
 
-bool Diagnoser::neighbours(const std::vector<std::size_t>& rows) {
-    std::size_t pairs = 0;
-    for (std::size_t k = 1; k < rows.size(); ++k) pairs += rows[k] - rows[k - 1] <= 2 ? 1 : 0;
-    return rows.size() > 8 && 10 * pairs > 4 * rows.size();
-}
-
-void Diagnoser::drop_outliers() {
-    for (int pass = 0; pass < 2; ++pass) {
-        std::vector<Eigen::Index> all(static_cast<std::size_t>(design_->gram().cols()));
-        for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<Eigen::Index>(k);
-        const Eigen::VectorXd z = design_->residual(all, 1.0).cwiseQuotient(base_.sigma_mm);
-        std::vector<double> size;
-        for (Eigen::Index i = 0; i < z.size(); ++i) size.push_back(std::abs(z(i)));
-        const double limit = 5.0 * std::max(0.5, 1.4826 * median(size));
-        std::vector<std::size_t> wild;
-        for (std::size_t i = 0; i < used_.size(); ++i)
-            if (used_[i] && size[i] > limit) wild.push_back(i);
-        // Many at once, or in a row, are no outliers: something happened to the machine.
-        if (wild.empty() || neighbours(wild) ||
-            static_cast<double>(wild.size()) >
-                rules::most_outliers * static_cast<double>(used_.size()))
-            return;
-        for (const std::size_t i : wild) {
-            const auto row = static_cast<Eigen::Index>(i);
-            used_[i] = false;
-            sigma_mm_(row) = 1e3 * base_.sigma_mm(row);
-        }
-        rewhiten();
-    }
-}
-
 SearchOptions Diagnoser::search_options() const {
     SearchOptions options;
     options.noise_variance = noise_variance_;
@@ -101,10 +81,6 @@ EffectSet Diagnoser::best_set() {
 
 Eigen::VectorXd Diagnoser::left_after(const EffectSet& set) const {
     return design_->residual(columns_of(*design_, set.members), set.scale);
-}
-
-double Diagnoser::outliers() const {
-    return static_cast<double>(std::count(used_.begin(), used_.end(), false));
 }
 
 double Diagnoser::freedom_after(const EffectSet& set) const {
@@ -219,6 +195,21 @@ void Diagnoser::settle() {
         prune();
     }
     if (!set_.members.empty() && by_chance()) set_ = EffectSet{};
+}
+
+/// Keys beside the effects that remain; of equal ones the refined (a moment in the middle between
+/// two readings).
+void Diagnoser::finish_keys() {
+    for (const std::size_t m : std::vector<std::size_t>(set_.members)) {
+        if (!on_the_grid(design_->candidates()[m])) continue;
+        std::vector<std::size_t> members = set_.members;
+        std::erase(members, m);
+        add_refined(m, members);
+        design_->update();
+        members.push_back(design_->candidates().size() - 1);
+        EffectSet refined = evaluate(*design_, std::move(members), search_options());
+        if (refined.log_evidence > set_.log_evidence - 1e-6) set_ = std::move(refined);
+    }
 }
 
 /// Noise alone would explain as much with one effect of the catalogue too often.

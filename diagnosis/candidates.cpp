@@ -15,14 +15,9 @@ constexpr double visible_part = 0.02;
 
 /// Prior precision of base parameters in units of their typical size: calibrated values sharp,
 /// others wide (twenty times the usual size) so that unseen directions stay where they are.
-Eigen::VectorXd base_precision(const BaseModel& model) {
-    Eigen::VectorXd precision(model.columns.cols());
-    for (std::size_t j = 0; j < model.parameters.size(); ++j) {
-        const FitParameter& p = model.parameters[j];
-        const double sigma = p.prior_sigma > 0.0 ? p.prior_sigma : 20.0 * p.typical;
-        precision(static_cast<Eigen::Index>(j)) = (p.typical / sigma) * (p.typical / sigma);
-    }
-    return precision;
+double base_precision(const FitParameter& p) {
+    const double sigma = p.prior_sigma > 0.0 ? p.prior_sigma : 20.0 * p.typical;
+    return (p.typical / sigma) * (p.typical / sigma);
 }
 
 }  // namespace
@@ -38,7 +33,18 @@ Design::Design(const Replay& replay, const BaseModel& base, const Whitener& whit
       whitener_(&whitener),
       base_(base.columns.cols()),
       base_rank_(base.rank),
-      raw_(base.columns) {}
+      precision_(base_),
+      known_(Eigen::VectorXd::Zero(base_)),
+      raw_(base.columns) {
+    for (std::size_t j = 0; j < base.parameters.size(); ++j) {
+        const FitParameter& p = base.parameters[j];
+        const auto k = static_cast<Eigen::Index>(j);
+        precision_(k) = base_precision(p);
+        if (p.prior_sigma <= 0.0) continue;
+        known_(k) = (p.prior_value - p.value) / p.typical;
+        calibrated_ += 1.0;
+    }
+}
 
 std::vector<std::function<bool(const EffectParameter&)>> simpler_forms(const Effect& effect) {
     std::vector<std::function<bool(const EffectParameter&)>> forms;
@@ -105,10 +111,11 @@ void Design::update() {
     full_.bottomLeftCorner(fresh, done_).noalias() = part.transpose() * old;
     full_.topRightCorner(done_, fresh) = full_.bottomLeftCorner(fresh, done_).transpose();
     cross_.tail(fresh).noalias() = part.transpose() * data_;
+    if (done_ == 0) cross_.head(base_) += precision_.cwiseProduct(known_);
     done_ = all;
 
     Eigen::MatrixXd base = full_.topLeftCorner(base_, base_);
-    base.diagonal() += base_precision(model_);
+    base.diagonal() += precision_;
     const Eigen::LLT<Eigen::MatrixXd> llt(base);
     const Eigen::Index p = all - base_;
     const Eigen::MatrixXd half = llt.matrixL().solve(full_.topRightCorner(base_, p));
@@ -116,7 +123,6 @@ void Design::update() {
     gram_ = full_.bottomRightCorner(p, p);
     gram_.noalias() -= half.transpose() * half;
     product_ = cross_.tail(p) - half.transpose() * half_data;
-    energy_ = data_.squaredNorm() - half_data.squaredNorm();
     for (Candidate& c : candidates_) {
         const double whole = full_.diagonal().segment(base_ + c.first, c.size()).sum();
         const double seen = gram_.diagonal().segment(c.first, c.size()).sum();
@@ -136,7 +142,7 @@ void Design::normal_equations(const std::vector<Eigen::Index>& columns, double s
     const std::vector<Eigen::Index> place = places(columns);
     a = full_(place, place);
     b = cross_(place);
-    a.diagonal().head(base_) += base_precision(model_);
+    a.diagonal().head(base_) += precision_;
     a.diagonal().tail(a.rows() - base_).array() += 1.0 / (scale * scale);
 }
 
@@ -169,6 +175,15 @@ Eigen::VectorXd Design::residual(const std::vector<Eigen::Index>& columns, doubl
     for (std::size_t k = 0; k < columns.size(); ++k)
         left -= raw_.col(base_ + columns[k]) * x(base_ + static_cast<Eigen::Index>(k));
     return left;
+}
+
+double Design::calibration_square(const std::vector<Eigen::Index>& columns, double scale) const {
+    const Eigen::VectorXd off = solve(columns, scale).head(base_) - known_;
+    double sum = 0.0;
+    for (Eigen::Index k = 0; k < base_; ++k)
+        if (model_.parameters[static_cast<std::size_t>(k)].prior_sigma > 0.0)
+            sum += precision_(k) * off(k) * off(k);
+    return sum;
 }
 
 Eigen::VectorXd Design::residual_without(const std::vector<Eigen::Index>& test,

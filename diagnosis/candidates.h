@@ -55,7 +55,6 @@ class Design {
     // With the base projected out (set-up free, calibrated values with their prior):
     const Eigen::MatrixXd& gram() const { return gram_; }        ///< of all candidate columns
     const Eigen::VectorXd& product() const { return product_; }  ///< columns . data
-    double energy() const { return energy_; }                    ///< data . data
     double freedom() const { return static_cast<double>(rows()) - static_cast<double>(base_rank_); }
 
     const Eigen::MatrixXd& raw() const { return raw_; }  ///< unwhitened columns, base first, mm
@@ -67,6 +66,9 @@ class Design {
     Eigen::VectorXd fit_variance(const std::vector<Eigen::Index>& columns, double scale) const;
     /// Residual (mm) of all rows after base and columns are fitted.
     Eigen::VectorXd residual(const std::vector<Eigen::Index>& columns, double scale) const;
+    /// Squares by which that fit departs from calibrated values, in their sigma.
+    double calibration_square(const std::vector<Eigen::Index>& columns, double scale) const;
+    double calibrated() const { return calibrated_; }  ///< base parameters with a known value
     /// Residual (mm) of the rows `test` after a fit to all the others, and the expected square of
     /// that fit's own error there.
     Eigen::VectorXd residual_without(const std::vector<Eigen::Index>& test,
@@ -86,12 +88,14 @@ class Design {
     const Whitener* whitener_;
     Eigen::Index base_ = 0, done_ = 0;
     int base_rank_ = 0;
+    double calibrated_ = 0.0;
+    Eigen::VectorXd precision_;  ///< prior of the base parameters, in units of their typical size
+    Eigen::VectorXd known_;      ///< where that prior lies, from the fitted base
     Eigen::MatrixXd raw_, white_, full_;
     Eigen::VectorXd data_, cross_;
     std::vector<Candidate> candidates_;
     Eigen::MatrixXd gram_;
     Eigen::VectorXd product_;
-    double energy_ = 0.0;
 };
 
 bool has_keys(const Effect& effect);

@@ -33,6 +33,7 @@ Diagnosis Diagnoser::run() {
     prune();
     add_alternatives();
     settle();
+    finish_keys();
     judge();
     return std::move(result_);
 }

@@ -38,10 +38,9 @@ class Diagnoser {
     /// Candidates of effects with keys, at the settings that promise most on what is left.
     void add_keyed(const Eigen::VectorXd& left_mm, int count);
 
-    /// Do most of these rows follow each other?
-    static bool neighbours(const std::vector<std::size_t>& rows);
-
-    /// Rows that stand out although everything was tried on them: left out from here on.
+    std::vector<std::size_t> lone_probe_readings() const;
+    std::vector<std::size_t> wild_readings() const;
+    void leave_out(const std::vector<std::size_t>& rows);
     void drop_outliers();
 
     SearchOptions search_options() const;
@@ -55,8 +54,8 @@ class Diagnoser {
 
     double freedom_after(const EffectSet& set) const;
 
-    /// Mean squared z (in stated sigma) of rows that count, freedom accounted for.
-    double mean_square(const Eigen::VectorXd& left_mm, double lost) const;
+    /// Mean squared z (in stated sigma) that base and columns leave, freedom accounted for.
+    double mean_square(const std::vector<Eigen::Index>& columns, double scale) const;
 
     /// Too little change for another round.
     static bool same_noise(const NoiseModel& a, const NoiseModel& b);
@@ -113,9 +112,11 @@ class Diagnoser {
     std::vector<std::string> rivals_of(std::size_t member) const;
     void add_alternatives();
     void settle();
+    void finish_keys();
     bool by_chance() const;
     HeldOut held_out(const std::vector<std::size_t>& members, const ShrinkDraws& draws) const;
-    ShrinkDraws shrink_draws(const std::vector<EffectSet>& sets) const;
+    std::vector<PossibleTruth> near_truths();
+    ShrinkDraws shrink_draws(const std::vector<EffectSet>& sets);
     std::vector<FitParameter> parameters_of(const EffectSet& set, std::size_t member) const;
     void write_setup();
     /// Directions of an effect's parameters that these readings cannot show.
@@ -147,6 +148,7 @@ class Diagnoser {
     EffectSet set_;
     std::vector<EffectSet> visited_;    ///< the best sets of the last search
     double unknown_evidence_ = -1e300;  ///< of one unknown cause that follows one driver
+    double unknown_belief_ = 0.0;       ///< in that cause, against all sets of effects
     Diagnosis result_;
 };
 

@@ -61,7 +61,7 @@ struct Diagnosis {
     std::vector<Inseparable> inseparable;  ///< of the base, and of the stores (pivot.*)
     std::size_t readings = 0, outliers = 0;
     std::vector<double> before_um, after_um;  ///< machine minus simulation, by reading
-    Setup setup;  ///< with the re-identified and added effects
+    Setup setup;                              ///< with the re-identified and added effects
 };
 
 struct DiagnosisOptions {

@@ -37,10 +37,11 @@ void Diagnoser::test_holdout() {
     const std::vector<double> before = replay.predict(base_.models);
     const Replay fitted(result_.setup, table);
     const std::vector<double> after = fitted.predict(active_models(result_.setup));
+    const RowNoise noise = row_noise(base_.setup, table, replay);
     SquaredSums sums;
+    double independent = 0.0;
     for (const NoiseBlock& block : noise_blocks(replay, table)) {
         double b = 0, a = 0, n = 0;
-        const RowNoise noise = row_noise(base_.setup, table, replay);
         for (const Eigen::Index i : block.rows) {
             const auto k = static_cast<std::size_t>(i);
             const Reading& row = table.rows[replay.table_row(k)];
@@ -53,8 +54,11 @@ void Diagnoser::test_holdout() {
         sums.after.push_back(a);
         sums.noise.push_back(n);
         sums.rows.push_back(static_cast<double>(block.rows.size()));
+        independent += noise_.of(block.device).independent(sums.rows.back());
     }
-    result_.after = summarise(sums, options_.seed, noise_doubt());
+    // The noise of these few readings may by chance be smaller or larger than its variance says.
+    const double chance = std::sqrt(2.0 / std::max(1.0, independent));
+    result_.after = summarise(sums, options_.seed, std::hypot(noise_doubt(), chance));
     if (result_.causes.size() == 1) result_.causes.front().heldout = result_.after;
 }
 

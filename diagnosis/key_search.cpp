@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t rough_count = 1000, fine_count = 3200;  ///< rows at most
 constexpr std::size_t finalists = 12;
+constexpr double alias_part = 0.02;  ///< of a ripple's squares beyond its alias's
 
 /// A fixed scatter of about `count` rows, without the rhythm of poses and passes.
 std::vector<std::size_t> scattered_rows(std::size_t all, std::size_t count) {
@@ -30,6 +31,17 @@ double gain(const Eigen::MatrixXd& columns, const Eigen::VectorXd& weight,
     const Eigen::VectorXd h = a.transpose() * left;
     information.diagonal().array() += 1.0;
     return h.dot(information.ldlt().solve(h));
+}
+
+/// The part of the columns' squares that no sum of the others makes.
+double part_beyond(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& others) {
+    const double whole = columns.squaredNorm();
+    if (whole == 0.0) return 1.0;
+    Eigen::MatrixXd square = others.transpose() * others;
+    square.diagonal().array() += 1e-9 * square.trace() + 1e-300;
+    const Eigen::MatrixXd half =
+        Eigen::LLT<Eigen::MatrixXd>(square).matrixL().solve(others.transpose() * columns);
+    return 1.0 - half.squaredNorm() / whole;
 }
 
 struct Weighted {
@@ -61,6 +73,23 @@ Eigen::MatrixXd KeySearch::columns(const Effect& effect, const std::vector<doubl
     return a;
 }
 
+/// The first two orders of a ripple: on positions in whole steps a fine ripple may be the alias of
+/// one of them, which is positioning and no ripple. Empty for effects that count no periods.
+Eigen::MatrixXd KeySearch::first_orders(const Effect& effect) const {
+    Eigen::MatrixXd all(static_cast<Eigen::Index>(rough_rows_.size()), 0);
+    for (std::size_t j = 0; j < effect.parameters.size(); ++j) {
+        if (effect.parameters[j].name != periods_key) continue;
+        for (const double order : {0.0, 1.0, 2.0}) {
+            std::vector<double> values = effect.zeros();
+            values[j] = order;
+            const Eigen::MatrixXd a = columns(effect, values, rough_rows_);
+            all.conservativeResize(Eigen::NoChange, all.cols() + a.cols());
+            all.rightCols(a.cols()) = a;
+        }
+    }
+    return all;
+}
+
 /// Every point of the grid of the effect's keys, the first key fastest.
 std::vector<KeySearch::Setting>& KeySearch::settings_of(const Effect& effect) {
     std::vector<Setting>& list = settings_[&effect];
@@ -68,13 +97,15 @@ std::vector<KeySearch::Setting>& KeySearch::settings_of(const Effect& effect) {
     std::vector<std::size_t> key;
     for (std::size_t j = 0; j < effect.parameters.size(); ++j)
         if (effect.parameters[j].is_key()) key.push_back(j);
+    const Eigen::MatrixXd orders = first_orders(effect);
     std::vector<std::size_t> at(key.size(), 0);
     for (std::size_t k = 0; k < key.size();) {
         std::vector<double> values = effect.zeros();
         for (std::size_t i = 0; i < key.size(); ++i)
             values[key[i]] = effect.parameters[key[i]].grid[at[i]];
         Eigen::MatrixXd rough = columns(effect, values, rough_rows_);
-        list.push_back({std::move(values), std::move(rough), {}});
+        if (orders.cols() == 0 || part_beyond(rough, orders) > alias_part)
+            list.push_back({std::move(values), std::move(rough), {}});
         for (k = 0; k < key.size() && ++at[k] == effect.parameters[key[k]].grid.size(); ++k)
             at[k] = 0;
     }

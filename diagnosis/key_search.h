@@ -3,11 +3,15 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <string_view>
 #include <vector>
 
 #include "identification/base_model.h"
 
 namespace trunnion {
+
+/// The key that counts periods to a turn of a rotary axis.
+inline constexpr std::string_view periods_key = "periods_per_turn";
 
 /// Tries the grids of effects with keys on residuals. Columns of the effects depend on positions
 /// only: they are worked out once, on a fixed scatter of rows, and serve every residual.
@@ -26,6 +30,7 @@ class KeySearch {
         Eigen::MatrixXd rough, fine;  ///< columns (mm) on the scatters, empty until asked for
     };
     std::vector<Setting>& settings_of(const Effect& effect);
+    Eigen::MatrixXd first_orders(const Effect& effect) const;
     Eigen::MatrixXd columns(const Effect& effect, const std::vector<double>& keys,
                             const std::vector<std::size_t>& rows) const;
 

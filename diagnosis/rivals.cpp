@@ -70,6 +70,7 @@ std::map<std::string, double> Diagnoser::belief_of(const std::vector<EffectSet>&
         for (const std::size_t m : s.members)
             belief[design_->candidates()[m].effect->name] += weight;
     }
+    belief["unknown"] = std::exp(unknown_evidence_ - best);
     for (auto& [name, weight] : belief) weight /= sum;
     return belief;
 }

@@ -7,22 +7,24 @@
 
 namespace trunnion {
 
-double Diagnoser::mean_square(const Eigen::VectorXd& left_mm, double lost) const {
-    double sum = 0.0, rows = 0.0;
+/// Calibrated values count as readings of their own: an error may show only in that they no longer
+/// fit.
+double Diagnoser::mean_square(const std::vector<Eigen::Index>& columns, double scale) const {
+    const Eigen::VectorXd left_mm = design_->residual(columns, scale);
+    double sum = design_->calibration_square(columns, scale), rows = design_->calibrated();
     for (std::size_t i = 0; i < used_.size(); ++i) {
         if (!used_[i]) continue;
         const auto k = static_cast<Eigen::Index>(i);
         sum += left_mm(k) * left_mm(k) / (base_.sigma_mm(k) * base_.sigma_mm(k));
         rows += 1.0;
     }
+    const double lost = static_cast<double>(replay_.size()) - design_->freedom() +
+                        static_cast<double>(columns.size());
     return sum / std::max(1.0, rows - lost);
 }
 
 double Diagnoser::left_square(const std::vector<std::size_t>& members) const {
-    const auto columns = columns_of(*design_, members);
-    return mean_square(design_->residual(columns, set_.scale),
-                       static_cast<double>(replay_.size()) - design_->freedom() +
-                           static_cast<double>(columns.size()));
+    return mean_square(columns_of(*design_, members), set_.scale);
 }
 
 double Diagnoser::floor_square() const {

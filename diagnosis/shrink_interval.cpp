@@ -24,36 +24,48 @@ std::size_t pick(const std::vector<PossibleTruth>& truths, double at) {
     return truths.size() - 1;
 }
 
-/// Is there a remainder at all? Evidence for a normal mean of unit information against zero.
-double chance_of_remainder(const std::vector<double>& miss) {
-    double sum = 0.0, square = 0.0;
-    for (const double m : miss) {
-        sum += m;
-        square += m * m;
+/// Fresh readings are few and elsewhere: squared exponential weights leave as much as a sixth of
+/// the stretches.
+double stretch_weight(SeededNoise& random) {
+    const double even = -std::log(random.uniform());
+    return even * even;
+}
+
+/// Rows of stretches: every pass of the ballbar; the poses of the probe, in order, in parts.
+std::vector<std::vector<Eigen::Index>> stretches_of(const std::vector<NoiseBlock>& blocks) {
+    std::vector<std::vector<Eigen::Index>> stretches;
+    std::vector<const NoiseBlock*> poses;
+    for (const NoiseBlock& block : blocks) {
+        if (block.device == Device::ballbar)
+            stretches.push_back(block.rows);
+        else
+            poses.push_back(&block);
     }
-    if (sum <= 0.0 || square <= 0.0) return 0.0;
-    const double n = static_cast<double>(miss.size());
-    const double factor = std::exp(0.5 * sum * sum / square * n / (n + 1.0)) / std::sqrt(n + 1.0);
-    return factor / (1.0 + factor);
+    const std::size_t parts = std::min(probe_stretches, poses.size());
+    for (std::size_t k = 0; k < parts; ++k) {
+        std::vector<Eigen::Index> rows;
+        for (std::size_t p = k * poses.size() / parts; p < (k + 1) * poses.size() / parts; ++p)
+            rows.insert(rows.end(), poses[p]->rows.begin(), poses[p]->rows.end());
+        stretches.push_back(std::move(rows));
+    }
+    return stretches;
 }
 
 }  // namespace
 
 ShrinkDraws::ShrinkDraws(const Design& design, const std::vector<NoiseBlock>& blocks,
-                         const Eigen::VectorXd& noise_mm, const std::vector<bool>& used,
-                         std::vector<PossibleTruth> truths, double unknown, std::uint64_t seed,
-                         double doubt)
+                         const FreshReadings& fresh, const Eigen::VectorXd& noise_mm,
+                         const std::vector<bool>& used, std::vector<PossibleTruth> truths,
+                         double unknown, std::uint64_t seed, double doubt)
     : design_(design), truths_(std::move(truths)) {
-    cut(blocks);
-    take_places();
-    std::vector<double> noise;
-    const std::vector<double> miss = missed(noise_mm, used, noise);
+    take_places(fresh);
+    const std::vector<Missed> missed_here = missed(blocks, noise_mm, used);
+    const double real = chance_of_remainder(missed_here);
     std::vector<Posterior> posterior;
     for (const PossibleTruth& t : truths_)
         posterior.push_back(design.posterior(t.columns, t.scale));
-    const double real = chance_of_remainder(miss);
     SeededNoise random(seed);
-    const auto count = static_cast<Eigen::Index>(stretches_.size());
+    const auto count = static_cast<Eigen::Index>(square_.size());
     machines_.resize(static_cast<Eigen::Index>(places_.size()), draw_count);
     weights_.resize(count, draw_count);
     for (Eigen::Index d = 0; d < draw_count; ++d) {
@@ -64,15 +76,12 @@ ShrinkDraws::ShrinkDraws(const Design& design, const std::vector<NoiseBlock>& bl
         Draw draw;
         machines_.col(d) =
             over_places(truths_[k].columns, posterior[k].mean + posterior[k].spread(z));
-        double remainder = 0.0;
+        double rows = 0.0;
         for (Eigen::Index b = 0; b < count; ++b) {
-            const auto at = static_cast<std::size_t>(b);
-            // Fresh readings are fewer and elsewhere: squared exponential weights leave as much
-            // as a sixth of the stretches.
-            const double even = -std::log(random.uniform());
-            weights_(b, d) = even * even;
-            remainder += weights_(b, d) * (miss[at] - (noise_factor - 1.0) * noise[at]);
+            weights_(b, d) = stretch_weight(random);
+            rows += weights_(b, d) * rows_[static_cast<std::size_t>(b)];
         }
+        const double remainder = rows * remainder_per_row(missed_here, noise_factor, random);
         if (random.uniform() < real) draw.remainder = std::max(0.0, remainder);
         if (random.uniform() < unknown)
             draw.false_part = -std::log(random.uniform()) * random.uniform();
@@ -80,6 +89,30 @@ ShrinkDraws::ShrinkDraws(const Design& design, const std::vector<NoiseBlock>& bl
     }
     for (const Eigen::MatrixXd& square : square_)
         moved_.push_back((square * machines_).cwiseProduct(machines_).colwise().sum().transpose());
+}
+
+/// Is there a remainder at all? Evidence for a normal mean of unit information against zero.
+double ShrinkDraws::chance_of_remainder(const std::vector<Missed>& missed) {
+    double sum = 0.0, square = 0.0;
+    for (const Missed& m : missed) {
+        sum += m.square;
+        square += m.square * m.square;
+    }
+    if (sum <= 0.0 || square <= 0.0) return 0.0;
+    const double n = static_cast<double>(missed.size());
+    const double factor = std::exp(0.5 * sum * sum / square * n / (n + 1.0)) / std::sqrt(n + 1.0);
+    return factor / (1.0 + factor);
+}
+
+double ShrinkDraws::remainder_per_row(const std::vector<Missed>& missed, double noise_factor,
+                                      SeededNoise& random) {
+    double sum = 0.0, rows = 0.0;
+    for (const Missed& m : missed) {
+        const double weight = stretch_weight(random);
+        sum += weight * (m.square - (noise_factor - 1.0) * m.noise);
+        rows += weight * m.rows;
+    }
+    return rows > 0.0 ? sum / rows : 0.0;
 }
 
 /// Squares of what a prediction x misses of each drawn machine, weighted over the stretches:
@@ -96,26 +129,8 @@ std::vector<double> ShrinkDraws::squares_off(const Eigen::VectorXd& x) const {
     return {sum.begin(), sum.end()};
 }
 
-/// Stretches: every pass of the ballbar; the poses of the probe, in order, in parts.
-void ShrinkDraws::cut(const std::vector<NoiseBlock>& blocks) {
-    std::vector<const NoiseBlock*> poses;
-    for (const NoiseBlock& block : blocks) {
-        if (block.device == Device::ballbar)
-            stretches_.push_back(block.rows);
-        else
-            poses.push_back(&block);
-    }
-    const std::size_t parts = std::min(probe_stretches, poses.size());
-    for (std::size_t k = 0; k < parts; ++k) {
-        std::vector<Eigen::Index> rows;
-        for (std::size_t p = k * poses.size() / parts; p < (k + 1) * poses.size() / parts; ++p)
-            rows.insert(rows.end(), poses[p]->rows.begin(), poses[p]->rows.end());
-        stretches_.push_back(std::move(rows));
-    }
-}
-
-/// The columns of all truths once, and their squares over each stretch.
-void ShrinkDraws::take_places() {
+/// The columns of all truths once, and their squares over each stretch of fresh readings.
+void ShrinkDraws::take_places(const FreshReadings& fresh) {
     for (Eigen::Index k = 0; k < design_.base_count(); ++k) places_.push_back(k);
     std::vector<Eigen::Index> effects;
     for (const PossibleTruth& t : truths_)
@@ -123,9 +138,11 @@ void ShrinkDraws::take_places() {
     std::sort(effects.begin(), effects.end());
     effects.erase(std::unique(effects.begin(), effects.end()), effects.end());
     for (const Eigen::Index k : effects) places_.push_back(design_.base_count() + k);
-    for (const auto& rows : stretches_) {
-        const Eigen::MatrixXd a = design_.raw()(rows, places_);
+    const Eigen::MatrixXd all = fresh.columns(design_, places_);
+    for (const auto& rows : stretches_of(fresh.blocks())) {
+        const Eigen::MatrixXd a = all(rows, Eigen::all);
         square_.push_back(a.transpose() * a);
+        rows_.push_back(static_cast<double>(rows.size()));
     }
 }
 
@@ -142,26 +159,26 @@ Eigen::VectorXd ShrinkDraws::over_places(const std::vector<Eigen::Index>& column
 }
 
 /// By stretch: what predictions without it miss, squared, beyond noise and the fit's own error.
-std::vector<double> ShrinkDraws::missed(const Eigen::VectorXd& noise_mm,
-                                        const std::vector<bool>& used,
-                                        std::vector<double>& noise) const {
-    std::vector<double> miss;
-    for (const auto& rows : stretches_) {
+std::vector<ShrinkDraws::Missed> ShrinkDraws::missed(const std::vector<NoiseBlock>& blocks,
+                                                     const Eigen::VectorXd& noise_mm,
+                                                     const std::vector<bool>& used) const {
+    std::vector<Missed> list;
+    for (const auto& rows : stretches_of(blocks)) {
         Eigen::VectorXd fit_variance;
         const Eigen::VectorXd left = design_.residual_without(rows, truths_.front().columns,
                                                               truths_.front().scale, &fit_variance);
-        double sum = 0.0, floor = 0.0;
+        Missed missed;
         for (std::size_t k = 0; k < rows.size(); ++k) {
             if (!used[static_cast<std::size_t>(rows[k])]) continue;
             const auto at = static_cast<Eigen::Index>(k);
             const double own = noise_mm(rows[k]) * noise_mm(rows[k]);
-            sum += left(at) * left(at) - own - fit_variance(at);
-            floor += own;
+            missed.square += left(at) * left(at) - own - fit_variance(at);
+            missed.noise += own;
+            missed.rows += 1.0;
         }
-        miss.push_back(sum);
-        noise.push_back(floor);
+        list.push_back(missed);
     }
-    return miss;
+    return list;
 }
 
 std::pair<double, double> ShrinkDraws::interval(const std::vector<Eigen::Index>& columns,

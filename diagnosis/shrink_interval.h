@@ -7,9 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "diagnosis/candidates.h"
+#include "diagnosis/fresh_readings.h"
 
 namespace trunnion {
+
+class SeededNoise;
 
 /// A set of effects that may be the truth, with its weight among all (the first is the chosen one).
 struct PossibleTruth {
@@ -20,17 +22,17 @@ struct PossibleTruth {
 
 /// Draws machines that agree with the readings and fresh readings of them, without noise. Unknown
 /// are: which set of effects is true, the values of its parameters and of the base (their joint
-/// covariance), the size of the noise, which of the measured positions fresh readings will stress
-/// (weights of whole passes and stretches of poses), and the remainder that no set explains (what
-/// predictions of left-out passes miss beyond all this). With a chance of `unknown` the effects are
-/// stand-ins for something the catalogue lacks: elsewhere a part of what they explained is wrong.
+/// covariance), the size of the noise, which places fresh readings will stress (weights of whole
+/// passes and stretches of poses), and the remainder that no set explains (what predictions of
+/// left-out passes miss beyond all this, for each reading). With a chance of `unknown` the effects
+/// are stand-ins for something the catalogue lacks: a part of what they predict is wrong.
 class ShrinkDraws {
   public:
     /// `used` marks rows that count; `doubt`: relative standard error of the noise variance.
     ShrinkDraws(const Design& design, const std::vector<NoiseBlock>& blocks,
-                const Eigen::VectorXd& noise_mm, const std::vector<bool>& used,
-                std::vector<PossibleTruth> truths, double unknown, std::uint64_t seed,
-                double doubt);
+                const FreshReadings& fresh, const Eigen::VectorXd& noise_mm,
+                const std::vector<bool>& used, std::vector<PossibleTruth> truths, double unknown,
+                std::uint64_t seed, double doubt);
 
     /// 95 % interval of the shrink that the effects in `columns`, fitted beside the base, give.
     std::pair<double, double> interval(const std::vector<Eigen::Index>& columns,
@@ -39,21 +41,27 @@ class ShrinkDraws {
   private:
     struct Draw {
         double remainder = 0.0;   ///< mm^2, weighted
-        double false_part = 0.0;  ///< of what the effects explain: comes twice, in other places
+        double false_part = 0.0;  ///< of what the effects predict: comes twice
+    };
+    struct Missed {
+        double square = 0.0, noise = 0.0, rows = 0.0;  ///< mm^2, mm^2, count of one stretch
     };
     std::vector<double> squares_off(const Eigen::VectorXd& x) const;
-    void cut(const std::vector<NoiseBlock>& blocks);
-    void take_places();
+    void take_places(const FreshReadings& fresh);
+    static double chance_of_remainder(const std::vector<Missed>& missed);
+    static double remainder_per_row(const std::vector<Missed>& missed, double noise_factor,
+                                    SeededNoise& random);
     Eigen::VectorXd over_places(const std::vector<Eigen::Index>& columns,
                                 const Eigen::VectorXd& x) const;
-    std::vector<double> missed(const Eigen::VectorXd& noise_mm, const std::vector<bool>& used,
-                               std::vector<double>& noise) const;
+    std::vector<Missed> missed(const std::vector<NoiseBlock>& blocks,
+                               const Eigen::VectorXd& noise_mm,
+                               const std::vector<bool>& used) const;
 
     const Design& design_;
     std::vector<PossibleTruth> truths_;
-    std::vector<std::vector<Eigen::Index>> stretches_;  ///< rows
-    std::vector<Eigen::Index> places_;                  ///< columns of any truth, base first
-    std::vector<Eigen::MatrixXd> square_;               ///< of the raw columns, by stretch
+    std::vector<Eigen::Index> places_;     ///< columns of any truth, base first
+    std::vector<Eigen::MatrixXd> square_;  ///< of those columns, by stretch of fresh readings
+    std::vector<double> rows_;             ///< of those stretches
     std::vector<Draw> draws_;
     Eigen::MatrixXd machines_;            ///< a column a draw, over `places_`
     Eigen::MatrixXd weights_;             ///< of the stretches, a column a draw

@@ -33,12 +33,7 @@ double Diagnoser::unusual_square() const {
     }
     const auto all = columns_of(*design_, set_.members);
     if (usual.size() == all.size()) return 0.0;
-    const double lost = static_cast<double>(replay_.size()) - design_->freedom();
-    const double with =
-        mean_square(design_->residual(all, set_.scale), lost + static_cast<double>(all.size()));
-    const double without =
-        mean_square(design_->residual(usual, set_.scale), lost + static_cast<double>(usual.size()));
-    return std::max(0.0, without - with);
+    return std::max(0.0, mean_square(usual, set_.scale) - mean_square(all, set_.scale));
 }
 
 /// What a ripple explains that stands beside positioning errors of the same axis while that axis
@@ -136,7 +131,8 @@ Diagnoser::Remainder Diagnoser::remainder() {
     const double doubt = trusted ? 4.0 * std::hypot(noise_.doubt, std::sqrt(2.0 / rows)) : 1.1;
     double beyond = r.after - r.floor > doubt * r.floor ? r.after - r.floor : 0.0;
     // A stated noise may be wrong by 30 %: what is left beyond that is no noise.
-    if (!trusted && base_.noise_given && r.after > rules::most_noise) beyond = r.after - 1.0;
+    const double most = rules::most_noise * (1.0 + 3.0 * std::sqrt(2.0 / rows));
+    if (!trusted && base_.noise_given && r.after > most) beyond = r.after - 1.0;
     // A gap of structure alone, without any effect, must be plain to see.
     const double plain = set_.members.empty() ? rules::plain_square : rules::least_square;
     const double least = trusted ? std::max(plain, noise_.doubt) : plain;

@@ -19,6 +19,10 @@ double evidence_of(const DriverTest& t) {
     return 0.5 * t.gain * (1.0 - 1.0 / size) - 0.5 * q * std::log(size) + rules::effect_prior;
 }
 
+/// Of an interval of the shrink: draws go along derivatives, but readings bend, and what is
+/// compared is another fit of the base.
+constexpr double least_half_width = 0.01;
+
 }  // namespace
 
 void Diagnoser::judge() {
@@ -34,6 +38,7 @@ void Diagnoser::judge() {
     if (!set_.members.empty()) claim(r.gap);
     double explained = std::clamp(1.0 - r.unexplained / r.gap, 0.0, 1.0);
     if (coincidence()) explained = std::min(explained, result_.causes.front().share);
+    if (unknown_belief_ > rules::unknown_belief) explained = std::min(explained, 0.49);
     result_.unexplained_share = 1.0 - explained;
     const bool rivalled = std::any_of(result_.causes.begin(), result_.causes.end(),
                                       [](const Cause& c) { return !c.rivals.empty(); });
@@ -42,8 +47,11 @@ void Diagnoser::judge() {
                                          : Verdict::unexplained;
     if (result_.unexplained_share > rules::admit_share)
         add_unknown(result_.unexplained_share, r.drivers);
-    if (set_.members.empty())
+    if (set_.members.empty()) {
         result_.after = cross_validate(*design_, base_, folds_, {}, 1.0, noise_mm(), used_);
+        result_.after.low -= least_half_width;
+        result_.after.high += least_half_width;
+    }
     write_setup();
     if (options_.holdout) test_holdout();
     if (options_.plan_next) ask_next();
@@ -124,27 +132,11 @@ std::vector<FitParameter> Diagnoser::parameters_of(const EffectSet& set, std::si
     return list;
 }
 
-/// The chosen set and others that may be true instead, as truths to draw from.
-ShrinkDraws Diagnoser::shrink_draws(const std::vector<EffectSet>& sets) const {
-    constexpr std::size_t most = 24;
-    std::vector<PossibleTruth> truths;
-    const double best = sets.front().log_evidence;
-    const auto add = [&](const EffectSet& s) {
-        truths.push_back(
-            {columns_of(*design_, s.members), s.scale, std::exp(s.log_evidence - best)});
-    };
-    add(set_);
-    for (const EffectSet& s : sets)
-        if (s.members != set_.members && truths.size() < most) add(s);
-    return {*design_,      blocks_,           noise_mm(),
-            used_,         std::move(truths), result_.unexplained_share,
-            options_.seed, noise_doubt()};
-}
-
 void Diagnoser::claim(double gap) {
     const std::vector<double> share = shares_of(set_.members);
     const std::vector<EffectSet> possible = possible_sets();
     const auto belief = belief_of(possible);
+    unknown_belief_ = belief.at("unknown");
     const ShrinkDraws draws = shrink_draws(possible);
     for (std::size_t k = 0; k < set_.members.size(); ++k) {
         const std::size_t m = set_.members[k];
@@ -173,8 +165,8 @@ HeldOut Diagnoser::held_out(const std::vector<std::size_t>& members,
     HeldOut result =
         cross_validate(*design_, base_, folds_, members, set_.scale, noise_mm(), used_);
     const auto [low, high] = draws.interval(columns_of(*design_, members), set_.scale);
-    result.low = std::min(low, result.shrink);
-    result.high = std::max(high, result.shrink);
+    result.low = std::min(low, result.shrink) - least_half_width;
+    result.high = std::min(1.0, std::max(high, result.shrink) + least_half_width);
     return result;
 }
 

@@ -1,8 +1,10 @@
 // Errors of a linear axis's drive: ballscrew ripple, backlash, reversal spike, lateral play.
+#include <algorithm>
 #include <cmath>
 
 #include "effects/models.h"
 #include "geometry/units.h"
+#include "records/readings.h"
 
 namespace trunnion {
 
@@ -36,14 +38,32 @@ Effect linear_backlash(const AxisGeometry& axis) {
             }};
 }
 
+namespace {
+
+constexpr double law_radius_mm = 100.0;  ///< an angle of the path is given as way on this circle
+
+/// Angle (rad) by which the path has turned since the axis stood still: from its direction.
+double angle_since_quadrant(Axis axis, const AxisSample& sample, const Contact& contact) {
+    const Vector3 v(sample.velocity[Axis::X], sample.velocity[Axis::Y], sample.velocity[Axis::Z]);
+    const double along = std::abs(sample.velocity[axis]);
+    if (along == 0.0) return 0.0;
+    const double angle = std::asin(std::min(1.0, along / v.norm()));
+    const bool slows = contact.acceleration[axis] * sample.travel[index_of(axis)] < 0.0;
+    return slows ? pi - angle : angle;
+}
+
+}  // namespace
+
 Effect linear_reversal_spike(const AxisGeometry& axis) {
     return {
         effect_name(axis.axis, ".reversal_spike"),
         "The axis sticks for a moment when it turns round, then catches up",
         "friction at standstill with a soft or slow velocity loop",
         "raise the loop gain or switch on friction (quadrant) compensation",
-        "position - height_mm * sign of travel * exp(-(distance since reversal / decay_mm)^power); "
-        "power 1/2 on a circle decays with the angle since the quadrant",
+        "position - height_mm * sign of travel * exp(-way / decay_mm); way: law 1 the distance "
+        "since "
+        "reversal, law 0 the angle of the path since the quadrant times 100 mm; run_up 0: a circle "
+        "begun at the quadrant was not reached through it",
         {{"height_mm", "mm", 6e-3, -1, {}, true},
          {"decay_mm",
           "mm",
@@ -51,14 +71,18 @@ Effect linear_reversal_spike(const AxisGeometry& axis) {
           -1,
           {0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 1.2, 2.0, 3.5, 6.0, 10.0, 16.0},
           true},
-         {"power", "1", 1.0, -1, {0.5, 1.0}, false}},
+         {"law", "1", 1.0, -1, {0.0, 1.0}, false},
+         {"run_up", "1", 1.0, -1, {0.0, 1.0}, false}},
         [k = axis.axis](const AxisSample& sample, const Contact& contact,
                         std::span<const double> value, Perturbation& out) {
-            if (is_probe(contact)) return;
             const std::size_t i = index_of(k);
-            const double way = sample.since_reversal[i] / value[1];
-            out.axis[k] -=
-                value[0] * sample.travel[i] * std::exp(-(value[2] == 0.5 ? std::sqrt(way) : way));
+            const bool not_turned = sample.since_reversal[i] >= no_reversal_seen ||
+                                    (value[3] == 0.0 && sample.run_up_unknown[i]);
+            if (is_probe(contact) || not_turned) return;
+            const double way = value[2] == 0.0
+                                   ? law_radius_mm * angle_since_quadrant(k, sample, contact)
+                                   : sample.since_reversal[i];
+            out.axis[k] -= value[0] * sample.travel[i] * std::exp(-way / value[1]);
         }};
 }
 

@@ -48,6 +48,9 @@ struct AxisSample {
     std::array<signed char, axis_count> travel{};  ///< sign of the last motion (approach) or of the
                                                    ///< velocity (ballbar): -1, 0, +1
     std::array<double, axis_count> since_reversal{};  ///< mm or rad travelled since the axis turned
+    /// The axis began its test at a turning point and has not turned since: whether it came there
+    /// from the other side (a run-up) no row tells; since_reversal counts as if it had.
+    std::array<bool, axis_count> run_up_unknown{};
     double time_s = 0.0;
     double feed_mm_min = 0.0;
     double spindle_rad = 0.0;

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "geometry/alarm.h"
 #include "identification/keys.h"
@@ -76,6 +77,27 @@ double rms_um(const Eigen::VectorXd& v) {
 
 }  // namespace
 
+namespace {
+
+/// A moment between two readings changes nothing anywhere between them: the middle, not an edge.
+double middle_of_plateau(const std::function<double(double)>& gain_at, double key,
+                         std::pair<double, double> bracket) {
+    const double best = gain_at(key), tiny = 1e-6 * (bracket.second - bracket.first);
+    if (gain_at(key - tiny) != best && gain_at(key + tiny) != best) return key;
+    const auto edge = [&](double beyond) {
+        double level = key, off = beyond;
+        if (gain_at(off) == best) return off;
+        for (int k = 0; k < 24; ++k) {
+            const double middle = 0.5 * (level + off);
+            (gain_at(middle) == best ? level : off) = middle;
+        }
+        return level;
+    };
+    return 0.5 * (edge(bracket.first) + edge(bracket.second));
+}
+
+}  // namespace
+
 std::vector<double> refine_keys(const Replay& replay, const BaseModel& base, const Effect& effect,
                                 std::vector<double> keys, const Eigen::VectorXd& left_mm) {
     constexpr double golden = 0.6180339887498949;
@@ -114,6 +136,7 @@ std::vector<double> refine_keys(const Replay& replay, const BaseModel& base, con
             const double edge = 0.02 * (to - from);
             if (keys[j] > from + edge && keys[j] < to - edge) break;
         }
+        keys[j] = middle_of_plateau(at, keys[j], neighbours(p.grid, keys[j]));
     }
     return keys;
 }

@@ -98,19 +98,23 @@ class AxisHistory {
 
     void fill_since_reversal() {
         double from = q(0);
-        bool turned = starts_at_turn();
+        bool at_start = starts_at_turn(), turned = at_start;
         signed char direction = 0;
         for (std::size_t k = 0; k < rows_.size(); ++k) {
             const signed char step = k == 0 ? static_cast<signed char>(0) : move(k);
             if (step != 0 && direction != 0 && step != direction) {
                 from = row(k).device == Device::ballbar ? turning_point(k - 1) : q(k - 1);
                 turned = true;
-                if (sample(k - 1).travel[index_of(axis_)] == step)  // it turned before that row
+                at_start = false;
+                if (sample(k - 1).travel[index_of(axis_)] == step) {  // it turned before that row
                     sample(k - 1).since_reversal[index_of(axis_)] = std::abs(q(k - 1) - from);
+                    sample(k - 1).run_up_unknown[index_of(axis_)] = false;
+                }
             }
             if (step != 0) direction = step;
             sample(k).since_reversal[index_of(axis_)] =
                 std::abs(q(k) - from) + (turned ? 0.0 : no_reversal_seen + 1.0);
+            sample(k).run_up_unknown[index_of(axis_)] = at_start;
         }
     }
 

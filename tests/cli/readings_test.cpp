@@ -176,10 +176,14 @@ TEST_CASE("several tables are read as one") {
     const std::string table = bench.write("table.csv", text_of(good.lines));
     const std::string again = bench.write("again.csv", text_of(good.with(8, "value_mm", "")));
     const std::string setup = bench.write("setup.toml", format_setup(good.setup));
-    REQUIRE(bench.trunnion("diagnose " + table + " " + table + " --json --setup " + setup) == 0);
+    const std::string more = bench.write("more.csv", text_of(good.with(8, "value_mm", "0.0123")));
+    REQUIRE(bench.trunnion("diagnose " + table + " " + more + " --json --setup " + setup) == 0);
     CHECK(Json::parse(bench.read("out.txt"))["readings"] == 72);
     CHECK(bench.trunnion("diagnose " + table + " " + again + " --json --setup " + setup) == 2);
     CHECK_THAT(bench.read("err.txt"), Catch::Contains("again.csv:"));
+    // The same file twice would pass for repeats without noise.
+    CHECK(bench.trunnion("diagnose " + table + " " + table + " --setup " + setup) == 2);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("given twice"));
 }
 
 TEST_CASE("injections are refused with one message") {

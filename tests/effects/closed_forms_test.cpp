@@ -378,7 +378,7 @@ TEST_CASE("drives: backlash, lateral play, reversal, lag", "[effects]") {
                   away_from_turns) < 1e-5);
     }
     CHECK(physics.miss(
-              "X.reversal_spike: height_mm=6um, decay_mm=3, power=1",
+              "X.reversal_spike: height_mm=6um, decay_mm=3, law=1",
               [](const Seen& s) {
                   const double h = s.since_x > 1e6 ? 0.0 : 6e-3 * std::exp(-s.since_x / 3.0);
                   return tip({-h * s.travel.x(), 0.0, 0.0});
@@ -587,20 +587,38 @@ TEST_CASE("time constants, pitches and decays at their limits", "[effects]") {
           Approx(shift(teeth, {2e-5, 1e-5, 90.0}, Axis::C, 0.1 + 2.0 * pi / 90.0)));
     // A spike has lost all but 1/e of its height one decay length after the turn.
     const Effect spike = linear_reversal_spike(*physics.setup.machine.chain.find(Axis::Y));
-    const auto after = [&](double way_mm, double power) {
+    const auto after = [&](double way_mm, double run_up = 1.0, bool unknown = false) {
         AxisSample sample;
+        sample.run_up_unknown[index_of(Axis::Y)] = unknown;
         sample.travel[index_of(Axis::Y)] = 1;
         sample.since_reversal[index_of(Axis::Y)] = way_mm;
         Contact contact;
         contact.device = Device::ballbar;
         Perturbation out;
-        spike.add(sample, contact, std::vector<double>{0.006, 2.0, power}, out);
+        spike.add(sample, contact, std::vector<double>{0.006, 2.0, 1.0, run_up}, out);
         return out.axis[Axis::Y];
     };
-    CHECK(after(0.0, 1.0) == Approx(-0.006));
-    CHECK(after(2.0, 1.0) == Approx(-0.006 * std::exp(-1.0)));
-    CHECK(after(8.0, 0.5) == Approx(-0.006 * std::exp(-2.0)));
-    CHECK(after(no_reversal_seen * 2.0, 1.0) == 0.0);
+    CHECK(after(0.0) == Approx(-0.006));
+    CHECK(after(2.0) == Approx(-0.006 * std::exp(-1.0)));
+    CHECK(after(no_reversal_seen * 2.0) == 0.0);
+    // A circle begun at the quadrant: reached through it (a run-up arc), or not.
+    CHECK(after(2.0, 1.0, true) == after(2.0));
+    CHECK(after(2.0, 0.0, true) == 0.0);
+    CHECK(after(2.0, 0.0, false) == after(2.0));
+    // With the angle since the quadrant, on a circle of any size: 0.02 rad is 2 mm on 100 mm.
+    for (const double angle : {0.01, 0.02, 0.5, 2.0, 3.0})
+        for (const double speed : {3.0, 50.0}) {
+            AxisSample sample;
+            sample.travel[index_of(Axis::Y)] = -1;
+            sample.velocity[Axis::X] = speed * std::cos(angle);
+            sample.velocity[Axis::Y] = -speed * std::sin(angle);
+            Contact contact;
+            contact.device = Device::ballbar;
+            contact.acceleration[Axis::Y] = -std::cos(angle);
+            Perturbation out;
+            spike.add(sample, contact, std::vector<double>{0.006, 2.0, 0.0, 1.0}, out);
+            CHECK(out.axis[Axis::Y] == Approx(0.006 * std::exp(-angle / 0.02)).margin(1e-15));
+        }
     // Rounding never moves an axis by more than half the increment.
     const Effect rounding = control_rounding(physics.setup.machine.chain);
     for (double q = -1.0; q < 1.0; q += 0.0137)

@@ -159,6 +159,8 @@ TEST_CASE("distance since reversal counts from the true turning point") {
             const double t = start + 2 * pi * static_cast<double>(i) / 120;
             if (std::abs(std::remainder(t, pi)) < 1e-6) continue;
             const double since = samples[i].since_reversal[index_of(Axis::X)];
+            if (start >= 0.0)
+                CHECK(samples[i].run_up_unknown[index_of(Axis::X)] == (start == 0.0 && t < pi));
             if (start > 0 && t < pi)
                 CHECK(since > no_reversal_seen);
             else if (t > 0 && t < pi && start == 0.0)

@@ -1,0 +1,216 @@
+#include "diagnosis/fresh_readings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/random.h"
+#include "kinematics/forward.h"
+
+namespace trunnion {
+namespace {
+
+constexpr std::size_t most_poses = 48, most_passes = 16, most_samples = 60;
+constexpr double later = 1.3;  ///< times the length of the session: when the last of them is taken
+constexpr double faster = 1.5;
+constexpr double most_tilt_rad = 1.0;  ///< of the bar
+
+/// The rows of one pose or pass in the table, with the device-less ones that lead to it.
+struct Visit {
+    Device device = Device::none;
+    std::vector<std::size_t> rows;
+};
+
+std::vector<Visit> visits_of(const ReadingTable& table, const Replay& replay,
+                             const std::vector<NoiseBlock>& blocks) {
+    std::vector<int> block_of(table.rows.size(), -1);
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+        for (const Eigen::Index i : blocks[b].rows)
+            block_of[replay.table_row(static_cast<std::size_t>(i))] = static_cast<int>(b);
+    std::vector<Visit> visits;
+    std::vector<std::size_t> leading;
+    int last = -1;
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+        leading.push_back(r);
+        if (block_of[r] < 0) continue;
+        if (block_of[r] != last || visits.empty()) visits.push_back({table.rows[r].device, {}});
+        last = block_of[r];
+        auto& rows = visits.back().rows;
+        rows.insert(rows.end(), leading.begin(), leading.end());
+        leading.clear();
+    }
+    return visits;
+}
+
+/// `most` of them at even steps.
+std::vector<Visit> some_of(const std::vector<Visit>& all, bool bar, std::size_t most) {
+    std::vector<Visit> those, chosen;
+    for (const Visit& v : all)
+        if ((v.device == Device::ballbar) == bar) those.push_back(v);
+    const std::size_t count = std::min(most, those.size());
+    for (std::size_t k = 0; k < count; ++k) chosen.push_back(those[k * those.size() / count]);
+    return chosen;
+}
+
+/// Grows the table of fresh rows visit by visit.
+class FreshTable {
+  public:
+    FreshTable(const Setup& setup, const ReadingTable& table, std::uint64_t seed)
+        : setup_(setup), table_(table), forward_(setup.machine), random_(seed) {
+        fresh_.path = table.path;
+        fresh_.parts = table.parts;
+        fresh_.comment = table.comment;
+        fresh_.axes = table.axes;
+        fresh_.optional_columns = table.optional_columns;
+        start_s_ = table.rows.front().time_s;
+        session_s_ = table.rows.back().time_s - start_s_;
+    }
+
+    /// Rotary angles move towards those of `other`, each by its own part of the way.
+    void add_pose(const Visit& visit, const Visit& other) {
+        const AxisPositions here = table_.rows[visit.rows.back()].commanded;
+        const AxisPositions there = table_.rows[other.rows.back()].commanded;
+        AxisPositions turn;
+        for (const Axis axis : table_.axes)
+            if (is_rotary(axis)) turn[axis] = random_.uniform() * (there[axis] - here[axis]);
+        const double begun_s = table_.rows[visit.rows.front()].time_s, now_s = any_time();
+        for (const std::size_t r : visit.rows) {
+            Reading row = table_.rows[r];
+            row.time_s += now_s - begun_s;
+            turn_about_feature(row, turn);
+            fresh_.rows.push_back(std::move(row));
+        }
+    }
+
+    /// The same path, sampled between the old samples, at another speed; the bar hangs obliquely
+    /// when a rotary axis turns.
+    void add_pass(const Visit& visit) {
+        const double speed = std::pow(faster, 2.0 * random_.uniform() - 1.0);
+        const double part = random_.uniform();
+        const std::size_t step = 1 + visit.rows.size() / most_samples;
+        const Matrix3 tilt = turns(visit) ? any_tilt() : Matrix3(Matrix3::Identity());
+        const double begun_s = table_.rows[visit.rows.front()].time_s, now_s = any_time();
+        for (std::size_t k = 0; k + 1 < visit.rows.size(); k += step) {
+            const Reading &a = table_.rows[visit.rows[k]], &b = table_.rows[visit.rows[k + 1]];
+            Reading row = a;
+            row.time_s = now_s + (a.time_s + part * (b.time_s - a.time_s) - begun_s) / speed;
+            row.feed_mm_min *= speed;
+            for (const Axis axis : table_.axes)
+                row.commanded[axis] += part * (b.commanded[axis] - a.commanded[axis]);
+            tilt_bar(row, tilt);
+            fresh_.rows.push_back(std::move(row));
+        }
+    }
+
+    ReadingTable done() { return std::move(fresh_); }
+
+  private:
+    double any_time() { return start_s_ + later * session_s_ * random_.uniform(); }
+
+    bool turns(const Visit& visit) const {
+        const AxisPositions first = table_.rows[visit.rows.front()].commanded;
+        const AxisPositions last = table_.rows[visit.rows.back()].commanded;
+        return std::any_of(table_.axes.begin(), table_.axes.end(),
+                           [&](Axis axis) { return is_rotary(axis) && first[axis] != last[axis]; });
+    }
+
+    Matrix3 any_tilt() {
+        const Vector3 axis(random_.normal(), random_.normal(), random_.normal());
+        return rotation_about(axis.normalized(), most_tilt_rad * (2.0 * random_.uniform() - 1.0));
+    }
+
+    /// From the feature to the device's ball, in M.
+    Vector3 apart(const Reading& row) const {
+        const MachinePose poses = forward_.poses(row.commanded);
+        const Vector3 ball_S =
+            row.device == Device::ballbar ? setup_.ballbar->cup_S_mm : setup_.probe->tip_S_mm;
+        return poses.pose_MS * ball_S - poses.pose_MW * center_W(row.feature);
+    }
+
+    Vector3 center_W(const std::string& feature) const {
+        for (const Artefact& a : setup_.artefacts)
+            if (a.name == feature) return a.center_W_mm;
+        return Vector3::Zero();
+    }
+
+    /// Moves the linear axes so that the device's ball goes by `way_M`.
+    void shift(Reading& row, const Vector3& way_M) const {
+        for (const bool of_work : {true, false}) {
+            const auto& side = of_work ? setup_.machine.chain.work : setup_.machine.chain.tool;
+            for (const AxisGeometry& axis : side)
+                if (const std::size_t k = index_of(axis.axis); k < 3)
+                    row.commanded[axis.axis] +=
+                        (of_work ? -1.0 : 1.0) * way_M(static_cast<Eigen::Index>(k));
+        }
+    }
+
+    void turn_about_feature(Reading& row, const AxisPositions& turn) const {
+        const Vector3 before = apart(row);
+        for (const Axis axis : table_.axes) row.commanded[axis] += turn[axis];
+        shift(row, before - apart(row));
+    }
+
+    /// The bar turned by `tilt`, seen from the table.
+    void tilt_bar(Reading& row, const Matrix3& tilt) const {
+        const Matrix3 table = forward_.poses(row.commanded).pose_MW.rotation;
+        const Vector3 bar = apart(row);
+        shift(row, table * tilt * table.transpose() * bar - bar);
+    }
+
+    const Setup& setup_;
+    const ReadingTable& table_;
+    ForwardModel forward_;
+    SeededNoise random_;
+    ReadingTable fresh_;
+    double start_s_ = 0.0, session_s_ = 0.0;
+};
+
+}  // namespace
+
+FreshReadings::FreshReadings(const BaseModel& base, const Catalogue& catalogue,
+                             const ReadingTable& table, const Replay& replay,
+                             const std::vector<NoiseBlock>& blocks, std::uint64_t seed) {
+    const std::vector<Visit> all = visits_of(table, replay, blocks);
+    FreshTable fresh(base.setup, table, seed);
+    const std::vector<Visit> poses = some_of(all, false, most_poses);
+    SeededNoise random(seed + 1);
+    for (const Visit& pose : poses)
+        fresh.add_pose(
+            pose,
+            poses[static_cast<std::size_t>(random.uniform() * static_cast<double>(poses.size()))]);
+    for (const Visit& pass : some_of(all, true, most_passes)) fresh.add_pass(pass);
+    const ReadingTable rows = fresh.done();
+    replay_.emplace(base.setup, rows);
+    blocks_ = noise_blocks(*replay_, rows);
+    const ForwardModel forward(base.setup.machine);
+    for (std::size_t i = 0; i < replay_->size(); ++i)
+        gradient_.push_back(replay_->gradient(i, forward, {}));
+    const BaseColumns found =
+        base_columns(base.setup, *replay_, catalogue, base.setup.model.modelled, gradient_);
+    base_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(replay_->size()), base.columns.cols());
+    for (std::size_t j = 0; j < base.parameters.size(); ++j)
+        for (std::size_t k = 0; k < found.parameters.size(); ++k)
+            if (full_name(found.parameters[k]) == full_name(base.parameters[j]))
+                base_.col(static_cast<Eigen::Index>(j)) =
+                    found.columns.col(static_cast<Eigen::Index>(k));
+}
+
+Eigen::MatrixXd FreshReadings::columns(const Design& design,
+                                       const std::vector<Eigen::Index>& places) const {
+    Eigen::MatrixXd all(base_.rows(), static_cast<Eigen::Index>(places.size()));
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const auto to = static_cast<Eigen::Index>(k);
+        if (places[k] < design.base_count()) {
+            all.col(to) = base_.col(places[k]);
+            continue;
+        }
+        const Eigen::Index column = places[k] - design.base_count();
+        for (const Candidate& c : design.candidates())
+            if (column >= c.first && column < c.first + c.size())
+                all.col(to) =
+                    effect_column(*replay_, gradient_, *c.effect, c.values,
+                                  c.parameters[static_cast<std::size_t>(column - c.first)]);
+    }
+    return all;
+}
+
+}  // namespace trunnion

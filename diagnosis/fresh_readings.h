@@ -1,0 +1,36 @@
+// Readings that could be taken next: like those at hand, at other places, speeds and times.
+#pragma once
+
+#include <optional>
+
+#include "diagnosis/candidates.h"
+#include "diagnosis/noise.h"
+
+namespace trunnion {
+
+/// Where fresh readings would be taken, and what each parameter would change there. Poses of the
+/// probe: rotary angles between those of two measured poses, the stylus at the same place beside
+/// the sphere. Passes of the ballbar: at places between those sampled, up to 1.5 times faster or
+/// slower, oblique where a rotary axis turns. At any time of the session and a third beyond. What
+/// two explanations share on the readings at hand (a ripple and its alias, a lag and a spike) they
+/// do not share here.
+class FreshReadings {
+  public:
+    FreshReadings(const BaseModel& base, const Catalogue& catalogue, const ReadingTable& table,
+                  const Replay& replay, const std::vector<NoiseBlock>& blocks, std::uint64_t seed);
+
+    /// Rows of each pose or pass.
+    const std::vector<NoiseBlock>& blocks() const { return blocks_; }
+    std::size_t rows() const { return replay_->size(); }
+    /// Derivatives (mm for one typical change) by base parameters and columns of candidates, as
+    /// Design::raw() has them for the readings at hand; `places` as its columns, base first.
+    Eigen::MatrixXd columns(const Design& design, const std::vector<Eigen::Index>& places) const;
+
+  private:
+    std::optional<Replay> replay_;
+    std::vector<NoiseBlock> blocks_;
+    std::vector<Perturbation> gradient_;
+    Eigen::MatrixXd base_;  ///< by the parameters of the base model
+};
+
+}  // namespace trunnion
