@@ -13,6 +13,7 @@
 #include "controller/moves.h"
 #include "controller/readings.h"
 #include "controller/surface_speed.h"
+#include "controller/tool_length.h"
 #include "controller/wrapped_motion.h"
 
 namespace trunnion {
@@ -198,6 +199,16 @@ bool cycle_word(const ControlState& c) {
     return c.words.has('R') && !c.modal.is(ModalGroup::cycle, 800);
 }
 
+/// H that belongs to no code of the block.
+bool h_alone(const SortedWords& w) {
+    if (!w.has('H')) return false;
+    for (std::size_t i = 0; i < w.code_count; ++i)
+        if (w.code[i]->group == ModalGroup::length || w.code[i]->group == ModalGroup::one_shot ||
+            w.code[i]->group == ModalGroup::cutter)
+            return false;
+    return true;
+}
+
 void run_codes(ControlState& c) {
     for (const Phase phase : {Phase::plane, Phase::reading, Phase::work_offset, Phase::frame,
                               Phase::offsets, Phase::cycle})
@@ -254,6 +265,7 @@ void execute_block(ControlState& c, const BlockWords& block) {
     const bool paused = c.path.engaged && pauses_path(c);
     if (paused) pause_path(c);
     if (w.phases) run_codes(c);
+    if (h_alone(w)) change_length_number(c);
     c.move.gap_free = !c.exact_stop_once && !c.modal.is(ModalGroup::path_mode, 610);
     if (w.phases & phase_bit(Phase::shot))
         run_phase(c, Phase::shot);

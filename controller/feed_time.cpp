@@ -25,13 +25,17 @@ double cutting_time(const ControlState& c, double length_mm, const AxisPositions
     return std::max(wanted, rapid_time(c.limits, from, to));
 }
 
-double feed_length(const ControlPosition& from, const ControlPosition& to) {
+double feed_square(const ControlState& c, const ControlPosition& to, std::size_t first) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < axis_count; ++i) {
-        const double d = to.value[i] - from.value[i];
-        sum += d * d;
+    for (std::size_t i = first; i < axis_count; ++i) {
+        const double d = to.value[i] - c.machine.value[i];
+        sum += is_rotary(all_axes[i]) ? d * d * c.unit_mm * c.unit_mm : d * d;
     }
-    return std::sqrt(sum);
+    return sum;
+}
+
+double feed_length(const ControlState& c, const ControlPosition& to) {
+    return std::sqrt(feed_square(c, to, 0));
 }
 
 }  // namespace trunnion

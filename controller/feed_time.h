@@ -1,5 +1,5 @@
 // How long a move takes at constant rate: length / feed, no faster than the slowest axis; rapids by
-// the slowest axis. What speeding up and slowing down add: controller/pace.h.
+// the slowest axis. What speeding up and slowing down add: motion/pace.h.
 #pragma once
 
 #include "controller/control_state.h"
@@ -8,11 +8,15 @@ namespace trunnion {
 
 /// Time of a rapid from `from` to `to`: the axis that takes longest at its own rapid speed.
 double rapid_time(const AxisLimits& limits, const AxisPositions& from, const AxisPositions& to);
-/// Time of a cutting move of `length_mm` (degrees counted as mm, as the control does); throws
-/// PS0011 without feed, PS1202 under G93 without F in the block.
+/// Time of a cutting move of `length_mm` (what F divides); throws PS0011 without feed, PS1202 under
+/// G93 without F in the block.
 double cutting_time(const ControlState& c, double length_mm, const AxisPositions& from,
                     const AxisPositions& to);
-/// The length a control divides by F: all axes together, degrees as mm.
-double feed_length(const ControlPosition& from, const ControlPosition& to);
+/// What F divides on the way from where the axes stand, mm. A degree counts as one unit of the
+/// feed, a millimetre or, under G20, an inch: F is degrees a minute for rotary axes in both (Fanuc
+/// B-63172EN: no inch-metric switching for them).
+double feed_length(const ControlState& c, const ControlPosition& to);
+/// Its square over the axes from the `first` letter on.
+double feed_square(const ControlState& c, const ControlPosition& to, std::size_t first);
 
 }  // namespace trunnion

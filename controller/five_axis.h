@@ -37,6 +37,8 @@ ControlPosition tcp_program_position(const ControlState& c, const ControlPositio
 MoveResult move_tip(ControlState& c, MotionKind kind, const ControlPosition& target);
 /// G49, G43: the axes stay, the position counts without TCP from now on.
 void cancel_tool_centre(ControlState& c);
+/// Under G43.4 or G43.5 the length of another offset number; the frame stays (assumed).
+void change_tool_centre_length(ControlState& c);
 
 // tilted_plane_codes.cpp
 /// Lays the feature frame into the machine as the rotaries stand now; the control compiles after

@@ -40,7 +40,7 @@ MoveResult send(ControlState& c, MotionKind kind, const ControlPosition& target,
     const double cruise_s = c.pace.take(m, c.limits, way);
     m.feed_mm_min = kind == MotionKind::rapid           ? 0.0
                     : m.length_mm > 0.0 && cruise_s > 0 ? 60.0 * m.length_mm / cruise_s
-                                                        : c.feed.mm_min;
+                                                        : c.feed.mm_min / c.unit_mm;
     const MoveResult result = c.sink.move(m);
     ++c.result.moves;
     c.result.time_s += result.part * m.duration_s;
@@ -81,7 +81,7 @@ MoveResult move_straight(ControlState& c, MotionKind kind, const ControlPosition
     }
     m.length_mm = xyz_length(m.from, m.to);
     if (c.spindle.by_surface) follow_surface_speed(c, target);
-    const double way = feed_length(c.machine, machine_target);
+    const double way = feed_length(c, machine_target);
     m.duration_s = kind == MotionKind::rapid ? rapid_time(c.limits, m.from, m.to)
                                              : cutting_time(c, way, m.from, m.to);
     return send(c, kind, target, machine_target, way);
@@ -97,7 +97,7 @@ void move_machine(ControlState& c, MotionKind kind, const ControlPosition& targe
         return;
     }
     m.length_mm = xyz_length(m.from, m.to);
-    const double way = feed_length(c.machine, target);
+    const double way = feed_length(c, target);
     m.duration_s = kind == MotionKind::rapid ? rapid_time(c.limits, m.from, m.to)
                                              : cutting_time(c, way, m.from, m.to);
     send(c, kind, program, target, way);
@@ -131,13 +131,8 @@ void move_arc(ControlState& c, MotionKind kind, const ControlPosition& target,
     const double radius = (radius_vector - radius_vector.dot(path.normal) * path.normal).norm();
     const double bow = radius * path.sweep_rad;
     m.length_mm = std::sqrt(bow * bow + rise * rise);
-    double feed_squared = m.length_mm * m.length_mm;
-    for (std::size_t i = 3; i < axis_count; ++i) {
-        const double d = machine_target.value[i] - c.machine.value[i];
-        feed_squared += d * d;
-    }
     if (c.spindle.by_surface) follow_surface_speed(c, target);
-    const double way = std::sqrt(feed_squared);
+    const double way = std::sqrt(m.length_mm * m.length_mm + feed_square(c, machine_target, 3));
     m.duration_s = cutting_time(c, way, m.from, m.to);
     m.arc = path;
     send(c, kind, target, machine_target, way);

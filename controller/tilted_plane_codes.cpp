@@ -190,6 +190,8 @@ void note_solutions(ControlState& c, const RotaryChoice& choice) {
         "G53.1 line " + std::to_string(c.words.line) + ": " + rotary_text(c, *choice.chosen);
     for (const RotarySolution& other : choice.all)
         if (!(other == *choice.chosen)) text += ", other solution " + rotary_text(c, other);
+    for (const RotarySolution& other : choice.out_of_travel)
+        text += ", other solution " + rotary_text(c, other) + " out of travel";
     c.note(text);
 }
 

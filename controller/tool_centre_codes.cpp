@@ -78,7 +78,7 @@ double tcp_feed_length(const ControlState& c, double tip_mm, const ControlPositi
     double square = 0.0;
     for (const Axis axis : {Axis::A, Axis::B, Axis::C})
         square += std::pow(machine[axis] - c.machine[axis], 2);
-    return std::sqrt(square);
+    return std::sqrt(square) * c.unit_mm;
 }
 
 /// The program position: as commanded, with the angles that a vector led to.
@@ -202,6 +202,12 @@ void g_tool_centre(ControlState& c, const GCode& code) {
     five.lean_rad = by_vector ? rad_from_deg(c.words.get('Q', 0.0)) : 0.0;
     five.starting = ToolCentrePoint::start(transform, c.move.from, c.config.tcp_frame, tool_vector);
     five_axis_changed(c);
+}
+
+void change_tool_centre_length(ControlState& c) {
+    ToolCentrePoint& tcp = *c.five_axis.tcp;
+    tcp.tool_vector_mm = tool_length_mm(c, c.length_number) * tcp.transform->pivot().tool_direction;
+    compensate_length(c, tcp.tool_vector_mm);
 }
 
 void cancel_tool_centre(ControlState& c) {

@@ -44,13 +44,22 @@ void g_machine_position(ControlState& c, const GCode&) {
 void g_preset(ControlState& c, const GCode&) {
     if (c.words.has('S')) c.spindle.most_rpm = c.words.get('S');  // the limit of G96
     // The present position gets the coordinates given; G52 of these axes is cancelled; every work
-    // coordinate system shifts alike.
+    // coordinate system shifts alike. Inside a tilted plane the shift lies along its axes and ends
+    // with it (assumed).
+    Coordinates& stages = c.coordinates;
+    ControlPosition wanted = c.program;
+    for (const ControlAxis& entry : c.config.axes)
+        if (c.words.has(letter_of(entry.axis)))
+            wanted[entry.axis] = c.axis_word(entry.axis);  // absolute under G91 too
+    const ControlPosition from = stages.shaped_from_program(c.program);
+    const ControlPosition to = stages.shaped_from_program(wanted);
     for (const ControlAxis& entry : c.config.axes) {
         const Axis axis = entry.axis;
-        if (!c.words.has(letter_of(axis))) continue;
-        const double wanted = c.axis_word(axis);  // absolute under G91 too
-        c.coordinates.preset[axis] += c.program[axis] + c.coordinates.local[axis] - wanted;
-        c.coordinates.local[axis] = 0.0;
+        const bool in_plane = stages.feature_MF && index_of(axis) < 3;
+        (in_plane ? stages.local : stages.preset)[axis] += from[axis] - to[axis];
+        if (in_plane || !c.words.has(letter_of(axis))) continue;
+        stages.preset[axis] += stages.local[axis];
+        stages.local[axis] = 0.0;
     }
     c.frame_changed();
 }

@@ -100,13 +100,17 @@ void derive_fixture_groups(const Machine& machine, Parameters& parameters) {
     std::reverse(table.begin(), table.end());
     Parameters derived;
     int number = 7580;
+    // Axes of a head carry no fixture: no group turns its offset.
+    if (table.empty() && !rotaries(machine.chain.tool).empty()) derived.set(number, 0);
     for (const AxisGeometry& axis : table) {
+        if (number > 7586) break;
+        // No group can say that an inclined axis turns the offset: G54.2 is alarm 5459 then.
         const auto plane = turned_plane(axis.direction.normalized());
-        if (!plane || number > 7586) return;
         derived.set(number, number_of_axis(axis.axis, order));
         for (const std::size_t i : {0U, 1U})
-            derived.set(number + 1 + static_cast<int>(i),
-                        number_of_axis(all_axes[static_cast<std::size_t>((*plane)[i])], order));
+            derived.set(
+                number + 1 + static_cast<int>(i),
+                plane ? number_of_axis(all_axes[static_cast<std::size_t>((*plane)[i])], order) : 0);
         number += 3;
     }
     for (const auto& [key, parameter] : derived.entry) parameters.entry[key] = parameter;

@@ -69,7 +69,10 @@ RotaryChoice choose_rotaries(const RotaryTransform& transform, const Vector3& n_
     for (const RotarySolution& s : transform.orient(n_W, present)) {
         const auto first = nearest_turn(s.first_rad, present.first_rad, travel.first);
         const auto second = nearest_turn(s.second_rad, present.second_rad, travel.second);
-        if (!first || !second) continue;
+        if (!first || !second) {
+            choice.out_of_travel.push_back(s);
+            continue;
+        }
         const RotarySolution found{*first, *second};
         choice.all.push_back(found);
         if (!on_branch(found, transform.first_tilts(), branch)) continue;

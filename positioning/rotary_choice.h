@@ -20,8 +20,9 @@ struct RotaryTravel {
 };
 
 struct RotaryChoice {
-    std::optional<RotarySolution> chosen;  ///< nothing: out of reach or of travel
-    std::vector<RotarySolution> all;       ///< every branch, nearest turn within the travel
+    std::optional<RotarySolution> chosen;       ///< nothing: out of reach or of travel
+    std::vector<RotarySolution> all;            ///< every branch, nearest turn within the travel
+    std::vector<RotarySolution> out_of_travel;  ///< branches that no turn brings into the travel
 };
 
 /// Angles that point the tool along n_W from where the rotaries stand: least move of the master

@@ -154,4 +154,23 @@ TEST_CASE("G54.2 groups of a left-handed BC table: C then B, linear axes swapped
     CHECK_FALSE(p.find(7586));
 }
 
+TEST_CASE("G54.2 groups: a head turns no fixture, an inclined table axis has no plane to name") {
+    Machine machine;
+    Parameters head, inclined;
+    machine.chain = parse_chain("w b X Y Z C B t");
+    derive_fixture_groups(machine, head);
+    CHECK(head.find(7580));
+    CHECK(head.get(7580) == 0);
+    CHECK_FALSE(head.find(7583));
+    machine.chain = parse_chain("w C B b X Y Z t");
+    machine.chain.work[0].direction = {0, -std::sqrt(0.5), -std::sqrt(0.5)};
+    machine.chain.work[1].direction = {0, 0, -1};
+    derive_fixture_groups(machine, inclined);
+    CHECK(inclined.get(7580) == 5);
+    CHECK(inclined.get(7581) == 2);
+    CHECK(inclined.get(7583) == 4);
+    CHECK(inclined.get(7584) == 0);
+    CHECK(inclined.get(7585) == 0);
+}
+
 }  // namespace trunnion
