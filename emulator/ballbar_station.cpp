@@ -114,7 +114,6 @@ void BallbarStation::read(PathSampler path, double s, const PhysicalMachine& mac
     Contact contact;
     contact.device = Device::ballbar;
     contact.artefact = static_cast<int>(pivot_ - setup_.artefacts.data());
-    contact.test_time_s = path.time_s(s) - start_s_;
     contact.acceleration = path.acceleration(s);
     contact.extension_mm = path.shop.extension_mm;
     const double noise_mm = mm_from_um(setup_.ballbar->noise_um) * noise_.normal();

@@ -109,7 +109,6 @@ void MachineSink::obey(std::string_view line) {
     if (line.starts_with(off)) bar_.stop();
     if (line.starts_with(test) || line.starts_with(on)) {
         log_.set_test(test_name(line.substr(line.starts_with(on) ? on.size() : test.size())));
-        test_start_s_ = clock_s_;
         if (line.starts_with(on)) bar_.start(clock_s_);
     }
     set_shop(line);
@@ -172,7 +171,7 @@ std::vector<double> MachineSink::sample_places(const AxisMove& move) const {
 }
 
 std::optional<Touch> MachineSink::probe(const PathSampler& path) {
-    const auto touch = touch_.touch(path, machine_, test_start_s_);
+    const auto touch = touch_.touch(path, machine_);
     if (!touch || touch->direction_M.isZero()) return touch;
     log_.passed(path.move.from, path.start_s, path.mode);
     Reading row;

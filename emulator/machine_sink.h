@@ -66,7 +66,7 @@ class MachineSink : public MotionSink {
     ReadingLog log_;
     std::optional<TraceWriter> trace_;
     AxisTracker tracker_;
-    double clock_s_ = 0.0, test_start_s_ = 0.0;
+    double clock_s_ = 0.0;
     bool has_rotary_ = false;
     bool can_read_ = false;  ///< there is a device, so the way to its readings counts
     PositioningMode mode_ = PositioningMode::none;  ///< function that positioned the rotary axes

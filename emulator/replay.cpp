@@ -109,13 +109,12 @@ Replay::Replay(const Setup& setup, const ReadingTable& table) : setup_(setup) {
         contact.artefact = artefact_index(where, row);
         contact.direction_M = row.direction_M;
         contact.extension_mm = row.extension_mm;
-        const auto& rows = tests[row.test];
-        contact.test_time_s = row.time_s - table.rows[rows.front()].time_s;
         contact.path_mm = path_mm[r];
         if (row.device == Device::ballbar) {
             if (!setup.ballbar) where.refuse(row, "a ballbar row, but no [ballbar] in the setup");
             for (const Axis axis : table.axes)
-                contact.acceleration[axis] = acceleration_at(table, rows, place[r], axis);
+                contact.acceleration[axis] =
+                    acceleration_at(table, tests[row.test], place[r], axis);
         } else if (!setup.probe) {
             where.refuse(row, "a probe row, but no [probe] in the setup");
         }

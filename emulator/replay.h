@@ -20,7 +20,6 @@ struct Contact {
     Vector3 direction_M = Vector3::Zero();  ///< component read, approach, or cup to pivot
     Vector3 direction_W = Vector3::Zero();  ///< the same seen from the table
     int touches = 0;                        ///< of the pattern behind a sphere row, 0 = unknown
-    double test_time_s = 0.0;               ///< since the test began
     double extension_mm = 0.0;              ///< of stylus or cup, beyond the setup's
     double path_mm = 0.0;                   ///< of the linear axes since the test began
     AxisPositions acceleration;             ///< mm/s^2, rad/s^2 along the commanded path

@@ -18,13 +18,11 @@ bool TouchStation::mounted(const AxisMove& move) const {
     return setup_.probe->tool == 0 || move.tool == 0 || move.tool == setup_.probe->tool;
 }
 
-std::optional<Touch> TouchStation::touch(const PathSampler& path, const PhysicalMachine& machine,
-                                         double test_start_s) {
+std::optional<Touch> TouchStation::touch(const PathSampler& path, const PhysicalMachine& machine) {
     const ProbeSettings& settings = *setup_.probe;
     const Vector3 way = linear_part(path.move.to) - linear_part(path.move.from);
     Contact contact;
     contact.device = Device::touch;
-    contact.test_time_s = path.start_s - test_start_s;
     contact.extension_mm = path.shop.extension_mm;
     const Vector3 tip_S_mm = settings.tip_with(path.shop.extension_mm);
     if (way.norm() > 0.0) contact.direction_M = way.normalized();

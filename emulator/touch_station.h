@@ -27,8 +27,7 @@ class TouchStation {
     /// The probe is in the spindle: no tool called yet, or the one the setup names.
     bool mounted(const AxisMove& move) const;
     /// The first sphere that the stylus meets on the path.
-    std::optional<Touch> touch(const PathSampler& path, const PhysicalMachine& machine,
-                               double test_start_s);
+    std::optional<Touch> touch(const PathSampler& path, const PhysicalMachine& machine);
 
   private:
     std::optional<Touch> latched(const PathSampler& path, const PhysicalMachine& machine,

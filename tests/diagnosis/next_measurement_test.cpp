@@ -1,5 +1,4 @@
 // What next: the programs do what was predicted, and what they read tells the rivals apart.
-#include <fmt/format.h>
 
 #include <catch2/catch.hpp>
 #include <set>
@@ -212,41 +211,6 @@ TEST_CASE("ambiguous, measured as asked, diagnosed together: the right one is cl
         go_the_whole_way(bench, pair.truth, pair.other, seed += 10);
         go_the_whole_way(bench, pair.other, pair.truth, seed += 10);
     }
-}
-
-TEST_CASE("explore", "[.explore]") {
-    for (const bool ac : {false, true})
-        for (const bool bar : {false, true}) {
-            const Bench bench(ac ? campaign::ac_setup() : campaign::bc_setup(), bar);
-            fmt::print("== {} {}\n", ac ? "AC" : "BC", bar ? "ballbar" : "probe");
-            for (const Effect& effect : make_catalogue(bench.setup)) {
-                if (effect.name == "location" || effect.parameters.empty()) continue;
-                EffectSetting setting{effect.name, {}};
-                std::vector<double> values = effect.zeros();
-                for (std::size_t j = 0; j < values.size(); ++j)
-                    if (!effect.parameters[j].is_key() && effect.parameters[j].usual)
-                        values[j] = 2.0 * effect.parameters[j].typical * (j % 3 == 1 ? -0.7 : 1.0);
-                Setup truth = bench.real;
-                truth.effects.push_back(setting_of(effect, values));
-                const ReadingTable first = campaign::measured(truth, bench.table, 7);
-                const Diagnosis d = diagnose(bench.setup, first);
-                if (d.causes.empty() || d.next.empty()) continue;
-                fmt::print("{:<18} {} first {} rivals {}\n", effect.name, to_string(d.verdict),
-                           d.causes.front().effect, names(d.causes.front().rivals));
-                for (const NextMeasurement& next : d.next) {
-                    fmt::print("     {}\n", next.text);
-                    if (next.program.empty()) continue;
-                    const Diagnosis both =
-                        diagnose(bench.setup,
-                                 join_readings({first, run_measurement(truth, next.program, 11)}));
-                    fmt::print("     -> {} {}", to_string(both.verdict), both.noise_um);
-                    for (const Cause& c : both.causes)
-                        fmt::print(" [{} {:.2f} rivals {}]", c.effect, c.share, names(c.rivals));
-                    fmt::print("\n");
-                }
-                std::fflush(stdout);
-            }
-        }
 }
 
 }  // namespace trunnion
