@@ -1,5 +1,6 @@
 // Speed of the language alone, with a consumer that does nothing. TRUNNION_BENCH names the folder
-// that gen_bench.py wrote; items are blocks, iterations or calls.
+// that workloads.py wrote (200,000 units; out/bench without it); items are blocks, iterations or
+// calls.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -20,7 +21,7 @@ struct NoSystem : SystemVariables {
 
 std::string read_file(const std::string& name) {
     const char* folder = std::getenv("TRUNNION_BENCH");
-    std::ifstream in(std::string(folder ? folder : "/tmp/trunnion_bench") + "/" + name);
+    std::ifstream in(std::string(folder ? folder : "out/bench") + "/" + name);
     std::ostringstream text;
     text << in.rdbuf();
     return text.str();
@@ -32,12 +33,14 @@ bool is_end(const BlockWords& words) {
 
 void run_program(benchmark::State& state, const char* name, std::int64_t items) {
     const std::string text = read_file(name);
-    if (text.empty()) return state.SkipWithError("no workload: python3 gen_bench.py FOLDER 200000");
+    if (text.empty())
+        return state.SkipWithError("no workload: python3 benchmarks/workloads.py out/bench");
     ProgramsInMemory none;
     NoSystem system;
+    const InterpreterOptions options;
     std::uint64_t blocks = 0;
     for (auto _ : state) {
-        Interpreter nc(none, {}, system, {});
+        Interpreter nc(none, options, system, {});
         nc.open(ProgramText{name, text, nullptr});
         while (const BlockWords* words = nc.next()) {
             benchmark::DoNotOptimize(words->words[0].value);
@@ -49,13 +52,11 @@ void run_program(benchmark::State& state, const char* name, std::int64_t items) 
     state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()) * items);
 }
 
-BENCHMARK_CAPTURE(run_program, lin3_blocks, "a_lin3.nc", 200000)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(run_program, modal_blocks, "f_modal.nc", 200000)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(run_program, lin5_blocks, "b_lin5.nc", 200000)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(run_program, arc_blocks, "d_arcs.nc", 200000)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(run_program, loop_iterations, "c_macro.nc", 200000)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(run_program, macro_calls, "e_call.nc", 200000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run_program, line3, "line3.nc", 200000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run_program, line5, "line5.nc", 200000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run_program, arcs, "arcs.nc", 200000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run_program, loop, "loop.nc", 200000)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run_program, calls, "calls.nc", 200000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 
