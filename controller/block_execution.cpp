@@ -30,26 +30,31 @@ constexpr std::uint32_t known_letters =
     0x3FFFFFFU & ~(SortedWords::bit('E') | SortedWords::bit('N') | SortedWords::bit('O'));
 
 /// Two codes of one group: the last one counts, or an alarm (3403#6).
-void add_code(ControlState& c, const GCode* code, int column) {
+void add_code(ControlState& c, const GCode* code, std::uint16_t column) {
     SortedWords& w = c.words;
     if (code->group != ModalGroup::one_shot) {
         for (std::size_t i = 0; i < w.code_count; ++i) {
             if (w.code[i]->group != code->group) continue;
             if (c.settings.duplicates_alarm) raise_alarm(5074, column);
             w.code[i] = code;
+            w.code_column[i] = column;
             w.phases |= phase_bit(code->phase);
             return;
         }
     }
     if (w.code_count == SortedWords::max_codes) raise_alarm(10, column);
+    w.code_column[w.code_count] = column;
     w.code[w.code_count++] = code;
     w.phases |= phase_bit(code->phase);
 }
 
 void drop_cycle(SortedWords& w) {
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < w.code_count; ++i)
-        if (w.code[i]->phase != Phase::cycle) w.code[kept++] = w.code[i];
+    for (std::size_t i = 0; i < w.code_count; ++i) {
+        if (w.code[i]->phase == Phase::cycle) continue;
+        w.code_column[kept] = w.code_column[i];
+        w.code[kept++] = w.code[i];
+    }
     w.code_count = kept;
 }
 
@@ -60,11 +65,13 @@ void add_g(ControlState& c, const WordValue& word) {
     if (c.words.motion && c.settings.duplicates_alarm) raise_alarm(5074, word.column);
     drop_cycle(c.words);  // G81 G0: the cycle is not carried out
     c.words.motion = code;
+    c.words.motion_column = word.column;
 }
 
 void add_m(ControlState& c, const WordValue& word) {
     SortedWords& w = c.words;
     if (w.m_count == SortedWords::max_codes) raise_alarm(9, word.column);
+    w.m_column[w.m_count] = word.column;
     w.m[w.m_count++] = static_cast<int>(word.value + 0.5);
 }
 
@@ -94,11 +101,13 @@ void run_phase(ControlState& c, Phase phase) {
     for (std::size_t i = 0; i < c.words.code_count; ++i) {
         const GCode& code = *c.words.code[i];
         if (code.phase != phase) continue;
+        c.words.running_column = c.words.code_column[i];
         if (code.handler)
             code.handler(c, code);
         else
             c.modal.set(code.group, code.code10);
     }
+    c.words.running_column = 0;
 }
 
 /// G92 S_ limits the speed of G96; S is no spindle command then.
@@ -244,7 +253,9 @@ void sort_words(ControlState& c, const BlockWords& block) {
         raise_alarm(9, w.column[static_cast<std::size_t>(std::countr_zero(strange))]);
 }
 
-void execute_block(ControlState& c, const BlockWords& block) {
+namespace {
+
+void execute(ControlState& c, const BlockWords& block) {
     sort_words(c, block);
     const SortedWords& w = c.words;
     c.moved = false;
@@ -279,6 +290,16 @@ void execute_block(ControlState& c, const BlockWords& block) {
         m_codes_after(c);
         if (c.ended) flush_path(c);
     }
+}
+
+}  // namespace
+
+void execute_block(ControlState& c, const BlockWords& block) try {
+    execute(c, block);
+} catch (Alarm& alarm) {
+    const bool of_this_block = alarm.where.line == 0;  // a held move names its own line
+    if (of_this_block && alarm.where.column == 0) alarm.where.column = c.words.column_at_fault();
+    throw;
 }
 
 }  // namespace trunnion

@@ -17,9 +17,9 @@ double cutting_time(const ControlState& c, double length_mm, const AxisPositions
                     const AxisPositions& to) {
     double wanted = length_mm * c.feed.seconds_per_mm;
     if (c.feed.seconds_per_mm <= 0.0) {
-        if (!c.feed.inverse_time) raise_alarm(11);
+        if (!c.feed.inverse_time) raise_alarm(11, c.words.column_of('F'));
         if (!c.feed.in_block) raise_alarm(1202);
-        if (c.feed.programmed <= 0.0) raise_alarm(11);
+        if (c.feed.programmed <= 0.0) raise_alarm(11, c.words.column_of('F'));
         wanted = 60.0 / c.feed.programmed;
     }
     return std::max(wanted, rapid_time(c.limits, from, to));

@@ -59,7 +59,7 @@ void decode_five_axis(ControlState& c) {
 
 const RotaryTransform& five_axis_transform(const ControlState& c, int otherwise) {
     if (c.five_axis.fault) throw Alarm(*c.five_axis.fault);
-    if (!c.five_axis.transform) raise_alarm(otherwise);
+    if (!c.five_axis.transform) raise_alarm(otherwise, "(No.19680 is 0)");
     return *c.five_axis.transform;
 }
 
@@ -80,7 +80,9 @@ void five_axis_block_begin(const ControlState& c) {
     const SortedWords& w = c.words;
     const bool goes_on =
         w.code_count == 1 && w.code[0]->code10 == c.five_axis.definition_code10 && !w.motion;
-    if (!goes_on) raise_alarm(5457);
+    if (!goes_on)
+        raise_alarm(5457, "(another block within a definition)",
+                    w.code_count != 0 ? w.code_column[0] : 0);
 }
 
 void five_axis_block_end(ControlState& c) {

@@ -1,4 +1,6 @@
 // G54.2 Pn: the dynamic fixture offset in force. It never reads 19680-19714.
+#include <fmt/format.h>
+
 #include "controller/five_axis.h"
 #include "controller/g_codes.h"
 #include "controller/g_handlers.h"
@@ -33,13 +35,13 @@ bool follow_fixture(ControlState& c, const ControlPosition& target) {
 }
 
 void g_fixture_offset(ControlState& c, const GCode& code) {
-    if (c.five_axis.tcp) raise_alarm(5421);
-    if (c.five_axis.plane) raise_alarm(5457, "G54.2 inside a tilted plane");
-    if (!c.words.has('P')) raise_alarm(31);
-    const int p = c.whole_word('P');
-    if (p < 0 || p > static_cast<int>(c.stores.fixture.set.size()))
-        raise_alarm(31, c.words.column_of('P'));
-    c.modal.set(ModalGroup::fixture, code.code10);
+    if (c.five_axis.tcp) raise_alarm(5421, "(G54.2 under it)");
+    if (c.five_axis.plane) raise_alarm(5457, "(G54.2 inside a tilted plane)");
+    const int most = static_cast<int>(c.stores.fixture.set.size());
+    const int p = c.words.has('P') ? c.whole_word('P') : -1;
+    if (p < 0 || p > most)
+        raise_alarm(31, fmt::format("(G54.2: P is 0 to {})", most), c.words.column_of('P'));
+    c.modal.set(ModalGroup::fixture, p == 0 ? 0 : code.code10);
     c.fixture_number = p;
     c.coordinates.fixture = {};
     if (p != 0) turn_fixture(c, c.machine);

@@ -10,7 +10,7 @@ namespace {
 /// (assumed: the part set-up is a table frame).
 void start_management(ControlState& c) {
     const RotaryTransform& transform = five_axis_transform(c, 5420);
-    if (c.fixture_number != 0) raise_alarm(5421, "G54.2 is in force");
+    if (c.fixture_number != 0) raise_alarm(5421, "(G54.2 is in force)");
     cancel_tool_centre(c);
     c.five_axis.by_vector = false;
     c.five_axis.tcp = ToolCentrePoint::start(transform, c.move.from, TcpFrame::rotary_zero,

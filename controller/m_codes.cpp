@@ -113,8 +113,12 @@ bool acts_after(const ControlState& c, int code) {
 }
 
 void run(ControlState& c, bool after) {
-    for (std::size_t i = 0; i < c.words.m_count; ++i)
-        if (acts_after(c, c.words.m[i]) == after) carry_out(c, c.words.m[i]);
+    for (std::size_t i = 0; i < c.words.m_count; ++i) {
+        if (acts_after(c, c.words.m[i]) != after) continue;
+        c.words.running_column = c.words.m_column[i];
+        carry_out(c, c.words.m[i]);
+    }
+    c.words.running_column = 0;
 }
 
 }  // namespace

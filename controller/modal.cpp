@@ -25,7 +25,7 @@ const std::vector<ModalGroupRow>& modal_groups() {
         {ModalGroup::polar_words, 150, "polar coordinate words"},
         {ModalGroup::polar_motion, 131, "polar coordinate interpolation"},
         {ModalGroup::mirror, 501, "programmable mirror image"},
-        {ModalGroup::fixture, 542, "dynamic fixture offset"},
+        {ModalGroup::fixture, 0, "dynamic fixture offset"},
     };
     return rows;
 }
@@ -47,7 +47,9 @@ std::string g_code_text(int code10) {
 
 std::vector<std::string> ModalState::texts() const {
     std::vector<std::string> out;
-    for (const ModalGroupRow& row : modal_groups()) out.push_back(g_code_text((*this)[row.group]));
+    for (const ModalGroupRow& row : modal_groups())
+        if (const int code10 = (*this)[row.group]; code10 != 0 || row.group == ModalGroup::motion)
+            out.push_back(g_code_text(code10));
     return out;
 }
 

@@ -31,7 +31,7 @@ enum class ModalGroup : std::uint8_t {
     polar_words = 17,    // G15 G16
     polar_motion = 21,   // G12.1 G13.1
     mirror = 22,         // G50.1 G51.1
-    fixture = 23,        // G54.2
+    fixture = 23,        // G54.2, 0: P0
 };
 
 constexpr std::size_t modal_group_count = 24;
@@ -53,7 +53,7 @@ struct ModalState {
     }
     bool is(ModalGroup group, int code) const { return (*this)[group] == code; }
 
-    /// "G00", "G17", "G54.1": one for each group, in group order.
+    /// "G00", "G17", "G54.1": one for each group, in group order; G54.2 only while it is in force.
     std::vector<std::string> texts() const;
 };
 

@@ -18,14 +18,17 @@ double xyz_length(const AxisPositions& from, const AxisPositions& to) {
 }
 
 [[noreturn]] void raise_overtravel(const ControlState& c, std::size_t i, const AxisPositions& to) {
-    raise_alarm(to.value[i] > c.limits.max[i] ? 500 : 501, std::string(1, letter_of(all_axes[i])));
+    const char letter = letter_of(all_axes[i]);
+    raise_alarm(to.value[i] > c.limits.max[i] ? 500 : 501, std::string(1, letter),
+                c.words.column_of(letter));
 }
 
 void check_clamps(const ControlState& c, const AxisPositions& to) {
     for (const ClampCode& clamp : c.config.clamps) {
         const std::size_t i = index_of(clamp.axis);
         if (clamp.alarm && c.clamped[i] && to.value[i] != c.move.from.value[i])
-            raise_alarm(9001, std::string(1, letter_of(clamp.axis)));
+            raise_alarm(9001, std::string(1, letter_of(clamp.axis)),
+                        c.words.column_of(letter_of(clamp.axis)));
     }
 }
 

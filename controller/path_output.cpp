@@ -85,7 +85,7 @@ void place_alarm(Alarm& alarm, const BlockMarks& marks) {
     if (alarm.where.line != 0) return;
     if (marks.program) alarm.where.program = *marks.program;
     alarm.where.line = marks.line;
-    alarm.where.column = std::max(1, alarm.where.column);
+    alarm.where.column = 1;  // the words at hand are those of a later block
 }
 
 void send_path(ControlState& c, const PathMove& move, const PlaneElement& way,

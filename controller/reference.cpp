@@ -54,7 +54,8 @@ void g_reference_check(ControlState& c, const GCode&) {
         if (!c.words.has(letter_of(entry.axis))) continue;
         const double off = c.machine[entry.axis] - c.settings.reference[0][index_of(entry.axis)];
         if (off > in_position || off < -in_position)
-            raise_alarm(92, std::string(1, letter_of(entry.axis)));
+            raise_alarm(92, std::string(1, letter_of(entry.axis)),
+                        c.words.column_of(letter_of(entry.axis)));
     }
 }
 

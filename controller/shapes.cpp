@@ -78,7 +78,7 @@ void g_mirror_off(ControlState& c, const GCode& code) {
 }
 
 void g_rotation(ControlState& c, const GCode& code) {
-    if (c.five_axis.plane) raise_alarm(5457);  // G68 inside G68.2 (assumed: not allowed)
+    if (c.five_axis.plane) raise_alarm(5457, "(G68 inside G68.2)");  // assumed
     const PlaneAxes& plane = plane_axes(c.modal);
     Coordinates::PlaneRotation rotation;
     ControlPosition centre = c.program;

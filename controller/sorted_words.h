@@ -24,11 +24,15 @@ struct SortedWords {
 
     static constexpr std::size_t max_codes = 12;
     std::array<const GCode*, max_codes> code{};  ///< all but group 01
+    std::array<std::uint16_t, max_codes> code_column{};
     std::size_t code_count = 0;
-    std::uint32_t phases = 0;       ///< one bit for each phase that has a code
-    const GCode* motion = nullptr;  ///< the last code of group 01 in this block
+    std::uint32_t phases = 0;         ///< one bit for each phase that has a code
+    const GCode* motion = nullptr;    ///< the last code of group 01 in this block
+    std::uint16_t motion_column = 0;  ///< 0: none in this block
     std::array<int, max_codes> m{};
+    std::array<std::uint16_t, max_codes> m_column{};
     std::size_t m_count = 0;
+    std::uint16_t running_column = 0;  ///< of the code that is carried out, 0: the axis words
     int line = 0;
     std::uint64_t byte = 0;
 
@@ -38,13 +42,32 @@ struct SortedWords {
         return has(letter) ? get(letter) : otherwise;
     }
     bool is_bare(char letter) const { return (bare & bit(letter)) != 0; }
-    int column_of(char letter) const { return column[static_cast<std::size_t>(letter - 'A')]; }
+    /// 0 when the block has no such word.
+    int column_of(char letter) const { return column_of_first(bit(letter)); }
+    /// Of the leftmost word with one of these letters (bits as in `present`), 0: none.
+    int column_of_first(std::uint32_t letters) const {
+        int first = 0;
+        for (std::size_t i = 0; i < column.size(); ++i)
+            if ((present & letters & (1U << i)) && (first == 0 || column[i] < first))
+                first = column[i];
+        return first;
+    }
+    /// Where an alarm points that names no word: the code that runs, that of group 01, the axis
+    /// words that it moves, the first word.
+    int column_at_fault() const {
+        for (const int at :
+             {int{running_column}, int{motion_column}, column_of_first(axis_letters)})
+            if (at != 0) return at;
+        if (code_count != 0) return code_column[0];
+        return m_count != 0 ? m_column[0] : column_of_first(~0U);
+    }
     bool has_axis() const { return (present & axis_letters) != 0; }
 
     void clear() {
         present = bare = phases = 0;
         code_count = m_count = 0;
         motion = nullptr;
+        motion_column = running_column = 0;
         corner_radius = corner_chamfer = false;
     }
 };

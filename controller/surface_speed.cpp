@@ -46,7 +46,7 @@ Axis radius_axis(const ControlState& c) {
     const int number = named ? c.whole_word('P') : c.settings.surface_axis_number;
     if (number < 1 || number > static_cast<int>(c.config.axes.size()) ||
         c.config.axes[static_cast<std::size_t>(number - 1)].rotary)
-        raise_alarm(190, named ? c.words.column_of('P') : 0);
+        raise_alarm(190, c.words.column_of('P'));
     return c.config.axes[static_cast<std::size_t>(number - 1)].axis;
 }
 

@@ -42,9 +42,10 @@ PlaneWords plane_words(const ControlState& c) {
 }
 
 void check_plane_may_start(const ControlState& c) {
-    if (c.five_axis.tcp) raise_alarm(5421);
-    if (c.fixture_number != 0) raise_alarm(5457, "G54.2 is in force");
-    if (!c.modal.is(ModalGroup::cutter, 400)) raise_alarm(5457, "cutter compensation is in force");
+    if (c.five_axis.tcp) raise_alarm(5421, "(a tilted plane under it)");
+    if (c.fixture_number != 0) raise_alarm(5457, "(G54.2 is in force)");
+    if (!c.modal.is(ModalGroup::cutter, 400))
+        raise_alarm(5457, "(cutter compensation is in force)");
     if (c.five_axis.fault) throw Alarm(*c.five_axis.fault);
 }
 
@@ -119,15 +120,26 @@ void place_plane(ControlState& c) {
     c.coordinates.length = tool_length_in_plane(c);
 }
 
+namespace {
+
+std::optional<Pose> add_to_plane(ControlState& c) try {
+    return c.five_axis.definition.add(plane_words(c));
+} catch (const PlaneFormatError& error) {
+    raise_alarm(5457, fmt::format("({})", error.what_is_wrong),
+                error.letter == 0 ? 0 : c.words.column_of(error.letter));
+}
+
+}  // namespace
+
 void g_tilted_plane(ControlState& c, const GCode& code) {
     FiveAxisState& five = c.five_axis;
     check_plane_may_start(c);
     const bool on_top = code.code10 == 684;
-    if (on_top && !five.plane) raise_alarm(5457, "G68.4 without G68.2");
+    if (on_top && !five.plane) raise_alarm(5457, "(G68.4 without G68.2)");
     if (!on_top && five.plane) raise_alarm(5456);
     if (on_top && five.plane->nesting >= deepest_nesting) raise_alarm(5456);
     five.definition_code10 = code.code10;
-    const auto pose = five.definition.add(plane_words(c));
+    const auto pose = add_to_plane(c);
     five_axis_changed(c);
     if (!pose) return;
     if (on_top)
@@ -150,7 +162,7 @@ void g_tilted_plane_by_tool(ControlState& c, const GCode&) {
 
 void cancel_tilted_plane(ControlState& c) {
     if (!c.five_axis.plane) return;
-    if (c.five_axis.tcp) raise_alarm(5421);
+    if (c.five_axis.tcp) raise_alarm(5421, "(G69 under it)");
     c.five_axis.plane.reset();
     c.coordinates.feature_MF.reset();
     set_xyz(c.coordinates.local, xyz_of(c.coordinates.plane_local));
@@ -184,10 +196,10 @@ std::string rotary_text(const ControlState& c, const RotarySolution& s) {
 }
 
 /// Both solutions stand in the notes; a program that indexes thousands of times is not repeated.
-void note_solutions(ControlState& c, const RotaryChoice& choice) {
+void note_solutions(ControlState& c, const GCode& code, const RotaryChoice& choice) {
     if (c.result.notes.size() > 200) return;
-    std::string text =
-        "G53.1 line " + std::to_string(c.words.line) + ": " + rotary_text(c, *choice.chosen);
+    std::string text = fmt::format("{} line {}: {}", g_code_text(code.code10), c.words.line,
+                                   rotary_text(c, *choice.chosen));
     for (const RotarySolution& other : choice.all)
         if (!(other == *choice.chosen)) text += ", other solution " + rotary_text(c, other);
     for (const RotarySolution& other : choice.out_of_travel)
@@ -197,19 +209,21 @@ void note_solutions(ControlState& c, const RotaryChoice& choice) {
 
 Branch branch_of(const ControlState& c) {
     const int p = c.words.has('P') ? c.whole_word('P') : 0;
-    if (p < 0 || p > 2) raise_alarm(5458, c.words.column_of('P'));
+    if (p < 0 || p > 2) raise_alarm(5458, "(P is 0, 1 or 2)", c.words.column_of('P'));
     return static_cast<Branch>(p);
 }
 
 /// Rotary positions that put the tool along the feature's Z.
 RotaryChoice tool_axis_choice(ControlState& c) {
-    if (!c.five_axis.plane || c.five_axis.tcp) raise_alarm(5458);
-    if (!c.modal.is(ModalGroup::cutter, 400)) raise_alarm(5458);
+    if (c.five_axis.tcp) raise_alarm(5458, "(tool centre point control is in force)");
+    if (!c.five_axis.plane) raise_alarm(5458, "(no tilted plane is in force)");
+    if (!c.modal.is(ModalGroup::cutter, 400))
+        raise_alarm(5458, "(cutter compensation is in force)");
     const RotaryTransform& transform = five_axis_transform(c, 5458);
     RotaryChoice choice =
         choose_rotaries(transform, c.five_axis.plane->pose_PF.rotation.col(2),
                         transform.rotaries(c.move.from), rotary_travel(c), branch_of(c));
-    if (!choice.chosen) raise_alarm(5458, "no rotary position within travel");
+    if (!choice.chosen) raise_alarm(5458, "(no rotary position within travel)");
     return choice;
 }
 
@@ -224,25 +238,30 @@ ControlPosition with_rotaries(const ControlState& c, const RotarySolution& s) {
     return out;
 }
 
+void refuse_axis_words(const ControlState& c) {
+    if (const int column = c.words.column_of_first(SortedWords::axis_letters))
+        raise_alarm(5458, "(an axis word in its block)", column);
+}
+
 MotionKind turning_kind(const ControlState& c) {
     return c.modal.is(ModalGroup::motion, 10) ? MotionKind::linear : MotionKind::rapid;
 }
 
 }  // namespace
 
-void g_tool_axis(ControlState& c, const GCode&) {
-    if (c.words.has_axis()) raise_alarm(5458);
+void g_tool_axis(ControlState& c, const GCode& code) {
+    refuse_axis_words(c);
     const RotaryChoice choice = tool_axis_choice(c);
-    note_solutions(c, choice);
+    note_solutions(c, code, choice);
     move_machine(c, turning_kind(c), with_rotaries(c, *choice.chosen));
     place_plane(c);
     c.frame_changed();
 }
 
-void g_tool_axis_keeping_tip(ControlState& c, const GCode&) {
-    if (c.words.has_axis()) raise_alarm(5458);
+void g_tool_axis_keeping_tip(ControlState& c, const GCode& code) {
+    refuse_axis_words(c);
     const RotaryChoice choice = tool_axis_choice(c);
-    note_solutions(c, choice);
+    note_solutions(c, code, choice);
     const RotaryTransform& transform = *c.five_axis.transform;
     // The point kept: the tip of tool H (that in force without H), R mm further from the tip.
     Vector3 tool_vector = c.move.tool_vector_mm;

@@ -26,12 +26,13 @@ void orient_tool(ControlState& c, const Vector3& travel_W, AxisPositions& rotari
     const SortedWords& w = c.words;
     const Vector3 vector =
         c.coordinates.linear() * Vector3(w.get('I', 0.0), w.get('J', 0.0), w.get('K', 0.0));
-    if (vector.norm() < 1e-9) raise_alarm(5421);
+    const int column = w.column_of_first(tool_vector_letters);
+    if (vector.norm() < 1e-9) raise_alarm(5421, "(I J K is no direction)", column);
     const Vector3 n_W =
         leaned(tcp.direction_W(vector.normalized()), travel_W, c.five_axis.lean_rad);
     const RotaryChoice choice = choose_rotaries(
         *tcp.transform, n_W, tcp.transform->rotaries(c.move.from), rotary_travel(c));
-    if (!choice.chosen) raise_alarm(5421, "no rotary position for this tool axis");
+    if (!choice.chosen) raise_alarm(5421, "(no rotary position for this tool axis)", column);
     rotaries = tcp.transform->with_rotaries(rotaries, *choice.chosen);
 }
 
@@ -40,10 +41,11 @@ bool turns(const RotaryTransform& transform, const AxisPositions& from, const Ax
 }
 
 void check_tcp_words(const ControlState& c) {
-    const std::uint32_t present = c.words.present;
-    if (c.five_axis.by_vector ? (present & rotary_letters) != 0
-                              : (present & tool_vector_letters) != 0)
-        raise_alarm(5421);
+    const bool by_vector = c.five_axis.by_vector;
+    const int column = c.words.column_of_first(by_vector ? rotary_letters : tool_vector_letters);
+    if (column != 0)
+        raise_alarm(5421, by_vector ? "(a rotary word under G43.5)" : "(I J K under G43.4)",
+                    column);
 }
 
 /// The programmed tip and the axes that carry it there.
@@ -156,7 +158,7 @@ bool move_five_axis_arc(ControlState& c, MotionKind kind, const ControlPosition&
         if (follow_fixture(c, target)) c.coordinates.compile();
         return false;
     }
-    if (c.five_axis.by_vector) raise_alarm(5421, "arc under G43.5");
+    if (c.five_axis.by_vector) raise_alarm(5421, "(an arc under G43.5)");
     const TipTarget tip = tip_target(c, target);
     const ToolCentrePoint& tcp = *c.five_axis.tcp;
     const ArcPath path_W = arc_in_W(c, arc, tip.to);
@@ -189,9 +191,11 @@ void g_tool_centre(ControlState& c, const GCode& code) {
     const RotaryTransform& transform = five_axis_transform(c, 5420);
     FiveAxisState& five = c.five_axis;
     const bool by_vector = code.code10 == 435;
-    if (by_vector && transform.pivot().frame_follows_work) raise_alarm(5459);
-    if (c.fixture_number != 0) raise_alarm(5421, "G54.2 is in force");
-    if (!c.modal.is(ModalGroup::cutter, 400)) raise_alarm(5421, "cutter compensation is in force");
+    if (by_vector && transform.pivot().frame_follows_work)
+        raise_alarm(5459, "(G43.5 with WKP, 19696#5)");
+    if (c.fixture_number != 0) raise_alarm(5421, "(G54.2 is in force)");
+    if (!c.modal.is(ModalGroup::cutter, 400))
+        raise_alarm(5421, "(cutter compensation is in force)");
     if (c.words.has('H')) c.length_number = c.whole_word('H');
     cancel_tool_centre(c);
     const Vector3 tool_vector =

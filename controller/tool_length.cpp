@@ -21,7 +21,7 @@ Axis length_axis(const ControlState& c) {
 
 double tool_length_mm(const ControlState& c, int number) {
     if (number < 0 || number >= static_cast<int>(c.stores.tools.tool.size()))
-        raise_alarm(30, c.words.has('H') ? c.words.column_of('H') : 0);
+        raise_alarm(30, c.words.column_of('H'));
     return number == 0 ? 0.0 : c.stores.tools.tool[static_cast<std::size_t>(number)].length_mm();
 }
 

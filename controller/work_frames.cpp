@@ -1,4 +1,6 @@
 // Work coordinate systems: G54-G59, G54.1, G52, G53, G92, G92.1.
+#include <fmt/format.h>
+
 #include "controller/g_codes.h"
 #include "controller/g_handlers.h"
 #include "controller/moves.h"
@@ -6,15 +8,15 @@
 namespace trunnion {
 
 void g_work_offset(ControlState& c, const GCode& code) {
-    if (c.five_axis.tcp) raise_alarm(5421);
+    if (c.five_axis.tcp) raise_alarm(5421, "(a work offset under it)");
     // G54.1 Pn, and G54 Pn as the same.
     const bool additional =
         code.code10 == 541 || (code.code10 == 540 && c.words.has('P') && !c.words.has('L'));
     if (additional) {
-        if (!c.words.has('P')) raise_alarm(31);
-        const int p = c.whole_word('P');
-        if (p < 1 || p > static_cast<int>(c.stores.work.additional.size()))
-            raise_alarm(31, c.words.column_of('P'));
+        const int most = static_cast<int>(c.stores.work.additional.size());
+        const int p = c.words.has('P') ? c.whole_word('P') : 0;
+        if (p < 1 || p > most)
+            raise_alarm(31, fmt::format("(G54.1: P is 1 to {})", most), c.words.column_of('P'));
         c.work_number = p;
         c.modal.set(ModalGroup::work_offset, 541);
     } else {

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "geometry/alarm.h"
 #include "geometry/pose.h"
 
 namespace trunnion {
@@ -14,11 +15,23 @@ struct PlaneWords {
     std::optional<double> x, y, z, i, j, k, r, p, q;
 };
 
+constexpr const char* plane_format_error_text = "G68.2/G68.3 FORMAT ERROR";
+
+/// Alarm 5457: which address is at fault (0: one that is missing, or the whole block) and why.
+class PlaneFormatError : public Alarm {
+  public:
+    PlaneFormatError(char letter, const char* what_is_wrong)
+        : Alarm(5457, plane_format_error_text), letter(letter), what_is_wrong(what_is_wrong) {}
+
+    char letter;
+    const char* what_is_wrong;
+};
+
 /// Collects the blocks of one definition: P0, P1 and P4 need one block, P2 three or four, P3 two.
 class PlaneDefinition {
   public:
     /// The feature frame seen from the work frame once all its blocks are there; nothing before.
-    /// Throws Alarm 5457 (G68.2 FORMAT ERROR) for a missing address, an unknown P or Q, a block out
+    /// Throws PlaneFormatError for a missing address, an unknown P or Q, a block out
     /// of place, points on one line, vectors that are not square.
     ///   P0: Euler angles I J K about moved axes, in the order of the digits of Q (313: Z-X-Z)
     ///   P1: I about X, J about Y, K about Z of the work frame, in the order of the digits of Q

@@ -162,6 +162,34 @@ TEST_CASE("G68.2 format errors are alarm 5457") {
           }) == 5457);
 }
 
+TEST_CASE("a format error tells the address and what is wrong") {
+    const auto fault = [](std::vector<PlaneWords> blocks) {
+        try {
+            PlaneDefinition plane;
+            for (const PlaneWords& w : blocks) plane.add(w);
+        } catch (const PlaneFormatError& error) {
+            CHECK(error.text == plane_format_error_text);
+            return std::string(1, error.letter == 0 ? '-' : error.letter) + " " +
+                   error.what_is_wrong;
+        }
+        return std::string();
+    };
+    PlaneWords no_q = block(2, 1);
+    no_q.q.reset();
+    CHECK(fault({PlaneWords{}}) == "- I, J and K are missing");
+    CHECK(fault({block(5, 1)}) == "P P is 0 to 4");
+    CHECK(fault({block(2.5, 1)}) == "P P is a whole number");
+    CHECK(fault({block(2, 1)}) == "- a point needs X, Y and Z");
+    CHECK(fault({no_q}) == "- Q is missing");
+    CHECK(fault({block(2, 4)}) == "Q Q of P2 is 0 to 3");
+    CHECK(fault({block(3, 0)}) == "Q Q of P3 is 1 or 2");
+    CHECK(fault({block(3, 1)}) == "I I J K is no direction");
+    CHECK(fault({point(1, 0, 0, 0), point(1, 0, 0, 0)}) == "Q this Q was there before");
+    CHECK(fault({point(1, 0, 0, 0), angles(0, 0, 0)}) == "P P is not that of the block before");
+    CHECK(fault({point(1, 1, 1, 1), point(2, 2, 2, 2), point(3, 3, 3, 3)}) ==
+          "- the three points are on one line");
+}
+
 TEST_CASE("G68.3: Z along the tool, X square to the vertical") {
     const Vector3 tool = Vector3(1, 2, 3).normalized();
     const Pose frame = plane_of_tool(tool, {7, 8, 9}, 0, {});
