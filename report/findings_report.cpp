@@ -16,8 +16,9 @@ const char* name_of(Severity severity) {
 }
 
 std::string line_of(const Finding& f) {
-    return fmt::format("{}:{}:{}: {}: {} [{}]{}\n", f.path, f.line, f.column, name_of(f.severity),
-                       f.text, f.rule, f.remedy.empty() ? "" : " " + f.remedy);
+    return fmt::format("{}:{}:{}: {}: {} [{}]{}\n", printable(f.path), f.line, f.column,
+                       name_of(f.severity), printable(f.text), f.rule,
+                       f.remedy.empty() ? "" : " " + f.remedy);
 }
 
 std::string text_of(const std::vector<Finding>& findings, std::size_t files) {
