@@ -170,7 +170,8 @@ VolumetricMap volumetric_map(const Setup& setup, const std::vector<std::string>&
     for (const AxisGeometry& axis : setup.machine.chain.axes()) map.axes.push_back(axis.axis);
     for (const std::string& name : mapper.names(effect_names)) map.causes.push_back({name});
     std::vector<Vector3> parts;
-    for (const AxisPositions& q : grid_of(setup.machine.chain, options)) {
+    const std::vector<AxisPositions> grid = grid_of(setup.machine.chain, options);
+    for (const AxisPositions& q : grid) {
         VolumetricPoint point = mapper.point(q, parts);
         for (std::size_t i = 0; i < parts.size(); ++i) {
             map.causes[i].largest_mm = std::max(map.causes[i].largest_mm, parts[i].norm());
@@ -178,6 +179,7 @@ VolumetricMap volumetric_map(const Setup& setup, const std::vector<std::string>&
             if (parts[i].norm() > parts[point.worst].norm()) point.worst = i;
         }
         map.points.push_back(point);
+        if (options.go_on && !options.go_on(map.points.size(), grid.size())) break;
     }
     finish(map);
     return map;

@@ -1,6 +1,7 @@
 // Where in the working volume the tool point is off, and by which error.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct VolumetricOptions {
     int grid = 5;              ///< points along each linear axis
     int rotary_grid = 5;       ///< angles of each rotary axis
     double length_mm = 150.0;  ///< tool
+    /// Asked after each pose; false: the map ends there. Empty: the whole grid.
+    std::function<bool(std::size_t done, std::size_t total)> go_on = {};
 };
 
 /// Each axis steps through its limits, ends included (+-200 mm and +-180 degrees where the setup

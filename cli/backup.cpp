@@ -6,6 +6,7 @@
 #include "backup/control_files.h"
 #include "cli/command.h"
 #include "cli/files.h"
+#include "cli/options.h"
 #include "cli/setups.h"
 
 namespace trunnion {
@@ -47,20 +48,21 @@ void add_backup(CLI::App& app, Run& run) {
     command->require_subcommand(1);
 
     CLI::App* load_word = command->add_subcommand("load", "list every value of a backup folder");
-    load_word->add_option("FOLDER", o->a, "backup folder")->required();
+    reads_file(load_word->add_option("FOLDER", o->a, "backup folder"))->required();
     load_word->callback([o, &run] { run = [o] { return load(o->a); }; });
 
     CLI::App* save_word = command->add_subcommand(
         "save", "write the backup FOLDER to OUT with the values of a setup's control in it");
-    save_word->add_option("FOLDER", o->a, "backup folder whose form is kept")->required();
-    save_word->add_option("OUT", o->b, "folder to write")->required();
-    save_word->add_option("--setup", o->setup, "setup file")->required();
+    reads_file(save_word->add_option("FOLDER", o->a, "backup folder whose form is kept"))
+        ->required();
+    writes_file(save_word->add_option("OUT", o->b, "folder to write"))->required();
+    reads_file(save_word->add_option("--setup", o->setup, "setup file"))->required();
     save_word->callback([o, &run] { run = [o] { return save(o->a, o->b, o->setup); }; });
 
     CLI::App* diff_word =
         command->add_subcommand("diff", "values that differ between two backup folders");
-    diff_word->add_option("A", o->a, "backup folder")->required();
-    diff_word->add_option("B", o->b, "backup folder")->required();
+    reads_file(diff_word->add_option("A", o->a, "backup folder"))->required();
+    reads_file(diff_word->add_option("B", o->b, "backup folder"))->required();
     diff_word->callback([o, &run] { run = [o] { return diff(o->a, o->b); }; });
 }
 

@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/files.h"
+#include "cli/options.h"
 #include "cli/setups.h"
 #include "effects/settings.h"
 #include "report/ballbar_report.h"
@@ -74,19 +75,21 @@ void add_ballbar(CLI::App& app, Run& run) {
     const auto o = std::make_shared<BallbarOptions>();
     CLI::App* command = app.add_subcommand(
         "ballbar", "the single-set-up ballbar test: run, identify, compensate, run again");
-    command->add_option("--setup", o->setup, "setup file (default machines/bc_table.toml)");
-    command->add_option("--seed", o->seed, "of the noise (second run: the next one)")
-        ->check(CLI::NonNegativeNumber);
+    reads_file(
+        command->add_option("--setup", o->setup, "setup file (default machines/bc_table.toml)"));
+    command->add_option("--seed", o->seed, "of the noise (second run: the next one)");
     command->add_option("--inject", o->injections, "an effect on the machine, as in trunnion run");
-    command->add_option("--svg", o->svg_folder, "folder for the polar plots");
-    command->add_option("--csv", o->csv, "write the table of errors (CSV)");
-    command->add_option("--readings", o->readings, "write the first run's readings (CSV)");
-    command->add_option("--readings-after", o->readings_after,
-                        "write the readings of the run after compensation (CSV)");
-    command->add_option("--program", o->program,
-                        "only write the NC program of the test for this machine");
-    command->add_option("--kinematic-program", o->kinematic_program,
-                        "only write the NC program of BK1, BK2 and BK4 for this machine");
+    writes_file(command->add_option("--svg", o->svg_folder, "folder for the polar plots"));
+    writes_file(command->add_option("--csv", o->csv, "write the table of errors (CSV)"));
+    writes_file(
+        command->add_option("--readings", o->readings, "write the first run's readings (CSV)"));
+    writes_file(command->add_option("--readings-after", o->readings_after,
+                                    "write the readings of the run after compensation (CSV)"));
+    writes_file(command->add_option("--program", o->program,
+                                    "only write the NC program of the test for this machine"));
+    writes_file(
+        command->add_option("--kinematic-program", o->kinematic_program,
+                            "only write the NC program of BK1, BK2 and BK4 for this machine"));
     command->add_flag("--hurco", o->hurco, "M128 and M129 in the written program");
     command->add_flag("--inside", o->inside,
                       "bar towards the second rotary axis where it lies flat");
@@ -95,12 +98,10 @@ void add_ballbar(CLI::App& app, Run& run) {
                      "X,Y,Z in mm: the pivot really stands this far from its stated place")
         ->delimiter(',')
         ->expected(3);
-    command->add_option("--setup-time", o->times.setup_s, "assumed seconds for one set-up")
-        ->check(CLI::NonNegativeNumber);
-    command
-        ->add_option("--remount-time", o->times.remount_s,
-                     "assumed seconds to move the bar between two tests")
-        ->check(CLI::NonNegativeNumber);
+    not_negative(
+        command->add_option("--setup-time", o->times.setup_s, "assumed seconds for one set-up"));
+    not_negative(command->add_option("--remount-time", o->times.remount_s,
+                                     "assumed seconds to move the bar between two tests"));
     command->add_flag("--json", o->json, "one JSON object on stdout");
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });
 }

@@ -9,6 +9,7 @@
 
 #include "cli/command.h"
 #include "cli/files.h"
+#include "cli/options.h"
 #include "cli/setups.h"
 #include "controller/alarms.h"
 #include "controller/g_codes.h"
@@ -119,15 +120,16 @@ int check(const CheckCommand& c) {
 void add_check(CLI::App& app, Run& run) {
     const auto c = std::make_shared<CheckCommand>();
     CLI::App* command = app.add_subcommand("check", "static findings on programs and folders");
-    command->add_option("PATH", c->paths, "programs and folders")->required();
-    command->add_option("--setup", c->setup, "machine and control (dialect, parameters)");
-    command->add_option("--programs", c->folders, "folders of subprograms");
+    reads_file(command->add_option("PATH", c->paths, "programs and folders"))->required();
+    reads_file(
+        command->add_option("--setup", c->setup, "machine and control (dialect, parameters)"));
+    reads_file(command->add_option("--programs", c->folders, "folders of subprograms"));
     command->add_flag("--run", c->run, "also run them, without devices");
     command->add_option("--max-blocks", c->max_blocks, "limit of a run");
     command->add_option("--format", c->format, "text, json, junit, sarif, github");
     command->add_flag_callback(
         "--json", [c] { c->format = "json"; }, "the same as --format json");
-    command->add_option("--out", c->out, "file for the report");
+    writes_file(command->add_option("--out", c->out, "file for the report"));
     command->callback([c, &run] { run = [c] { return check(*c); }; });
 }
 

@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/long_work.h"
+#include "cli/options.h"
 #include "cli/setups.h"
 #include "emulator/program_folders.h"
 #include "geometry/alarm.h"
@@ -87,7 +88,7 @@ int update(const CompareCommand& c, const Suite& suite) {
     OutputFiles files;
     const auto goldens = updated_goldens(suite, c.reason, open_setup);
     for (const auto& [path, text] : goldens) {
-        std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+        make_folder(std::filesystem::path(path).parent_path().string());
         files.add(path, text);
     }
     files.write();
@@ -145,6 +146,7 @@ int compare(const CompareCommand& c) {
     if (!c.suite.empty() || std::filesystem::is_directory(c.a) ||
         std::filesystem::is_directory(c.b))
         return compare_many(c, like, format);
+    if (!c.shard.empty()) throw InputError("--shard cuts folders and suites, not two programs");
     const CompareReport report = compare_two(c, like);
     put(c.out, format_comparison(report, format));
     return exit_code(report);
@@ -166,12 +168,13 @@ void add_compare(CLI::App& app, Run& run) {
     const auto c = std::make_shared<CompareCommand>();
     CLI::App* command =
         app.add_subcommand("compare", "are two programs (or folders) the same machining?");
-    command->add_option("A", c->a, "older program or folder");
-    command->add_option("B", c->b, "newer program or folder");
-    command->add_option("--suite", c->suite, "suite file: programs x setups x tolerances");
-    command->add_option("--setup", c->setup, "machine and control of both, or of A");
-    command->add_option("--setup-b", c->setup_b, "machine and control of B");
-    command->add_option("--programs", c->program_folders, "folders of subprograms");
+    reads_file(command->add_option("A", c->a, "older program or folder"));
+    reads_file(command->add_option("B", c->b, "newer program or folder"));
+    reads_file(
+        command->add_option("--suite", c->suite, "suite file: programs x setups x tolerances"));
+    reads_file(command->add_option("--setup", c->setup, "machine and control of both, or of A"));
+    reads_file(command->add_option("--setup-b", c->setup_b, "machine and control of B"));
+    reads_file(command->add_option("--programs", c->program_folders, "folders of subprograms"));
     command->add_option("--tol-lin", c->tol_lin_mm, "position tolerance, mm")
         ->capture_default_str();
     command->add_option("--tol-ang", c->tol_ang_deg, "direction tolerance, deg")
@@ -183,7 +186,8 @@ void add_compare(CLI::App& app, Run& run) {
     command->add_option("--by", c->by, "one layer: text, words, blocks, path, axes, effects");
     command->add_option("--format", c->format, "text, json, junit, sarif, github, html");
     command->add_flag("--json", c->json, "the same as --format json");
-    command->add_option("--out", c->out, "file for the report or part ({i}: the shard's number)");
+    writes_file(command->add_option("--out", c->out,
+                                    "file for the report or part ({i}: the shard's number)"));
     command->add_option("--shard", c->shard, "i/n, /n or env: one part of the cases, for 'merge'");
     command->add_option("--threads", c->threads, "default: all cores");
     command->add_option("--max-blocks", c->max_blocks, "stop a program after this many blocks");
@@ -200,11 +204,11 @@ void add_merge(CLI::App& app, Run& run) {
     const auto o = std::make_shared<Options>();
     CLI::App* command =
         app.add_subcommand("merge", "one report from the parts of 'compare --shard'");
-    command->add_option("PART", o->parts, "parts, in any order")->required();
+    reads_file(command->add_option("PART", o->parts, "parts, in any order"))->required();
     command->add_option("--format", o->format, "text, json, junit, sarif, github, html");
     command->add_flag_callback(
         "--json", [o] { o->format = "json"; }, "the same as --format json");
-    command->add_option("--out", o->out, "file for the report");
+    writes_file(command->add_option("--out", o->out, "file for the report"));
     command->callback([o, &run] { run = [o] { return merge(o->parts, o->format, o->out); }; });
 }
 

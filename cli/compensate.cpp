@@ -6,6 +6,7 @@
 #include "analysis/compensation.h"
 #include "cli/command.h"
 #include "cli/files.h"
+#include "cli/options.h"
 #include "cli/program_choice.h"
 #include "cli/setups.h"
 #include "effects/settings.h"
@@ -64,10 +65,12 @@ void add_compensate(CLI::App& app, Run& run) {
     const auto o = std::make_shared<Options>();
     CLI::App* command =
         app.add_subcommand("compensate", "a program that makes up for known errors");
-    command->add_option("PROGRAM", o->program, "program file, or an O number")->required();
-    command->add_option("--setup", o->setup, "setup file with the errors (machines/bc_table.toml)");
-    command->add_option("--out", o->out, "file to write (stdout)");
-    command->add_option("--programs", o->folders, "folder with more programs")
+    reads_file(command->add_option("PROGRAM", o->program, "program file, or an O number"))
+        ->required();
+    reads_file(command->add_option("--setup", o->setup,
+                                   "setup file with the errors (machines/bc_table.toml)"));
+    writes_file(command->add_option("--out", o->out, "file to write (stdout)"));
+    reads_file(command->add_option("--programs", o->folders, "folder with more programs"))
         ->allow_extra_args(false);
     command->add_option("--tol-um", o->tolerance_um, "path tolerance between exact points (0.05)");
     command->add_option("--max-turn-deg", o->largest_turn_deg,

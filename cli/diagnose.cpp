@@ -10,6 +10,8 @@
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/json_output.h"
+#include "cli/long_work.h"
+#include "cli/options.h"
 #include "cli/readings_command.h"
 #include "diagnosis/diagnosis.h"
 #include "report/diagnosis_page.h"
@@ -135,6 +137,19 @@ std::string title_of(const std::vector<std::string>& readings) {
     return fmt::format("{}", fmt::join(readings, " + "));
 }
 
+/// Shows what it works on. Ctrl-C ends it; once the verdict stands only what is planned after it,
+/// `planning` lives then.
+Diagnosis diagnose_watched(const Setup& setup, const ReadingTable& table, DiagnosisOptions how,
+                           std::optional<Interruption>& planning) {
+    Progress progress;
+    how.watch = [&](const char* stage) { progress.stage(stage); };
+    how.plan_on = [&] {
+        if (!planning) planning.emplace();
+        return !Interruption::asked();
+    };
+    return diagnose(setup, table, how);
+}
+
 int diagnose_command(const Options& options) {
     const Setup setup = load_setup_option(options.setup);
     const ReadingTable table = load_readings(options.readings);
@@ -142,7 +157,8 @@ int diagnose_command(const Options& options) {
     if (!options.holdout.empty()) holdout = load_readings(options.holdout);
     DiagnosisOptions how;
     how.holdout = holdout ? &*holdout : nullptr;
-    const Diagnosis result = diagnose(setup, table, how);
+    std::optional<Interruption> planning;
+    const Diagnosis result = diagnose_watched(setup, table, how, planning);
     OutputFiles files;
     if (!options.out.empty()) files.add(options.out, format_setup(result.setup));
     if (!options.html.empty())
@@ -150,6 +166,10 @@ int diagnose_command(const Options& options) {
     if (options.json) files.add("-", to_json(result).dump(1) + "\n");
     files.write();
     if (!options.json) print_report(result);
+    if (planning && Interruption::asked()) {
+        fmt::print(stderr, "trunnion: interrupted: no plan of the next measurement\n");
+        return exit_limit;
+    }
     return options.limit_um && result.excess_um > *options.limit_um ? exit_differs : exit_done;
 }
 
@@ -158,15 +178,16 @@ int diagnose_command(const Options& options) {
 void add_diagnose(CLI::App& app, Run& run) {
     auto* command = app.add_subcommand("diagnose", "the gap between simulation and readings");
     const auto options = std::make_shared<Options>();
-    command
-        ->add_option("readings", options->readings,
-                     "table of readings (CSV); several are joined in this order")
+    reads_file(command->add_option("readings", options->readings,
+                                   "table of readings (CSV); several are joined in this order"))
         ->required();
-    command->add_option("--setup", options->setup, "setup file (TOML)");
-    command->add_option("--holdout", options->holdout, "readings that take no part in the fit");
-    command->add_option("--limit-um", options->limit_um, "exit 1 when the gap is larger");
-    command->add_option("--out", options->out, "setup with the effects added");
-    command->add_option("--html", options->html, "report as one HTML file");
+    reads_file(command->add_option("--setup", options->setup, "setup file (TOML)"));
+    reads_file(command->add_option("--holdout", options->holdout,
+                                   "readings that take no part in the fit"));
+    not_negative(
+        command->add_option("--limit-um", options->limit_um, "exit 1 when the gap is larger"));
+    writes_file(command->add_option("--out", options->out, "setup with the effects added"));
+    writes_file(command->add_option("--html", options->html, "report as one HTML file"));
     command->add_flag("--json", options->json, "result as JSON on stdout");
     command->callback([options, &run] { run = [options] { return diagnose_command(*options); }; });
 }

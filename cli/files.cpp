@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "geometry/alarm.h"
+#include "geometry/text.h"
 
 namespace trunnion {
 
@@ -25,6 +26,7 @@ std::string shipped(const std::string& relative) {
 }
 
 void make_folder(const std::string& path) {
+    if (path.empty()) return;  // the one we are in
     std::error_code error;
     fs::create_directories(path, error);
     if (error) throw InputError("this folder cannot be made: " + error.message(), {path});
@@ -48,7 +50,8 @@ OutputFiles::OutputFiles() = default;
 
 OutputFiles::~OutputFiles() {
     std::error_code ignored;
-    for (const auto& file : growing_) fs::remove(file->part, ignored);
+    for (const auto& file : growing_)
+        if (file->part != file->path) fs::remove(file->part, ignored);
 }
 
 void OutputFiles::add(const std::string& path, std::string text) {
@@ -56,7 +59,11 @@ void OutputFiles::add(const std::string& path, std::string text) {
 }
 
 std::ostream& OutputFiles::open(const std::string& path) {
-    const std::string part = path + ".part";
+    if (path == "-") throw InputError("this output needs a file", {path});
+    if (fs::is_directory(path)) throw InputError("is a folder, not a file", {path});
+    // A device or a pipe takes the text itself: a renamed file would replace it.
+    const bool special = fs::exists(path) && !fs::is_regular_file(path);
+    const std::string part = special ? path : path + ".part";
     growing_.push_back(
         std::make_unique<Growing>(Growing{path, part, std::ofstream(part, std::ios::binary)}));
     if (!growing_.back()->out) throw InputError("cannot be written", {path});
@@ -80,7 +87,7 @@ void OutputFiles::write() {
 }
 
 void print_notes(const std::vector<std::string>& notes) {
-    for (const std::string& note : notes) fmt::print(stderr, "{}\n", note);
+    for (const std::string& note : notes) fmt::print(stderr, "{}\n", printable(note));
 }
 
 }  // namespace trunnion

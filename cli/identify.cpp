@@ -11,6 +11,8 @@
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/json_output.h"
+#include "cli/long_work.h"
+#include "cli/options.h"
 #include "cli/readings_command.h"
 #include "identification/monte_carlo.h"
 
@@ -65,19 +67,33 @@ void print_table(const Identification& result, bool monte_carlo) {
                result.rms_before_um, result.rms_after_um, result.dof);
 }
 
+/// Shows how far it is; Ctrl-C leaves what the repetitions done so far say.
+int repeat(const Setup& setup, const ReadingTable& table, const std::vector<std::string>& effects,
+           const Options& options, Identification& result) {
+    const Interruption interruption;
+    Progress progress;
+    return add_monte_carlo(
+        setup, table, effects, options.runs, options.seed, result, [&](int done) {
+            progress.show([&] { return fmt::format("repetition {} of {}", done, options.runs); });
+            return !Interruption::asked();
+        });
+}
+
 int identify_command(const Options& options) {
     const Setup setup = load_setup_option(options.setup);
     const ReadingTable table = load_readings(options.readings);
     const std::vector<std::string> effects = split_names(options.effects);
     Identification result = identify(setup, table, effects);
-    if (options.runs > 0)
-        add_monte_carlo(setup, table, effects, options.runs, options.seed, result);
+    const int repetitions = options.runs > 0 ? repeat(setup, table, effects, options, result) : 0;
     OutputFiles files;
     if (!options.out.empty()) files.add(options.out, format_setup(result.setup));
     if (options.json) files.add("-", to_json(result).dump(1) + "\n");
     files.write();
-    if (!options.json) print_table(result, options.runs > 0);
-    return exit_done;
+    if (!options.json) print_table(result, repetitions > 1);
+    if (repetitions == options.runs) return exit_done;
+    fmt::print(stderr, "trunnion: interrupted: {} of {} repetitions are done\n", repetitions,
+               options.runs);
+    return exit_limit;
 }
 
 }  // namespace
@@ -85,14 +101,13 @@ int identify_command(const Options& options) {
 void add_identify(CLI::App& app, Run& run) {
     auto* command = app.add_subcommand("identify", "fits effects to readings");
     const auto options = std::make_shared<Options>();
-    command
-        ->add_option("readings", options->readings,
-                     "table of readings (CSV); several are joined in this order")
+    reads_file(command->add_option("readings", options->readings,
+                                   "table of readings (CSV); several are joined in this order"))
         ->required();
-    command->add_option("--setup", options->setup, "setup file (TOML)");
+    reads_file(command->add_option("--setup", options->setup, "setup file (TOML)"));
     command->add_option("--effects", options->effects,
                         "names, comma between; without it those of [model].modelled");
-    command->add_option("--out", options->out, "setup with the values entered");
+    writes_file(command->add_option("--out", options->out, "setup with the values entered"));
     command
         ->add_option("--monte-carlo", options->runs,
                      "also the uncertainty by so many simulated repetitions")

@@ -50,8 +50,13 @@ void Progress::show(const std::function<std::string()>& text) {
     const Clock::time_point now = Clock::now();
     if (now < next_) return;
     next_ = now + std::chrono::milliseconds(200);
+    stage(text());
+}
+
+void Progress::stage(const std::string& text) {
+    if (!terminal_) return;
     shown_ = true;
-    fmt::print(stderr, "{}{}", wipe_line, text());
+    fmt::print(stderr, "{}{}", wipe_line, text);
     std::fflush(stderr);
 }
 

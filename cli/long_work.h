@@ -24,7 +24,7 @@ class Interruption {
 };
 
 /// One line on stderr, written over and over and wiped at the end; nothing where stderr is no
-/// terminal, and nothing in the first half second.
+/// terminal, and no counts in the first half second.
 class Progress {
   public:
     Progress();
@@ -34,6 +34,8 @@ class Progress {
 
     /// `text` is asked for only when it is time to show it.
     void show(const std::function<std::string()>& text);
+    /// The same for work that tells seldom where it is: shown at once.
+    void stage(const std::string& text);
 
   private:
     using Clock = std::chrono::steady_clock;

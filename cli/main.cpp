@@ -5,10 +5,14 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <initializer_list>
+#include <utility>
 
 #include "cli/command.h"
+#include "cli/options.h"
 #include "geometry/alarm.h"
+#include "geometry/text.h"
 
 namespace {
 
@@ -39,14 +43,29 @@ int report_alarm(const Alarm& alarm) {
     return exit_alarm;
 }
 
-int run_guarded(const Run& run) {
+int report_input_error(const InputError& e) {
+    fmt::print(stderr, "{}\n", format_diagnostic(e.where, e.message, e.line_text));
+    return exit_bad_input;
+}
+
+int report_usage_error(const std::string& message) {
+    fmt::print(stderr, "trunnion: {} (trunnion --help lists commands and options)\n",
+               printable(message));
+    return exit_bad_input;
+}
+
+int run_guarded(const CLI::App& app, const Run& run) {
     try {
-        return run();
+        refuse_clashing_files(app);
+        const int code = run();
+        if (std::fflush(stdout) != 0) throw InputError("standard output cannot be written");
+        return code;
     } catch (const InputError& e) {
-        fmt::print(stderr, "{}\n", format_diagnostic(e.where, e.message, e.line_text));
-        return exit_bad_input;
+        return report_input_error(e);
     } catch (const Alarm& alarm) {
         return report_alarm(alarm);
+    } catch (const std::filesystem::filesystem_error& e) {
+        return report_input_error({e.code().message(), {e.path1().string(), 0, 0}});
     } catch (const std::exception& e) {
         fmt::print(stderr, "trunnion: internal error: {}\n", e.what());
         return exit_internal;
@@ -61,13 +80,16 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", TRUNNION_VERSION);
     Run run;
     for (const auto add : commands) add(app, run);
+    check_numbers(app);
+    const auto called = [&](const CLI::App* command) { return command->check_name(argv[1]); };
+    if (argc > 1 && argv[1][0] != '-' && std::as_const(app).get_subcommands(called).empty())
+        return report_usage_error(fmt::format("there is no command '{}'", argv[1]));
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& e) {
         return app.exit(e);
     } catch (const CLI::ParseError& e) {
-        fmt::print(stderr, "trunnion: {} (trunnion --help lists commands and options)\n", e.what());
-        return exit_bad_input;
+        return report_usage_error(e.what());
     }
-    return run_guarded(run);
+    return run_guarded(app, run);
 }

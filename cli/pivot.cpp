@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/files.h"
+#include "cli/options.h"
 #include "cli/setups.h"
 #include "report/pivot_report.h"
 
@@ -44,9 +45,10 @@ void add_pivot(CLI::App& app, Run& run) {
     CLI::App* command = app.add_subcommand(
         "pivot",
         "what mismatched pivot parameters do: four positioning functions, four error maps");
-    command->add_option("--setup", o->setup, "setup file (default machines/bc_table.toml)");
+    reads_file(
+        command->add_option("--setup", o->setup, "setup file (default machines/bc_table.toml)"));
     command->add_option("--seed", o->seed, "of the probe's repeatability");
-    command->add_option("--svg", o->svg_folder, "folder for the pictures");
+    writes_file(command->add_option("--svg", o->svg_folder, "folder for the pictures"));
     command->add_flag("--json", o->json, "one JSON object on stdout");
     command->callback([o, &run] { run = [o] { return run_pivot(*o); }; });
 }

@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/files.h"
+#include "cli/options.h"
 #include "cli/readings_command.h"
 #include "effects/settings.h"
 #include "emulator/replay.h"
@@ -30,8 +31,9 @@ int predict(const Options& options) {
 void add_predict(CLI::App& app, Run& run) {
     auto* command = app.add_subcommand("predict", "what the emulator reads at these positions");
     const auto options = std::make_shared<Options>();
-    command->add_option("readings", options->readings, "table of readings (CSV)")->required();
-    command->add_option("--setup", options->setup, "setup file (TOML)");
+    reads_file(command->add_option("readings", options->readings, "table of readings (CSV)"))
+        ->required();
+    reads_file(command->add_option("--setup", options->setup, "setup file (TOML)"));
     command->add_option("--inject", options->inject, "switch an effect on: 'C.backlash=60urad'");
     command->callback([options, &run] { run = [options] { return predict(*options); }; });
 }

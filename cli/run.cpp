@@ -7,6 +7,7 @@
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/long_work.h"
+#include "cli/options.h"
 #include "cli/program_choice.h"
 #include "cli/setups.h"
 #include "effects/settings.h"
@@ -60,6 +61,9 @@ std::vector<int> parse_variables(const std::string& text) {
         const int last = dash == std::string::npos
                              ? first
                              : whole(without_hash(part.substr(dash + 1)), "--vars");
+        if (last < first)
+            throw InputError(
+                fmt::format("--vars: '{}' runs backwards, say {}-{}", part, last, first));
         for (int n = first; n <= last; ++n) numbers.push_back(n);
         i = end + 1;
     }
@@ -121,8 +125,6 @@ RunLog run_watched(const Setup& setup, ProgramAndFolders& program, RunOptions op
 }
 
 int run_command(const Options& o) {
-    if (o.trace_step_mm < 0.0) throw InputError("--trace-step: a length above zero is needed");
-    if (o.trace_chord_mm < 0.0) throw InputError("--trace-chord: a length above zero is needed");
     if ((o.truth || o.trace_step_mm > 0.0 || o.trace_chord_mm > 0.0) && o.trace.empty())
         throw InputError("--truth, --trace-step and --trace-chord belong to --trace FILE");
     const Setup setup = setup_of(o);
@@ -149,20 +151,26 @@ int run_command(const Options& o) {
 void add_run(CLI::App& app, Run& run) {
     const auto o = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("run", "run an NC program on the emulated machine");
-    command->add_option("PROGRAM", o->program, "program file, or an O number")->required();
-    command->add_option("--setup", o->setup, "setup file (machines/bc_table.toml)");
-    command->add_option("--programs", o->folders, "folder with more programs")
+    reads_file(command->add_option("PROGRAM", o->program, "program file, or an O number"))
+        ->required();
+    reads_file(command->add_option("--setup", o->setup, "setup file (machines/bc_table.toml)"));
+    reads_file(command->add_option("--programs", o->folders, "folder with more programs"))
         ->allow_extra_args(false);
-    command->add_option("--control", o->control,
-                        "a real control's backup folder, put over the setup");
+    reads_file(command->add_option("--control", o->control,
+                                   "a real control's backup folder, put over the setup"));
     command->add_option("--seed", o->seed, "seed of the devices' noise (1)");
-    command->add_option("--trace", o->trace, "CSV with a row for each move");
-    command->add_option("--trace-step", o->trace_step_mm, "also a SAMPLE row every so many mm");
-    command->add_option("--trace-chord", o->trace_chord_mm,
-                        "also SAMPLE rows that follow arcs and G43.4 within so many mm");
+    writes_file(command->add_option("--trace", o->trace, "CSV with a row for each move"));
+    // A move is sampled as a whole: finer than this fills the memory and tells nothing.
+    command->add_option("--trace-step", o->trace_step_mm, "also a SAMPLE row every so many mm")
+        ->check(CLI::Range(1e-3, 1e6, "0.001 to 1e6"));
+    command
+        ->add_option("--trace-chord", o->trace_chord_mm,
+                     "also SAMPLE rows that follow arcs and G43.4 within so many mm")
+        ->check(CLI::Range(1e-6, 1e6, "1e-6 to 1e6"));
     command->add_flag("--truth", o->truth, "also where the physical tip was");
-    command->add_option("--readings", o->readings, "CSV of what probe and ballbar read");
-    command->add_option("--print", o->print, "file for what DPRNT prints");
+    writes_file(
+        command->add_option("--readings", o->readings, "CSV of what probe and ballbar read"));
+    writes_file(command->add_option("--print", o->print, "file for what DPRNT prints"));
     command->add_option("--set", o->sets, "variable before the run, '#100=3.5'")
         ->allow_extra_args(false);
     command->add_option("--vars", o->variables, "variables to report, 100-149,500");

@@ -6,6 +6,8 @@
 
 #include "cli/command.h"
 #include "cli/files.h"
+#include "cli/long_work.h"
+#include "cli/options.h"
 #include "cli/setups.h"
 #include "effects/settings.h"
 #include "geometry/alarm.h"
@@ -31,6 +33,17 @@ void check_size(const Setup& setup, const VolumetricOptions& options) {
                                      poses, most_poses));
 }
 
+/// Shows how far it is; Ctrl-C ends the map with the poses that are done.
+VolumetricMap watched_map(const Setup& setup, const std::vector<std::string>& names,
+                          VolumetricOptions options) {
+    Progress progress;
+    options.go_on = [&](std::size_t done, std::size_t total) {
+        progress.show([&] { return fmt::format("{} of {} poses", done, total); });
+        return !Interruption::asked();
+    };
+    return volumetric_map(setup, names, active_models(setup), options);
+}
+
 int run_command(const Options& o) {
     if (o.map.grid < 2 || o.map.grid > 50) throw InputError("--grid: 2 to 50 points along an axis");
     if (o.map.rotary_grid < 1 || o.map.rotary_grid > 72)
@@ -39,16 +52,21 @@ int run_command(const Options& o) {
     check_size(setup, o.map);
     std::vector<std::string> names;
     for (const EffectSetting& effect : setup.effects) names.push_back(effect.name);
-    const VolumetricMap map = volumetric_map(setup, names, active_models(setup), o.map);
+    const Interruption interruption;
+    const VolumetricMap map = watched_map(setup, names, o.map);
+    const bool whole = !Interruption::asked();
     OutputFiles files;
     if (!o.csv.empty()) files.add(o.csv, volumetric_csv(map));
-    if (!o.svg.empty()) {
-        std::filesystem::create_directories(o.svg);
+    if (!o.svg.empty() && whole) {
+        make_folder(o.svg);
         for (auto& [name, text] : volumetric_pictures(map)) files.add(o.svg + '/' + name, text);
     }
     files.write();
     if (o.csv != "-") fmt::print("{}", volumetric_text(map));
-    return exit_done;
+    if (whole) return exit_done;
+    fmt::print(stderr, "trunnion: interrupted: these are the first {} poses of the grid{}\n",
+               map.points.size(), o.svg.empty() ? "" : ", without pictures");
+    return exit_limit;
 }
 
 }  // namespace
@@ -57,14 +75,14 @@ void add_volumetric(CLI::App& app, Run& run) {
     const auto o = std::make_shared<Options>();
     CLI::App* command =
         app.add_subcommand("volumetric", "tool point errors over the working volume");
-    command->add_option("--setup", o->setup, "setup file (machines/bc_table.toml)");
+    reads_file(command->add_option("--setup", o->setup, "setup file (machines/bc_table.toml)"));
     command->add_option("--grid", o->map.grid, "points along each linear axis (5)");
     command->add_option("--rotary-grid", o->map.rotary_grid,
                         "angles of each rotary axis (5; 1: at zero)");
     command->add_option("--length", o->map.length_mm, "tool length in mm (150)");
-    command->add_option("--csv", o->csv, "every pose with its error");
-    command->add_option("--svg", o->svg,
-                        "folder for pictures: one for each height, one of the axes");
+    writes_file(command->add_option("--csv", o->csv, "every pose with its error"));
+    writes_file(command->add_option("--svg", o->svg,
+                                    "folder for pictures: one for each height, one of the axes"));
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });
 }
 

@@ -23,17 +23,21 @@ Diagnoser::Diagnoser(const Setup& setup, const ReadingTable& table, const Diagno
 
 Diagnosis Diagnoser::run() {
     start_noise();
+    watch("sensitivities of all effects");
     build_design();
     drop_outliers();
+    watch("search among sets of effects");
     set_ = best_set();
     refine_noise();
     refine_set();
     for (int pass = 0; pass < 3 && relinearise(); ++pass) {
     }
     prune();
+    watch("what else it may be");
     add_alternatives();
     settle();
     finish_keys();
+    watch("held-out readings");
     judge();
     return std::move(result_);
 }

@@ -27,6 +27,10 @@ class Diagnoser {
     void refuse_poor_tables() const;
     void refuse_poor_holdout(const ReadingTable& table) const;
 
+    void watch(const char* stage) const {
+        if (options_.watch) options_.watch(stage);
+    }
+
     void start_noise();
 
     void rewhiten();

@@ -2,6 +2,7 @@
 // shrinks.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -68,6 +69,10 @@ struct DiagnosisOptions {
     const ReadingTable* holdout = nullptr;
     bool plan_next = true;
     std::uint64_t seed = 1;
+    /// Told what is worked on now; empty: nobody looks on.
+    std::function<void(const char* stage)> watch = {};
+    /// Asked while the next measurement is planned, when the verdict stands: false ends the plan.
+    std::function<bool()> plan_on = {};
 };
 
 /// Throws InputError on readings that allow no verdict.

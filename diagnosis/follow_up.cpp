@@ -28,7 +28,9 @@ void Diagnoser::ask_next() {
             }
         at += claimed.size();
     }
-    result_.next = plan_next(*design_, base_, catalogue_, pairs, table_.rows.back().time_s);
+    watch("the next measurement (Ctrl-C: the verdict without it)");
+    result_.next =
+        plan_next(*design_, base_, catalogue_, pairs, table_.rows.back().time_s, options_.plan_on);
 }
 
 void Diagnoser::test_holdout() {

@@ -149,13 +149,20 @@ NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& l
 
 std::vector<NextMeasurement> plan_next(const Design& design, const BaseModel& base,
                                        const Catalogue& catalogue,
-                                       const std::vector<AmbiguousPair>& pairs, double end_s) {
+                                       const std::vector<AmbiguousPair>& pairs, double end_s,
+                                       const std::function<bool()>& go_on) {
+    const auto stopped = [&] { return go_on && !go_on(); };
     std::vector<NextMeasurement> plan;
     if (pairs.empty()) return plan;
     std::vector<Worked> list;
-    for (Measurement& m : ready_measurements(base.setup, end_s + 600.0))
+    for (Measurement& m : ready_measurements(base.setup, end_s + 600.0)) {
+        if (stopped()) return plan;
         list.push_back(work_out(std::move(m), base.setup, catalogue, base.setup.model.modelled));
-    for (const AmbiguousPair& pair : pairs) plan.push_back(best_for(pair, list, design, base));
+    }
+    for (const AmbiguousPair& pair : pairs) {
+        if (stopped()) break;
+        plan.push_back(best_for(pair, list, design, base));
+    }
     std::stable_sort(plan.begin(), plan.end(),
                      [](const NextMeasurement& a, const NextMeasurement& b) {
                          return a.log_bayes_factor > b.log_bayes_factor;

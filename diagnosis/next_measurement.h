@@ -15,9 +15,11 @@ struct AmbiguousPair {
 
 /// For each pair the ready measurement with the largest predicted discrimination a minute: half the
 /// chi-squared that the rival, refitted with the base on old and new rows together, cannot follow,
-/// beyond what it cannot follow already. Pairs that no measurement separates say so.
+/// beyond what it cannot follow already. Pairs that no measurement separates say so. `go_on` is
+/// asked between its steps: false ends it with the pairs that are done.
 std::vector<NextMeasurement> plan_next(const Design& design, const BaseModel& base,
                                        const Catalogue& catalogue,
-                                       const std::vector<AmbiguousPair>& pairs, double end_s);
+                                       const std::vector<AmbiguousPair>& pairs, double end_s,
+                                       const std::function<bool()>& go_on);
 
 }  // namespace trunnion

@@ -2,8 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <utility>
 
+#include "emulator/toml_reader.h"
 #include "geometry/alarm.h"
 #include "geometry/units.h"
 
@@ -65,15 +70,11 @@ class Scanner {
         const double value = std::strtod(text_.c_str() + at_, &end);
         const auto stop = static_cast<std::size_t>(end - text_.c_str());
         if (stop == at_) fail("a number is missing");
-        at_ = stop;
-        const std::size_t before = at_;
-        const std::string name = word();
-        if (name.empty() || name == unit) return value;
-        for (const Unit& u : units)
-            if (name == u.name && unit == u.base) return value * u.factor;
-        if (name == "deg" && unit == "rad") return rad_from_deg(value);
-        at_ = before;
-        fail("unit '" + name + "' does not fit a parameter in " + unit);
+        const std::size_t start = std::exchange(at_, stop);
+        const double in_unit = value * factor_of_unit(unit);
+        if (std::isfinite(in_unit)) return in_unit;
+        at_ = start;
+        fail("this is not a finite number");
     }
     std::vector<double> numbers(const std::string& unit) {
         if (!take('[')) return {number(unit)};
@@ -86,6 +87,18 @@ class Scanner {
     [[noreturn]] void fail(const std::string& message) const { refuse(message, text_, at_); }
 
   private:
+    /// The unit that follows a number, in that of the parameter.
+    double factor_of_unit(const std::string& unit) {
+        const std::size_t before = at_;
+        const std::string name = word();
+        if (name.empty() || name == unit) return 1.0;
+        for (const Unit& u : units)
+            if (name == u.name && unit == u.base) return u.factor;
+        if (name == "deg" && unit == "rad") return rad_from_deg(1.0);
+        at_ = before;
+        fail("unit '" + name + "' does not fit a parameter in " + unit);
+    }
+
     const std::string& text_;
     std::size_t at_ = 0;
 };
@@ -118,7 +131,11 @@ EffectSetting parse_injection(const std::string& text, const Catalogue& catalogu
         } while (scan.take(','));
     }
     if (!scan.done()) scan.fail("this is not understood");
-    values_of(*effect, setting);
+    try {
+        values_of(*effect, setting);
+    } catch (const InputError& error) {
+        refuse(error.message, text, 0);
+    }
     return setting;
 }
 
@@ -155,6 +172,33 @@ EffectSetting setting_of(const Effect& effect, const std::vector<double>& values
     return setting;
 }
 
+namespace {
+
+/// The file that the setup came from tells where the setting stands in it.
+[[noreturn]] void refuse_setting(const Setup& setup, const EffectSetting& setting,
+                                 const std::string& parameter, const std::string& message) {
+    std::ostringstream text;
+    text << std::ifstream(setup.path, std::ios::binary).rdbuf();
+    const TomlFile file(text.str(), setup.path);
+    const TomlValue* effects = file.root().find("effects");
+    const TomlValue* effect = effects ? effects->find(setting.name) : nullptr;
+    const TomlValue* value = effect ? effect->find(parameter) : nullptr;
+    if (value) file.fail(*value, message);
+    if (effect) file.fail(*effect, message);
+    throw InputError("[effects]: " + message, {setup.path, 0, 0});
+}
+
+/// Each parameter alone, for its place.
+void check_parameters(const Setup& setup, const Effect& effect, const EffectSetting& setting) {
+    for (const auto& parameter : setting.parameters) try {
+            values_of(effect, {setting.name, {parameter}});
+        } catch (const InputError& error) {
+            refuse_setting(setup, setting, parameter.first, error.message);
+        }
+}
+
+}  // namespace
+
 EffectModels active_models(const Setup& setup) {
     EffectModels models;
     if (setup.effects.empty()) return models;
@@ -162,8 +206,8 @@ EffectModels active_models(const Setup& setup) {
     for (const EffectSetting& setting : setup.effects) {
         const Effect* effect = find_effect(catalogue, setting.name);
         if (!effect)
-            throw InputError("[effects]: no effect is named '" + setting.name + "'",
-                             {setup.path, 0, 0});
+            refuse_setting(setup, setting, "", "no effect is named '" + setting.name + "'");
+        check_parameters(setup, *effect, setting);
         models.push_back(make_model(*effect, values_of(*effect, setting)));
     }
     return models;

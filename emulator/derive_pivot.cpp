@@ -81,9 +81,12 @@ std::string derive_pivot_parameters(const Machine& machine, Parameters& paramete
     if (table.size() + tool.size() != 2) return "the machine has not two rotary axes";
     if (rotary_carries_linear(machine.chain.work) || rotary_carries_linear(machine.chain.tool))
         return "a rotary axis carries a linear one";
+    const PivotParameters pivot = pivot_of(table, tool);
+    if (pivot.first.line.cross(pivot.second.line).norm() < 0.01)
+        return "its two rotary axes are parallel: they turn the tool to no other side";
     Parameters derived;
     try {
-        encode_pivot(pivot_of(table, tool), derived, control_order(machine));
+        encode_pivot(pivot, derived, control_order(machine));
     } catch (const InputError& error) {
         return error.message;
     }

@@ -11,7 +11,7 @@ namespace {
 int whole_number(const TomlFile& file, const std::string& key, const TomlValue& value, int lowest,
                  int highest, const char* what) {
     const auto n = parse_number(key);
-    if (!n || *n != static_cast<int>(*n) || *n < lowest || *n > highest)
+    if (!n || *n < lowest || *n > highest || *n != static_cast<int>(*n))
         file.fail(value, "'" + key + "' is not " + what);
     return static_cast<int>(*n);
 }
@@ -83,7 +83,7 @@ double parameter_value(const TomlFile& file, const TomlValue& value) {
 }
 
 int axis_number(const std::string& key, const Chain& chain) {
-    if (const auto n = parse_number(key)) return static_cast<int>(*n);
+    if (const auto n = parse_number(key)) return *n >= 1 && *n <= 99 ? static_cast<int>(*n) : 0;
     int number = 0;
     for (const AxisGeometry& axis : chain.axes()) {
         ++number;

@@ -19,7 +19,10 @@ ExtensionErrors read_extensions(const TomlFile& file, const TomlValue& table) {
 
 void read_probe(const TomlFile& file, const TomlValue& table, Setup& setup) {
     ProbeSettings probe;
-    probe.tool = static_cast<int>(file.find_number(file.table(table), "tool").value_or(0.0));
+    const double tool = file.find_number(file.table(table), "tool").value_or(0.0);
+    if (tool < 0 || tool > 99999999 || tool != static_cast<int>(tool))
+        file.fail(*table.find("tool"), "a tool number is expected here");
+    probe.tool = static_cast<int>(tool);
     if (const TomlValue* tip = table.find("tip_mm")) probe.tip_S_mm = file.vector3(*tip);
     if (const TomlValue* ball = table.find("ball_diameter_mm"))
         probe.ball_diameter_mm = file.positive(*ball);

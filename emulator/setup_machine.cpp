@@ -1,4 +1,6 @@
 // [machine]: chain, axes and geometric errors of a setup file.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "emulator/setup_reader.h"
@@ -61,6 +63,26 @@ void read_axes(const TomlFile& file, const TomlValue& axes, Setup& setup) {
         AxisGeometry* axis = find_axis(setup.machine.chain, letter);
         if (!axis) file.fail(value, "axis " + letter + " does not stand in the chain");
         read_axis(file, file.table(value), *axis, setup.machine.errors.axis[index_of(axis->axis)]);
+    }
+}
+
+/// X, Y and Z reach every point: none of them lies along another or in the plane of the two.
+void check_linear_axes(const TomlFile& file, const TomlValue& axes, const Chain& chain) {
+    constexpr double least_sine = 0.01;
+    Matrix3 span = Matrix3::Zero();
+    Eigen::Index rank = 0;
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+        const AxisGeometry* geometry = chain.find(axis);
+        if (!geometry) continue;
+        Vector3 apart = geometry->direction;
+        for (Eigen::Index k = 0; k < rank; ++k) apart -= apart.dot(span.col(k)) * span.col(k);
+        const TomlValue* table = axes.find(std::string(1, letter_of(axis)));
+        if (apart.norm() < least_sine)
+            file.fail(table ? *table : axes,
+                      fmt::format("axis {} moves only where the linear axes before it do: "
+                                  "directions of X, Y and Z in one plane",
+                                  letter_of(axis)));
+        span.col(rank++) = apart.normalized();
     }
 }
 
@@ -141,7 +163,10 @@ void read_machine(const TomlFile& file, const TomlValue& machine, Setup& setup) 
     }
     const TomlValue* axes = machine.find("axis");
     check_axes(file, *chain, axes, setup.machine.chain);
-    if (axes) read_axes(file, *axes, setup);
+    if (axes) {
+        read_axes(file, *axes, setup);
+        check_linear_axes(file, *axes, setup.machine.chain);
+    }
     if (const TomlValue* errors = machine.find("errors"))
         read_machine_errors(file, file.table(*errors), setup);
 }

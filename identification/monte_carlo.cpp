@@ -22,28 +22,32 @@ ReadingTable noisy(const ReadingTable& exact, const Replay& replay, const RowNoi
 
 }  // namespace
 
-void add_monte_carlo(const Setup& setup, const ReadingTable& table,
-                     const std::vector<std::string>& effects, int runs, std::uint64_t seed,
-                     Identification& fitted) {
+int add_monte_carlo(const Setup& setup, const ReadingTable& table,
+                    const std::vector<std::string>& effects, int runs, std::uint64_t seed,
+                    Identification& fitted, const std::function<bool(int done)>& go_on) {
     const ReadingTable exact = predicted(fitted.setup, table, active_models(fitted.setup));
     const Replay replay(setup, table);
     const RowNoise noise = row_noise(setup, table, replay);
     const std::size_t count = fitted.parameters.size();
     std::vector<double> sum(count, 0.0), square(count, 0.0);
     SeededNoise random(seed);
-    for (int run = 0; run < runs; ++run) {
+    int done = 0;
+    for (bool more = true; more && done < runs; more = !go_on || go_on(done)) {
         const Identification again = identify(setup, noisy(exact, replay, noise, random), effects);
         for (std::size_t k = 0; k < count; ++k) {
             const double off = again.parameters[k].value - fitted.parameters[k].value;
             sum[k] += off;
             square[k] += off * off;
         }
+        ++done;
     }
+    if (done < 2) return done;
     for (std::size_t k = 0; k < count; ++k)
         fitted.parameters[k].sigma_monte_carlo =
             std::isfinite(fitted.parameters[k].sigma)
-                ? std::sqrt(std::max(0.0, (square[k] - sum[k] * sum[k] / runs) / (runs - 1)))
+                ? std::sqrt(std::max(0.0, (square[k] - sum[k] * sum[k] / done) / (done - 1)))
                 : std::numeric_limits<double>::quiet_NaN();
+    return done;
 }
 
 }  // namespace trunnion

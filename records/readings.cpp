@@ -1,6 +1,7 @@
 #include "records/readings.h"
 
 #include <array>
+#include <cmath>
 #include <functional>
 
 #include "geometry/alarm.h"
@@ -105,7 +106,8 @@ void store_mode(Reading& row, const Line& line, const Cell& cell) {
 
 void store_index(Reading& row, const Line& line, const Cell& cell) {
     const double value = number_of(line, cell, "index");
-    if (value != static_cast<int>(value)) line.fail("index is a whole number", cell.column);
+    if (std::abs(value) > 2e9 || value != static_cast<int>(value))
+        line.fail("index is a whole number", cell.column);
     row.index = static_cast<int>(value);
 }
 

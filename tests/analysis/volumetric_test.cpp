@@ -28,6 +28,19 @@ TEST_CASE("a volumetric map finds the place and the error that dominates") {
     CHECK(sum == Approx(1.0));
 }
 
+TEST_CASE("a map that is stopped holds the poses that are done") {
+    std::vector<std::string> notes;
+    Setup setup = load_setup(TRUNNION_SOURCE_DIR "/machines/ac_trunnion.toml", notes);
+    VolumetricOptions options;
+    options.go_on = [](std::size_t done, std::size_t total) {
+        CHECK(total == 5 * 5 * 5 * 5 * 5);
+        return done < 7;
+    };
+    const VolumetricMap map = volumetric_map(setup, {}, {}, options);
+    CHECK(map.points.size() == 7);
+    CHECK(map.rms_mm > 0.0);
+}
+
 TEST_CASE("contributions add up to the whole error of a five-axis machine") {
     std::vector<std::string> notes;
     const Setup setup = load_setup(TRUNNION_SOURCE_DIR "/machines/ac_trunnion.toml", notes);

@@ -31,8 +31,18 @@ struct CommandBench {
     }
     /// Exit code; stdout in out.txt, stderr in err.txt.
     int trunnion(const std::string& words) const {
-        const std::string command = std::string(TRUNNION_BINARY_DIR) + "/bin/trunnion " + words +
-                                    " >" + file("out.txt") + " 2>" + file("err.txt");
-        return WEXITSTATUS(std::system(command.c_str()));
+        return WEXITSTATUS(std::system(command(words).c_str()));
+    }
+    /// The same when it is asked to end after two seconds. A shell's job in the background ignores
+    /// Ctrl-C (SIGINT); SIGTERM does the same.
+    int interrupted(const std::string& words) const {
+        const std::string job = command(words) + " & job=$!; sleep 2; kill -TERM $job; wait $job";
+        return WEXITSTATUS(std::system(job.c_str()));
+    }
+
+  private:
+    std::string command(const std::string& words) const {
+        return std::string(TRUNNION_BINARY_DIR) + "/bin/trunnion " + words + " >" +
+               file("out.txt") + " 2>" + file("err.txt");
     }
 };

@@ -186,6 +186,20 @@ TEST_CASE("several tables are read as one") {
     CHECK_THAT(bench.read("err.txt"), Catch::Contains("given twice"));
 }
 
+TEST_CASE("repetitions that are interrupted count as far as they are done") {
+    const Bench bench;
+    const Good good;
+    const std::string table = bench.write("table.csv", text_of(good.lines));
+    const std::string setup = bench.write("setup.toml", format_setup(good.setup));
+    CHECK(bench.interrupted("identify " + table + " --setup " + setup +
+                            " --monte-carlo 100000 --json --out " + bench.file("x.toml")) == 4);
+    const Json first = Json::parse(bench.read("out.txt"))["parameters"][0];
+    CHECK(first["sigma_monte_carlo"].get<double>() > 0.0);
+    CHECK(fs::exists(bench.file("x.toml")));
+    CHECK_THAT(bench.read("err.txt"),
+               Catch::Contains("of 100000 repetitions are done") && !Catch::Contains("\r"));
+}
+
 TEST_CASE("injections are refused with one message") {
     const Bench bench;
     bench.write("t.nc", "O1\nM30\n");

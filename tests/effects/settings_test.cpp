@@ -54,11 +54,19 @@ TEST_CASE("injections with names, vectors and units", "[effects]") {
 
 TEST_CASE("injections that mean nothing are refused with their place", "[effects]") {
     const Catalogue catalogue = make_catalogue(campaign::bc_setup());
-    for (const char* text : {"C.wobble=3", "C.backlash: gap=3", "C.backlash=", "C.backlash=3 um",
-                             "C.backlash: gap_rad", "C.backlash=1e-5 rest", "",
-                             "pivot.g54: dg_mm=[1, 2]", "A.backlash=1urad"}) {
+    for (const char* text :
+         {"C.wobble=3", "C.backlash: gap=3", "C.backlash=", "C.backlash=3 um",
+          "C.backlash: gap_rad", "C.backlash=1e-5 rest", "", "pivot.g54: dg_mm=[1, 2]",
+          "A.backlash=1urad", "C.backlash=nan", "C.backlash=infurad", "X.backlash=1e308m"}) {
         INFO(text);
-        REQUIRE_THROWS_AS(parse_injection(text, catalogue), InputError);
+        try {
+            parse_injection(text, catalogue);
+            FAIL("taken");
+        } catch (const InputError& error) {
+            CHECK(error.where.program == "--inject");
+            CHECK(error.where.column > 0);
+            CHECK(error.line_text == text);
+        }
     }
 }
 

@@ -49,6 +49,13 @@ TEST_CASE("simulated repetitions scatter as the covariance says", "[identificati
     add_monte_carlo(setup, readings, {}, 60, 5, a);
     add_monte_carlo(setup, readings, {}, 60, 5, b);
     add_monte_carlo(setup, readings, {}, 60, 6, c);
+    Identification cut = a, few = a, short_run = a;
+    const auto until = [](int last) { return [last](int done) { return done < last; }; };
+    CHECK(add_monte_carlo(setup, readings, {}, 60, 5, cut, until(9)) == 9);
+    CHECK(add_monte_carlo(setup, readings, {}, 9, 5, few) == 9);
+    CHECK(cut.parameters[0].sigma_monte_carlo == few.parameters[0].sigma_monte_carlo);
+    CHECK(add_monte_carlo(setup, readings, {}, 60, 5, short_run, until(1)) == 1);
+    CHECK(short_run.parameters[0].sigma_monte_carlo == a.parameters[0].sigma_monte_carlo);
     for (std::size_t k = 0; k < a.parameters.size(); ++k) {
         INFO(a.parameters[k].name);
         CHECK(a.parameters[k].sigma_monte_carlo == b.parameters[k].sigma_monte_carlo);

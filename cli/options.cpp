@@ -1,0 +1,110 @@
+#include "cli/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdint>
+#include <filesystem>
+
+#include "geometry/alarm.h"
+#include "geometry/numbers.h"
+
+namespace trunnion {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* read_type = "FILE";
+constexpr const char* written_type = "OUTFILE";
+
+std::string finite_number(const std::string& text) {
+    return parse_number(text) ? "" : "'" + text + "' is not a finite number";
+}
+
+std::string count(const std::string& text) {
+    std::uint64_t value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, fault] = std::from_chars(text.data(), end, value);
+    return fault == std::errc{} && stop == end ? "" : "'" + text + "' is not 0, 1, 2, ...";
+}
+
+struct NamedFile {
+    std::string option, text;
+    fs::path path;
+    bool written = false;
+};
+
+std::vector<NamedFile> files_named(const CLI::App& command) {
+    std::vector<NamedFile> files;
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string type = option->get_type_name();
+        if (type != read_type && type != written_type) continue;
+        for (const std::string& text : option->results()) {
+            std::error_code unknown;
+            const fs::path path =
+                text == "-" ? fs::path(text) : fs::weakly_canonical(text, unknown);
+            files.push_back({option->get_name(), text, path, type == written_type});
+        }
+    }
+    return files;
+}
+
+/// A device takes any number of texts.
+bool clash(const NamedFile& written, const NamedFile& other) {
+    std::error_code unknown;
+    return written.path == other.path && !written.path.empty() &&
+           (written.text == "-" || !fs::is_character_file(written.path, unknown));
+}
+
+/// With --json standard output is one JSON object; --format sends it to --out instead.
+void refuse_beside_json(const CLI::App& command, const std::vector<NamedFile>& files) {
+    const CLI::Option* json = command.get_option_no_throw("--json");
+    if (!json || json->count() == 0 || command.get_option_no_throw("--format")) return;
+    for (const NamedFile& file : files)
+        if (file.written && file.text == "-")
+            throw InputError(file.option + " cannot go to standard output beside --json");
+}
+
+}  // namespace
+
+CLI::Option* reads_file(CLI::Option* option) {
+    return option->type_name(read_type);
+}
+
+CLI::Option* writes_file(CLI::Option* option) {
+    return option->type_name(written_type);
+}
+
+CLI::Option* not_negative(CLI::Option* option) {
+    return option->check([](const std::string& text) {
+        const auto value = parse_number(text);
+        return value && *value < 0.0 ? text + " is below 0" : std::string();
+    });
+}
+
+void check_numbers(CLI::App& app) {
+    for (CLI::Option* option : app.get_options()) {
+        const std::string type = option->get_type_name();
+        if (type.starts_with("FLOAT")) option->check(finite_number);
+        if (type.starts_with("UINT")) option->check(count);
+    }
+    for (CLI::App* command : app.get_subcommands({})) check_numbers(*command);
+}
+
+void refuse_clashing_files(const CLI::App& app) {
+    const std::vector<NamedFile> files = files_named(app);
+    refuse_beside_json(app, files);
+    for (std::size_t i = 0; i < files.size(); ++i)
+        for (std::size_t k = 0; k < files.size(); ++k)
+            if (i != k && files[i].written && clash(files[i], files[k]))
+                throw InputError(files[k].written ? fmt::format("{} and {} would both write this",
+                                                                files[std::min(i, k)].option,
+                                                                files[std::max(i, k)].option)
+                                                  : fmt::format("{} would overwrite what {} reads",
+                                                                files[i].option, files[k].option),
+                                 {files[i].text, 0, 0});
+    for (const CLI::App* command : app.get_subcommands()) refuse_clashing_files(*command);
+}
+
+}  // namespace trunnion
