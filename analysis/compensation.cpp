@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/flat_program.h"
+#include "analysis/path_stretches.h"
 #include "analysis/tip_corrector.h"
 #include "geometry/alarm.h"
 #include "geometry/units.h"
@@ -26,6 +27,7 @@ AxisPositions between(const AxisPositions& a, const AxisPositions& b, double t) 
     return q;
 }
 
+/// Of two positions, rotary deviations as ways of their lever.
 double apart_mm(const AxisPositions& a, const AxisPositions& b) {
     double rotary = 0.0;
     for (const Axis axis : {Axis::A, Axis::B, Axis::C}) rotary += std::abs(a[axis] - b[axis]);
@@ -86,12 +88,14 @@ std::optional<FittedArc> fit_arc(const Vector3& a, const Vector3& m, const Vecto
     return arc;
 }
 
-/// Errors at one place, added to the worst so far.
-void include(CompensatedProgram::Worst& worst, const BelievedTool& is, const BelievedTool& meant,
-             bool turned) {
-    worst.tip_mm = std::max(worst.tip_mm, (is.tip_W_mm - meant.tip_W_mm).norm());
-    double& direction_rad = turned ? worst.turned_rad : worst.kept_rad;
-    direction_rad = std::max(direction_rad, angle_between(is.direction_W, meant.direction_W));
+/// Errors at one place.
+CompensatedProgram::Worst errors_at(const BelievedTool& is, const BelievedTool& meant,
+                                    bool turned) {
+    CompensatedProgram::Worst errors;
+    errors.tip_mm = (is.tip_W_mm - meant.tip_W_mm).norm();
+    (turned ? errors.turned_rad : errors.kept_rad) =
+        angle_between(is.direction_W, meant.direction_W);
+    return errors;
 }
 
 /// Rewrites every move as it comes from the control.
@@ -99,7 +103,7 @@ class RewritingSink : public MotionSink {
   public:
     RewritingSink(const Setup& setup, const EffectModels& effects,
                   const CompensationOptions& options, CompensatedProgram& out)
-        : corrector_(setup, effects, options.largest_turn_rad),
+        : corrector_(setup, effects, options.largest_turn_rad, options.decimals),
           text_(setup, options.decimals),
           options_(options),
           out_(out) {}
@@ -107,22 +111,21 @@ class RewritingSink : public MotionSink {
     MoveResult move(const AxisMove& move) override {
         const PathSampler path{move, tracker_, clock_s_, move.mode};
         const bool turned = corrector_.turns_tool(move);
-        include(out_.before, corrector_.truth(path, 1.0, move.to), corrector_.meant(move, 1.0),
-                turned);
+        out_.before.include(
+            errors_at(corrector_.truth(path, 1.0), corrector_.meant(move, 1.0), turned));
         note_tapping(move);
         text_.prepare(move);
-        if (turned != turned_ && !out_.blocks.empty()) begin_turned(path, turned);
+        const std::vector<PathStretch> stretches = path_stretches(move);
+        if (turned != turned_ && !out_.blocks.empty())
+            begin_turned(path, stretches.front(), turned);
         turned_ = turned;
         if (move.until_skip)
-            write_skip(path);
+            write_skip(path, stretches.back());
         else if (move.kind == MotionKind::rapid)
-            write_line(path, 0.0, 1.0);
-        else if (plane_normal(move) >= 0 && !turned)
-            write_arcs(path);
+            write_rapid(path, stretches.back());
         else
-            split_line(path, {0.0, corrector_.corrected(path, 0.0)},
-                       {1.0, corrector_.corrected(path, 1.0)}, 0);
-        tracker_.advance(move.to);
+            for (const PathStretch& stretch : stretches) write_feed(path, stretch);
+        tracker_.follow(move);
         clock_s_ += move.duration_s;
         return {false, move.to};
     }
@@ -135,19 +138,32 @@ class RewritingSink : public MotionSink {
     const std::optional<SourceRef>& last_skip() const { return last_skip_; }
 
   private:
-    struct Place {
-        double s = 0.0;
-        AxisPositions q;
-    };
+    static constexpr double take_up_s = 0.05;  ///< for ways that only prepare
 
-    void note(const PathSampler& path, double s) {
-        out_.blocks.push_back({path.move.line, corrector_.meant(path.move, s), turned_});
+    Correction corrected(const PathSampler& path, const PathStretch& stretch, double s) const {
+        return corrector_.corrected(path, stretch, s, written_);
+    }
+
+    /// The block just written leads to s.
+    void note(const PathSampler& path, double s, CompensatedBlock::End end) {
+        written_.advance(text_.position());
+        out_.blocks.push_back(
+            {path.move.line, text_.last_line(), corrector_.meant(path.move, s), turned_, end});
+    }
+
+    static CompensatedBlock::End end_of(const Correction& c) {
+        return c.held[0] || c.held[1] || c.held[2] ? CompensatedBlock::End::in_gap
+                                                   : CompensatedBlock::End::exact;
+    }
+
+    void write_line(const PathSampler& path, double s, const Correction& c, double duration_s) {
+        if (text_.line(path.move, c.to, duration_s)) note(path, s, end_of(c));
     }
 
     /// The rotaries begin, or cease, to correct the direction: they go there with the tip at rest.
-    void begin_turned(const PathSampler& path, bool turned) {
+    void begin_turned(const PathSampler& path, const PathStretch& stretch, bool turned) {
         turned_ = turned;
-        if (text_.line(path.move, corrector_.corrected(path, 0.0), 0.05)) note(path, 0.0);
+        write_line(path, 0.0, corrected(path, stretch, 0.0), take_up_s);
     }
 
     /// A spindle that turns round without M3, M4 or M5: G74 or G84.
@@ -163,64 +179,105 @@ class RewritingSink : public MotionSink {
         spindle_commanded_ = false;
     }
 
-    void write_skip(const PathSampler& path) {
+    void write_skip(const PathSampler& path, const PathStretch& stretch) {
         last_skip_ = SourceRef{path.move.program ? *path.move.program : "", path.move.line, 1};
-        if (text_.skip(path.move, corrector_.corrected(path, 1.0))) note(path, 1.0);
+        const Correction c = corrected(path, stretch, 1.0);
+        if (text_.skip(path.move, c.to)) note(path, 1.0, end_of(c));
     }
 
-    void write_line(const PathSampler& path, double a, double b) {
-        if (text_.line(path.move, corrector_.corrected(path, b), (b - a) * path.move.duration_s))
-            note(path, b);
-    }
-
-    /// A straight move of the axes from a to b, halved until it is near the wanted path everywhere.
-    void split_line(const PathSampler& path, const Place& a, const Place& b, int depth) {
-        Place middle{0.5 * (a.s + b.s), {}};
-        double worst = 0.0;
-        for (const double t : {0.5, 0.25, 0.75}) {
-            const AxisPositions q = corrector_.corrected(path, a.s + t * (b.s - a.s));
-            if (t == 0.5) middle.q = q;
-            worst = std::max(worst, apart_mm(q, between(a.q, b.q, t)));
+    /// X, Y and Z that would end inside their gap go past it first: in the air that harms nothing.
+    void write_rapid(const PathSampler& path, const PathStretch& stretch) {
+        constexpr double past_mm = 0.01;
+        Correction c = corrected(path, stretch, 1.0);
+        AxisPositions past = c.to;
+        for (std::size_t i = 0; i < 3; ++i)
+            if (c.held[i]) past.value[i] = c.wanted.value[i] - past_mm * c.travel[i];
+        if (past != c.to && text_.line(path.move, past, path.move.duration_s)) {
+            note(path, 1.0, CompensatedBlock::End::past_gap);
+            c = corrected(path, stretch, 1.0);
         }
+        write_line(path, 1.0, c, path.move.duration_s);
+    }
+
+    void write_feed(const PathSampler& path, const PathStretch& stretch) {
+        take_up(path, stretch);
+        if (plane_normal(path.move) >= 0 && !turned_)
+            split_arc(path, stretch, stretch.from, stretch.to, 0);
+        else
+            split_line(path, stretch, stretch.from, stretch.to, 0);
+    }
+
+    /// Axes that turn round cross their gap before the tip goes on.
+    void take_up(const PathSampler& path, const PathStretch& stretch) {
+        const Correction c = corrected(path, stretch, stretch.from);
+        AxisPositions turning = written_.position();
+        for (std::size_t i = 0; i < axis_count; ++i)
+            if (c.travel[i] != written_.travel()[i]) turning.value[i] = c.to.value[i];
+        if (apart_mm(turning, written_.position()) > options_.tolerance_mm)
+            write_line(path, stretch.from, c, take_up_s);
+    }
+
+    /// A straight move of the axes to b, halved until it is near the wanted path everywhere.
+    void split_line(const PathSampler& path, const PathStretch& stretch, double a, double b,
+                    int depth) {
+        const Correction start = corrected(path, stretch, a), end = corrected(path, stretch, b);
+        double worst = 0.0;
+        for (const double t : {0.5, 0.25, 0.75})
+            worst = std::max(worst, apart_mm(corrected(path, stretch, a + t * (b - a)).to,
+                                             between(start.to, end.to, t)));
         if (worst <= options_.tolerance_mm || depth == deepest_split)
-            return write_line(path, a.s, b.s);
-        split_line(path, a, middle, depth + 1);
-        split_line(path, middle, b, depth + 1);
+            return write_line(path, b, end, (b - a) * path.move.duration_s);
+        const double middle = 0.5 * (a + b);
+        split_line(path, stretch, a, middle, depth + 1);
+        split_line(path, stretch, middle, b, depth + 1);
     }
 
-    /// In pieces of a quarter turn at most.
-    void write_arcs(const PathSampler& path) {
-        const int pieces = std::max(
-            1, static_cast<int>(std::ceil(std::abs(path.move.arc->sweep_rad) / (0.5 * pi) - 1e-9)));
-        for (int i = 0; i < pieces; ++i)
-            split_arc(path, static_cast<double>(i) / pieces, static_cast<double>(i + 1) / pieces,
-                      0);
+    /// Places of a piece where an axis of the arc's plane waits inside its gap: of three.
+    int held_places(const PathSampler& path, const PathStretch& stretch, double a, double b) const {
+        int count = 0;
+        for (const double s : {a, 0.5 * (a + b), b}) {
+            const Correction c = corrected(path, stretch, s);
+            for (int i = 0; i < 3; ++i)
+                if (c.held[static_cast<std::size_t>(i)] && i != plane_normal(path.move)) {
+                    ++count;
+                    break;
+                }
+        }
+        return count;
     }
 
-    void split_arc(const PathSampler& path, double a, double b, int depth) {
+    void split_arc(const PathSampler& path, const PathStretch& stretch, double a, double b,
+                   int depth) {
+        constexpr int shortest_arc = 8;  // where an axis comes out of its gap, lines are as good
+        const int held = held_places(path, stretch, a, b);
+        if (held == 3 || (held > 0 && depth >= shortest_arc))
+            return split_line(path, stretch, a, b, depth);
         const auto point = [&](double t) {
-            return xyz(corrector_.corrected(path, a + t * (b - a)));
+            return xyz(corrected(path, stretch, a + t * (b - a)).to);
         };
         const int normal = plane_normal(path.move);
         const bool positive = path.move.arc->sweep_rad * path.move.arc->normal[normal] > 0.0;
-        const auto arc = fit_arc(point(0.0), point(0.5), point(1.0), normal, positive);
+        const auto arc =
+            held > 0 ? std::nullopt : fit_arc(point(0.0), point(0.5), point(1.0), normal, positive);
         double worst = arc ? 0.0 : 1.0;
         for (const double t : {0.125, 0.25, 0.5, 0.75, 0.875})
             if (arc) worst = std::max(worst, (point(t) - arc->at(t)).norm());
         if (worst > options_.tolerance_mm && depth < deepest_split) {
-            split_arc(path, a, 0.5 * (a + b), depth + 1);
-            return split_arc(path, 0.5 * (a + b), b, depth + 1);
+            split_arc(path, stretch, a, 0.5 * (a + b), depth + 1);
+            return split_arc(path, stretch, 0.5 * (a + b), b, depth + 1);
         }
-        if (!arc) return write_line(path, a, b);
-        text_.arc(path.move, corrector_.corrected(path, b), normal, positive, arc->centre);
-        note(path, b);
+        const Correction end = corrected(path, stretch, b);
+        if (!arc) return write_line(path, b, end, (b - a) * path.move.duration_s);
+        text_.arc(path.move, end.to, normal, positive, arc->centre);
+        note(path, b, end_of(end));
     }
 
     TipCorrector corrector_;
     FlatProgram text_;
     CompensationOptions options_;
     CompensatedProgram& out_;
-    AxisTracker tracker_;
+    AxisTracker tracker_;  ///< of the original
+    AxisTracker written_;  ///< of the program written
     double clock_s_ = 0.0;
     bool turned_ = false;
     double spindle_rpm_ = 0.0;
@@ -236,17 +293,22 @@ class CheckingSink : public MotionSink {
 
     MoveResult move(const AxisMove& move) override {
         const PathSampler path{move, tracker_, clock_s_, move.mode};
-        if (next_ < out_.blocks.size()) {
-            const CompensatedBlock& block = out_.blocks[next_++];
-            include(out_.after, corrector_.truth(path, 1.0, move.to), block.meant, block.turned);
-        }
-        tracker_.advance(move.to);
+        if (next_ < out_.blocks.size() && out_.blocks[next_].written_line == move.line)
+            look(path, out_.blocks[next_++]);
+        tracker_.follow(move);
         clock_s_ += move.duration_s;
         return {false, move.to};
     }
     bool complete() const { return next_ == out_.blocks.size(); }
 
   private:
+    void look(const PathSampler& path, const CompensatedBlock& block) {
+        if (block.end == CompensatedBlock::End::past_gap) return;
+        auto here = errors_at(corrector_.truth(path, 1.0), block.meant, block.turned);
+        if (block.end == CompensatedBlock::End::in_gap) std::swap(here.tip_mm, here.gap_mm);
+        out_.after.include(here);
+    }
+
     TipCorrector corrector_;
     CompensatedProgram& out_;
     AxisTracker tracker_;
@@ -265,6 +327,13 @@ RunResult execute(const Setup& setup, ProgramSource& programs, MotionSink& sink,
 }
 
 }  // namespace
+
+void CompensatedProgram::Worst::include(const Worst& other) {
+    tip_mm = std::max(tip_mm, other.tip_mm);
+    gap_mm = std::max(gap_mm, other.gap_mm);
+    turned_rad = std::max(turned_rad, other.turned_rad);
+    kept_rad = std::max(kept_rad, other.kept_rad);
+}
 
 CompensatedProgram compensate_program(const Setup& setup, ProgramSource& programs,
                                       const ProgramChoice& program, const EffectModels& effects,

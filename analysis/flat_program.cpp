@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/units.h"
@@ -95,11 +96,24 @@ void FlatProgram::block(const AxisMove& move, const std::string& words) {
     text_ += fmt::format("N{} {}{}\n", move.line % 100000, motion_, words);
     motion_.clear();
     first_ = false;
+    lines_ += static_cast<int>(
+        std::count(text_.begin() + static_cast<std::ptrdiff_t>(counted_), text_.end(), '\n'));
+    counted_ = text_.size();
+}
+
+/// By at least one digit.
+bool FlatProgram::moves(const AxisPositions& to) const {
+    const double half = 0.5 * std::pow(10.0, -decimals_);
+    for (const AxisGeometry& axis : setup_.machine.chain.axes())
+        if (std::abs(to[axis.axis] - at_[axis.axis]) >= (axis.rotary ? rad_from_deg(half) : half))
+            return true;
+    return false;
 }
 
 bool FlatProgram::line(const AxisMove& move, const AxisPositions& to, double duration_s) {
     bool rotary = false;
     for (const Axis axis : {Axis::A, Axis::B, Axis::C}) rotary |= to[axis] != at_[axis];
+    const bool moved = moves(to);
     const std::string words = axis_words(to, first_);
     if (words.empty()) return false;
     const bool rapid =
@@ -107,7 +121,7 @@ bool FlatProgram::line(const AxisMove& move, const AxisPositions& to, double dur
     motion_ += motion_.empty() ? "" : " ";
     motion_ += rapid ? "G0" : "G1";
     block(move, words + (rapid ? "" : feed_words(move, rotary, duration_s)));
-    return true;
+    return moved;
 }
 
 bool FlatProgram::skip(const AxisMove& move, const AxisPositions& to) {

@@ -1,7 +1,9 @@
 #include "emulator/axis_tracker.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "geometry/units.h"
 #include "records/readings.h"
 
 namespace trunnion {
@@ -9,7 +11,7 @@ namespace trunnion {
 void AxisTracker::advance(const AxisPositions& position) {
     for (std::size_t i = 0; i < axis_count; ++i) {
         const double step = position.value[i] - last_.value[i];
-        if (step == 0.0) continue;
+        if (std::abs(step) < standing) continue;
         const signed char sign = step > 0.0 ? 1 : -1;
         if (sign != travel_[i]) {
             has_turned_[i] = travel_[i] != 0;
@@ -18,6 +20,17 @@ void AxisTracker::advance(const AxisPositions& position) {
         }
         last_.value[i] = position.value[i];
     }
+}
+
+void AxisTracker::follow(const AxisMove& move) {
+    if (move.arc || move.curve) {
+        constexpr double step_rad = pi / 8.0, last_step = 1e-3;
+        const double sweep_rad = move.arc ? std::abs(move.arc->sweep_rad) : pi;
+        const int steps = std::max(2, static_cast<int>(std::ceil(sweep_rad / step_rad)));
+        for (int i = 1; i < steps; ++i) advance(move.at(static_cast<double>(i) / steps));
+        advance(move.at(1.0 - last_step));
+    }
+    advance(move.to);
 }
 
 void AxisTracker::describe(AxisSample& sample) const {

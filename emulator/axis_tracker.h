@@ -2,8 +2,12 @@
 #pragma once
 
 #include "geometry/axes.h"
+#include "motion/motion.h"
 
 namespace trunnion {
+
+/// Less motion than this (mm or rad) is rounding of an axis that stands.
+constexpr double standing = 1e-9;
 
 /// Follows the axes from position to position, in steps small enough that no axis turns twice in
 /// one.
@@ -11,9 +15,13 @@ class AxisTracker {
   public:
     void place(const AxisPositions& position) { last_ = position; }
     void advance(const AxisPositions& position);
+    /// Along a move to its end: axes that turn round on an arc or curve are seen to.
+    void follow(const AxisMove& move);
 
     const AxisPositions& position() const { return last_; }
-    /// Copies travel (sign of the last motion, 0 before the first) and since_reversal.
+    /// Sign of the last motion, 0 before the first.
+    const std::array<signed char, axis_count>& travel() const { return travel_; }
+    /// Copies travel and since_reversal.
     void describe(AxisSample& sample) const;
 
   private:

@@ -200,7 +200,10 @@ MoveResult MachineSink::move(const AxisMove& move) {
     const AxisPositions end = touch ? touch->stopped : move.to;
     clock_s_ = path.time_s(end_s);
     if (!read && !touch && can_read_) log_.passed(end, clock_s_, mode_);
-    tracker_.advance(end);
+    if (touch || read)
+        tracker_.advance(end);
+    else
+        tracker_.follow(move);
     return {touch.has_value(), end, end_s};
 }
 

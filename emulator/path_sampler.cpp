@@ -6,8 +6,11 @@
 namespace trunnion {
 namespace {
 
-/// Less motion than this (mm or rad) is rounding of an axis that stands or turns.
-constexpr double standing = 1e-9;
+/// Positioning and G31 begin and end at rest, exact stops (G9, G61) end there.
+bool at_rest(const AxisMove& move, double s) {
+    const bool stops = move.kind == MotionKind::rapid || move.until_skip;
+    return (stops && s <= 0.0) || ((stops || !move.gap_free) && s >= 1.0);
+}
 
 }  // namespace
 
@@ -26,11 +29,13 @@ AxisSample PathSampler::at(double s) const {
     if (by_velocity) sample.travel.fill(0);
     const double before = std::max(0.0, s - half_step), after = std::min(1.0, s + half_step);
     const AxisPositions a = move.at(before), b = move.at(after);
-    const double span_s = (after - before) * move.duration_s;
+    const double span_s = at_rest(move, s) ? 0.0 : (after - before) * move.duration_s;
+    const bool straight = !move.arc && !move.curve;
     for (std::size_t i = 0; i < axis_count; ++i) {
         const double moved = b.value[i] - a.value[i];
-        if (std::abs(moved) < standing) continue;
-        const signed char sign = moved > 0.0 ? 1 : -1;
+        const double way = straight ? move.to.value[i] - move.from.value[i] : moved;
+        if (std::abs(way) < standing) continue;
+        const signed char sign = way > 0.0 ? 1 : -1;
         if (sign != last_travel[i])
             sample.since_reversal[i] =
                 std::abs(sample.position.value[i] - tracker.position().value[i]);

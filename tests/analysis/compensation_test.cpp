@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <sstream>
 
 #include "geometry/alarm.h"
 #include "geometry/random.h"
@@ -40,6 +41,54 @@ CompensatedProgram compensate(const Setup& setup, const std::string& text,
                               const CompensationOptions& options = {}) {
     ProgramsInMemory programs;
     return compensate_program(setup, programs, ProgramText{"p.nc", text, nullptr}, {}, options);
+}
+
+Setup setup_with_backlash(double linear_mm, double rotary_rad, bool other_errors) {
+    Setup setup = setup_with_errors();
+    if (!other_errors) setup.machine.errors = {};
+    for (const AxisGeometry& axis : setup.machine.chain.axes())
+        setup.machine.errors.axis[index_of(axis.axis)].backlash =
+            axis.rotary ? rotary_rad : linear_mm;
+    return setup;
+}
+
+const std::string rotary_reversals =
+    "O1\nG21 G17 G90 G54\nT1 M06\nG0 B5. C0\nG0 X100. Y0.\nG43.4 H1 Z60.\n"
+    "G1 X100. Y20. Z40. C30. B10. F2000.\nC10.\nC10.05\nC10.\nX80. B25.\nB20. C12.\n"
+    "X60. Y-20. C-30.\nX61.\nX60.\nB20.1 C-29.\nB10. C-30.\nG49\nG53 G0 Z400.\nM30\n";
+
+const std::string linear_reversals =
+    "O1\nG21 G17 G90 G54\nT1 M06\nG0 X-60. Y-60. Z250.\nG43 H1 Z50.\nG1 X60. F1000.\nY60.\n"
+    "X-60.\nY-60.\nX0\nX60. Z40.\nX-60. Y-20. Z45.\nG0 Z100.\nX60. Y0.\nZ50.\nG3 I-60.\n"
+    "G2 X0. Y60. I-60. J0.\nG0 Z200.\nM30\n";
+
+/// Largest distance of the true tip from the believed one where the tool feeds, every 0.5 mm, of
+/// the compensated program against what the original meant: the circle of 60 mm about (0, 0).
+struct CirclePath {
+    double worst_um = 0.0;
+    int off = 0, rows = 0;  ///< off by more than 0.2 um
+};
+CirclePath circle_path(const Setup& setup, const std::string& program) {
+    ProgramsInMemory none;
+    RunOptions options;
+    options.trace = options.truth = true;
+    options.trace_step_mm = 0.5;
+    const RunLog log = run_program(setup, none, ProgramText{"c.nc", program, nullptr}, options);
+    CirclePath path;
+    std::istringstream lines(log.trace_csv);
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+        if (line.find(",1,0,") != std::string::npos) continue;  // tool 1, feed 0: rapid
+        const std::size_t z = line.rfind(','), y = line.rfind(',', z - 1),
+                          x = line.rfind(',', y - 1);
+        const double off_um = um_from_mm(std::abs(
+            std::hypot(std::stod(line.substr(x + 1)), std::stod(line.substr(y + 1))) - 60.0));
+        path.worst_um = std::max(path.worst_um, off_um);
+        path.off += off_um > 0.2;
+        ++path.rows;
+    }
+    return path;
 }
 
 }  // namespace
@@ -203,4 +252,65 @@ TEST_CASE("what cannot be compensated says so") {
     const CompensatedProgram c = compensate(setup, "O1\nG90 G54 G1 X10.\nG777\nM30\n");
     CHECK(c.original.status == RunStatus::alarm);
     CHECK(c.program.empty());
+}
+
+TEST_CASE("backlash of the rotaries follows the corrected axes: the tip lands where it meant") {
+    const CompensatedProgram plain =
+        compensate(setup_with_backlash(0.0, 0.0, false), rotary_reversals);
+    CHECK(plain.after.tip_mm < 2e-6);
+    for (const double gap_rad : {6e-5, -6e-5}) {
+        INFO(gap_rad);
+        const Setup setup = setup_with_backlash(0.0, gap_rad, false);
+        const CompensatedProgram c = compensate(setup, rotary_reversals);
+        REQUIRE(c.executed.status == RunStatus::ok);
+        CHECK(c.notes.empty());
+        CHECK(c.before.tip_mm > 0.002);
+        CHECK(c.after.tip_mm < 1e-4);
+        CHECK(c.after.gap_mm == 0.0);
+        // A gap that overshoots leaves half of itself where an axis has just turned round.
+        CHECK(c.after.turned_rad < (gap_rad > 0 ? 0.51 * gap_rad : 1e-8));
+        CHECK(c.blocks.size() < plain.blocks.size() + 150);
+    }
+}
+
+TEST_CASE("backlash of X, Y and Z: blocks end where they meant, whichever way the axes came") {
+    for (const double gap_mm : {0.005, -0.005}) {
+        INFO(gap_mm);
+        const Setup setup = setup_with_backlash(gap_mm, 0.0, false);
+        const CompensatedProgram c = compensate(setup, linear_reversals);
+        REQUIRE(c.executed.status == RunStatus::ok);
+        CHECK(c.before.tip_mm > 0.003);
+        CHECK(c.after.tip_mm < 1e-4);
+        CHECK(c.after.gap_mm < (gap_mm > 0 ? 0.0026 : 1e-9));
+        CHECK(c.blocks.size() < 250);
+    }
+}
+
+TEST_CASE("a circle on a machine with backlash is round but for the gap at its quadrants") {
+    const std::string circle =
+        "O1\nG21 G17 G90 G54\nT1 M06\nG0 X60. Y0.\nG43 H1 Z50.\nG3 I-60. F1000.\nM30\n";
+    for (const double gap_mm : {0.005, -0.005}) {
+        INFO(gap_mm);
+        const Setup setup = setup_with_backlash(gap_mm, 0.0, false);
+        const CompensatedProgram c = compensate(setup, circle);
+        REQUIRE(c.executed.status == RunStatus::ok);
+        const CirclePath before = circle_path(setup, circle), after = circle_path(setup, c.program);
+        CHECK(before.off > 0.8 * before.rows);
+        CHECK(after.off < 0.03 * after.rows);
+        CHECK(after.worst_um < (gap_mm > 0 ? 2.6 : 0.2));  // half the gap where it must be crossed
+    }
+}
+
+TEST_CASE("41 errors and backlash of every axis at once") {
+    for (const double sign : {1.0, -1.0}) {
+        const Setup setup = setup_with_backlash(sign * 0.005, sign * 6e-5, true);
+        for (const std::string& program : {rotary_reversals, linear_reversals}) {
+            const CompensatedProgram c = compensate(setup, program);
+            REQUIRE(c.executed.status == RunStatus::ok);
+            CHECK(c.before.tip_mm > 0.02);
+            CHECK(c.after.tip_mm < 1e-4);
+            // Small corrections to and fro end inside a gap that overshoots: half of it is left.
+            CHECK(c.after.gap_mm < (sign > 0 ? 0.0045 : 2e-5));
+        }
+    }
 }
