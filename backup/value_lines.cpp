@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "geometry/alarm.h"
+#include "geometry/numbers.h"
 #include "geometry/units.h"
 
 namespace trunnion {
@@ -20,6 +21,16 @@ bool is_digit(char c) {
 }
 bool is_number_char(char c) {
     return is_digit(c) || c == '.' || c == '-' || c == '+';
+}
+
+bool is_hex(std::string_view text) {
+    return text.find_first_not_of("0123456789ABCDEFabcdef") == std::string_view::npos;
+}
+
+double from_hex(std::string_view digits) {
+    std::uint64_t bits = 0;
+    std::from_chars(digits.data(), digits.data() + digits.size(), bits, 16);
+    return std::bit_cast<double>(bits);
 }
 
 /// Reads one line left to right; `fail` says where it stopped making sense.
@@ -47,7 +58,10 @@ struct LineScanner {
         const std::size_t start = at;
         while (at < line.size() && is_number_char(line[at])) ++at;
         if (at == start) fail("a number is missing");
-        return line.substr(start, at - start);
+        const std::string_view text = line.substr(start, at - start);
+        if (parse_number(text)) return text;
+        at = start;
+        fail("'" + std::string(text) + "' is not a finite number");
     }
     int integer() {
         const std::string_view t = number_text();
@@ -124,8 +138,11 @@ void scan_g10(LineScanner& s, std::vector<BackupValue>& out) {
             const std::size_t close = s.line.find(')', s.at);
             if (close == std::string_view::npos || close - s.at != 17)
                 s.fail("sixteen hexadecimal digits in brackets are expected");
-            out.push_back(s.value(fmt::format("#{}", p), s.line.substr(s.at + 1, 16),
-                                  BackupValue::Kind::variable, p, 0));
+            const std::string_view digits = s.line.substr(s.at + 1, 16);
+            if (!is_hex(digits) || std::isinf(from_hex(digits)))
+                s.fail("these are not sixteen hexadecimal digits of a finite number");
+            out.push_back(
+                s.value(fmt::format("#{}", p), digits, BackupValue::Kind::variable, p, 0));
             s.at = close + 1;
             continue;
         }
@@ -179,8 +196,7 @@ bool is_bits(const std::string& text) {
     return text.size() == 8 && text.find_first_not_of("01") == std::string::npos;
 }
 bool is_hex_double(const BackupValue& v) {
-    return v.kind == BackupValue::Kind::variable && v.text.size() == 16 &&
-           v.text.find_first_not_of("0123456789ABCDEFabcdef") == std::string::npos;
+    return v.kind == BackupValue::Kind::variable && v.text.size() == 16 && is_hex(v.text);
 }
 
 /// The offset vector a number of BackupValue stands for; const when the stores are.
@@ -231,11 +247,9 @@ std::vector<BackupValue> scan_values(const std::string& file, std::string_view b
 
 double stored_value(const BackupValue& v) {
     if (is_hex_double(v)) {
-        std::uint64_t bits = 0;
-        std::from_chars(v.text.data(), v.text.data() + 16, bits, 16);
-        // All F is taken for vacant (assumed; docs/backup_files.md).
-        return bits == ~std::uint64_t{0} ? std::numeric_limits<double>::quiet_NaN()
-                                         : std::bit_cast<double>(bits);
+        const double number = from_hex(v.text);
+        // All F is taken for vacant (assumed; docs/backup_files.md), and whatever is no number.
+        return std::isnan(number) ? std::numeric_limits<double>::quiet_NaN() : number;
     }
     if (v.kind == BackupValue::Kind::parameter && is_bits(v.text)) {
         unsigned byte = 0;

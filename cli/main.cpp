@@ -7,7 +7,8 @@
 #include <exception>
 #include <filesystem>
 #include <initializer_list>
-#include <utility>
+#include <string>
+#include <vector>
 
 #include "cli/command.h"
 #include "cli/options.h"
@@ -54,6 +55,19 @@ int report_usage_error(const std::string& message) {
     return exit_bad_input;
 }
 
+/// The first word that stands where a command is named and is none; empty: all are known.
+std::string unknown_command(const CLI::App& app, const std::vector<std::string>& words) {
+    const CLI::App* level = &app;
+    for (const std::string& word : words) {
+        if (word.starts_with('-') || level->get_subcommands({}).empty()) break;
+        const auto named = level->get_subcommands(
+            [&](const CLI::App* command) { return command->check_name(word); });
+        if (named.empty()) return word;
+        level = named.front();
+    }
+    return {};
+}
+
 int run_guarded(const CLI::App& app, const Run& run) {
     try {
         refuse_clashing_files(app);
@@ -81,9 +95,8 @@ int main(int argc, char** argv) {
     Run run;
     for (const auto add : commands) add(app, run);
     check_numbers(app);
-    const auto called = [&](const CLI::App* command) { return command->check_name(argv[1]); };
-    if (argc > 1 && argv[1][0] != '-' && std::as_const(app).get_subcommands(called).empty())
-        return report_usage_error(fmt::format("there is no command '{}'", argv[1]));
+    if (const std::string word = unknown_command(app, {argv + 1, argv + argc}); !word.empty())
+        return report_usage_error(fmt::format("there is no command '{}'", word));
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& e) {

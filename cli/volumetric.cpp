@@ -79,7 +79,7 @@ void add_volumetric(CLI::App& app, Run& run) {
     command->add_option("--grid", o->map.grid, "points along each linear axis (5)");
     command->add_option("--rotary-grid", o->map.rotary_grid,
                         "angles of each rotary axis (5; 1: at zero)");
-    command->add_option("--length", o->map.length_mm, "tool length in mm (150)");
+    not_negative(command->add_option("--length", o->map.length_mm, "tool length in mm (150)"));
     writes_file(command->add_option("--csv", o->csv, "every pose with its error"));
     writes_file(command->add_option("--svg", o->svg,
                                     "folder for pictures: one for each height, one of the axes"));

@@ -94,4 +94,18 @@ TEST_CASE("bad backup lines are refused with their place") {
     CHECK_THROWS_AS(apply_backup(b, stores), InputError);
     b.files["CNC-PARA.TXT"] = "%\n<<<<<<< HEAD\n%\n";
     CHECK_THROWS_AS(list_values(b), InputError);
+    for (const char* number : {"1.2.3", "--1", "1-", "."}) {
+        INFO(number);
+        b.files["CNC-PARA.TXT"] = std::string("%\nN19700Q1L1P") + number + "\n%\n";
+        CHECK_THROWS_AS(list_values(b), InputError);
+    }
+    ControlBackup variables;
+    const auto read = [&](const std::string& digits) {
+        variables.files["MACRO.TXT"] = "%\nG10L85P500(" + digits + ")\n%\n";
+        return list_values(variables).size();
+    };
+    CHECK(read("3FF0000000000000") == 1);
+    CHECK(read("FFFFFFFFFFFFFFFF") == 1);
+    CHECK_THROWS_AS(read("7FF0000000000000"), InputError);  // infinite
+    CHECK_THROWS_AS(read("3FF000000000000G"), InputError);
 }

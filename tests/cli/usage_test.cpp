@@ -69,6 +69,7 @@ TEST_CASE("no option takes a number that is not finite") {
             bench.refuses(command + " " + option + " " + number, option);
     bench.refuses("ballbar --pivot-offset 1,nan,2", "'nan' is not a finite number");
     bench.refuses("diagnose " + r + " --limit-um -1", "--limit-um: -1 is below 0");
+    bench.refuses("volumetric --length -1", "--length: -1 is below 0");
     CHECK_FALSE(fs::exists(bench.file("t.csv")));
 }
 
@@ -180,6 +181,7 @@ TEST_CASE("a place that cannot be written is bad input, and nothing stays behind
 TEST_CASE("an unknown command points to the help") {
     const Bench bench;
     bench.refuses("bogus", "there is no command 'bogus' (trunnion --help lists");
+    bench.refuses("backup bogus", "there is no command 'bogus'");
     bench.refuses("", "trunnion --help");
     CHECK(bench.trunnion("--help") == 0);
 }

@@ -193,6 +193,27 @@ void go_the_whole_way(const Bench& bench, const std::string& injection, const st
 
 }  // namespace
 
+TEST_CASE("the verdict is the same without the plan of the next measurement", "[diagnosis][next]") {
+    const Bench bench(campaign::bc_setup(), false);
+    const Setup truth = campaign::with_effect(bench.real, "X.scale: scale_ppm=40");
+    const ReadingTable table = campaign::measured(truth, bench.table, 17);
+    const Diagnosis whole = diagnose(bench.setup, table);
+    REQUIRE(whole.next.size() > 0);
+    std::vector<std::string> stages;
+    int asked = 0;
+    DiagnosisOptions options;
+    options.watch = [&](const char* stage) { stages.emplace_back(stage); };
+    options.plan_on = [&] { return ++asked < 3; };
+    const Diagnosis cut = diagnose(bench.setup, table, options);
+    CHECK(asked == 3);
+    CHECK(stages.size() == 5);
+    CHECK(cut.next.empty());
+    CHECK(cut.verdict == whole.verdict);
+    REQUIRE(cut.causes.size() == whole.causes.size());
+    CHECK(cut.causes[0].effect == whole.causes[0].effect);
+    CHECK(cut.causes[0].heldout.low == whole.causes[0].heldout.low);
+}
+
 TEST_CASE("ambiguous, measured as asked, diagnosed together: the right one is claimed",
           "[diagnosis][next]") {
     const Pair pairs[] = {
