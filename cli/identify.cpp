@@ -83,7 +83,11 @@ int identify_command(const Options& options) {
     const Setup setup = load_setup_option(options.setup);
     const ReadingTable table = load_readings(options.readings);
     const std::vector<std::string> effects = split_names(options.effects);
-    Identification result = identify(setup, table, effects);
+    Identification result = [&] {
+        Progress progress;
+        progress.stage(fmt::format("fit to {} rows", table.rows.size()));
+        return identify(setup, table, effects);
+    }();
     const int repetitions = options.runs > 0 ? repeat(setup, table, effects, options, result) : 0;
     OutputFiles files;
     if (!options.out.empty()) files.add(options.out, format_setup(result.setup));

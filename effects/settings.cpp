@@ -174,17 +174,22 @@ EffectSetting setting_of(const Effect& effect, const std::vector<double>& values
 
 namespace {
 
-/// The file that the setup came from tells where the setting stands in it.
-[[noreturn]] void refuse_setting(const Setup& setup, const EffectSetting& setting,
-                                 const std::string& parameter, const std::string& message) {
+/// The file that the setup came from, read again to tell a place in it.
+TomlFile file_of(const Setup& setup) {
     std::ostringstream text;
     text << std::ifstream(setup.path, std::ios::binary).rdbuf();
-    const TomlFile file(text.str(), setup.path);
-    const TomlValue* effects = file.root().find("effects");
-    const TomlValue* effect = effects ? effects->find(setting.name) : nullptr;
-    const TomlValue* value = effect ? effect->find(parameter) : nullptr;
-    if (value) file.fail(*value, message);
-    if (effect) file.fail(*effect, message);
+    return {text.str(), setup.path};
+}
+
+const TomlValue* find_value(const TomlValue* table, const std::string& key) {
+    return table ? table->find(key) : nullptr;
+}
+
+[[noreturn]] void refuse_parameter(const Setup& setup, const std::string& effect,
+                                   const std::string& parameter, const std::string& message) {
+    const TomlFile file = file_of(setup);
+    const TomlValue* table = find_value(file.root().find("effects"), effect);
+    if (const TomlValue* value = find_value(table, parameter)) file.fail(*value, message);
     throw InputError("[effects]: " + message, {setup.path, 0, 0});
 }
 
@@ -193,11 +198,22 @@ void check_parameters(const Setup& setup, const Effect& effect, const EffectSett
     for (const auto& parameter : setting.parameters) try {
             values_of(effect, {setting.name, {parameter}});
         } catch (const InputError& error) {
-            refuse_setting(setup, setting, parameter.first, error.message);
+            refuse_parameter(setup, setting.name, parameter.first, error.message);
         }
 }
 
 }  // namespace
+
+void refuse_effect_name(const Setup& setup, const std::string& name) {
+    const std::string message = "no effect is named '" + name + "'";
+    const TomlFile file = file_of(setup);
+    if (const TomlValue* effect = find_value(file.root().find("effects"), name))
+        file.fail(*effect, message);
+    if (const TomlValue* list = find_value(file.root().find("model"), "modelled"))
+        for (const TomlValue& item : list->items)
+            if (item.text == name) file.fail(item, message);
+    throw InputError(message);
+}
 
 EffectModels active_models(const Setup& setup) {
     EffectModels models;
@@ -205,8 +221,7 @@ EffectModels active_models(const Setup& setup) {
     const Catalogue catalogue = make_catalogue(setup);
     for (const EffectSetting& setting : setup.effects) {
         const Effect* effect = find_effect(catalogue, setting.name);
-        if (!effect)
-            refuse_setting(setup, setting, "", "no effect is named '" + setting.name + "'");
+        if (!effect) refuse_effect_name(setup, setting.name);
         check_parameters(setup, *effect, setting);
         models.push_back(make_model(*effect, values_of(*effect, setting)));
     }

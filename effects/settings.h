@@ -20,6 +20,10 @@ std::vector<double> values_of(const Effect& effect, const EffectSetting& setting
 /// The other way round, without parameters that are 0.
 EffectSetting setting_of(const Effect& effect, const std::vector<double>& values);
 
+/// Throws InputError: no effect has this name; with its place where [effects] or [model].modelled
+/// of the setup's file says it.
+[[noreturn]] void refuse_effect_name(const Setup& setup, const std::string& name);
+
 /// Models of all effects that the setup switches on. Throws InputError for an unknown name.
 EffectModels active_models(const Setup& setup);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "effects/settings.h"
 #include "geometry/alarm.h"
 #include "identification/keys.h"
 
@@ -215,7 +216,7 @@ Identification identify(const Setup& setup, const ReadingTable& table,
     std::vector<std::string> plain;
     for (const std::string& name : effects) {
         const Effect* effect = find_effect(catalogue, name);
-        if (!effect) throw InputError("no effect is named '" + name + "'");
+        if (!effect) refuse_effect_name(setup, name);
         if (!keyed(*effect)) plain.push_back(name);
     }
     std::vector<KeyedEffect> with_keys;

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "effects/settings.h"
 #include "geometry/alarm.h"
 #include "geometry/numbers.h"
 
@@ -59,7 +60,7 @@ Unknowns::Unknowns(const Setup& setup, const Replay& replay, const Catalogue& ca
 
 void Unknowns::add_effect_unknowns(const Catalogue& catalogue, const std::string& name) {
     const Effect* effect = find_effect(catalogue, name);
-    if (!effect) throw InputError("no effect is named '" + name + "'", {setup_.path, 0, 0});
+    if (!effect) refuse_effect_name(setup_, name);
     for (std::size_t j = 0; j < effect->parameters.size(); ++j) {
         const EffectParameter& p = effect->parameters[j];
         if (p.is_key()) continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/text.h"
 #include "report/comparison_report.h"
 
 namespace trunnion {
@@ -14,12 +15,13 @@ std::string place_text(const char* side, const ComparePlace& p) {
     std::string out = fmt::format("    {} {}:{}\n", side, p.program, p.line);
     for (int k = 0; k < static_cast<int>(p.context.size()); ++k)
         out += fmt::format("    {} {:>7} | {}\n", k == p.context_at ? ">" : " ",
-                           p.line - p.context_at + k, p.context[static_cast<std::size_t>(k)]);
+                           p.line - p.context_at + k,
+                           printable(p.context[static_cast<std::size_t>(k)]));
     return out;
 }
 
 std::string difference_text(const Difference& d, std::size_t number) {
-    std::string out = fmt::format("  {}. {}", number, d.what);
+    std::string out = fmt::format("  {}. {}", number, printable(d.what));
     if (d.expected) out += fmt::format("\n    expected: {}", d.reason);
     return out + "\n" + place_text("A", d.a) + place_text("B", d.b);
 }
@@ -72,7 +74,7 @@ std::string layers_text(const Comparison& c) {
 }
 
 std::string case_text(const Comparison& c, bool single) {
-    std::string out = single ? c.verdict + "\n" : fmt::format("{}: {}\n", c.name, c.verdict);
+    std::string out = printable(single ? c.verdict : c.name + ": " + c.verdict) + "\n";
     if (c.equal && !single && c.differences.empty()) return out;
     if (!c.layers.empty()) out += layers_text(c);
     constexpr std::size_t shown = 20;

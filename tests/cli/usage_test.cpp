@@ -129,6 +129,21 @@ TEST_CASE("numbers of a setup are finite, and its mistakes have their place") {
     bench.refuses(run + bench.file("changed.toml"), place(28) + "parameter gap_rad of C.backlash");
 }
 
+TEST_CASE("an unknown name in [model] is refused where it stands") {
+    const Bench bench;
+    const std::string machine =
+        bench.machine_with("modelled = [", "modelled = [\"location\", \"C.wobble\"] # [");
+    const std::string table =
+        bench.write("t.csv",
+                    "index,time_s,test,device,feature,x_mm,y_mm,z_mm,b_deg,c_deg,dir_x,"
+                    "dir_y,dir_z,value_mm\n1,0,a,sphere,S1,0,0,0,0,0,1,0,0,0.001\n"
+                    "2,1,a,sphere,S1,0,0,0,0,9,1,0,0,0.001\n");
+    bench.refuses("identify " + table + " --setup " + machine, ":25: error: no effect is named");
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("\"C.wobble\"") && Catch::Contains("^"));
+    bench.refuses("identify " + table + " --setup " + bench.machine + " --effects C.wobble",
+                  "error: no effect is named");
+}
+
 TEST_CASE("an output never overwrites an input or another output") {
     const Bench bench;
     const std::string p = bench.program, m = bench.machine, r = bench.readings;
@@ -209,6 +224,11 @@ TEST_CASE("control characters of an input do not reach the screen") {
                                                   junk + "\n1,0,a,sphere,S1,0," + junk + ",0\n")) ==
           2);
     CHECK(clean());
+    CHECK(bench.trunnion(
+              "compare " + bench.program + " " +
+              bench.write("e.nc", "O1\nG0 X1. (" + junk + ")\n#3000=1(" + junk + ")\nM30\n")) == 3);
+    CHECK_THAT(bench.read("out.txt"), Catch::Contains("alarm 3001 ?[2J??") &&
+                                          !Catch::Contains("\x1B") && !Catch::Contains("\xFF"));
 }
 
 TEST_CASE("linear axes in one plane are refused where they stand") {
