@@ -53,14 +53,17 @@ void Diagnoser::build_design() {
         design_->add(effect, effect.zeros(), prior);
         for (const auto& takes : forms) design_->add(effect, effect.zeros(), prior, takes);
     }
-    add_keyed(base_.residual_mm, 2);
+    design_->update();
+    add_keyed({}, 2);
     design_->update();
 }
 
-void Diagnoser::add_keyed(const Eigen::VectorXd& left_mm, int count) {
+void Diagnoser::add_keyed(const EffectSet& beside, int count) {
+    const Eigen::VectorXd left = left_after(beside);
+    const Eigen::MatrixXd fitted = known_columns(beside);
     for (const Effect& effect : catalogue_) {
         if (modelled(effect) || !has_keys(effect)) continue;
-        for (auto& keys : keys_->best(effect, left_mm, sigma_mm_, count)) {
+        for (auto& keys : keys_->best(effect, left, sigma_mm_, fitted, count)) {
             const double log_prior = prior_ + log_prior_of_keys(effect, keys);
             design_->add(effect, std::move(keys), log_prior);
         }
@@ -131,7 +134,7 @@ void Diagnoser::refine_set() {
             add_refined(m, others);
             if (!others.empty()) add_refined(m, {});
         }
-        add_keyed(left_after(before), 1);
+        add_keyed(before, 1);
         design_->update();
         set_ = best_set();
         if (set_.log_evidence < before.log_evidence + 1.0) break;
@@ -154,8 +157,9 @@ void Diagnoser::add_alternatives() {
         if (!has_keys(*chosen.effect)) continue;
         std::vector<std::size_t> others = set_.members;
         std::erase(others, m);
-        const Eigen::VectorXd left = design_->residual(columns_of(*design_, others), set_.scale);
-        for (auto& keys : keys_->best(*chosen.effect, left, sigma_mm_, alternative_keys)) {
+        const EffectSet beside{others, 0.0, set_.scale, 0.0};
+        for (auto& keys : keys_->best(*chosen.effect, left_after(beside), sigma_mm_,
+                                      known_columns(beside), alternative_keys)) {
             const double log_prior = prior_ + log_prior_of_keys(*chosen.effect, keys);
             design_->add(*chosen.effect, std::move(keys), log_prior);
         }

@@ -30,6 +30,7 @@ Diagnosis Diagnoser::run() {
     set_ = best_set();
     refine_noise();
     refine_set();
+    refine_noise();
     for (int pass = 0; pass < 3 && relinearise(); ++pass) {
     }
     prune();

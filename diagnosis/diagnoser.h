@@ -39,8 +39,8 @@ class Diagnoser {
 
     void build_design();
 
-    /// Candidates of effects with keys, at the settings that promise most on what is left.
-    void add_keyed(const Eigen::VectorXd& left_mm, int count);
+    /// Candidates of effects with keys, at the settings that promise most beside a set.
+    void add_keyed(const EffectSet& beside, int count);
 
     std::vector<std::size_t> lone_probe_readings() const;
     std::vector<std::size_t> wild_readings() const;

@@ -8,8 +8,9 @@ namespace trunnion {
 namespace {
 
 constexpr std::size_t rough_count = 1000, fine_count = 3200;  ///< rows at most
-constexpr std::size_t finalists = 12;
-constexpr double alias_part = 0.02;  ///< of a ripple's squares beyond its alias's
+constexpr std::size_t finalists = 40;
+/// Chi-squared by which a ripple of typical size differs from its alias; less is no difference.
+constexpr double alias_square = 4.0;
 
 /// A fixed scatter of about `count` rows, without the rhythm of poses and passes.
 std::vector<std::size_t> scattered_rows(std::size_t all, std::size_t count) {
@@ -21,27 +22,34 @@ std::vector<std::size_t> scattered_rows(std::size_t all, std::size_t count) {
     return rows;
 }
 
-/// Fall of the weighted squared sum of `left` (already over its sigma); negative when the columns
-/// move nothing.
-double gain(const Eigen::MatrixXd& columns, const Eigen::VectorXd& weight,
+/// Columns that are fitted beside others: what these explain of the others' squares is lost to
+/// them.
+class Beside {
+  public:
+    explicit Beside(Eigen::MatrixXd weighted) : columns_(std::move(weighted)) {
+        Eigen::MatrixXd square = columns_.transpose() * columns_;
+        square.diagonal().array() += 1e-9 * square.trace() + 1e-300;
+        half_.compute(square);
+    }
+    Eigen::MatrixXd lost(const Eigen::MatrixXd& weighted) const {
+        const Eigen::MatrixXd h = half_.matrixL().solve(columns_.transpose() * weighted);
+        return h.transpose() * h;
+    }
+
+  private:
+    Eigen::MatrixXd columns_;
+    Eigen::LLT<Eigen::MatrixXd> half_;
+};
+
+/// Fall of the weighted squared sum of `left` (already over its sigma), which a fit left that loses
+/// `lost` of the columns' squares; negative when the columns move nothing.
+double gain(const Eigen::MatrixXd& weighted, const Eigen::MatrixXd& lost,
             const Eigen::VectorXd& left) {
-    const Eigen::MatrixXd a = weight.asDiagonal() * columns;
-    Eigen::MatrixXd information = a.transpose() * a;
+    Eigen::MatrixXd information = weighted.transpose() * weighted - lost;
     if (information.trace() < 1e-9) return -1.0;
-    const Eigen::VectorXd h = a.transpose() * left;
+    const Eigen::VectorXd h = weighted.transpose() * left;
     information.diagonal().array() += 1.0;
     return h.dot(information.ldlt().solve(h));
-}
-
-/// The part of the columns' squares that no sum of the others makes.
-double part_beyond(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& others) {
-    const double whole = columns.squaredNorm();
-    if (whole == 0.0) return 1.0;
-    Eigen::MatrixXd square = others.transpose() * others;
-    square.diagonal().array() += 1e-9 * square.trace() + 1e-300;
-    const Eigen::MatrixXd half =
-        Eigen::LLT<Eigen::MatrixXd>(square).matrixL().solve(others.transpose() * columns);
-    return 1.0 - half.squaredNorm() / whole;
 }
 
 struct Weighted {
@@ -97,15 +105,20 @@ std::vector<KeySearch::Setting>& KeySearch::settings_of(const Effect& effect) {
     std::vector<std::size_t> key;
     for (std::size_t j = 0; j < effect.parameters.size(); ++j)
         if (effect.parameters[j].is_key()) key.push_back(j);
+    const Eigen::VectorXd weight = base_.sigma_mm(rough_rows_).cwiseInverse();
     const Eigen::MatrixXd orders = first_orders(effect);
+    const Beside first(weight.asDiagonal() * orders);
+    const Beside base(weight.asDiagonal() * base_.columns(rough_rows_, Eigen::all));
     std::vector<std::size_t> at(key.size(), 0);
     for (std::size_t k = 0; k < key.size();) {
         std::vector<double> values = effect.zeros();
         for (std::size_t i = 0; i < key.size(); ++i)
             values[key[i]] = effect.parameters[key[i]].grid[at[i]];
         Eigen::MatrixXd rough = columns(effect, values, rough_rows_);
-        if (orders.cols() == 0 || part_beyond(rough, orders) > alias_part)
-            list.push_back({std::move(values), std::move(rough), {}});
+        const Eigen::MatrixXd weighted = weight.asDiagonal() * rough;
+        if (orders.cols() == 0 ||
+            weighted.squaredNorm() - first.lost(weighted).trace() > alias_square)
+            list.push_back({std::move(values), std::move(rough), base.lost(weighted), {}});
         for (k = 0; k < key.size() && ++at[k] == effect.parameters[key[k]].grid.size(); ++k)
             at[k] = 0;
     }
@@ -114,7 +127,8 @@ std::vector<KeySearch::Setting>& KeySearch::settings_of(const Effect& effect) {
 
 std::vector<std::vector<double>> KeySearch::best(const Effect& effect,
                                                  const Eigen::VectorXd& left_mm,
-                                                 const Eigen::VectorXd& sigma_mm, int count) {
+                                                 const Eigen::VectorXd& sigma_mm,
+                                                 const Eigen::MatrixXd& fitted, int count) {
     struct Found {
         std::size_t order;
         double gain;
@@ -123,15 +137,19 @@ std::vector<std::vector<double>> KeySearch::best(const Effect& effect,
     std::vector<Setting>& settings = settings_of(effect);
     const Weighted rough(left_mm, sigma_mm, rough_rows_), fine(left_mm, sigma_mm, fine_rows_);
     std::vector<Found> found;
-    for (std::size_t k = 0; k < settings.size(); ++k)
-        if (const double g = gain(settings[k].rough, rough.weight, rough.left); g >= 0.0)
-            found.push_back({k, g});
+    for (std::size_t k = 0; k < settings.size(); ++k) {
+        const Setting& s = settings[k];
+        const double g = gain(rough.weight.asDiagonal() * s.rough, s.lost, rough.left);
+        if (g >= 0.0) found.push_back({k, g});
+    }
     std::stable_sort(found.begin(), found.end(), better);
     if (found.size() > finalists) found.resize(finalists);
+    const Beside others(fine.weight.asDiagonal() * fitted(fine_rows_, Eigen::all));
     for (Found& f : found) {
         Setting& s = settings[f.order];
         if (s.fine.size() == 0) s.fine = columns(effect, s.values, fine_rows_);
-        f.gain = gain(s.fine, fine.weight, fine.left);
+        const Eigen::MatrixXd weighted = fine.weight.asDiagonal() * s.fine;
+        f.gain = gain(weighted, others.lost(weighted), fine.left);
     }
     std::stable_sort(found.begin(), found.end(), better);
     std::vector<std::vector<double>> best;

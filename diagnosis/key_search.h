@@ -19,15 +19,19 @@ class KeySearch {
   public:
     KeySearch(const Replay& replay, const BaseModel& base);
 
-    /// The best few settings of an effect's keys by weighted least squares on `left_mm`, without
-    /// projection of the base; best first, none next to another on the grid.
+    /// The best few settings of an effect's keys by weighted least squares on `left_mm`, which the
+    /// columns `fitted` left (mm, base first) and that are fitted anew beside the effect; best
+    /// first, none next to another on the grid.
     std::vector<std::vector<double>> best(const Effect& effect, const Eigen::VectorXd& left_mm,
-                                          const Eigen::VectorXd& sigma_mm, int count);
+                                          const Eigen::VectorXd& sigma_mm,
+                                          const Eigen::MatrixXd& fitted, int count);
 
   private:
     struct Setting {
         std::vector<double> values;
-        Eigen::MatrixXd rough, fine;  ///< columns (mm) on the scatters, empty until asked for
+        Eigen::MatrixXd rough;  ///< columns (mm) on the rough scatter
+        Eigen::MatrixXd lost;   ///< of their squares to the base
+        Eigen::MatrixXd fine;   ///< columns (mm) on the fine scatter, empty until asked for
     };
     std::vector<Setting>& settings_of(const Effect& effect);
     Eigen::MatrixXd first_orders(const Effect& effect) const;

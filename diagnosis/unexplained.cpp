@@ -78,10 +78,11 @@ NoiseModel Diagnoser::noise_without_drivers(const Eigen::VectorXd& left) const {
 /// What a further ripple (a keyed effect at keys not used yet) would explain of the remainder.
 double Diagnoser::ripple_square(const Eigen::VectorXd& left) {
     double most = 0.0;
+    const Eigen::MatrixXd fitted = known_columns(set_);
     const double rows = static_cast<double>(replay_.size());
     for (const Effect& effect : catalogue_) {
         if (modelled(effect) || effect.name.find(".cyclic") == std::string::npos) continue;
-        const auto keys = keys_->best(effect, left, sigma_mm_, 1);
+        const auto keys = keys_->best(effect, left, sigma_mm_, fitted, 1);
         if (keys.empty()) continue;
         Eigen::MatrixXd a(left.size(), 2);
         for (Eigen::Index c = 0; c < 2; ++c)
