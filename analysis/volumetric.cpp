@@ -45,22 +45,45 @@ std::vector<AxisPositions> grid_of(const Chain& chain, const VolumetricOptions& 
     return all;
 }
 
-/// One named error with its column of the Jacobian.
+/// The grid leaves a table of the axis's errors: beyond its ends a table holds its last value.
+bool beyond_tables(const AxisGeometry& axis, const GeometricErrors& errors,
+                   const VolumetricOptions& options) {
+    const std::vector<double> steps = steps_of(axis, options);
+    const auto& curves = errors.axis[index_of(axis.axis)].motion;
+    return std::any_of(curves.begin(), curves.end(), [&](const ErrorCurve& curve) {
+        return !curve.at.empty() &&
+               (steps.front() < curve.at.front() || steps.back() > curve.at.back());
+    });
+}
+
+/// One named error: which of an axis or (no axis) of the spindle.
 struct NamedError {
-    ErrorName name;
-    std::size_t axis = 0, k = 0;
+    std::string name;
+    std::optional<Axis> axis;
+    bool location = false;
+    std::size_t k = 0;
 };
 
 std::vector<NamedError> errors_present(const Machine& machine) {
     std::vector<NamedError> list;
     for (const AxisGeometry& axis : machine.chain.axes())
         for (std::size_t k = 0; k < 6; ++k) {
-            const std::size_t i = index_of(axis.axis);
-            if (machine.errors.axis[i].location[k] != 0.0)
-                list.push_back({{"XYZABC"[k], true, axis.axis}, i, k});
-            if (!machine.errors.axis[i].motion[k].is_zero())
-                list.push_back({{"XYZABC"[k], false, axis.axis}, i, k});
+            const AxisErrors& own = machine.errors.axis[index_of(axis.axis)];
+            const auto add = [&](bool location) {
+                list.push_back({to_string(ErrorName{"XYZABC"[k], location, axis.axis}), axis.axis,
+                                location, k});
+            };
+            if (own.location[k] != 0.0) add(true);
+            if (!own.motion[k].is_zero()) add(false);
         }
+    for (std::size_t k = 0; k < 5; ++k) {
+        const AxisErrors& own = machine.errors.spindle;
+        const auto add = [&](bool location) {
+            list.push_back({to_string(SpindleErrorName{k, location}), std::nullopt, location, k});
+        };
+        if (own.location[k] != 0.0) add(true);
+        if (!own.motion[k].is_zero()) add(false);
+    }
     return list;
 }
 
@@ -80,6 +103,7 @@ class Mapper {
           named_(errors_present(setup.machine)),
           whole_(setup.machine, effects),
           tip_S_mm_(0, 0, -length_mm) {
+        tool_.tip = tool_.stylus = true;
         nominal_.errors = {};
         for (const auto& effect : effects)
             alone_.push_back(std::make_unique<PhysicalMachine>(nominal_, EffectModels{effect}));
@@ -87,7 +111,7 @@ class Mapper {
 
     std::vector<std::string> names(const std::vector<std::string>& effect_names) const {
         std::vector<std::string> list;
-        for (const NamedError& error : named_) list.push_back(to_string(error.name));
+        for (const NamedError& error : named_) list.push_back(error.name);
         list.insert(list.end(), effect_names.begin(), effect_names.end());
         return list;
     }
@@ -98,22 +122,28 @@ class Mapper {
         VolumetricPoint point;
         point.at = q;
         point.tip_W_mm = jacobian.tip_W_mm;
-        point.error_W_mm = physical_tip_W(whole_.at(sample, {}), tip_S_mm_) - point.tip_W_mm;
+        point.error_W_mm = physical_tip_W(whole_.at(sample, tool_), tip_S_mm_) - point.tip_W_mm;
         parts.clear();
         for (const NamedError& error : named_) parts.push_back(part(error, q, jacobian));
         for (const auto& machine : alone_)
-            parts.push_back(physical_tip_W(machine->at(sample, {}), tip_S_mm_) - point.tip_W_mm);
+            parts.push_back(physical_tip_W(machine->at(sample, tool_), tip_S_mm_) - point.tip_W_mm);
         return point;
     }
 
   private:
     Vector3 part(const NamedError& error, const AxisPositions& q,
                  const TipJacobian& jacobian) const {
-        const AxisErrors& own = setup_.machine.errors.axis[error.axis];
-        const auto column = static_cast<Eigen::Index>(error.k);
-        if (error.name.location)
-            return own.location[error.k] * jacobian.location[error.axis].col(column);
-        return own.motion[error.k](q[error.name.axis]) * jacobian.motion[error.axis].col(column);
+        const GeometricErrors& errors = setup_.machine.errors;
+        const AxisErrors& own = error.axis ? errors.axis[index_of(*error.axis)] : errors.spindle;
+        const double value = error.location
+                                 ? own.location[error.k]
+                                 : own.motion[error.k](error.axis ? q[*error.axis] : 0.0);
+        const SixColumns& columns =
+            error.axis
+                ? (error.location ? jacobian.location : jacobian.motion)[index_of(*error.axis)]
+            : error.location ? jacobian.spindle_location
+                             : jacobian.spindle_motion;
+        return value * columns.col(static_cast<Eigen::Index>(error.k));
     }
 
     const Setup& setup_;
@@ -122,6 +152,7 @@ class Mapper {
     PhysicalMachine whole_;
     std::vector<std::unique_ptr<PhysicalMachine>> alone_;
     Vector3 tip_S_mm_;
+    Contact tool_;  ///< what effects of the tool act on
 };
 
 /// Orders causes by rms and renumbers what the points refer to.
@@ -169,6 +200,10 @@ VolumetricMap volumetric_map(const Setup& setup, const std::vector<std::string>&
     map.length_mm = options.length_mm;
     for (const AxisGeometry& axis : setup.machine.chain.axes()) map.axes.push_back(axis.axis);
     for (const std::string& name : mapper.names(effect_names)) map.causes.push_back({name});
+    for (const AxisGeometry& axis : setup.machine.chain.axes()) {
+        if (!axis.min || !axis.max) map.assumed.push_back(axis.axis);
+        if (beyond_tables(axis, setup.machine.errors, options)) map.clamped.push_back(axis.axis);
+    }
     std::vector<Vector3> parts;
     const std::vector<AxisPositions> grid = grid_of(setup.machine.chain, options);
     for (const AxisPositions& q : grid) {

@@ -30,6 +30,8 @@ struct VolumetricMap {
     std::string machine;     ///< name of the setup
     double length_mm = 0.0;  ///< tool
     std::vector<Axis> axes;
+    std::vector<Axis> assumed;  ///< their travel: the setup gives none
+    std::vector<Axis> clamped;  ///< they run beyond a table of their errors, held constant there
     std::vector<VolumetricPoint> points;
     std::vector<VolumetricCause> causes;  ///< largest rms first; points refer to this order
     std::size_t worst = 0;                ///< point with the largest error

@@ -73,8 +73,10 @@ int run_command(const Options& o) {
 
 void add_volumetric(CLI::App& app, Run& run) {
     const auto o = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("volumetric", "tool point errors over the working volume");
+    CLI::App* command = app.add_subcommand(
+        "volumetric",
+        "tool point errors over the working volume: every axis over its limits (+-200 mm and "
+        "+-180 degrees where the setup gives none); tables of errors end in their last value");
     reads_file(command->add_option("--setup", o->setup, "setup file (machines/bc_table.toml)"));
     command->add_option("--grid", o->map.grid, "points along each linear axis (5)");
     command->add_option("--rotary-grid", o->map.rotary_grid,

@@ -65,7 +65,7 @@ Effect probe_runout() {
             {{"dx_mm", "mm", 5e-3, -1, {}, true}, {"dy_mm", "mm", 5e-3, -1, {}, true}},
             [](const AxisSample& sample, const Contact& contact, std::span<const double> value,
                Perturbation& out) {
-                if (!is_probe(contact)) return;
+                if (!is_probe(contact) && !contact.stylus) return;
                 const double c = std::cos(sample.spindle_rad), s = std::sin(sample.spindle_rad);
                 out.tip_shift_mm +=
                     Vector3(c * value[0] - s * value[1], s * value[0] + c * value[1], 0.0);
@@ -77,11 +77,11 @@ Effect tool_length() {
             "The probe is longer or shorter than the control believes",
             "tool length measured with another reference, stylus changed",
             "measure the probe's length again",
-            "tip lower by error_mm (probe rows)",
+            "tip lower by error_mm (probe rows; run --truth: any tool)",
             {{"error_mm", "mm", 15e-3, -1, {}, true}},
             [](const AxisSample&, const Contact& contact, std::span<const double> value,
                Perturbation& out) {
-                if (is_probe(contact)) out.tip_shift_mm.z() -= value[0];
+                if (is_probe(contact) || contact.tip) out.tip_shift_mm.z() -= value[0];
             }};
 }
 

@@ -21,6 +21,7 @@ AxisSample PathSampler::at(double s) const {
     sample.feed_mm_min = move.feed_mm_min;
     sample.mode = mode;
     sample.spindle_rad = shop.spindle_rad;
+    sample.spindle_turns = move.spindle_rpm != 0.0;
     sample.temperature_c = shop.temperature_c;
     sample.load_kg = shop.load_kg;
     sample.clamped = shop.clamped;

@@ -25,9 +25,13 @@ class PhysicalMachine {
     EffectModels effects_;
 };
 
-/// The physical tip in S during a move: the stylus when the setup's probe is in the spindle, else a
-/// tool just as long as the control believes (the gauge point when no length is in force).
+/// The physical tip in S during a move: the stylus when the setup's probe is in the spindle, else
+/// tool T, as long as offset T of the setup says, whatever H is in force. A tool that the setup
+/// does not know (none called, no length) is as long as the control believes.
 Vector3 physical_tip_S(const Setup& setup, const AxisMove& move, double extension_mm = 0.0);
+
+/// What effects of the tool ask for when no device reads but its tip is wanted.
+Contact tip_contact(const Setup& setup, const AxisMove& move);
 
 /// Where that tip is in W, effects included.
 Vector3 physical_tip_W(const PhysicalState& state, const Vector3& tip_S_mm);

@@ -121,7 +121,7 @@ Replay::Replay(const Setup& setup, const ReadingTable& table) : setup_(setup) {
         const auto& artefact = setup.artefacts[static_cast<std::size_t>(contact.artefact)];
         if (row.device != Device::ballbar && artefact.kind != Artefact::Kind::sphere)
             where.refuse(row, "a probe row on '" + artefact.name + "', which is no sphere");
-        const MachinePose poses = model.poses(row.commanded);
+        const MachinePose poses = model.poses(row.commanded, row.spindle_rad);
         if (row.device == Device::ballbar)
             contact.direction_M = (poses.pose_MW * artefact.center_W_mm -
                                    poses.pose_MS * setup.ballbar->cup_with(row.extension_mm))
@@ -142,7 +142,7 @@ double Replay::read(std::size_t i, const ForwardModel& model, const ReplayOffset
                     const Perturbation& extra) const {
     const Contact& contact = contacts_[i];
     const auto a = static_cast<std::size_t>(contact.artefact);
-    const MachinePose poses = model.poses(samples_[i].position, extra);
+    const MachinePose poses = model.poses(samples_[i].position, extra, spindle_angle(samples_[i]));
     Vector3 center_W = setup_.artefacts[a].center_W_mm + extra.work_shift_mm;
     if (a < offsets.artefact_W.size()) center_W += offsets.artefact_W[a];
     const Vector3 center_M = poses.pose_MW * center_W;

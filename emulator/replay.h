@@ -23,6 +23,8 @@ struct Contact {
     double extension_mm = 0.0;              ///< of stylus or cup, beyond the setup's
     double path_mm = 0.0;                   ///< of the linear axes since the test began
     AxisPositions acceleration;             ///< mm/s^2, rad/s^2 along the commanded path
+    bool tip = false;     ///< no device reads: where the tip of the tool in the spindle is
+    bool stylus = false;  ///< that tool is the probe
 };
 
 /// The physical model of one effect that is switched on: what it adds at one sample. Written in the
@@ -34,6 +36,11 @@ class EffectModel {
                          Perturbation& out) const = 0;
     void perturb(const AxisSample& sample, Perturbation& out) const { perturb(sample, {}, out); }
 };
+
+/// For the errors of the spindle.
+inline SpindleAngle spindle_angle(const AxisSample& sample) {
+    return sample.spindle_turns ? std::nullopt : SpindleAngle(sample.spindle_rad);
+}
 
 using EffectModels = std::vector<std::shared_ptr<const EffectModel>>;
 

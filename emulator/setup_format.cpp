@@ -111,6 +111,20 @@ std::string axis_error_text(const AxisGeometry& axis, const AxisErrors& errors) 
     return out;
 }
 
+std::string spindle_error_text(const AxisErrors& errors) {
+    std::string out;
+    for (std::size_t k = 0; k < 5; ++k) {
+        const std::string unit = k < 3 ? "_mm = " : "_rad = ";
+        if (errors.location[k] != 0.0)
+            out +=
+                to_string(SpindleErrorName{k, true}) + unit + shortest(errors.location[k]) + '\n';
+        if (!errors.motion[k].is_zero())
+            out += to_string(SpindleErrorName{k, false}) + unit +
+                   curve_text(errors.motion[k], true) + '\n';
+    }
+    return out;
+}
+
 std::string machine_text(const Setup& setup) {
     std::string out = "schema = \"trunnion.setup/1\"\n\n[machine]\nname = " + quoted(setup.name) +
                       "\nchain = " + quoted(setup.chain_text) + '\n';
@@ -120,10 +134,7 @@ std::string machine_text(const Setup& setup) {
         out += axis_text(axis, own.backlash);
         errors += axis_error_text(axis, own);
     }
-    const SmallMotion& spindle = setup.machine.errors.spindle;
-    if (!spindle.shift_mm.isZero(0.0)) errors += "spindle_mm = " + numbers(spindle.shift_mm) + '\n';
-    if (!spindle.tilt_rad.isZero(0.0))
-        errors += "spindle_rad = " + numbers(spindle.tilt_rad) + '\n';
+    errors += spindle_error_text(setup.machine.errors.spindle);
     return errors.empty() ? out : out + "\n[machine.errors]\n" + errors;
 }
 

@@ -171,22 +171,42 @@ void read_machine(const TomlFile& file, const TomlValue& machine, Setup& setup) 
         read_machine_errors(file, file.table(*errors), setup);
 }
 
+namespace {
+
+/// The unit behind a name: "_mm" or "_rad".
+void check_unit(const TomlFile& file, const TomlValue& value, const std::string& key,
+                const std::string& name, bool angular) {
+    if (key.substr(name.size()) != (angular ? "_rad" : "_mm"))
+        file.fail(value, "the unit of " + name + " is " + (angular ? "_rad" : "_mm"));
+}
+
+void read_spindle_error(const TomlFile& file, const TomlValue& value, const SpindleErrorName& name,
+                        AxisErrors& spindle) {
+    if (name.location) {
+        spindle.location[name.direction] = file.number(value);
+        return;
+    }
+    ErrorCurve& curve = spindle.motion[name.direction] = read_curve(file, value, true);
+    if (curve.slope != 0.0 || !curve.at.empty())
+        file.fail(value, "an error motion of the spindle is a constant and harmonics of its angle");
+}
+
+}  // namespace
+
 void read_machine_errors(const TomlFile& file, const TomlValue& table, Setup& setup) {
     GeometricErrors& errors = setup.machine.errors;
     for (const auto& [key, value] : table.entries) {
         value.used = true;
-        if (key == "spindle_mm" || key == "spindle_rad") {
-            (key == "spindle_mm" ? errors.spindle.shift_mm : errors.spindle.tilt_rad) =
-                file.vector3(value);
+        const std::string_view word = std::string_view(key).substr(0, key.find('_'));
+        if (const auto spindle = parse_spindle_error_name(word)) {
+            check_unit(file, value, key, to_string(*spindle), spindle->angular());
+            read_spindle_error(file, value, *spindle, errors.spindle);
             continue;
         }
-        const auto bar = key.find('_');
-        const auto name = parse_error_name(std::string_view(key).substr(0, bar));
+        const auto name = parse_error_name(word);
         if (!name)
             file.fail(value, "'" + key + "' is not an error of ISO 230, e.g. EX0C_mm, EBX_rad");
-        if (key.substr(std::min(bar, key.size())) != (name->angular() ? "_rad" : "_mm"))
-            file.fail(value, "the unit of " + to_string(*name) + " is " +
-                                 (name->angular() ? "_rad" : "_mm"));
+        check_unit(file, value, key, to_string(*name), name->angular());
         const AxisGeometry* axis = setup.machine.chain.find(name->axis);
         if (!axis)
             file.fail(value, "the machine has no axis " + std::string(1, letter_of(name->axis)));

@@ -14,8 +14,12 @@ constexpr std::size_t axis_count = 9;
 constexpr std::array<Axis, axis_count> all_axes{Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::B,
                                                 Axis::C, Axis::U, Axis::V, Axis::W};
 
-constexpr std::size_t index_of(Axis axis) { return static_cast<std::size_t>(axis); }
-constexpr char letter_of(Axis axis) { return "XYZABCUVW"[index_of(axis)]; }
+constexpr std::size_t index_of(Axis axis) {
+    return static_cast<std::size_t>(axis);
+}
+constexpr char letter_of(Axis axis) {
+    return "XYZABCUVW"[index_of(axis)];
+}
 constexpr bool is_rotary(Axis axis) {
     return axis == Axis::A || axis == Axis::B || axis == Axis::C;
 }
@@ -43,8 +47,8 @@ enum class PositioningMode : unsigned char { none, dpp, rtdfo, rtcp, tw };
 
 /// Axis positions with all that an unmodelled effect may depend on.
 struct AxisSample {
-    AxisPositions position;                ///< commanded machine coordinates, mm and rad
-    AxisPositions velocity;                ///< mm/s and rad/s, 0 for a standing axis
+    AxisPositions position;                        ///< commanded machine coordinates, mm and rad
+    AxisPositions velocity;                        ///< mm/s and rad/s, 0 for a standing axis
     std::array<signed char, axis_count> travel{};  ///< sign of the last motion (approach) or of the
                                                    ///< velocity (ballbar): -1, 0, +1
     std::array<double, axis_count> since_reversal{};  ///< mm or rad travelled since the axis turned
@@ -54,6 +58,7 @@ struct AxisSample {
     double time_s = 0.0;
     double feed_mm_min = 0.0;
     double spindle_rad = 0.0;
+    bool spindle_turns = false;  ///< at speed: only what lasts a whole turn counts
     double temperature_c = 20.0;
     double load_kg = 0.0;
     bool clamped = false;

@@ -72,6 +72,19 @@ std::string to_string(const ErrorName& name) {
     return text + letter_of(name.axis);
 }
 
+std::optional<SpindleErrorName> parse_spindle_error_name(std::string_view text) {
+    const bool location = text.size() == 4 && text[2] == '0';
+    if (text.size() != (location ? 4U : 3U) || text[0] != 'E' || text.back() != 'S')
+        return std::nullopt;
+    const std::size_t direction = directions.find(text[1]);
+    if (direction >= 5) return std::nullopt;
+    return SpindleErrorName{direction, location};
+}
+
+std::string to_string(const SpindleErrorName& name) {
+    return std::string{'E', directions[name.direction]} + (name.location ? "0S" : "S");
+}
+
 bool ErrorCurve::is_zero() const {
     return constant == 0.0 && slope == 0.0 && harmonics.empty() && at.empty();
 }

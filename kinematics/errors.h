@@ -28,6 +28,17 @@ std::optional<ErrorName> parse_error_name(
     std::string_view text);  ///< "EX0C"; nothing if it is none
 std::string to_string(const ErrorName& name);
 
+/// EXS, EA0S, ...: an error of the spindle. ISO 230-7 has no ECS: that is the way it turns.
+struct SpindleErrorName {
+    std::size_t direction = 0;  ///< 0..4 = X Y Z A B
+    bool location = false;
+
+    bool angular() const { return direction >= 3; }
+};
+
+std::optional<SpindleErrorName> parse_spindle_error_name(std::string_view text);
+std::string to_string(const SpindleErrorName& name);
+
 /// An error as a function of its axis's position (mm or rad in, mm or rad out): a value, the sum of
 /// constant + slope * q + harmonics + table.
 struct ErrorCurve {
@@ -62,7 +73,9 @@ struct AxisErrors {
 
 struct GeometricErrors {
     std::array<AxisErrors, axis_count> axis{};
-    SmallMotion spindle;  ///< of the spindle's axis line, in S
+    /// Of the spindle, along and about + axes of S: `location` of the mean line of its axis,
+    /// `motion` by its angle (constants and harmonics).
+    AxisErrors spindle;
 
     double& location(const ErrorName& name);
     double location(const ErrorName& name) const;

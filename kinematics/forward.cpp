@@ -1,5 +1,6 @@
 #include "kinematics/forward.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace trunnion {
@@ -32,8 +33,19 @@ SmallMotion motion_of(const Link& link, double q, const SmallMotion* extra) {
     return motion;
 }
 
-Pose spindle_pose(const SmallMotion& spindle) {
-    return {rotation_of(spindle.tilt_rad), spindle.shift_mm};
+Pose pose_of(const SmallMotion& motion) {
+    return {rotation_of(motion.tilt_rad), motion.shift_mm};
+}
+
+bool is_zero(const AxisErrors& spindle) {
+    return spindle_location(spindle).is_zero() &&
+           std::all_of(spindle.motion.begin(), spindle.motion.end(),
+                       [](const ErrorCurve& curve) { return curve.is_zero(); });
+}
+
+void add_spindle(const AxisErrors& spindle, SpindleAngle spindle_rad, MachinePose& poses) {
+    poses.pose_MS = poses.pose_MS * (pose_of(spindle_location(spindle)) *
+                                     pose_of(spindle_motion(spindle, spindle_rad)));
 }
 
 const SmallMotion* extra_of(const Perturbation* extra, Axis axis) {
@@ -65,11 +77,11 @@ Pose walk(const std::vector<AxisGeometry>& side, const GeometricErrors& errors,
     return walk.pose;
 }
 
-MachinePose poses_of(const Machine& machine, const AxisPositions& q, const Perturbation* extra) {
+MachinePose poses_of(const Machine& machine, const AxisPositions& q, const Perturbation* extra,
+                     SpindleAngle spindle_rad) {
     MachinePose poses{walk(machine.chain.work, machine.errors, q, extra),
                       walk(machine.chain.tool, machine.errors, q, extra)};
-    if (!machine.errors.spindle.is_zero())
-        poses.pose_MS = poses.pose_MS * spindle_pose(machine.errors.spindle);
+    if (!is_zero(machine.errors.spindle)) add_spindle(machine.errors.spindle, spindle_rad, poses);
     return poses;
 }
 
@@ -79,6 +91,17 @@ Vector3 tip_seen_from_W(const MachinePose& poses, const Vector3& tip_S_mm) {
 }
 
 }  // namespace
+
+SmallMotion spindle_location(const AxisErrors& spindle) {
+    return {first_three(spindle.location), last_three(spindle.location)};
+}
+
+SmallMotion spindle_motion(const AxisErrors& spindle, SpindleAngle spindle_rad) {
+    std::array<double, 6> value{};
+    for (std::size_t k = 0; k < 6; ++k)
+        value[k] = spindle_rad ? spindle.motion[k](*spindle_rad) : spindle.motion[k].constant;
+    return {first_three(value), last_three(value)};
+}
 
 Link make_link(const AxisGeometry& geometry, const AxisErrors& errors) {
     Link link;
@@ -132,41 +155,43 @@ void ChainWalk::finish() {
 }
 
 ForwardModel::ForwardModel(const Machine& machine)
-    : errors_(machine.errors),
-      spindle_(spindle_pose(errors_.spindle)),
-      has_spindle_(!errors_.spindle.is_zero()) {
+    : errors_(machine.errors), has_spindle_(!is_zero(errors_.spindle)) {
     for (const AxisGeometry& geometry : machine.chain.work)
         work_.push_back(make_link(geometry, errors_.axis[index_of(geometry.axis)]));
     for (const AxisGeometry& geometry : machine.chain.tool)
         tool_.push_back(make_link(geometry, errors_.axis[index_of(geometry.axis)]));
 }
 
-MachinePose ForwardModel::poses(const AxisPositions& commanded) const {
+MachinePose ForwardModel::poses(const AxisPositions& commanded, SpindleAngle spindle_rad) const {
     MachinePose poses{walk(work_, commanded, nullptr), walk(tool_, commanded, nullptr)};
-    if (has_spindle_) poses.pose_MS = poses.pose_MS * spindle_;
+    if (has_spindle_) add_spindle(errors_.spindle, spindle_rad, poses);
     return poses;
 }
 
-MachinePose ForwardModel::poses(const AxisPositions& commanded, const Perturbation& extra) const {
+MachinePose ForwardModel::poses(const AxisPositions& commanded, const Perturbation& extra,
+                                SpindleAngle spindle_rad) const {
     MachinePose poses{walk(work_, commanded, &extra), walk(tool_, commanded, &extra)};
-    if (has_spindle_) poses.pose_MS = poses.pose_MS * spindle_;
+    if (has_spindle_) add_spindle(errors_.spindle, spindle_rad, poses);
     return poses;
 }
 
-Vector3 ForwardModel::tip_W(const AxisPositions& commanded, const Vector3& tip_S_mm) const {
-    return tip_seen_from_W(poses(commanded), tip_S_mm);
+Vector3 ForwardModel::tip_W(const AxisPositions& commanded, const Vector3& tip_S_mm,
+                            SpindleAngle spindle_rad) const {
+    return tip_seen_from_W(poses(commanded, spindle_rad), tip_S_mm);
 }
 
-MachinePose Machine::poses(const AxisPositions& commanded) const {
-    return poses_of(*this, commanded, nullptr);
+MachinePose Machine::poses(const AxisPositions& commanded, SpindleAngle spindle_rad) const {
+    return poses_of(*this, commanded, nullptr, spindle_rad);
 }
 
-MachinePose Machine::poses(const AxisPositions& commanded, const Perturbation& extra) const {
-    return poses_of(*this, commanded, &extra);
+MachinePose Machine::poses(const AxisPositions& commanded, const Perturbation& extra,
+                           SpindleAngle spindle_rad) const {
+    return poses_of(*this, commanded, &extra, spindle_rad);
 }
 
-Vector3 Machine::tip_W(const AxisPositions& commanded, const Vector3& tip_S_mm) const {
-    return tip_seen_from_W(poses(commanded), tip_S_mm);
+Vector3 Machine::tip_W(const AxisPositions& commanded, const Vector3& tip_S_mm,
+                       SpindleAngle spindle_rad) const {
+    return tip_seen_from_W(poses(commanded, spindle_rad), tip_S_mm);
 }
 
 }  // namespace trunnion

@@ -24,6 +24,10 @@ struct Link {
 
 Link make_link(const AxisGeometry& geometry, const AxisErrors& errors);
 
+/// Location and error motion of the spindle: shift (mm) and tilt (rad) in S.
+SmallMotion spindle_location(const AxisErrors& spindle);
+SmallMotion spindle_motion(const AxisErrors& spindle, SpindleAngle spindle_rad);
+
 /// Pose of the far end of one side of the chain, walking from the bed outwards. Angular errors of
 /// linear axes do not turn the linear axes that they carry: they act from the gauge point outwards
 /// (formats.md, "Frames"), so they wait in `pending` until a rotary axis or the end comes.
@@ -44,14 +48,15 @@ class ForwardModel {
     ForwardModel(const ForwardModel&) = delete;
     ForwardModel& operator=(const ForwardModel&) = delete;
 
-    MachinePose poses(const AxisPositions& commanded) const;
-    MachinePose poses(const AxisPositions& commanded, const Perturbation& extra) const;
-    Vector3 tip_W(const AxisPositions& commanded, const Vector3& tip_S_mm) const;
+    MachinePose poses(const AxisPositions& commanded, SpindleAngle spindle_rad = 0.0) const;
+    MachinePose poses(const AxisPositions& commanded, const Perturbation& extra,
+                      SpindleAngle spindle_rad = 0.0) const;
+    Vector3 tip_W(const AxisPositions& commanded, const Vector3& tip_S_mm,
+                  SpindleAngle spindle_rad = 0.0) const;
 
   private:
     GeometricErrors errors_;
     std::vector<Link> work_, tool_;
-    Pose spindle_;
     bool has_spindle_ = false;
 };
 

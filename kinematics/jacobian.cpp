@@ -132,12 +132,14 @@ void fill(const std::vector<AxisGeometry>& axes, const Side& side, const Vector3
 }  // namespace
 
 TipJacobian tip_jacobian(const Machine& machine, const AxisPositions& commanded,
-                         const Vector3& tip_S_mm) {
+                         const Vector3& tip_S_mm, SpindleAngle spindle_rad) {
     const Side work = differentiate(machine.chain.work, machine.errors, commanded);
     const Side tool = differentiate(machine.chain.tool, machine.errors, commanded);
-    const SmallMotion& spindle = machine.errors.spindle;
-    const Matrix3 spindle_turn = rotation_of(spindle.tilt_rad);
-    const Vector3 tip_M = tool.end * Vector3(spindle_turn * tip_S_mm + spindle.shift_mm);
+    const SmallMotion location = spindle_location(machine.errors.spindle),
+                      motion = spindle_motion(machine.errors.spindle, spindle_rad);
+    const Matrix3 tilted = rotation_of(location.tilt_rad), turned = rotation_of(motion.tilt_rad);
+    const Vector3 moved_mm = turned * tip_S_mm + motion.shift_mm;
+    const Vector3 tip_M = tool.end * Vector3(tilted * moved_mm + location.shift_mm);
     const Matrix3 to_W = work.end.rotation.transpose();
     TipJacobian out;
     for (auto* columns : {&out.location, &out.motion})
@@ -145,11 +147,14 @@ TipJacobian tip_jacobian(const Machine& machine, const AxisPositions& commanded,
     out.tip_W_mm = to_W * (tip_M - work.end.translation_mm);
     fill(machine.chain.tool, tool, tip_M, to_W, out);
     fill(machine.chain.work, work, tip_M, -to_W, out);  // the table moves away from under the tip
-    const Matrix3 spindle_to_W = to_W * tool.end.rotation;
-    out.spindle.leftCols<3>() = spindle_to_W;
-    out.spindle.rightCols<3>() =
-        -spindle_to_W * skew(spindle_turn * tip_S_mm) * left_jacobian(spindle.tilt_rad);
-    out.tip = spindle_to_W * spindle_turn;
+    const Matrix3 spindle_to_W = to_W * tool.end.rotation, tilted_to_W = spindle_to_W * tilted;
+    out.spindle_location.leftCols<3>() = spindle_to_W;
+    out.spindle_location.rightCols<3>() =
+        -spindle_to_W * skew(tilted * moved_mm) * left_jacobian(location.tilt_rad);
+    out.spindle_motion.leftCols<3>() = tilted_to_W;
+    out.spindle_motion.rightCols<3>() =
+        -tilted_to_W * skew(turned * tip_S_mm) * left_jacobian(motion.tilt_rad);
+    out.tip = tilted_to_W * turned;
     return out;
 }
 

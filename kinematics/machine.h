@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "geometry/axes.h"
 #include "geometry/pose.h"
@@ -25,6 +26,10 @@ struct MachinePose {
     Pose pose_MS;  ///< spindle frame: a pure shift by (X, Y, Z) without errors
 };
 
+/// Angle of the spindle, rad; nothing while it turns: then the harmonics of its error motions
+/// average out and their constants remain.
+using SpindleAngle = std::optional<double>;
+
 /// The physical machine. Frames in docs/notation.md. For many evaluations of one machine use
 /// ForwardModel (kinematics/forward.h), which works out once what does not change.
 ///
@@ -35,16 +40,20 @@ struct MachinePose {
 /// (EXR EYR EZR), eps_m(r) = (EAR EBR ECR), along and about the carrier's axes (those of M at
 /// home). Linear axis: shift by delta + r * exp([eps]x) u + delta_m; its angular errors turn what
 /// hangs from the gauge point (tool, rotary head; on the work side the table), not the linear axes
-/// that it carries. Exact rotations everywhere.
+/// that it carries. Spindle at angle r, in S: p' = delta + exp([eps]x) * (delta_m(r) +
+/// exp([eps_m(r)]x) * p) with its location EX0S.. EB0S and its motions EXS.. EBS. Exact rotations
+/// everywhere.
 struct Machine {
     Chain chain;
     GeometricErrors errors;
 
-    MachinePose poses(const AxisPositions& commanded) const;
-    MachinePose poses(const AxisPositions& commanded, const Perturbation& extra) const;
+    MachinePose poses(const AxisPositions& commanded, SpindleAngle spindle_rad = 0.0) const;
+    MachinePose poses(const AxisPositions& commanded, const Perturbation& extra,
+                      SpindleAngle spindle_rad = 0.0) const;
 
     /// The tool tip in W: pose_MW^-1 * pose_MS * tip_S.
-    Vector3 tip_W(const AxisPositions& commanded, const Vector3& tip_S_mm) const;
+    Vector3 tip_W(const AxisPositions& commanded, const Vector3& tip_S_mm,
+                  SpindleAngle spindle_rad = 0.0) const;
 };
 
 }  // namespace trunnion

@@ -13,6 +13,12 @@ std::string axis_column(Axis axis) {
     return std::string(1, lower) + (is_rotary(axis) ? "_deg" : "_mm");
 }
 
+std::string letters(const std::vector<Axis>& axes) {
+    std::string out;
+    for (const Axis axis : axes) out += (out.empty() ? "" : " ") + std::string(1, letter_of(axis));
+    return out;
+}
+
 }  // namespace
 
 std::string cause_name(const VolumetricMap& map, const VolumetricPoint& point) {
@@ -48,6 +54,12 @@ std::string volumetric_text(const VolumetricMap& map) {
         "{} poses: rms {:.2f} um, largest {:.2f} um at {} (mostly {})\n", map.points.size(),
         um_from_mm(map.rms_mm), um_from_mm(worst.error_W_mm.norm()), place_text(map.axes, worst.at),
         map.causes.empty() ? "nothing" : cause_name(map, worst));
+    if (!map.assumed.empty())
+        out += fmt::format("no travel in the setup, +-200 mm or +-180 degrees assumed: {}\n",
+                           letters(map.assumed));
+    if (!map.clamped.empty())
+        out += fmt::format("travel beyond a table of errors, held at its last value there: {}\n",
+                           letters(map.clamped));
     if (!map.causes.empty()) out += "cause                rms um  largest um   share\n";
     for (const VolumetricCause& cause : map.causes)
         out +=

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/units.h"
+#include "report/volumetric_report.h"
 
 using namespace trunnion;
 
@@ -75,4 +76,34 @@ TEST_CASE("one location error shows its length everywhere, and the rotaries go a
     REQUIRE(map.causes.size() == 1);
     CHECK(map.causes[0].share == 1.0);
     CHECK(volumetric_map(setup, {}, {}, {2, 1, 150.0}).points.size() == 8);
+}
+
+TEST_CASE("travel that was assumed and tables that end inside the travel are named") {
+    std::vector<std::string> notes;
+    const std::string head =
+        "[machine]\nchain = \"w Y X b Z t\"\n[machine.axis.X]\nlimits_mm = "
+        "[-300, 300]\n[machine.axis.Z]\nlimits_mm = [-100, 0]\n"
+        "[machine.errors]\nEZZ_mm = { at_mm = [-100, 0], value = [0, 0.01] }\n";
+    const Setup setup = parse_setup(head + "EXX_mm = { at_mm = [-300, 200], value = [0, 0.01] }\n",
+                                    "m.toml", notes);
+    const VolumetricMap map = volumetric_map(setup, {}, {}, {});
+    CHECK(map.assumed == std::vector<Axis>{Axis::Y});
+    CHECK(map.clamped == std::vector<Axis>{Axis::X});
+    const std::string text = volumetric_text(map);
+    CHECK_THAT(text, Catch::Contains("+-200 mm or +-180 degrees assumed: Y\n"));
+    CHECK_THAT(text, Catch::Contains("held at its last value there: X\n"));
+    for (const VolumetricPoint& p : map.points) CHECK(std::abs(p.at[Axis::Y]) <= 200.0);
+}
+
+TEST_CASE("errors of the spindle and of the tool are causes too") {
+    std::vector<std::string> notes;
+    Setup setup = parse_setup(
+        "[machine]\nchain = \"w Y X b Z t\"\n[machine.errors]\nEBS_rad = 2e-5\nEX0S_mm = 0.001\n",
+        "m.toml", notes);
+    const VolumetricMap map = volumetric_map(setup, {}, {}, {});
+    REQUIRE(map.causes.size() == 2);
+    CHECK(map.causes[0].name == "EBS");
+    CHECK(map.causes[0].largest_mm == Approx(150 * 2e-5));
+    CHECK(map.causes[1].name == "EX0S");
+    CHECK(map.rms_mm == Approx(0.002));  // they pull against each other
 }

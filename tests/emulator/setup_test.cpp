@@ -53,7 +53,9 @@ EC0Y_rad = 1e-5
 EXX_mm = { at_mm = [-300, 0, 300], value = [0.003, 0, -0.002], interpolation = "cubic" }
 EYX_mm = { constant = 0.001, slope = 1e-5, harmonics = [[1, 0.002, 0.001]], period_mm = 10 }
 EBC_rad = { harmonics = [[2, 1e-5, 2e-5]], at_deg = [0, 180], value = [0, 1e-5] }
-spindle_rad = [1e-5, 0, 0]
+EA0S_rad = 1e-5
+EXS_mm = { constant = 0.001, harmonics = [[1, 0.002, 0.003]] }
+EZS_mm = 0.004
 [effects]
 "C.backlash" = { gap_rad = 6.0e-5 }
 "pivot.g54" = { dg_mm = [0.1, 0.2, 0.3] }
@@ -115,7 +117,9 @@ TEST_CASE("every key of the contract arrives") {
     CHECK(of_x[0].interpolation == ErrorCurve::Interpolation::cubic);
     CHECK(of_x[1](2.5) == Approx(0.001 + 2.5e-5 + 0.001));
     CHECK(s.machine.errors.axis[index_of(Axis::C)].motion[4](pi) == Approx(2e-5));
-    CHECK(s.machine.errors.spindle.tilt_rad.x() == 1e-5);
+    CHECK(s.machine.errors.spindle.location[3] == 1e-5);
+    CHECK(s.machine.errors.spindle.motion[0](pi / 2) == Approx(0.004));
+    CHECK(s.machine.errors.spindle.motion[2](1.0) == 0.004);
     REQUIRE(s.effects.size() == 2);
     CHECK(s.effects[0].name == "C.backlash");
     CHECK(s.effects[1].parameters.at("dg_mm") == std::vector<double>{0.1, 0.2, 0.3});

@@ -23,7 +23,12 @@ Machine random_machine(const char* chain, SeededNoise& noise) {
                 errors.motion[k].slope = (k < 3 ? 1e-3 : 1e-5) * noise.normal();
             }
         }
-    machine.errors.spindle = {Vector3(0.1, 0.2, 0.3), Vector3(1e-3, 2e-3, 0)};
+    AxisErrors& spindle = machine.errors.spindle;
+    for (std::size_t k = 0; k < 5; ++k) {
+        spindle.location[k] = (k < 3 ? 0.1 : 1e-3) * noise.normal();
+        spindle.motion[k].constant = (k < 3 ? 0.1 : 1e-3) * noise.normal();
+        spindle.motion[k].harmonics = {{1.0, (k < 3 ? 0.1 : 1e-3) * noise.normal(), 0.0}};
+    }
     return machine;
 }
 
@@ -76,11 +81,16 @@ TEST_CASE("every derivative of the tip agrees with central differences") {
                       numeric(machine, q, tip, errors.motion[i].constant, step), scale);
             }
         }
+        AxisErrors& spindle = machine.errors.spindle;
+        for (std::size_t i = 0; i < 6; ++i) {
+            const double step = i < 3 ? 1e-2 : 1e-5, scale = i < 3 ? 1 : 1000;
+            const auto column = Eigen::Index(i);
+            check(jacobian.spindle_location.col(column),
+                  numeric(machine, q, tip, spindle.location[i], step), scale);
+            check(jacobian.spindle_motion.col(column),
+                  numeric(machine, q, tip, spindle.motion[i].constant, step), scale);
+        }
         for (int i = 0; i < 3; ++i) {
-            check(jacobian.spindle.col(i),
-                  numeric(machine, q, tip, machine.errors.spindle.shift_mm[i], 1e-2), 1);
-            check(jacobian.spindle.col(i + 3),
-                  numeric(machine, q, tip, machine.errors.spindle.tilt_rad[i], 1e-5), 1000);
             Vector3 a = tip, b = tip;
             a[i] += 0.5, b[i] -= 0.5;
             check(jacobian.tip.col(i), machine.tip_W(q, a) - machine.tip_W(q, b), 1);

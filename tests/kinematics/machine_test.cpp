@@ -187,7 +187,7 @@ TEST_CASE("the prepared model is the machine, with and without perturbation") {
         machine.chain = parse_chain(text);
         for (int errors = 0; errors < 2; ++errors) {
             if (errors) set_all_errors(machine, noise);
-            machine.errors.spindle.tilt_rad = errors ? Vector3(1e-5, 0, 0) : Vector3::Zero();
+            machine.errors.spindle.location[3] = errors ? 1e-5 : 0.0;
             const ForwardModel model(machine);
             for (int i = 0; i < 20; ++i) {
                 const AxisPositions q = random_positions(noise);
