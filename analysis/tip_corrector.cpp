@@ -7,6 +7,7 @@
 #include "geometry/alarm.h"
 #include "geometry/units.h"
 #include "kinematics/jacobian.h"
+#include "offsets/axis_numbers.h"
 #include "positioning/rotary_transform.h"
 
 namespace trunnion {
@@ -28,6 +29,19 @@ double within(double so_far_rad, double wish_rad, double limit_rad) {
     return sum_rad / (1.0 + std::pow(sum_rad / limit_rad, 4)) - so_far_rad;
 }
 
+/// What the control does not believe to move the tool would be taken for an error.
+void refuse_unknown_axes(const Setup& setup) {
+    std::vector<Axis> order;
+    for (const AxisGeometry& axis : setup.machine.chain.axes()) order.push_back(axis.axis);
+    const ParallelAxes known = parallel_axes(setup.stores.parameters, order);
+    for (std::size_t i = 0; i < 3; ++i)
+        if (const Axis axis = all_axes[index_of(Axis::U) + i];
+            setup.machine.chain.find(axis) && known.beside[i] < 0)
+            throw InputError(std::string("compensation needs to know how ") + letter_of(axis) +
+                                 " runs: parameter 1022 = 5, 6 or 7, parallel to X, Y or Z",
+                             {setup.path, 0, 0});
+}
+
 }  // namespace
 
 double angle_between(const Vector3& a, const Vector3& b) {
@@ -36,7 +50,8 @@ double angle_between(const Vector3& a, const Vector3& b) {
 
 TipCorrector::TipCorrector(const Setup& setup, const EffectModels& effects, double largest_turn_rad,
                            int decimals)
-    : nominal_(setup.machine),
+    : setup_(setup),
+      nominal_(setup.machine),
       machine_(setup.machine, effects),
       largest_turn_rad_(largest_turn_rad),
       digit_mm_(std::pow(10.0, -decimals)) {
@@ -44,6 +59,7 @@ TipCorrector::TipCorrector(const Setup& setup, const EffectModels& effects, doub
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
         if (!nominal_.chain.find(axis))
             throw InputError("compensation needs the axes X, Y and Z", {setup.path, 0, 0});
+    refuse_unknown_axes(setup);
 }
 
 bool TipCorrector::turns_tool(const AxisMove& move) const {
@@ -59,6 +75,11 @@ BelievedTool TipCorrector::meant(const AxisMove& move, double s) const {
 
 namespace {
 
+/// Without a length in force the gauge point is meant, on which no tool has an effect.
+Contact contact(const Setup& setup, const AxisMove& move) {
+    return move.tool_vector_mm.isZero(0.0) ? Contact{} : tip_contact(setup, move);
+}
+
 BelievedTool tool_at(const PhysicalState& state, const AxisMove& move) {
     const Vector3 tool_S =
         move.transform ? move.transform->pivot().tool_direction : Vector3::UnitZ();
@@ -69,7 +90,7 @@ BelievedTool tool_at(const PhysicalState& state, const AxisMove& move) {
 }  // namespace
 
 BelievedTool TipCorrector::truth(const PathSampler& path, double s) const {
-    return tool_at(machine_.at(path.at(s), {}), path.move);
+    return tool_at(machine_.at(path.at(s), contact(setup_, path.move)), path.move);
 }
 
 BelievedTool TipCorrector::truth(const PathSampler& path, double s, const AxisPositions& q,
@@ -77,7 +98,7 @@ BelievedTool TipCorrector::truth(const PathSampler& path, double s, const AxisPo
     AxisSample sample = path.at(s);
     sample.position = q;
     sample.travel = travel;
-    return tool_at(machine_.at(sample, {}), path.move);
+    return tool_at(machine_.at(sample, contact(setup_, path.move)), path.move);
 }
 
 /// One step of both rotaries towards the meant direction.

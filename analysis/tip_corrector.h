@@ -20,11 +20,11 @@ struct Correction {
 
 class TipCorrector {
   public:
-    /// The tool is as long as the control believes. `largest_turn_rad`: no rotary axis is taken
-    /// further than this from its commanded angle for the sake of the tool's direction (near the
-    /// singular direction a tilt of a few urad would ask for any angle); 0: never turned.
-    /// `decimals` of the words that will say where to go. Throws InputError when the machine has no
-    /// X, Y or Z axis.
+    /// `setup` must outlive the corrector. The tool is as long as the control believes.
+    /// `largest_turn_rad`: no rotary axis is taken further than this from its commanded angle for
+    /// the sake of the tool's direction (near the singular direction a tilt of a few urad would ask
+    /// for any angle); 0: never turned. `decimals` of the words that will say where to go. Throws
+    /// InputError when the machine has no X, Y or Z axis.
     TipCorrector(const Setup& setup, const EffectModels& effects, double largest_turn_rad = 0.0,
                  int decimals = 6);
 
@@ -55,6 +55,7 @@ class TipCorrector {
     double digit(std::size_t axis) const;
     Travel arrival(const AxisPositions& q, const AxisTracker& written) const;
 
+    const Setup& setup_;
     Machine nominal_;
     PhysicalMachine machine_;
     double largest_turn_rad_, digit_mm_;

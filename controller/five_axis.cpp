@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "controller/g_codes.h"
+#include "offsets/axis_numbers.h"
 #include "positioning/rotary_choice.h"
 
 namespace trunnion {
@@ -53,6 +54,7 @@ void decode_five_axis(ControlState& c) {
     } catch (const Alarm& alarm) {
         five.fault = alarm;
     }
+    c.move.parallel = parallel_axes(c.stores.parameters, axis_order(c));
     c.move.transform = five.transform ? &*five.transform : nullptr;
     five_axis_changed(c);
 }

@@ -11,10 +11,9 @@ namespace trunnion {
 
 namespace {
 
-double xyz_length(const AxisPositions& from, const AxisPositions& to) {
-    const double x = to.value[0] - from.value[0], y = to.value[1] - from.value[1],
-                 z = to.value[2] - from.value[2];
-    return std::sqrt(x * x + y * y + z * z);
+/// Way of the tip while the rotaries stand.
+double linear_length(const AxisMove& m) {
+    return (m.parallel.linear(m.to) - m.parallel.linear(m.from)).norm();
 }
 
 [[noreturn]] void raise_overtravel(const ControlState& c, std::size_t i, const AxisPositions& to) {
@@ -82,7 +81,7 @@ MoveResult move_straight(ControlState& c, MotionKind kind, const ControlPosition
         c.program = target;
         return {};
     }
-    m.length_mm = xyz_length(m.from, m.to);
+    m.length_mm = linear_length(m);
     if (c.spindle.by_surface) follow_surface_speed(c, target);
     const double way = feed_length(c, machine_target);
     m.duration_s = kind == MotionKind::rapid ? rapid_time(c.limits, m.from, m.to)
@@ -99,7 +98,7 @@ void move_machine(ControlState& c, MotionKind kind, const ControlPosition& targe
         c.program = program;
         return;
     }
-    m.length_mm = xyz_length(m.from, m.to);
+    m.length_mm = linear_length(m);
     const double way = feed_length(c, target);
     m.duration_s = kind == MotionKind::rapid ? rapid_time(c.limits, m.from, m.to)
                                              : cutting_time(c, way, m.from, m.to);

@@ -74,9 +74,10 @@ Vector3 tool_direction_P(const ControlState& c) {
 }
 
 Vector3 tip_P(const ControlState& c) {
-    const Vector3 tip_W = c.five_axis.transform
-                              ? c.five_axis.transform->tip_W(c.move.from, c.move.tool_vector_mm)
-                              : Vector3(xyz_of(c.machine) - c.move.tool_vector_mm);
+    const Vector3 tip_W =
+        c.five_axis.transform
+            ? c.five_axis.transform->tip_W(c.move.from, c.move.tool_vector_mm)
+            : Vector3(c.move.parallel.linear(c.move.from) - c.move.tool_vector_mm);
     return tip_W - origin_of_work(c);
 }
 
@@ -99,7 +100,7 @@ ControlPosition tool_length_in_plane(const ControlState& c) {
     set_xyz(length, c.move.tool_vector_mm);
     if (!c.five_axis.transform) return length;
     const AxisPositions& there = c.five_axis.plane->latched;
-    const Vector3 gauge(there[Axis::X], there[Axis::Y], there[Axis::Z]);
+    const Vector3 gauge = c.move.parallel.linear(there);
     set_xyz(length, gauge - c.five_axis.transform->pose_MW(there) *
                                 c.five_axis.transform->tip_W(there, c.move.tool_vector_mm));
     return length;

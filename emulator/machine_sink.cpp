@@ -50,8 +50,7 @@ double longer_way_mm(const AxisMove& move) {
     AxisPositions before = move.from;
     for (int k = 1; k <= parts; ++k) {
         const AxisPositions now = move.at(static_cast<double>(k) / parts);
-        way_mm += std::hypot(now[Axis::X] - before[Axis::X], now[Axis::Y] - before[Axis::Y],
-                             now[Axis::Z] - before[Axis::Z]);
+        way_mm += (move.parallel.linear(now) - move.parallel.linear(before)).norm();
         before = now;
     }
     return std::max(move.length_mm, way_mm);
@@ -141,7 +140,7 @@ void MachineSink::follow_mode(const AxisMove& move) {
 }
 
 Vector3 MachineSink::true_tip_W(const PathSampler& path, double s) const {
-    return physical_tip_W(machine_.at(path.at(s), {}),
+    return physical_tip_W(machine_.at(path.at(s), tip_contact(setup_, path.move)),
                           physical_tip_S(setup_, path.move, shop_.extension_mm));
 }
 

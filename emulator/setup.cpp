@@ -30,6 +30,10 @@ void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
     const bool has_rotary = std::any_of(axes.begin(), axes.end(), [](auto& a) { return a.rotary; });
     if (!reason.empty() && has_rotary && !given.contains(19680))
         notes.push_back(setup.path + ": no pivot parameters 19680-19714: " + reason);
+    const std::string alone = derive_parallel_axes(setup.machine, parameters);
+    if (!alone.empty())
+        notes.push_back(setup.path + ": no parameter 1022 says how " + alone +
+                        " runs: the control believes that it does not move the tool");
     derive_fixture_groups(setup.machine, parameters);
     std::vector<int> added;
     for (const auto& [number, parameter] : parameters.entry)

@@ -121,6 +121,10 @@ std::string format_setup(const Setup& setup);
 /// (not two rotary axes, a linear axis carried by a rotary one, an axis line in no coordinate
 /// plane), and then leaves all as it was; empty when done.
 std::string derive_pivot_parameters(const Machine& machine, Parameters& parameters);
+/// 1022 of machines with U, V or W: 5, 6, 7 for one that moves the tool as X, Y, Z do, 0 for one
+/// that runs otherwise or that a rotary axis carries; returns the letters of those. Nothing when
+/// 1022 is present already.
+std::string derive_parallel_axes(const Machine& machine, Parameters& parameters);
 /// G54.2 groups 7580-7588 of the machine's table axes, the one nearest the work first. Nothing when
 /// any of them is present already, or when a table axis is inclined (no group can say that).
 void derive_fixture_groups(const Machine& machine, Parameters& parameters);

@@ -3,13 +3,6 @@
 #include "geometry/units.h"
 
 namespace trunnion {
-namespace {
-
-Vector3 linear_part(const AxisPositions& q) {
-    return {q[Axis::X], q[Axis::Y], q[Axis::Z]};
-}
-
-}  // namespace
 
 TouchStation::TouchStation(const Setup& setup, std::uint64_t seed) : setup_(setup), noise_(seed) {}
 
@@ -20,7 +13,8 @@ bool TouchStation::mounted(const AxisMove& move) const {
 
 std::optional<Touch> TouchStation::touch(const PathSampler& path, const PhysicalMachine& machine) {
     const ProbeSettings& settings = *setup_.probe;
-    const Vector3 way = linear_part(path.move.to) - linear_part(path.move.from);
+    const Vector3 way =
+        path.move.parallel.linear(path.move.to) - path.move.parallel.linear(path.move.from);
     Contact contact;
     contact.device = Device::touch;
     contact.extension_mm = path.shop.extension_mm;
@@ -56,7 +50,7 @@ std::optional<Touch> TouchStation::latched(const PathSampler& path, const Physic
     const double reading_mm = machine.at(path.at(contact_s), contact).extra.reading_mm;
     const double noise_mm = mm_from_um(settings.repeatability_um) * noise_.normal();
     const double over_mm = mm_from_um(settings.pretravel_um) + reading_mm + noise_mm;
-    const auto gauge = [&](double s) { return linear_part(path.move.at(s)); };
+    const auto gauge = [&](double s) { return path.move.parallel.linear(path.move.at(s)); };
     const auto s = latch(gauge, contact_s, over_mm);
     if (!s) return std::nullopt;
     Touch touch;
@@ -64,8 +58,8 @@ std::optional<Touch> TouchStation::latched(const PathSampler& path, const Physic
     touch.stopped = path.move.at(*s);
     touch.sphere = &setup_.artefacts[static_cast<std::size_t>(contact.artefact)];
     touch.direction_M = contact.direction_M;
-    touch.value_mm =
-        contact.direction_M.dot(linear_part(touch.stopped) - linear_part(path.move.to));
+    touch.value_mm = contact.direction_M.dot(path.move.parallel.linear(touch.stopped) -
+                                             path.move.parallel.linear(path.move.to));
     return touch;
 }
 

@@ -34,7 +34,7 @@ void append_name(std::string& out, const std::string* name) {
 BelievedTool believed_tool(const AxisMove& move, const AxisPositions& q) {
     if (move.transform)
         return {move.transform->tip_W(q, move.tool_vector_mm), move.transform->tool_direction_W(q)};
-    return {Vector3(q[Axis::X], q[Axis::Y], q[Axis::Z]) - move.tool_vector_mm, Vector3::UnitZ()};
+    return {move.parallel.linear(q) - move.tool_vector_mm, Vector3::UnitZ()};
 }
 
 void TraceNumber::set(double value) {

@@ -7,6 +7,7 @@
 
 #include "geometry/alarm.h"
 #include "geometry/axes.h"
+#include "geometry/parallel_axes.h"
 #include "geometry/pose.h"
 
 namespace trunnion {
@@ -56,7 +57,8 @@ struct AxisMove {
     bool coolant = false;
     PositioningMode mode = PositioningMode::none;
     Vector3 tool_vector_mm =
-        Vector3::Zero();  ///< believed: from tip to gauge point, rotaries at zero
+        Vector3::Zero();    ///< believed: from tip to gauge point, rotaries at zero
+    ParallelAxes parallel;  ///< believed: U V W beside X Y Z
     const RotaryTransform* transform =
         nullptr;  ///< believed kinematics, for tip and direction in W
     int line = 0;

@@ -24,4 +24,16 @@ int number_of_axis(Axis axis, const std::vector<Axis>& order) {
     return at == order.end() ? 0 : static_cast<int>(at - order.begin()) + 1;
 }
 
+ParallelAxes parallel_axes(const Parameters& parameters, const std::vector<Axis>& order) {
+    ParallelAxes out;
+    const auto given = parameters.entry.find(1022);
+    if (given == parameters.entry.end()) return out;
+    for (const auto& [number, value] : given->second.by_axis) {
+        const auto axis = axis_of_number(parameters, number, order);
+        if (!axis || index_of(*axis) < index_of(Axis::U) || value < 5.0 || value > 7.0) continue;
+        out.beside[index_of(*axis) - index_of(Axis::U)] = static_cast<signed char>(value - 5.0);
+    }
+    return out;
+}
+
 }  // namespace trunnion

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/axes.h"
+#include "geometry/parallel_axes.h"
 #include "offsets/stores.h"
 
 namespace trunnion {
@@ -15,5 +16,8 @@ std::optional<Axis> axis_of_number(const Parameters& parameters, int number,
                                    const std::vector<Axis>& order);
 /// Number of an axis in that order (1020 is not read); 0 when it is not in it.
 int number_of_axis(Axis axis, const std::vector<Axis>& order);
+
+/// Parameter 1022 of U, V and W.
+ParallelAxes parallel_axes(const Parameters& parameters, const std::vector<Axis>& order);
 
 }  // namespace trunnion

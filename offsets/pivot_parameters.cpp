@@ -162,6 +162,7 @@ std::optional<PivotParameters> decode_pivot(const Parameters& parameters,
     pivot.tool_direction = decode_tool_direction(parameters);
     pivot.holder_offset_mm = finite_value(parameters, 19666);
     pivot.frame_follows_work = parameters.bit(19696, 5);
+    pivot.parallel = parallel_axes(parameters, axis_order);
     return pivot;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/axes.h"
+#include "geometry/parallel_axes.h"
 #include "geometry/pose.h"
 #include "offsets/stores.h"
 
@@ -41,6 +42,7 @@ struct PivotParameters {
         Vector3::UnitZ();             ///< 19697 (+ 19698, 19699): tip to spindle, rotaries at zero
     double holder_offset_mm = 0.0;    ///< 19666
     bool frame_follows_work = false;  ///< 19696#5 WKP
+    ParallelAxes parallel;            ///< 1022 of U V W
 };
 
 /// Decodes the store; nothing when 19680 is 0 or absent. Throws Alarm 5459 (MACHINE PARAMETER

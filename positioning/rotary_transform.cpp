@@ -116,12 +116,6 @@ inline Vector3 RotaryTransform::tool_direction_M(const Turns& q) const {
     }
 }
 
-namespace {
-Vector3 linear_axes(const AxisPositions& machine) {
-    return {machine[Axis::X], machine[Axis::Y], machine[Axis::Z]};
-}
-}  // namespace
-
 Pose RotaryTransform::pose_MW(const AxisPositions& machine) const {
     const Turns q = turns(machine);
     Pose pose;
@@ -141,7 +135,7 @@ Matrix3 RotaryTransform::tool_rotation_M(const AxisPositions& machine) const {
 
 Vector3 RotaryTransform::tip_W(const AxisPositions& machine, const Vector3& tool_vector_mm) const {
     const Turns q = turns(machine);
-    return to_W(q, linear_axes(machine) + swing(q, -tool_vector_mm));
+    return to_W(q, pivot_.parallel.linear(machine) + swing(q, -tool_vector_mm));
 }
 
 Vector3 RotaryTransform::tool_direction_W(const AxisPositions& machine) const {
@@ -154,16 +148,15 @@ AxisPositions RotaryTransform::machine_for_tip(const Vector3& p_W, const AxisPos
     const Turns q = turns(machine);
     const Vector3 gauge_mm = from_W(q, p_W) - swing(q, -tool_vector_mm);
     AxisPositions out = machine;
-    out[Axis::X] = gauge_mm.x();
-    out[Axis::Y] = gauge_mm.y();
-    out[Axis::Z] = gauge_mm.z();
+    const Vector3 missing_mm = gauge_mm - pivot_.parallel.linear(machine);
+    for (std::size_t i = 0; i < 3; ++i) out.value[i] += missing_mm[static_cast<Eigen::Index>(i)];
     return out;
 }
 
 TipDerivative RotaryTransform::derivative(const AxisPositions& machine,
                                           const Vector3& tool_vector_mm) const {
     const Turns q = turns(machine);
-    const Vector3 gauge_M = linear_axes(machine);
+    const Vector3 gauge_M = pivot_.parallel.linear(machine);
     const Vector3 tip_M = gauge_M + swing(q, -tool_vector_mm);
     const Vector3 tool_M = tool_direction_M(q);
     const bool tool_first = pivot_.unit != MechanicalUnit::table_table;

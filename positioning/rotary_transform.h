@@ -42,8 +42,8 @@ class RotaryTransform {
     Vector3 tip_W(const AxisPositions& machine, const Vector3& tool_vector_mm) const;
     /// Believed unit vector from tip to spindle, in W.
     Vector3 tool_direction_W(const AxisPositions& machine) const;
-    /// Gauge point (X Y Z of M) that puts the tip on p_W with the rotary axes as in `machine`;
-    /// other axes are copied.
+    /// X Y Z that put the tip on p_W with the rotary axes and U V W as in `machine`; other axes are
+    /// copied.
     AxisPositions machine_for_tip(const Vector3& p_W, const AxisPositions& machine,
                                   const Vector3& tool_vector_mm) const;
     /// Both branches of the rotary angles that point the tool along unit vector n_W, in (-pi, pi];

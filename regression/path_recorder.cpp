@@ -16,9 +16,6 @@ double even_time_s(const AxisMove& move) {
     return even ? 60.0 * move.length_mm / move.feed_mm_min : move.duration_s;
 }
 
-Vector3 linear_of(const AxisPositions& p) {
-    return {p[Axis::X], p[Axis::Y], p[Axis::Z]};
-}
 Vector3 rotary_of(const AxisPositions& p) {
     return {p[Axis::A], p[Axis::B], p[Axis::C]};
 }
@@ -62,14 +59,16 @@ void PathRecorder::refresh(const AxisMove& move) {
     frame_.table_offset_mm = move.transform->pivot().table_offset_mm;
     AxisPositions at = frame_.rotary;
     const Pose pose_WM = move.transform->pose_MW(at).inverse();
-    at[Axis::X] = at[Axis::Y] = at[Axis::Z] = 0.0;
+    for (const Axis axis : all_axes)
+        if (!is_rotary(axis)) at[axis] = 0.0;
     frame_.rotation = pose_WM.rotation;
     frame_.translation_mm = move.transform->tip_W(at, move.tool_vector_mm);
     frame_.direction = move.transform->tool_direction_W(at);
 }
 
 PathPoint PathRecorder::point(const AxisMove& move, const AxisPositions& at) {
-    if (space_ == PathSpace::joints) return {linear_of(at), rotary_of(at)};
+    const Vector3 linear_mm = move.parallel.linear(at);
+    if (space_ == PathSpace::joints) return {linear_mm, rotary_of(at)};
     const RotaryTransform* t = move.transform;
     const bool same = frame_.valid && frame_.transform == t &&
                       rotary_of(frame_.rotary) == rotary_of(at) &&
@@ -80,7 +79,7 @@ PathPoint PathRecorder::point(const AxisMove& move, const AxisPositions& at) {
         frame_.rotary = at;
         refresh(move);
     }
-    return {frame_.rotation * linear_of(at) + frame_.translation_mm, frame_.direction};
+    return {frame_.rotation * linear_mm + frame_.translation_mm, frame_.direction};
 }
 
 Segment PathRecorder::plain_segment(const AxisMove& move) {

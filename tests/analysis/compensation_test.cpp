@@ -314,3 +314,23 @@ TEST_CASE("41 errors and backlash of every axis at once") {
         }
     }
 }
+
+TEST_CASE("a machine with an extra axis W lands where it meant") {
+    std::vector<std::string> notes;
+    Setup setup = parse_setup(
+        "[machine]\nchain = \"w W b X Y Z t\"\n[machine.errors]\n"
+        "EXW_mm = { at_mm = [-100, 0, 100], value = [0.004, 0, -0.006] }\nEAW_rad = 2e-5\n"
+        "EZW_mm = { slope = 1e-4 }\nEB0W_rad = 5e-5\nEC0Y_rad = 3e-5\n"
+        "[control.tools]\n1 = { length_mm = 150 }\n",
+        "mill.toml", notes);
+    const std::string program =
+        "O1\nG21 G17 G90 G54\nT1 M06\nG0 X-40. Y-30. W40.\nG43 H1 Z50.\nG1 X40. W-20. F800.\n"
+        "G1 W60.\nG2 X0 Y-70. I-40. J0. F500.\nG0 W-80.\nM30\n";
+    const CompensatedProgram c = compensate(setup, program);
+    REQUIRE(c.executed.status == RunStatus::ok);
+    CHECK(c.before.tip_mm > 0.005);
+    CHECK(c.after.tip_mm < 1e-4);
+    CHECK_THAT(c.program, Catch::Contains(" W-20."));
+    setup.stores.parameters.entry.erase(1022);
+    CHECK_THROWS_AS(compensate(setup, program), InputError);
+}

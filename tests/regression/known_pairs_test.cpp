@@ -218,3 +218,16 @@ TEST_CASE("a program of offsets alone is compared by its effects", "[compare]") 
     CHECK(r.by == Layer::effects);
     CHECK(r.differences.front().what == "G54 Y: 20 -> 20.1");
 }
+
+TEST_CASE("U V W count with the axis that they run beside", "[compare]") {
+    std::vector<std::string> notes;
+    const Setup setup = parse_setup("[machine]\nchain = \"w W b X Y Z t\"\n", "mill.toml", notes);
+    const std::string head = "O1\nG21 G90 G94 G54\nG0 X0 Y0 Z50. W0\n", end = "M30\n";
+    const std::string by_z = head + "G1 Z20. F500.\nX40.\n" + end;
+    CHECK(compare_texts(by_z, head + "G1 W-30. F500.\nX40.\n" + end, setup).equal);
+    const Comparison without = compare_texts(by_z, head + "X40. F500.\n" + end, setup);
+    CHECK_FALSE(without.equal);
+    const Comparison less = compare_texts(by_z, head + "G1 W-29. F500.\nX40.\n" + end, setup);
+    CHECK_FALSE(less.equal);
+    CHECK(less.position_mm == Approx(1.0));
+}
