@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/units.h"
+#include "motion/tool_centre_point.h"
 #include "records/readings.h"
 
 namespace trunnion {
@@ -23,10 +24,14 @@ void AxisTracker::advance(const AxisPositions& position) {
 }
 
 void AxisTracker::follow(const AxisMove& move) {
-    if (move.arc || move.curve) {
-        constexpr double step_rad = pi / 8.0, last_step = 1e-3;
-        const double sweep_rad = move.arc ? std::abs(move.arc->sweep_rad) : pi;
-        const int steps = std::max(2, static_cast<int>(std::ceil(sweep_rad / step_rad)));
+    constexpr double step_rad = pi / 8.0, last_step = 1e-3;
+    const int steps =
+        move.arc
+            ? std::max(2, static_cast<int>(std::ceil(std::abs(move.arc->sweep_rad) / step_rad)))
+        : move.curve ? 4 * curve_parts(move.from, move.to)
+                     : 1;
+    const bool hardly_turns = steps == 1 || (move.curve && steps == 4);  // the hot path of G43.4
+    if (!hardly_turns) {
         for (int i = 1; i < steps; ++i) advance(move.at(static_cast<double>(i) / steps));
         advance(move.at(1.0 - last_step));
     }
