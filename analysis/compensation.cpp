@@ -152,8 +152,8 @@ class RewritingSink : public MotionSink {
     }
 
     static CompensatedBlock::End end_of(const Correction& c) {
-        return c.held[0] || c.held[1] || c.held[2] ? CompensatedBlock::End::in_gap
-                                                   : CompensatedBlock::End::exact;
+        const bool held = std::find(c.held.begin(), c.held.end(), true) != c.held.end();
+        return held ? CompensatedBlock::End::in_gap : CompensatedBlock::End::exact;
     }
 
     void write_line(const PathSampler& path, double s, const Correction& c, double duration_s) {
@@ -163,6 +163,7 @@ class RewritingSink : public MotionSink {
     /// The rotaries begin, or cease, to correct the direction: they go there with the tip at rest.
     void begin_turned(const PathSampler& path, const PathStretch& stretch, bool turned) {
         turned_ = turned;
+        pass_gap(path, stretch, 0.0, take_up_s, Axis::A, Axis::C);
         write_line(path, 0.0, corrected(path, stretch, 0.0), take_up_s);
     }
 
@@ -185,18 +186,24 @@ class RewritingSink : public MotionSink {
         if (text_.skip(path.move, c.to)) note(path, 1.0, end_of(c));
     }
 
-    /// X, Y and Z that would end inside their gap go past it first: in the air that harms nothing.
-    void write_rapid(const PathSampler& path, const PathStretch& stretch) {
-        constexpr double past_mm = 0.01;
-        Correction c = corrected(path, stretch, 1.0);
+    /// Axes first.. to last that would end inside their gap go past it: in the air that harms
+    /// nothing.
+    void pass_gap(const PathSampler& path, const PathStretch& stretch, double s, double duration_s,
+                  Axis first, Axis last) {
+        constexpr double past_mm = 0.01, past_rad = 2e-5;
+        const Correction c = corrected(path, stretch, s);
         AxisPositions past = c.to;
-        for (std::size_t i = 0; i < 3; ++i)
-            if (c.held[i]) past.value[i] = c.wanted.value[i] - past_mm * c.travel[i];
-        if (past != c.to && text_.line(path.move, past, path.move.duration_s)) {
-            note(path, 1.0, CompensatedBlock::End::past_gap);
-            c = corrected(path, stretch, 1.0);
-        }
-        write_line(path, 1.0, c, path.move.duration_s);
+        for (std::size_t i = index_of(first); i <= index_of(last); ++i)
+            if (c.held[i])
+                past.value[i] =
+                    c.wanted.value[i] - c.travel[i] * (is_rotary(all_axes[i]) ? past_rad : past_mm);
+        if (past != c.to && text_.line(path.move, past, duration_s))
+            note(path, s, CompensatedBlock::End::past_gap);
+    }
+
+    void write_rapid(const PathSampler& path, const PathStretch& stretch) {
+        pass_gap(path, stretch, 1.0, path.move.duration_s, Axis::X, Axis::C);
+        write_line(path, 1.0, corrected(path, stretch, 1.0), path.move.duration_s);
     }
 
     void write_feed(const PathSampler& path, const PathStretch& stretch) {
@@ -304,9 +311,9 @@ class CheckingSink : public MotionSink {
   private:
     void look(const PathSampler& path, const CompensatedBlock& block) {
         if (block.end == CompensatedBlock::End::past_gap) return;
-        auto here = errors_at(corrector_.truth(path, 1.0), block.meant, block.turned);
-        if (block.end == CompensatedBlock::End::in_gap) std::swap(here.tip_mm, here.gap_mm);
-        out_.after.include(here);
+        const bool in_gap = block.end == CompensatedBlock::End::in_gap;
+        (in_gap ? out_.in_gap : out_.after)
+            .include(errors_at(corrector_.truth(path, 1.0), block.meant, block.turned));
     }
 
     TipCorrector corrector_;
@@ -330,7 +337,6 @@ RunResult execute(const Setup& setup, ProgramSource& programs, MotionSink& sink,
 
 void CompensatedProgram::Worst::include(const Worst& other) {
     tip_mm = std::max(tip_mm, other.tip_mm);
-    gap_mm = std::max(gap_mm, other.gap_mm);
     turned_rad = std::max(turned_rad, other.turned_rad);
     kept_rad = std::max(kept_rad, other.kept_rad);
 }

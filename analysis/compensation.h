@@ -17,7 +17,7 @@ struct CompensationOptions {
 
 /// One motion block of the program written.
 struct CompensatedBlock {
-    /// X, Y or Z may have to end inside its gap, or goes past it first (rapids only).
+    /// An axis may have to end inside its gap, or goes past it first where nothing is cut.
     enum class End : unsigned char { exact, in_gap, past_gap };
     int line = 0;          ///< of the original
     int written_line = 0;  ///< of the program written
@@ -30,15 +30,15 @@ struct CompensatedProgram {
     std::string program;  ///< flat: what the original executed, without loops and calls
     std::vector<CompensatedBlock> blocks;
     RunResult original, executed;  ///< of the original and of the program written
-    /// Largest errors at a block's end: of the tip; of the tip where X, Y or Z turns round and is
-    /// still inside its gap; of the direction where the rotaries correct it; where they keep their
-    /// words.
+    /// Largest errors at a block's end: of the tip; of the direction where the rotaries correct it;
+    /// of the direction where they keep their words.
     struct Worst {
-        double tip_mm = 0.0, gap_mm = 0.0, turned_rad = 0.0, kept_rad = 0.0;
+        double tip_mm = 0.0, turned_rad = 0.0, kept_rad = 0.0;
         void include(const Worst& other);
     };
     Worst before;  ///< of the original
     Worst after;   ///< of the program written, executed
+    Worst in_gap;  ///< the same where an axis has turned round and is still inside its gap
     std::vector<std::string> notes;
 };
 

@@ -177,6 +177,7 @@ Correction TipCorrector::corrected(const PathSampler& path, const PathStretch& s
     for (std::size_t i = 0; i < axis_count; ++i)
         c.travel[i] = stretch.travel[i] != 0 ? stretch.travel[i] : written.travel()[i];
     Held held;
+    AxisPositions beyond;  // of held axes: where they should be
     c.wanted = solved(path, s, c.travel, held);
     for (int round = 0; round < most_rounds; ++round) {
         const Travel arrives = arrival(c.wanted, written);
@@ -194,6 +195,7 @@ Correction TipCorrector::corrected(const PathSampler& path, const PathStretch& s
         const double rest = std::max(digit(i), is_rotary(all_axes[i]) ? rest_rad : rest_mm);
         const bool idle = stretch.travel[i] == 0 && now_off < rest && jump > rest;
         c.held[i] = idle || arrival(turned, written)[i] != other[i];
+        beyond.value[i] = (then_off < now_off ? turned : c.wanted).value[i];
         if (!c.held[i] || then_off < now_off) c.travel = other;
         // The side of the gap that it stands on, or just over to the other.
         if (c.held[i])
@@ -203,7 +205,10 @@ Correction TipCorrector::corrected(const PathSampler& path, const PathStretch& s
     }
     c.to = c.wanted;
     for (std::size_t i = 0; i < axis_count; ++i)
-        if (held[i]) c.to.value[i] = *held[i];
+        if (held[i]) {
+            c.to.value[i] = *held[i];
+            c.wanted.value[i] = beyond.value[i];
+        }
     return c;
 }
 

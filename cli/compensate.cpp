@@ -54,9 +54,12 @@ int run_command(const Options& o) {
     fmt::print(stderr,
                "{} blocks; largest tip error at a block's end {:.3f} um before, {:.3f} um after\n",
                c.blocks.size(), um_from_mm(c.before.tip_mm), um_from_mm(c.after.tip_mm));
-    if (c.after.gap_mm > 0.0)
-        fmt::print(stderr, "{:.3f} um where X, Y or Z turns round, until it has crossed its gap\n",
-                   um_from_mm(c.after.gap_mm));
+    if (c.in_gap.tip_mm > 0.0)
+        fmt::print(
+            stderr,
+            "where an axis turns round, until it has crossed its gap: tip {:.3f} um, direction "
+            "{:.3f} urad\n",
+            um_from_mm(c.in_gap.tip_mm), 1e6 * c.in_gap.turned_rad);
     print_direction("where the rotaries correct it", c.before.turned_rad, c.after.turned_rad);
     print_direction("where they keep their words", c.before.kept_rad, c.after.kept_rad);
     return exit_done;

@@ -123,3 +123,25 @@ TEST_CASE("an injected effect changes what the probe finds") {
     const double shift = found("--inject 'X.backlash: gap_mm=0.01'") - found("");
     CHECK(shift == Approx(0.005).margin(1e-6));  // moving in -X the axis stands 5 um short of -X
 }
+
+TEST_CASE("volumetric says what travel it takes where the setup gives none") {
+    const Bench bench;
+    CHECK(bench.trunnion("volumetric --help") == 0);
+    CHECK_THAT(bench.read("out.txt"), Catch::Contains("200 mm"));
+    bench.write("m.toml", "[machine]\nchain = \"w Y X b Z t\"\n");
+    CHECK(bench.trunnion("volumetric --grid 2 --setup " + bench.file("m.toml")) == 0);
+    CHECK_THAT(bench.read("out.txt"), Catch::Contains("assumed: X Y Z"));
+}
+
+TEST_CASE("compensate tells what backlash leaves where an axis turns round") {
+    const Bench bench;
+    bench.write(
+        "m.toml",
+        "[machine]\nchain = \"w Y X b Z t\"\n[effects]\n\"X.backlash\" = { gap_mm = 0.01 }\n");
+    bench.write("c.nc", "O1\nG21 G90 G17 G54 G94\nG0 X60. Y0\nG3 I-60. F500.\nM30\n");
+    CHECK(bench.trunnion("compensate " + bench.file("c.nc") + " --setup " + bench.file("m.toml") +
+                         " --out " + bench.file("out.nc")) == 0);
+    const std::string said = bench.read("err.txt");
+    CHECK_THAT(said, Catch::Contains("5.000 um before, 0.00") &&
+                         Catch::Contains("where an axis turns round"));
+}
