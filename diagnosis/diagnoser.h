@@ -98,6 +98,7 @@ class Diagnoser {
         std::vector<DriverTest> drivers;  ///< significant ones
         double base = 0.0, after = 0.0, floor = 0.0, structured = 0.0;
         double gap = 0.0, unexplained = 0.0;
+        bool plain = false;  ///< to be seen beside the noise, however small a part of the gap
     };
     Remainder remainder();
     double unusual_square() const;
@@ -105,6 +106,8 @@ class Diagnoser {
     double ripple_square(const Eigen::VectorXd& left);
     bool coincidence() const;
     double noise_doubt() const;
+    double independent_readings() const;
+    bool holds_elsewhere() const;
     void judge();
     void describe_size(const Remainder& r);
     void describe_where();

@@ -8,7 +8,7 @@ namespace trunnion {
 namespace {
 
 constexpr std::size_t rough_count = 1000, fine_count = 3200;  ///< rows at most
-constexpr std::size_t finalists = 40;
+constexpr std::size_t finalists = 16;
 /// Chi-squared by which a ripple of typical size differs from its alias; less is no difference.
 constexpr double alias_square = 4.0;
 
@@ -22,33 +22,15 @@ std::vector<std::size_t> scattered_rows(std::size_t all, std::size_t count) {
     return rows;
 }
 
-/// Columns that are fitted beside others: what these explain of the others' squares is lost to
-/// them.
-class Beside {
-  public:
-    explicit Beside(Eigen::MatrixXd weighted) : columns_(std::move(weighted)) {
-        Eigen::MatrixXd square = columns_.transpose() * columns_;
-        square.diagonal().array() += 1e-9 * square.trace() + 1e-300;
-        half_.compute(square);
-    }
-    Eigen::MatrixXd lost(const Eigen::MatrixXd& weighted) const {
-        const Eigen::MatrixXd h = half_.matrixL().solve(columns_.transpose() * weighted);
-        return h.transpose() * h;
-    }
-
-  private:
-    Eigen::MatrixXd columns_;
-    Eigen::LLT<Eigen::MatrixXd> half_;
-};
-
-/// Fall of the weighted squared sum of `left` (already over its sigma), which a fit left that loses
-/// `lost` of the columns' squares; negative when the columns move nothing.
-double gain(const Eigen::MatrixXd& weighted, const Eigen::MatrixXd& lost,
-            const Eigen::VectorXd& left) {
-    Eigen::MatrixXd information = weighted.transpose() * weighted - lost;
+/// Fall of the weighted squared sum of `left` (already over its sigma) by columns fitted beside
+/// others; negative when the columns move nothing. `half`: Beside::half of the columns.
+double gain(const Eigen::MatrixXd& weighted, const Eigen::MatrixXd& half,
+            const Eigen::VectorXd& left, const Eigen::VectorXd& half_left) {
+    Eigen::MatrixXd information = weighted.transpose() * weighted;
     if (information.trace() < 1e-9) return -1.0;
-    const Eigen::VectorXd h = weighted.transpose() * left;
+    information -= half.transpose() * half;
     information.diagonal().array() += 1.0;
+    const Eigen::VectorXd h = weighted.transpose() * left - half.transpose() * half_left;
     return h.dot(information.ldlt().solve(h));
 }
 
@@ -63,11 +45,23 @@ struct Weighted {
 
 }  // namespace
 
+Beside::Beside(Eigen::MatrixXd weighted) : columns_(std::move(weighted)) {
+    Eigen::MatrixXd square = columns_.transpose() * columns_;
+    square.diagonal().array() += 1e-9 * square.trace() + 1e-300;
+    factor_.compute(square);
+}
+
+Eigen::MatrixXd Beside::half(const Eigen::MatrixXd& weighted) const {
+    return factor_.matrixL().solve(columns_.transpose() * weighted);
+}
+
 KeySearch::KeySearch(const Replay& replay, const BaseModel& base)
     : replay_(replay),
       base_(base),
       rough_rows_(scattered_rows(replay.size(), rough_count)),
-      fine_rows_(scattered_rows(replay.size(), fine_count)) {}
+      fine_rows_(scattered_rows(replay.size(), fine_count)),
+      weight_(base.sigma_mm(rough_rows_).cwiseInverse()),
+      beside_(weight_.asDiagonal() * base.columns(rough_rows_, Eigen::all)) {}
 
 Eigen::MatrixXd KeySearch::columns(const Effect& effect, const std::vector<double>& keys,
                                    const std::vector<std::size_t>& rows) const {
@@ -105,20 +99,20 @@ std::vector<KeySearch::Setting>& KeySearch::settings_of(const Effect& effect) {
     std::vector<std::size_t> key;
     for (std::size_t j = 0; j < effect.parameters.size(); ++j)
         if (effect.parameters[j].is_key()) key.push_back(j);
-    const Eigen::VectorXd weight = base_.sigma_mm(rough_rows_).cwiseInverse();
     const Eigen::MatrixXd orders = first_orders(effect);
-    const Beside first(weight.asDiagonal() * orders);
-    const Beside base(weight.asDiagonal() * base_.columns(rough_rows_, Eigen::all));
+    const Beside first(weight_.asDiagonal() * orders);
     std::vector<std::size_t> at(key.size(), 0);
     for (std::size_t k = 0; k < key.size();) {
         std::vector<double> values = effect.zeros();
         for (std::size_t i = 0; i < key.size(); ++i)
             values[key[i]] = effect.parameters[key[i]].grid[at[i]];
         Eigen::MatrixXd rough = columns(effect, values, rough_rows_);
-        const Eigen::MatrixXd weighted = weight.asDiagonal() * rough;
-        if (orders.cols() == 0 ||
-            weighted.squaredNorm() - first.lost(weighted).trace() > alias_square)
-            list.push_back({std::move(values), std::move(rough), base.lost(weighted), {}});
+        const Eigen::MatrixXd weighted = weight_.asDiagonal() * rough;
+        const bool alias =
+            orders.cols() > 0 &&
+            weighted.squaredNorm() - first.half(weighted).squaredNorm() <= alias_square;
+        if (!alias)
+            list.push_back({std::move(values), std::move(rough), beside_.half(weighted), {}});
         for (k = 0; k < key.size() && ++at[k] == effect.parameters[key[k]].grid.size(); ++k)
             at[k] = 0;
     }
@@ -136,20 +130,22 @@ std::vector<std::vector<double>> KeySearch::best(const Effect& effect,
     const auto better = [](const Found& a, const Found& b) { return a.gain > b.gain; };
     std::vector<Setting>& settings = settings_of(effect);
     const Weighted rough(left_mm, sigma_mm, rough_rows_), fine(left_mm, sigma_mm, fine_rows_);
+    const Eigen::VectorXd rough_half = beside_.half(rough.left);
     std::vector<Found> found;
     for (std::size_t k = 0; k < settings.size(); ++k) {
         const Setting& s = settings[k];
-        const double g = gain(rough.weight.asDiagonal() * s.rough, s.lost, rough.left);
+        const double g = gain(rough.weight.asDiagonal() * s.rough, s.half, rough.left, rough_half);
         if (g >= 0.0) found.push_back({k, g});
     }
     std::stable_sort(found.begin(), found.end(), better);
     if (found.size() > finalists) found.resize(finalists);
     const Beside others(fine.weight.asDiagonal() * fitted(fine_rows_, Eigen::all));
+    const Eigen::VectorXd fine_half = others.half(fine.left);
     for (Found& f : found) {
         Setting& s = settings[f.order];
         if (s.fine.size() == 0) s.fine = columns(effect, s.values, fine_rows_);
         const Eigen::MatrixXd weighted = fine.weight.asDiagonal() * s.fine;
-        f.gain = gain(weighted, others.lost(weighted), fine.left);
+        f.gain = gain(weighted, others.half(weighted), fine.left, fine_half);
     }
     std::stable_sort(found.begin(), found.end(), better);
     std::vector<std::vector<double>> best;

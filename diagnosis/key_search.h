@@ -1,6 +1,7 @@
 // Where to look for keys: pitches, periods, time constants and moments that promise most.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <map>
 #include <string_view>
@@ -12,6 +13,18 @@ namespace trunnion {
 
 /// The key that counts periods to a turn of a rotary axis.
 inline constexpr std::string_view periods_key = "periods_per_turn";
+
+/// Columns that are fitted beside others and take their part of what those could explain.
+class Beside {
+  public:
+    explicit Beside(Eigen::MatrixXd weighted);
+    /// h of columns a, g of b: the fit beside leaves of a^T b only a^T b - h^T g.
+    Eigen::MatrixXd half(const Eigen::MatrixXd& weighted) const;
+
+  private:
+    Eigen::MatrixXd columns_;
+    Eigen::LLT<Eigen::MatrixXd> factor_;
+};
 
 /// Tries the grids of effects with keys on residuals. Columns of the effects depend on positions
 /// only: they are worked out once, on a fixed scatter of rows, and serve every residual.
@@ -30,7 +43,7 @@ class KeySearch {
     struct Setting {
         std::vector<double> values;
         Eigen::MatrixXd rough;  ///< columns (mm) on the rough scatter
-        Eigen::MatrixXd lost;   ///< of their squares to the base
+        Eigen::MatrixXd half;   ///< of these beside the base
         Eigen::MatrixXd fine;   ///< columns (mm) on the fine scatter, empty until asked for
     };
     std::vector<Setting>& settings_of(const Effect& effect);
@@ -41,6 +54,8 @@ class KeySearch {
     const Replay& replay_;
     const BaseModel& base_;
     std::vector<std::size_t> rough_rows_, fine_rows_;
+    Eigen::VectorXd weight_;  ///< 1 / sigma of the rough rows
+    Beside beside_;           ///< the base on them
     std::map<const Effect*, std::vector<Setting>> settings_;
 };
 

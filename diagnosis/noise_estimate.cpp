@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "diagnosis/noise.h"
+#include "diagnosis/statistics.h"
 
 namespace trunnion {
 namespace {
@@ -90,6 +91,14 @@ double rms(const std::vector<Stretch>& stretches) {
     return std::sqrt(sum / std::max(1.0, count));
 }
 
+/// Neighbours share noise over at most a tenth of a pass (0.9 to 0.97 from sample to sample): what
+/// lasts longer is no noise but something that happened to the machine.
+double longest_memory(const std::vector<Stretch>& stretches) {
+    std::vector<double> samples;
+    for (const Stretch& s : stretches) samples.push_back(static_cast<double>(s.value.size()));
+    return std::clamp(std::exp(-10.0 / std::max(1.0, median(samples))), 0.9, 0.97);
+}
+
 /// Maximum likelihood within bounds on the scale; the shared part must win by `worth` nats.
 DeviceNoise estimate(const Replay& replay, Device device, const std::vector<Stretch>& stretches,
                      double low, double high) {
@@ -100,8 +109,9 @@ DeviceNoise estimate(const Replay& replay, Device device, const std::vector<Stre
     DeviceNoise best = plain;
     double most = likelihood(replay, device, stretches, plain) + 4.0;
     const bool pass = device == Device::ballbar;
+    const double longest = longest_memory(stretches);
     for (const double memory :
-         pass ? std::vector<double>{0.6, 0.9, 0.97} : std::vector<double>{0.0}) {
+         pass ? std::vector<double>{0.6, 0.85, 0.96} : std::vector<double>{0.0}) {
         nlopt::opt search(nlopt::LN_NELDERMEAD, pass ? 3 : 2);
         const auto noise_of = [&](const std::vector<double>& x) {
             return DeviceNoise{x[0], x[1], pass ? x[2] : 0.0};
@@ -117,8 +127,8 @@ DeviceNoise estimate(const Replay& replay, Device device, const std::vector<Stre
         std::vector<double> lower{low, 0.0}, upper{high, 0.98}, x{plain.scale, 0.4};
         if (pass) {
             lower.push_back(0.2);
-            upper.push_back(0.995);
-            x.push_back(memory);
+            upper.push_back(longest);
+            x.push_back(std::min(memory, longest));
         }
         search.set_lower_bounds(lower);
         search.set_upper_bounds(upper);

@@ -75,7 +75,8 @@ ShrinkDraws Diagnoser::shrink_draws(const std::vector<EffectSet>& sets) {
             std::move(truths),
             result_.unexplained_share,
             options_.seed,
-            noise_doubt()};
+            noise_doubt(),
+            independent_readings()};
 }
 
 }  // namespace trunnion

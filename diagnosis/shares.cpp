@@ -82,10 +82,15 @@ double Diagnoser::rms_um(const Eigen::VectorXd& v) const {
 /// Relative standard error of the noise variance: from repeats, or from the freedom that was left.
 double Diagnoser::noise_doubt() const {
     if (noise_.source == NoiseSource::repeats) return noise_.doubt;
+    return std::sqrt(2.0 / std::max(1.0, independent_readings()));
+}
+
+/// Readings with independent noise that know as much about its variance as these.
+double Diagnoser::independent_readings() const {
     double rows = 0.0;
     for (const NoiseBlock& block : blocks_)
         rows += noise_.of(block.device).independent(static_cast<double>(block.rows.size()));
-    return std::sqrt(2.0 / std::max(1.0, rows));
+    return rows;
 }
 
 }  // namespace trunnion

@@ -14,6 +14,10 @@ constexpr int draw_count = 400;
 constexpr std::size_t probe_stretches =
     24;  ///< into which the poses of the probe are cut, in order
 
+/// Effects with many parameters often have few of them: with this chance those that the readings
+/// leave open are small, in units of their typical size.
+constexpr double sparse_chance = 0.5, sparse_scale = 0.3;
+
 /// Index of a truth drawn with its weight.
 std::size_t pick(const std::vector<PossibleTruth>& truths, double at) {
     double sum = 0.0;
@@ -56,14 +60,17 @@ std::vector<std::vector<Eigen::Index>> stretches_of(const std::vector<NoiseBlock
 ShrinkDraws::ShrinkDraws(const Design& design, const std::vector<NoiseBlock>& blocks,
                          const FreshReadings& fresh, const Eigen::VectorXd& noise_mm,
                          const std::vector<bool>& used, std::vector<PossibleTruth> truths,
-                         double unknown, std::uint64_t seed, double doubt)
-    : design_(design), truths_(std::move(truths)) {
+                         double unknown, std::uint64_t seed, double doubt, double independent)
+    : design_(design), truths_(std::move(truths)), independent_(std::max(1.0, independent)) {
     take_places(fresh);
+    const double noise_per_row = noise_mm.squaredNorm() / static_cast<double>(noise_mm.size());
     const std::vector<Missed> missed_here = missed(blocks, noise_mm, used);
     const double real = chance_of_remainder(missed_here);
-    std::vector<Posterior> posterior;
-    for (const PossibleTruth& t : truths_)
+    std::vector<Posterior> posterior, sparse;
+    for (const PossibleTruth& t : truths_) {
         posterior.push_back(design.posterior(t.columns, t.scale));
+        sparse.push_back(design.posterior(t.columns, std::min(t.scale, sparse_scale)));
+    }
     SeededNoise random(seed);
     const auto count = static_cast<Eigen::Index>(square_.size());
     machines_.resize(static_cast<Eigen::Index>(places_.size()), draw_count);
@@ -74,8 +81,8 @@ ShrinkDraws::ShrinkDraws(const Design& design, const std::vector<NoiseBlock>& bl
         Eigen::VectorXd z(posterior[k].mean.size());
         for (double& v : z) v = std::sqrt(noise_factor) * random.normal();
         Draw draw;
-        machines_.col(d) =
-            over_places(truths_[k].columns, posterior[k].mean + posterior[k].spread(z));
+        const Posterior& around = random.uniform() < sparse_chance ? sparse[k] : posterior[k];
+        machines_.col(d) = over_places(truths_[k].columns, posterior[k].mean + around.spread(z));
         double rows = 0.0;
         for (Eigen::Index b = 0; b < count; ++b) {
             weights_(b, d) = stretch_weight(random);
@@ -85,6 +92,10 @@ ShrinkDraws::ShrinkDraws(const Design& design, const std::vector<NoiseBlock>& bl
         if (random.uniform() < real) draw.remainder = std::max(0.0, remainder);
         if (random.uniform() < unknown)
             draw.false_part = -std::log(random.uniform()) * random.uniform();
+        draw.noise = rows * noise_per_row;
+        draw.off = random.normal();
+        draw.along_before = random.normal();
+        draw.along_after = random.normal();
         draws_.push_back(draw);
     }
     for (const Eigen::MatrixXd& square : square_)
@@ -113,6 +124,12 @@ double ShrinkDraws::remainder_per_row(const std::vector<Missed>& missed, double 
         rows += weight * m.rows;
     }
     return rows > 0.0 ? sum / rows : 0.0;
+}
+
+/// A mean square as noisy readings show it once the expected noise is taken off.
+double ShrinkDraws::as_read(double square, const Draw& draw, double along) const {
+    return std::max(0.0, square + draw.noise * std::sqrt(2.0 / independent_) * draw.off +
+                             2.0 * std::sqrt(square * draw.noise / independent_) * along);
 }
 
 /// Squares of what a prediction x misses of each drawn machine, weighted over the stretches:
@@ -191,7 +208,9 @@ std::pair<double, double> ShrinkDraws::interval(const std::vector<Eigen::Index>&
         const double before = draws_[d].remainder + off_without[d];
         double after = draws_[d].remainder + off_with[d];
         after += 2.0 * draws_[d].false_part * std::max(0.0, before - after);
-        shrink.push_back(before > 0.0 ? 1.0 - std::sqrt(after / before) : 0.0);
+        const double read = as_read(before, draws_[d], draws_[d].along_before);
+        after = as_read(after, draws_[d], draws_[d].along_after);
+        shrink.push_back(read > 0.0 ? 1.0 - std::sqrt(after / read) : 0.0);
     }
     return {quantile(shrink, 0.025), quantile(shrink, 0.975)};
 }

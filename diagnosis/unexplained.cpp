@@ -126,9 +126,7 @@ Diagnoser::Remainder Diagnoser::remainder() {
     if (!trusted && stated_noise_is_off(r.structured == 0.0 ? noise_ : noise_without_drivers(left)))
         noise_.source = NoiseSource::assumed;
     // Without repeats a remainder without structure is noise, whatever was stated.
-    double rows = 0.0;
-    for (const NoiseBlock& block : blocks_)
-        rows += noise_.of(block.device).independent(static_cast<double>(block.rows.size()));
+    const double rows = independent_readings();
     const double doubt = trusted ? 4.0 * std::hypot(noise_.doubt, std::sqrt(2.0 / rows)) : 1.1;
     double beyond = r.after - r.floor > doubt * r.floor ? r.after - r.floor : 0.0;
     // A stated noise may be wrong by 30 %: what is left beyond that is no noise.
@@ -139,6 +137,7 @@ Diagnoser::Remainder Diagnoser::remainder() {
     const double least = trusted ? std::max(plain, noise_.doubt) : plain;
     r.unexplained = std::max(r.structured > least * r.floor ? r.structured : 0.0, beyond);
     r.gap = std::max(1e-9, r.base - r.after) + r.unexplained;
+    r.plain = r.unexplained > std::max(rules::admit_square * r.floor, rules::least_share * r.gap);
     r.unexplained = std::min(r.gap, r.unexplained + unusual_square() + aliased_square());
     return r;
 }

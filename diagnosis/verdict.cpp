@@ -25,8 +25,20 @@ constexpr double least_half_width = 0.01;
 
 }  // namespace
 
+/// Held-out readings come closer with the chosen set: effects that explain only the readings they
+/// were fitted to (a spike on one of them) explain nothing.
+bool Diagnoser::holds_elsewhere() const {
+    const HeldOut out =
+        cross_validate(*design_, base_, folds_, set_.members, set_.scale, noise_mm(), used_);
+    return out.shrink > rules::least_heldout;
+}
+
 void Diagnoser::judge() {
-    const Remainder r = remainder();
+    Remainder r = remainder();
+    if (!set_.members.empty() && r.unexplained < rules::admit_share * r.gap && !holds_elsewhere()) {
+        set_ = EffectSet{};
+        r = remainder();
+    }
     describe_size(r);
     if (set_.members.empty() && r.unexplained == 0.0) {
         result_.verdict = Verdict::no_gap;
@@ -45,7 +57,7 @@ void Diagnoser::judge() {
     result_.verdict = explained >= 0.8   ? (rivalled ? Verdict::ambiguous : Verdict::explained)
                       : explained >= 0.5 ? Verdict::partly_explained
                                          : Verdict::unexplained;
-    if (result_.unexplained_share > rules::admit_share)
+    if (result_.unexplained_share > rules::admit_share || r.plain)
         add_unknown(result_.unexplained_share, r.drivers);
     if (set_.members.empty()) {
         result_.after = cross_validate(*design_, base_, folds_, {}, 1.0, noise_mm(), used_);
