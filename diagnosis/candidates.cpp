@@ -1,6 +1,7 @@
 #include "diagnosis/candidates.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -202,6 +203,14 @@ Eigen::VectorXd Design::residual_without(const std::vector<Eigen::Index>& test,
     const Eigen::MatrixXd half = llt.matrixL().solve(raw.transpose());
     *fit_variance = half.colwise().squaredNorm().transpose();
     return model_.residual_mm(test) - raw * llt.solve(b);
+}
+
+Eigen::MatrixXd Design::open_base() const {
+    Eigen::MatrixXd information = full_.topLeftCorner(base_, base_);
+    information.diagonal() += precision_;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(information);
+    const auto open = (solver.eigenvalues().array() < 1.0).count();  // they rise
+    return solver.eigenvectors().leftCols(open);
 }
 
 Posterior Design::posterior(const std::vector<Eigen::Index>& columns, double scale) const {

@@ -74,6 +74,9 @@ class Design {
     Eigen::VectorXd residual_without(const std::vector<Eigen::Index>& test,
                                      const std::vector<Eigen::Index>& columns, double scale,
                                      Eigen::VectorXd* fit_variance = nullptr) const;
+    /// Directions of the base that the readings leave open by more than a typical size, orthonormal
+    /// in units of it: columns.
+    Eigen::MatrixXd open_base() const;
     /// The solution as a distribution.
     Posterior posterior(const std::vector<Eigen::Index>& columns, double scale) const;
 

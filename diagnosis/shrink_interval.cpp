@@ -71,6 +71,8 @@ ShrinkDraws::ShrinkDraws(const Design& design, const std::vector<NoiseBlock>& bl
         posterior.push_back(design.posterior(t.columns, t.scale));
         sparse.push_back(design.posterior(t.columns, std::min(t.scale, sparse_scale)));
     }
+    // What the set-up leaves open here (cup and pivot shifted together) the next one fits anew.
+    const Eigen::MatrixXd open = design.open_base();
     SeededNoise random(seed);
     const auto count = static_cast<Eigen::Index>(square_.size());
     machines_.resize(static_cast<Eigen::Index>(places_.size()), draw_count);
@@ -82,7 +84,9 @@ ShrinkDraws::ShrinkDraws(const Design& design, const std::vector<NoiseBlock>& bl
         for (double& v : z) v = std::sqrt(noise_factor) * random.normal();
         Draw draw;
         const Posterior& around = random.uniform() < sparse_chance ? sparse[k] : posterior[k];
-        machines_.col(d) = over_places(truths_[k].columns, posterior[k].mean + around.spread(z));
+        Eigen::VectorXd off = around.spread(z);
+        off.head(design.base_count()) -= open * (open.transpose() * off.head(design.base_count()));
+        machines_.col(d) = over_places(truths_[k].columns, posterior[k].mean + off);
         double rows = 0.0;
         for (Eigen::Index b = 0; b < count; ++b) {
             weights_(b, d) = stretch_weight(random);
