@@ -25,6 +25,10 @@ class AxisTracker {
     void describe(AxisSample& sample) const;
 
   private:
+    void advance(std::size_t i, double value);
+    static bool turns_in_plane(const AxisMove& move);
+    void follow_turns(const AxisMove& move);
+
     AxisPositions last_, turned_at_;
     std::array<signed char, axis_count> travel_{};
     std::array<bool, axis_count> has_turned_{};

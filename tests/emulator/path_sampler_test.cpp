@@ -2,7 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/random.h"
 #include "geometry/units.h"
+#include "records/readings.h"
 
 using namespace trunnion;
 
@@ -73,4 +75,43 @@ TEST_CASE("a full circle leaves the axes with the travel of its end") {
     tracker.describe(sample);
     CHECK(sample.since_reversal[0] == Approx(120.0).margin(5.0));
     CHECK(sample.since_reversal[1] == Approx(60.0).margin(5.0));
+}
+
+TEST_CASE("on arcs the axes turn where small steps show it") {
+    SeededNoise random(4);
+    for (int k = 0; k < 2000; ++k) {
+        AxisMove move;
+        const int plane = k % 3;
+        const bool round = k % 4 == 0;  // begins, and may end, at a quadrant
+        const double start_rad = round ? 0.5 * pi * (k % 5) : 2.0 * pi * random.uniform();
+        const double sweep_rad =
+            (random.uniform() < 0.5 ? -1.0 : 1.0) *
+            (round && k % 8 == 0 ? 0.5 * pi * (1 + k % 6) : 0.01 + 9.0 * random.uniform());
+        const Vector3 normal = k % 7 == 0 ? Vector3(0.6, 0.0, 0.8) : Vector3(Vector3::Unit(plane));
+        const Vector3 u = normal.unitOrthogonal(), v = normal.cross(u), centre(5.0, -3.0, 8.0);
+        const double rise_mm = k % 7 == 0 || k % 2 ? 0.0 : 4.0;
+        const auto place = [&](double angle) {
+            return Vector3(centre + 40.0 * (std::cos(angle) * u + std::sin(angle) * v));
+        };
+        const Vector3 from = place(start_rad), to = place(start_rad + sweep_rad) + rise_mm * normal;
+        for (std::size_t i = 0; i < 3; ++i) {
+            move.from.value[i] = from[static_cast<Eigen::Index>(i)];
+            move.to.value[i] = to[static_cast<Eigen::Index>(i)];
+        }
+        move.arc = ArcPath{centre, normal, turns_of(sweep_rad), sweep_rad};
+        AxisTracker at_once, in_steps;
+        for (AxisTracker* tracker : {&at_once, &in_steps}) tracker->place(move.from);
+        at_once.follow(move);
+        for (int s = 1; s <= 20000; ++s) in_steps.advance(move.at(s / 20000.0));
+        AxisSample is, should;
+        at_once.describe(is);
+        in_steps.describe(should);
+        for (std::size_t i = 0; i < 3; ++i) {
+            INFO(k << " axis " << i << " sweep " << sweep_rad);
+            if (is.since_reversal[i] < 1e-5) continue;  // the turn lies within the last step
+            CHECK(is.travel[i] == should.travel[i]);
+            if (should.since_reversal[i] < no_reversal_seen)
+                CHECK(is.since_reversal[i] == Approx(should.since_reversal[i]).margin(1e-3));
+        }
+    }
 }
