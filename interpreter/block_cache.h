@@ -9,8 +9,8 @@
 
 namespace trunnion {
 
-/// A jump target; `block` is -1 until it was compiled.
-struct Link {
+/// Where a jump leads; `block` is -1 until it was compiled.
+struct JumpTarget {
     TextPlace place;
     int block = -1;
 };
@@ -32,7 +32,7 @@ class BlockCache {
     void connect(int open_end, int block);
 
     std::vector<Block> blocks;
-    std::vector<Link> links;
+    std::vector<JumpTarget> links;
     Code code;
 
   private:

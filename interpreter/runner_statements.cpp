@@ -84,7 +84,7 @@ void Interpreter::State::jump(const TextPlace& place) {
 }
 
 void Interpreter::State::follow(int link) {
-    const Link& target = cache.links[static_cast<std::size_t>(link)];
+    const JumpTarget& target = cache.links[static_cast<std::size_t>(link)];
     at = {target.place.byte, target.place.line, target.block};
     link_from = target.block < 0 ? BlockCache::of_link(link) : -1;
 }
