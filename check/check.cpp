@@ -29,7 +29,7 @@ const std::vector<CheckRule>& check_rules() {
 }
 
 int code10_of(double value) {
-    return static_cast<int>(std::lround(value * 10.0));
+    return whole_of(std::round(value * 10.0));
 }
 
 void Findings::add(const char* rule, Severity severity, const Block& block, int column,
@@ -68,7 +68,7 @@ void note_jumps(const ParsedProgram& program, const Block& block, CheckSection& 
         if (item.kind != ItemKind::go_to) continue;
         const auto target = constant_value(program, item);
         if (target)
-            section.targets.insert(static_cast<int>(*target));
+            section.targets.insert(whole_of(*target));
         else
             section.computed_jump = true;
     }

@@ -13,7 +13,7 @@ void check_jump(const CheckSection& section, const Block& block, const Item& ite
                 Findings& findings) {
     const auto target = constant_value(*section.program, item);
     if (!target) return;
-    const int number = static_cast<int>(*target);
+    const int number = whole_of(*target);
     const auto found = section.numbered.find(number);
     if (found == section.numbered.end())
         findings.add("jump-target", Severity::error, block, item.column,
@@ -62,7 +62,7 @@ void check_entries(const CheckSection& section, const std::map<const Block*, Nes
         for (const Item& item : section.program->items(*block)) {
             if (item.kind != ItemKind::go_to) continue;
             const auto value = constant_value(*section.program, item);
-            const auto found = section.numbered.find(value ? static_cast<int>(*value) : -1);
+            const auto found = section.numbered.find(value ? whole_of(*value) : -1);
             if (found == section.numbered.end() || found->second.size() != 1) continue;
             const auto target = nests.find(found->second[0]);
             if (target == nests.end()) continue;
@@ -152,7 +152,7 @@ std::optional<int> called_program(const ParsedProgram& program, const Block& blo
         const auto value = constant_value(program, item);
         if (!value) return std::nullopt;
         column = item.column;
-        return static_cast<int>(*value);
+        return whole_of(*value);
     }
     return std::nullopt;
 }

@@ -1,6 +1,8 @@
 // One program of a file (from its O number to the next) as the checks see it.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -10,6 +12,12 @@
 #include "interpreter/parse.h"
 
 namespace trunnion {
+
+/// A number of a program, cut to what an int holds: no N, O or code is that large.
+inline int whole_of(double value) {
+    constexpr double most = 2e9;
+    return std::isnan(value) ? 0 : static_cast<int>(std::clamp(value, -most, most));
+}
 
 struct CheckSection {
     const ParsedProgram* program = nullptr;

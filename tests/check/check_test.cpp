@@ -156,3 +156,13 @@ TEST_CASE("JUnit has a case for each file, GitHub a line for each finding", "[ch
     CHECK(std::count(github.begin(), github.end(), '\n') ==
           static_cast<std::ptrdiff_t>(findings.size()));
 }
+
+TEST_CASE("numbers beyond all N, O and codes are findings like others", "[check]") {
+    for (const char* number : {"2000000001", "993333333333333333"}) {
+        const auto findings = check_text(std::string("O1\nWHILE[#1LT3]DO1\nGOTO") + number +
+                                         "\nEND1\nM98P" + number + "\nG" + number + "\nM30\n");
+        CHECK(std::any_of(findings.begin(), findings.end(), [](const auto& finding) {
+            return finding.rule == "jump-target" && finding.line == 3;
+        }));
+    }
+}
