@@ -14,7 +14,7 @@ double cutting_time(const ControlState& c, double length_mm, const AxisPositions
                     const AxisPositions& to);
 /// What F divides on the way from where the axes stand, mm. A degree counts as one unit of the
 /// feed, a millimetre or, under G20, an inch: F is degrees a minute for rotary axes in both (Fanuc
-/// B-63172EN: no inch-metric switching for them).
+/// B-63172EN p. 51: their values know no inch; that F follows is assumed).
 double feed_length(const ControlState& c, const ControlPosition& to);
 /// Its square over the axes from the `first` letter on.
 double feed_square(const ControlState& c, const ControlPosition& to, std::size_t first);

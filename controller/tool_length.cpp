@@ -58,8 +58,7 @@ void g_tool_length(ControlState& c, const GCode& code) {
     }
 }
 
-/// H without a code: the other offset in the present way (Fanuc B-63534EN, tool length
-/// compensation, ends its example with H0 alone).
+/// H without a code: the other offset in the present way (assumed).
 void change_length_number(ControlState& c) {
     const int present = c.modal[ModalGroup::length];
     if (present == 430 || present == 440) return g_tool_length(c, *find_g_code(0.1 * present));

@@ -98,7 +98,7 @@ class Diagnoser {
         std::vector<DriverTest> drivers;  ///< significant ones
         double base = 0.0, after = 0.0, floor = 0.0, structured = 0.0;
         double gap = 0.0, unexplained = 0.0;
-        bool plain = false;  ///< to be seen beside the noise, however small a part of the gap
+        bool plain = false;  ///< seen beside the noise, and no background
     };
     Remainder remainder();
     double unusual_square() const;

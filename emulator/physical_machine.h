@@ -27,7 +27,8 @@ class PhysicalMachine {
 
 /// The physical tip in S during a move: the stylus when the setup's probe is in the spindle, else
 /// tool T, as long as offset T of the setup says, whatever H is in force. A tool that the setup
-/// does not know (none called, no length) is as long as the control believes.
+/// does not know (none called, no length) is as long as the control believes. It points along Z of
+/// S, or as 19697 says: [machine] has no key for the spindle's direction.
 Vector3 physical_tip_S(const Setup& setup, const AxisMove& move, double extension_mm = 0.0);
 
 /// What effects of the tool ask for when no device reads but its tip is wanted.
