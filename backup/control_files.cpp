@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "backup/value_lines.h"
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 
 namespace trunnion {
 

@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "geometry/alarm.h"
-#include "geometry/numbers.h"
-#include "geometry/units.h"
+#include "base/alarm.h"
+#include "base/numbers.h"
+#include "base/units.h"
 
 namespace trunnion {
 

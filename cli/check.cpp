@@ -13,9 +13,9 @@
 #include "cli/setups.h"
 #include "controller/alarms.h"
 #include "controller/g_codes.h"
-#include "emulator/program_folders.h"
+#include "interpreter/program_folders.h"
 #include "emulator/run.h"
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "regression/suite.h"
 #include "report/findings_report.h"
 

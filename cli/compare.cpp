@@ -12,9 +12,9 @@
 #include "cli/long_work.h"
 #include "cli/options.h"
 #include "cli/setups.h"
-#include "emulator/program_folders.h"
-#include "geometry/alarm.h"
-#include "geometry/units.h"
+#include "interpreter/program_folders.h"
+#include "base/alarm.h"
+#include "base/units.h"
 #include "regression/suite.h"
 #include "report/comparison_report.h"
 

@@ -3,15 +3,15 @@
 
 #include <CLI/CLI.hpp>
 
-#include "analysis/compensation.h"
+#include "compensation/compensation.h"
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/options.h"
 #include "cli/program_choice.h"
 #include "cli/setups.h"
 #include "effects/settings.h"
-#include "geometry/alarm.h"
-#include "geometry/units.h"
+#include "base/alarm.h"
+#include "base/units.h"
 
 namespace trunnion {
 namespace {

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "geometry/alarm.h"
-#include "geometry/text.h"
+#include "base/alarm.h"
+#include "base/text.h"
 
 namespace trunnion {
 

@@ -12,8 +12,8 @@
 
 #include "cli/command.h"
 #include "cli/options.h"
-#include "geometry/alarm.h"
-#include "geometry/text.h"
+#include "base/alarm.h"
+#include "base/text.h"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "geometry/alarm.h"
-#include "geometry/numbers.h"
+#include "base/alarm.h"
+#include "base/numbers.h"
 
 namespace trunnion {
 namespace {

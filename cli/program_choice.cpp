@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "cli/files.h"
-#include "geometry/alarm.h"
-#include "geometry/numbers.h"
+#include "base/alarm.h"
+#include "base/numbers.h"
 
 namespace trunnion {
 namespace fs = std::filesystem;

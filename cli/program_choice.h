@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/program_folders.h"
+#include "interpreter/program_folders.h"
 #include "emulator/run.h"
 
 namespace trunnion {

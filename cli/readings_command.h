@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/setup.h"
+#include "setup/setup.h"
 #include "records/readings.h"
 
 namespace trunnion {

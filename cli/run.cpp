@@ -11,7 +11,7 @@
 #include "cli/program_choice.h"
 #include "cli/setups.h"
 #include "effects/settings.h"
-#include "geometry/numbers.h"
+#include "base/numbers.h"
 #include "report/run_report.h"
 
 namespace trunnion {

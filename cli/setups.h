@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "emulator/setup.h"
+#include "setup/setup.h"
 
 namespace trunnion {
 

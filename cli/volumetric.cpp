@@ -10,7 +10,7 @@
 #include "cli/options.h"
 #include "cli/setups.h"
 #include "effects/settings.h"
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "report/volumetric_pictures.h"
 #include "report/volumetric_report.h"
 

@@ -8,8 +8,8 @@ if(TARGET trunnion)
   install(TARGETS trunnion RUNTIME)
 endif()
 foreach(line IN LISTS TRUNNION_ROOMS)
-  string(REGEX MATCH "^[a-z]+" name "${line}")
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${name} DESTINATION include/trunnion
+  string(REGEX MATCH "^[a-z/]+" name "${line}")
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${name}/ DESTINATION include/trunnion/${name}
     FILES_MATCHING PATTERN "*.h")
 endforeach()
 install(DIRECTORY machines programs DESTINATION ${CMAKE_INSTALL_DATADIR}/trunnion)

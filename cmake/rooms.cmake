@@ -1,26 +1,33 @@
 # The rooms of the house, lowest floor first: a room may include only the rooms listed behind it.
-# tests/layering.cmake reads this same list and fails the build when an #include breaks it.
+# A room inside a room (ballbar/test) stands on another floor than the room around it.
+# tests/layering.cmake reads this same list and fails when an #include breaks it or when a
+# permission is not used.
 set(TRUNNION_ROOMS
-  "geometry"
-  "interpreter: geometry"
-  "offsets: geometry"
-  "kinematics: geometry"
-  "records: geometry"
-  "positioning: offsets geometry"
-  "motion: positioning offsets geometry"
-  "controller: motion positioning interpreter offsets geometry"
+  "base"
+  "geometry: base"
+  "interpreter: base"
+  "offsets: geometry base"
+  "kinematics: geometry base"
+  "records: geometry base"
+  "positioning: offsets geometry base"
+  "motion: positioning geometry base"
+  "controller: motion positioning offsets interpreter geometry base"
   "probe: kinematics geometry"
   "ballbar: kinematics geometry"
-  "check: interpreter geometry"
-  "backup: offsets interpreter geometry"
-  "emulator: controller motion positioning offsets interpreter kinematics probe ballbar records geometry"
-  "effects: emulator kinematics records geometry"
-  "identification: emulator effects kinematics records geometry"
-  "regression: emulator controller motion positioning interpreter records geometry"
-  "diagnosis: effects identification emulator kinematics records geometry"
-  "analysis: identification effects emulator controller motion positioning offsets interpreter kinematics probe ballbar records geometry"
-  "report: analysis diagnosis identification effects regression check emulator controller offsets kinematics interpreter records geometry"
-  "cli: report analysis diagnosis identification effects regression check backup emulator controller offsets kinematics probe ballbar interpreter records geometry"
+  "check: interpreter"
+  "backup: offsets base"
+  "setup: controller positioning kinematics offsets interpreter geometry base"
+  "emulator: setup ballbar probe controller motion positioning records kinematics geometry base"
+  "effects: emulator records geometry base"
+  "identification: effects emulator base"
+  "regression: emulator setup controller motion positioning interpreter geometry base"
+  "diagnosis: identification effects emulator setup records kinematics base"
+  "pivot: effects emulator setup interpreter geometry base"
+  "compensation: emulator setup motion positioning kinematics offsets base"
+  "volumetric: emulator setup kinematics base"
+  "ballbar/test: emulator records kinematics interpreter geometry base"
+  "report: ballbar/test volumetric pivot diagnosis regression emulator check geometry base"
+  "cli: report compensation diagnosis regression identification effects emulator setup backup check controller records interpreter base"
 )
 
 # What stands behind the colon of one line of the list.
@@ -36,9 +43,10 @@ function(trunnion_room_depends line result)
 endfunction()
 
 # trunnion_room(NAME): one static library for each room, from every .cpp in its folder.
-function(trunnion_room name depends)
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${name}/*.cpp)
-  file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${name}/*.h)
+function(trunnion_room folder depends)
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+  file(GLOB headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.h)
+  string(REPLACE "/" "_" name ${folder})
   if(NOT sources AND NOT headers)
     return()
   endif()
@@ -46,6 +54,7 @@ function(trunnion_room name depends)
   if(sources)
     add_library(trunnion_${name} STATIC ${sources})
     target_link_libraries(trunnion_${name} PRIVATE trunnion_warnings)
+    trunnion_reuse_precompiled(trunnion_${name} trunnion_room_headers)
   else()
     add_library(trunnion_${name} INTERFACE)
     set(scope INTERFACE)
@@ -57,6 +66,7 @@ function(trunnion_room name depends)
   target_compile_features(trunnion_${name} ${scope} cxx_std_20)
   target_link_libraries(trunnion_${name} ${scope} Eigen3::Eigen fmt::fmt)
   foreach(room IN LISTS depends)
+    string(REPLACE "/" "_" room ${room})
     if(TARGET trunnion_${room})
       target_link_libraries(trunnion_${name} ${scope} trunnion_${room})
     endif()
@@ -66,7 +76,7 @@ endfunction()
 
 function(trunnion_add_rooms)
   foreach(line IN LISTS TRUNNION_ROOMS)
-    string(REGEX MATCH "^[a-z]+" name "${line}")
+    string(REGEX MATCH "^[a-z/]+" name "${line}")
     trunnion_room_depends("${line}" depends)
     if(NOT name STREQUAL "cli")
       trunnion_room(${name} "${depends}")

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 
 namespace trunnion {
 

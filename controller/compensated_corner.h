@@ -2,7 +2,7 @@
 #pragma once
 
 #include "controller/path_queue.h"
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 
 namespace trunnion {
 

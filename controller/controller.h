@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "controller/clamp.h"
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "interpreter/dialect.h"
 #include "interpreter/interpreter.h"
 #include "interpreter/program_source.h"

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "motion/tool_centre_point.h"
 #include "positioning/fixture_offset.h"
 #include "positioning/rotary_transform.h"

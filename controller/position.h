@@ -3,7 +3,7 @@
 
 #include "geometry/axes.h"
 #include "geometry/pose.h"
-#include "geometry/units.h"
+#include "base/units.h"
 #include "offsets/stores.h"
 
 namespace trunnion {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "diagnosis/diagnoser.h"
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 
 namespace trunnion {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "diagnosis/noise.h"
-#include "emulator/setup.h"
+#include "setup/setup.h"
 #include "identification/base_model.h"
 #include "records/readings.h"
 

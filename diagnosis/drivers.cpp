@@ -9,7 +9,7 @@
 
 #include "diagnosis/rules.h"
 #include "diagnosis/statistics.h"
-#include "geometry/units.h"
+#include "base/units.h"
 
 namespace trunnion {
 namespace {

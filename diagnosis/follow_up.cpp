@@ -5,7 +5,7 @@
 #include "diagnosis/diagnoser.h"
 #include "diagnosis/next_measurement.h"
 #include "effects/settings.h"
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 
 namespace trunnion {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/random.h"
+#include "base/random.h"
 #include "kinematics/forward.h"
 
 namespace trunnion {

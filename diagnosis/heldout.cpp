@@ -5,7 +5,7 @@
 
 #include "diagnosis/search.h"
 #include "diagnosis/statistics.h"
-#include "geometry/random.h"
+#include "base/random.h"
 
 namespace trunnion {
 namespace {

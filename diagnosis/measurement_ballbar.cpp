@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/measurement_plan.h"
-#include "geometry/units.h"
+#include "base/units.h"
 
 namespace trunnion {
 namespace {

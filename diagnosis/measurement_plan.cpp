@@ -6,7 +6,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "geometry/units.h"
+#include "base/units.h"
 
 namespace trunnion {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "diagnosis/statistics.h"
-#include "geometry/random.h"
+#include "base/random.h"
 
 namespace trunnion {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "effects/models.h"
-#include "geometry/units.h"
+#include "base/units.h"
 
 namespace trunnion {
 namespace {

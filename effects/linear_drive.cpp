@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "effects/models.h"
-#include "geometry/units.h"
+#include "base/units.h"
 #include "records/readings.h"
 
 namespace trunnion {

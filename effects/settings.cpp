@@ -8,9 +8,9 @@
 #include <sstream>
 #include <utility>
 
-#include "emulator/toml_reader.h"
-#include "geometry/alarm.h"
-#include "geometry/units.h"
+#include "base/toml_reader.h"
+#include "base/alarm.h"
+#include "base/units.h"
 
 namespace trunnion {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 #include <mutex>
 
-#include "geometry/units.h"
+#include "base/units.h"
 
 namespace trunnion {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/units.h"
+#include "base/units.h"
 #include "motion/tool_centre_point.h"
 #include "records/readings.h"
 

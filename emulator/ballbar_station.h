@@ -8,8 +8,8 @@
 #include "emulator/path_sampler.h"
 #include "emulator/physical_machine.h"
 #include "emulator/reading_log.h"
-#include "emulator/setup.h"
-#include "geometry/random.h"
+#include "setup/setup.h"
+#include "base/random.h"
 
 namespace trunnion {
 

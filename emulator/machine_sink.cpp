@@ -4,8 +4,8 @@
 #include <cctype>
 #include <cmath>
 
-#include "geometry/numbers.h"
-#include "geometry/units.h"
+#include "base/numbers.h"
+#include "base/units.h"
 #include "motion/tool_centre_point.h"
 
 namespace trunnion {

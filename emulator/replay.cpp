@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 
 namespace trunnion {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/setup.h"
+#include "setup/setup.h"
 #include "kinematics/forward.h"
 #include "records/readings.h"
 

@@ -11,7 +11,7 @@
 #include "controller/controller.h"
 #include "emulator/compensating_sink.h"
 #include "emulator/replay.h"
-#include "emulator/setup.h"
+#include "setup/setup.h"
 #include "emulator/trace.h"
 
 namespace trunnion {

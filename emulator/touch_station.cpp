@@ -1,6 +1,6 @@
 #include "emulator/touch_station.h"
 
-#include "geometry/units.h"
+#include "base/units.h"
 
 namespace trunnion {
 

@@ -5,8 +5,8 @@
 
 #include "emulator/path_sampler.h"
 #include "emulator/physical_machine.h"
-#include "emulator/setup.h"
-#include "geometry/random.h"
+#include "setup/setup.h"
+#include "base/random.h"
 #include "probe/touch_probe.h"
 
 namespace trunnion {

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cstring>
 
-#include "geometry/numbers.h"
+#include "base/numbers.h"
 #include "positioning/rotary_transform.h"
 
 namespace trunnion {

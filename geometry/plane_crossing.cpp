@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/units.h"
+#include "base/units.h"
 
 namespace trunnion {
 

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "effects/settings.h"
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "identification/least_squares.h"
 #include "identification/unknowns.h"
 

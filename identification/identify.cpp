@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "effects/settings.h"
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "identification/keys.h"
 
 namespace trunnion {

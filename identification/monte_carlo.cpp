@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "effects/settings.h"
-#include "geometry/random.h"
+#include "base/random.h"
 
 namespace trunnion {
 

@@ -6,8 +6,8 @@
 #include <set>
 
 #include "effects/settings.h"
-#include "geometry/alarm.h"
-#include "geometry/numbers.h"
+#include "base/alarm.h"
+#include "base/numbers.h"
 
 namespace trunnion {
 

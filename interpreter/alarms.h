@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 
 namespace trunnion {
 

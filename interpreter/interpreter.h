@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "interpreter/block_words.h"
 #include "interpreter/dialect.h"
 #include "interpreter/program_source.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "interpreter/block_parser.h"
 #include "interpreter/program_source.h"
 

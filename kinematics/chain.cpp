@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 
 namespace trunnion {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "geometry/axes.h"
 #include "geometry/parallel_axes.h"
 #include "geometry/pose.h"

@@ -1,6 +1,6 @@
 #include "offsets/parameter_units.h"
 
-#include "geometry/units.h"
+#include "base/units.h"
 
 namespace trunnion {
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "geometry/alarm.h"
-#include "geometry/units.h"
+#include "base/alarm.h"
+#include "base/units.h"
 #include "offsets/axis_numbers.h"
 
 namespace trunnion {

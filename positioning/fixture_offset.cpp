@@ -6,8 +6,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "geometry/alarm.h"
-#include "geometry/units.h"
+#include "base/alarm.h"
+#include "base/units.h"
 #include "offsets/axis_numbers.h"
 
 namespace trunnion {

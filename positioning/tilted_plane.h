@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "geometry/pose.h"
 
 namespace trunnion {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <functional>
 
-#include "geometry/alarm.h"
-#include "geometry/numbers.h"
-#include "geometry/units.h"
+#include "base/alarm.h"
+#include "base/numbers.h"
+#include "base/units.h"
 
 namespace trunnion {
 namespace {

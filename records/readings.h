@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "geometry/axes.h"
 #include "geometry/pose.h"
 

@@ -1,7 +1,7 @@
 // Velocity, direction of travel and distance since reversal, from positions and times alone.
 #include <cmath>
 
-#include "geometry/units.h"
+#include "base/units.h"
 #include "records/readings.h"
 
 namespace trunnion {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "emulator/program_folders.h"
-#include "geometry/units.h"
+#include "interpreter/program_folders.h"
+#include "base/units.h"
 #include "regression/describe.h"
 #include "regression/effects_layer.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/setup.h"
+#include "setup/setup.h"
 #include "interpreter/program_source.h"
 #include "regression/comparison.h"
 #include "regression/recorded_run.h"

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "emulator/program_folders.h"
-#include "geometry/alarm.h"
-#include "geometry/units.h"
+#include "interpreter/program_folders.h"
+#include "base/alarm.h"
+#include "base/units.h"
 #include "interpreter/lexical.h"
 
 namespace trunnion {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <string_view>
 
-#include "geometry/alarm.h"
-#include "geometry/units.h"
+#include "base/alarm.h"
+#include "base/units.h"
 
 namespace trunnion {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/units.h"
+#include "base/units.h"
 #include "positioning/rotary_transform.h"
 
 namespace trunnion {

@@ -4,9 +4,9 @@
 #include <cstring>
 #include <filesystem>
 
-#include "emulator/program_folders.h"
+#include "interpreter/program_folders.h"
 #include "emulator/run.h"
-#include "geometry/units.h"
+#include "base/units.h"
 #include "positioning/rotary_transform.h"
 
 namespace trunnion {

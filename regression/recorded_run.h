@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "controller/controller.h"
-#include "emulator/setup.h"
+#include "setup/setup.h"
 #include "regression/path_recorder.h"
 #include "regression/program_lines.h"
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "regression/suite.h"
 
 namespace trunnion {

@@ -5,8 +5,8 @@
 #include <set>
 #include <sstream>
 
-#include "emulator/toml_reader.h"
-#include "geometry/units.h"
+#include "base/toml_reader.h"
+#include "base/units.h"
 #include "regression/suite.h"
 
 namespace trunnion {

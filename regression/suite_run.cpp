@@ -8,8 +8,8 @@
 #include <sstream>
 #include <thread>
 
-#include "emulator/program_folders.h"
-#include "geometry/alarm.h"
+#include "interpreter/program_folders.h"
+#include "base/alarm.h"
 #include "regression/golden.h"
 #include "regression/suite.h"
 

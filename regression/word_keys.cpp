@@ -5,7 +5,7 @@
 #include <cstring>
 #include <optional>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "interpreter/block_parser.h"
 #include "interpreter/lexical.h"
 #include "regression/program_lines.h"

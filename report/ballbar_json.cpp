@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "geometry/units.h"
+#include "base/units.h"
 #include "report/ballbar_report.h"
 
 namespace trunnion {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/units.h"
+#include "base/units.h"
 #include "report/ballbar_report.h"
 #include "report/polar_plot.h"
 

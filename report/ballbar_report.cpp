@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "geometry/numbers.h"
-#include "geometry/units.h"
+#include "base/numbers.h"
+#include "base/units.h"
 
 namespace trunnion {
 

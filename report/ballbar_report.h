@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "analysis/ballbar_procedure.h"
+#include "ballbar/test/ballbar_procedure.h"
 
 namespace trunnion {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "report/comparison_report.h"
 #include "report/places.h"
 

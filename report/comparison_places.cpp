@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "report/comparison_report.h"
 #include "report/places.h"
 

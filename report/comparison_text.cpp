@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/text.h"
+#include "base/text.h"
 #include "report/comparison_report.h"
 
 namespace trunnion {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "report/places.h"
 
 namespace trunnion {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "geometry/units.h"
+#include "base/units.h"
 #include "report/svg.h"
 
 namespace trunnion {

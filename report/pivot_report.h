@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "analysis/pivot_maps.h"
+#include "pivot/pivot_maps.h"
 
 namespace trunnion {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "geometry/pose.h"
-#include "geometry/units.h"
+#include "base/units.h"
 #include "report/svg.h"
 
 namespace trunnion {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "geometry/numbers.h"
-#include "geometry/units.h"
+#include "base/numbers.h"
+#include "base/units.h"
 
 namespace trunnion {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "geometry/units.h"
+#include "base/units.h"
 #include "report/svg.h"
 #include "report/volumetric_report.h"
 

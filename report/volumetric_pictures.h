@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/volumetric.h"
+#include "volumetric/volumetric.h"
 
 namespace trunnion {
 

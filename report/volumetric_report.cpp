@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "geometry/numbers.h"
-#include "geometry/units.h"
+#include "base/numbers.h"
+#include "base/units.h"
 
 namespace trunnion {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/volumetric.h"
+#include "volumetric/volumetric.h"
 
 namespace trunnion {
 

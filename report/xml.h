@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "geometry/text.h"
+#include "base/text.h"
 
 namespace trunnion {
 

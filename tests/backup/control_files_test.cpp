@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 
 using namespace trunnion;
 

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/units.h"
+#include "base/units.h"
 
 using namespace trunnion;
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "block_bench.h"
-#include "geometry/units.h"
+#include "base/units.h"
 #include "motion/path_rates.h"
 
 namespace trunnion {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "block_bench.h"
-#include "geometry/random.h"
-#include "geometry/units.h"
+#include "base/random.h"
+#include "base/units.h"
 #include "positioning/rotary_transform.h"
 
 namespace trunnion::bench {

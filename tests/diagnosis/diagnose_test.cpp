@@ -4,8 +4,8 @@
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/statistics.h"
-#include "geometry/alarm.h"
-#include "geometry/random.h"
+#include "base/alarm.h"
+#include "base/random.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {

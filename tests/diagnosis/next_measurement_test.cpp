@@ -5,7 +5,7 @@
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/measurements.h"
-#include "emulator/program_folders.h"
+#include "interpreter/program_folders.h"
 #include "emulator/run.h"
 #include "identification/identify.h"
 #include "tests/support/campaign.h"

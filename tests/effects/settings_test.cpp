@@ -4,7 +4,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {

@@ -2,9 +2,9 @@
 #include <array>
 #include <catch2/catch.hpp>
 
-#include "emulator/setup.h"
-#include "geometry/random.h"
-#include "geometry/units.h"
+#include "setup/setup.h"
+#include "base/random.h"
+#include "base/units.h"
 #include "positioning/rotary_transform.h"
 
 namespace trunnion {

@@ -9,9 +9,9 @@
 
 #include "controller/controller.h"
 #include "emulator/run.h"
-#include "emulator/setup.h"
-#include "geometry/random.h"
-#include "geometry/units.h"
+#include "setup/setup.h"
+#include "base/random.h"
+#include "base/units.h"
 
 namespace trunnion {
 

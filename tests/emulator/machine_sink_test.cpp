@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "emulator/run.h"
-#include "geometry/units.h"
+#include "base/units.h"
 #include "kinematics/machine.h"
 
 using namespace trunnion;

@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/random.h"
-#include "geometry/units.h"
+#include "base/random.h"
+#include "base/units.h"
 #include "records/readings.h"
 
 using namespace trunnion;

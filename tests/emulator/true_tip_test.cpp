@@ -4,7 +4,7 @@
 
 #include "effects/settings.h"
 #include "emulator/run.h"
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 
 using namespace trunnion;
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "geometry/random.h"
-#include "geometry/units.h"
+#include "base/random.h"
+#include "base/units.h"
 
 using namespace trunnion;
 

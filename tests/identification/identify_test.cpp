@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "identification/monte_carlo.h"
 #include "tests/support/campaign.h"
 

@@ -2,7 +2,7 @@
 // paper (spheres) and of the 2015 paper (one ballbar set-up), and from mixtures of devices.
 #include <catch2/catch.hpp>
 
-#include "emulator/program_folders.h"
+#include "interpreter/program_folders.h"
 #include "emulator/run.h"
 #include "identification/identify.h"
 #include "tests/support/campaign.h"

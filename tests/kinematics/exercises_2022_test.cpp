@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "geometry/units.h"
+#include "base/units.h"
 #include "kinematics/machine.h"
 
 using namespace trunnion;

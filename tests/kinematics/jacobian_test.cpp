@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/random.h"
+#include "base/random.h"
 
 using namespace trunnion;
 

@@ -2,9 +2,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "geometry/alarm.h"
-#include "geometry/random.h"
-#include "geometry/units.h"
+#include "base/alarm.h"
+#include "base/random.h"
+#include "base/units.h"
 #include "kinematics/forward.h"
 
 using namespace trunnion;

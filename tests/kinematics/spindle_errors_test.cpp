@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "geometry/units.h"
+#include "base/units.h"
 #include "kinematics/forward.h"
 
 using namespace trunnion;

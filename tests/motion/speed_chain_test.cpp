@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/random.h"
+#include "base/random.h"
 
 namespace trunnion {
 

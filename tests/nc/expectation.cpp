@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "geometry/units.h"
+#include "base/units.h"
 
 namespace trunnion::nc {
 

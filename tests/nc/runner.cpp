@@ -8,7 +8,7 @@
 
 #include "controller/alarms.h"
 #include "expectation.h"
-#include "geometry/units.h"
+#include "base/units.h"
 
 namespace trunnion::nc {
 

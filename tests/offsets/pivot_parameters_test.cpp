@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 #include <limits>
 
-#include "geometry/alarm.h"
-#include "geometry/random.h"
-#include "geometry/units.h"
+#include "base/alarm.h"
+#include "base/random.h"
+#include "base/units.h"
 
 namespace trunnion {
 

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "geometry/units.h"
+#include "base/units.h"
 #include "tests/support/alarm_of.h"
 
 namespace trunnion {

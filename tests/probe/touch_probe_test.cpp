@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "geometry/random.h"
-#include "geometry/units.h"
+#include "base/random.h"
+#include "base/units.h"
 
 using namespace trunnion;
 

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "geometry/alarm.h"
-#include "geometry/numbers.h"
-#include "geometry/units.h"
+#include "base/alarm.h"
+#include "base/numbers.h"
+#include "base/units.h"
 
 using namespace trunnion;
 

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "geometry/random.h"
+#include "base/random.h"
 #include "regression/program_lines.h"
 #include "tests/regression/paths.h"
 

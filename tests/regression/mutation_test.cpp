@@ -8,7 +8,7 @@
 
 #include "controller/controller.h"
 #include "emulator/run.h"
-#include "geometry/random.h"
+#include "base/random.h"
 #include "tests/regression/plain_interpreter.h"
 #include "tests/regression/programs.h"
 

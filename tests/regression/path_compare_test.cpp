@@ -4,8 +4,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "geometry/random.h"
-#include "geometry/units.h"
+#include "base/random.h"
+#include "base/units.h"
 #include "tests/regression/paths.h"
 
 using namespace trunnion;

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "emulator/setup.h"
+#include "setup/setup.h"
 #include "regression/compare_programs.h"
 
 namespace trunnion::testing {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "geometry/pose.h"
-#include "geometry/units.h"
+#include "base/units.h"
 
 namespace trunnion::testing {
 

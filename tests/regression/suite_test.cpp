@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 #include "regression/golden.h"
 #include "report/comparison_report.h"
 #include "tests/regression/programs.h"

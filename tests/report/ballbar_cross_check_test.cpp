@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "analysis/ballbar_procedure.h"
+#include "ballbar/test/ballbar_procedure.h"
 #include "identification/identify.h"
 
 using namespace trunnion;

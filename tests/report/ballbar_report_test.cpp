@@ -5,9 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "analysis/ballbar_procedure.h"
-#include "geometry/alarm.h"
-#include "geometry/units.h"
+#include "ballbar/test/ballbar_procedure.h"
+#include "base/alarm.h"
+#include "base/units.h"
 #include "report/polar_plot.h"
 
 using namespace trunnion;

@@ -1,7 +1,7 @@
 // The number of the alarm that an action ends in.
 #pragma once
 
-#include "geometry/alarm.h"
+#include "base/alarm.h"
 
 namespace trunnion {
 

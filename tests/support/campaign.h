@@ -7,8 +7,8 @@
 
 #include "effects/settings.h"
 #include "emulator/replay.h"
-#include "geometry/random.h"
-#include "geometry/units.h"
+#include "base/random.h"
+#include "base/units.h"
 
 namespace trunnion::campaign {
 

@@ -1,8 +1,8 @@
 // A believed BC table and random vectors, for tests of the pieces alone.
 #pragma once
 
-#include "geometry/random.h"
-#include "geometry/units.h"
+#include "base/random.h"
+#include "base/units.h"
 #include "offsets/pivot_parameters.h"
 
 namespace trunnion {

@@ -1,0 +1,127 @@
+// Exact fit of the ballbar's length to all tests at once: values, covariance, rank, what cannot be
+// told apart.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "ballbar/test/ballbar_tests.h"
+#include "kinematics/machine.h"
+#include "records/readings.h"
+
+namespace trunnion {
+
+/// What may be added to the readings: nothing, one error of the bar's length (value = distance -
+/// nominal - error), or a constant for each test (drift between tests, a new set-up).
+enum class BarConstant : unsigned char { none, length, per_test };
+
+/// What is known of the centre pivot: nothing but about where it is, its place on the table (W), or
+/// that it was clamped where the spindle stood with the rotary axes at zero: its place in M then,
+/// so that errors of the axes show only once they turn (the 2015 paper, facts/kinematics.md 1.4).
+enum class PivotPlace : unsigned char { unknown, on_table, at_spindle };
+
+struct BallbarUnknowns {
+    bool cup = false;  ///< tool length and cup run-out unknown: then the rank drops by three
+    PivotPlace pivot = PivotPlace::unknown;
+    BarConstant constant = BarConstant::length;
+};
+
+struct BallbarParameter {
+    enum class Kind : unsigned char { location, cup, pivot, length, test_constant };
+    Kind kind = Kind::location;
+    ErrorName error;    ///< of `location`
+    int component = 0;  ///< x y z of cup (S) and pivot (W); number of the test
+    std::string name;   ///< "EY0A", "ballbar.cup.x", "ballbar.pivot.z", "ballbar.length", ...
+
+    bool angular() const { return kind == Kind::location && error.angular(); }
+};
+
+/// Unknowns that only change together without changing any reading.
+struct InseparableGroup {
+    std::vector<std::string> names;
+    std::vector<double> direction;  ///< mm and rad, largest 1
+};
+
+struct BallbarFit {
+    std::vector<BallbarParameter> parameters;
+    Eigen::VectorXd value;     ///< mm and rad; 0 start, smallest change where not determined
+    Eigen::MatrixXd cofactor;  ///< covariance for readings of unit variance; of the determined part
+    int rank = 0;
+    std::vector<InseparableGroup> inseparable;
+    std::vector<double> residual_mm;  ///< reading - model, in the order of the rows used
+    double rms_mm = 0.0;              ///< sqrt(sum of squares / dof)
+    double noise_mm = 0.0;  ///< from differences of neighbouring residuals: free of slow structure
+    int dof = 0;
+    int iterations = 0;
+
+    int find(const std::string& name) const;  ///< -1: not a parameter
+    bool determined(int parameter) const;     ///< false: part of an inseparable group
+};
+
+struct BallbarState;  // one set of values, ready to evaluate
+
+/// The length model at fixed poses: distance of the tool cup from the centre pivot on the physical
+/// chain, minus the nominal length. Prepared once for many sets of readings.
+class BallbarModel {
+  public:
+    /// `nominal` holds what is known of the machine (usually no errors); `rows` all ballbar passes.
+    BallbarModel(const Machine& nominal, const BallbarLayout& layout,
+                 const std::vector<Reading>& rows, const BallbarUnknowns& unknowns);
+
+    std::size_t size() const { return poses_.size(); }
+    const std::vector<BallbarParameter>& parameters() const { return parameters_; }
+    /// Index into the rows given of each reading used.
+    const std::vector<std::size_t>& rows_used() const { return row_; }
+    const std::vector<BallbarPass>& passes() const { return passes_; }
+
+    /// Readings (mm) for these values of the parameters.
+    std::vector<double> predict(const Eigen::VectorXd& value) const;
+    /// Gauss-Newton from zero. `reading_mm` in the order of rows_used().
+    BallbarFit fit(const std::vector<double>& reading_mm) const;
+
+  private:
+    /// Neighbouring readings share the Jacobian row of their middle one: at 1000 Hz it hardly
+    /// changes; residuals are always exact.
+    struct Block {
+        std::size_t begin, end;
+    };
+    struct Linear {
+        Eigen::MatrixXd jacobian;  ///< a row for each block, scaled columns
+        Eigen::MatrixXd inverse;   ///< pseudo-inverse of the normal matrix
+        Eigen::MatrixXd null;      ///< basis of what changes no reading
+    };
+
+    double reading(const BallbarState& state, std::size_t i) const;
+    BallbarState state(const Eigen::VectorXd& scaled) const;
+    Eigen::MatrixXd jacobian(const Eigen::VectorXd& scaled) const;
+    Linear linearise(const Eigen::VectorXd& scaled) const;
+
+    Machine nominal_;
+    BallbarLayout layout_;
+    PivotPlace pivot_place_;
+    std::vector<BallbarParameter> parameters_;
+    Eigen::VectorXd scale_;
+    std::vector<BallbarPass> passes_;
+    std::vector<std::size_t> row_;
+    std::vector<AxisPositions> poses_;
+    std::vector<int> test_of_;           ///< number of the test of each pose
+    std::vector<std::size_t> pass_end_;  ///< first pose behind each pass
+    std::vector<Block> blocks_;
+    Linear start_;  ///< at zero errors, where symmetries are exact
+};
+
+/// Standard uncertainty of one reading: what the residuals show, not less than what is declared.
+double reading_sigma_mm(const BallbarFit& fit, double declared_mm);
+
+/// Whether the residuals hold more than noise: slow structure above twice its own scatter. Causes
+/// that are not modelled (linear axes, backlash, servo, ...) show here.
+struct ResidualVerdict {
+    bool structured = false;
+    double excess_um = 0.0;  ///< sqrt(rms^2 - noise^2)
+    std::string worst_test;  ///< pass with the largest rms
+    double worst_rms_um = 0.0;
+};
+ResidualVerdict judge_residuals(const BallbarModel& model, const BallbarFit& fit);
+
+}  // namespace trunnion

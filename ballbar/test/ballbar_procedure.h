@@ -1,0 +1,100 @@
+// The whole single-set-up procedure: run, identify, compensate the control, run again.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ballbar/test/ballbar_fit.h"
+#include "ballbar/test/ballbar_program.h"
+#include "ballbar/test/ballbar_published.h"
+#include "ballbar/test/circular_evaluation.h"
+#include "emulator/run.h"
+
+namespace trunnion {
+
+/// One line of the result table. mm or rad.
+struct BallbarErrorRow {
+    ErrorName name;
+    double before = 0.0, after = 0.0;
+    double sigma_before = 0.0;
+    double sigma = 0.0;  ///< of `after`: noise of both runs, so the larger one
+    std::optional<double> published_before;
+
+    double change_percent() const;  ///< of the size; 0 when there was no error before
+};
+
+/// Manual times that the comparison with two set-ups assumes, s.
+struct SetupTimes {
+    double setup_s = 600.0;   ///< clamp pivot and cup, set the origin, start the software
+    double remount_s = 90.0;  ///< take the bar off, move, mount it again: between tests when it
+                              ///< does not stay in place
+};
+
+struct PlanarResult {
+    CircularTest test;
+    CircularFigures figures;
+    CircularDiagnosis diagnosis;
+};
+
+struct BallbarRun {
+    ReadingTable readings;
+    double time_s = 0.0;
+};
+
+struct BallbarResult {
+    std::string machine;
+    std::string setup_path;
+    BallbarProgramData data;
+    double reading_sigma_mm = 0.0;  ///< standard uncertainty of one reading of the first run
+    double reference_mm = 100.0;  ///< length of the bar that the evaluation counts from: warm when
+                                  ///< its temperature was read
+    std::string program;
+    BallbarRun before, after;
+    std::vector<BallbarErrorRow> errors;           ///< as the setup file means them
+    std::vector<BallbarErrorRow> at_intersection;  ///< as the paper means them
+    BallbarFit fit;                                ///< cup taken as known
+    BallbarFit open_fit;  ///< cup unknown too: rank, what cannot be told apart
+    ResidualVerdict verdict;
+    PublishedEvaluation published;
+    std::vector<PlanarResult> planar;
+    std::vector<std::pair<int, double>> pivot_parameters;  ///< 19700-19705 with the found positions
+    SetupTimes times;
+    std::vector<std::string> notes;
+
+    std::size_t tests() const;  ///< number of different tests
+    double single_setup_s() const;
+    double two_setups_s() const;
+};
+
+struct BallbarProcedureOptions {
+    std::uint64_t seed = 1;
+    EffectModels effects;
+    SetupTimes times;
+    bool inside = false;  ///< bar turned round where it lies flat
+    /// Where the pivot really stands, from where the setup says: an error of the set-up, in W.
+    Vector3 pivot_offset_mm = Vector3::Zero();
+};
+
+/// Length of the bar that the exact fit found, minus the reference length.
+struct BarLength {
+    double error_mm = 0.0, sigma_mm = 0.0;
+};
+BarLength bar_length(const BallbarResult& result);
+
+/// Place of the pivot that the exact fit found, from the stated one, in W.
+Vector3 pivot_found_mm(const BallbarResult& result);
+
+/// The bar as the operator states it: pivot from the setup's center_pivot, cup from the tool table
+/// (the offset whose length is nearest the cup's). Throws InputError when the setup lacks them.
+BallbarLayout stated_layout(const Setup& setup, int& tool_offset);
+
+/// What the NC programs of this setup start from: stated layout, dialect of the control.
+BallbarProgramData stated_program_data(const Setup& setup, bool inside);
+
+/// Throws Alarm when the program stops, InputError when the setup cannot carry the test or a pass
+/// has no readings (out of range).
+BallbarResult run_ballbar(const Setup& stated, const BallbarProcedureOptions& options);
+
+}  // namespace trunnion

@@ -1,0 +1,61 @@
+// The single-set-up evaluation as published in 2015: sphere of the set-up, circles, planes,
+// transport to the nominal intersection of the axes.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ballbar/test/ballbar_tests.h"
+#include "kinematics/errors.h"
+
+namespace trunnion {
+
+/// Straight line of a rotary axis in M.
+struct AxisLine {
+    Vector3 point_mm = Vector3::Zero();
+    Vector3 direction = Vector3::UnitZ();  ///< unit, towards the nominal `direction`'s side
+};
+
+struct NamedError {
+    ErrorName name;
+    double value = 0.0;  ///< mm or rad
+};
+
+struct PublishedEvaluation {
+    Vector3 pivot_offset_mm = Vector3::Zero();  ///< centre pivot - stated place, seen from the cup
+    double length_error_mm = 0.0;               ///< readings' radius of the set-up sphere
+    double setup_rms_mm = 0.0;
+    AxisLine first, second;                ///< as measured, in M with all axes at zero
+    std::vector<NamedError> chain;         ///< as the setup file means them, at point_mm
+    std::vector<NamedError> intersection;  ///< of the line in M at the nominal intersection: as
+                                           ///< in the paper's Table 2
+    std::vector<std::string> missing;      ///< tests that a result would have needed
+};
+
+/// `rows` as of ballbar_passes(). The published way takes the cup's place for the truth and the
+/// direction of the bar for the nominal one: its results carry a small bias (cosine error).
+PublishedEvaluation evaluate_as_published(const Machine& nominal, const BallbarLayout& layout,
+                                          const std::vector<Reading>& rows);
+
+/// Nominal points of the two axis lines that are nearest to each other (equal when they meet).
+std::pair<Vector3, Vector3> nominal_intersection(const AxisGeometry& first,
+                                                 const AxisGeometry& second);
+
+/// Two positions and two tilts of `line` against the nominal axis through `point_mm`: the position
+/// is taken in the plane through that point across the nominal axis.
+std::vector<NamedError> errors_of_line(const AxisLine& line, const AxisGeometry& nominal,
+                                       const Vector3& point_mm);
+
+/// Lines of both axes in M, all axes at zero, of a machine with location errors (the second axis is
+/// carried by the first: its line moves with the first one's errors).
+std::pair<AxisLine, AxisLine> axis_lines(const Machine& machine);
+
+/// Errors that the setup file would have to hold for these two lines.
+std::vector<NamedError> chain_errors(const AxisLine& first, const AxisLine& second,
+                                     const Machine& nominal);
+/// The same lines as errors in M at the nominal intersection.
+std::vector<NamedError> intersection_errors(const AxisLine& first, const AxisLine& second,
+                                            const Machine& nominal);
+
+}  // namespace trunnion

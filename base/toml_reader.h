@@ -1,0 +1,65 @@
+// A TOML file as plain values that know their place, so that every message can point at it.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/alarm.h"
+
+namespace trunnion {
+
+struct TomlValue {
+    enum class Kind : unsigned char { table, array, number, text, boolean };
+
+    Kind kind = Kind::table;
+    double number = 0.0;
+    bool truth = false;
+    std::string text;
+    std::vector<std::pair<std::string, TomlValue>> entries;  ///< of a table, in file order
+    std::vector<TomlValue> items;                            ///< of an array
+    int line = 0, column = 0;
+    mutable bool used = false;  ///< asked for by the reader; the rest is noted as unknown
+
+    const TomlValue* find(std::string_view key) const;  ///< marks it used; nullptr when absent
+};
+
+/// A parsed file. All functions that return a value throw InputError with its place when the value
+/// is of another kind.
+class TomlFile {
+  public:
+    /// Throws InputError (line, column, text of the line) for text that is not TOML.
+    TomlFile(std::string text, std::string path);
+
+    const TomlValue& root() const { return root_; }
+    const std::string& path() const { return path_; }
+
+    [[noreturn]] void fail(const TomlValue& at, const std::string& message) const;
+
+    double number(const TomlValue& value) const;
+    double positive(const TomlValue& value) const;
+    const std::string& text(const TomlValue& value) const;
+    Eigen::Vector3d vector3(const TomlValue& value) const;
+    /// A number or an array of numbers.
+    std::vector<double> numbers(const TomlValue& value) const;
+    std::vector<std::string> texts(const TomlValue& value) const;
+    const TomlValue& table(const TomlValue& value) const;
+
+    /// `parent.key` when present.
+    std::optional<double> find_number(const TomlValue& parent, std::string_view key) const;
+
+    /// One line for each key nobody asked for.
+    std::vector<std::string> unknown_keys() const;
+
+  private:
+    SourceRef place(const TomlValue& value) const { return {path_, value.line, value.column}; }
+    std::string line_text(int line) const;
+
+    std::string text_, path_;
+    TomlValue root_;
+};
+
+}  // namespace trunnion

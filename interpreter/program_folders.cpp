@@ -1,0 +1,145 @@
+#include "interpreter/program_folders.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+#include <functional>
+
+#include "base/alarm.h"
+
+namespace trunnion {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::array<std::string_view, 11> endings{"",     ".nc",  ".txt", ".tap", ".min", ".mpf",
+                                                   ".cnc", ".ngc", ".eia", ".iso", ".prg"};
+
+std::string lower(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+std::optional<int> leading_number(std::string_view text, std::size_t* length = nullptr) {
+    int number = 0;
+    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (fault != std::errc{} || number < 0) return std::nullopt;
+    if (length) *length = static_cast<std::size_t>(end - text.data());
+    return number;
+}
+
+/// 1234 for O1234.nc, 1234, o01234.TXT; nothing for other names.
+std::optional<int> number_of_file(const fs::path& path) {
+    const std::string ending = lower(path.extension().string());
+    if (std::find(endings.begin(), endings.end(), ending) == endings.end()) return std::nullopt;
+    std::string stem = lower(path.stem().string());
+    if (!stem.empty() && stem[0] == 'o') stem.erase(0, 1);
+    std::size_t length = 0;
+    const auto number = leading_number(stem, &length);
+    return length == stem.size() ? number : std::nullopt;
+}
+
+/// Calls `found` with the number of every program that begins in `text`.
+void programs_in(std::string_view text, const std::function<void(int)>& found) {
+    for (std::size_t i = 0; i < text.size();) {
+        const std::string_view line = text.substr(i);
+        if (line[0] == 'O' || line[0] == 'o' || line[0] == ':')
+            if (const auto number = leading_number(line.substr(1))) found(*number);
+        const std::size_t end = line.find('\n');
+        if (end == std::string_view::npos) return;
+        i += end + 1;
+    }
+}
+
+struct Mapping {
+    void* data = nullptr;
+    std::size_t size = 0;
+    ~Mapping() {
+        if (data) ::munmap(data, size);
+    }
+};
+
+}  // namespace
+
+ProgramText map_program(const std::string& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    struct stat info {};
+    if (file < 0 || ::fstat(file, &info) != 0 || !S_ISREG(info.st_mode)) {
+        if (file >= 0) ::close(file);
+        throw InputError("no such program, or it cannot be read", {path, 0, 0});
+    }
+    auto mapping = std::make_shared<Mapping>();
+    mapping->size = static_cast<std::size_t>(info.st_size);
+    if (mapping->size > 0) {
+        void* data = ::mmap(nullptr, mapping->size, PROT_READ, MAP_PRIVATE, file, 0);
+        if (data != MAP_FAILED) mapping->data = data;
+    }
+    ::close(file);
+    if (mapping->size > 0 && !mapping->data) throw InputError("cannot be mapped", {path, 0, 0});
+    const auto* begin = static_cast<const char*>(mapping->data);
+    return {path, std::string_view(begin, mapping->data ? mapping->size : 0), mapping};
+}
+
+ProgramFolders::ProgramFolders(std::vector<std::string> folders) : folders_(std::move(folders)) {
+    for (const std::string& folder : folders_)
+        if (!fs::is_directory(folder)) throw InputError("no such program folder", {folder, 0, 0});
+}
+
+void ProgramFolders::scan_own_files() {
+    for (const ProgramText& file : std::exchange(own_files_, {}))
+        programs_in(file.text, [&](int number) { own_.emplace(number, file); });
+}
+
+void ProgramFolders::list_folders() {
+    if (std::exchange(listed_, true)) return;
+    for (const std::string& folder : folders_) {
+        std::vector<std::string> names;
+        for (const auto& entry : fs::directory_iterator(folder))
+            if (entry.is_regular_file()) names.push_back(entry.path().string());
+        std::sort(names.begin(), names.end());
+        for (std::string& name : names) {
+            if (const auto number = number_of_file(name)) by_name_.emplace(*number, name);
+            files_.push_back(std::move(name));
+        }
+    }
+}
+
+void ProgramFolders::scan_contents() {
+    if (std::exchange(scanned_, true)) return;
+    for (const std::string& path : files_) {
+        const std::string ending = lower(fs::path(path).extension().string());
+        if (std::find(endings.begin(), endings.end(), ending) == endings.end()) continue;
+        programs_in(map_program(path).text, [&](int n) { by_content_.emplace(n, path); });
+    }
+}
+
+std::optional<ProgramText> ProgramFolders::find(int o_number) {
+    scan_own_files();
+    if (const auto own = own_.find(o_number); own != own_.end()) return own->second;
+    list_folders();
+    if (const auto named = by_name_.find(o_number); named != by_name_.end())
+        return map_program(named->second);
+    scan_contents();
+    if (const auto held = by_content_.find(o_number); held != by_content_.end())
+        return map_program(held->second);
+    return std::nullopt;
+}
+
+std::optional<ProgramText> ProgramFolders::find(std::string_view name) {
+    list_folders();
+    const std::string wanted = lower(std::string(name));
+    for (const std::string& path : files_) {
+        const fs::path file(path);
+        if (lower(file.filename().string()) == wanted || lower(file.stem().string()) == wanted)
+            return map_program(path);
+    }
+    return std::nullopt;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,49 @@
+// Parameter 1022: which linear axes run beside X, Y and Z.
+#include "setup/setup.h"
+
+namespace trunnion {
+namespace {
+
+/// 1, 2, 3 for + X, Y, Z as the tool moves against the work, 0 for any other direction.
+int basic_direction(const Vector3& moves_tool) {
+    for (int i = 0; i < 3; ++i)
+        if ((moves_tool - Vector3::Unit(i)).norm() < 1e-9) return i + 1;
+    return 0;
+}
+
+/// Values of one side; what a rotary axis carries turns with it and runs beside nothing.
+void number_side(const std::vector<AxisGeometry>& side, double sign,
+                 std::array<int, axis_count>& value) {
+    bool carried = false;
+    for (const AxisGeometry& axis : side) {
+        carried |= axis.rotary;
+        if (!axis.rotary && !carried)
+            value[index_of(axis.axis)] = basic_direction(sign * axis.direction);
+    }
+}
+
+}  // namespace
+
+std::string derive_parallel_axes(const Machine& machine, Parameters& parameters) {
+    const auto is_extra = [](Axis axis) { return index_of(axis) >= index_of(Axis::U); };
+    std::array<int, axis_count> direction{};
+    number_side(machine.chain.tool, 1.0, direction);
+    number_side(machine.chain.work, -1.0, direction);
+    Parameter derived;
+    std::string alone;
+    bool extra = false;
+    int number = 0;
+    for (const AxisGeometry& axis : machine.chain.axes()) {
+        const int basic = direction[index_of(axis.axis)];
+        const bool parallel = is_extra(axis.axis) && basic != 0;
+        derived.by_axis[++number] = basic + (parallel ? 4 : 0);
+        extra |= is_extra(axis.axis);
+        if (is_extra(axis.axis) && basic == 0)
+            alone += (alone.empty() ? "" : ", ") + std::string(1, letter_of(axis.axis));
+    }
+    if (!extra || parameters.find(1022)) return {};
+    parameters.entry[1022] = derived;
+    return alone;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,122 @@
+// What the control's numbers would be if it were told the truth about the machine.
+#include <algorithm>
+#include <cmath>
+
+#include "setup/setup.h"
+#include "base/alarm.h"
+#include "offsets/axis_numbers.h"
+#include "offsets/pivot_parameters.h"
+
+namespace trunnion {
+
+namespace {
+
+std::vector<Axis> control_order(const Machine& machine) {
+    std::vector<Axis> order;
+    for (const AxisGeometry& axis : machine.chain.axes()) order.push_back(axis.axis);
+    return order;
+}
+
+std::vector<AxisGeometry> rotaries(const std::vector<AxisGeometry>& side) {
+    std::vector<AxisGeometry> found;
+    for (const AxisGeometry& axis : side)
+        if (axis.rotary) found.push_back(axis);
+    return found;
+}
+
+bool rotary_carries_linear(const std::vector<AxisGeometry>& side) {
+    const auto first = std::find_if(side.begin(), side.end(), [](auto& a) { return a.rotary; });
+    return std::any_of(first, side.end(), [](auto& a) { return !a.rotary; });
+}
+
+PivotAxis pivot_axis(const AxisGeometry& axis) {
+    PivotAxis out;
+    out.axis = axis.axis;
+    out.line = axis.direction.normalized();
+    out.min_rad = axis.min;
+    out.max_rad = axis.max;
+    return out;
+}
+
+PivotParameters pivot_of(const std::vector<AxisGeometry>& table,
+                         const std::vector<AxisGeometry>& tool) {
+    PivotParameters pivot;
+    if (table.size() == 2) {
+        pivot.unit = MechanicalUnit::table_table;
+        pivot.first = pivot_axis(table[0]);
+        pivot.second = pivot_axis(table[1]);
+        pivot.table_point_mm = table[0].point_mm;
+        pivot.table_offset_mm = table[1].point_mm - table[0].point_mm;
+        return pivot;
+    }
+    pivot.first = pivot_axis(tool[0]);
+    pivot.tool_offset_mm = tool[0].point_mm;  // S is M with all axes at zero
+    if (tool.size() == 2) {
+        pivot.unit = MechanicalUnit::tool_tool;
+        pivot.second = pivot_axis(tool[1]);
+        pivot.tool_second_offset_mm = tool[0].point_mm - tool[1].point_mm;
+        return pivot;
+    }
+    pivot.unit = MechanicalUnit::mixed;
+    pivot.second = pivot_axis(table[0]);
+    pivot.table_point_mm = table[0].point_mm;
+    return pivot;
+}
+
+/// The linear axes that a + turn carries into each other (from +, to +), or nothing when inclined.
+std::optional<std::array<int, 2>> turned_plane(const Vector3& direction) {
+    for (int i = 0; i < 3; ++i) {
+        if (1.0 - std::abs(direction[i]) > 1e-12) continue;
+        const int from = (i + 1) % 3, to = (i + 2) % 3;
+        return direction[i] > 0.0 ? std::array{from, to} : std::array{to, from};
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::string derive_pivot_parameters(const Machine& machine, Parameters& parameters) {
+    const auto table = rotaries(machine.chain.work);
+    const auto tool = rotaries(machine.chain.tool);
+    if (table.size() + tool.size() != 2) return "the machine has not two rotary axes";
+    if (rotary_carries_linear(machine.chain.work) || rotary_carries_linear(machine.chain.tool))
+        return "a rotary axis carries a linear one";
+    const PivotParameters pivot = pivot_of(table, tool);
+    if (pivot.first.line.cross(pivot.second.line).norm() < 0.01)
+        return "its two rotary axes are parallel: they turn the tool to no other side";
+    Parameters derived;
+    try {
+        encode_pivot(pivot, derived, control_order(machine));
+    } catch (const InputError& error) {
+        return error.message;
+    }
+    for (const auto& [number, parameter] : derived.entry)
+        parameters.entry.try_emplace(number, parameter);
+    return {};
+}
+
+void derive_fixture_groups(const Machine& machine, Parameters& parameters) {
+    for (int number = 7580; number <= 7588; ++number)
+        if (parameters.find(number)) return;
+    const auto order = control_order(machine);
+    auto table = rotaries(machine.chain.work);
+    std::reverse(table.begin(), table.end());
+    Parameters derived;
+    int number = 7580;
+    // Axes of a head carry no fixture: no group turns its offset.
+    if (table.empty() && !rotaries(machine.chain.tool).empty()) derived.set(number, 0);
+    for (const AxisGeometry& axis : table) {
+        if (number > 7586) break;
+        // No group can say that an inclined axis turns the offset: G54.2 is alarm 5459 then.
+        const auto plane = turned_plane(axis.direction.normalized());
+        derived.set(number, number_of_axis(axis.axis, order));
+        for (const std::size_t i : {0U, 1U})
+            derived.set(
+                number + 1 + static_cast<int>(i),
+                plane ? number_of_axis(all_axes[static_cast<std::size_t>((*plane)[i])], order) : 0);
+        number += 3;
+    }
+    for (const auto& [key, parameter] : derived.entry) parameters.entry[key] = parameter;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,104 @@
+#include "setup/setup.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "setup/setup_reader.h"
+
+namespace trunnion {
+namespace {
+
+/// "7580-7585, 19666"
+std::string ranges(const std::vector<int>& rising) {
+    std::string out;
+    for (std::size_t i = 0, last; i < rising.size(); i = last + 1) {
+        for (last = i; last + 1 < rising.size() && rising[last + 1] == rising[last] + 1;) ++last;
+        out += (out.empty() ? "" : ", ") + std::to_string(rising[i]);
+        if (last > i) out += '-' + std::to_string(rising[last]);
+    }
+    return out;
+}
+
+/// Numbers of the pivot (19680-19714) and of the G54.2 groups that the file does not give are those
+/// of the machine, told truthfully.
+void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
+    Parameters& parameters = setup.stores.parameters;
+    const auto given = parameters.entry;
+    const std::string reason = derive_pivot_parameters(setup.machine, parameters);
+    const auto axes = setup.machine.chain.axes();
+    const bool has_rotary = std::any_of(axes.begin(), axes.end(), [](auto& a) { return a.rotary; });
+    if (!reason.empty() && has_rotary && !given.contains(19680))
+        notes.push_back(setup.path + ": no pivot parameters 19680-19714: " + reason);
+    const std::string alone = derive_parallel_axes(setup.machine, parameters);
+    if (!alone.empty())
+        notes.push_back(setup.path + ": no parameter 1022 says how " + alone +
+                        " runs: the control believes that it does not move the tool");
+    derive_fixture_groups(setup.machine, parameters);
+    std::vector<int> added;
+    for (const auto& [number, parameter] : parameters.entry)
+        if (!given.contains(number)) added.push_back(number);
+    if (!added.empty())
+        notes.push_back(setup.path + ": parameters derived from [machine]: " + ranges(added));
+}
+
+std::string read_file(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    std::ostringstream text;
+    if (!in || !(text << in.rdbuf())) throw InputError("cannot read this file", {path, 0, 0});
+    return text.str();
+}
+
+}  // namespace
+
+namespace {
+
+Vector3 extended(const Vector3& ball_S_mm, double extension_mm, const ExtensionErrors& errors) {
+    if (extension_mm == 0.0) return ball_S_mm;
+    const auto it = errors.find(extension_mm);
+    const Vector3 below = ball_S_mm - extension_mm * Vector3::UnitZ();
+    return it == errors.end() ? below : Vector3(below + it->second);
+}
+
+}  // namespace
+
+Vector3 ProbeSettings::tip_with(double extension_mm) const {
+    return extended(tip_S_mm, extension_mm, extension_errors);
+}
+
+Vector3 BallbarSettings::cup_with(double extension_mm) const {
+    return extended(cup_S_mm, extension_mm, extension_errors);
+}
+
+const Artefact* Setup::find_artefact(const std::string& wanted) const {
+    for (const Artefact& artefact : artefacts)
+        if (artefact.name == wanted) return &artefact;
+    return nullptr;
+}
+
+Setup load_setup(const std::string& path, std::vector<std::string>& notes,
+                 const BackupReader& backup) {
+    return parse_setup(read_file(path), path, notes, backup);
+}
+
+Setup parse_setup(const std::string& text, const std::string& path, std::vector<std::string>& notes,
+                  const BackupReader& backup) {
+    const TomlFile file(text, path);
+    const TomlValue& root = file.root();
+    Setup setup;
+    setup.path = path;
+    if (const TomlValue* schema = root.find("schema");
+        schema && file.text(*schema) != "trunnion.setup/1")
+        file.fail(*schema, "this version reads schema \"trunnion.setup/1\"");
+    const TomlValue* machine = root.find("machine");
+    if (!machine) file.fail(root, "[machine] is missing");
+    read_machine(file, file.table(*machine), setup);
+    if (const TomlValue* control = root.find("control"))
+        read_control(file, file.table(*control), backup, setup);
+    read_devices(file, setup);
+    complete_pivot(setup, notes);
+    for (std::string& note : file.unknown_keys()) notes.push_back(std::move(note));
+    return setup;
+}
+
+}  // namespace trunnion

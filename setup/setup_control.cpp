@@ -1,0 +1,223 @@
+// [control]: dialect and stores of a setup file.
+#include <filesystem>
+
+#include "setup/setup_reader.h"
+#include "base/numbers.h"
+#include "offsets/parameter_units.h"
+
+namespace trunnion {
+namespace {
+
+int whole_number(const TomlFile& file, const std::string& key, const TomlValue& value, int lowest,
+                 int highest, const char* what) {
+    const auto n = parse_number(key);
+    if (!n || *n < lowest || *n > highest || *n != static_cast<int>(*n))
+        file.fail(value, "'" + key + "' is not " + what);
+    return static_cast<int>(*n);
+}
+
+OffsetVector read_offset(const TomlFile& file, const TomlValue& table) {
+    OffsetVector offset;
+    for (const auto& [key, value] : file.table(table).entries) {
+        const auto axis = key.size() == 1 ? axis_of(key[0]) : std::nullopt;
+        if (!axis) continue;  // noted as unknown
+        value.used = true;
+        offset[*axis] = file.number(value);
+    }
+    return offset;
+}
+
+OffsetVector* find_offset(WorkOffsets& work, const std::string& name) {
+    if (name == "external" || name == "EXT") return &work.external;
+    if (name.size() == 3 && name.starts_with("G5") && name[2] >= '4' && name[2] <= '9')
+        return &work.standard[static_cast<std::size_t>(name[2] - '4')];
+    if (!name.starts_with("G54.1 P")) return nullptr;
+    const auto n = parse_number(name.substr(7));
+    const bool valid = n && *n >= 1 && *n <= 300 && *n == static_cast<int>(*n);
+    return valid ? &work.additional[static_cast<std::size_t>(*n) - 1] : nullptr;
+}
+
+void read_work_offsets(const TomlFile& file, const TomlValue& table, WorkOffsets& work) {
+    for (const auto& [key, value] : file.table(table).entries) {
+        value.used = true;
+        OffsetVector* offset = find_offset(work, key);
+        if (!offset)
+            file.fail(value, "'" + key + "' is not G54 ... G59, \"G54.1 P1\" ... P300 or external");
+        *offset = read_offset(file, value);
+    }
+}
+
+/// P1 = { X = .., Y = .., Z = .., reference = { B = .., C = .. } }
+void read_fixtures(const TomlFile& file, const TomlValue& table, FixtureOffsets& fixture) {
+    for (const auto& [key, value] : file.table(table).entries) {
+        value.used = true;
+        const std::string number = key.starts_with("P") ? key.substr(1) : key;
+        const int n = whole_number(file, number, value, 1, 8, "P1 ... P8");
+        FixtureOffset& set = fixture.set[static_cast<std::size_t>(n) - 1];
+        set.offset = read_offset(file, value);
+        if (const TomlValue* angles = value.find("reference"))
+            set.reference_angles = read_offset(file, *angles);
+    }
+}
+
+void read_tools(const TomlFile& file, const TomlValue& table, ToolOffsets& tools) {
+    for (const auto& [key, value] : file.table(table).entries) {
+        value.used = true;
+        const int n = whole_number(file, key, value, 1, 999, "a tool offset number");
+        ToolOffset& tool = tools.tool[static_cast<std::size_t>(n)];
+        tool.length_geometry_mm = file.find_number(file.table(value), "length_mm").value_or(0.0);
+        tool.length_wear_mm = file.find_number(value, "length_wear_mm").value_or(0.0);
+        tool.radius_geometry_mm = file.find_number(value, "diameter_mm").value_or(0.0) / 2.0;
+        tool.radius_wear_mm = file.find_number(value, "diameter_wear_mm").value_or(0.0) / 2.0;
+    }
+}
+
+double parameter_value(const TomlFile& file, const TomlValue& value) {
+    if (value.kind != TomlValue::Kind::text) return file.number(value);
+    if (value.text.size() != 8 || value.text.find_first_not_of("01") != std::string::npos)
+        file.fail(value,
+                  "a bit parameter is eight of 0 and 1, e.g. \"00000001\" (rightmost is bit 0)");
+    double byte = 0.0;
+    for (const char bit : value.text) byte = 2.0 * byte + (bit == '1' ? 1.0 : 0.0);
+    return byte;
+}
+
+int axis_number(const std::string& key, const Chain& chain) {
+    if (const auto n = parse_number(key)) return *n >= 1 && *n <= 99 ? static_cast<int>(*n) : 0;
+    int number = 0;
+    for (const AxisGeometry& axis : chain.axes()) {
+        ++number;
+        if (key.size() == 1 && key[0] == letter_of(axis.axis)) return number;
+    }
+    return 0;
+}
+
+/// A value, or one for each axis: [..] in the control's order, { X = .., Y = .. } or { 1 = .. }.
+Parameter read_parameter(const TomlFile& file, const TomlValue& value, const Chain& chain) {
+    Parameter parameter;
+    if (value.kind == TomlValue::Kind::array) {
+        for (std::size_t i = 0; i < value.items.size(); ++i)
+            parameter.by_axis[static_cast<int>(i) + 1] = parameter_value(file, value.items[i]);
+    } else if (value.kind == TomlValue::Kind::table) {
+        for (const auto& [key, entry] : value.entries) {
+            entry.used = true;
+            const int axis = axis_number(key, chain);
+            if (axis < 1) file.fail(entry, "'" + key + "' is not an axis of this machine");
+            parameter.by_axis[axis] = parameter_value(file, entry);
+        }
+    } else {
+        parameter.value = parameter_value(file, value);
+    }
+    return parameter;
+}
+
+void read_parameters(const TomlFile& file, const TomlValue& table, Setup& setup) {
+    std::vector<int> read;
+    for (const auto& [key, value] : file.table(table).entries) {
+        value.used = true;
+        const int number = whole_number(file, key, value, 0, 99999, "a parameter number");
+        setup.stores.parameters.entry[number] = read_parameter(file, value, setup.machine.chain);
+        read.push_back(number);
+    }
+    // 1001 may stand anywhere, in the backup too.
+    for (const int number : read)
+        setup.stores.parameters.entry[number].value *=
+            parameter_unit_mm(setup.stores.parameters, number);
+}
+
+void read_numbered(const TomlFile& file, const TomlValue& table, std::map<int, double>& store) {
+    for (const auto& [key, value] : file.table(table).entries) {
+        value.used = true;
+        const std::string number = key.starts_with("#") ? key.substr(1) : key;
+        store[whole_number(file, number, value, 1, 99999, "a variable number")] =
+            file.number(value);
+    }
+}
+
+void read_switch(const TomlFile& file, const TomlValue& control, const char* name, bool& on) {
+    const TomlValue* value = control.find(name);
+    if (!value) return;
+    if (value->kind != TomlValue::Kind::boolean)
+        file.fail(*value, std::string(name) + " is true or false");
+    on = value->truth;
+}
+
+/// C = { clamp = 10, release = 11, alarm = true }
+void read_clamps(const TomlFile& file, const TomlValue& table, Setup& setup) {
+    for (const auto& [key, value] : file.table(table).entries) {
+        value.used = true;
+        const auto axis = key.size() == 1 ? axis_of(key[0]) : std::nullopt;
+        if (!axis || !setup.machine.chain.find(*axis))
+            file.fail(value, "'" + key + "' is not an axis of this machine");
+        const auto code = [&](const char* name, int otherwise) {
+            const double m = file.find_number(file.table(value), name).value_or(otherwise);
+            if (m < 0 || m > 999 || m != static_cast<int>(m))
+                file.fail(value, std::string(name) + " is an M code, 0 to 999");
+            return static_cast<int>(m);
+        };
+        ClampCode clamp{*axis, code("clamp", 10), code("release", 11), true};
+        read_switch(file, value, "alarm", clamp.alarm);
+        setup.clamps.push_back(clamp);
+    }
+}
+
+void read_block_skip(const TomlFile& file, const TomlValue& value, std::vector<int>& on) {
+    for (const double n : file.numbers(value)) {
+        if (n < 1 || n > 9 || n != static_cast<int>(n))
+            file.fail(value, "block_skip lists switches 1 to 9");
+        on.push_back(static_cast<int>(n));
+    }
+}
+
+/// Generations whose nesting limits and M98 forms differ (docs/control.md).
+Dialect read_dialect(const TomlFile& file, const TomlValue& control) {
+    const TomlValue* name = control.find("dialect");
+    if (name && file.text(*name) == "hurco") return hurco_dialect();
+    if (name && file.text(*name) != "fanuc") file.fail(*name, "dialect is \"fanuc\" or \"hurco\"");
+    const TomlValue* generation = control.find("generation");
+    if (!generation || file.text(*generation) == "30i") return fanuc_dialect();
+    if (generation->text == "16i") return fanuc_dialect(ControlGeneration::fanuc_16i);
+    if (generation->text == "0i-F") return fanuc_dialect(ControlGeneration::fanuc_0i_f);
+    file.fail(*generation, "generation is \"16i\", \"30i\" or \"0i-F\"");
+}
+
+void read_backup(const TomlFile& file, const TomlValue& value, const BackupReader& backup,
+                 Stores& stores) {
+    if (!backup) file.fail(value, "backups are not read here");
+    const std::filesystem::path folder =
+        std::filesystem::path(file.path()).parent_path() / file.text(value);
+    backup(folder.string(), stores);
+}
+
+}  // namespace
+
+void read_control(const TomlFile& file, const TomlValue& control, const BackupReader& backup,
+                  Setup& setup) {
+    setup.dialect = read_dialect(file, control);
+    read_switch(file, control, "work_positions_with_length", setup.work_positions_with_length);
+    read_switch(file, control, "g89_feeds_to_initial", setup.g89_feeds_to_initial);
+    read_switch(file, control, "optional_stop", setup.optional_stop);
+    if (const TomlValue* table = control.find("clamps")) read_clamps(file, *table, setup);
+    if (const TomlValue* on = control.find("block_skip"))
+        read_block_skip(file, *on, setup.block_skip);
+    if (const TomlValue* frame = control.find("tcp_frame")) {
+        if (file.text(*frame) != "start" && file.text(*frame) != "rotary_zero")
+            file.fail(*frame, "tcp_frame is \"start\" or \"rotary_zero\"");
+        setup.tcp_frame = frame->text == "rotary_zero" ? TcpFrame::rotary_zero : TcpFrame::start;
+    }
+    if (const TomlValue* folder = control.find("backup"))
+        read_backup(file, *folder, backup, setup.stores);
+    if (const TomlValue* table = control.find("work_offsets"))
+        read_work_offsets(file, *table, setup.stores.work);
+    if (const TomlValue* table = control.find("fixture_offsets"))
+        read_fixtures(file, *table, setup.stores.fixture);
+    if (const TomlValue* table = control.find("tools"))
+        read_tools(file, *table, setup.stores.tools);
+    if (const TomlValue* table = control.find("parameters")) read_parameters(file, *table, setup);
+    if (const TomlValue* table = control.find("variables"))
+        read_numbered(file, *table, setup.stores.variables);
+    if (const TomlValue* table = control.find("signals"))
+        read_numbered(file, *table, setup.stores.signals);
+}
+
+}  // namespace trunnion

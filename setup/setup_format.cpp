@@ -1,0 +1,329 @@
+// A setup as TOML that loads again to the same value.
+#include <cmath>
+
+#include "setup/setup.h"
+#include "base/numbers.h"
+#include "base/units.h"
+#include "offsets/parameter_units.h"
+
+namespace trunnion {
+namespace {
+
+/// Text of a number that `to_inside` turns into `value` again: the shortest among the neighbours.
+template <class ToInside>
+std::string text_for(double value, double guess, const ToInside& to_inside) {
+    std::string best;
+    double below = guess, above = guess;
+    for (int ulp = 0; ulp < 4; ++ulp) {
+        for (const double candidate : {below, above})
+            if (to_inside(candidate) == value)
+                if (const std::string text = shortest(candidate);
+                    best.empty() || text.size() < best.size())
+                    best = text;
+        below = std::nextafter(below, -INFINITY);
+        above = std::nextafter(above, INFINITY);
+    }
+    return best.empty() ? shortest(guess) : best;
+}
+
+std::string position(bool rotary, double value) {
+    return rotary ? shortest_degrees(value) : shortest(value);
+}
+
+std::string speed(bool rotary, double value) {
+    const auto inside = [=](double v) { return (rotary ? rad_from_deg(v) : v) / 60.0; };
+    return text_for(value, 60.0 * (rotary ? deg_from_rad(value) : value), inside);
+}
+
+template <class List, class Text>
+std::string list_of(const List& list, const Text& text) {
+    std::string out = "[";
+    for (const auto& item : list) out += (out.size() > 1 ? ", " : "") + text(item);
+    return out + ']';
+}
+
+template <class List>
+std::string numbers(const List& list) {
+    return list_of(list, [](double v) { return shortest(v); });
+}
+
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + '"';
+}
+
+std::string curve_text(const ErrorCurve& curve, bool rotary) {
+    std::string out;
+    const auto add = [&](const std::string& key, const std::string& value) {
+        out += (out.empty() ? "" : ", ") + key + " = " + value;
+    };
+    if (curve.constant != 0.0) add("constant", shortest(curve.constant));
+    if (curve.slope != 0.0) add("slope", shortest(curve.slope));
+    if (!curve.at.empty()) {
+        add(rotary ? "at_rad" : "at_mm", numbers(curve.at));
+        add("value", numbers(curve.value));
+        add("interpolation",
+            curve.interpolation == ErrorCurve::Interpolation::cubic ? "\"cubic\"" : "\"linear\"");
+    }
+    if (curve.period_mm != 0.0) add("period_mm", shortest(curve.period_mm));
+    if (!curve.harmonics.empty())
+        add("harmonics", list_of(curve.harmonics, [](const ErrorCurve::Harmonic& h) {
+                return numbers(std::array{h.order, h.cosine, h.sine});
+            }));
+    return "{ " + out + " }";
+}
+
+std::string axis_text(const AxisGeometry& axis, double backlash) {
+    std::string out = std::string("\n[machine.axis.") + letter_of(axis.axis) + "]\n";
+    out += "direction = " + numbers(axis.direction) + '\n';
+    if (axis.rotary) out += "point_mm = " + numbers(axis.point_mm) + '\n';
+    if (axis.min && axis.max)
+        out += std::string(axis.rotary ? "limits_deg" : "limits_mm") + " = [" +
+               position(axis.rotary, *axis.min) + ", " + position(axis.rotary, *axis.max) + "]\n";
+    if (axis.max_speed)
+        out += std::string(axis.rotary ? "max_deg_min" : "max_mm_min") + " = " +
+               speed(axis.rotary, *axis.max_speed) + '\n';
+    if (axis.max_acceleration)
+        out += std::string(axis.rotary ? "accel_deg_s2" : "accel_mm_s2") + " = " +
+               position(axis.rotary, *axis.max_acceleration) + '\n';
+    if (backlash != 0.0)
+        out += std::string(axis.rotary ? "backlash_rad" : "backlash_mm") + " = " +
+               shortest(backlash) + '\n';
+    return out;
+}
+
+std::string axis_error_text(const AxisGeometry& axis, const AxisErrors& errors) {
+    std::string out;
+    for (std::size_t k = 0; k < 6; ++k) {
+        const std::string unit = k < 3 ? "_mm = " : "_rad = ";
+        const char direction = "XYZABC"[k];
+        if (errors.location[k] != 0.0)
+            out += to_string({direction, true, axis.axis}) + unit + shortest(errors.location[k]) +
+                   '\n';
+        if (!errors.motion[k].is_zero())
+            out += to_string({direction, false, axis.axis}) + unit +
+                   curve_text(errors.motion[k], axis.rotary) + '\n';
+    }
+    return out;
+}
+
+std::string spindle_error_text(const AxisErrors& errors) {
+    std::string out;
+    for (std::size_t k = 0; k < 5; ++k) {
+        const std::string unit = k < 3 ? "_mm = " : "_rad = ";
+        if (errors.location[k] != 0.0)
+            out +=
+                to_string(SpindleErrorName{k, true}) + unit + shortest(errors.location[k]) + '\n';
+        if (!errors.motion[k].is_zero())
+            out += to_string(SpindleErrorName{k, false}) + unit +
+                   curve_text(errors.motion[k], true) + '\n';
+    }
+    return out;
+}
+
+std::string machine_text(const Setup& setup) {
+    std::string out = "schema = \"trunnion.setup/1\"\n\n[machine]\nname = " + quoted(setup.name) +
+                      "\nchain = " + quoted(setup.chain_text) + '\n';
+    std::string errors;
+    for (const AxisGeometry& axis : setup.machine.chain.axes()) {
+        const AxisErrors& own = setup.machine.errors.axis[index_of(axis.axis)];
+        out += axis_text(axis, own.backlash);
+        errors += axis_error_text(axis, own);
+    }
+    errors += spindle_error_text(setup.machine.errors.spindle);
+    return errors.empty() ? out : out + "\n[machine.errors]\n" + errors;
+}
+
+std::string offset_text(const OffsetVector& offset, const std::string& more = "") {
+    std::string out;
+    for (const Axis axis : all_axes)
+        if (offset[axis] != 0.0)
+            out += (out.empty() ? "" : ", ") + std::string(1, letter_of(axis)) + " = " +
+                   shortest(offset[axis]);
+    if (!more.empty()) out += (out.empty() ? "" : ", ") + more;
+    return out.empty() ? "{}" : "{ " + out + " }";
+}
+
+std::string work_text(const WorkOffsets& work) {
+    std::string out;
+    const auto add = [&](const std::string& key, const OffsetVector& offset) {
+        if (offset != OffsetVector{}) out += key + " = " + offset_text(offset) + '\n';
+    };
+    add("external", work.external);
+    for (std::size_t i = 0; i < work.standard.size(); ++i)
+        add("G5" + std::to_string(4 + i), work.standard[i]);
+    for (std::size_t i = 0; i < work.additional.size(); ++i)
+        add("\"G54.1 P" + std::to_string(i + 1) + '"', work.additional[i]);
+    return out.empty() ? out : "\n[control.work_offsets]\n" + out;
+}
+
+std::string fixture_text(const FixtureOffsets& fixture) {
+    std::string out;
+    for (std::size_t i = 0; i < fixture.set.size(); ++i) {
+        const FixtureOffset& set = fixture.set[i];
+        if (set.offset == OffsetVector{} && set.reference_angles == OffsetVector{}) continue;
+        out += 'P' + std::to_string(i + 1) + " = " +
+               offset_text(set.offset, "reference = " + offset_text(set.reference_angles)) + '\n';
+    }
+    return out.empty() ? out : "\n[control.fixture_offsets]\n" + out;
+}
+
+std::string tools_text(const ToolOffsets& tools) {
+    std::string out;
+    for (std::size_t i = 1; i < tools.tool.size(); ++i) {
+        const ToolOffset& tool = tools.tool[i];
+        std::string line;
+        const auto add = [&](const char* key, double value) {
+            if (value != 0.0)
+                line += (line.empty() ? "" : ", ") + std::string(key) + " = " + shortest(value);
+        };
+        add("length_mm", tool.length_geometry_mm);
+        add("length_wear_mm", tool.length_wear_mm);
+        add("diameter_mm", 2.0 * tool.radius_geometry_mm);
+        add("diameter_wear_mm", 2.0 * tool.radius_wear_mm);
+        if (!line.empty()) out += std::to_string(i) + " = { " + line + " }\n";
+    }
+    return out.empty() ? out : "\n[control.tools]\n" + out;
+}
+
+/// `unit_mm`: of the number as typed.
+std::string parameter_text(const Parameter& parameter, double unit_mm) {
+    if (parameter.by_axis.empty()) return shortest(parameter.value / unit_mm);
+    std::string out;
+    for (const auto& [axis, value] : parameter.by_axis)
+        out += (out.empty() ? "" : ", ") + std::to_string(axis) + " = " + shortest(value);
+    return "{ " + out + " }";
+}
+
+std::string numbered_text(const char* title, const std::map<int, double>& store) {
+    std::string out;
+    for (const auto& [number, value] : store)
+        if (std::isfinite(value)) out += std::to_string(number) + " = " + shortest(value) + '\n';
+    return out.empty() ? out : std::string("\n[control.") + title + "]\n" + out;
+}
+
+std::string clamps_text(const std::vector<ClampCode>& clamps) {
+    std::string out = clamps.empty() ? "" : "\n[control.clamps]\n";
+    for (const ClampCode& c : clamps)
+        out += std::string(1, letter_of(c.axis)) + " = { clamp = " + std::to_string(c.m_clamp) +
+               ", release = " + std::to_string(c.m_release) +
+               ", alarm = " + (c.alarm ? "true" : "false") + " }\n";
+    return out;
+}
+
+std::string generation_text(ControlGeneration generation) {
+    if (generation == ControlGeneration::fanuc_16i) return "generation = \"16i\"\n";
+    return generation == ControlGeneration::fanuc_0i_f ? "generation = \"0i-F\"\n" : "";
+}
+
+std::string control_text(const Setup& setup) {
+    std::string out =
+        std::string("\n[control]\ndialect = ") +
+        (setup.dialect.family == DialectFamily::hurco ? "\"hurco\"\n" : "\"fanuc\"\n");
+    out += generation_text(setup.dialect.generation);
+    if (!setup.work_positions_with_length) out += "work_positions_with_length = false\n";
+    if (!setup.g89_feeds_to_initial) out += "g89_feeds_to_initial = false\n";
+    if (setup.optional_stop) out += "optional_stop = true\n";
+    if (!setup.block_skip.empty()) {
+        out += "block_skip = [";
+        for (const int n : setup.block_skip) out += std::to_string(n) + ", ";
+        out.replace(out.size() - 2, 2, "]\n");
+    }
+    if (setup.tcp_frame == TcpFrame::rotary_zero) out += "tcp_frame = \"rotary_zero\"\n";
+    out += clamps_text(setup.clamps);
+    out += work_text(setup.stores.work) + fixture_text(setup.stores.fixture);
+    if (!setup.stores.parameters.entry.empty()) out += "\n[control.parameters]\n";
+    for (const auto& [number, parameter] : setup.stores.parameters.entry)
+        out += std::to_string(number) + " = " +
+               parameter_text(parameter, parameter_unit_mm(setup.stores.parameters, number)) + '\n';
+    out += tools_text(setup.stores.tools);
+    out += numbered_text("variables", setup.stores.variables);
+    return out + numbered_text("signals", setup.stores.signals);
+}
+
+std::string extensions_text(const ExtensionErrors& errors) {
+    std::vector<double> flat;
+    for (const auto& [length_mm, shift] : errors)
+        for (const double v : {length_mm, shift.x(), shift.y(), shift.z()}) flat.push_back(v);
+    return flat.empty() ? "" : "extension_errors_mm = " + numbers(flat) + '\n';
+}
+
+std::string probe_text(const ProbeSettings& probe) {
+    std::string out = "\n[probe]\n";
+    if (probe.tool != 0) out += "tool = " + std::to_string(probe.tool) + '\n';
+    return out + "tip_mm = " + numbers(probe.tip_S_mm) +
+           "\nball_diameter_mm = " + shortest(probe.ball_diameter_mm) +
+           "\nrepeatability_um = " + shortest(probe.repeatability_um) +
+           "\npretravel_um = " + shortest(probe.pretravel_um) + '\n' +
+           extensions_text(probe.extension_errors);
+}
+
+std::string texts(const std::vector<std::string>& list) {
+    return list_of(list, quoted);
+}
+
+std::string ballbar_text(const BallbarSettings& bar) {
+    std::vector<std::string> free;
+    if (bar.free_cup) free.push_back("cup");
+    if (bar.free_length) free.push_back("length");
+    return "\n[ballbar]\ncup_mm = " + numbers(bar.cup_S_mm) +
+           "\nlength_mm = " + shortest(bar.length_mm) +
+           "\nexpansion_per_k = " + shortest(bar.expansion_per_k) +
+           "\ntemperature_c = " + shortest(bar.temperature_c) +
+           "\nread_temperature_c = " + shortest(bar.read_temperature_c) +
+           "\nnoise_um = " + shortest(bar.noise_um) + "\nsample_hz = " + shortest(bar.sample_hz) +
+           (bar.sample_deg > 0.0 ? "\nsample_deg = " + shortest(bar.sample_deg) : "") +
+           "\nfree = " + texts(free) + '\n' + extensions_text(bar.extension_errors);
+}
+
+std::string artefact_text(const Artefact& artefact) {
+    std::string out = "\n[[artefact]]\nname = " + quoted(artefact.name) + "\nkind = ";
+    out += artefact.kind == Artefact::Kind::sphere ? "\"sphere\"\n" : "\"center_pivot\"\n";
+    out += "center_mm = " + numbers(artefact.center_W_mm) +
+           "\ndiameter_mm = " + shortest(artefact.diameter_mm) + '\n';
+    if (artefact.free_center) out += "free = [\"center\"]\n";
+    return out;
+}
+
+std::string model_text(const ModelSettings& model) {
+    std::string out = "\n[model]\nmodelled = " + texts(model.modelled) + '\n', noise;
+    for (const auto& [device, um] : model.noise_um)
+        noise += (noise.empty() ? "" : ", ") + device + " = " + shortest(um);
+    if (!noise.empty()) out += "noise_um = { " + noise + " }\n";
+    if (!model.calibration.empty()) out += "\n[model.calibration]\n";
+    for (const auto& [name, prior] : model.calibration) {
+        const auto error = parse_error_name(name);
+        const std::string unit = error && error->angular() ? "_rad = " : "_mm = ";
+        out += name + " = { value" + unit + shortest(prior.value) + ", sigma" + unit +
+               shortest(prior.sigma) + " }\n";
+    }
+    return out;
+}
+
+std::string effects_text(const std::vector<EffectSetting>& effects) {
+    std::string out;
+    for (const EffectSetting& effect : effects) {
+        std::string inner;
+        for (const auto& [name, values] : effect.parameters)
+            inner += (inner.empty() ? "" : ", ") + name + " = " +
+                     (values.size() == 1 ? shortest(values[0]) : numbers(values));
+        out += quoted(effect.name) + " = { " + inner + " }\n";
+    }
+    return out.empty() ? out : "\n[effects]\n" + out;
+}
+
+}  // namespace
+
+std::string format_setup(const Setup& setup) {
+    std::string out = machine_text(setup) + effects_text(setup.effects) + control_text(setup);
+    if (setup.probe) out += probe_text(*setup.probe);
+    if (setup.ballbar) out += ballbar_text(*setup.ballbar);
+    for (const Artefact& artefact : setup.artefacts) out += artefact_text(artefact);
+    return out + model_text(setup.model);
+}
+
+}  // namespace trunnion

@@ -1,0 +1,220 @@
+// [machine]: chain, axes and geometric errors of a setup file.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "setup/setup_reader.h"
+#include "base/units.h"
+
+namespace trunnion {
+namespace {
+
+double from_file(bool rotary, double value) {
+    return rotary ? rad_from_deg(value) : value;
+}
+
+void read_limits(const TomlFile& file, const TomlValue& table, AxisGeometry& axis) {
+    const TomlValue* limits = table.find(axis.rotary ? "limits_deg" : "limits_mm");
+    if (!limits) return;
+    const std::vector<double> both = file.numbers(*limits);
+    if (both.size() != 2 || both[0] >= both[1])
+        file.fail(*limits, "limits are two rising numbers [lowest, highest]");
+    axis.min = from_file(axis.rotary, both[0]);
+    axis.max = from_file(axis.rotary, both[1]);
+}
+
+void read_dynamics(const TomlFile& file, const TomlValue& table, AxisGeometry& axis) {
+    if (const TomlValue* speed = table.find(axis.rotary ? "max_deg_min" : "max_mm_min"))
+        axis.max_speed = from_file(axis.rotary, file.positive(*speed)) / 60.0;
+    if (const TomlValue* most = table.find(axis.rotary ? "accel_deg_s2" : "accel_mm_s2"))
+        axis.max_acceleration = from_file(axis.rotary, file.positive(*most));
+}
+
+void read_axis(const TomlFile& file, const TomlValue& table, AxisGeometry& axis,
+               AxisErrors& errors) {
+    if (const TomlValue* direction = table.find("direction")) {
+        const Vector3 v = file.vector3(*direction);
+        if (v.norm() < 1e-9) file.fail(*direction, "a direction is not the zero vector");
+        axis.direction = std::abs(v.norm() - 1.0) < 1e-15 ? v : Vector3(v.normalized());
+    }
+    if (axis.rotary) {
+        const TomlValue* point = table.find("point_mm");
+        if (!point)
+            file.fail(table, std::string("rotary axis ") + letter_of(axis.axis) +
+                                 " has no point_mm: a point of its line in M, all axes at zero");
+        axis.point_mm = file.vector3(*point);
+    }
+    read_limits(file, table, axis);
+    read_dynamics(file, table, axis);
+    if (const auto gap = file.find_number(table, axis.rotary ? "backlash_rad" : "backlash_mm"))
+        errors.backlash = *gap;
+}
+
+AxisGeometry* find_axis(Chain& chain, std::string_view letter) {
+    for (auto* side : {&chain.work, &chain.tool})
+        for (AxisGeometry& axis : *side)
+            if (letter.size() == 1 && letter_of(axis.axis) == letter[0]) return &axis;
+    return nullptr;
+}
+
+void read_axes(const TomlFile& file, const TomlValue& axes, Setup& setup) {
+    for (const auto& [letter, value] : file.table(axes).entries) {
+        value.used = true;
+        AxisGeometry* axis = find_axis(setup.machine.chain, letter);
+        if (!axis) file.fail(value, "axis " + letter + " does not stand in the chain");
+        read_axis(file, file.table(value), *axis, setup.machine.errors.axis[index_of(axis->axis)]);
+    }
+}
+
+/// X, Y and Z reach every point: none of them lies along another or in the plane of the two.
+void check_linear_axes(const TomlFile& file, const TomlValue& axes, const Chain& chain) {
+    constexpr double least_sine = 0.01;
+    Matrix3 span = Matrix3::Zero();
+    Eigen::Index rank = 0;
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+        const AxisGeometry* geometry = chain.find(axis);
+        if (!geometry) continue;
+        Vector3 apart = geometry->direction;
+        for (Eigen::Index k = 0; k < rank; ++k) apart -= apart.dot(span.col(k)) * span.col(k);
+        const TomlValue* table = axes.find(std::string(1, letter_of(axis)));
+        if (apart.norm() < least_sine)
+            file.fail(table ? *table : axes,
+                      fmt::format("axis {} moves only where the linear axes before it do: "
+                                  "directions of X, Y and Z in one plane",
+                                  letter_of(axis)));
+        span.col(rank++) = apart.normalized();
+    }
+}
+
+/// A rotary axis cannot do without its table.
+void check_axes(const TomlFile& file, const TomlValue& chain_text, const TomlValue* axes,
+                const Chain& chain) {
+    for (const AxisGeometry& axis : chain.axes())
+        if (axis.rotary && !(axes && axes->find(std::string(1, letter_of(axis.axis)))))
+            file.fail(chain_text, std::string("rotary axis ") + letter_of(axis.axis) +
+                                      " has no point_mm: [machine.axis." + letter_of(axis.axis) +
+                                      "] is missing");
+}
+
+std::vector<double> table_positions(const TomlFile& file, const TomlValue& table, bool rotary) {
+    if (!rotary) {
+        const TomlValue* at = table.find("at_mm");
+        return at ? file.numbers(*at) : std::vector<double>{};
+    }
+    if (const TomlValue* at = table.find("at_rad")) return file.numbers(*at);
+    std::vector<double> list;
+    if (const TomlValue* at = table.find("at_deg"))
+        for (const double deg : file.numbers(*at)) list.push_back(rad_from_deg(deg));
+    return list;
+}
+
+void read_table(const TomlFile& file, const TomlValue& table, bool rotary, ErrorCurve& curve) {
+    curve.at = table_positions(file, table, rotary);
+    if (const TomlValue* value = table.find("value")) curve.value = file.numbers(*value);
+    if (curve.at.size() != curve.value.size() || curve.at.size() == 1)
+        file.fail(table, "at and value are lists of the same length, two points or more");
+    for (std::size_t i = 1; i < curve.at.size(); ++i)
+        if (curve.at[i] <= curve.at[i - 1]) file.fail(table, "positions of a table rise");
+    if (const TomlValue* kind = table.find("interpolation")) {
+        if (file.text(*kind) != "linear" && file.text(*kind) != "cubic")
+            file.fail(*kind, "interpolation is \"linear\" or \"cubic\"");
+        curve.interpolation = kind->text == "cubic" ? ErrorCurve::Interpolation::cubic
+                                                    : ErrorCurve::Interpolation::linear;
+    }
+}
+
+void read_harmonics(const TomlFile& file, const TomlValue& table, bool rotary, ErrorCurve& curve) {
+    if (const TomlValue* period = table.find("period_mm")) curve.period_mm = file.positive(*period);
+    const TomlValue* list = table.find("harmonics");
+    if (!list) return;
+    if (!rotary && curve.period_mm == 0.0)
+        file.fail(*list, "harmonics of a linear axis need period_mm");
+    for (const TomlValue& item : list->items) {
+        const Vector3 h = file.vector3(item);
+        curve.harmonics.push_back({h[0], h[1], h[2]});
+    }
+}
+
+ErrorCurve read_curve(const TomlFile& file, const TomlValue& value, bool rotary) {
+    ErrorCurve curve;
+    if (value.kind == TomlValue::Kind::number) {
+        curve.constant = file.number(value);
+        return curve;
+    }
+    file.table(value);
+    curve.constant = file.find_number(value, "constant").value_or(0.0);
+    curve.slope = file.find_number(value, "slope").value_or(0.0);
+    read_table(file, value, rotary, curve);
+    read_harmonics(file, value, rotary, curve);
+    return curve;
+}
+
+}  // namespace
+
+void read_machine(const TomlFile& file, const TomlValue& machine, Setup& setup) {
+    if (const TomlValue* name = machine.find("name")) setup.name = file.text(*name);
+    const TomlValue* chain = machine.find("chain");
+    if (!chain) file.fail(machine, "[machine] has no chain, e.g. chain = \"w C B b X Y Z t\"");
+    try {
+        setup.chain_text = file.text(*chain);
+        setup.machine.chain = parse_chain(setup.chain_text);
+    } catch (const InputError& error) {
+        file.fail(*chain, error.message);
+    }
+    const TomlValue* axes = machine.find("axis");
+    check_axes(file, *chain, axes, setup.machine.chain);
+    if (axes) {
+        read_axes(file, *axes, setup);
+        check_linear_axes(file, *axes, setup.machine.chain);
+    }
+    if (const TomlValue* errors = machine.find("errors"))
+        read_machine_errors(file, file.table(*errors), setup);
+}
+
+namespace {
+
+/// The unit behind a name: "_mm" or "_rad".
+void check_unit(const TomlFile& file, const TomlValue& value, const std::string& key,
+                const std::string& name, bool angular) {
+    if (key.substr(name.size()) != (angular ? "_rad" : "_mm"))
+        file.fail(value, "the unit of " + name + " is " + (angular ? "_rad" : "_mm"));
+}
+
+void read_spindle_error(const TomlFile& file, const TomlValue& value, const SpindleErrorName& name,
+                        AxisErrors& spindle) {
+    if (name.location) {
+        spindle.location[name.direction] = file.number(value);
+        return;
+    }
+    ErrorCurve& curve = spindle.motion[name.direction] = read_curve(file, value, true);
+    if (curve.slope != 0.0 || !curve.at.empty())
+        file.fail(value, "an error motion of the spindle is a constant and harmonics of its angle");
+}
+
+}  // namespace
+
+void read_machine_errors(const TomlFile& file, const TomlValue& table, Setup& setup) {
+    GeometricErrors& errors = setup.machine.errors;
+    for (const auto& [key, value] : table.entries) {
+        value.used = true;
+        const std::string_view word = std::string_view(key).substr(0, key.find('_'));
+        if (const auto spindle = parse_spindle_error_name(word)) {
+            check_unit(file, value, key, to_string(*spindle), spindle->angular());
+            read_spindle_error(file, value, *spindle, errors.spindle);
+            continue;
+        }
+        const auto name = parse_error_name(word);
+        if (!name)
+            file.fail(value, "'" + key + "' is not an error of ISO 230, e.g. EX0C_mm, EBX_rad");
+        check_unit(file, value, key, to_string(*name), name->angular());
+        const AxisGeometry* axis = setup.machine.chain.find(name->axis);
+        if (!axis)
+            file.fail(value, "the machine has no axis " + std::string(1, letter_of(name->axis)));
+        if (name->location)
+            errors.location(*name) = file.number(value);
+        else
+            errors.motion(*name) = read_curve(file, value, axis->rotary);
+    }
+}
+
+}  // namespace trunnion

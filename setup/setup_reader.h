@@ -1,0 +1,19 @@
+// Parts of a setup file to parts of a Setup; used by setup.cpp alone.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "setup/setup.h"
+#include "base/toml_reader.h"
+
+namespace trunnion {
+
+void read_machine(const TomlFile& file, const TomlValue& machine, Setup& setup);
+void read_machine_errors(const TomlFile& file, const TomlValue& errors, Setup& setup);
+void read_control(const TomlFile& file, const TomlValue& control, const BackupReader& backup,
+                  Setup& setup);
+/// [probe], [ballbar], [[artefact]], [model], [effects].
+void read_devices(const TomlFile& file, Setup& setup);
+
+}  // namespace trunnion

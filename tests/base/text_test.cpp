@@ -1,0 +1,40 @@
+#include "base/text.h"
+
+#include <catch2/catch.hpp>
+
+#include "base/alarm.h"
+
+using namespace trunnion;
+
+TEST_CASE("printable text holds nothing that a terminal obeys") {
+    CHECK(printable("a\tb \xC2\xB5m") == "a\tb \xC2\xB5m");
+    CHECK(printable("\x1B[2J\a\r\n") == "?[2J???");
+    CHECK(printable(std::string("\0x", 2)) == "?x");
+    CHECK(printable("\x7F\xFF\xC2") == "???");
+    CHECK(printable("\xC2\x9B"
+                    "2J") == "?2J");  // the one-character form of ESC [
+    CHECK(printable("\xC2\xA0") == "\xC2\xA0");
+    CHECK(screen_width("a\xC2\xB5m") == 3);
+}
+
+TEST_CASE("the caret stands under its column, whatever the line holds") {
+    const auto diagnostic = [](const std::string& line, int column) {
+        return format_diagnostic({"p.nc", 3, column}, "wrong", line);
+    };
+    CHECK(diagnostic("G1 X1.", 4) == "p.nc:3:4: error: wrong\n    G1 X1.\n       ^");
+    CHECK(diagnostic("\tX1.", 2) == "p.nc:3:2: error: wrong\n    \tX1.\n    \t^");
+    CHECK(diagnostic("(\xC2\xB5m) X", 7) ==
+          "p.nc:3:7: error: wrong\n    (\xC2\xB5m) X\n         ^");
+    CHECK(diagnostic("\x1B]0;x\aX", 7) == "p.nc:3:7: error: wrong\n    ?]0;x?X\n          ^");
+    CHECK(diagnostic("X", 40000) == "p.nc:3:40000: error: wrong\n    X\n     ^");
+}
+
+TEST_CASE("a long line is shown around its column") {
+    std::string line(100'000, '.');
+    line[70'000] = 'X';
+    const std::string shown =
+        format_diagnostic({"p.nc", 1, 70'001}, std::string(99'999, 'm'), line);
+    CHECK(shown.size() < 2000);
+    const std::size_t first = shown.find('\n'), second = shown.find('\n', first + 1);
+    CHECK(shown.find('X') - first == shown.find('^') - second);
+}

@@ -1,0 +1,54 @@
+#include "interpreter/program_folders.h"
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "base/alarm.h"
+
+using namespace trunnion;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Folder {
+    fs::path path = fs::temp_directory_path() / ("trunnion_programs_" + std::to_string(::getpid()));
+    Folder() {
+        fs::create_directories(path / "b");
+        write("O0012.nc", "%\nO0012\nM30\n%\n");
+        write("34.NC", "M30\n");
+        write("many.txt", "O100 (A)\nM99\nO101\nM99\n:102\nM99\n(O103)\n");
+        write("picture.png", "O104\n");
+        write("b/O12", "other\n");
+        write("named part.nc", "G0\n");
+        write("empty.nc", "");
+    }
+    ~Folder() { fs::remove_all(path); }
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(path / name) << text;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("programs are found by file name, then by what the files hold") {
+    const Folder folder;
+    ProgramFolders programs({folder.path.string(), (folder.path / "b").string()});
+    REQUIRE(programs.find(12));
+    CHECK_THAT(programs.find(12)->name, Catch::EndsWith("O0012.nc"));
+    CHECK(programs.find(34)->text == "M30\n");
+    for (const int n : {100, 101, 102})
+        CHECK_THAT(programs.find(n)->name, Catch::EndsWith("many.txt"));
+    for (const int n : {103, 104, 999}) CHECK_FALSE(programs.find(n));
+    CHECK(programs.find("named part"));
+    CHECK(programs.find("NAMED PART.NC"));
+    CHECK_FALSE(programs.find("nothing"));
+    CHECK(programs.find("empty")->text.empty());
+    programs.add_file({"main.nc", "O12\nM99\n", nullptr});
+    CHECK(programs.find(12)->name == "main.nc");
+    CHECK_THROWS_AS(ProgramFolders({"/no/such/folder"}), InputError);
+    CHECK_THROWS_AS(map_program("/no/such/file"), InputError);
+    CHECK_THROWS_AS(map_program(folder.path.string()), InputError);
+}

@@ -1,0 +1,120 @@
+// Keys of [control] that steer a run: clamps, block skip, generation, and backups as G10 programs.
+#include <catch2/catch.hpp>
+
+#include "backup/control_files.h"
+#include "interpreter/program_folders.h"
+#include "emulator/run.h"
+#include "base/alarm.h"
+
+using namespace trunnion;
+
+namespace {
+
+Setup setup_with(const std::string& control) {
+    std::vector<std::string> notes;
+    return parse_setup(
+        "schema = \"trunnion.setup/1\"\n[machine]\nname = \"t\"\n"
+        "chain = \"w C B b X Y Z t\"\n"
+        "axis.B = { direction = [0, -1, 0], point_mm = [0, 0, 0] }\n"
+        "axis.C = { direction = [0, 0, -1], point_mm = [0, 0, 0] }\n"
+        "axis.X = { direction = [1, 0, 0] }\naxis.Y = { direction = [0, 1, 0] }\n"
+        "axis.Z = { direction = [0, 0, 1] }\n[control]\n" +
+            control,
+        "t.toml", notes);
+}
+
+RunLog run_text(const Setup& setup, const std::string& text) {
+    ProgramFolders none({});
+    return run_program(setup, none, ProgramText{"t.nc", text, nullptr}, {});
+}
+
+}  // namespace
+
+TEST_CASE("a clamped axis alarms when the setup says so") {
+    const std::string program = "G90G21\nM68\nG0C10.\nM30\n";
+    const Setup strict = setup_with("clamps.C = { clamp = 68, release = 69, alarm = true }\n");
+    const RunLog log = run_text(strict, program);
+    REQUIRE(log.result.alarm);
+    CHECK(log.result.alarm->where.line == 3);
+    CHECK(run_text(strict, "G90G21\nM68\nM69\nG0C10.\nM30\n").result.status == RunStatus::ok);
+    const Setup lenient = setup_with("clamps.C = { clamp = 68, release = 69, alarm = false }\n");
+    CHECK(run_text(lenient, program).result.status == RunStatus::ok);
+    CHECK_THROWS_AS(setup_with("clamps.A = { clamp = 10 }\n"), InputError);
+    CHECK_THROWS_AS(setup_with("clamps.C = { clamp = 1000 }\n"), InputError);
+}
+
+TEST_CASE("block skip switches and generation come from the setup") {
+    const std::string program = "#100=1\n/#100=2\n/3#101=5\nM30\n";
+    CHECK(run_text(setup_with(""), program).variables.at(100) == 2.0);
+    const RunLog skipped = run_text(setup_with("block_skip = [1]\n"), program);
+    CHECK(skipped.variables.at(100) == 1.0);
+    CHECK(skipped.variables.at(101) == 5.0);
+    CHECK_THROWS_AS(setup_with("block_skip = [10]\n"), InputError);
+    CHECK(setup_with("generation = \"16i\"\n").dialect.macro_call_levels <
+          setup_with("").dialect.macro_call_levels);
+    CHECK_THROWS_AS(setup_with("generation = \"35i\"\n"), InputError);
+}
+
+TEST_CASE("whether #5043 includes the tool length is a switch of the setup") {
+    const std::string program = "G90G21\nG43Z10.H1\n#100=#5043-#5003\nM30\n";
+    const std::string tools = "tools.1 = { length_mm = 50 }\n";
+    CHECK(run_text(setup_with(tools), program).variables.at(100) == 50.0);
+    const std::string off = "work_positions_with_length = false\n";
+    CHECK(run_text(setup_with(off + tools), program).variables.at(100) == 0.0);
+    CHECK_THROWS_AS(setup_with("work_positions_with_length = 1\n"), InputError);
+}
+
+TEST_CASE("control keys survive a formatted setup") {
+    const Setup first = setup_with(
+        "generation = \"0i-F\"\nblock_skip = [1, 4]\nclamps.C = { clamp = 68, release = 69, alarm "
+        "= false }\n");
+    std::vector<std::string> notes;
+    const Setup again = parse_setup(format_setup(first), "t.toml", notes);
+    CHECK(again.dialect.generation == ControlGeneration::fanuc_0i_f);
+    CHECK(again.block_skip == std::vector<int>{1, 4});
+    REQUIRE(again.clamps.size() == 1);
+    CHECK(again.clamps[0].m_release == 69);
+    CHECK_FALSE(again.clamps[0].alarm);
+}
+
+TEST_CASE("running a backup's G10 files gives the stores that loading them gives") {
+    ControlBackup backup{"stick", {}};
+    backup.files["EXT_WKZ.TXT"] =
+        "%\nG90\nG10L2P0X1.0Y0.5Z0.0B0.0C0.0\nG10L2P1X-100.5Y2.0Z-250.125B0.0C12.5\n"
+        "G10L2P6X6.0Y5.0Z4.0B3.0C2.0\nG10L20P3X1.0Y2.0Z3.0B4.0C5.0\nM02\n%\n";
+    backup.files["TOOLOFST.TXT"] =
+        "%\nG10G90L10P1R185.676\nG10G90L11P1R-0.01\nG10G90L12P1R3.0\nG10G90L13P1R0.002\nM02\n%\n";
+    const Setup setup = setup_with("");
+    Stores loaded = setup.stores;
+    apply_backup(backup, loaded);
+    const Stores work = run_text(setup, backup.files["EXT_WKZ.TXT"]).stores;
+    CHECK(work.work.external == loaded.work.external);
+    CHECK(work.work.standard == loaded.work.standard);
+    CHECK(work.work.additional == loaded.work.additional);
+    const RunLog tools = run_text(setup, backup.files["TOOLOFST.TXT"]);
+    REQUIRE(tools.result.status == RunStatus::ok);
+    CHECK(tools.stores.tools.tool[1].length_mm() == loaded.tools.tool[1].length_mm());
+    CHECK(tools.stores.tools.tool[1].radius_mm() == loaded.tools.tool[1].radius_mm());
+    CHECK(loaded.tools.tool[1].length_wear_mm == -0.01);
+}
+
+TEST_CASE("pivots of an inch machine are typed in inches and kept in mm") {
+    const std::string pivots = "19700 = 0.5\n19705 = -2.0\n19680 = 12\n5114 = 3\n";
+    const Setup metric = setup_with("[control.parameters]\n" + pivots);
+    CHECK(metric.stores.parameters.get(19700) == 0.5);
+    // 1001 may stand behind what it rules; 0000#2 (the unit of programs) rules nothing here.
+    const Setup inch = setup_with("[control.parameters]\n" + pivots + "1001 = \"00000001\"\n");
+    CHECK(inch.stores.parameters.get(19700) == Approx(12.7));
+    CHECK(inch.stores.parameters.get(19705) == Approx(-50.8));
+    CHECK(inch.stores.parameters.get(19680) == 12);
+    CHECK(inch.stores.parameters.get(5114) == 3);
+    const Setup typed = setup_with("[control.parameters]\n" + pivots + "0 = \"00000100\"\n");
+    CHECK(typed.stores.parameters.get(19700) == 0.5);
+    std::vector<std::string> notes;
+    const Setup again = parse_setup(format_setup(inch), "again.toml", notes);
+    CHECK(again.stores.parameters.get(19700) == Approx(12.7).epsilon(1e-15));
+    CHECK_THAT(format_setup(inch), Catch::Contains("19700 = 0.5\n"));
+    // A program under G20 (also by 0000#2) on the metric machine.
+    const RunLog log = run_text(typed, "G90 G54\nG0 X1.\nM30\n");
+    CHECK(log.result.machine[Axis::X] == Approx(25.4));
+}
