@@ -10,6 +10,7 @@ endfunction()
 
 trunnion_use(base tomlplusplus::tomlplusplus)
 trunnion_use(regression tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json Threads::Threads)
+trunnion_use(estimation Boost::headers)
 trunnion_use(identification NLopt::nlopt Threads::Threads)
 trunnion_use(diagnosis NLopt::nlopt Threads::Threads)
 trunnion_use(check nlohmann_json::nlohmann_json)

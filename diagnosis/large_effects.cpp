@@ -3,7 +3,7 @@
 
 #include "diagnosis/diagnoser.h"
 #include "effects/settings.h"
-#include "identification/least_squares.h"
+#include "estimation/ranked_least_squares.h"
 
 namespace trunnion {
 

@@ -8,7 +8,7 @@
 
 #include "effects/settings.h"
 #include "base/alarm.h"
-#include "identification/least_squares.h"
+#include "estimation/ranked_least_squares.h"
 #include "identification/unknowns.h"
 
 namespace trunnion {

@@ -26,16 +26,6 @@ struct Bench {
 
 }  // namespace
 
-TEST_CASE("distribution tails", "[diagnosis]") {
-    REQUIRE(chi_squared_tail(3.841458820694124, 1) == Approx(0.05));
-    REQUIRE(chi_squared_tail(18.307038053275146, 10) == Approx(0.05));
-    REQUIRE(chi_squared_tail(124.342113404004, 100) == Approx(0.05));
-    REQUIRE(f_tail(4.102821015, 2, 10) == Approx(0.05));
-    REQUIRE(f_tail(1.0, 7, 7) == Approx(0.5));
-    REQUIRE(normal_tail(1.959963984540054) == Approx(0.025));
-    REQUIRE(quantile({4, 1, 3, 2}, 0.5) == Approx(2.5));
-}
-
 TEST_CASE("Shapley shares add up and do not depend on the order", "[diagnosis]") {
     // worth by mask: two players that overlap, one that adds nothing.
     const std::vector<double> share = shapley({0, 4, 4, 5, 0, 4, 4, 5}, 3);

@@ -1,4 +1,4 @@
-#include "identification/least_squares.h"
+#include "estimation/ranked_least_squares.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>

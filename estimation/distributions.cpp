@@ -1,0 +1,31 @@
+#include "estimation/distributions.h"
+
+#include <boost/math/special_functions/beta.hpp>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+
+namespace trunnion {
+
+double chi_squared_tail(double value, double freedom) {
+    if (!(freedom > 0.0) || !(value > 0.0)) return 1.0;
+    return std::isinf(value) ? 0.0 : boost::math::gamma_q(0.5 * freedom, 0.5 * value);
+}
+
+double f_tail(double value, double numerator, double denominator) {
+    if (!(numerator > 0.0) || !(denominator > 0.0) || !(value > 0.0)) return 1.0;
+    if (std::isinf(value)) return 0.0;
+    return boost::math::ibeta(0.5 * denominator, 0.5 * numerator,
+                              denominator / (denominator + numerator * value));
+}
+
+double normal_tail(double value) {
+    return 0.5 * std::erfc(value / std::sqrt(2.0));
+}
+
+double student_probability(double value, double freedom) {
+    if (!(freedom > 0.0) || std::isnan(value)) return 1.0;
+    const double both = f_tail(value * value, 1.0, freedom);
+    return value < 0.0 ? 0.5 * both : 1.0 - 0.5 * both;
+}
+
+}  // namespace trunnion

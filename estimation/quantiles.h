@@ -1,0 +1,15 @@
+// Order statistics of small samples.
+#pragma once
+
+#include <vector>
+
+namespace trunnion {
+
+/// Quantile by linear interpolation between the sorted values, `share` in 0..1; 0 for no values.
+double quantile(std::vector<double> values, double share);
+double median(std::vector<double> values);  ///< 0 for no values
+/// Median absolute value over that of the standard normal distribution: a standard deviation that
+/// a few wild values do not change. 0 for no values.
+double robust_deviation(std::vector<double> values);
+
+}  // namespace trunnion

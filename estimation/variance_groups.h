@@ -1,0 +1,89 @@
+// Groups of columns with a variance each: restricted likelihood, what one group adds, the solution.
+//
+// Model       y = N a + sum_g A_g b_g + e on whitened rows; a free, b_g ~ N(0, tau_g^2 I),
+//             e ~ N(0, nu^2 I). Columns are scaled so that tau = 1 is the usual size of the effect.
+// Symbols     J: columns of all members side by side (m of them); G = A_J'A_J and h = A_J'y after N
+//             was projected out; D = diag(tau); n' = n - rank N.
+// Likelihood  of everything but a (restricted, REML), against no members and nu = 1:
+//               L = -1/2 [n' ln nu^2 + ln|I + D G D / nu^2| + (y'y - z'z / nu^2) / nu^2 - y'y]
+//                   - 1/2 ((ln nu - l0) / s)^2,      z = chol(I + D G D / nu^2)^-1 D h
+//             The last term is what is known about the noise beforehand.
+// Assumes     independent rows of variance nu^2, groups independent of each other. Correlated noise
+//             must be whitened before; wild rows must be left out before.
+// Fails       never: a group with tau = 0 is as if it were not there; columns that are zero or
+//             repeat each other are harmless, since every direction has a prior.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <vector>
+
+namespace trunnion {
+
+/// Products of the members' columns, with the known columns projected out.
+struct GroupEquations {
+    Eigen::MatrixXd gram;            ///< G, m x m
+    Eigen::VectorXd product;         ///< h, m
+    double square = 0.0;             ///< y'y
+    double rows = 0.0;               ///< n'
+    std::vector<Eigen::Index> size;  ///< columns of each group, in order
+
+    std::size_t groups() const { return size.size(); }
+    Eigen::Index first(std::size_t group) const;
+};
+
+/// What is believed about ln nu before the data speak: mean l0 and standard deviation s.
+struct NoisePrior {
+    double log_mean = 0.0;
+    double spread = 0.3;
+};
+
+struct Variances {
+    std::vector<double> tau;  ///< of each group
+    double nu = 1.0;
+};
+
+double restricted_likelihood(const GroupEquations& equations, const Variances& variances,
+                             const NoisePrior& prior);
+
+/// One group on its own: the information about b and its product with the data, over nu^2.
+struct GroupInformation {
+    Eigen::MatrixXd information;  ///< k x k
+    Eigen::VectorXd product;      ///< k
+};
+
+/// Members with their variances, ready to say what they leave of another group.
+class GivenMembers {
+  public:
+    GivenMembers(const GroupEquations& equations, const Variances& variances);
+
+    /// `cross` = A_J'A_g (m x k), `gram` = A_g'A_g, `product` = A_g'y, all beside N.
+    GroupInformation leave(const Eigen::MatrixXd& cross, const Eigen::MatrixXd& gram,
+                           const Eigen::VectorXd& product) const;
+    Eigen::VectorXd mean() const;        ///< of b, m entries
+    Eigen::MatrixXd covariance() const;  ///< of b, m x m: D (I + D G D / nu^2)^-1 D
+    Eigen::MatrixXd half() const;        ///< R with R'R = covariance
+
+  private:
+    Eigen::VectorXd tau_;  ///< of each column
+    double nu_;
+    Eigen::LLT<Eigen::MatrixXd> factor_;  ///< of I + D G D / nu^2
+    Eigen::VectorXd z_;
+};
+
+/// What one group adds to the log likelihood.
+struct GroupGain {
+    double mean = 0.0;  ///< log of the likelihood ratio, mean over 26 sizes 0.01..1000 (log grid)
+    double best = 0.0;  ///< at the best size
+    double tau = 0.0;   ///< the best size
+};
+/// At one size: sum_i -1/2 ln(1 + tau^2 l_i) + 1/2 tau^2 q_i^2 / (1 + tau^2 l_i).
+double gain_at(const GroupInformation& group, double tau);
+GroupGain group_gain(const GroupInformation& group);
+
+/// Variances that maximise the restricted likelihood, from `start`: sweeps of one group after the
+/// other, then of the noise, until the gain of a sweep is below 0.01 or `sweeps` are done.
+Variances maximise_likelihood(const GroupEquations& equations, Variances start,
+                              const NoisePrior& prior, int sweeps);
+
+}  // namespace trunnion

@@ -1,0 +1,104 @@
+// Ranked least squares, projection, pure error, distributions, free forms.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "base/random.h"
+#include "estimation/distributions.h"
+#include "estimation/free_form.h"
+#include "estimation/projection.h"
+#include "estimation/pure_error.h"
+#include "estimation/quantiles.h"
+#include "estimation/ranked_least_squares.h"
+
+namespace trunnion {
+
+TEST_CASE("distribution tails", "[estimation]") {
+    CHECK(chi_squared_tail(3.841458820694124, 1) == Approx(0.05));
+    CHECK(chi_squared_tail(124.342113404004, 100) == Approx(0.05));
+    CHECK(f_tail(4.102821015, 2, 10) == Approx(0.05));
+    CHECK(f_tail(1.0, 7, 7) == Approx(0.5));
+    CHECK(normal_tail(1.959963984540054) == Approx(0.025));
+    CHECK(student_probability(2.131846786326649, 4) == Approx(0.95));
+    CHECK(student_probability(-2.131846786326649, 4) == Approx(0.05));
+    CHECK(chi_squared_tail(1e6, 0) == 1.0);
+    CHECK(chi_squared_tail(1e9, 3) == 0.0);
+    CHECK(quantile({4, 1, 3, 2}, 0.5) == Approx(2.5));
+    CHECK(robust_deviation({}) == 0.0);
+}
+
+TEST_CASE("a direction that no reading sees is named and stays at zero", "[estimation]") {
+    Eigen::MatrixXd a(4, 3);  // columns 0 and 1 move all readings alike
+    a << 1, 1, 0, 2, 2, 1, 3, 3, 0, 4, 4, 5;
+    const Eigen::VectorXd y = a * Eigen::Vector3d(0.5, 0.5, -2.0);
+    const LinearFit fit = solve_ranked(a.transpose() * a, a.transpose() * y);
+    REQUIRE(fit.null_space.size() == 1);
+    CHECK(fit.null_space[0](0) == Approx(-fit.null_space[0](1)));
+    CHECK(fit.value(0) == Approx(0.5));
+    CHECK(fit.value(2) == Approx(-2.0));
+    CHECK(std::isnan(fit.sigma(0)));
+    CHECK(std::isfinite(fit.sigma(2)));
+    CHECK(solve_ranked(Eigen::MatrixXd(0, 0), Eigen::VectorXd(0)).value.size() == 0);
+}
+
+TEST_CASE("what columns explain beside others is the fall of the squared sum", "[estimation]") {
+    SeededNoise random(5);
+    Eigen::MatrixXd known(30, 4), own(30, 2);
+    Eigen::VectorXd y(30);
+    for (Eigen::Index i = 0; i < 30; ++i) {
+        for (Eigen::Index j = 0; j < 3; ++j) known(i, j) = random.normal();
+        known(i, 3) = known(i, 0) - known(i, 1);  // says nothing new
+        own(i, 0) = random.normal();
+        own(i, 1) = known(i, 2);  // nothing beside the known
+        y(i) = random.normal();
+    }
+    const Projection projection(known);
+    CHECK(projection.rank() == 3);
+    Eigen::MatrixXd both(30, 5);
+    both << known, own.col(0);
+    const double fall =
+        projection.beside(y).squaredNorm() - Projection(both).beside(y).squaredNorm();
+    CHECK(explained_beside(projection, own, y) == Approx(fall));
+    CHECK(explained_beside(Projection(Eigen::MatrixXd(30, 0)), Eigen::MatrixXd(30, 0), y) == 0.0);
+}
+
+TEST_CASE("pure error is the scatter inside settings", "[estimation]") {
+    SeededNoise random(9);
+    Eigen::VectorXd v(900);
+    std::vector<int> setting(900);
+    for (Eigen::Index i = 0; i < 900; ++i) {
+        setting[static_cast<std::size_t>(i)] = static_cast<int>(i % 300);
+        v(i) = 50.0 * std::sin(static_cast<double>(i % 300)) + 0.7 * random.normal();
+    }
+    const PureError e = pure_error(v, setting);
+    CHECK(e.freedom == 600.0);
+    CHECK(std::sqrt(e.variance) == Approx(0.7).epsilon(0.08));
+    v(17) += 100.0;  // a wild reading does not set the noise
+    CHECK(std::sqrt(pure_error(v, setting).variance) == Approx(0.7).epsilon(0.15));
+    CHECK(pure_error(v, std::vector<int>(900, -1)).freedom == 0.0);
+}
+
+TEST_CASE("free forms leave out what the textbook owns and follow any smooth curve",
+          "[estimation]") {
+    std::vector<double> places;
+    for (int k = 0; k <= 30; ++k) places.push_back(10.0 * k);
+    const std::vector<double> knots = knots_of(places, 40);
+    REQUIRE(knots.size() == 31);
+    CHECK(knots_of(places, 12).size() == 12);
+    CHECK(knots_of({3.0, 3.0}, 12).empty());
+    const auto [before, weight] = place_between(knots, 104.0);
+    CHECK(before == 10);
+    CHECK(weight == Approx(0.4));
+    CHECK(place_between(knots, 900.0).second == 1.0);
+    const Eigen::MatrixXd line = polynomials_at(knots, 2);
+    const auto lengths = correlation_lengths(knots);
+    REQUIRE(lengths.size() == 4);
+    const Eigen::MatrixXd shape = smooth_shapes(knots, lengths[2], line, 24);
+    CHECK((line.transpose() * shape).cwiseAbs().maxCoeff() < 1e-9);
+    Eigen::VectorXd curve(31);
+    for (Eigen::Index k = 0; k < 31; ++k)
+        curve(k) = std::sin(0.02 * knots[static_cast<std::size_t>(k)] + 1.0);
+    const Eigen::VectorXd bent = Projection(line).beside(curve);
+    CHECK(Projection(shape).beside(bent).norm() < 0.02 * bent.norm());
+}
+
+}  // namespace trunnion

@@ -1,0 +1,130 @@
+// Restricted likelihood of groups against brute force on the whole covariance matrix.
+#include "estimation/variance_groups.h"
+
+#include <Eigen/LU>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "base/random.h"
+#include "estimation/projection.h"
+
+namespace trunnion {
+namespace {
+
+Eigen::MatrixXd normals(Eigen::Index rows, Eigen::Index columns, SeededNoise& random) {
+    Eigen::MatrixXd m(rows, columns);
+    for (Eigen::Index i = 0; i < rows; ++i)
+        for (Eigen::Index j = 0; j < columns; ++j) m(i, j) = random.normal();
+    return m;
+}
+
+/// A small problem: three flat columns, groups of two, one and five columns.
+struct Bench {
+    SeededNoise random{7};
+    Eigen::MatrixXd flat = normals(40, 3, random), columns = normals(40, 8, random);
+    Eigen::VectorXd data = normals(40, 1, random);
+    std::vector<Eigen::Index> size{2, 1, 5};
+
+    GroupEquations equations() const {
+        const Projection known(flat);
+        const Eigen::MatrixXd a = known.beside(columns);
+        const Eigen::VectorXd y = known.beside(data);
+        return {a.transpose() * a, a.transpose() * y, y.squaredNorm(), 40.0 - 3.0, size};
+    }
+    /// ln N(y) restricted to the complement of the flat columns, from the full covariance.
+    double brute(const std::vector<double>& tau, double nu) const {
+        Eigen::MatrixXd v = nu * nu * Eigen::MatrixXd::Identity(40, 40);
+        Eigen::Index at = 0;
+        for (std::size_t g = 0; g < size.size(); at += size[g++])
+            v += tau[g] * tau[g] * columns.middleCols(at, size[g]) *
+                 columns.middleCols(at, size[g]).transpose();
+        const Eigen::FullPivLU<Eigen::MatrixXd> null(flat.transpose());
+        const Eigen::MatrixXd k = Projection(null.kernel()).basis();  // K'flat = 0
+        const Eigen::MatrixXd inside = k.transpose() * v * k;
+        const Eigen::VectorXd y = k.transpose() * data;
+        return -0.5 * (std::log(inside.determinant()) + y.dot(inside.inverse() * y));
+    }
+};
+
+}  // namespace
+
+TEST_CASE("the restricted likelihood agrees with the whole covariance matrix", "[estimation]") {
+    const Bench bench;
+    const NoisePrior none{0.0, 1e9};
+    const GroupEquations equations = bench.equations();
+    const auto mine = [&](std::vector<double> tau, double nu) {
+        return restricted_likelihood(equations, {std::move(tau), nu}, none);
+    };
+    const double start = mine({0, 0, 0}, 1.0) - bench.brute({0, 0, 0}, 1.0);
+    for (const double nu : {0.5, 1.0, 3.0})
+        for (const double tau : {0.0, 0.1, 2.0, 40.0})
+            CHECK(mine({tau, 0.3, 2 * tau}, nu) - bench.brute({tau, 0.3, 2 * tau}, nu) ==
+                  Approx(start).margin(1e-9));
+}
+
+TEST_CASE("the gain of a group is the likelihood with it less that without", "[estimation]") {
+    const Bench bench;
+    const NoisePrior none{0.0, 1e9};
+    const GroupEquations all = bench.equations();
+    GroupEquations two{
+        all.gram.topLeftCorner(3, 3), all.product.head(3), all.square, all.rows, {2, 1}};
+    const Variances given{{0.7, 1.3}, 0.9};
+    const GroupInformation left = GivenMembers(two, given)
+                                      .leave(all.gram.topRightCorner(3, 5),
+                                             all.gram.bottomRightCorner(5, 5), all.product.tail(5));
+    for (const double tau : {0.02, 0.5, 7.0})
+        CHECK(gain_at(left, tau) ==
+              Approx(restricted_likelihood(all, {{0.7, 1.3, tau}, 0.9}, none) -
+                     restricted_likelihood(two, given, none))
+                  .margin(1e-9));
+    const GroupGain gain = group_gain(left);
+    CHECK(gain.best >= gain.mean);
+    for (const double tau : {0.02, 0.1, 0.5, 2.0, 7.0})
+        CHECK(gain.best >= gain_at(left, tau) - 1e-6);
+}
+
+TEST_CASE("mean and covariance are those of the ridge fit", "[estimation]") {
+    const Bench bench;
+    const GroupEquations equations = bench.equations();
+    const Variances v{{0.7, 1.3, 0.2}, 0.9};
+    const GivenMembers given(equations, v);
+    Eigen::VectorXd precision(8);
+    precision << 1 / 0.49, 1 / 0.49, 1 / 1.69, 25, 25, 25, 25, 25;
+    const Eigen::MatrixXd information =
+        equations.gram / 0.81 + Eigen::MatrixXd(precision.asDiagonal());
+    CHECK((given.covariance() - information.inverse()).norm() < 1e-9);
+    CHECK((given.mean() - information.inverse() * equations.product / 0.81).norm() < 1e-9);
+}
+
+TEST_CASE("the variance of 200 offsets and of the noise is found", "[estimation]") {
+    SeededNoise random(3);
+    constexpr Eigen::Index tests = 200, each = 6;
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(tests * each, tests);
+    Eigen::VectorXd y(tests * each);
+    for (Eigen::Index t = 0; t < tests; ++t) {
+        const double zero = 2.5 * random.normal();
+        for (Eigen::Index k = t * each; k < (t + 1) * each; ++k) {
+            a(k, t) = 1.0;
+            y(k) = zero + 1.4 * random.normal();
+        }
+    }
+    const GroupEquations equations{a.transpose() * a,
+                                   a.transpose() * y,
+                                   y.squaredNorm(),
+                                   static_cast<double>(tests * each),
+                                   {tests}};
+    const Variances found = maximise_likelihood(equations, {{1.0}, 1.0}, {std::log(1.0), 0.7}, 10);
+    CHECK(found.tau[0] == Approx(2.5).epsilon(0.15));
+    CHECK(found.nu == Approx(1.4).epsilon(0.05));
+}
+
+TEST_CASE("a group that is not there gets next to nothing", "[estimation]") {
+    SeededNoise random(11);
+    const Eigen::MatrixXd a = normals(300, 4, random);
+    const Eigen::VectorXd y = normals(300, 1, random);
+    const GroupGain gain = group_gain({a.transpose() * a, a.transpose() * y});
+    CHECK(gain.mean < 1.0);
+    CHECK(gain.tau < 0.3);
+}
+
+}  // namespace trunnion
