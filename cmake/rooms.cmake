@@ -26,8 +26,8 @@ set(TRUNNION_ROOMS
   "pivot: effects emulator setup interpreter geometry base"
   "compensation: emulator setup motion positioning kinematics offsets base"
   "volumetric: emulator setup kinematics base"
-  "ballbar/test: emulator records kinematics interpreter geometry base"
-  "report: ballbar/test volumetric pivot diagnosis regression emulator check geometry base"
+  "ballbar/test: emulator setup records kinematics interpreter geometry base"
+  "report: ballbar/test volumetric pivot diagnosis regression emulator setup check geometry base"
   "cli: report compensation diagnosis regression identification effects emulator setup backup check controller records interpreter base"
 )
 

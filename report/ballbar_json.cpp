@@ -9,6 +9,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json stores_json(const StoresToType& stores) {
+    Json list = Json::array();
+    for (const StoreLine& line : stores.lines)
+        list.push_back({{"name", line.in_force.name},
+                        {"in_force_mm", line.in_force.value_mm},
+                        {"exact_mm", line.exact_mm},
+                        {"type_mm", line.type_mm}});
+    return list;
+}
+
 const char* unit_of(const ErrorName& name) {
     return name.angular() ? "rad" : "mm";
 }
@@ -111,9 +121,7 @@ std::string ballbar_json(const BallbarResult& r) {
         {"reference_mm", r.reference_mm}, {"error_mm", bar.error_mm}, {"sigma_mm", bar.sigma_mm}};
     const Vector3 pivot = pivot_found_mm(r);
     out["pivot_found_mm"] = {pivot.x(), pivot.y(), pivot.z()};
-    out["parameters"] = Json::object();
-    for (const auto& [number, value] : r.pivot_parameters)
-        out["parameters"][std::to_string(number)] = value;
+    out["stores"] = r.stores ? stores_json(*r.stores) : Json::array();
     out["notes"] = r.notes;
     return out.dump(2) + "\n";
 }

@@ -6,6 +6,7 @@
 
 #include "base/numbers.h"
 #include "base/units.h"
+#include "report/stores_text.h"
 
 namespace trunnion {
 
@@ -117,13 +118,6 @@ std::string time_text(const BallbarResult& r) {
         minutes(r.times.remount_s));
 }
 
-std::string parameters_text(const BallbarResult& r) {
-    std::string text = "control parameters with the positions found (tilts have none):";
-    for (const auto& [number, value] : r.pivot_parameters)
-        text += fmt::format("  {} = {:.4f}", number, value);
-    return text + "\n";
-}
-
 std::string csv_rows(const char* where, const std::vector<BallbarErrorRow>& rows) {
     std::string text;
     for (const BallbarErrorRow& row : rows)
@@ -154,7 +148,7 @@ std::string ballbar_table(const BallbarResult& r) {
         "\npublished: circles, planes and transport of 2015; its bias against `before` is the "
         "cosine error of the bar\n";
     text += "\n" + setup_text(r) + residual_text(r) + "\n" + rank_text(r) + "\n" +
-            parameters_text(r) + time_text(r) + "\n";
+            (r.stores ? stores_text(*r.stores, r.dialect) + "\n" : "") + time_text(r) + "\n";
     for (const PlanarResult& planar : r.planar) text += planar_text(planar);
     return text;
 }

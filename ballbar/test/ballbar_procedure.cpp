@@ -8,8 +8,8 @@
 #include <set>
 
 #include "ballbar/test/ballbar_result.h"
-#include "interpreter/program_folders.h"
 #include "base/units.h"
+#include "interpreter/program_folders.h"
 
 namespace trunnion {
 
@@ -114,22 +114,6 @@ ReadingTable thinned(const ReadingTable& table, double warm_mm) {
     return out;
 }
 
-/// The control's own place for positions of the axis lines; tilts have none.
-std::vector<std::pair<int, double>> pivot_parameters(const Machine& nominal, const Machine& known,
-                                                     const Parameters& stored) {
-    Machine moved = nominal;
-    for (AxisGeometry& axis : moved.chain.work) {
-        const auto& location = known.errors.axis[index_of(axis.axis)].location;
-        axis.point_mm += Vector3(location[0], location[1], location[2]);
-    }
-    Parameters now = stored;
-    for (int number = 19700; number <= 19705; ++number) now.entry.erase(number);
-    derive_pivot_parameters(moved, now);
-    std::vector<std::pair<int, double>> out;
-    for (int number = 19700; number <= 19705; ++number) out.emplace_back(number, now.get(number));
-    return out;
-}
-
 }  // namespace
 
 double BallbarErrorRow::change_percent() const {
@@ -207,6 +191,7 @@ BallbarResult run_ballbar(const Setup& stated, const BallbarProcedureOptions& op
     BallbarResult result;
     result.machine = setup.name;
     result.setup_path = setup.path;
+    result.dialect = setup.dialect.family;
     result.times = options.times;
     const Machine nominal = nominal_of(setup);
     result.data = stated_program_data(setup, options.inside);
@@ -259,7 +244,7 @@ BallbarResult run_ballbar(const Setup& stated, const BallbarProcedureOptions& op
     const auto means = circular_tests(thinned(first, result.reference_mm - radius_mm), radius_mm);
     for (std::size_t i = 0; i < means.size(); ++i)
         result.planar.push_back({means[i], circular_figures(means[i]), diagnose_circle(every[i])});
-    result.pivot_parameters = pivot_parameters(nominal, known, setup.stores.parameters);
+    result.stores = stores_to_type(stated, known, layout.pivot_W_mm, layout.cup_S_mm);
     return result;
 }
 

@@ -11,6 +11,7 @@
 #include "ballbar/test/ballbar_published.h"
 #include "ballbar/test/circular_evaluation.h"
 #include "emulator/run.h"
+#include "setup/right_stores.h"
 
 namespace trunnion {
 
@@ -46,6 +47,7 @@ struct BallbarRun {
 struct BallbarResult {
     std::string machine;
     std::string setup_path;
+    DialectFamily dialect = DialectFamily::fanuc;
     BallbarProgramData data;
     double reading_sigma_mm = 0.0;  ///< standard uncertainty of one reading of the first run
     double reference_mm = 100.0;  ///< length of the bar that the evaluation counts from: warm when
@@ -59,7 +61,7 @@ struct BallbarResult {
     ResidualVerdict verdict;
     PublishedEvaluation published;
     std::vector<PlanarResult> planar;
-    std::vector<std::pair<int, double>> pivot_parameters;  ///< 19700-19705 with the found positions
+    std::optional<StoresToType> stores;  ///< what to type for the positions found
     SetupTimes times;
     std::vector<std::string> notes;
 

@@ -62,12 +62,12 @@ TEST_CASE("noise-free the procedure is exact and the tilts are compensated too")
     for (const BallbarErrorRow& r : result.at_intersection)
         CHECK(std::abs(r.after) < (r.name.angular() ? 1e-9 : 1e-6));
     // 19700-19702 hold a point of the A axis, 19703-19705 lead from there to the C axis.
-    const auto& p = result.pivot_parameters;
-    REQUIRE(p.size() == 6);
-    CHECK(p[1].second == Approx(0.0726).margin(1e-6));
-    CHECK(p[2].second == Approx(-0.0202).margin(1e-6));
-    CHECK(p[0].second + p[3].second == Approx(0.0283).margin(1e-6));
-    CHECK(p[1].second + p[4].second == Approx(0.1041).margin(1e-6));
+    REQUIRE(result.stores);
+    const PivotParameters& p = result.stores->exact.pivot;
+    CHECK(p.table_point_mm.y() == Approx(0.0726).margin(1e-6));
+    CHECK(p.table_point_mm.z() == Approx(-0.0202).margin(1e-6));
+    CHECK(p.table_offset_mm.x() == Approx(0.0283).margin(1e-6));
+    CHECK(p.table_offset_mm.y() == Approx(0.1041).margin(1e-6));
 }
 
 TEST_CASE("a wrong tool length reads as EZ0A and is named as what cannot be told apart") {

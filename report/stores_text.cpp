@@ -1,0 +1,87 @@
+#include "report/stores_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/units.h"
+
+namespace trunnion {
+
+namespace {
+
+int digits_of(double increment_mm) {
+    return increment_mm < 9e-4 ? 4 : 3;
+}
+
+std::string line_text(const std::string& name, double now_mm, double type_mm, int digits) {
+    const double change_um = um_from_mm(type_mm - now_mm);
+    return fmt::format("  {:<22} {:>12.{}f} {:>12.{}f} {:>+11.1f}\n", name, now_mm + 0.0, digits,
+                       type_mm + 0.0, digits, std::abs(change_um) < 0.05 ? 0.0 : change_um);
+}
+
+/// Fields of the part set-up: two lines across each axis, in machine coordinates.
+std::string hurco_lines(const StoresToType& s, int digits) {
+    std::string text;
+    const auto points = [](const RotaryStores& stores, bool second) -> Vector3 {
+        return stores.pivot.table_point_mm +
+               (second ? stores.pivot.table_offset_mm : Vector3::Zero());
+    };
+    for (const bool second : {false, true}) {
+        const PivotAxis& axis = second ? s.in_force.pivot.second : s.in_force.pivot.first;
+        for (int i = 0; i < 3; ++i) {
+            if (std::abs(axis.line[i]) > 0.5) continue;
+            text += line_text(fmt::format("{} centreline {}", letter_of(axis.axis), "XYZ"[i]),
+                              points(s.in_force, second)[i], points(s.typed, second)[i], digits);
+        }
+    }
+    return text;
+}
+
+std::string fanuc_lines(const StoresToType& s, int digits) {
+    std::string text;
+    for (const StoreLine& line : s.lines)
+        if (line.in_force.parameter != 0)
+            text +=
+                line_text("No." + line.in_force.name, line.in_force.value_mm, line.type_mm, digits);
+    return text;
+}
+
+std::string centre_lines(const StoresToType& s, int digits) {
+    std::string text;
+    for (const StoreLine& line : s.lines)
+        if (line.in_force.parameter == 0)
+            text += line_text(line.in_force.name, line.in_force.value_mm, line.type_mm, digits);
+    for (const StoreLine& line : s.fixture)
+        text += line_text(line.in_force.name, line.in_force.value_mm, line.type_mm, digits);
+    if (text.empty()) return text;
+    return "only where this work offset is the centre of DPP or G54.2 (G54 + external offset):\n" +
+           text;
+}
+
+}  // namespace
+
+std::string stores_text(const StoresToType& s, DialectFamily dialect) {
+    const int digits = digits_of(s.increment_mm);
+    const bool hurco =
+        dialect == DialectFamily::hurco && s.in_force.pivot.unit == MechanicalUnit::table_table;
+    std::string text =
+        fmt::format("{:<24} {:>12} {:>12} {:>11}\n", hurco ? "part set-up (assumed)" : "to type",
+                    "in force / mm", "type / mm", "change / um");
+    text += hurco ? hurco_lines(s, digits) : fanuc_lines(s, digits);
+    text += fmt::format(
+        "  tip off on the table: {:.1f} um now; after typing {:.2f} um by tilts of the axes (no "
+        "place in these numbers), {:.2f} um by the increment of {:g} mm\n",
+        s.now_um, s.tilts_um, s.rounding_um, s.increment_mm);
+    const std::string centre = centre_lines(s, digits);
+    if (centre.empty()) return text;
+    text +=
+        centre + fmt::format("  tip off with DPP or G54.2: {:.1f} um now, {:.2f} um after typing",
+                             s.g54_now_um, s.g54_left_um);
+    if (s.apart_um > 0.05)
+        text += fmt::format("; the axes pass each other by {:.1f} um, which no G54 can hold",
+                            s.apart_um);
+    return text + "\n";
+}
+
+}  // namespace trunnion
