@@ -15,3 +15,16 @@ trunnion_use(identification NLopt::nlopt Threads::Threads)
 trunnion_use(diagnosis NLopt::nlopt Threads::Threads)
 trunnion_use(check nlohmann_json::nlohmann_json)
 trunnion_use(report nlohmann_json::nlohmann_json)
+
+# Style sheet and scripts of the pages: web/dist is committed, so that no build fetches anything.
+find_package(ZLIB REQUIRED)
+trunnion_use(report ZLIB::ZLIB)
+if(TARGET trunnion_report)
+  file(GLOB page_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/web/dist/*)
+  add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/page_assets.cpp
+    COMMAND ${CMAKE_COMMAND} -DDIST=${PROJECT_SOURCE_DIR}/web/dist
+      -DOUTPUT=${PROJECT_BINARY_DIR}/page_assets.cpp
+      -P ${PROJECT_SOURCE_DIR}/cmake/page_assets.cmake
+    DEPENDS ${page_files} ${PROJECT_SOURCE_DIR}/cmake/page_assets.cmake VERBATIM)
+  target_sources(trunnion_report PRIVATE ${PROJECT_BINARY_DIR}/page_assets.cpp)
+endif()

@@ -1,0 +1,22 @@
+// Long columns of numbers, small enough for a page: what web/src/data.js unpacks.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace trunnion {
+
+/// One column: the value of row i is number[i] * step. Rounding to whole steps is the only loss.
+struct PackedColumn {
+    std::string name;
+    double step = 1.0;
+    std::vector<std::int64_t> number;
+};
+
+/// Second differences, zigzag, 7 bits a byte (low bits first), column after column, deflated (zlib)
+/// and written in base64. All columns have the same number of rows; numbers below 2^40. Same
+/// columns, same text.
+std::string packed_base64(const std::vector<PackedColumn>& columns);
+
+}  // namespace trunnion
