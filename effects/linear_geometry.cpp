@@ -69,13 +69,15 @@ Effect linear_straightness(const AxisGeometry& axis) {
 }
 
 Effect linear_angular(const AxisGeometry& axis) {
-    Effect effect{effect_name(axis.axis, ".angular"),
-                  "The axis pitches, yaws and rolls along its travel: errors grow with tool length",
-                  "guideway bow, bed settling, overhang",
-                  "level the machine; keep tools short; measure with a level or a laser",
-                  "E?L = p1 (q/200) + p2 (q/200)^2 about X, Y and Z; acts on the arm to the tip",
-                  {},
-                  {}};
+    Effect effect{
+        effect_name(axis.axis, ".angular"),
+        "The axis pitches, yaws and rolls along its travel: errors grow with tool length and "
+        "with the travel of the slides that it carries",
+        "guideway bow, bed settling, overhang",
+        "level the machine; keep tools short; measure with a level or a laser",
+        "E?L = p1 (q/200) + p2 (q/200)^2 about X, Y and Z; turns all that the axis carries",
+        {},
+        {}};
     for (int d = 0; d < 3; ++d)
         for (int n = 1; n <= 2; ++n)
             effect.parameters.push_back(

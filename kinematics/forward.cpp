@@ -59,22 +59,20 @@ double position_of(const AxisPositions& commanded, const Perturbation* extra, Ax
 }
 
 Pose walk(const std::vector<Link>& links, const AxisPositions& q, const Perturbation* extra) {
-    ChainWalk walk;
+    Pose pose;
     for (const Link& link : links)
-        walk.step(link, position_of(q, extra, link.axis), extra_of(extra, link.axis));
-    walk.finish();
-    return walk.pose;
+        carry(link, position_of(q, extra, link.axis), extra_of(extra, link.axis), pose);
+    return pose;
 }
 
 Pose walk(const std::vector<AxisGeometry>& side, const GeometricErrors& errors,
           const AxisPositions& q, const Perturbation* extra) {
-    ChainWalk walk;
+    Pose pose;
     for (const AxisGeometry& geometry : side) {
         const Link link = make_link(geometry, errors.axis[index_of(geometry.axis)]);
-        walk.step(link, position_of(q, extra, link.axis), extra_of(extra, link.axis));
+        carry(link, position_of(q, extra, link.axis), extra_of(extra, link.axis), pose);
     }
-    walk.finish();
-    return walk.pose;
+    return pose;
 }
 
 MachinePose poses_of(const Machine& machine, const AxisPositions& q, const Perturbation* extra,
@@ -83,6 +81,29 @@ MachinePose poses_of(const Machine& machine, const AxisPositions& q, const Pertu
                       walk(machine.chain.tool, machine.errors, q, extra)};
     if (!is_zero(machine.errors.spindle)) add_spindle(machine.errors.spindle, spindle_rad, poses);
     return poses;
+}
+
+/// Along the direction of travel; the error motion turns the carriage about the origin of its own
+/// frame, which has travelled with it.
+void carry_linear(const Link& link, double q, const SmallMotion* motion, Pose& pose) {
+    Vector3 shift_mm = q * link.direction + link.carried_mm;
+    if (motion) shift_mm += motion->shift_mm;
+    pose.translation_mm += pose.rotation * shift_mm;
+    if (motion && !motion->tilt_rad.isZero(0.0))
+        pose.rotation = pose.rotation * rotation_of(motion->tilt_rad);
+}
+
+/// About the axis line; errors along and about the carrier's axes, which are those of M at home.
+void carry_rotary(const Link& link, double q, const SmallMotion* motion, Pose& pose) {
+    Matrix3 r = turn(link.direction, q);
+    Vector3 shift_mm = link.carried_mm;
+    if (motion) {
+        r = rotation_of(motion->tilt_rad) * r;
+        shift_mm += link.tilt * motion->shift_mm;
+    }
+    if (link.tilted) r = link.tilt * r;
+    pose.translation_mm += pose.rotation * (shift_mm - r * link.point_mm);
+    pose.rotation = pose.rotation * r;
 }
 
 Vector3 tip_seen_from_W(const MachinePose& poses, const Vector3& tip_S_mm) {
@@ -121,37 +142,11 @@ Link make_link(const AxisGeometry& geometry, const AxisErrors& errors) {
     return link;
 }
 
-void ChainWalk::step(const Link& link, double q, const SmallMotion* extra) {
-    const bool moves = link.motions != 0 || extra != nullptr;
-    if (!link.rotary) {
-        Vector3 shift_mm = q * link.direction + link.carried_mm;
-        if (moves) {
-            const SmallMotion motion = motion_of(link, q, extra);
-            shift_mm += motion.shift_mm;
-            pending = pending * rotation_of(motion.tilt_rad);
-            has_pending = true;
-        }
-        pose.translation_mm += pose.rotation * shift_mm;
-        return;
-    }
-    finish();
-    Matrix3 r = turn(link.direction, q);
-    Vector3 shift_mm = link.carried_mm;
-    if (moves) {  // along and about the carrier's axes, which are those of M at home
-        const SmallMotion motion = motion_of(link, q, extra);
-        r = rotation_of(motion.tilt_rad) * r;
-        shift_mm += link.tilt * motion.shift_mm;
-    }
-    if (link.tilted) r = link.tilt * r;
-    pose.translation_mm += pose.rotation * (shift_mm - r * link.point_mm);
-    pose.rotation = pose.rotation * r;
-}
-
-void ChainWalk::finish() {
-    if (!has_pending) return;
-    pose.rotation = pose.rotation * pending;
-    pending.setIdentity();
-    has_pending = false;
+void carry(const Link& link, double q, const SmallMotion* extra, Pose& pose) {
+    const auto over = link.rotary ? carry_rotary : carry_linear;
+    if (link.motions == 0 && !extra) return over(link, q, nullptr, pose);
+    const SmallMotion motion = motion_of(link, q, extra);
+    over(link, q, &motion, pose);
 }
 
 ForwardModel::ForwardModel(const Machine& machine)

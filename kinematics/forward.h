@@ -28,17 +28,9 @@ Link make_link(const AxisGeometry& geometry, const AxisErrors& errors);
 SmallMotion spindle_location(const AxisErrors& spindle);
 SmallMotion spindle_motion(const AxisErrors& spindle, SpindleAngle spindle_rad);
 
-/// Pose of the far end of one side of the chain, walking from the bed outwards. Angular errors of
-/// linear axes do not turn the linear axes that they carry: they act from the gauge point outwards
-/// (formats.md, "Frames"), so they wait in `pending` until a rotary axis or the end comes.
-struct ChainWalk {
-    Pose pose;
-    Matrix3 pending = Matrix3::Identity();
-    bool has_pending = false;
-
-    void step(const Link& link, double q, const SmallMotion* extra);
-    void finish();
-};
+/// Carries `pose`, the end of the chain so far, over one more axis at `q` (mm or rad), from the bed
+/// outwards; `extra` (nullptr: none) is added to the axis's error motion.
+void carry(const Link& link, double q, const SmallMotion* extra, Pose& pose);
 
 /// A machine prepared for many evaluations: no allocation, zero errors skipped. Keeps a copy of the
 /// error curves; later changes of the machine are not seen.

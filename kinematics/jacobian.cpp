@@ -60,15 +60,15 @@ LinkDerivatives rotary(const AxisGeometry& axis, const AxisErrors& errors, doubl
     return d;
 }
 
-/// The centre of a linear axis's turn is set when its group of linear axes ends.
 LinkDerivatives linear(const AxisGeometry& axis, const AxisErrors& errors, double q,
-                       const ChainWalk& before) {
+                       const Pose& before) {
     const Link link = make_link(axis, errors);
-    const Matrix3 base = before.pose.rotation;
+    const Matrix3 base = before.rotation;
+    const Vector3 shift_mm = q * link.direction + link.carried_mm + shift_of(errors, q);
     LinkDerivatives d;
     d.location_shift = d.motion_shift = base;
     d.location_direct = -base * skew(q * link.direction) * left_jacobian(location_tilt(errors));
-    d.motion_turn.turn = base * before.pending * left_jacobian(tilt_of(errors, q));
+    d.motion_turn = {base * left_jacobian(tilt_of(errors, q)), before * shift_mm};
     d.axis_shift = base * (link.direction + shift_slope(errors, q));
     d.axis_turn = d.motion_turn.turn * tilt_slope(errors, q);
     return d;
@@ -83,29 +83,12 @@ struct Side {
 Side differentiate(const std::vector<AxisGeometry>& axes, const GeometricErrors& errors,
                    const AxisPositions& q) {
     Side side;
-    ChainWalk walk;
-    std::size_t group = 0;  // first link of the open group of linear axes
-    const auto close = [&](std::size_t end) {
-        for (; group < end; ++group)
-            if (!axes[group].rotary)
-                side.links[group].motion_turn.centre_mm = walk.pose.translation_mm;
-    };
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-        const AxisErrors& own = errors.axis[index_of(axes[i].axis)];
-        const double position = q[axes[i].axis];
-        if (axes[i].rotary) {
-            close(i);
-            walk.finish();
-            side.links.push_back(rotary(axes[i], own, position, walk.pose));
-        } else {
-            side.links.push_back(linear(axes[i], own, position, walk));
-        }
-        walk.step(make_link(axes[i], own), position, nullptr);
-        if (axes[i].rotary) group = i + 1;
+    for (const AxisGeometry& axis : axes) {
+        const AxisErrors& own = errors.axis[index_of(axis.axis)];
+        const double position = q[axis.axis];
+        side.links.push_back((axis.rotary ? rotary : linear)(axis, own, position, side.end));
+        carry(make_link(axis, own), position, nullptr, side.end);
     }
-    close(axes.size());
-    walk.finish();
-    side.end = walk.pose;
     return side;
 }
 

@@ -33,16 +33,22 @@ using SpindleAngle = std::optional<double>;
 /// The physical machine. Frames in docs/notation.md. For many evaluations of one machine use
 /// ForwardModel (kinematics/forward.h), which works out once what does not change.
 ///
-/// Rotary axis R with u = direction, q = point_mm, commanded r (rad), everything in the frame of
-/// its carrier (formats.md, "Location errors"):
+/// The frame of each axis lies on M at home and moves with its axis. The errors of an axis are
+/// along and about the axes of its carrier's frame, and all that the axis carries follows them,
+/// other slides included (HTM paper of 2022, eq. 20-25). Exact rotations everywhere.
+///
+/// Rotary axis R with u = direction, q = point_mm, commanded r (rad):
 ///     x' = q + delta + exp([eps]x) * (delta_m + exp([eps_m]x) * Rot(u, r + error) * (x - q))
-/// with delta = (EX0R EY0R EZ0R), eps = (EA0R EB0R EC0R) and the error motion delta_m(r) =
-/// (EXR EYR EZR), eps_m(r) = (EAR EBR ECR), along and about the carrier's axes (those of M at
-/// home). Linear axis: shift by delta + r * exp([eps]x) u + delta_m; its angular errors turn what
-/// hangs from the gauge point (tool, rotary head; on the work side the table), not the linear axes
-/// that it carries. Spindle at angle r, in S: p' = delta + exp([eps]x) * (delta_m(r) +
-/// exp([eps_m(r)]x) * p) with its location EX0S.. EB0S and its motions EXS.. EBS. Exact rotations
-/// everywhere.
+/// with its location delta = (EX0R EY0R EZ0R), eps = (EA0R EB0R EC0R) and its error motion
+/// delta_m(r) = (EXR EYR EZR), eps_m(r) = (EAR EBR ECR).
+///
+/// Linear axis L at l (mm): x' = delta + l * exp([eps]x) u + delta_m + exp([eps_m]x) * x. Its
+/// location tilt leans the direction of travel and nothing else: a constant eps_m is what the
+/// carriage itself leans. Its error motion turns about the origin of its frame, l * u from home:
+/// with EBY = 1e-4 on "w b Y X Z t" the tip sinks by 0.03 mm when X goes to 300.
+///
+/// Spindle at angle r, in S: p' = delta + exp([eps]x) * (delta_m(r) + exp([eps_m(r)]x) * p) with
+/// its location EX0S.. EB0S and its motions EXS.. EBS.
 struct Machine {
     Chain chain;
     GeometricErrors errors;

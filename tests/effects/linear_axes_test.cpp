@@ -30,6 +30,9 @@ TEST_CASE("linear axes: scale, straightness, angles, ripple, squareness move the
                                const double u = s.at(d) / 200.0;
                                Wrong w;
                                w.tool = {3e-5 * u, 2e-5 * u * u, 1e-5 * u};
+                               Vector3 carried = s.at;  // slides further along b X Y Z t
+                               carried.head(d + 1).setZero();
+                               w.tip = w.tool.cross(carried);
                                return w;
                            }) < 1e-4);
         CHECK(physics.miss(name + ".cyclic: cos_mm=2um, sin_mm=1um, period_mm=12",

@@ -106,7 +106,7 @@ def linear_straightness(rng, machine, i):
 
 
 def linear_angular(rng, machine, i):
-    """Roll, pitch, yaw proportional to position, acting on the arm from S to the tip; rad at 200 mm."""
+    """Roll, pitch, yaw proportional to position, turning the slides further along too; rad at 200 mm."""
     def apply(scene, errors, a):
         errors.carriage_rad[i] += (scene.rows.pos_mm[:, i] / 200.0)[:, None] * a
     return Effect("XYZ"[i] + ".angular", [f"E{'ABC'[k]}{'XYZ'[i]}_rad" for k in range(3)], spread(rng, 3, 2e-5),

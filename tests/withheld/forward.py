@@ -1,7 +1,8 @@
 """What the devices read: product of exact 4x4 transforms, exact touch root, exact ball-to-ball length.
 
 Work side  M <- W:  Tr(q0+d0) Exp(e0) Rot(u0, word+a0) Tr(-q0) Tr(q1+d1) Exp(e1) Rot(u1, word+a1) Tr(-q1)
-Tool side  M <- S:  Tr(x y z + shift) Exp(eX) Exp(eY) Exp(eZ), tip and cup hang from it.
+Tool side  M <- S:  Tr(shift) Tr(x) Exp(eX) Tr(y) Exp(eY) Tr(z) Exp(eZ), tip and cup hang from it: each slide
+carries the next.
 All errors are actual - nominal, along and about + axes of M (of the carrier for axis 1).
 """
 import numpy as np
@@ -18,7 +19,6 @@ class Errors:
         self.axis_tilt_rad = np.zeros((2, n, 3))
         self.gauge_mm = np.zeros((n, 3))           # where the linear axes put the gauge point, in M
         self.carriage_rad = np.zeros((3, n, 3))    # angular error of X, Y, Z
-        self.stacked_arms = False                  # True: carriages tilt what they carry, not only the tool
         self.tip_mm = np.zeros((n, 3))             # stylus against its declared place, in S
         self.artefact_mm = np.zeros((n, 3))        # in W
         self.work_mm = np.zeros((n, 3))            # the carried work as a whole, in M
@@ -69,9 +69,6 @@ class Scene:
         if not errors.carriage_rad.any():
             return place + errors.gauge_mm + arm_mm      # the product of pure shifts
         spin = [frames.rotation_about(errors.carriage_rad[k]) for k in range(3)]
-        if not errors.stacked_arms:
-            chain = frames.translation(place + errors.gauge_mm) @ spin[0] @ spin[1] @ spin[2]
-            return frames.apply(chain, arm_mm)
         chain = frames.translation(errors.gauge_mm)
         for k in range(3):
             chain = chain @ frames.translation(place * np.eye(3)[k]) @ spin[k]

@@ -143,15 +143,6 @@ def scale_one_side(rng, machine):
     return Effect("XYZ"[i] + ".scale", ["slope_mm_per_mm"], [3e-5], apply, step=1e-5)
 
 
-def angular_stacked(rng, machine):
-    """Roll, pitch, yaw of a carriage that tilt everything it carries, not only the tool's arm."""
-    i = int(rng.integers(2))
-    def apply(scene, errors, a):
-        errors.stacked_arms = True
-        errors.carriage_rad[i] += (scene.rows.pos_mm[:, i] / 200.0)[:, None] * a
-    return Effect("XYZ"[i] + ".angular", [f"E{'ABC'[k]}{'XYZ'[i]}_rad" for k in range(3)], spread(rng, 3, 2e-5), apply)
-
-
 def drift_stretched(rng, machine):
     """Warming with a stretched exponential: fast at first, long tail."""
     tau_s = float(rng.uniform(0.2, 0.5) * machine.session_s)
@@ -221,5 +212,5 @@ def clamp_on_carrier(rng, machine):
 
 OUTSIDERS = (drift_two_times, backlash_by_position, guide_bump, cubic_bow, over_centre_play, harmonic_five, jump_in_y,
              stick_slip, angle_interaction, wander)
-FOREIGN = (positioning_high, radial_high, straightness_sine, scale_one_side, angular_stacked, drift_stretched,
+FOREIGN = (positioning_high, radial_high, straightness_sine, scale_one_side, drift_stretched,
            spike_in_time, backlash_by_tilt, expansion_late, sag_off_centre, pretravel_two_lobes, clamp_on_carrier)
