@@ -93,7 +93,7 @@ TEST_CASE("exercise 2: the matrix from the z slide to the y slide, eq. 29") {
         const double z = row.at[Axis::Z];
         const Vector3 in_frame_1 = offset + Vector3(0, 0, z) + eq_19(e, z, tip);
         const Vector3 in_M = in_frame_1 - offset + Vector3(0, row.at[Axis::Y], 0);
-        CHECK((row.true_mm - in_M).norm() < 2e-6);  // squares of the angles times 120 mm
+        CHECK((row.true_mm - in_M).norm() < 3e-6);  // squares of the angles times 120 mm
     }
 }
 
