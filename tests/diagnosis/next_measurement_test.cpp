@@ -5,9 +5,9 @@
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/measurements.h"
-#include "interpreter/program_folders.h"
 #include "emulator/run.h"
 #include "identification/identify.h"
+#include "interpreter/program_folders.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {
@@ -195,7 +195,7 @@ void go_the_whole_way(const Bench& bench, const std::string& injection, const st
 
 TEST_CASE("the verdict is the same without the plan of the next measurement", "[diagnosis][next]") {
     const Bench bench(campaign::bc_setup(), false);
-    const Setup truth = campaign::with_effect(bench.real, "X.scale: scale_ppm=40");
+    const Setup truth = campaign::with_effect(bench.real, "ZX.squareness: angle_rad=6e-5");
     const ReadingTable table = campaign::measured(truth, bench.table, 17);
     const Diagnosis whole = diagnose(bench.setup, table);
     REQUIRE(whole.next.size() > 0);
@@ -221,8 +221,9 @@ TEST_CASE("ambiguous, measured as asked, diagnosed together: the right one is cl
          "pivot.p1970x: dp_mm=[-0.005, -0.004, 0.006]"},
         {true, false, "pivot.g54: dg_mm=[0.005, 0.004, -0.006]",
          "pivot.p1970x: dp_mm=[-0.005, -0.004, 0.006]"},
-        {false, false, "X.scale: scale_ppm=40", "X.angular: EBX_p1_rad=5e-5"},
-        {true, false, "X.scale: scale_ppm=40", "X.angular: EBX_p1_rad=5e-5"},
+        // X, which carries Y and Z, shows its angles in their travel; Z carries the tool alone.
+        {false, false, "ZX.squareness: angle_rad=6e-5", "Z.angular: EBZ_p1_rad=8e-5"},
+        {true, false, "ZX.squareness: angle_rad=6e-5", "Z.angular: EBZ_p1_rad=8e-5"},
         {false, true, "ZX.squareness: angle_rad=4e-5", "Z.angular: EBZ_p1_rad=6e-5"},
         {true, true, "ZX.squareness: angle_rad=4e-5", "Z.angular: EBZ_p1_rad=6e-5"},
     };
