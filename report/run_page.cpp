@@ -336,8 +336,12 @@ Page run_page(const Setup& setup, const RunLog& log, const RunPath& path,
     if (!path.points().empty()) {
         page.script = PageScript::run;
         page.data_json = data_json(setup, path, programs);
+        const RunPath::Point& worst = path.points()[worst_point(path.points())];
+        const std::string scale =
+            figure_html(scale_svg(deviation_mm(worst)),
+                        "Colour of the path: distance between physical and believed tip.");
         page.body_html =
-            section_html("Machine and path", view_html) +
+            section_html("Machine and path", view_html + scale) +
             section_html("Deviation over time", "<div class=\"chart\" id=\"chart\"></div>\n");
     }
     page.body_html += section_html("Figures", figures_html(log, path)) +
