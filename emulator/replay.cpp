@@ -103,6 +103,9 @@ Replay::Replay(const Setup& setup, const ReadingTable& table) : setup_(setup) {
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const Reading& row = table.rows[r];
         if (row.device == Device::none) continue;
+        if (row.device > Device::ballbar)
+            where.refuse(row,
+                         "no prediction for device '" + std::string(name_of(row.device)) + "'");
         AxisSample sample = all[r];
         Contact contact;
         contact.device = row.device;

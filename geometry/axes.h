@@ -42,6 +42,9 @@ struct AxisPositions {
     friend bool operator==(const AxisPositions&, const AxisPositions&) = default;
 };
 
+/// Side from which each axis came (sign of its last move): +1, -1, or 0 where nobody knows.
+using AxisSides = std::array<signed char, axis_count>;
+
 /// The believed positioning function under which a motion was commanded: the `mode` of readings.
 enum class PositioningMode : unsigned char { none, dpp, rtdfo, rtcp, tw };
 

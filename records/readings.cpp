@@ -1,234 +1,135 @@
 #include "records/readings.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "base/alarm.h"
-#include "base/numbers.h"
-#include "base/units.h"
+#include "records/reading_columns.h"
+#include "records/table_line.h"
 
 namespace trunnion {
 namespace {
 
-constexpr std::array<std::string_view, 4> device_names{"", "sphere", "touch", "ballbar"};
-constexpr std::array<std::string_view, 5> mode_names{"", "dpp", "rtdfo", "rtcp", "tw"};
+using Cells = std::vector<TableCell>;
 
-template <class List>
-std::optional<std::size_t> find_name(const List& names, std::string_view text) {
-    for (std::size_t i = 0; i < names.size(); ++i)
-        if (names[i] == text) return i;
-    return std::nullopt;
-}
-
-/// One cell of the table with its place, for messages.
-struct Cell {
-    std::string_view text;
-    int column = 1;
+/// What each column of the file stores; unknown ones store nothing.
+struct Header {
+    std::vector<StoreCell> stores;
+    std::size_t time_cell = 0;
 };
 
-struct Line {
-    std::string_view text;
-    int number = 0;
-    std::string path;
-
-    [[noreturn]] void fail(const std::string& message, int column) const {
-        throw InputError(message, {path, number, column}, std::string(text));
+StoreCell store_of(const TableCell& cell, ReadingTable& table) {
+    if (const ReadingColumn* column = find_reading_column(cell.text)) {
+        if (column->optional) table.optional_columns.emplace_back(cell.text);
+        return column->store;
     }
-};
-
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
-    while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-    return text;
-}
-
-std::vector<Cell> split(const Line& line) {
-    std::vector<Cell> cells;
-    std::size_t start = 0;
-    for (bool more = true; more;) {
-        const bool quoted = start < line.text.size() && line.text[start] == '"';
-        std::size_t end = 0;
-        Cell cell;
-        cell.column = static_cast<int>(start) + 1;
-        if (quoted) {
-            const std::size_t close = line.text.find('"', start + 1);
-            if (close == std::string_view::npos) line.fail("quote is not closed", cell.column);
-            cell.text = line.text.substr(start + 1, close - start - 1);
-            end = line.text.find(',', close);
-        } else {
-            end = line.text.find(',', start);
-            cell.text =
-                trimmed(line.text.substr(start, end == std::string_view::npos ? end : end - start));
-        }
-        cells.push_back(cell);
-        more = end != std::string_view::npos;
-        start = end + 1;
+    if (const auto axis = axis_of_column(cell.text)) {
+        table.axes.push_back(*axis);
+        return axis_store(*axis);
     }
-    return cells;
+    return {};
 }
 
-double number_of(const Line& line, const Cell& cell, const char* what) {
-    const auto value = parse_number(cell.text);
-    if (!value)
-        line.fail(std::string(what) + ": '" + std::string(cell.text) + "' is not a finite number",
-                  cell.column);
-    return *value;
+bool stands(const Cells& cells, std::string_view name) {
+    return std::any_of(cells.begin(), cells.end(), [&](auto& cell) { return cell.text == name; });
 }
 
-using Store = std::function<void(Reading&, const Line&, const Cell&)>;
-
-template <class Set>
-Store number(const char* what, double otherwise, Set set) {
-    return [=](Reading& row, const Line& line, const Cell& cell) {
-        set(row, cell.text.empty() ? otherwise : number_of(line, cell, what));
-    };
-}
-
-template <class Set>
-Store required_number(const char* what, Set set) {
-    return [=](Reading& row, const Line& line, const Cell& cell) {
-        set(row, number_of(line, cell, what));
-    };
-}
-
-void store_device(Reading& row, const Line& line, const Cell& cell) {
-    const auto i = find_name(device_names, cell.text);
-    if (!i) line.fail("device is sphere, touch, ballbar or empty", cell.column);
-    row.device = static_cast<Device>(*i);
-}
-
-void store_mode(Reading& row, const Line& line, const Cell& cell) {
-    const auto i = find_name(mode_names, cell.text);
-    if (!i) line.fail("mode is dpp, rtdfo, rtcp, tw or empty", cell.column);
-    row.mode = static_cast<PositioningMode>(*i);
-}
-
-void store_index(Reading& row, const Line& line, const Cell& cell) {
-    const double value = number_of(line, cell, "index");
-    if (std::abs(value) > 2e9 || value != static_cast<int>(value))
-        line.fail("index is a whole number", cell.column);
-    row.index = static_cast<int>(value);
-}
-
-void store_clamped(Reading& row, const Line& line, const Cell& cell) {
-    if (cell.text != "" && cell.text != "0" && cell.text != "1")
-        line.fail("clamped is 0, 1 or empty", cell.column);
-    row.clamped = cell.text == "1";
-}
-
-template <class Member>
-Store optional_number(const char* what, Member member) {
-    return [=](Reading& row, const Line& line, const Cell& cell) {
-        if (!cell.text.empty()) row.*member = number_of(line, cell, what);
-    };
-}
-
-const std::map<std::string_view, Store>& fixed_columns() {
-    static const std::map<std::string_view, Store> columns{
-        {"index", store_index},
-        {"time_s", required_number("time_s", [](Reading& r, double v) { r.time_s = v; })},
-        {"test", [](Reading& r, const Line&, const Cell& c) { r.test = c.text; }},
-        {"device", store_device},
-        {"feature", [](Reading& r, const Line&, const Cell& c) { r.feature = c.text; }},
-        {"value_mm", optional_number("value_mm", &Reading::value_mm)},
-        {"dir_x", number("dir_x", 0.0, [](Reading& r, double v) { r.direction_M.x() = v; })},
-        {"dir_y", number("dir_y", 0.0, [](Reading& r, double v) { r.direction_M.y() = v; })},
-        {"dir_z", number("dir_z", 0.0, [](Reading& r, double v) { r.direction_M.z() = v; })},
-    };
-    return columns;
-}
-
-const std::map<std::string_view, Store>& optional_columns() {
-    static const std::map<std::string_view, Store> columns{
-        {"mode", store_mode},
-        {"feed_mm_min",
-         number("feed_mm_min", 0.0, [](Reading& r, double v) { r.feed_mm_min = v; })},
-        {"spindle_deg",
-         number("spindle_deg", 0.0, [](Reading& r, double v) { r.spindle_rad = rad_from_deg(v); })},
-        {"temperature_c",
-         number("temperature_c", 20.0, [](Reading& r, double v) { r.temperature_c = v; })},
-        {"load_kg", number("load_kg", 0.0, [](Reading& r, double v) { r.load_kg = v; })},
-        {"clamped", store_clamped},
-        {"extension_mm",
-         number("extension_mm", 0.0, [](Reading& r, double v) { r.extension_mm = v; })},
-        {"sigma_mm", optional_number("sigma_mm", &Reading::sigma_mm)},
-    };
-    return columns;
-}
-
-std::string axis_column(Axis axis) {
-    const char lower = static_cast<char>(letter_of(axis) + ('a' - 'A'));
-    return std::string(1, lower) + (is_rotary(axis) ? "_deg" : "_mm");
-}
-
-Store axis_store(Axis axis) {
-    return [axis](Reading& row, const Line& line, const Cell& cell) {
-        const double value = number_of(line, cell, "axis position");
-        row.commanded[axis] = is_rotary(axis) ? rad_from_deg(value) : value;
-    };
-}
-
-std::optional<Axis> axis_of_column(std::string_view name) {
-    for (const Axis axis : all_axes)
-        if (axis_column(axis) == name) return axis;
-    return std::nullopt;
-}
-
-/// What each column of the file stores; unknown ones store nothing and are noted.
-std::vector<Store> read_header(const Line& line, ReadingTable& table,
-                               std::vector<std::string>& notes) {
-    std::vector<Store> stores;
-    std::map<std::string_view, int> seen;
-    for (const Cell& cell : split(line)) {
-        if (++seen[cell.text] > 1)
-            line.fail("column '" + std::string(cell.text) + "' stands twice", cell.column);
-        const auto fixed = fixed_columns().find(cell.text);
-        const auto extra = optional_columns().find(cell.text);
-        Store store;
-        if (fixed != fixed_columns().end()) {
-            store = fixed->second;
-        } else if (extra != optional_columns().end()) {
-            store = extra->second;
-            table.optional_columns.emplace_back(cell.text);
-        } else if (const auto axis = axis_of_column(cell.text)) {
-            store = axis_store(*axis);
-            table.axes.push_back(*axis);
-        } else {
-            notes.push_back(line.path + ": column '" + std::string(cell.text) +
-                            "' is not known and ignored");
-        }
-        stores.push_back(std::move(store));
-    }
-    for (const char* name : {"index", "time_s", "test", "device", "feature", "value_mm"})
-        if (!seen.contains(name)) line.fail(std::string("column '") + name + "' is missing", 1);
+void check_header(const TableLine& line, const Cells& cells, const ReadingTable& table) {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            if (cells[i].text == cells[k].text)
+                line.fail("column '" + std::string(cells[i].text) + "' stands twice",
+                          cells[i].column);
+    for (const char* name : {"index", "time_s", "test", "device", "feature"})
+        if (!stands(cells, name)) line.fail(std::string("column '") + name + "' is missing", 1);
+    if (!stands(cells, "value_mm") && !stands(cells, "value_deg"))
+        line.fail("column 'value_mm' (or 'value_deg') is missing", 1);
+    if ((stands(cells, "px_mm") + stands(cells, "py_mm") + stands(cells, "pz_mm")) % 3 != 0)
+        line.fail("px_mm, py_mm and pz_mm stand together", 1);
     if (table.axes.empty()) line.fail("no axis column (x_mm, y_mm, ..., c_deg)", 1);
-    return stores;
+}
+
+Header read_header(const TableLine& line, const Cells& cells, ReadingTable& table,
+                   std::vector<std::string>& notes) {
+    Header header;
+    for (const TableCell& cell : cells) {
+        if (cell.text == "time_s") header.time_cell = header.stores.size();
+        header.stores.push_back(store_of(cell, table));
+        if (!header.stores.back())
+            notes.push_back(table.path + ": column '" + std::string(cell.text) +
+                            "' is not known and ignored");
+    }
+    check_header(line, cells, table);
+    return header;
 }
 
 void read_comment(std::string_view text, ReadingTable& table) {
     const auto equal = text.find('=');
     if (equal == std::string_view::npos) return;
-    table.comment[std::string(trimmed(text.substr(1, equal - 1)))] =
-        trimmed(text.substr(equal + 1));
+    table.comment[std::string(without_blanks(text.substr(1, equal - 1)))] =
+        without_blanks(text.substr(equal + 1));
 }
 
-void check_direction(const Line& line, const Reading& row) {
-    if (row.device != Device::sphere && row.device != Device::touch) return;
-    if (std::abs(row.direction_M.norm() - 1.0) > 1e-3)
-        line.fail("dir_x, dir_y, dir_z of a " + std::string(name_of(row.device)) +
-                      " row are a unit vector",
-                  1);
+/// "X+ Y+ C-"; `line` is the head line that says so.
+AxisSides read_sides(const TableLine& line, const ReadingTable& table) {
+    AxisSides sides{};
+    const auto column = [&](std::string_view at) {
+        return static_cast<int>(at.data() - line.text.data()) + 1;
+    };
+    std::string_view left = line.text.substr(line.text.find('=') + 1);
+    while (!(left = without_blanks(left)).empty()) {
+        const std::string_view word = left.substr(0, left.find_first_of(" \t,"));
+        left.remove_prefix(std::min(word.size() + 1, left.size()));
+        if (word.empty()) continue;
+        const auto axis = word.size() == 2 ? axis_of(word[0]) : std::nullopt;
+        if (!axis || (word[1] != '+' && word[1] != '-'))
+            line.fail("side reads X+ Y- ..., one word an axis", column(word));
+        if (std::find(table.axes.begin(), table.axes.end(), *axis) == table.axes.end())
+            line.fail("side of an axis that has no column", column(word));
+        if (sides[index_of(*axis)] != 0) line.fail("side of this axis stands twice", column(word));
+        sides[index_of(*axis)] = word[1] == '+' ? 1 : -1;
+    }
+    return sides;
 }
 
-void check_time(const Line& line, const Cell& cell, const Reading& before, const Reading& row) {
+void check_time(const TableLine& line, const TableCell& cell, const Reading& before,
+                const Reading& row) {
     if (row.time_s < before.time_s) line.fail("time_s runs backwards", cell.column);
     if (row.time_s == before.time_s && row.commanded != before.commanded)
         line.fail("same time_s as the row before, but other axis positions", cell.column);
 }
 
-Reading read_row(const Line& line, const std::vector<Store>& stores,
-                 const std::vector<Cell>& cells) {
+/// The axis that a servo row is about.
+Axis servo_axis(const TableLine& line, const Reading& row, const ReadingTable& table) {
+    for (const Axis axis : table.axes)
+        if (row.feature == std::string(1, letter_of(axis))) return axis;
+    line.fail("feature of an axis row is an axis of this table, not '" + row.feature + "'", 1);
+}
+
+/// A row is in degrees exactly where its device reads an angle.
+void check_unit(const TableLine& line, Reading& row, const ReadingTable& table) {
+    const bool angular = row.device == Device::angle ||
+                         (row.device == Device::axis && is_rotary(servo_axis(line, row, table)));
+    if (angular != row.angular && (row.value_mm || row.sigma_mm || row.velocity_mm_s))
+        line.fail(std::string(name_of(row.device)) + " row of " + row.feature +
+                      (angular ? " is read in degrees (value_deg)" : " is read in mm (value_mm)"),
+                  1);
+    row.angular = angular;
+}
+
+void check_row(const TableLine& line, Reading& row, const ReadingTable& table) {
+    if (has_direction(row.device) && std::abs(row.direction_M.norm() - 1.0) > 1e-3)
+        line.fail("dir_x, dir_y, dir_z of a " + std::string(name_of(row.device)) +
+                      " row are a unit vector",
+                  1);
+    if (row.sigma_mm && *row.sigma_mm < 0.0)
+        line.fail(row.angular ? "sigma_deg is not below zero" : "sigma_mm is not below zero", 1);
+    check_unit(line, row, table);
+}
+
+Reading read_row(const TableLine& line, const Cells& cells, const Header& header,
+                 const ReadingTable& table) {
+    const auto& stores = header.stores;
     if (cells.size() != stores.size())
         line.fail("row has " + std::to_string(cells.size()) + " cells, the header " +
                       std::to_string(stores.size()),
@@ -238,107 +139,111 @@ Reading read_row(const Line& line, const std::vector<Store>& stores,
     row.line = line.number;
     for (std::size_t i = 0; i < cells.size(); ++i)
         if (stores[i]) stores[i](row, line, cells[i]);
-    check_direction(line, row);
-    if (row.sigma_mm && *row.sigma_mm < 0.0) line.fail("sigma_mm is not below zero", 1);
+    check_row(line, row, table);
+    if (!table.rows.empty()) check_time(line, cells[header.time_cell], table.rows.back(), row);
     return row;
 }
 
-std::string_view next_line(std::string_view& text) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    return line;
-}
-
 }  // namespace
-
-std::string_view name_of(Device device) {
-    return device_names[static_cast<std::size_t>(device)];
-}
-std::string_view name_of(PositioningMode mode) {
-    return mode_names[static_cast<std::size_t>(mode)];
-}
 
 ReadingTable parse_readings(std::string_view text, const std::string& path,
                             std::vector<std::string>& notes) {
     ReadingTable table;
     table.path = path;
-    std::vector<Store> stores;
-    std::size_t time_cell = 0;
-    Line line{{}, 0, path};
+    Header header;
+    Cells cells;
+    TableLine line{{}, 0, path}, side;
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     while (!text.empty()) {
-        line.text = next_line(text);
+        line.text = take_line(text);
         ++line.number;
-        if (trimmed(line.text).empty()) continue;
+        if (without_blanks(line.text).empty()) continue;
         if (line.text[0] == '#') {
             read_comment(line.text, table);
+            if (table.comment.erase("side") > 0) side = line;
             continue;
         }
-        const std::vector<Cell> cells = split(line);
-        if (stores.empty()) {
-            stores = read_header(line, table, notes);
-            while (cells[time_cell].text != "time_s") ++time_cell;
-            continue;
-        }
-        Reading row = read_row(line, stores, cells);
-        if (!table.rows.empty()) check_time(line, cells[time_cell], table.rows.back(), row);
-        table.rows.push_back(std::move(row));
+        line.split(',', cells);
+        if (header.stores.empty())
+            header = read_header(line, cells, table, notes);
+        else
+            table.rows.push_back(read_row(line, cells, header, table));
     }
-    if (stores.empty())
+    if (header.stores.empty())
         throw InputError("no header line: this is not a table of readings", {path, 1, 1});
     if (table.rows.empty()) throw InputError("the table has no rows", {path, line.number, 1});
+    if (side.number > 0) table.side_before = read_sides(side, table);
     return table;
 }
 
 namespace {
 
-std::string optional_text(const Reading& row, std::string_view column) {
-    if (column == "mode") return std::string(name_of(row.mode));
-    if (column == "feed_mm_min") return shortest(row.feed_mm_min);
-    if (column == "spindle_deg") return shortest_degrees(row.spindle_rad);
-    if (column == "temperature_c") return shortest(row.temperature_c);
-    if (column == "load_kg") return shortest(row.load_kg);
-    if (column == "clamped") return row.clamped ? "1" : "0";
-    if (column == "extension_mm") return shortest(row.extension_mm);
-    return row.sigma_mm ? shortest(*row.sigma_mm) : "";
-}
-
-std::string quoted(const std::string& text) {
-    return text.find(',') == std::string::npos ? text : '"' + text + '"';
-}
-
-void append_row(const ReadingTable& table, const Reading& row, bool directions, std::string& out) {
-    out += std::to_string(row.index) + ',' + shortest(row.time_s) + ',' + quoted(row.test) + ',';
-    out += std::string(name_of(row.device)) + ',' + quoted(row.feature);
-    for (const Axis axis : table.axes) {
-        const double q = row.commanded[axis];
-        out += ',' + (is_rotary(axis) ? shortest_degrees(q) : shortest(q));
+/// The columns of a table, those of the axes left out; value_mm and value_deg are the last.
+std::vector<const ReadingColumn*> written_columns(const ReadingTable& table, bool directions,
+                                                  bool degrees) {
+    std::vector<const ReadingColumn*> columns, values;
+    for (const ReadingColumn& column : reading_columns()) {
+        if (column.optional || (!directions && column.name.starts_with("dir_"))) continue;
+        if (column.name == "value_deg" && !degrees) continue;
+        (column.name.starts_with("value_") ? values : columns).push_back(&column);
     }
-    if (directions) {
-        const bool directed = row.device == Device::sphere || row.device == Device::touch;
-        for (const double v : row.direction_M) out += ',' + (directed ? shortest(v) : "");
-    }
-    for (const std::string& column : table.optional_columns)
-        out += ',' + optional_text(row, column);
-    out += ',' + (row.value_mm ? shortest(*row.value_mm) : "") + '\n';
+    for (const std::string& name : table.optional_columns)
+        columns.push_back(find_reading_column(name));
+    columns.insert(columns.end(), values.begin(), values.end());
+    return columns;
 }
 
 }  // namespace
 
-std::string format_readings(const ReadingTable& table) {
+std::string format_sides(const std::vector<Axis>& axes, const AxisSides& sides) {
     std::string out;
-    for (const auto& [key, value] : table.comment) out += "# " + key + " = " + value + '\n';
-    bool directions = false;
-    for (const Reading& row : table.rows)
-        directions |= row.device == Device::sphere || row.device == Device::touch;
-    out += "index,time_s,test,device,feature";
-    for (const Axis axis : table.axes) out += ',' + axis_column(axis);
-    if (directions) out += ",dir_x,dir_y,dir_z";
-    for (const std::string& column : table.optional_columns) out += ',' + column;
-    out += ",value_mm\n";
-    for (const Reading& row : table.rows) append_row(table, row, directions, out);
+    for (const Axis axis : axes)
+        if (const int side = sides[index_of(axis)]; side != 0)
+            out +=
+                (out.empty() ? "" : " ") + std::string(1, letter_of(axis)) + (side > 0 ? '+' : '-');
+    return out;
+}
+
+struct ReadingWriter::Columns {
+    std::vector<const ReadingColumn*> list;
+};
+
+ReadingWriter::ReadingWriter(const ReadingTable& head, bool directions, bool degrees)
+    : head_(head),
+      columns_(std::make_shared<Columns>(Columns{written_columns(head, directions, degrees)})) {}
+
+std::string ReadingWriter::head_text() const {
+    std::string out;
+    for (const auto& [key, value] : head_.comment) out += "# " + key + " = " + value + '\n';
+    const std::string sides = format_sides(head_.axes, head_.side_before);
+    if (!sides.empty()) out += "# side = " + sides + '\n';
+    for (const ReadingColumn* column : columns_->list) {
+        if (column != columns_->list.front()) out += ',';
+        out += column->name;
+        if (column->name == "feature")
+            for (const Axis axis : head_.axes) out += ',' + axis_column_name(axis);
+    }
+    return out + '\n';
+}
+
+void ReadingWriter::append(const Reading& row, std::string& out) const {
+    for (const ReadingColumn* column : columns_->list) {
+        if (column != columns_->list.front()) out += ',';
+        out += column->text(row);
+        if (column->name == "feature")
+            for (const Axis axis : head_.axes) out += ',' + axis_text(row, axis);
+    }
+    out += '\n';
+}
+
+std::string format_readings(const ReadingTable& table) {
+    const auto any = [&](const auto& has) {
+        return std::any_of(table.rows.begin(), table.rows.end(), has);
+    };
+    const ReadingWriter writer(table, any([](auto& row) { return has_direction(row.device); }),
+                               any([](auto& row) { return row.angular; }));
+    std::string out = writer.head_text();
+    for (const Reading& row : table.rows) writer.append(row, out);
     return out;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,7 +14,7 @@
 
 namespace trunnion {
 
-enum class Device : unsigned char { none, sphere, touch, ballbar };
+enum class Device : unsigned char { none, sphere, touch, ballbar, linear, angle, point, axis };
 
 /// since_reversal of an axis that has not turned since its test began: more than this (mm or rad).
 constexpr double no_reversal_seen = 1e6;
@@ -28,8 +29,12 @@ struct Reading {
     PositioningMode mode = PositioningMode::none;
     Device device = Device::none;
     std::string feature;
-    AxisPositions commanded;  ///< mm and rad (deg in the file)
-    Vector3 direction_M = Vector3::Zero();
+    AxisPositions commanded;                ///< mm and rad (deg in the file)
+    std::optional<Vector3> point_W_mm;      ///< tip that the program meant
+    Vector3 direction_M = Vector3::Zero();  ///< of a `point` row: in the instrument's frame
+    /// `value_mm`, `sigma_mm`, `velocity_mm_s` and `acceleration_mm_s2` are rad, rad/s, rad/s^2:
+    /// rows of an autocollimator, and servo rows of a rotary axis.
+    bool angular = false;
     std::optional<double> value_mm;
     double feed_mm_min = 0.0;
     double spindle_rad = 0.0;
@@ -38,21 +43,28 @@ struct Reading {
     bool clamped = false;
     double extension_mm = 0.0;  ///< stylus ball or cup hangs so much lower than the setup says
     std::optional<double> sigma_mm;
-    int line = 0;  ///< in the file, 0 when simulated
-    int part = 0;  ///< of a joined table: which file
+    std::optional<double> velocity_mm_s,
+        acceleration_mm_s2;  ///< commanded, of an `axis` row's axis
+    std::string session;     ///< day or set-up; a new one begins anew
+    std::string instrument;  ///< name of an [[instrument]]; empty: the only one, or none
+    std::string source;      ///< file:line that an imported value came from
+    int line = 0;            ///< in the file, 0 when simulated
+    int part = 0;            ///< of a joined table: which file
 };
 
 struct ReadingTable {
     std::string path;                            ///< of the file, for messages
     std::vector<std::string> parts;              ///< of a joined table: path of each file
     std::map<std::string, std::string> comment;  ///< `# key = value`
-    std::vector<Axis> axes;                      ///< machine axes with a column
-    std::vector<std::string> optional_columns;   ///< optional columns present, in file order
+    AxisSides side_before{};  ///< head line `side`: of the first session; 0 where not told
+    std::vector<Axis> axes;   ///< machine axes with a column
+    std::vector<std::string> optional_columns;  ///< optional columns present, in file order
     std::vector<Reading> rows;
 };
 
-/// Reads the CSV text. Throws InputError with line and column. Unknown columns are listed in
-/// `notes`.
+/// Reads the CSV text. Throws InputError with line and column: a cell that is no number, a row
+/// that does not fit its device (direction no unit vector, degrees for mm, an axis without a
+/// column), time that runs back. Unknown columns are listed in `notes`.
 ReadingTable parse_readings(std::string_view text, const std::string& path,
                             std::vector<std::string>& notes);
 /// Several tables as one, in the order given: one that starts before the last one ended is taken as
@@ -63,6 +75,22 @@ ReadingTable join_readings(std::vector<ReadingTable> tables);
 SourceRef place_of(const ReadingTable& table, const Reading& row);
 /// The same table as text; numbers read back to the same double.
 std::string format_readings(const ReadingTable& table);
+/// The same text row by row, for tables too long to be kept. `head` (without its rows) must outlive
+/// the writer.
+class ReadingWriter {
+  public:
+    /// Whether any row has a direction, and one in degrees.
+    ReadingWriter(const ReadingTable& head, bool directions, bool degrees);
+    std::string head_text() const;
+    void append(const Reading& row, std::string& out) const;
+
+  private:
+    struct Columns;
+    const ReadingTable& head_;
+    std::shared_ptr<const Columns> columns_;
+};
+/// "X+ Y+ C-": the axes of `axes` whose side is known.
+std::string format_sides(const std::vector<Axis>& axes, const AxisSides& sides);
 
 /// AxisSample of each row: velocity and direction of travel by the contract's rules. Ballbar rows:
 /// central differences within the test, travel 0 where the axis stands or turns within rounding.

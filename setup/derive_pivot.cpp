@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "setup/setup.h"
 #include "base/alarm.h"
 #include "offsets/axis_numbers.h"
 #include "offsets/pivot_parameters.h"
+#include "setup/setup.h"
 
 namespace trunnion {
 

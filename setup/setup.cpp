@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/units.h"
 #include "setup/setup_reader.h"
 
 namespace trunnion {
@@ -74,6 +75,19 @@ const Artefact* Setup::find_artefact(const std::string& wanted) const {
     for (const Artefact& artefact : artefacts)
         if (artefact.name == wanted) return &artefact;
     return nullptr;
+}
+
+const Instrument* Setup::find_instrument(const std::string& wanted) const {
+    for (const Instrument& instrument : instruments)
+        if (instrument.name == wanted) return &instrument;
+    return nullptr;
+}
+
+Pose Instrument::pose_IM() const {
+    const auto turn = [&](Eigen::Index k) {
+        return rotation_about(Vector3::Unit(k), rad_from_deg(rotation_deg(k)));
+    };
+    return {turn(2) * turn(1) * turn(0), origin_mm};
 }
 
 Setup load_setup(const std::string& path, std::vector<std::string>& notes,

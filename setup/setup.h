@@ -53,12 +53,27 @@ struct BallbarSettings {
 };
 
 struct Artefact {
-    enum class Kind : unsigned char { sphere, center_pivot };
+    enum class Kind : unsigned char { sphere, center_pivot, target };
     std::string name;
     Kind kind = Kind::sphere;
     Vector3 center_W_mm = Vector3::Zero();
+    /// Of a target that the tool carries, in S (of an arm without X, Y, Z: from the last axis's
+    /// point_mm, along M's axes at zero); a target without it stands on the table at center_W_mm.
+    std::optional<Vector3> tool_S_mm;
     double diameter_mm = 25.4;
     bool free_center = false;
+    bool free_tool = false;
+};
+
+/// A tracker, CMM or the like that reads points (`point` rows): p_I = pose_IM * p_M.
+struct Instrument {
+    std::string name;
+    bool sees_table = false;  ///< frame = "W": reads points of the work, later, in W instead of M
+    Vector3 origin_mm = Vector3::Zero();     ///< of M, in the instrument's frame
+    Vector3 rotation_deg = Vector3::Zero();  ///< of M, about the instrument's fixed X, then Y, Z
+    bool free_pose = false;                  ///< six small numbers left of the pose, each session
+    bool free_scale = false;                 ///< a factor on what it reads, each session
+    Pose pose_IM() const;
 };
 
 /// One entry of [effects]: name and parameters as in formats.md; a parameter may be a vector.
@@ -75,15 +90,25 @@ struct CalibrationPrior {
 /// [model]: what identification and diagnosis know beforehand.
 struct ModelSettings {
     std::vector<std::string> modelled = {"location"};
-    std::map<std::string, double> noise_um;               ///< by device name
+    std::map<std::string, double> noise_um;               ///< by device name, of rows in mm
+    std::map<std::string, double> noise_urad;             ///< the same of rows in degrees
     std::map<std::string, CalibrationPrior> calibration;  ///< by ISO 230 name
 };
+
+/// +1 for every axis.
+constexpr AxisSides came_travelling_plus() {
+    AxisSides sides{};
+    sides.fill(1);
+    return sides;
+}
 
 struct Setup {
     std::string name;
     std::string path;  ///< of the file, for messages
     std::string chain_text;
     Machine machine;
+    AxisSides side_before = came_travelling_plus();  ///< [machine] side: before the first move
+    std::array<bool, axis_count> scale_encoder{};  ///< encoder = "scale": reads behind the backlash
     std::vector<EffectSetting> effects;
     Dialect dialect;
     TcpFrame tcp_frame = TcpFrame::start;    ///< [control] tcp_frame = "start" or "rotary_zero"
@@ -96,9 +121,11 @@ struct Setup {
     std::optional<ProbeSettings> probe;
     std::optional<BallbarSettings> ballbar;
     std::vector<Artefact> artefacts;
+    std::vector<Instrument> instruments;
     ModelSettings model;
 
     const Artefact* find_artefact(const std::string& name) const;
+    const Instrument* find_instrument(const std::string& name) const;
 };
 
 /// Fills the stores from the backup folder that [control] names, before the file's own keys

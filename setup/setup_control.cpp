@@ -1,9 +1,9 @@
 // [control]: dialect and stores of a setup file.
 #include <filesystem>
 
-#include "setup/setup_reader.h"
 #include "base/numbers.h"
 #include "offsets/parameter_units.h"
+#include "setup/setup_reader.h"
 
 namespace trunnion {
 namespace {

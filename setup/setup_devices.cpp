@@ -1,4 +1,5 @@
-// [probe], [ballbar], [[artefact]], [model] and [effects] of a setup file.
+// [probe], [ballbar], [model] and [effects] of a setup file.
+#include "setup/artefact_keys.h"
 #include "setup/setup_reader.h"
 
 namespace trunnion {
@@ -32,18 +33,6 @@ void read_probe(const TomlFile& file, const TomlValue& table, Setup& setup) {
     setup.probe = probe;
 }
 
-bool lists(const std::vector<std::string>& list, const char* name) {
-    for (const std::string& item : list)
-        if (item == name) return true;
-    return false;
-}
-
-void check_free(const TomlFile& file, const TomlValue& value, const std::vector<std::string>& list,
-                const std::vector<std::string>& allowed) {
-    for (const std::string& item : list)
-        if (!lists(allowed, item.c_str())) file.fail(value, "'" + item + "' cannot be free here");
-}
-
 void read_ballbar(const TomlFile& file, const TomlValue& table, Setup& setup) {
     BallbarSettings bar;
     if (const TomlValue* cup = file.table(table).find("cup_mm")) bar.cup_S_mm = file.vector3(*cup);
@@ -55,36 +44,12 @@ void read_ballbar(const TomlFile& file, const TomlValue& table, Setup& setup) {
     bar.temperature_c = file.find_number(table, "temperature_c").value_or(20.0);
     bar.read_temperature_c = file.find_number(table, "read_temperature_c").value_or(20.0);
     if (const TomlValue* free = table.find("free")) {
-        const auto list = file.texts(*free);
-        check_free(file, *free, list, {"cup", "length"});
-        bar.free_cup = lists(list, "cup");
-        bar.free_length = lists(list, "length");
+        const auto names = read_free(file, *free, {"cup", "length"});
+        bar.free_cup = names.contains("cup");
+        bar.free_length = names.contains("length");
     }
     bar.extension_errors = read_extensions(file, table);
     setup.ballbar = bar;
-}
-
-Artefact read_artefact(const TomlFile& file, const TomlValue& table, const Setup& setup) {
-    Artefact artefact;
-    const TomlValue* name = file.table(table).find("name");
-    if (!name) file.fail(table, "this [[artefact]] has no name");
-    artefact.name = file.text(*name);
-    if (setup.find_artefact(artefact.name)) file.fail(*name, "two artefacts have this name");
-    if (const TomlValue* kind = table.find("kind")) {
-        if (file.text(*kind) != "sphere" && file.text(*kind) != "center_pivot")
-            file.fail(*kind, "kind is \"sphere\" or \"center_pivot\"");
-        artefact.kind =
-            kind->text == "sphere" ? Artefact::Kind::sphere : Artefact::Kind::center_pivot;
-    }
-    const TomlValue* center = table.find("center_mm");
-    if (!center) file.fail(table, "artefact " + artefact.name + " has no center_mm");
-    artefact.center_W_mm = file.vector3(*center);
-    if (const TomlValue* d = table.find("diameter_mm")) artefact.diameter_mm = file.positive(*d);
-    if (const TomlValue* free = table.find("free")) {
-        check_free(file, *free, file.texts(*free), {"center"});
-        artefact.free_center = lists(file.texts(*free), "center");
-    }
-    return artefact;
 }
 
 CalibrationPrior read_prior(const TomlFile& file, const std::string& name, const TomlValue& table) {
@@ -96,15 +61,26 @@ CalibrationPrior read_prior(const TomlFile& file, const std::string& name, const
     return {file.find_number(table, "value" + unit).value_or(0.0), file.positive(*sigma)};
 }
 
+/// One sigma of each device; other names are noted as unknown keys.
+std::map<std::string, double> read_noise(const TomlFile& file, const TomlValue& table,
+                                         const char* key, const std::set<std::string>& devices) {
+    std::map<std::string, double> noise;
+    const TomlValue* list = table.find(key);
+    if (!list) return noise;
+    for (const auto& [device, value] : file.table(*list).entries) {
+        if (!devices.contains(device)) continue;
+        value.used = true;
+        noise[device] = file.positive(value);
+    }
+    return noise;
+}
+
 void read_model(const TomlFile& file, const TomlValue& table, ModelSettings& model) {
     if (const TomlValue* modelled = file.table(table).find("modelled"))
         model.modelled = file.texts(*modelled);
-    if (const TomlValue* noise = table.find("noise_um"))
-        for (const auto& [device, value] : file.table(*noise).entries) {
-            if (device != "sphere" && device != "touch" && device != "ballbar") continue;
-            value.used = true;
-            model.noise_um[device] = file.positive(value);
-        }
+    model.noise_um = read_noise(file, table, "noise_um",
+                                {"sphere", "touch", "ballbar", "linear", "point", "axis"});
+    model.noise_urad = read_noise(file, table, "noise_urad", {"angle", "axis"});
     if (const TomlValue* calibration = table.find("calibration"))
         for (const auto& [name, value] : file.table(*calibration).entries) {
             value.used = true;
@@ -131,12 +107,8 @@ void read_devices(const TomlFile& file, Setup& setup) {
     const TomlValue& root = file.root();
     if (const TomlValue* table = root.find("probe")) read_probe(file, *table, setup);
     if (const TomlValue* table = root.find("ballbar")) read_ballbar(file, *table, setup);
-    if (const TomlValue* list = root.find("artefact")) {
-        if (list->kind != TomlValue::Kind::array)
-            file.fail(*list, "write [[artefact]], twice in brackets");
-        for (const TomlValue& item : list->items)
-            setup.artefacts.push_back(read_artefact(file, item, setup));
-    }
+    read_artefacts(file, setup);
+    read_instruments(file, setup);
     if (const TomlValue* table = root.find("model")) read_model(file, *table, setup.model);
     if (const TomlValue* table = root.find("effects")) read_effects(file, *table, setup);
 }

@@ -1,10 +1,12 @@
 // A setup as TOML that loads again to the same value.
 #include <cmath>
 
-#include "setup/setup.h"
 #include "base/numbers.h"
 #include "base/units.h"
 #include "offsets/parameter_units.h"
+#include "setup/artefact_keys.h"
+#include "setup/setup.h"
+#include "setup/toml_text.h"
 
 namespace trunnion {
 namespace {
@@ -35,27 +37,6 @@ std::string speed(bool rotary, double value) {
     return text_for(value, 60.0 * (rotary ? deg_from_rad(value) : value), inside);
 }
 
-template <class List, class Text>
-std::string list_of(const List& list, const Text& text) {
-    std::string out = "[";
-    for (const auto& item : list) out += (out.size() > 1 ? ", " : "") + text(item);
-    return out + ']';
-}
-
-template <class List>
-std::string numbers(const List& list) {
-    return list_of(list, [](double v) { return shortest(v); });
-}
-
-std::string quoted(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') out += '\\';
-        out += c;
-    }
-    return out + '"';
-}
-
 std::string curve_text(const ErrorCurve& curve, bool rotary) {
     std::string out;
     const auto add = [&](const std::string& key, const std::string& value) {
@@ -64,23 +45,23 @@ std::string curve_text(const ErrorCurve& curve, bool rotary) {
     if (curve.constant != 0.0) add("constant", shortest(curve.constant));
     if (curve.slope != 0.0) add("slope", shortest(curve.slope));
     if (!curve.at.empty()) {
-        add(rotary ? "at_rad" : "at_mm", numbers(curve.at));
-        add("value", numbers(curve.value));
+        add(rotary ? "at_rad" : "at_mm", toml_numbers(curve.at));
+        add("value", toml_numbers(curve.value));
         add("interpolation",
             curve.interpolation == ErrorCurve::Interpolation::cubic ? "\"cubic\"" : "\"linear\"");
     }
     if (curve.period_mm != 0.0) add("period_mm", shortest(curve.period_mm));
     if (!curve.harmonics.empty())
-        add("harmonics", list_of(curve.harmonics, [](const ErrorCurve::Harmonic& h) {
-                return numbers(std::array{h.order, h.cosine, h.sine});
+        add("harmonics", toml_list(curve.harmonics, [](const ErrorCurve::Harmonic& h) {
+                return toml_numbers(std::array{h.order, h.cosine, h.sine});
             }));
     return "{ " + out + " }";
 }
 
 std::string axis_text(const AxisGeometry& axis, double backlash) {
     std::string out = std::string("\n[machine.axis.") + letter_of(axis.axis) + "]\n";
-    out += "direction = " + numbers(axis.direction) + '\n';
-    if (axis.rotary) out += "point_mm = " + numbers(axis.point_mm) + '\n';
+    out += "direction = " + toml_numbers(axis.direction) + '\n';
+    if (axis.rotary) out += "point_mm = " + toml_numbers(axis.point_mm) + '\n';
     if (axis.min && axis.max)
         out += std::string(axis.rotary ? "limits_deg" : "limits_mm") + " = [" +
                position(axis.rotary, *axis.min) + ", " + position(axis.rotary, *axis.max) + "]\n";
@@ -125,13 +106,24 @@ std::string spindle_error_text(const AxisErrors& errors) {
     return out;
 }
 
+/// The axes that came from the minus side; plus is what a file without the key says.
+std::string sides_text(const Setup& setup) {
+    std::string out;
+    for (const AxisGeometry& axis : setup.machine.chain.axes())
+        if (setup.side_before[index_of(axis.axis)] < 0)
+            out += (out.empty() ? "" : ", ") + std::string(1, letter_of(axis.axis)) + " = \"-\"";
+    return out.empty() ? out : "side = { " + out + " }\n";
+}
+
 std::string machine_text(const Setup& setup) {
-    std::string out = "schema = \"trunnion.setup/1\"\n\n[machine]\nname = " + quoted(setup.name) +
-                      "\nchain = " + quoted(setup.chain_text) + '\n';
+    std::string out =
+        "schema = \"trunnion.setup/1\"\n\n[machine]\nname = " + toml_quoted(setup.name) +
+        "\nchain = " + toml_quoted(setup.chain_text) + '\n' + sides_text(setup);
     std::string errors;
     for (const AxisGeometry& axis : setup.machine.chain.axes()) {
         const AxisErrors& own = setup.machine.errors.axis[index_of(axis.axis)];
         out += axis_text(axis, own.backlash);
+        if (setup.scale_encoder[index_of(axis.axis)]) out += "encoder = \"scale\"\n";
         errors += axis_error_text(axis, own);
     }
     errors += spindle_error_text(setup.machine.errors.spindle);
@@ -249,13 +241,13 @@ std::string extensions_text(const ExtensionErrors& errors) {
     std::vector<double> flat;
     for (const auto& [length_mm, shift] : errors)
         for (const double v : {length_mm, shift.x(), shift.y(), shift.z()}) flat.push_back(v);
-    return flat.empty() ? "" : "extension_errors_mm = " + numbers(flat) + '\n';
+    return flat.empty() ? "" : "extension_errors_mm = " + toml_numbers(flat) + '\n';
 }
 
 std::string probe_text(const ProbeSettings& probe) {
     std::string out = "\n[probe]\n";
     if (probe.tool != 0) out += "tool = " + std::to_string(probe.tool) + '\n';
-    return out + "tip_mm = " + numbers(probe.tip_S_mm) +
+    return out + "tip_mm = " + toml_numbers(probe.tip_S_mm) +
            "\nball_diameter_mm = " + shortest(probe.ball_diameter_mm) +
            "\nrepeatability_um = " + shortest(probe.repeatability_um) +
            "\npretravel_um = " + shortest(probe.pretravel_um) + '\n' +
@@ -263,14 +255,14 @@ std::string probe_text(const ProbeSettings& probe) {
 }
 
 std::string texts(const std::vector<std::string>& list) {
-    return list_of(list, quoted);
+    return toml_list(list, toml_quoted);
 }
 
 std::string ballbar_text(const BallbarSettings& bar) {
     std::vector<std::string> free;
     if (bar.free_cup) free.push_back("cup");
     if (bar.free_length) free.push_back("length");
-    return "\n[ballbar]\ncup_mm = " + numbers(bar.cup_S_mm) +
+    return "\n[ballbar]\ncup_mm = " + toml_numbers(bar.cup_S_mm) +
            "\nlength_mm = " + shortest(bar.length_mm) +
            "\nexpansion_per_k = " + shortest(bar.expansion_per_k) +
            "\ntemperature_c = " + shortest(bar.temperature_c) +
@@ -280,20 +272,17 @@ std::string ballbar_text(const BallbarSettings& bar) {
            "\nfree = " + texts(free) + '\n' + extensions_text(bar.extension_errors);
 }
 
-std::string artefact_text(const Artefact& artefact) {
-    std::string out = "\n[[artefact]]\nname = " + quoted(artefact.name) + "\nkind = ";
-    out += artefact.kind == Artefact::Kind::sphere ? "\"sphere\"\n" : "\"center_pivot\"\n";
-    out += "center_mm = " + numbers(artefact.center_W_mm) +
-           "\ndiameter_mm = " + shortest(artefact.diameter_mm) + '\n';
-    if (artefact.free_center) out += "free = [\"center\"]\n";
-    return out;
+std::string noise_text(const char* key, const std::map<std::string, double>& noise) {
+    std::string out;
+    for (const auto& [device, sigma] : noise)
+        out += (out.empty() ? "" : ", ") + device + " = " + shortest(sigma);
+    return out.empty() ? out : std::string(key) + " = { " + out + " }\n";
 }
 
 std::string model_text(const ModelSettings& model) {
-    std::string out = "\n[model]\nmodelled = " + texts(model.modelled) + '\n', noise;
-    for (const auto& [device, um] : model.noise_um)
-        noise += (noise.empty() ? "" : ", ") + device + " = " + shortest(um);
-    if (!noise.empty()) out += "noise_um = { " + noise + " }\n";
+    std::string out = "\n[model]\nmodelled = " + texts(model.modelled) + '\n' +
+                      noise_text("noise_um", model.noise_um) +
+                      noise_text("noise_urad", model.noise_urad);
     if (!model.calibration.empty()) out += "\n[model.calibration]\n";
     for (const auto& [name, prior] : model.calibration) {
         const auto error = parse_error_name(name);
@@ -310,8 +299,8 @@ std::string effects_text(const std::vector<EffectSetting>& effects) {
         std::string inner;
         for (const auto& [name, values] : effect.parameters)
             inner += (inner.empty() ? "" : ", ") + name + " = " +
-                     (values.size() == 1 ? shortest(values[0]) : numbers(values));
-        out += quoted(effect.name) + " = { " + inner + " }\n";
+                     (values.size() == 1 ? shortest(values[0]) : toml_numbers(values));
+        out += toml_quoted(effect.name) + " = { " + inner + " }\n";
     }
     return out.empty() ? out : "\n[effects]\n" + out;
 }
@@ -323,6 +312,7 @@ std::string format_setup(const Setup& setup) {
     if (setup.probe) out += probe_text(*setup.probe);
     if (setup.ballbar) out += ballbar_text(*setup.ballbar);
     for (const Artefact& artefact : setup.artefacts) out += artefact_text(artefact);
+    for (const Instrument& instrument : setup.instruments) out += instrument_text(instrument);
     return out + model_text(setup.model);
 }
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "setup/setup_reader.h"
 #include "base/units.h"
+#include "setup/setup_reader.h"
 
 namespace trunnion {
 namespace {
@@ -57,12 +57,35 @@ AxisGeometry* find_axis(Chain& chain, std::string_view letter) {
     return nullptr;
 }
 
+/// Where the axis's own encoder sits: at the motor, or as a scale behind the drive.
+bool read_scale_encoder(const TomlFile& file, const TomlValue& table) {
+    const TomlValue* encoder = table.find("encoder");
+    if (!encoder) return false;
+    if (file.text(*encoder) != "motor" && file.text(*encoder) != "scale")
+        file.fail(*encoder, "encoder is \"motor\" or \"scale\"");
+    return encoder->text == "scale";
+}
+
+/// Side from which the axes came before their first move; those not named: travelling +.
+void read_sides(const TomlFile& file, const TomlValue& sides, Setup& setup) {
+    for (const auto& [letter, value] : file.table(sides).entries) {
+        value.used = true;
+        const AxisGeometry* axis = find_axis(setup.machine.chain, letter);
+        if (!axis) file.fail(value, "axis " + letter + " does not stand in the chain");
+        if (file.text(value) != "+" && file.text(value) != "-")
+            file.fail(value, "a side is \"+\" or \"-\"");
+        setup.side_before[index_of(axis->axis)] = value.text == "+" ? 1 : -1;
+    }
+}
+
 void read_axes(const TomlFile& file, const TomlValue& axes, Setup& setup) {
     for (const auto& [letter, value] : file.table(axes).entries) {
         value.used = true;
         AxisGeometry* axis = find_axis(setup.machine.chain, letter);
         if (!axis) file.fail(value, "axis " + letter + " does not stand in the chain");
-        read_axis(file, file.table(value), *axis, setup.machine.errors.axis[index_of(axis->axis)]);
+        const std::size_t k = index_of(axis->axis);
+        read_axis(file, file.table(value), *axis, setup.machine.errors.axis[k]);
+        setup.scale_encoder[k] = read_scale_encoder(file, value);
     }
 }
 
@@ -167,6 +190,7 @@ void read_machine(const TomlFile& file, const TomlValue& machine, Setup& setup) 
         read_axes(file, *axes, setup);
         check_linear_axes(file, *axes, setup.machine.chain);
     }
+    if (const TomlValue* sides = machine.find("side")) read_sides(file, *sides, setup);
     if (const TomlValue* errors = machine.find("errors"))
         read_machine_errors(file, file.table(*errors), setup);
 }

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "setup/setup.h"
 #include "base/toml_reader.h"
+#include "setup/setup.h"
 
 namespace trunnion {
 

@@ -68,6 +68,7 @@ TEST_CASE("a table is read with units, comments and unknown columns noted") {
 
 TEST_CASE("bad tables name the place") {
     check_fault("", "no header", 1, 1);
+    check_fault(header + "1,5,t,,\"ball\"bar,P,0,0,,,,0\n", "behind a closed quote", 2, 14);
     check_fault("a,b\n", "column 'index' is missing", 1, 1);
     check_fault(header, "no rows", 1, 1);
     check_fault(header + "1,nan,t,,ballbar,P,0,0,,,,0\n", "not a finite number", 2, 3);
@@ -115,6 +116,62 @@ TEST_CASE("text reads back to the same values") {
     }
     CHECK(format_readings(again) == text);
     CHECK(again.comment.at("seed") == "7");
+}
+
+namespace {
+
+const std::string instrument_table =
+    "# side = X+ C-\n"
+    "index,time_s,test,device,feature,x_mm,c_deg,dir_x,dir_y,dir_z,px_mm,py_mm,pz_mm,"
+    "velocity_mm_s,velocity_deg_s,sigma_mm,sigma_deg,session,instrument,source,value_mm,value_deg\n"
+    "0,0,t,linear,R1,10,0,1,0,0,1,2,3,,,0.001,,mon,,laser.csv:7,0.002,\n"
+    "1,1,t,angle,M1,10,30,0,0,1,,,,,,,0.0001,mon,,,,-0.001\n"
+    "2,2,t,point,R1,20,30,0,1,0,,,,,,,,tue,T2,,0.5,\n"
+    "3,3,t,axis,X,20,30,,,,,,,12.5,,,,tue,,,0.001,\n"
+    "4,4,t,axis,C,20,31,,,,,,,,6,,,tue,,,,0.25\n"
+    "5,5,\"a \"\"b\"\", c\",angle,M1,20,31,0,0,-1,,,,,,,,tue,,,,\n";
+
+}  // namespace
+
+TEST_CASE("rows of laser, autocollimator, tracker and servo log carry their units") {
+    const ReadingTable table = read(instrument_table);
+    REQUIRE(table.rows.size() == 6);
+    CHECK(table.side_before[index_of(Axis::X)] == 1);
+    CHECK(table.side_before[index_of(Axis::C)] == -1);
+    CHECK(table.side_before[index_of(Axis::Y)] == 0);
+    CHECK(table.rows[0].device == Device::linear);
+    CHECK(*table.rows[0].point_W_mm == Vector3(1, 2, 3));
+    CHECK_FALSE(table.rows[1].point_W_mm);
+    CHECK(table.rows[0].source == "laser.csv:7");
+    CHECK(table.rows[1].angular);
+    CHECK(*table.rows[1].value_mm == rad_from_deg(-0.001));
+    CHECK(*table.rows[1].sigma_mm == rad_from_deg(0.0001));
+    CHECK(table.rows[2].instrument == "T2");
+    CHECK(table.rows[2].session == "tue");
+    CHECK(*table.rows[3].velocity_mm_s == 12.5);
+    CHECK_FALSE(table.rows[3].angular);
+    CHECK(*table.rows[4].velocity_mm_s == rad_from_deg(6));
+    CHECK(table.rows[5].test == "a \"b\", c");
+    CHECK(table.rows[5].angular);  // without a value, too
+    CHECK(format_readings(table) == format_readings(read(format_readings(table))));
+    CHECK(read(format_readings(table)).rows[4].value_mm == table.rows[4].value_mm);
+    CHECK(read(format_readings(table)).side_before == table.side_before);
+}
+
+TEST_CASE("rows that do not fit their device name the place") {
+    const std::string names =
+        "index,time_s,test,device,feature,x_mm,c_deg,dir_x,dir_y,dir_z,value_mm,value_deg\n";
+    check_fault(names + "0,0,t,angle,M,0,0,0,0,1,0.1,\n", "read in degrees", 2, 1);
+    check_fault(names + "0,0,t,linear,M,0,0,0,0,1,,0.1\n", "read in mm", 2, 1);
+    check_fault(names + "0,0,t,linear,M,0,0,0,0,1,0.1,0.1\n", "mm and degrees", 2, 30);
+    check_fault(names + "0,0,t,linear,M,0,0,0,0,2,0.1,\n", "unit vector", 2, 1);
+    check_fault(names + "0,0,t,axis,Y,0,0,,,,0.1,\n", "axis of this table, not 'Y'", 2, 1);
+    check_fault(names + "0,0,t,axis,C,0,0,,,,0.1,\n", "read in degrees", 2, 1);
+    check_fault(names + "0,0,t,laser,X,0,0,,,,0.1,\n", "device is sphere, touch", 2, 7);
+    check_fault("# side = X+ Y+\n" + names + "0,0,t,,,0,0,,,,,\n", "no column", 1, 13);
+    check_fault("# side = X+ X-\n" + names + "0,0,t,,,0,0,,,,,\n", "twice", 1, 13);
+    check_fault("# side = X\n" + names + "0,0,t,,,0,0,,,,,\n", "side reads", 1, 10);
+    check_fault("index,time_s,test,device,feature,x_mm,px_mm,value_mm\n", "stand together", 1, 1);
 }
 
 TEST_CASE("numbers are strict and short") {

@@ -21,6 +21,7 @@ point_mm  = [1, 2, 40]
 )";
 const std::string head =
     "schema = \"trunnion.setup/1\"\n[machine]\nname = \"m\"\nchain = \"w C B b X Y Z t\"\n";
+const std::string sided = head + "side = { C = \"-\", X = \"+\" }\n";
 
 Setup read(const std::string& text, std::vector<std::string>* notes = nullptr) {
     std::vector<std::string> own;
@@ -41,11 +42,12 @@ void check_fault(const std::string& text, const std::string& part, int line) {
     }
 }
 
-const std::string everything = head + axes + R"(
+const std::string everything = sided + axes + R"(
 [machine.axis.X]
 limits_mm = [-400, 400]
 max_mm_min = 36000
 accel_mm_s2 = 4000
+encoder = "scale"
 [machine.errors]
 EX0C_mm = 0.012
 EA0C_rad = 2.0e-5
@@ -95,9 +97,25 @@ free = ["center"]
 name = "P1"
 kind = "center_pivot"
 center_mm = [1, 2, 3]
+[[artefact]]
+name = "R1"
+kind = "target"
+tool_mm = [0, 0, -150]
+free = ["tool"]
+[[artefact]]
+name = "R2"
+kind = "target"
+center_mm = [7, 8, 9]
+[[instrument]]
+name = "tracker"
+frame = "W"
+origin_mm = [1000, 0, 0]
+rotation_deg = [0, 0, 90]
+free = ["pose", "scale"]
 [model]
 modelled = ["location", "C.backlash"]
-noise_um = { sphere = 0.8, ballbar = 0.3 }
+noise_um = { sphere = 0.8, ballbar = 0.3, linear = 0.1 }
+noise_urad = { angle = 2 }
 [model.calibration]
 EX0C = { value_mm = 0.012, sigma_mm = 0.001 }
 )";
@@ -143,6 +161,22 @@ TEST_CASE("every key of the contract arrives") {
     REQUIRE(s.find_artefact("P1"));
     CHECK(s.find_artefact("P1")->kind == Artefact::Kind::center_pivot);
     CHECK(s.find_artefact("S1")->free_center);
+    CHECK(s.side_before[index_of(Axis::C)] == -1);
+    CHECK(s.side_before[index_of(Axis::Y)] == 1);
+    CHECK(s.scale_encoder[index_of(Axis::X)]);
+    CHECK_FALSE(s.scale_encoder[index_of(Axis::Y)]);
+    CHECK(s.find_artefact("R1")->kind == Artefact::Kind::target);
+    CHECK(*s.find_artefact("R1")->tool_S_mm == Vector3(0, 0, -150));
+    CHECK(s.find_artefact("R1")->free_tool);
+    CHECK_FALSE(s.find_artefact("R2")->tool_S_mm);
+    REQUIRE(s.find_instrument("tracker"));
+    CHECK(s.find_instrument("tracker")->free_scale);
+    CHECK(s.find_instrument("tracker")->sees_table);
+    // M's X axis is the instrument's Y.
+    const Vector3 seen = s.find_instrument("tracker")->pose_IM() * Vector3(2, 0, 5);
+    CHECK((seen - Vector3(1000, 2, 5)).norm() < 1e-12);
+    CHECK(s.model.noise_um.at("linear") == 0.1);
+    CHECK(s.model.noise_urad.at("angle") == 2);
     CHECK(s.model.modelled.size() == 2);
     CHECK(s.model.noise_um.at("ballbar") == 0.3);
     CHECK(s.model.calibration.at("EX0C").sigma == 0.001);
@@ -244,6 +278,16 @@ TEST_CASE("a bad setup names its place") {
     check_fault(
         head + axes + "[[artefact]]\nname = \"a\"\ncenter_mm=[0,0,0]\n[[artefact]]\nname = \"a\"\n",
         "two artefacts", 17);
+    const std::string target = head + axes + "[[artefact]]\nname = \"a\"\nkind = \"target\"\n";
+    check_fault(target, "no tool_mm", 13);
+    check_fault(target + "tool_mm=[0,0,0]\ncenter_mm=[0,0,0]\n", "not both", 16);
+    check_fault(target + "tool_mm=[0,0,0]\nfree=[\"center\"]\n", "cannot be free", 17);
+    check_fault(head + axes + "[[instrument]]\nfree = []\n", "no name", 13);
+    check_fault(head + axes + "[[instrument]]\nname=\"T\"\nfree = [\"zero\"]\n", "cannot be free",
+                15);
+    check_fault(head + "side = { A = \"-\" }\n" + axes, "axis A does not stand", 5);
+    check_fault(head + "side = { C = \"left\" }\n" + axes, "a side is", 5);
+    check_fault(head + axes + "encoder = \"ruler\"\n", "encoder is", 13);
     check_fault(head + axes + "[model.calibration]\nEX0C = { value_mm = 1 }\n", "sigma_mm", 14);
 }
 

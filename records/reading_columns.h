@@ -1,0 +1,38 @@
+// The columns of a table of readings: how each is read into a row and written from it.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "records/readings.h"
+#include "records/table_line.h"
+
+namespace trunnion {
+
+/// Puts one cell into a row; throws InputError with the cell's place.
+using StoreCell = std::function<void(Reading&, const TableLine&, const TableCell&)>;
+using WriteCell = std::function<std::string(const Reading&)>;
+
+struct ReadingColumn {
+    std::string_view name;
+    StoreCell store;
+    WriteCell text;
+    bool optional = true;  ///< false: stands in every table, or (dir_x ..) where a row needs it
+};
+
+/// Every column but those of the axes.
+const std::vector<ReadingColumn>& reading_columns();
+/// nullptr when no column has this name.
+const ReadingColumn* find_reading_column(std::string_view name);
+
+std::string axis_column_name(Axis axis);  ///< "x_mm", "c_deg"
+std::optional<Axis> axis_of_column(std::string_view name);
+StoreCell axis_store(Axis axis);
+std::string axis_text(const Reading& row, Axis axis);
+
+/// The device reads along or about `dir_x dir_y dir_z`.
+bool has_direction(Device device);
+
+}  // namespace trunnion

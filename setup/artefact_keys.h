@@ -1,0 +1,22 @@
+// [[artefact]] and [[instrument]] of a setup file: what is measured and what measures it.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "base/toml_reader.h"
+#include "setup/setup.h"
+
+namespace trunnion {
+
+void read_artefacts(const TomlFile& file, Setup& setup);
+void read_instruments(const TomlFile& file, Setup& setup);
+/// The names of a list `free = [..]`; throws InputError for one that is not in `allowed`.
+std::set<std::string> read_free(const TomlFile& file, const TomlValue& value,
+                                const std::set<std::string>& allowed);
+
+/// The same as TOML.
+std::string artefact_text(const Artefact& artefact);
+std::string instrument_text(const Instrument& instrument);
+
+}  // namespace trunnion
