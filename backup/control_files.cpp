@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "backup/value_lines.h"
 #include "base/alarm.h"
+#include "base/output_files.h"
+#include "base/read_file.h"
 
 namespace trunnion {
 
@@ -21,14 +21,6 @@ std::string upper(std::string s) {
     for (char& c : s)
         if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
     return s;
-}
-
-std::string read_file(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    if (!in) throw InputError("cannot be read", {path.string()});
-    std::ostringstream bytes;
-    bytes << in.rdbuf();
-    return bytes.str();
 }
 
 const BackupValue* find_parameter(const std::vector<BackupValue>& values, int number) {
@@ -58,7 +50,7 @@ ControlBackup read_backup(const std::string& folder) {
         const std::string name = upper(entry.path().filename().string());
         if (std::find(backup_file_names.begin(), backup_file_names.end(), name) !=
             backup_file_names.end())
-            backup.files[name] = read_file(entry.path());
+            backup.files[name] = read_file(entry.path().string());
     }
     if (backup.files.empty())
         throw InputError("none of CNC-PARA.TXT, EXT_WKZ.TXT, TOOLOFST.TXT, MACRO.TXT is here",
@@ -67,16 +59,11 @@ ControlBackup read_backup(const std::string& folder) {
 }
 
 void write_backup(const ControlBackup& backup, const std::string& folder) {
-    fs::create_directories(folder);
-    for (const auto& [name, bytes] : backup.files) {
-        const fs::path path = fs::path(folder) / name, part = path.string() + ".part";
-        {
-            std::ofstream out(part, std::ios::binary);
-            out << bytes;
-            if (!out.flush()) throw InputError("cannot be written", {path.string()});
-        }
-        fs::rename(part, path);
-    }
+    make_folder(folder);
+    OutputFiles files;
+    for (const auto& [name, bytes] : backup.files)
+        files.add((fs::path(folder) / name).string(), bytes);
+    files.write();
 }
 
 std::vector<BackupValue> list_values(const ControlBackup& backup) {

@@ -1,11 +1,9 @@
 // trunnion backup load|save|diff: a real control's backup files.
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 
 #include "backup/control_files.h"
+#include "base/console.h"
 #include "cli/command.h"
-#include "cli/files.h"
 #include "cli/options.h"
 #include "cli/setups.h"
 
@@ -18,7 +16,7 @@ int load(const std::string& folder) {
     Stores stores;
     apply_backup(backup, stores);
     for (const BackupValue& v : list_values(backup))
-        fmt::print("{}\t{}\t{}\n", v.file, v.name, v.text);
+        print_out("{}\t{}\t{}\n", v.file, v.name, v.text);
     return exit_done;
 }
 
@@ -32,8 +30,8 @@ int save(const std::string& from, const std::string& to, const std::string& setu
 int diff(const std::string& a, const std::string& b) {
     const auto differences = diff_backups(read_backup(a), read_backup(b));
     for (const BackupDifference& d : differences)
-        fmt::print("{}\t{}\t{}\t{}\n", d.file, d.name, d.a.empty() ? "-" : d.a,
-                   d.b.empty() ? "-" : d.b);
+        print_out("{}\t{}\t{}\t{}\n", d.file, d.name, d.a.empty() ? "-" : d.a,
+                  d.b.empty() ? "-" : d.b);
     return differences.empty() ? exit_done : exit_differs;
 }
 

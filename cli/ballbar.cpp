@@ -1,9 +1,8 @@
 // trunnion ballbar: the single-set-up ballbar test: run, identify, compensate, run again.
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "base/output_files.h"
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/options.h"

@@ -7,15 +7,15 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/alarm.h"
+#include "base/output_files.h"
 #include "cli/command.h"
-#include "cli/files.h"
 #include "cli/options.h"
 #include "cli/setups.h"
 #include "controller/alarms.h"
 #include "controller/g_codes.h"
-#include "interpreter/program_folders.h"
 #include "emulator/run.h"
-#include "base/alarm.h"
+#include "interpreter/program_folders.h"
 #include "regression/suite.h"
 #include "report/findings_report.h"
 
@@ -93,7 +93,7 @@ int check(const CheckCommand& c) {
     const std::vector<std::string> files = files_of(c.paths);
     std::vector<Finding> findings;
     for (const std::string& file : files) {
-        const ProgramText program = map_program(file);
+        const ProgramText program = read_program(file);
         ProgramFolders programs = folders_for(program, c);
         CheckOptions options;
         options.dialect = setup.dialect;

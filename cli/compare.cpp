@@ -7,14 +7,17 @@
 #include <mutex>
 #include <thread>
 
+#include "base/alarm.h"
+#include "base/console.h"
+#include "base/output_files.h"
+#include "base/read_file.h"
+#include "base/units.h"
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/long_work.h"
 #include "cli/options.h"
 #include "cli/setups.h"
 #include "interpreter/program_folders.h"
-#include "base/alarm.h"
-#include "base/units.h"
 #include "regression/suite.h"
 #include "report/comparison_report.h"
 
@@ -61,7 +64,7 @@ SuiteCase case_of(const CompareCommand& c) {
 }
 
 CompareReport compare_two(const CompareCommand& c, const SuiteCase& like) {
-    const ProgramText a = map_program(c.a), b = map_program(c.b);
+    const ProgramText a = read_program(c.a), b = read_program(c.b);
     const Setup setup_a = open_setup(like.setup);
     CompareReport report;
     if (like.setup_b == like.setup) {
@@ -92,8 +95,8 @@ int update(const CompareCommand& c, const Suite& suite) {
         files.add(path, text);
     }
     files.write();
-    for (const auto& [path, text] : goldens) fmt::print("written: {}\n", path);
-    if (goldens.empty()) fmt::print("nothing to write: every golden is up to date\n");
+    for (const auto& [path, text] : goldens) print_out("written: {}\n", path);
+    if (goldens.empty()) print_out("nothing to write: every golden is up to date\n");
     return exit_done;
 }
 
@@ -156,7 +159,7 @@ int merge(const std::vector<std::string>& paths, const std::string& format_name,
           const std::string& out) {
     const ReportFormat format = report_format(format_name);
     std::vector<ComparePart> parts;
-    for (const std::string& path : paths) parts.push_back(parse_part(read_whole(path), path));
+    for (const std::string& path : paths) parts.push_back(parse_part(read_file(path), path));
     const CompareReport report = merge_parts(parts);
     put(out, format_comparison(report, format));
     return exit_code(report);

@@ -3,15 +3,17 @@
 
 #include <CLI/CLI.hpp>
 
-#include "compensation/compensation.h"
+#include "base/alarm.h"
+#include "base/console.h"
+#include "base/output_files.h"
+#include "base/units.h"
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/options.h"
 #include "cli/program_choice.h"
 #include "cli/setups.h"
+#include "compensation/compensation.h"
 #include "effects/settings.h"
-#include "base/alarm.h"
-#include "base/units.h"
 
 namespace trunnion {
 namespace {
@@ -24,16 +26,16 @@ struct Options {
 };
 
 int report_alarm(const Alarm& alarm) {
-    fmt::print(stderr, "{}\n",
-               format_diagnostic(alarm.where, fmt::format("alarm {} {}", alarm.number, alarm.text),
-                                 alarm.block));
+    print_error("{}\n",
+                format_diagnostic(alarm.where, fmt::format("alarm {} {}", alarm.number, alarm.text),
+                                  alarm.block));
     return exit_alarm;
 }
 
 void print_direction(const char* where, double before_rad, double after_rad) {
     if (before_rad <= 0.0 && after_rad <= 0.0) return;
-    fmt::print(stderr, "direction of the tool {}: {:.3f} urad before, {:.3f} urad after\n", where,
-               1e6 * before_rad, 1e6 * after_rad);
+    print_error("direction of the tool {}: {:.3f} urad before, {:.3f} urad after\n", where,
+                1e6 * before_rad, 1e6 * after_rad);
 }
 
 int run_command(const Options& o) {
@@ -51,12 +53,10 @@ int run_command(const Options& o) {
     OutputFiles files;
     files.add(o.out, c.program);
     files.write();
-    fmt::print(stderr,
-               "{} blocks; largest tip error at a block's end {:.3f} um before, {:.3f} um after\n",
-               c.blocks.size(), um_from_mm(c.before.tip_mm), um_from_mm(c.after.tip_mm));
+    print_error("{} blocks; largest tip error at a block's end {:.3f} um before, {:.3f} um after\n",
+                c.blocks.size(), um_from_mm(c.before.tip_mm), um_from_mm(c.after.tip_mm));
     if (c.in_gap.tip_mm > 0.0)
-        fmt::print(
-            stderr,
+        print_error(
             "where an axis turns round, until it has crossed its gap: tip {:.3f} um, direction "
             "{:.3f} urad\n",
             um_from_mm(c.in_gap.tip_mm), 1e6 * c.in_gap.turned_rad);

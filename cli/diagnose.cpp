@@ -7,8 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/console.h"
+#include "base/output_files.h"
 #include "cli/command.h"
-#include "cli/files.h"
 #include "cli/json_output.h"
 #include "cli/long_work.h"
 #include "cli/options.h"
@@ -97,40 +98,39 @@ Json to_json(const Diagnosis& d) {
 }
 
 void print_cause(const Cause& cause) {
-    fmt::print("\n{}  {:.0f} % of the gap, probability {:.2f}\n", cause.effect, 100 * cause.share,
-               cause.probability);
-    fmt::print("  {}.\n", cause.what);
+    print_out("\n{}  {:.0f} % of the gap, probability {:.2f}\n", cause.effect, 100 * cause.share,
+              cause.probability);
+    print_out("  {}.\n", cause.what);
     if (!cause.usual_cause.empty())
-        fmt::print("  Usual cause: {}. What to do: {}.\n", cause.usual_cause, cause.remedy);
+        print_out("  Usual cause: {}. What to do: {}.\n", cause.usual_cause, cause.remedy);
     for (const FitParameter& p : cause.parameters)
-        fmt::print("  {:<20} {:>12.4g} {} {}\n", with_component(p), p.value, p.unit,
-                   std::isfinite(p.sigma) ? fmt::format("(sigma {:.2g})", p.sigma)
-                                          : std::string("(no sigma of its own)"));
+        print_out("  {:<20} {:>12.4g} {} {}\n", with_component(p), p.value, p.unit,
+                  std::isfinite(p.sigma) ? fmt::format("(sigma {:.2g})", p.sigma)
+                                         : std::string("(no sigma of its own)"));
     for (const Inseparable& group : cause.unseen)
-        fmt::print("  no reading here sees: {}\n", to_string(group));
+        print_out("  no reading here sees: {}\n", to_string(group));
     if (!cause.rivals.empty())
-        fmt::print("  cannot be told apart here from: {}\n", fmt::join(cause.rivals, ", "));
-    fmt::print(
+        print_out("  cannot be told apart here from: {}\n", fmt::join(cause.rivals, ", "));
+    print_out(
         "  held out: {:.3f} -> {:.3f} um (noise {:.3f}): shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
         cause.heldout.rms_before_um, cause.heldout.rms_after_um, cause.heldout.noise_um,
         100 * cause.heldout.shrink, 100 * cause.heldout.low, 100 * cause.heldout.high);
 }
 
 void print_report(const Diagnosis& d) {
-    fmt::print("verdict: {}\n{}\n", to_string(d.verdict), verdict_sentence(d));
-    fmt::print(
-        "{} readings ({} set aside), rms {:.3f} um, noise {:.3f} um ({}), excess {:.3f} um\n",
-        d.readings, d.outliers, d.rms_um, d.noise_um, to_string(d.noise.source), d.excess_um);
-    for (const DriverShare& w : d.where) fmt::print("  {}\n", w.text);
+    print_out("verdict: {}\n{}\n", to_string(d.verdict), verdict_sentence(d));
+    print_out("{} readings ({} set aside), rms {:.3f} um, noise {:.3f} um ({}), excess {:.3f} um\n",
+              d.readings, d.outliers, d.rms_um, d.noise_um, to_string(d.noise.source), d.excess_um);
+    for (const DriverShare& w : d.where) print_out("  {}\n", w.text);
     for (const Cause& cause : d.causes) print_cause(cause);
     if (!d.causes.empty())
-        fmt::print(
+        print_out(
             "\nafter: rms {:.3f} um; held out the gap shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
             d.after_rms_um, 100 * d.after.shrink, 100 * d.after.low, 100 * d.after.high);
     if (d.causes.empty())
         for (const Inseparable& group : d.inseparable)
-            fmt::print("no reading here sees: {}\n", to_string(group));
-    for (const NextMeasurement& next : d.next) fmt::print("next: {}\n", next.text);
+            print_out("no reading here sees: {}\n", to_string(group));
+    for (const NextMeasurement& next : d.next) print_out("next: {}\n", next.text);
 }
 
 std::string title_of(const std::vector<std::string>& readings) {
@@ -167,7 +167,7 @@ int diagnose_command(const Options& options) {
     files.write();
     if (!options.json) print_report(result);
     if (planning && Interruption::asked()) {
-        fmt::print(stderr, "trunnion: interrupted: no plan of the next measurement\n");
+        print_error("trunnion: interrupted: no plan of the next measurement\n");
         return exit_limit;
     }
     return options.limit_um && result.excess_um > *options.limit_um ? exit_differs : exit_done;

@@ -8,8 +8,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/console.h"
+#include "base/output_files.h"
 #include "cli/command.h"
-#include "cli/files.h"
 #include "cli/json_output.h"
 #include "cli/long_work.h"
 #include "cli/options.h"
@@ -55,16 +56,15 @@ void print_table(const Identification& result, bool monte_carlo) {
     const auto number = [](double v) {
         return std::isfinite(v) ? fmt::format("{:.2g}", v) : std::string("-");
     };
-    fmt::print("{:<18} {:<22} {:>14} {:>12} {:>12} {}\n", "effect", "parameter", "value", "sigma",
-               monte_carlo ? "Monte Carlo" : "", "unit");
+    print_out("{:<18} {:<22} {:>14} {:>12} {:>12} {}\n", "effect", "parameter", "value", "sigma",
+              monte_carlo ? "Monte Carlo" : "", "unit");
     for (const FitParameter& p : result.parameters)
-        fmt::print("{:<18} {:<22} {:>14.7g} {:>12} {:>12} {}\n", p.effect, with_component(p),
-                   p.value, number(p.sigma), monte_carlo ? number(p.sigma_monte_carlo) : "",
-                   p.unit);
+        print_out("{:<18} {:<22} {:>14.7g} {:>12} {:>12} {}\n", p.effect, with_component(p),
+                  p.value, number(p.sigma), monte_carlo ? number(p.sigma_monte_carlo) : "", p.unit);
     for (const Inseparable& group : result.inseparable)
-        fmt::print("no reading here sees: {}\n", to_string(group));
-    fmt::print("rms {:.3f} um before, {:.3f} um after, {} degrees of freedom\n",
-               result.rms_before_um, result.rms_after_um, result.dof);
+        print_out("no reading here sees: {}\n", to_string(group));
+    print_out("rms {:.3f} um before, {:.3f} um after, {} degrees of freedom\n",
+              result.rms_before_um, result.rms_after_um, result.dof);
 }
 
 /// Shows how far it is; Ctrl-C leaves what the repetitions done so far say.
@@ -95,8 +95,8 @@ int identify_command(const Options& options) {
     files.write();
     if (!options.json) print_table(result, repetitions > 1);
     if (repetitions == options.runs) return exit_done;
-    fmt::print(stderr, "trunnion: interrupted: {} of {} repetitions are done\n", repetitions,
-               options.runs);
+    print_error("trunnion: interrupted: {} of {} repetitions are done\n", repetitions,
+                options.runs);
     return exit_limit;
 }
 

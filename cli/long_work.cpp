@@ -3,13 +3,18 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
+
+#include "base/console.h"
 
 namespace trunnion {
 namespace {
 
 /// The one thing that a signal handler can reach.
 volatile std::sig_atomic_t interruption_asked = 0;
+
+constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGHUP};
 
 void ask_once(int signal) {
     interruption_asked = 1;
@@ -20,17 +25,18 @@ constexpr const char* wipe_line = "\r\033[K";
 
 }  // namespace
 
-Interruption::Interruption()
-    : interrupt_before_(std::signal(SIGINT, ask_once)),
-      terminate_before_(std::signal(SIGTERM, ask_once)) {
+Interruption::Interruption() {
     interruption_asked = 0;
-    // A parent that ignores Ctrl-C (nohup, a background job) wants it ignored here as well.
-    if (interrupt_before_ == SIG_IGN) std::signal(SIGINT, SIG_IGN);
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+        before_[i] = std::signal(signals[i], ask_once);
+        // A parent that ignores Ctrl-C or the end of its terminal (nohup, a background job) wants
+        // it ignored here as well.
+        if (before_[i] == SIG_IGN) std::signal(signals[i], SIG_IGN);
+    }
 }
 
 Interruption::~Interruption() {
-    std::signal(SIGINT, interrupt_before_);
-    std::signal(SIGTERM, terminate_before_);
+    for (std::size_t i = 0; i < signals.size(); ++i) std::signal(signals[i], before_[i]);
 }
 
 bool Interruption::asked() {
@@ -42,7 +48,7 @@ Progress::Progress()
       next_(Clock::now() + std::chrono::milliseconds(500)) {}
 
 Progress::~Progress() {
-    if (shown_) fmt::print(stderr, "{}", wipe_line);
+    if (shown_) write_error(wipe_line);
 }
 
 void Progress::show(const std::function<std::string()>& text) {
@@ -56,7 +62,7 @@ void Progress::show(const std::function<std::string()>& text) {
 void Progress::stage(const std::string& text) {
     if (!terminal_) return;
     shown_ = true;
-    fmt::print(stderr, "{}{}", wipe_line, text);
+    print_error("{}{}", wipe_line, text);
     std::fflush(stderr);
 }
 

@@ -7,8 +7,8 @@
 
 namespace trunnion {
 
-/// While it lives, the first Ctrl-C (or SIGTERM) only sets `asked`; the second ends the program as
-/// usual. One at a time.
+/// While it lives, the first Ctrl-C (or SIGTERM, SIGHUP) only sets `asked`; the second ends the
+/// program as usual. One at a time.
 class Interruption {
   public:
     Interruption();
@@ -19,8 +19,7 @@ class Interruption {
     static bool asked();
 
   private:
-    void (*interrupt_before_)(int);
-    void (*terminate_before_)(int);
+    void (*before_[3])(int);  ///< handlers of the three signals
 };
 
 /// One line on stderr, written over and over and wiped at the end; nothing where stderr is no

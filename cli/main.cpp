@@ -3,17 +3,19 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <initializer_list>
+#include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "base/alarm.h"
+#include "base/console.h"
+#include "base/text.h"
 #include "cli/command.h"
 #include "cli/options.h"
-#include "base/alarm.h"
-#include "base/text.h"
 
 namespace {
 
@@ -38,20 +40,19 @@ const std::initializer_list<void (*)(CLI::App&, Run&)> commands = {
 // clang-format on
 
 int report_alarm(const Alarm& alarm) {
-    fmt::print(stderr, "{}\n",
-               format_diagnostic(alarm.where, fmt::format("alarm {} {}", alarm.number, alarm.text),
-                                 alarm.block));
+    print_error("{}\n",
+                format_diagnostic(alarm.where, fmt::format("alarm {} {}", alarm.number, alarm.text),
+                                  alarm.block));
     return exit_alarm;
 }
 
 int report_input_error(const InputError& e) {
-    fmt::print(stderr, "{}\n", format_diagnostic(e.where, e.message, e.line_text));
+    print_error("{}\n", format_diagnostic(e.where, e.message, e.line_text));
     return exit_bad_input;
 }
 
 int report_usage_error(const std::string& message) {
-    fmt::print(stderr, "trunnion: {} (trunnion --help lists commands and options)\n",
-               printable(message));
+    print_error("trunnion: {} (trunnion --help lists commands and options)\n", printable(message));
     return exit_bad_input;
 }
 
@@ -72,7 +73,7 @@ int run_guarded(const CLI::App& app, const Run& run) {
     try {
         refuse_clashing_files(app);
         const int code = run();
-        if (std::fflush(stdout) != 0) throw InputError("standard output cannot be written");
+        finish_out();
         return code;
     } catch (const InputError& e) {
         return report_input_error(e);
@@ -80,15 +81,19 @@ int run_guarded(const CLI::App& app, const Run& run) {
         return report_alarm(alarm);
     } catch (const std::filesystem::filesystem_error& e) {
         return report_input_error({e.code().message(), {e.path1().string(), 0, 0}});
-    } catch (const std::exception& e) {
-        fmt::print(stderr, "trunnion: internal error: {}\n", e.what());
-        return exit_internal;
     }
 }
 
-}  // namespace
+/// Help and version go to standard output.
+int show_help(const CLI::App& app, const CLI::Success& asked) {
+    std::ostringstream text;
+    app.exit(asked, text, text);
+    write_out(text.str());
+    finish_out();
+    return exit_done;
+}
 
-int main(int argc, char** argv) {
+int parse_and_run(int argc, char** argv) {
     CLI::App app{"trunnion: an offline CNC control with a physical five-axis machine behind it"};
     app.require_subcommand(1);
     app.set_version_flag("--version", TRUNNION_VERSION);
@@ -99,10 +104,29 @@ int main(int argc, char** argv) {
         return report_usage_error(fmt::format("there is no command '{}'", word));
     try {
         app.parse(argc, argv);
-    } catch (const CLI::Success& e) {
-        return app.exit(e);
+    } catch (const CLI::Success& asked) {
+        return show_help(app, asked);
     } catch (const CLI::ParseError& e) {
         return report_usage_error(e.what());
     }
     return run_guarded(app, run);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    prepare_streams();
+    try {
+        return parse_and_run(argc, argv);
+    } catch (const std::bad_alloc&) {
+        write_error("trunnion: there is not enough memory\n");
+        return exit_limit;
+    } catch (const InputError& e) {  // of the help
+        return report_input_error(e);
+    } catch (const std::exception& e) {
+        write_error("trunnion: internal error: ");
+        write_error(e.what());
+        write_error("\n");
+        return exit_internal;
+    }
 }

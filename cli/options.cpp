@@ -42,9 +42,11 @@ std::vector<NamedFile> files_named(const CLI::App& command) {
         if (type != read_type && type != written_type) continue;
         for (const std::string& text : option->results()) {
             std::error_code unknown;
-            const fs::path path =
-                text == "-" ? fs::path(text) : fs::weakly_canonical(text, unknown);
-            files.push_back({option->get_name(), text, path, type == written_type});
+            const bool written = type == written_type;
+            const fs::path path = text != "-" ? fs::weakly_canonical(text, unknown)
+                                  : written   ? fs::path("standard output")
+                                              : fs::path("standard input");
+            files.push_back({option->get_name(), text, path, written});
         }
     }
     return files;

@@ -1,9 +1,9 @@
 // trunnion pivot: the mismatched-pivot demonstration.
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "base/console.h"
+#include "base/output_files.h"
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/options.h"
@@ -34,7 +34,7 @@ int run_pivot(const PivotOptions& o) {
     }
     files.write();
     if (!o.svg_folder.empty())
-        fmt::print(stderr, "pictures: {0}/distances.svg {0}/circles.svg\n", o.svg_folder);
+        print_error("pictures: {0}/distances.svg {0}/circles.svg\n", o.svg_folder);
     return exit_done;
 }
 

@@ -2,8 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "base/output_files.h"
 #include "cli/command.h"
-#include "cli/files.h"
 #include "cli/options.h"
 #include "cli/readings_command.h"
 #include "effects/settings.h"

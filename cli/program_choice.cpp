@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "cli/files.h"
 #include "base/alarm.h"
 #include "base/numbers.h"
+#include "cli/files.h"
 
 namespace trunnion {
 namespace fs = std::filesystem;
@@ -34,7 +34,9 @@ std::optional<int> o_number(const std::string& name) {
 }  // namespace
 
 ProgramAndFolders open_program(const std::string& name, std::vector<std::string> folders) {
-    const bool is_file = fs::is_regular_file(name);
+    std::error_code unknown;
+    const fs::file_status found = fs::status(name, unknown);
+    const bool is_file = name == "-" || (fs::exists(found) && !fs::is_directory(found));
     if (is_file) {
         const std::string own = fs::path(name).parent_path().string();
         folders.push_back(own.empty() ? "." : own);
@@ -42,7 +44,7 @@ ProgramAndFolders open_program(const std::string& name, std::vector<std::string>
     add_shipped(folders);
     ProgramFolders source(folders);
     if (is_file) {
-        const ProgramText text = map_program(name);
+        const ProgramText text = read_program(name);
         source.add_file(text);
         return {text, std::move(source)};
     }

@@ -1,5 +1,6 @@
 #include "cli/readings_command.h"
 
+#include "base/read_file.h"
 #include "cli/files.h"
 #include "effects/settings.h"
 
@@ -7,7 +8,7 @@ namespace trunnion {
 
 ReadingTable load_readings(const std::string& path) {
     std::vector<std::string> notes;
-    ReadingTable table = parse_readings(read_whole(path), path, notes);
+    ReadingTable table = parse_readings(read_file_or_input(path), path, notes);
     print_notes(notes);
     return table;
 }

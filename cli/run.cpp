@@ -4,6 +4,9 @@
 #include <CLI/CLI.hpp>
 
 #include "backup/control_files.h"
+#include "base/console.h"
+#include "base/numbers.h"
+#include "base/output_files.h"
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/long_work.h"
@@ -11,7 +14,6 @@
 #include "cli/program_choice.h"
 #include "cli/setups.h"
 #include "effects/settings.h"
-#include "base/numbers.h"
 #include "report/run_report.h"
 
 namespace trunnion {
@@ -102,15 +104,15 @@ void write_files(const Options& o, const RunLog& log, OutputFiles& files) {
 
 int exit_code(const RunResult& result) {
     if (result.status == RunStatus::limit) {
-        fmt::print(stderr, "trunnion: stopped after {} blocks ({})\n", result.blocks,
-                   Interruption::asked() ? "interrupted" : "--max-blocks");
+        print_error("trunnion: stopped after {} blocks ({})\n", result.blocks,
+                    Interruption::asked() ? "interrupted" : "--max-blocks");
         return exit_limit;
     }
     if (!result.alarm) return exit_done;
     const Alarm& alarm = *result.alarm;
-    fmt::print(stderr, "{}\n",
-               format_diagnostic(alarm.where, fmt::format("alarm {} {}", alarm.number, alarm.text),
-                                 alarm.block));
+    print_error("{}\n",
+                format_diagnostic(alarm.where, fmt::format("alarm {} {}", alarm.number, alarm.text),
+                                  alarm.block));
     return exit_alarm;
 }
 
@@ -130,18 +132,20 @@ int run_command(const Options& o) {
     const Setup setup = setup_of(o);
     ProgramAndFolders program = open_program(o.program, o.folders);
     RunOptions options = run_options(o, setup);
+    const Interruption interruption;
     OutputFiles files;
     if (options.trace)
-        options.trace_chunk = [&out = files.open(o.trace)](std::string_view text) { out << text; };
-    const Interruption interruption;
+        options.trace_chunk = [&out = files.open(o.trace)](std::string_view text) {
+            out.append(text);
+        };
     const RunLog log = run_watched(setup, program, options);
     print_notes(log.notes);
     if (o.json)
-        fmt::print("{}", run_json(log, setup.machine.chain));
+        print_out("{}", run_json(log, setup.machine.chain, program.folders.used()));
     else if (o.print.empty())
-        fmt::print("{}", log.printed);
-    if (!o.json && !o.variables.empty()) fmt::print("{}", variables_text(log));
-    if (!o.json) fmt::print(stderr, "{}\n", run_summary(log));
+        print_out("{}", log.printed);
+    if (!o.json && !o.variables.empty()) print_out("{}", variables_text(log));
+    if (!o.json) print_error("{}\n", run_summary(log));
     write_files(o, log, files);
     return exit_code(log.result);
 }

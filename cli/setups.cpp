@@ -1,6 +1,7 @@
 #include "cli/setups.h"
 
 #include "backup/control_files.h"
+#include "base/read_file.h"
 #include "cli/files.h"
 
 namespace trunnion {

@@ -4,13 +4,14 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "base/alarm.h"
+#include "base/console.h"
+#include "base/output_files.h"
 #include "cli/command.h"
-#include "cli/files.h"
 #include "cli/long_work.h"
 #include "cli/options.h"
 #include "cli/setups.h"
 #include "effects/settings.h"
-#include "base/alarm.h"
 #include "report/volumetric_pictures.h"
 #include "report/volumetric_report.h"
 
@@ -62,10 +63,10 @@ int run_command(const Options& o) {
         for (auto& [name, text] : volumetric_pictures(map)) files.add(o.svg + '/' + name, text);
     }
     files.write();
-    if (o.csv != "-") fmt::print("{}", volumetric_text(map));
+    if (o.csv != "-") print_out("{}", volumetric_text(map));
     if (whole) return exit_done;
-    fmt::print(stderr, "trunnion: interrupted: these are the first {} poses of the grid{}\n",
-               map.points.size(), o.svg.empty() ? "" : ", without pictures");
+    print_error("trunnion: interrupted: these are the first {} poses of the grid{}\n",
+                map.points.size(), o.svg.empty() ? "" : ", without pictures");
     return exit_limit;
 }
 

@@ -4,12 +4,11 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
-#include "base/toml_reader.h"
 #include "base/alarm.h"
+#include "base/read_file.h"
+#include "base/toml_reader.h"
 #include "base/units.h"
 
 namespace trunnion {
@@ -176,9 +175,7 @@ namespace {
 
 /// The file that the setup came from, read again to tell a place in it.
 TomlFile file_of(const Setup& setup) {
-    std::ostringstream text;
-    text << std::ifstream(setup.path, std::ios::binary).rdbuf();
-    return {text.str(), setup.path};
+    return {read_file(setup.path), setup.path};
 }
 
 const TomlValue* find_value(const TomlValue* table, const std::string& key) {

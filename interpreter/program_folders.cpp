@@ -1,10 +1,5 @@
 #include "interpreter/program_folders.h"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -13,6 +8,7 @@
 #include <functional>
 
 #include "base/alarm.h"
+#include "base/read_file.h"
 
 namespace trunnion {
 namespace fs = std::filesystem;
@@ -57,38 +53,28 @@ void programs_in(std::string_view text, const std::function<void(int)>& found) {
     }
 }
 
-struct Mapping {
-    void* data = nullptr;
-    std::size_t size = 0;
-    ~Mapping() {
-        if (data) ::munmap(data, size);
-    }
-};
-
 }  // namespace
 
-ProgramText map_program(const std::string& path) {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    struct stat info {};
-    if (file < 0 || ::fstat(file, &info) != 0 || !S_ISREG(info.st_mode)) {
-        if (file >= 0) ::close(file);
-        throw InputError("no such program, or it cannot be read", {path, 0, 0});
-    }
-    auto mapping = std::make_shared<Mapping>();
-    mapping->size = static_cast<std::size_t>(info.st_size);
-    if (mapping->size > 0) {
-        void* data = ::mmap(nullptr, mapping->size, PROT_READ, MAP_PRIVATE, file, 0);
-        if (data != MAP_FAILED) mapping->data = data;
-    }
-    ::close(file);
-    if (mapping->size > 0 && !mapping->data) throw InputError("cannot be mapped", {path, 0, 0});
-    const auto* begin = static_cast<const char*>(mapping->data);
-    return {path, std::string_view(begin, mapping->data ? mapping->size : 0), mapping};
+ProgramText read_program(const std::string& path) {
+    const auto bytes = std::make_shared<const std::string>(read_file_or_input(path));
+    return {path, *bytes, bytes};
 }
 
 ProgramFolders::ProgramFolders(std::vector<std::string> folders) : folders_(std::move(folders)) {
     for (const std::string& folder : folders_)
-        if (!fs::is_directory(folder)) throw InputError("no such program folder", {folder, 0, 0});
+        if (std::error_code unknown; !fs::is_directory(folder, unknown))
+            throw InputError("no such program folder", {folder, 0, 0});
+}
+
+void ProgramFolders::add_file(const ProgramText& file) {
+    given_.push_back(file);
+    own_files_.push_back(file);
+}
+
+std::vector<ProgramText> ProgramFolders::used() const {
+    std::vector<ProgramText> files = given_;
+    for (const auto& [path, text] : read_) files.push_back(text);
+    return files;
 }
 
 void ProgramFolders::scan_own_files() {
@@ -100,8 +86,10 @@ void ProgramFolders::list_folders() {
     if (std::exchange(listed_, true)) return;
     for (const std::string& folder : folders_) {
         std::vector<std::string> names;
-        for (const auto& entry : fs::directory_iterator(folder))
-            if (entry.is_regular_file()) names.push_back(entry.path().string());
+        for (const auto& entry : fs::directory_iterator(folder)) {
+            std::error_code unknown;  // a link that leads round in a circle is no program
+            if (entry.is_regular_file(unknown)) names.push_back(entry.path().string());
+        }
         std::sort(names.begin(), names.end());
         for (std::string& name : names) {
             if (const auto number = number_of_file(name)) by_name_.emplace(*number, name);
@@ -115,8 +103,14 @@ void ProgramFolders::scan_contents() {
     for (const std::string& path : files_) {
         const std::string ending = lower(fs::path(path).extension().string());
         if (std::find(endings.begin(), endings.end(), ending) == endings.end()) continue;
-        programs_in(map_program(path).text, [&](int n) { by_content_.emplace(n, path); });
+        programs_in(read_program(path).text, [&](int n) { by_content_.emplace(n, path); });
     }
+}
+
+const ProgramText& ProgramFolders::read_once(const std::string& path) {
+    const auto known = read_.find(path);
+    return known != read_.end() ? known->second
+                                : read_.emplace(path, read_program(path)).first->second;
 }
 
 std::optional<ProgramText> ProgramFolders::find(int o_number) {
@@ -124,10 +118,10 @@ std::optional<ProgramText> ProgramFolders::find(int o_number) {
     if (const auto own = own_.find(o_number); own != own_.end()) return own->second;
     list_folders();
     if (const auto named = by_name_.find(o_number); named != by_name_.end())
-        return map_program(named->second);
+        return read_once(named->second);
     scan_contents();
     if (const auto held = by_content_.find(o_number); held != by_content_.end())
-        return map_program(held->second);
+        return read_once(held->second);
     return std::nullopt;
 }
 
@@ -137,7 +131,7 @@ std::optional<ProgramText> ProgramFolders::find(std::string_view name) {
     for (const std::string& path : files_) {
         const fs::path file(path);
         if (lower(file.filename().string()) == wanted || lower(file.stem().string()) == wanted)
-            return map_program(path);
+            return read_once(path);
     }
     return std::nullopt;
 }

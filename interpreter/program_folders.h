@@ -9,9 +9,9 @@
 
 namespace trunnion {
 
-/// A file mapped into memory: any length, no memory of its own. Throws InputError when it cannot be
-/// read.
-ProgramText map_program(const std::string& path);
+/// What a file holds now; "-" is standard input. What is written to the file later changes nothing.
+/// Throws InputError when it cannot be read.
+ProgramText read_program(const std::string& path);
 
 /// Looks for O1234 in each folder in turn: files named O1234, O1234.nc (or .txt .tap .min .mpf .cnc
 /// .ngc .eia .iso .prg), 1234, 1234.nc, leading zeros free, upper or lower case; then any file that
@@ -22,12 +22,16 @@ class ProgramFolders : public ProgramSource {
 
     /// Programs of this file are found before all others (the file that runs). It is searched when
     /// the first subprogram is called, not before.
-    void add_file(const ProgramText& file) { own_files_.push_back(file); }
+    void add_file(const ProgramText& file);
+    /// The files given and those that calls found, each as it was read.
+    std::vector<ProgramText> used() const;
 
     std::optional<ProgramText> find(int o_number) override;
     std::optional<ProgramText> find(std::string_view name) override;
 
   private:
+    /// Each file is read when it is first called, and stays as it was then.
+    const ProgramText& read_once(const std::string& path);
     void list_folders();
     void scan_own_files();
     void scan_contents();
@@ -36,8 +40,10 @@ class ProgramFolders : public ProgramSource {
     bool listed_ = false, scanned_ = false;
     std::vector<std::string> files_;  ///< in order of folders, then of names
     std::map<int, std::string> by_name_, by_content_;
-    std::vector<ProgramText> own_files_;  ///< not yet searched
+    std::vector<ProgramText> given_;      ///< by add_file
+    std::vector<ProgramText> own_files_;  ///< of them, not yet searched
     std::map<int, ProgramText> own_;
+    std::map<std::string, ProgramText> read_;  ///< by path
 };
 
 }  // namespace trunnion

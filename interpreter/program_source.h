@@ -9,8 +9,7 @@
 
 namespace trunnion {
 
-/// The bytes of one file, kept alive as long as anyone reads it. `text` may be a memory map, so a
-/// file of any length costs no memory of its own.
+/// The bytes of one file as they were when it was read, kept alive as long as anyone uses them.
 struct ProgramText {
     std::string name;  ///< shown in messages: the path as given
     std::string_view text;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "interpreter/program_folders.h"
 #include "base/units.h"
+#include "interpreter/program_folders.h"
 #include "regression/describe.h"
 #include "regression/effects_layer.h"
 
@@ -251,7 +251,7 @@ class ProgramComparer {
 Comparison compare_with_golden(const PathRecord& golden, const std::string& golden_path,
                                const ProgramText& program, const Setup& setup,
                                const CompareOptions& options) {
-    ProgramText golden_text = map_program(golden_path);
+    ProgramText golden_text = read_program(golden_path);
     return ProgramComparer(golden_text, setup, program, setup, options).run_against(golden);
 }
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "interpreter/program_folders.h"
 #include "base/alarm.h"
 #include "base/units.h"
 #include "interpreter/lexical.h"
+#include "interpreter/program_folders.h"
 
 namespace trunnion {
 
@@ -21,7 +21,7 @@ const ProgramLines* SourceLines::lines_of(const std::string& program) {
     if (known != lines_.end()) return known->second ? &*known->second : nullptr;
     std::optional<ProgramLines>& lines = lines_[program];
     try {
-        if (!texts_.contains(program)) texts_[program] = map_program(program);
+        if (!texts_.contains(program)) texts_[program] = read_program(program);
         lines.emplace(texts_[program].text);
     } catch (const InputError&) {
         return nullptr;  // a golden, or a program that is no file: nothing to show

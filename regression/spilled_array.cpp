@@ -3,21 +3,28 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
-#include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "base/alarm.h"
+#include "base/file_handle.h"
 
 namespace trunnion {
 
 namespace {
 
+[[noreturn]] void refuse(const std::string& what) {
+    throw InputError(what + ": " + system_reason(errno));
+}
+
 int open_temporary() {
-    const char* const folder = std::getenv("TMPDIR");
-    std::string path = folder != nullptr && *folder != '\0' ? folder : "/tmp";
-    path += "/trunnion_XXXXXX";
-    const int file = ::mkstemp(path.data());
-    if (file < 0) throw std::runtime_error("no room for a temporary file: " + path);
+    const char* const wanted = std::getenv("TMPDIR");
+    const std::string folder = wanted != nullptr && *wanted != '\0' ? wanted : "/tmp";
+    std::string path = folder + "/trunnion_XXXXXX";
+    const int file = ::mkostemp(path.data(), O_CLOEXEC);
+    if (file < 0) refuse("no temporary file can be made in " + folder + " ($TMPDIR)");
     ::unlink(path.c_str());
     return file;
 }
@@ -42,7 +49,8 @@ void TemporaryFile::append(const void* data, std::size_t bytes) {
     const char* from = static_cast<const char*>(data);
     while (bytes > 0) {
         const ssize_t written = ::pwrite(file_, from, bytes, static_cast<off_t>(size_));
-        if (written <= 0) throw std::runtime_error("cannot write a temporary file: disk full?");
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) refuse("a temporary file cannot be written");
         from += written;
         size_ += static_cast<std::uint64_t>(written);
         bytes -= static_cast<std::size_t>(written);
@@ -53,7 +61,8 @@ void TemporaryFile::read(void* data, std::size_t bytes, std::uint64_t at) const 
     char* to = static_cast<char*>(data);
     while (bytes > 0) {
         const ssize_t got = ::pread(file_, to, bytes, static_cast<off_t>(at));
-        if (got <= 0) throw std::runtime_error("cannot read a temporary file");
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) refuse("a temporary file cannot be read");
         to += got;
         at += static_cast<std::uint64_t>(got);
         bytes -= static_cast<std::size_t>(got);

@@ -13,7 +13,7 @@
 namespace trunnion {
 
 /// Bytes in an unnamed temporary file ($TMPDIR, else /tmp), gone when the process ends. Throws
-/// std::runtime_error when the disk is full.
+/// InputError with the reason when the disk is full.
 class TemporaryFile {
   public:
     TemporaryFile() = default;

@@ -1,10 +1,9 @@
 // Suite files and folders as lists of cases.
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 
+#include "base/read_file.h"
 #include "base/toml_reader.h"
 #include "base/units.h"
 #include "regression/suite.h"
@@ -198,11 +197,7 @@ Suite suite_of_folders(const std::string& a, const std::string& b, const SuiteCa
 }
 
 Suite read_suite(const std::string& path, const SuiteCase& like, std::vector<std::string>& notes) {
-    std::ifstream in(path, std::ios::binary);
-    if (!in) throw InputError("cannot be read", {path, 0, 0});
-    std::ostringstream text;
-    text << in.rdbuf();
-    const TomlFile file(text.str(), path);
+    const TomlFile file(read_file(path), path);
     Suite suite = SuiteReader(file, like).read();
     for (const std::string& key : file.unknown_keys()) notes.push_back(key);
     return suite;

@@ -3,13 +3,13 @@
 
 #include <atomic>
 #include <exception>
-#include <fstream>
+#include <filesystem>
 #include <mutex>
-#include <sstream>
 #include <thread>
 
-#include "interpreter/program_folders.h"
 #include "base/alarm.h"
+#include "base/read_file.h"
+#include "interpreter/program_folders.h"
 #include "regression/golden.h"
 #include "regression/suite.h"
 
@@ -17,12 +17,10 @@ namespace trunnion {
 
 namespace {
 
-std::optional<std::string> read_file(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    if (!in) return std::nullopt;
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
+/// Nothing where no golden was written yet.
+std::optional<std::string> read_golden(const std::string& path) {
+    if (!std::filesystem::exists(path)) return std::nullopt;
+    return read_file(path);
 }
 
 /// Setups by path, each loaded once and before any thread starts.
@@ -52,16 +50,16 @@ Comparison not_compared(const SuiteCase& c, const std::string& why, CompareStatu
 Comparison compare_case(const SuiteCase& c, const Setups& setups) {
     if (c.b.empty()) return not_compared(c, "only in A: " + c.a, CompareStatus::differs);
     if (!c.golden.empty()) {
-        const auto text = read_file(c.golden);
+        const auto text = read_golden(c.golden);
         if (!text)
             return not_compared(c, "no golden yet: " + c.golden + " (--update --reason writes it)",
                                 CompareStatus::differs);
         const Golden golden = parse_golden(*text, c.golden);
-        return compare_with_golden(golden.path, c.golden, map_program(c.b), setups.at(c.setup),
+        return compare_with_golden(golden.path, c.golden, read_program(c.b), setups.at(c.setup),
                                    c.options);
     }
     if (c.a.empty()) return not_compared(c, "only in B: " + c.b, CompareStatus::differs);
-    return compare_programs(map_program(c.a), setups.at(c.setup), map_program(c.b),
+    return compare_programs(read_program(c.a), setups.at(c.setup), read_program(c.b),
                             setups.at(c.setup_b), c.options);
 }
 
@@ -145,14 +143,14 @@ std::map<std::string, std::string> updated_goldens(const Suite& suite, const std
     for (const SuiteCase& c : suite.cases) {
         if (c.golden.empty()) continue;
         std::vector<std::string> reasons{reason};
-        if (const auto text = read_file(c.golden)) {
+        if (const auto text = read_golden(c.golden)) {
             const Golden golden = parse_golden(*text, c.golden);
-            const Comparison now = compare_with_golden(golden.path, c.golden, map_program(c.b),
+            const Comparison now = compare_with_golden(golden.path, c.golden, read_program(c.b),
                                                        setups.at(c.setup), c.options);
             if (now.equal) continue;
             reasons.insert(reasons.end(), golden.reasons.begin(), golden.reasons.end());
         }
-        const RecordedRun run = record_run(setups.at(c.setup), map_program(c.b),
+        const RecordedRun run = record_run(setups.at(c.setup), read_program(c.b),
                                            {PathSpace::tip, c.options.tolerances,
                                             c.options.program_folders, c.options.max_blocks});
         if (run.result.alarm) {

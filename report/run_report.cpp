@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/numbers.h"
+#include "base/sha256.h"
 #include "base/units.h"
 
 namespace trunnion {
@@ -35,9 +36,17 @@ Json position_json(const AxisPositions& q, const Chain& chain) {
     return out;
 }
 
+Json programs_json(const std::vector<ProgramText>& programs) {
+    Json list = Json::array();
+    for (const ProgramText& program : programs)
+        list.push_back({{"path", program.name}, {"sha256", sha256(program.text)}});
+    return list;
+}
+
 }  // namespace
 
-std::string run_json(const RunLog& log, const Chain& chain) {
+std::string run_json(const RunLog& log, const Chain& chain,
+                     const std::vector<ProgramText>& programs) {
     Json variables = Json::object();
     for (const auto& [number, value] : log.variables)
         variables[std::to_string(number)] = std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -54,6 +63,7 @@ std::string run_json(const RunLog& log, const Chain& chain) {
          {{"machine", position_json(r.machine, chain)}, {"work", position_json(r.work, chain)}}},
         {"modal", r.modal},
         {"variables", variables},
+        {"programs", programs_json(programs)},
         {"printed", log.printed}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }

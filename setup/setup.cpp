@@ -1,9 +1,8 @@
 #include "setup/setup.h"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
+#include "base/read_file.h"
 #include "base/units.h"
 #include "setup/setup_reader.h"
 
@@ -41,13 +40,6 @@ void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
         if (!given.contains(number)) added.push_back(number);
     if (!added.empty())
         notes.push_back(setup.path + ": parameters derived from [machine]: " + ranges(added));
-}
-
-std::string read_file(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream text;
-    if (!in || !(text << in.rdbuf())) throw InputError("cannot read this file", {path, 0, 0});
-    return text.str();
 }
 
 }  // namespace

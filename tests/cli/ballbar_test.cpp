@@ -95,7 +95,7 @@ TEST_CASE("bad options and setups of ballbar end with 2 and say why") {
         {"--remount-time -1", "--remount-time"},
         {"--pivot-offset 1,2", "--pivot-offset"},
         {"--inject 'C.backlash: gap=1'", "no parameter 'gap'"},
-        {"--setup " + bench.file("none.toml"), "cannot read"},
+        {"--setup " + bench.file("none.toml"), "cannot be read"},
         {"--setup " + machines + "head_table.toml", "two rotary axes under the table"},
         {"--setup " + machines + "nutating_table.toml", "tilting axis"},
         {"--setup " + good + " --csv /nowhere/t.csv", "/nowhere/t.csv"},

@@ -87,8 +87,8 @@ TEST_CASE("Ctrl-C ends a run that would never end, and what was done stays") {
     const std::string command = std::string(TRUNNION_BINARY_DIR) + "/bin/trunnion run " +
                                 bench.file("loop.nc") + " --json --trace " + bench.file("t.csv") +
                                 " >" + bench.file("out.txt") + " 2>" + bench.file("err.txt") +
-                                " & run=$!; while [ ! -s " + bench.file("t.csv.part") +
-                                " ]; do sleep 0.05; done; kill -TERM $run; wait $run";
+                                " & run=$!; until [ $(awk '/^wchar/ {print $2}' /proc/$run/io) -gt "
+                                "100000 ]; do sleep 0.05; done; kill -TERM $run; wait $run";
     CHECK(WEXITSTATUS(std::system(command.c_str())) == 4);
     const Json json = Json::parse(bench.read("out.txt"));
     CHECK(json["status"] == "limit");

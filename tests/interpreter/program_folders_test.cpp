@@ -49,6 +49,6 @@ TEST_CASE("programs are found by file name, then by what the files hold") {
     programs.add_file({"main.nc", "O12\nM99\n", nullptr});
     CHECK(programs.find(12)->name == "main.nc");
     CHECK_THROWS_AS(ProgramFolders({"/no/such/folder"}), InputError);
-    CHECK_THROWS_AS(map_program("/no/such/file"), InputError);
-    CHECK_THROWS_AS(map_program(folder.path.string()), InputError);
+    CHECK_THROWS_AS(read_program("/no/such/file"), InputError);
+    CHECK_THROWS_AS(read_program(folder.path.string()), InputError);
 }

@@ -4,7 +4,7 @@
 # and prints the score. The truth lives in an unlinked file that only this shell holds open in between.
 set -eu
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-seeds=5 sets=100 program= out= first= kinds= limit=120 jobs=$(nproc)
+seeds=5 sets=100 program='' out='' first='' kinds='' limit=120 jobs=$(nproc)
 while [ $# -gt 0 ]; do
   [ $# -ge 2 ] || { echo "blind: $1 needs a value" >&2; exit 2; }
   case $1 in
@@ -51,7 +51,7 @@ diagnose_one() {   # FOLDER/sets/NAME
 }
 export -f diagnose_one
 for folder in "$out"/seed*; do mkdir -p "$folder/results"; done
-ls -d "$out"/seed*/sets/* | xargs -P "$jobs" -I{} bash -c 'diagnose_one "$@"' _ {} "$program" "$limit" 8<&-
+printf '%s\n' "$out"/seed*/sets/* | xargs -P "$jobs" -I{} bash -c 'diagnose_one "$@"' _ {} "$program" "$limit" 8<&-
 (cd "$out" && find . -path '*/results/*' \( -name '*.json' -o -name '*.csv' \) -type f | sort | xargs sha256sum) >"$out/verdicts.sha256"
 
 tar -C "$out" -xf - <&8

@@ -1,0 +1,52 @@
+#include "base/console.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+
+#include "base/alarm.h"
+#include "base/file_handle.h"
+
+namespace trunnion {
+namespace {
+
+[[noreturn]] void refuse_out() {
+    throw InputError("standard output cannot be written: " + system_reason(errno));
+}
+
+/// Opens the null device the wrong way round: what uses this number then fails as if it were
+/// closed.
+void occupy(int descriptor, int flags) {
+    if (::fcntl(descriptor, F_GETFD) != -1) return;
+    const int null = ::open("/dev/null", flags);
+    if (null < 0 || null == descriptor) return;
+    ::dup2(null, descriptor);
+    ::close(null);
+}
+
+}  // namespace
+
+void write_out(std::string_view text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) refuse_out();
+}
+
+void finish_out() {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) refuse_out();
+}
+
+void write_error(std::string_view text) noexcept {
+    write_all(STDERR_FILENO, text);
+}
+
+void prepare_streams() {
+    occupy(STDIN_FILENO, O_WRONLY);
+    occupy(STDOUT_FILENO, O_RDONLY);
+    occupy(STDERR_FILENO, O_RDONLY);
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+}
+
+}  // namespace trunnion

@@ -1,0 +1,219 @@
+#include "base/output_files.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <filesystem>
+
+#include "base/alarm.h"
+#include "base/console.h"
+#include "base/file_handle.h"
+
+namespace trunnion {
+namespace fs = std::filesystem;
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, int error) {
+    throw InputError("cannot be written: " + system_reason(error), {path, 0, 0});
+}
+
+/// Signals that end a process wait while this lives.
+class HeldSignals {
+  public:
+    HeldSignals() {
+        sigset_t ending;
+        ::sigemptyset(&ending);
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) ::sigaddset(&ending, signal);
+        ::pthread_sigmask(SIG_BLOCK, &ending, &before_);
+    }
+    ~HeldSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+    HeldSignals(const HeldSignals&) = delete;
+    HeldSignals& operator=(const HeldSignals&) = delete;
+
+  private:
+    sigset_t before_;
+};
+
+/// The file behind all symbolic links, also where the last one points at nothing yet.
+std::string behind_links(std::string path) {
+    for (int links = 0; links < 40; ++links) {
+        std::error_code none;
+        const fs::path target = fs::read_symlink(path, none);
+        if (none) return path;
+        path = (fs::path(path).parent_path() / target).string();  // an absolute target replaces all
+    }
+    refuse(path, ELOOP);
+}
+
+std::string folder_of(const std::string& path) {
+    const std::string folder = fs::path(path).parent_path().string();
+    return folder.empty() ? "." : folder;
+}
+
+std::string name_beside(const std::string& path, unsigned attempt) {
+    const std::string name = fmt::format(".trunnion_{}_{}", ::getpid(), attempt);
+    return (fs::path(folder_of(path)) / name).string();
+}
+
+constexpr unsigned most_attempts = 10000;  ///< names beside the target that may be taken
+constexpr int most_open = 200;             ///< descriptors: beyond, a complete file is closed
+
+/// Calls `make` with names beside `path` until one is free. False: it failed otherwise, see errno.
+template <typename Make>
+bool with_free_name(const std::string& path, std::string& name, Make make) {
+    for (unsigned attempt = 0; attempt < most_attempts; ++attempt) {
+        name = name_beside(path, attempt);
+        if (make(name.c_str())) return true;
+        if (errno != EEXIST) return false;
+    }
+    return false;
+}
+
+std::string link_of(int descriptor) {
+    return fmt::format("/proc/self/fd/{}", descriptor);
+}
+
+}  // namespace
+
+struct OutputFile::State {
+    std::string path;    ///< as the user gave it
+    std::string target;  ///< behind its links
+    std::string name;    ///< of the file that is not published yet; empty: it has none
+    FileHandle file;
+    bool direct = false;  ///< a device or a pipe
+    mode_t mode = 0;      ///< of the file that will be replaced; 0: there is none
+
+    void open_direct(const struct stat& existing);
+    void open_unnamed();
+    void open_named();
+    void sync();
+    void give_name();
+};
+
+void OutputFile::State::open_direct(const struct stat& existing) {
+    direct = true;
+    struct stat out {};
+    const bool is_out = ::fstat(STDOUT_FILENO, &out) == 0 && out.st_dev == existing.st_dev &&
+                        out.st_ino == existing.st_ino && !S_ISREG(existing.st_mode);
+    file = FileHandle(is_out ? ::dup(STDOUT_FILENO)
+                             : ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
+    if (!file.is_open()) refuse(path, errno);
+}
+
+void OutputFile::State::open_unnamed() {
+    file = FileHandle(::open(folder_of(target).c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666));
+    if (file.is_open() && ::access(link_of(file.descriptor()).c_str(), F_OK) != 0)
+        file = FileHandle();
+}
+
+void OutputFile::State::open_named() {
+    const HeldSignals held;
+    const bool made = with_free_name(target, name, [&](const char* free) {
+        file = FileHandle(::open(free, O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666));
+        return file.is_open();
+    });
+    if (made) return;
+    name.clear();
+    refuse(path, errno);
+}
+
+void OutputFile::State::sync() {
+    if (mode != 0 && ::fchmod(file.descriptor(), mode) != 0) refuse(path, errno);
+    // Some file systems have nothing to synchronise and say so.
+    if (::fsync(file.descriptor()) != 0 && errno != EINVAL && errno != ENOTSUP) refuse(path, errno);
+}
+
+void OutputFile::State::give_name() {
+    const std::string unnamed = link_of(file.descriptor());
+    if (with_free_name(target, name, [&](const char* free) {
+            return ::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, free, AT_SYMLINK_FOLLOW) == 0;
+        }))
+        return;
+    name.clear();
+    refuse(path, errno);
+}
+
+OutputFile::OutputFile(std::string path) : state_(std::make_unique<State>()) {
+    state_->path = std::move(path);
+    struct stat existing {};
+    if (::stat(state_->path.c_str(), &existing) == 0) {
+        if (S_ISDIR(existing.st_mode))
+            throw InputError("is a folder, not a file", {state_->path, 0, 0});
+        if (!S_ISREG(existing.st_mode)) {
+            state_->open_direct(existing);
+            return;
+        }
+        if (::access(state_->path.c_str(), W_OK) != 0) refuse(state_->path, errno);
+        state_->mode = existing.st_mode & 07777;
+    } else if (errno != ENOENT) {
+        refuse(state_->path, errno);
+    }
+    state_->target = behind_links(state_->path);
+    state_->open_unnamed();
+    if (!state_->file.is_open()) state_->open_named();
+}
+
+OutputFile::~OutputFile() {
+    if (!state_->name.empty()) ::unlink(state_->name.c_str());
+}
+
+const std::string& OutputFile::path() const {
+    return state_->path;
+}
+
+void OutputFile::append(std::string_view text) {
+    if (!write_all(state_->file.descriptor(), text)) refuse(state_->path, errno);
+}
+
+void OutputFile::complete() {
+    if (!state_->direct) state_->sync();
+    const bool named_early = !state_->direct && state_->file.descriptor() > most_open;
+    if (named_early && state_->name.empty()) state_->give_name();
+    if ((state_->direct || named_early) && !state_->file.close()) refuse(state_->path, errno);
+}
+
+void OutputFile::publish() {
+    if (state_->direct) return;
+    const HeldSignals held;
+    if (state_->name.empty()) state_->give_name();
+    if (!state_->file.close() || ::rename(state_->name.c_str(), state_->target.c_str()) != 0)
+        refuse(state_->path, errno);
+    state_->name.clear();
+}
+
+void OutputFiles::add(const std::string& path, std::string text) {
+    texts_.emplace_back(path, std::move(text));
+}
+
+OutputFile& OutputFiles::open(const std::string& path) {
+    if (path == "-") throw InputError("this output needs a file", {path, 0, 0});
+    return *files_.emplace_back(std::make_unique<OutputFile>(path));
+}
+
+void OutputFiles::write() {
+    for (const auto& file : files_) file->complete();
+    for (const auto& [path, text] : texts_) {
+        if (path == "-") continue;
+        open(path).append(text);
+        files_.back()->complete();
+    }
+    for (const auto& [path, text] : texts_)
+        if (path == "-") write_out(text);
+    finish_out();
+    for (const auto& file : files_) file->publish();
+    files_.clear();
+    texts_.clear();
+}
+
+void make_folder(const std::string& path) {
+    if (path.empty()) return;  // the one we are in
+    std::error_code error;
+    fs::create_directories(path, error);
+    if (error) throw InputError("this folder cannot be made: " + error.message(), {path, 0, 0});
+}
+
+}  // namespace trunnion

@@ -1,0 +1,53 @@
+// The files that a command writes: each appears whole or not at all.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace trunnion {
+
+/// A file that is being written. A regular file has no name until `publish`: then it replaces the
+/// file of its path in one step, with that file's mode and behind its symbolic links; without
+/// `publish` nothing of it remains, even when the process is killed. (Where the file system knows
+/// no unnamed files it is `.trunnion_PID_N` in the same folder, and SIGKILL leaves it there.) A
+/// device or a pipe takes the text at once. All functions throw InputError with the path.
+class OutputFile {
+  public:
+    explicit OutputFile(std::string path);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    void append(std::string_view text);
+    /// All bytes are on the disk; only the name is missing.
+    void complete();
+    void publish();
+    const std::string& path() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// The output files of one command, collected, then written together: when one cannot be written,
+/// none gets its name. "-" is standard output.
+class OutputFiles {
+  public:
+    void add(const std::string& path, std::string text);
+    /// A file that grows while the command works. It gets its name in `write`.
+    OutputFile& open(const std::string& path);
+    /// Throws InputError with the path that cannot be written.
+    void write();
+
+  private:
+    std::vector<std::pair<std::string, std::string>> texts_;
+    std::vector<std::unique_ptr<OutputFile>> files_;
+};
+
+/// Throws InputError with the path.
+void make_folder(const std::string& path);
+
+}  // namespace trunnion

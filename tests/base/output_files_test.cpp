@@ -1,0 +1,122 @@
+#include "base/output_files.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "base/alarm.h"
+#include "base/read_file.h"
+
+using namespace trunnion;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Folder {
+    fs::path path = fs::temp_directory_path() / ("trunnion_out_" + std::to_string(::getpid()));
+    Folder() { fs::create_directories(path); }
+    ~Folder() { fs::remove_all(path); }
+    std::string file(const std::string& name) const { return (path / name).string(); }
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(path / name) << text;
+    }
+    std::size_t count() const {
+        return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), {}));
+    }
+};
+
+void put(const std::string& path, const std::string& text) {
+    OutputFiles files;
+    files.add(path, text);
+    files.write();
+}
+
+}  // namespace
+
+TEST_CASE("an output replaces a file with its mode and behind its links") {
+    const Folder folder;
+    folder.write("real.txt", "old");
+    fs::permissions(folder.file("real.txt"), fs::perms::owner_all);
+    fs::create_symlink("real.txt", folder.file("link.txt"));
+    fs::create_symlink("new.txt", folder.file("dangling.txt"));
+    put(folder.file("link.txt"), "new");
+    put(folder.file("dangling.txt"), "made");
+    CHECK(read_file(folder.file("real.txt")) == "new");
+    CHECK(read_file(folder.file("new.txt")) == "made");
+    CHECK(fs::is_symlink(folder.file("link.txt")));
+    CHECK(fs::status(folder.file("real.txt")).permissions() == fs::perms::owner_all);
+    CHECK(folder.count() == 4);
+}
+
+TEST_CASE("a new file has the mode that the user's mask leaves") {
+    const Folder folder;
+    const mode_t before = ::umask(027);
+    put(folder.file("new.txt"), "x");
+    ::umask(before);
+    struct stat state {};
+    REQUIRE(::stat(folder.file("new.txt").c_str(), &state) == 0);
+    CHECK((state.st_mode & 0777) == 0640);
+}
+
+TEST_CASE("what is not published leaves the old file and nothing else") {
+    const Folder folder;
+    folder.write("a.txt", "old");
+    folder.write("a.txt.part", "the user's own");
+    {
+        OutputFiles files;
+        files.open(folder.file("a.txt")).append("half");
+    }
+    CHECK(read_file(folder.file("a.txt")) == "old");
+    CHECK(read_file(folder.file("a.txt.part")) == "the user's own");
+    CHECK(folder.count() == 2);
+}
+
+TEST_CASE("when one output cannot be written, none appears") {
+    const Folder folder;
+    fs::create_directories(folder.path / "b");
+    OutputFiles files;
+    files.add(folder.file("a.txt"), "a");
+    files.add(folder.file("b"), "b");
+    CHECK_THROWS_AS(files.write(), InputError);
+    CHECK(folder.count() == 1);
+    OutputFiles full;
+    full.add(folder.file("a.txt"), "a");
+    full.add("/dev/full", "b");
+    CHECK_THROWS_AS(full.write(), InputError);
+    CHECK(folder.count() == 1);
+}
+
+TEST_CASE("two that write one path at a time do not mix") {
+    const Folder folder;
+    OutputFile first(folder.file("a.txt")), second(folder.file("a.txt"));
+    first.append("first");
+    second.append("second");
+    for (OutputFile* file : {&first, &second}) {
+        file->complete();
+        file->publish();
+    }
+    CHECK(read_file(folder.file("a.txt")) == "second");
+    CHECK(folder.count() == 1);
+}
+
+TEST_CASE("more outputs than a process may have open at a time") {
+    const Folder folder;
+    OutputFiles files;
+    for (int k = 0; k < 1500; ++k) files.add(folder.file(std::to_string(k)), std::to_string(k));
+    files.write();
+    CHECK(folder.count() == 1500);
+    CHECK(read_file(folder.file("1499")) == "1499");
+}
+
+TEST_CASE("a looping link and a missing folder are refused with the path") {
+    const Folder folder;
+    fs::create_symlink("b", folder.file("a"));
+    fs::create_symlink("a", folder.file("b"));
+    CHECK_THROWS_AS(OutputFile(folder.file("a")), InputError);
+    CHECK_THROWS_AS(OutputFile("/nowhere/x"), InputError);
+    CHECK_THROWS_AS(read_file(folder.file("a")), InputError);
+}

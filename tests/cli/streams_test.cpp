@@ -1,0 +1,134 @@
+// The program at the edge of the operating system: full disks, closed streams, pipes, signals.
+#include <sys/wait.h>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "base/sha256.h"
+#include "tests/cli/command_bench.h"
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::string program =
+    "O1\nG90 G21 G54\nG1 X10. F500.\nX20. Y5.\n#100=3\nDPRNT[A#100[30]]\nM30\n";
+
+struct Bench : CommandBench {
+    std::string nc = write("part.nc", program);
+
+    /// Exit code of a line of the shell in which $T is the program.
+    int shell(const std::string& line) const {
+        const std::string with = "T=" + std::string(TRUNNION_BINARY_DIR) + "/bin/trunnion; cd " +
+                                 path.string() + "; " + line;
+        const int status = std::system(with.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    }
+    std::size_t count() const {
+        return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), {}));
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a full disk is told by every command that writes") {
+    const Bench bench;
+    for (const char* words :
+         {"run part.nc", "run part.nc --json", "run part.nc --vars 100", "check part.nc --json",
+          "compare part.nc part.nc", "compensate part.nc", "pivot", "volumetric --grid 2", "--help",
+          "--version", "run --help"})
+        CHECK(bench.shell(std::string("$T ") + words + " > /dev/full 2> err.txt") == 2);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("No space left on device"));
+    for (const char* words :
+         {"run part.nc --trace /dev/full", "run part.nc --print /dev/full",
+          "compensate part.nc --out /dev/full", "check part.nc --out /dev/full"})
+        CHECK(bench.shell(std::string("$T ") + words + " > out.txt 2> err.txt") == 2);
+}
+
+TEST_CASE("closed streams end in an exit code and write into no file of the user") {
+    const Bench bench;
+    CHECK(bench.shell("$T run part.nc --trace t.csv --json >&- 2> err.txt") == 2);
+    CHECK_FALSE(fs::exists(bench.file("t.csv")));
+    CHECK(bench.shell("$T run part.nc --trace t.csv --print p.txt > out.txt 2>&-") == 0);
+    CHECK_THAT(bench.read("t.csv"), Catch::StartsWith("seq,program") && Catch::EndsWith("\n"));
+    CHECK(bench.read("p.txt") == "A   3\n");
+    CHECK(bench.shell("$T run part.nc --trace u.csv <&- >&- 2>&-") == 2);
+    CHECK(bench.shell("$T run part.nc --trace u.csv > out.txt 2> /dev/full") == 0);
+    CHECK(bench.read("u.csv") == bench.read("t.csv"));
+    CHECK(bench.shell("$T run - <&- > out.txt 2> err.txt") == 2);
+    CHECK(bench.shell("$T > out.txt 2> /dev/full") == 2);
+}
+
+TEST_CASE("a reader that goes away ends the run with a message and leaves nothing") {
+    const Bench bench;
+    bench.write("loop.nc", "O1\nN1 #100=#100+1\nDPRNT[N#100[80]]\nIF[#100LT200000]GOTO 1\nM30\n");
+    const std::size_t before = bench.count();
+    CHECK(bench.shell("($T run loop.nc --trace t.csv 2> ../err$$; echo $? > ../code$$) | head -1 "
+                      "> /dev/null; mv ../err$$ err.txt; mv ../code$$ code.txt") == 0);
+    CHECK(bench.read("code.txt") == "2\n");
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("Broken pipe"));
+    CHECK(bench.count() == before + 2);
+}
+
+TEST_CASE("programs and readings come from standard input and from pipes") {
+    const Bench bench;
+    CHECK(bench.shell("$T run part.nc --print a.txt 2> err.txt") == 0);
+    CHECK(bench.shell("cat part.nc | $T run - --print b.txt 2> err.txt") == 0);
+    CHECK(bench.shell("cat part.nc | $T run /dev/stdin --print c.txt 2> err.txt") == 0);
+    CHECK(bench.shell("bash -c \"$T run <(cat part.nc) --print d.txt\" 2> err.txt") == 0);
+    for (const char* name : {"b.txt", "c.txt", "d.txt"})
+        CHECK(bench.read(name) == bench.read("a.txt"));
+    CHECK(bench.shell("cat part.nc | $T compare - part.nc > out.txt 2> err.txt") == 0);
+    CHECK(bench.shell("cat part.nc | $T compensate - > out.txt 2> err.txt") == 0);
+}
+
+TEST_CASE("the JSON of a run names the files that it read, with their hashes") {
+    const Bench bench;
+    bench.write("main.nc", "O2\nM98 P77\nM30\n");
+    bench.write("O0077.nc", "O77\nM99\n");
+    CHECK(bench.shell("$T run main.nc --json > out.txt 2> err.txt") == 0);
+    const Json files = Json::parse(bench.read("out.txt"))["programs"];
+    REQUIRE(files.size() == 2);
+    CHECK(files[0]["path"] == "main.nc");
+    CHECK(files[0]["sha256"] == trunnion::sha256("O2\nM98 P77\nM30\n"));
+    CHECK(files[1]["sha256"] == trunnion::sha256("O77\nM99\n"));
+}
+
+TEST_CASE("a program that is posted again while it runs changes nothing") {
+    const Bench bench;
+    const std::string far(1000000, ' ');
+    bench.write("long.nc", "O1\nN1 #101=#101+1\nIF[#101LT2000000]GOTO 9\nM30\n" + far +
+                               "\nN9 X[#101-#101]\nGOTO 1\n" + far + "\nO9\nM99\n");
+    CHECK(bench.shell("$T run long.nc --json > out.txt 2> err.txt & job=$!; sleep 0.4; echo O1 > "
+                      "long.nc; wait $job") == 0);
+    CHECK(Json::parse(bench.read("out.txt"))["variables"]["101"] == 2000000);
+}
+
+TEST_CASE("an input is safe from outputs named like temporary files") {
+    const Bench bench;
+    bench.write("r.csv.part", program);
+    CHECK(bench.shell("$T run r.csv.part --trace r.csv > out.txt 2> err.txt") == 0);
+    CHECK(bench.read("r.csv.part") == program);
+}
+
+TEST_CASE("a signal leaves no temporary file") {
+    const Bench bench;
+    bench.write("loop.nc", "O1\nG91\nN1 G0 X.01\nX-.01\nGOTO 1\nM30\n");
+    const std::size_t before = bench.count();
+    for (const auto& [signal, code] : {std::pair("HUP", 4), std::pair("KILL", 137)}) {
+        CHECK(bench.shell(std::string("$T run loop.nc --trace t.csv > /dev/null 2>&1 & job=$!; "
+                                      "sleep 0.7; kill -") +
+                          signal + " $job; wait $job") == code);
+        fs::remove(bench.file("t.csv"));
+        CHECK(bench.count() == before);
+    }
+}
+
+TEST_CASE("a program that is copied alone says where it looked for the machines") {
+    const Bench bench;
+    CHECK(bench.shell("cp $T alone; unset TRUNNION_HOME; ./alone run part.nc 2> err.txt") == 0);
+    fs::create_directories(bench.path / "home/machines");
+    CHECK(bench.shell("cp " TRUNNION_SOURCE_DIR "/machines/bc_table.toml home/machines/; "
+                      "TRUNNION_HOME=home ./alone run part.nc 2> err.txt") == 0);
+}

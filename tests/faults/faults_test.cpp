@@ -1,0 +1,140 @@
+// Every command while single calls of the system fail: the exit code says so, outputs are whole or
+// absent, nothing crashes. TRUNNION_FAULTS=all (./dev assure) fails every call, not samples.
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "tests/cli/command_bench.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string source = TRUNNION_SOURCE_DIR;
+
+/// Words of a command; `out/` is an empty folder, `in/` holds part.nc, other.nc and readings.csv.
+const std::vector<std::string> commands{
+    "run in/part.nc --trace out/t.csv --readings out/r.csv --print out/p.txt --json",
+    "run O77 --programs in --vars 100",
+    "check in --run --out out/c.txt",
+    "compare in/part.nc in/other.nc --json --out out/c.json",
+    "compare --suite in/suite.toml --shard 1/1 --out out/part.json",
+    "compare --suite in/suite.toml --update --reason faults",
+    "compensate in/part.nc --out out/c.nc",
+    "volumetric --grid 2 --rotary-grid 1 --csv out/v.csv --svg out",
+    "backup save in/backup out --setup in/machine.toml",
+    "predict in/readings.csv --setup in/machine.toml",
+    "identify in/readings.csv --setup in/machine.toml --effects C.backlash --out out/s.toml",
+};
+const std::vector<std::string> functions{"open",   "read",    "write",   "close",  "fsync",
+                                         "rename", "linkat",  "pread",   "pwrite", "fchmod",
+                                         "mmap",   "unnamed", "readdir", "malloc"};
+
+struct Outcome {
+    int code = 0;  ///< above 128: a signal
+    std::string out;
+    std::map<std::string, std::string> files;
+    bool operator==(const Outcome&) const = default;
+};
+
+class FaultBench : public CommandBench {
+  public:
+    FaultBench() {
+        fs::create_directories(path / "in/backup");
+        write("in/part.nc",
+              "O1\nG90 G21 G54\nG0 X0 Y0 Z0\nG1 X10. F500.\nG2 X20. Y10. R10.\n"
+              "#100=3\nDPRNT[A#100[30]]\nM98 P77\nM30\n");
+        write("in/other.nc",
+              "O1\nG90 G21 G54\nG0 X0 Y0 Z0\nG1 X10. F500.\nG2 X20. Y11. R10.\nM30\n");
+        write("in/O0077.nc", "O77\n#100=7\nM99\n");
+        write("in/suite.toml",
+              "schema = \"trunnion.suite/1\"\ngoldens = \"../out\"\n[[case]]\n"
+              "name = \"a\"\nprogram = \"part.nc\"\n");
+        write("in/backup/MACRO.TXT", "%\nG10L85P500(400C000000000000)\n%\n");
+        write("in/readings.csv", readings());
+        write("in/machine.toml", read_whole(source + "/machines/bc_table.toml"));
+    }
+
+    /// A sphere found at turns of C to and fro: the numbers need not make sense.
+    static std::string readings() {
+        std::string text =
+            "# schema = trunnion.readings/1\nindex,time_s,test,device,feature,x_mm,y_mm,z_mm,b_deg,"
+            "c_deg,dir_x,dir_y,dir_z,value_mm\n";
+        for (int k = 0; k < 36; ++k)
+            text += fmt::format("{},{},t,sphere,S1,100,0,80,0,{},{},{},{},{}\n", k, k,
+                                k < 18 ? 20 * k : 360 - 20 * (k - 17), k % 3 == 0, k % 3 == 1,
+                                k % 3 == 2, 0.001 * (k % 7) + (k < 18 ? 0.004 : -0.004));
+        return text;
+    }
+
+    Outcome run(const std::string& words, const std::string& fault) const {
+        fs::remove_all(path / "out");
+        fs::create_directories(path / "out");
+        const std::string line =
+            "cd " + path.string() +
+            " && LD_PRELOAD=" TRUNNION_FAULT_LIBRARY " TRUNNION_FAULT=" + fault +
+            " TRUNNION_FAULT_COUNT=count.txt " TRUNNION_BINARY_DIR "/bin/trunnion " + words +
+            " > out.txt 2> err.txt < /dev/null";
+        const int status = std::system(line.c_str());
+        Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : 128, read("out.txt"), {}};
+        for (const auto& entry : fs::recursive_directory_iterator(path / "out"))
+            if (entry.is_regular_file())
+                outcome.files[entry.path().filename().string()] = read_whole(entry.path().string());
+        return outcome;
+    }
+    long calls() const { return std::atol(read("count.txt").c_str()); }
+
+  private:
+    static std::string read_whole(const std::string& name) {
+        std::ostringstream text;
+        text << std::ifstream(name).rdbuf();
+        return text.str();
+    }
+};
+
+/// Which of `count` calls fail one after the other.
+std::set<long> chosen(long count) {
+    const char* const wish = std::getenv("TRUNNION_FAULTS");
+    const long most = wish && std::string(wish) == "all" ? 300 : 3;
+    std::set<long> calls;
+    for (long k = 0; k < most && count > 0; ++k)
+        calls.insert(1 + k * (count - 1) / std::max(1L, most - 1));
+    return calls;
+}
+
+/// The files are those of the run without a fault, or some of them are missing.
+bool whole_or_absent(const Outcome& faulted, const Outcome& plain) {
+    for (const auto& [name, text] : faulted.files)
+        if (const auto it = plain.files.find(name); it == plain.files.end() || it->second != text)
+            return false;
+    return true;
+}
+
+}  // namespace
+
+TEST_CASE("no command crashes, lies or leaves halves when a call of the system fails") {
+    const FaultBench bench;
+    for (const std::string& words : commands) {
+        const Outcome plain = bench.run(words, "none:0");
+        INFO(words << "\n" << bench.read("err.txt"));
+        REQUIRE(plain.code < 2);
+        for (const std::string& function : functions) {
+            bench.run(words, function + ":0");
+            for (const long call : chosen(bench.calls())) {
+                const Outcome faulted = bench.run(words, function + ":" + std::to_string(call));
+                INFO(function << " " << call << "\n" << bench.read("err.txt"));
+                CHECK((faulted == plain || faulted.code == 2 || faulted.code == 4));
+                CHECK(whole_or_absent(faulted, plain));
+                if (faulted.code != plain.code && function != "write")
+                    CHECK_FALSE(bench.read("err.txt").empty());
+            }
+        }
+    }
+}
