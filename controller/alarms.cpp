@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cutter/cutter_alarms.h"
 #include "interpreter/alarms.h"
 
 namespace trunnion {
@@ -13,6 +14,8 @@ const std::vector<AlarmRow>& alarm_table() {
         std::vector<AlarmRow> rows = control_alarms();
         for (const AlarmInfo& info : language_alarms())
             rows.push_back({info.number, "PS", info.text, info.cause, info.remedy});
+        for (const CutterAlarm& row : cutter_alarms())
+            rows.push_back({row.number, "PS", row.text, row.cause, row.remedy});
         std::sort(rows.begin(), rows.end(),
                   [](const AlarmRow& a, const AlarmRow& b) { return a.number < b.number; });
         return rows;

@@ -1,4 +1,4 @@
-// The alarms of the control: number, text as on the screen, cause and remedy.
+// All alarms that a program can meet, and how the control raises one.
 #pragma once
 
 #include <string>
@@ -6,19 +6,10 @@
 #include <vector>
 
 #include "base/alarm.h"
+#include "controller/control_alarms.h"
 
 namespace trunnion {
 
-struct AlarmRow {
-    int number;
-    const char* prefix;  ///< "PS", "OT", "MC": shown before the number
-    const char* text;    ///< as on the screen
-    const char* cause;
-    const char* remedy;
-};
-
-/// The rows of the control itself (the language has its own: interpreter/alarms.h).
-const std::vector<AlarmRow>& control_alarms();
 /// All alarms that a program can meet, rising by number.
 const std::vector<AlarmRow>& alarm_table();
 /// The row of a number, or nullptr (3000 and above are the program's own).

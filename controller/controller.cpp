@@ -14,8 +14,8 @@ struct Controller::State {
         : control(std::move(config), stores, sink),
           variables(control),
           language(programs, language_options(), variables, std::move(print)) {
-        control.program_number = [this] { return language.program_number(); };
-        control.sequence_number = [this] { return language.sequence_number(); };
+        control.place.program_number = [this] { return language.program_number(); };
+        control.place.sequence_number = [this] { return language.sequence_number(); };
     }
 
     InterpreterOptions language_options() const;
@@ -23,10 +23,12 @@ struct Controller::State {
     RunResult run(const Program& program);
     void run_blocks();
     void release_held(Alarm& alarm);
-    void switch_units();
-    void finish();
+    void start_run();
+    template <typename Program>
+    void place_alarm(Alarm& alarm, const Program& program);
+    void finish(RunResult& result);
 
-    ControlState control;
+    Control control;
     ControlVariables variables;
     Interpreter language;
 };
@@ -39,25 +41,21 @@ InterpreterOptions Controller::State::language_options() const {
     options.max_blocks = control.config.max_blocks;
     options.go_on = control.config.go_on;
     options.calls = decode_code_calls(control.stores.parameters);
-    options.whole_arguments_as_written = control.settings.bare_is_unit;
+    options.whole_arguments_as_written = control.modal.settings.bare_is_unit;
     options.print_suppresses_blanks = control.stores.parameters.bit(6001, 1);
-    options.increment_digits = control.inch() ? 4 : 3;
+    options.increment_digits = control.modal.units.inch() ? 4 : 3;
     return options;
-}
-
-/// ROUND in a word rounds to the least input increment: 0.001 mm or 0.0001 inch.
-void Controller::State::switch_units() {
-    language.set_increment_digits(control.inch() ? 4 : 3);
-    control.units_switched = false;
 }
 
 void Controller::State::run_blocks() {
     while (const BlockWords* block = language.next()) {
-        control.move.program = &language.program_name();
+        control.modal.block.program = &language.program_name();
+        const bool inch = control.modal.units.inch();
         execute_block(control, *block);
         if (control.moved) language.block_moved();
-        if (control.units_switched) switch_units();
-        if (control.ended) language.end_program();
+        // ROUND in a word rounds to the least input increment: 0.001 mm or 0.0001 inch.
+        if (control.modal.units.inch() != inch) language.set_increment_digits(inch ? 3 : 4);
+        if (control.m_codes.ended()) language.end_program();
     }
 }
 
@@ -67,7 +65,7 @@ void Controller::State::release_held(Alarm& alarm) {
     for (const int number : {33, 34, 38, 41})
         if (alarm.number == number) return;
     try {
-        release_path(control);
+        control.mover.cutter.release();
     } catch (const Alarm& earlier) {
         alarm = earlier;
     }
@@ -92,43 +90,54 @@ std::string line_of(const SourceRef&, int) {
 
 }  // namespace
 
+void Controller::State::start_run() {
+    control.mover.axes.start_run();
+    control.mover.cutter.reset();
+    control.m_codes.start_run();
+    variables.start_run();
+}
+
+template <typename Program>
+void Controller::State::place_alarm(Alarm& alarm, const Program& program) {
+    const SourceRef place = language.where();
+    if (alarm.where.line == 0) alarm.where.line = place.line;
+    release_held(alarm);
+    if (alarm.where.program.empty()) alarm.where.program = place.program;
+    if (!alarm.block.empty()) return;
+    const bool here = alarm.where.line == place.line && alarm.where.program == place.program;
+    alarm.block = here ? language.block_text() : line_of(alarm.where, program);
+}
+
 template <typename Program>
 RunResult Controller::State::run(const Program& program) {
-    control.result = {};
-    control.noted.clear();
-    control.ended = false;
-    control.path = {};
-    control.move.arc.reset();
-    control.move.curve = nullptr;
-    control.move.until_skip = false;
-    control.pace.stop();
+    RunResult result;
+    start_run();
     try {
         language.open(program);
         run_blocks();
-        flush_path(control);
-        if (language.limit_reached()) control.result.status = RunStatus::limit;
+        control.mover.cutter.flush();
+        if (language.limit_reached()) result.status = RunStatus::limit;
     } catch (Alarm& alarm) {
-        const SourceRef place = language.where();
-        if (alarm.where.line == 0) alarm.where.line = place.line;
-        release_held(alarm);
-        if (alarm.where.program.empty()) alarm.where.program = place.program;
-        if (alarm.block.empty())
-            alarm.block = alarm.where.line == place.line && alarm.where.program == place.program
-                              ? language.block_text()
-                              : line_of(alarm.where, program);
-        control.result.status = RunStatus::alarm;
-        control.result.alarm = alarm;
+        place_alarm(alarm, program);
+        result.status = RunStatus::alarm;
+        result.alarm = alarm;
     }
-    finish();
-    return control.result;
+    finish(result);
+    return result;
 }
 
-void Controller::State::finish() {
-    RunResult& result = control.result;
+void Controller::State::finish(RunResult& result) {
+    const RunRecord& record = control.mover.record();
+    const Frames& frames = control.frames;
+    result.moves = record.moves;
+    result.time_s = record.time_s;
+    result.path_mm = record.path_mm;
+    result.notes = record.notes;
+    result.reads_skip = variables.reads_skip();
     result.blocks = language.blocks_executed();
-    result.machine = axis_positions_of(control.machine);
-    result.work = axis_positions_of(control.coordinates.shaped_from_program(control.program));
-    result.modal = control.modal.texts();
+    result.machine = axis_positions_of(frames.machine);
+    result.work = axis_positions_of(frames.stages.shaped_from_program(frames.program));
+    result.modal = control.modal.codes.texts();
 }
 
 Controller::Controller(ControlConfig config, Stores& stores, ProgramSource& programs,
@@ -160,7 +169,7 @@ std::vector<int> Controller::used_common_variables() const {
 }
 
 void Controller::place(const AxisPositions& machine) {
-    state_->control.stand_at(control_position_of(machine));
+    state_->control.frames.stand_at(control_position_of(machine));
 }
 
 }  // namespace trunnion

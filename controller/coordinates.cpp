@@ -62,12 +62,6 @@ ControlPosition Coordinates::machine_general(const ControlPosition& program) con
     return out;
 }
 
-ControlPosition Coordinates::tip_from_program(const ControlPosition& program) const {
-    ControlPosition out = machine_from_program(program);
-    for (std::size_t i = 0; i < axis_count; ++i) out.value[i] -= length.value[i];
-    return out;
-}
-
 ControlPosition Coordinates::program_from_machine(const ControlPosition& machine) const {
     ControlPosition out;
     for (std::size_t i = 0; i < axis_count; ++i)

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "controller/position.h"
+#include "offsets/control_position.h"
 
 namespace trunnion {
 
@@ -15,7 +15,7 @@ namespace trunnion {
 ///   tip     --tool length--> machine (gauge point, mm and deg)
 ///
 /// Whoever changes a stage calls compile() and then lets the control derive its program position
-/// anew. Tool centre point control replaces the last step (controller/tool_centre_point.h).
+/// anew. Tool centre point control replaces the last step (motion/tool_centre_point.h).
 class Coordinates {
   public:
     /// G51.1 and G51: p' = centre + factor (p - centre), axis by axis.
@@ -50,7 +50,6 @@ class Coordinates {
 
     /// Zero of the work frame in machine coordinates: all shifts but G52.
     ControlPosition work_origin() const;
-    ControlPosition tip_from_program(const ControlPosition& program) const;
     ControlPosition machine_from_program(const ControlPosition& program) const {
         if (!is_shift_) return machine_general(program);
         ControlPosition out;

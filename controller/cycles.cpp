@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "controller/g_codes.h"
-#include "controller/g_handlers.h"
-#include "controller/moves.h"
+#include "controller/alarms.h"
+#include "controller/commanded.h"
 
 namespace trunnion {
 
@@ -34,143 +33,157 @@ struct Levels {
     double initial, r, bottom;
 };
 
-Levels levels_of(const ControlState& c) {
-    const CycleState& cycle = c.cycle;
-    Levels out{cycle.initial_level, 0.0, 0.0};
-    out.r = cycle.r_from_initial ? cycle.initial_level + cycle.level_r : cycle.level_r;
-    out.bottom = cycle.depth_from_r ? out.r + cycle.depth : cycle.depth;
+Levels levels_of(const CycleData& data) {
+    Levels out{data.initial_level, 0.0, 0.0};
+    out.r = data.r_from_initial ? data.initial_level + data.level_r : data.level_r;
+    out.bottom = data.depth_from_r ? out.r + data.depth : data.depth;
     return out;
 }
 
-void go_to_level(ControlState& c, MotionKind kind, double level) {
-    ControlPosition target = c.program;
-    target[plane_axes(c.modal).normal] = level;
-    move_line(c, kind, target);
+/// One hole: what it is made of and by whom.
+class Hole {
+  public:
+    Hole(const CycleRow& row, const CycleData& data, Modal& modal, const Frames& frames,
+         Mover& mover)
+        : row_(row),
+          data_(data),
+          modal_(modal),
+          frames_(frames),
+          mover_(mover),
+          at_(levels_of(data)) {}
+
+    void make(const ControlPosition& place);
+
+  private:
+    void go_to(MotionKind kind, double level);
+    void shift_tool(double by);
+    void turn_spindle(int direction);
+    void peck(bool out_of_hole);
+    void leave();
+    void leave_by_feed(double top);
+    void bore_back();
+
+    const CycleRow& row_;
+    const CycleData& data_;
+    Modal& modal_;
+    const Frames& frames_;
+    Mover& mover_;
+    Levels at_;
+};
+
+void Hole::go_to(MotionKind kind, double level) {
+    ControlPosition target = frames_.program;
+    target[modal_.plane().normal] = level;
+    mover_.line(kind, target);
 }
 
 /// The tool point leaves the wall: by Q along the first axis of the plane (5148: +first, assumed).
-void shift_tool(ControlState& c, double by) {
-    ControlPosition target = c.program;
-    target[plane_axes(c.modal).first] += by;
-    move_line(c, MotionKind::rapid, target);
+void Hole::shift_tool(double by) {
+    ControlPosition target = frames_.program;
+    target[modal_.plane().first] += by;
+    mover_.line(MotionKind::rapid, target);
 }
 
-void turn_spindle(ControlState& c, int direction) {
-    if (c.spindle.direction != direction) c.pace.stop();
-    c.spindle.direction = direction;
-    c.feed_changed();
-}
-
-void need_peck(const ControlState& c) {
-    if (c.cycle.peck <= 0.0) raise_alarm(45);
+void Hole::turn_spindle(int direction) {
+    if (modal_.spindle.direction != direction) mover_.axes.stop();
+    modal_.spindle.direction = direction;
+    modal_.feed_changed();
 }
 
 /// G73: down by Q, back by 5114. G83: down by Q, out to R, in again to 5115 above the last depth.
-void peck(ControlState& c, const Levels& at, bool out_of_hole) {
-    need_peck(c);
-    const double way = at.bottom < at.r ? -1.0 : 1.0;
-    const double total = std::abs(at.bottom - at.r);
+void Hole::peck(bool out_of_hole) {
+    if (data_.peck <= 0.0) raise_alarm(45);
+    const ControlSettings& settings = modal_.settings;
+    const double way = at_.bottom < at_.r ? -1.0 : 1.0;
+    const double total = std::abs(at_.bottom - at_.r);
+    const double back = out_of_hole ? settings.peck_clearance_mm : settings.peck_return_mm;
     for (double done = 0.0;;) {
-        done = std::min(done + c.cycle.peck, total);
+        done = std::min(done + data_.peck, total);
         if (total - done < 1e-9) done = total;
-        go_to_level(c, MotionKind::linear, done == total ? at.bottom : at.r + way * done);
+        go_to(MotionKind::linear, done == total ? at_.bottom : at_.r + way * done);
         if (done == total) return;
-        if (out_of_hole) {
-            go_to_level(c, MotionKind::rapid, at.r);
-            go_to_level(c, MotionKind::rapid,
-                        at.r + way * std::max(0.0, done - c.settings.peck_clearance_mm));
-        } else {
-            go_to_level(c, MotionKind::rapid,
-                        at.r + way * std::max(0.0, done - c.settings.peck_return_mm));
-        }
+        if (out_of_hole) go_to(MotionKind::rapid, at_.r);
+        go_to(MotionKind::rapid, at_.r + way * std::max(0.0, done - back));
     }
 }
 
-void leave(ControlState& c, const CycleRow& row, const Levels& at) {
-    const int direction = c.spindle.direction;
-    const bool to_r = c.modal.is(ModalGroup::cycle_return, 990);
-    const double top = to_r ? at.r : at.initial;
-    switch (row.leave) {
+void Hole::leave_by_feed(double top) {
+    const bool all_the_way = row_.code10 == 890 && modal_.settings.g89_feeds_to_initial;
+    if (!all_the_way) go_to(MotionKind::linear, at_.r);
+    go_to(all_the_way ? MotionKind::linear : MotionKind::rapid, top);
+}
+
+void Hole::leave() {
+    const int direction = modal_.spindle.direction;
+    const double top = modal_.is(ModalGroup::cycle_return, 990) ? at_.r : at_.initial;
+    switch (row_.leave) {
         case Leave::rapid:
-            go_to_level(c, MotionKind::rapid, top);
-            break;
+            return go_to(MotionKind::rapid, top);
         case Leave::feed:
-            if (row.code10 != 890 || !c.config.g89_feeds_to_initial)
-                go_to_level(c, MotionKind::linear, at.r);
-            go_to_level(c,
-                        row.code10 == 890 && c.config.g89_feeds_to_initial ? MotionKind::linear
-                                                                           : MotionKind::rapid,
-                        top);
-            break;
+            return leave_by_feed(top);
         case Leave::tap:
-            turn_spindle(c, row.code10 == 840 ? -1 : 1);
-            go_to_level(c, MotionKind::linear, at.r);
-            turn_spindle(c, direction);
-            go_to_level(c, MotionKind::rapid, top);
-            break;
+            turn_spindle(row_.code10 == 840 ? -1 : 1);
+            go_to(MotionKind::linear, at_.r);
+            turn_spindle(direction);
+            return go_to(MotionKind::rapid, top);
         case Leave::stopped_rapid:
-            turn_spindle(c, 0);
-            go_to_level(c, MotionKind::rapid, top);
-            turn_spindle(c, direction);
-            break;
+            turn_spindle(0);
+            go_to(MotionKind::rapid, top);
+            return turn_spindle(direction);
         case Leave::shifted_rapid:
-            turn_spindle(c, 0);
-            shift_tool(c, c.cycle.peck);
-            go_to_level(c, MotionKind::rapid, top);
-            shift_tool(c, -c.cycle.peck);
-            turn_spindle(c, direction);
-            break;
+            turn_spindle(0);
+            shift_tool(data_.peck);
+            go_to(MotionKind::rapid, top);
+            shift_tool(-data_.peck);
+            return turn_spindle(direction);
     }
 }
 
 /// G87: in beside the hole to R, back under it, feed up to Z, out beside the hole.
-void bore_back(ControlState& c, const Levels& at) {
-    const int direction = c.spindle.direction;
-    turn_spindle(c, 0);
-    shift_tool(c, c.cycle.peck);
-    go_to_level(c, MotionKind::rapid, at.r);
-    shift_tool(c, -c.cycle.peck);
-    turn_spindle(c, direction ? direction : 1);
-    go_to_level(c, MotionKind::linear, at.bottom);
-    if (c.cycle.dwell_s > 0.0) dwell(c, c.cycle.dwell_s);
-    turn_spindle(c, 0);
-    shift_tool(c, c.cycle.peck);
-    go_to_level(c, MotionKind::rapid, at.initial);
-    shift_tool(c, -c.cycle.peck);
-    turn_spindle(c, direction);
+void Hole::bore_back() {
+    const int direction = modal_.spindle.direction;
+    turn_spindle(0);
+    shift_tool(data_.peck);
+    go_to(MotionKind::rapid, at_.r);
+    shift_tool(-data_.peck);
+    turn_spindle(direction ? direction : 1);
+    go_to(MotionKind::linear, at_.bottom);
+    if (data_.dwell_s > 0.0) mover_.axes.dwell(data_.dwell_s);
+    turn_spindle(0);
+    shift_tool(data_.peck);
+    go_to(MotionKind::rapid, at_.initial);
+    shift_tool(-data_.peck);
+    turn_spindle(direction);
 }
 
-void make_hole(ControlState& c, const CycleRow& row, const ControlPosition& place) {
-    const Levels at = levels_of(c);
-    move_line(c, MotionKind::rapid, place);
-    if (row.cut == Cut::back_boring) return bore_back(c, at);
-    go_to_level(c, MotionKind::rapid, at.r);
-    const int direction = c.spindle.direction;
-    if (row.leave == Leave::tap) turn_spindle(c, row.code10 == 840 ? 1 : -1);
-    if (row.cut == Cut::straight)
-        go_to_level(c, MotionKind::linear, at.bottom);
+void Hole::make(const ControlPosition& place) {
+    mover_.line(MotionKind::rapid, place);
+    if (row_.cut == Cut::back_boring) return bore_back();
+    go_to(MotionKind::rapid, at_.r);
+    const int direction = modal_.spindle.direction;
+    if (row_.leave == Leave::tap) turn_spindle(row_.code10 == 840 ? 1 : -1);
+    if (row_.cut == Cut::straight)
+        go_to(MotionKind::linear, at_.bottom);
     else
-        peck(c, at, row.cut == Cut::full_retreat);
-    if (row.dwell && c.cycle.dwell_s > 0.0) dwell(c, c.cycle.dwell_s);
-    leave(c, row, at);
-    turn_spindle(c, direction);
+        peck(row_.cut == Cut::full_retreat);
+    if (row_.dwell && data_.dwell_s > 0.0) mover_.axes.dwell(data_.dwell_s);
+    leave();
+    turn_spindle(direction);
 }
 
-void read_cycle_words(ControlState& c) {
-    const SortedWords& w = c.words;
-    CycleState& cycle = c.cycle;
-    const char depth_word = letter_of(plane_axes(c.modal).normal);
-    const bool relative = !c.absolute();
-    if (w.has('R')) {
-        cycle.level_r = c.length_word('R');
-        cycle.r_from_initial = relative;
+void read_cycle_words(CycleData& data, const SortedWords& words, const Modal& modal) {
+    const char depth_word = letter_of(modal.plane().normal);
+    const bool relative = !modal.absolute();
+    if (words.has('R')) {
+        data.level_r = words.length_mm('R');
+        data.r_from_initial = relative;
     }
-    if (w.has(depth_word)) {
-        cycle.depth = c.length_word(depth_word);
-        cycle.depth_from_r = relative;
+    if (words.has(depth_word)) {
+        data.depth = words.length_mm(depth_word);
+        data.depth_from_r = relative;
     }
-    if (w.has('Q')) cycle.peck = std::abs(c.length_word('Q'));
-    if (w.has('P')) cycle.dwell_s = c.whole_word('P') * 0.001;
+    if (words.has('Q')) data.peck = std::abs(words.length_mm('Q'));
+    if (words.has('P')) data.dwell_s = words.whole('P') * 0.001;
 }
 
 }  // namespace
@@ -181,28 +194,29 @@ const CycleRow* find_cycle(int code10) {
     return it == std::end(rows) ? nullptr : &*it;
 }
 
-void g_cycle(ControlState& c, const GCode& code) {
-    if (c.modal.is(ModalGroup::cycle, 800)) {
-        const double level = c.program[plane_axes(c.modal).normal];
-        c.cycle = CycleState{};
-        c.cycle.initial_level = c.cycle.level_r = c.cycle.depth = level;
+void start_cycle(CycleData& data, Modal& modal, const Frames& frames, int code10) {
+    if (!modal.in_cycle()) {
+        data = {};
+        data.initial_level = data.level_r = data.depth = frames.program[modal.plane().normal];
     }
-    c.modal.set(ModalGroup::cycle, code.code10);
+    modal.codes.set(ModalGroup::cycle, code10);
 }
 
-void run_cycle(ControlState& c) {
-    const CycleRow* row = find_cycle(c.modal[ModalGroup::cycle]);
+void run_cycle(CycleData& data, SortedWords& words, Modal& modal, const Frames& frames,
+               Mover& mover) {
+    const CycleRow* row = find_cycle(modal.codes[ModalGroup::cycle]);
     if (!row) raise_alarm(10);
-    read_cycle_words(c);
-    if (!c.words.has_axis() && !c.words.has('R')) return;
-    const PlaneAxes& plane = plane_axes(c.modal);
-    c.words.present &= ~SortedWords::bit(letter_of(plane.normal));  // that word is the depth
-    const char times_word = c.words.has('K') ? 'K' : 'L';
-    const int times = c.words.has(times_word) ? c.whole_word(times_word) : 1;
+    read_cycle_words(data, words, modal);
+    if (!words.has_axis() && !words.has('R')) return;
+    const Axis normal = modal.plane().normal;
+    words.present &= ~SortedWords::bit(letter_of(normal));  // that word is the depth
+    const char times_word = words.has('K') ? 'K' : 'L';
+    const int times = words.has(times_word) ? words.whole(times_word) : 1;
+    Hole hole(*row, data, modal, frames, mover);
     for (int i = 0; i < times; ++i) {
-        ControlPosition place = c.target();
-        place[plane.normal] = c.program[plane.normal];
-        make_hole(c, *row, place);
+        ControlPosition place = commanded_position(words, modal, frames);
+        place[normal] = frames.program[normal];
+        hole.make(place);
     }
 }
 

@@ -2,50 +2,65 @@
 
 #include <cmath>
 
-#include "controller/five_axis.h"
+#include "controller/alarms.h"
+#include "controller/tool_length.h"
 
 namespace trunnion {
 
 namespace {
 
-template <int code>
-void five_axis_code(ControlState& c) {
-    hurco_m_code(c, code);
-}
-
-/// The rotary counters go back into one turn; nothing moves.
-void unwind(ControlState& c) {
-    ControlPosition machine = c.machine;
-    for (const ControlAxis& axis : c.config.axes)
+/// M31: the rotary counters go back into one turn; nothing moves.
+void unwind(Modal& modal, Frames& frames, Mover&) {
+    ControlPosition machine = frames.machine;
+    for (const ControlAxis& axis : modal.settings.axes)
         if (axis.rotary) machine[axis.axis] -= 360.0 * std::floor(machine[axis.axis] / 360.0);
-    c.stand_at(machine);
+    frames.stand_at(machine);
 }
 
-void tilt_preference(ControlState& c) {
-    c.note("M200 is accepted: the preference of the tilt axis is not emulated");
+void tilt_preference(Modal&, Frames&, Mover& mover) {
+    mover.note("M200 is accepted: the preference of the tilt axis is not emulated");
 }
 
-// Source of all rows: VMX 42 SR NC Post Processor Guide v1.2, doc 757-4002-505, contents
-// (facts/control.md 2.6). What they do in detail is assumed to be what the like Fanuc code does.
+void shortest_way_on(Modal& modal, Frames&, Mover&) {
+    modal.shortest_way = true;
+}
+void shortest_way_off(Modal& modal, Frames&, Mover&) {
+    modal.shortest_way = false;
+}
+
+/// M128 takes the tool length in force; its programming frame lies on the table at rotary zero
+/// (assumed: the part set-up is a table frame).
+void start_management(Modal&, Frames& frames, Mover& mover) {
+    const RotaryTransform& transform = frames.transform(5420);
+    if (frames.fixture_number != 0) raise_alarm(5421, "(G54.2 is in force)");
+    cancel_tool_centre(frames, mover);
+    frames.tip.by_vector = false;
+    frames.tip.in_force = ToolCentrePoint::start(transform, frames.axes, TcpFrame::rotary_zero,
+                                                 frames.tool.vector_mm);
+    mover.frames_changed();
+}
+
+void end_management(Modal&, Frames& frames, Mover& mover) {
+    cancel_tool_centre(frames, mover);
+}
+
+// Source of all rows: VMX 42 SR NC Post Processor Guide v1.2, doc 757-4002-505, contents. What they
+// do in detail is assumed to be what the like Fanuc code does.
 constexpr const char* guide = "Hurco 757-4002-505, contents";
 constexpr DialectCode rows[] = {
     {DialectFamily::hurco, 31, unwind, "rotary encoder reset (unwind)", guide},
-    {DialectFamily::hurco, 126, five_axis_code<126>, "shortest angular traverse on", guide},
-    {DialectFamily::hurco, 127, five_axis_code<127>, "shortest angular traverse off", guide},
-    {DialectFamily::hurco, 128, five_axis_code<128>, "tool centre point control on", guide},
-    {DialectFamily::hurco, 129, five_axis_code<129>, "tool centre point control off", guide},
+    {DialectFamily::hurco, 126, shortest_way_on, "shortest angular traverse on", guide},
+    {DialectFamily::hurco, 127, shortest_way_off, "shortest angular traverse off", guide},
+    {DialectFamily::hurco, 128, start_management, "tool centre point control on", guide},
+    {DialectFamily::hurco, 129, end_management, "tool centre point control off", guide},
     {DialectFamily::hurco, 200, tilt_preference, "tilt axis preference", guide},
 };
 
 }  // namespace
 
-std::span<const DialectCode> dialect_codes() {
-    return rows;
-}
-
-const DialectCode* find_dialect_code(const ControlState& c, int m_code) {
+const DialectCode* find_dialect_code(DialectFamily family, int m_code) {
     for (const DialectCode& row : rows)
-        if (row.m_code == m_code && row.family == c.config.dialect.family) return &row;
+        if (row.m_code == m_code && row.family == family) return &row;
     return nullptr;
 }
 

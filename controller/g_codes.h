@@ -1,20 +1,54 @@
-// The G codes: code, modal group, when it acts in a block, who carries it out.
+// The G codes: code, modal group, when it acts in a block, what it asks for.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 
-#include "controller/modal.h"
+#include "controller/modal_groups.h"
 
 namespace trunnion {
 
-struct ControlState;
-struct GCode;
-
-/// A handler reads `c.words` and changes the state; it sets its modal code itself through
-/// `set_modal` or is set before the call when `sets_modal`.
-using GHandler = void (*)(ControlState& c, const GCode& code);
+/// What a code asks for; controller/g_actions.cpp says who does it.
+enum class Action : std::uint8_t {
+    sets_group,  ///< only the code of its modal group
+    accepted,
+    corner_arc,
+    cutter,
+    cycle,
+    cylinder,
+    data_setting,
+    data_setting_end,
+    dwell,
+    exact_stop,
+    feed_mode,
+    five_axis_cutter,
+    fixture_offset,
+    from_reference,
+    local_shift,
+    machine_position,
+    mirror,
+    mirror_off,
+    plane,
+    polar_motion,
+    polar_words,
+    preset,
+    preset_cancel,
+    reference,
+    reference_check,
+    rotation,
+    rotation_cancel,
+    scaling,
+    scaling_off,
+    skip,
+    speed_mode,
+    tilted_plane,
+    tilted_plane_by_tool,
+    tool_axis,
+    tool_axis_keeping_tip,
+    tool_centre,
+    tool_length,
+    units,
+    work_offset,
+};
 
 /// Order in which the codes of one block act, whatever order they are written in.
 enum class Phase : std::uint8_t {
@@ -35,12 +69,11 @@ struct GCode {
     int code10;  ///< code * 10
     ModalGroup group;
     Phase phase;
-    GHandler handler;  ///< nullptr: only sets its modal group
+    Action action;
     const char* text;  ///< for messages and documents
 };
 
 /// The code of a word's value, or nullptr when the control does not have it.
 const GCode* find_g_code(double value);
-std::span<const GCode> g_code_table();
 
 }  // namespace trunnion

@@ -10,14 +10,9 @@ namespace trunnion {
 
 namespace {
 
-/// The M codes this control knows (others are noted once and passed on). Assignments of M codes are
-/// the machine builder's; these are the usual ones.
-struct MCodeRow {
-    int code;
-    bool after_motion;
-    const char* text;
-};
-constexpr MCodeRow rows[] = {
+/// Assignments of M codes are the machine builder's; these are the usual ones. Others are noted
+/// once and passed on.
+constexpr MCode rows[] = {
     {0, true, "program stop"},
     {1, true, "optional stop"},
     {2, true, "end of program"},
@@ -33,55 +28,10 @@ constexpr MCodeRow rows[] = {
     {30, true, "end of program, rewind"},
 };
 
-const MCodeRow* find_row(int code) {
+const MCode* find_row(int code) {
     const auto it = std::find_if(std::begin(rows), std::end(rows),
-                                 [code](const MCodeRow& row) { return row.code == code; });
+                                 [code](const MCode& row) { return row.code == code; });
     return it == std::end(rows) ? nullptr : &*it;
-}
-
-const ClampCode* clamp_of(const ControlState& c, int code) {
-    for (const ClampCode& clamp : c.config.clamps)
-        if (code == clamp.m_clamp || code == clamp.m_release) return &clamp;
-    return nullptr;
-}
-
-void set_spindle(ControlState& c, int direction) {
-    c.spindle.direction = direction;
-    c.feed_changed();
-}
-
-void change_state(ControlState& c, int code) {
-    switch (code) {
-        case 2:
-        case 30:
-            c.ended = true;
-            break;
-        case 3:
-            set_spindle(c, 1);
-            break;
-        case 4:
-            set_spindle(c, -1);
-            break;
-        case 5:
-        case 19:
-            set_spindle(c, 0);
-            break;
-        case 6:
-            c.move.tool = c.tool_selected;
-            break;
-        case 7:
-        case 8:
-            c.move.coolant = true;
-            break;
-        case 9:
-            c.move.coolant = false;
-            break;
-        case 29:
-            c.cycle.rigid_tap = true;
-            break;
-        default:
-            break;
-    }
 }
 
 /// These stop the reading ahead: a compensated path ends square before them.
@@ -89,45 +39,62 @@ bool stops_reading(int code) {
     return code == 0 || code == 1 || code == 2 || code == 30;
 }
 
-void carry_out(ControlState& c, int code) {
-    c.last_m = code;
-    if (stops_reading(code)) flush_path(c);
-    if (code == 0) c.note("M00: program stop, continued");
-    if (code == 1 && c.config.optional_stop) c.note("M01: optional stop, continued");
-    if (const DialectCode* row = find_dialect_code(c, code)) {
-        row->handler(c);
-        return queue_m_code(c, code);
-    }
-    if (const ClampCode* clamp = clamp_of(c, code))
-        c.clamped[index_of(clamp->axis)] = code == clamp->m_clamp;
-    else if (!find_row(code))
-        c.note(fmt::format("M{:02} is not known to the control: passed on without effect", code));
-    change_state(c, code);
-    queue_m_code(c, code);
-}
-
-bool acts_after(const ControlState& c, int code) {
-    if (const ClampCode* clamp = clamp_of(c, code)) return code == clamp->m_clamp;
-    const MCodeRow* row = find_row(code);
-    return row && row->after_motion;
-}
-
-void run(ControlState& c, bool after) {
-    for (std::size_t i = 0; i < c.words.m_count; ++i) {
-        if (acts_after(c, c.words.m[i]) != after) continue;
-        c.words.running_column = c.words.m_column[i];
-        carry_out(c, c.words.m[i]);
-    }
-    c.words.running_column = 0;
+void set_spindle(Modal& modal, int direction) {
+    modal.spindle.direction = direction;
+    modal.feed_changed();
 }
 
 }  // namespace
 
-void m_codes_before(ControlState& c) {
-    run(c, false);
+MCodes::MCodes(const ControlConfig& config)
+    : clamps_(config.clamps), optional_stop_(config.optional_stop) {}
+
+const ClampCode* MCodes::clamp_of(int code) const {
+    for (const ClampCode& clamp : clamps_)
+        if (code == clamp.m_clamp || code == clamp.m_release) return &clamp;
+    return nullptr;
 }
-void m_codes_after(ControlState& c) {
-    run(c, true);
+
+bool MCodes::acts_after(int code) const {
+    if (const ClampCode* clamp = clamp_of(code)) return code == clamp->m_clamp;
+    const MCode* row = find_row(code);
+    return row && row->after_motion;
+}
+
+void MCodes::change_state(int code, Modal& modal, Mover& mover) {
+    const ClampCode* clamp = clamp_of(code);
+    if (clamp)
+        mover.axes.clamp(clamp->axis, code == clamp->m_clamp);
+    else if (!find_row(code))
+        mover.note(
+            fmt::format("M{:02} is not known to the control: passed on without effect", code));
+    if (code == 2 || code == 30) ended_ = true;
+    if (code == 3 || code == 4) set_spindle(modal, code == 3 ? 1 : -1);
+    if (code == 5 || code == 19) set_spindle(modal, 0);
+    if (code == 6) modal.block.tool = modal.number.tool;
+    if (code >= 7 && code <= 9) modal.block.coolant = code != 9;
+}
+
+void MCodes::carry_out(int code, Modal& modal, Frames& frames, Mover& mover) {
+    modal.number.m = code;
+    if (stops_reading(code)) mover.cutter.flush();
+    if (code == 0) mover.note("M00: program stop, continued");
+    if (code == 1 && optional_stop_) mover.note("M01: optional stop, continued");
+    if (const DialectCode* row = find_dialect_code(modal.settings.family, code))
+        row->act(modal, frames, mover);
+    else
+        change_state(code, modal, mover);
+    mover.m_code(code);
+}
+
+void MCodes::run(bool after_motion, SortedWords& words, Modal& modal, Frames& frames,
+                 Mover& mover) {
+    for (std::size_t i = 0; i < words.m_count; ++i) {
+        if (acts_after(words.m[i]) != after_motion) continue;
+        words.running_column = words.m_column[i];
+        carry_out(words.m[i], modal, frames, mover);
+    }
+    words.running_column = 0;
 }
 
 }  // namespace trunnion

@@ -1,13 +1,38 @@
 // M codes: what they change in the control, and whether they act before or after the motion.
 #pragma once
 
-#include "controller/control_state.h"
+#include "controller/control_config.h"
+#include "controller/mover.h"
 
 namespace trunnion {
 
-/// M3 M4 M5?, tool change, coolant, releases: all that acts before the motion of the block.
-void m_codes_before(ControlState& c);
-/// M0 M1 M2 M30 M5 M9 and clamps: after the motion.
-void m_codes_after(ControlState& c);
+/// What the control knows of an M code.
+struct MCode {
+    int code;
+    bool after_motion;
+    const char* text;
+};
+
+class MCodes {
+  public:
+    explicit MCodes(const ControlConfig& config);
+
+    /// Carries out the M codes of the block that act before its motion (M3 M4 M6 M8, releases), or
+    /// after it (M0 M1 M2 M5 M9 M30 and clamps).
+    void run(bool after_motion, SortedWords& words, Modal& modal, Frames& frames, Mover& mover);
+    /// M2 or M30 came.
+    bool ended() const { return ended_; }
+    void start_run() { ended_ = false; }
+
+  private:
+    bool acts_after(int code) const;
+    const ClampCode* clamp_of(int code) const;
+    void carry_out(int code, Modal& modal, Frames& frames, Mover& mover);
+    void change_state(int code, Modal& modal, Mover& mover);
+
+    std::vector<ClampCode> clamps_;
+    bool optional_stop_;
+    bool ended_ = false;
+};
 
 }  // namespace trunnion

@@ -1,56 +1,50 @@
 #include "controller/modal.h"
 
-#include <fmt/format.h>
+#include <cmath>
+#include <string_view>
 
 namespace trunnion {
 
-const std::vector<ModalGroupRow>& modal_groups() {
-    static const std::vector<ModalGroupRow> rows = {
-        {ModalGroup::motion, 0, "interpolation"},
-        {ModalGroup::plane, 170, "plane"},
-        {ModalGroup::distance, 900, "absolute or incremental"},
-        {ModalGroup::stored_stroke, 230, "stored stroke check"},
-        {ModalGroup::feed_mode, 940, "feed"},
-        {ModalGroup::units, 210, "mm or inch"},
-        {ModalGroup::cutter, 400, "cutter compensation"},
-        {ModalGroup::length, 490, "tool length compensation"},
-        {ModalGroup::cycle, 800, "canned cycle"},
-        {ModalGroup::cycle_return, 980, "return level of cycles"},
-        {ModalGroup::scaling, 500, "scaling"},
-        {ModalGroup::macro_call, 670, "modal macro call"},
-        {ModalGroup::surface_speed, 970, "constant surface speed"},
-        {ModalGroup::work_offset, 540, "work coordinate system"},
-        {ModalGroup::path_mode, 640, "cutting mode"},
-        {ModalGroup::rotation, 690, "coordinate rotation, tilted plane"},
-        {ModalGroup::polar_words, 150, "polar coordinate words"},
-        {ModalGroup::polar_motion, 131, "polar coordinate interpolation"},
-        {ModalGroup::mirror, 501, "programmable mirror image"},
-        {ModalGroup::fixture, 0, "dynamic fixture offset"},
-    };
-    return rows;
+const PlaneAxes& Modal::plane() const {
+    const int code = codes[ModalGroup::plane];
+    return code == 170 ? plane_xy : code == 180 ? plane_zx : plane_yz;
 }
 
-ModalState initial_modal_state(unsigned parameter_3402) {
-    ModalState state;
-    for (const ModalGroupRow& row : modal_groups()) state.set(row.group, row.initial_code10);
-    if (parameter_3402 & 1U) state.set(ModalGroup::motion, 10);
-    if (parameter_3402 & 2U) state.set(ModalGroup::plane, 180);
-    if (parameter_3402 & 4U) state.set(ModalGroup::plane, 190);
-    if (parameter_3402 & 8U) state.set(ModalGroup::distance, 910);
-    return state;
+void Modal::units_changed() {
+    units.unit_mm = is(ModalGroup::units, 200) ? 25.4 : 1.0;
+    const double increment_mm = units.inch() ? 0.0001 * 25.4 : 0.001;
+    units.bare_linear = settings.bare_is_unit ? units.unit_mm : increment_mm;
+    units.bare_rotary = settings.bare_is_unit ? 1.0 : 0.001;
+    set_largest_words();
+    feed_changed();
 }
 
-std::string g_code_text(int code10) {
-    if (code10 % 10 != 0) return fmt::format("G{:02}.{}", code10 / 10, code10 % 10);
-    return fmt::format("G{:02}", code10 / 10);
+/// Nine digits of least increments (30i, A-79348E p. 84), eight on a 16i (A-78712E p. 1416), for
+/// positions; eight digits for the rest (assumed).
+void Modal::set_largest_words() {
+    constexpr std::string_view positions = "ABCIJKQRUVWXYZ";
+    for (std::size_t i = 0; i < 26; ++i) {
+        const char letter = static_cast<char>('A' + i);
+        const bool position = positions.find(letter) != positions.npos;
+        const auto axis = axis_of(letter);
+        const bool in_inch = units.inch() && !(axis && is_rotary(*axis));
+        const double digits = in_inch ? 1e4 : 1e3;
+        largest[i] = position ? settings.largest_position / digits : 99999999.0;
+        largest_bare[i] =
+            position && !settings.bare_is_unit ? settings.largest_position : largest[i];
+    }
 }
 
-std::vector<std::string> ModalState::texts() const {
-    std::vector<std::string> out;
-    for (const ModalGroupRow& row : modal_groups())
-        if (const int code10 = (*this)[row.group]; code10 != 0 || row.group == ModalGroup::motion)
-            out.push_back(g_code_text(code10));
-    return out;
+void Modal::feed_changed() {
+    FeedState& feed = block.feed;
+    const double rpm = spindle.signed_rpm();
+    double mm_min = feed.programmed * units.unit_mm;
+    if (is(ModalGroup::feed_mode, 950)) mm_min *= std::abs(rpm);
+    feed.inverse_time = is(ModalGroup::feed_mode, 930);
+    if (feed.inverse_time) mm_min = 0.0;
+    feed.mm_min = mm_min;
+    feed.seconds_per_mm = mm_min > 0.0 ? 60.0 / mm_min : 0.0;
+    block.spindle_rpm = rpm;
 }
 
 }  // namespace trunnion

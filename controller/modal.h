@@ -1,66 +1,66 @@
-// Modal state of the control: one code in force for each modal group, as #4001.. show them.
+// Modal state: what is in force from block to block.
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <string>
-#include <vector>
+
+#include "controller/modal_groups.h"
+#include "controller/settings.h"
+#include "controller/sorted_words.h"
+#include "motion/block_marks.h"
+#include "motion/plane_axes.h"
 
 namespace trunnion {
 
-/// Modal groups of Fanuc mill controls; the number is that of the manual, so #4000 + group reads
-/// it.
-enum class ModalGroup : std::uint8_t {
-    one_shot = 0,
-    motion = 1,          // G0 G1 G2 G3
-    plane = 2,           // G17 G18 G19
-    distance = 3,        // G90 G91
-    stored_stroke = 4,   // G22 G23
-    feed_mode = 5,       // G93 G94 G95
-    units = 6,           // G20 G21
-    cutter = 7,          // G40 G41 G42
-    length = 8,          // G43 G44 G49 G43.4 G43.5
-    cycle = 9,           // G73-G89, G80
-    cycle_return = 10,   // G98 G99
-    scaling = 11,        // G50 G51
-    macro_call = 12,     // G66 G67
-    surface_speed = 13,  // G96 G97
-    work_offset = 14,    // G54-G59 G54.1
-    path_mode = 15,      // G61-G64
-    rotation = 16,       // G68 G69 G68.2 ..
-    polar_words = 17,    // G15 G16
-    polar_motion = 21,   // G12.1 G13.1
-    mirror = 22,         // G50.1 G51.1
-    fixture = 23,        // G54.2, 0: P0
+struct SpindleState {
+    double programmed = 0.0;  ///< the last S as written (#4119)
+    double rpm = 0.0;         ///< in force, without sign
+    int direction = 0;        ///< +1 M3, -1 M4, 0 M5
+    // Constant surface speed, G96.
+    bool by_surface = false;
+    double surface = 0.0;   ///< S under G96: m/min, or ft/min in inch
+    double most_rpm = 0.0;  ///< G92 S; 0: none
+    Axis radius_axis = Axis::X;
+
+    double signed_rpm() const { return rpm * direction; }
 };
 
-constexpr std::size_t modal_group_count = 24;
-
-/// What stands in a group when the power comes on (parameter 3402 changes some of them).
-struct ModalGroupRow {
-    ModalGroup group;
-    int initial_code10;  ///< code * 10: G43.4 is 434
-    const char* text;
+/// The numbers that words and codes chose last.
+struct NumbersInForce {
+    int tool = 0;    ///< T, selected
+    int length = 0;  ///< H
+    int radius = 0;  ///< D
+    int work = 0;    ///< P of G54.1, 0 for G54-G59
+    int m = 0;       ///< the last M code, #4113
 };
-const std::vector<ModalGroupRow>& modal_groups();
 
-struct ModalState {
-    std::array<std::int16_t, modal_group_count> code10{};
+struct Modal {
+    ModalCodes codes;
+    ControlSettings settings;
+    WordUnits units;
+    /// The largest value of each address, written with a point and without.
+    std::array<double, 26> largest{}, largest_bare{};
+    BlockMarks block;
+    SpindleState spindle;
+    NumbersInForce number;
+    double polar_angle_deg = 0.0;  ///< G16: the angle in force
+    bool shortest_way = false;     ///< M126: rotary words go the shorter way
 
-    int operator[](ModalGroup group) const { return code10[static_cast<std::size_t>(group)]; }
-    void set(ModalGroup group, int code) {
-        code10[static_cast<std::size_t>(group)] = static_cast<std::int16_t>(code);
+    bool is(ModalGroup group, int code10) const { return codes.is(group, code10); }
+    bool absolute() const { return is(ModalGroup::distance, 900); }
+    bool cutter_is_off() const { return is(ModalGroup::cutter, 400); }
+    bool in_cycle() const { return !is(ModalGroup::cycle, 800); }
+    const PlaneAxes& plane() const;
+    bool has_axis(Axis axis) const {
+        return (settings.axis_letters & SortedWords::bit(letter_of(axis))) != 0;
     }
-    bool is(ModalGroup group, int code) const { return (*this)[group] == code; }
 
-    /// "G00", "G17", "G54.1": one for each group, in group order; G54.2 only while it is in force.
-    std::vector<std::string> texts() const;
+    /// After G20, G21 or parameters changed.
+    void units_changed();
+    /// After F, S, M3-M5 or the feed mode changed.
+    void feed_changed();
+
+  private:
+    void set_largest_words();
 };
-
-/// The state at power-on: the table, changed by parameter 3402 (#0 G01, #1 G18, #2 G19, #3 G91).
-ModalState initial_modal_state(unsigned parameter_3402);
-
-/// "G01", "G43.4" from code * 10.
-std::string g_code_text(int code10);
 
 }  // namespace trunnion

@@ -1,5 +1,8 @@
 #include "controller/offset_variables.h"
 
+#include "controller/fixture_offset_codes.h"
+#include "controller/work_frames.h"
+
 namespace trunnion {
 
 namespace {
@@ -10,7 +13,7 @@ struct Place {
     bool length = true;  ///< in mm: read and written in the unit in force
 };
 
-/// Tool offsets, memory C. Rows from facts/control.md 2.5 [C]; 6000#3 V15 swaps wear and geometry.
+/// Tool offsets, memory C. Rows as remembered; 6000#3 V15 swaps wear and geometry.
 struct ToolRange {
     int first, count;
     double ToolOffset::*wear_order;
@@ -25,75 +28,73 @@ constexpr ToolRange tool_ranges[] = {
     {13001, 999, &ToolOffset::radius_geometry_mm, &ToolOffset::radius_wear_mm},
 };
 
-Place tool_place(ControlState& c, int number) {
+Place tool_place(const ControlSettings& settings, ToolOffsets& tools, int number) {
     for (const ToolRange& range : tool_ranges) {
         const int n = number - range.first + 1;
-        if (n < 1 || n > range.count || n >= static_cast<int>(c.stores.tools.tool.size())) continue;
-        const auto field = c.settings.wear_first ? range.v15_order : range.wear_order;
-        return {&(c.stores.tools.tool[static_cast<std::size_t>(n)].*field), true};
+        if (n < 1 || n > range.count || n >= static_cast<int>(tools.tool.size())) continue;
+        const auto field = settings.wear_first ? range.v15_order : range.wear_order;
+        return {&(tools.tool[static_cast<std::size_t>(n)].*field), true};
     }
     return {};
 }
 
 /// Entry of axis number `n` (from 1) of a vector.
-Place axis_place(ControlState& c, OffsetVector& vector, int n) {
-    if (n < 1 || n > static_cast<int>(c.config.axes.size())) return {};
-    const ControlAxis& axis = c.config.axes[static_cast<std::size_t>(n - 1)];
+Place axis_place(const ControlSettings& settings, OffsetVector& vector, int n) {
+    if (n < 1 || n > static_cast<int>(settings.axes.size())) return {};
+    const ControlAxis& axis = settings.axes[static_cast<std::size_t>(n - 1)];
     return {&vector[axis.axis], !axis.rotary};
 }
 
-Place work_place(ControlState& c, int number) {
-    WorkOffsets& work = c.stores.work;
+Place work_place(const ControlSettings& settings, WorkOffsets& work, int number) {
     if (number >= 5201 && number < 5341) {
         const int set = (number - 5201) / 20, n = (number - 5201) % 20 + 1;
         return axis_place(
-            c, set == 0 ? work.external : work.standard[static_cast<std::size_t>(set - 1)], n);
+            settings, set == 0 ? work.external : work.standard[static_cast<std::size_t>(set - 1)],
+            n);
     }
     for (const auto& [first, sets] : {std::pair{7001, 48}, std::pair{14001, 300}}) {
         if (number < first || number >= first + 20 * sets) continue;
         const auto set = static_cast<std::size_t>((number - first) / 20);
-        return axis_place(c, work.additional[set], (number - first) % 20 + 1);
+        return axis_place(settings, work.additional[set], (number - first) % 20 + 1);
     }
     return {};
 }
 
-/// #5521.. P1 to #5661.. P8, 20 apart (facts/control.md 2.2, low confidence).
-Place fixture_place(ControlState& c, int number) {
+/// #5521.. P1 to #5661.. P8, 20 apart (assumed).
+Place fixture_place(const ControlSettings& settings, FixtureOffsets& fixture, int number) {
     if (number < 5521 || number >= 5681) return {};
-    FixtureOffset& set = c.stores.fixture.set[static_cast<std::size_t>((number - 5521) / 20)];
+    FixtureOffset& set = fixture.set[static_cast<std::size_t>((number - 5521) / 20)];
     const int n = (number - 5521) % 20 + 1;
-    if (n > static_cast<int>(c.config.axes.size())) return {};
-    const bool rotary = c.config.axes[static_cast<std::size_t>(n - 1)].rotary;
-    return axis_place(c, rotary ? set.reference_angles : set.offset, n);
+    if (n > static_cast<int>(settings.axes.size())) return {};
+    const bool rotary = settings.axes[static_cast<std::size_t>(n - 1)].rotary;
+    return axis_place(settings, rotary ? set.reference_angles : set.offset, n);
 }
 
-Place place_of(ControlState& c, int number) {
+Place place_of(int number, const ControlSettings& settings, Stores& stores) {
     if (number < 2001 || (number > 2400 && number < 5201)) return {};
-    if (number <= 2400 || (number >= 10001 && number <= 13999)) return tool_place(c, number);
-    if (number >= 5521 && number < 5681) return fixture_place(c, number);
-    return work_place(c, number);
+    if (number <= 2400 || (number >= 10001 && number <= 13999))
+        return tool_place(settings, stores.tools, number);
+    if (number >= 5521 && number < 5681) return fixture_place(settings, stores.fixture, number);
+    return work_place(settings, stores.work, number);
 }
 
 }  // namespace
 
-bool read_offset_variable(const ControlState& c, int number, double& value) {
-    // The places are the same for reading; nothing is changed through them here.
-    const Place place = place_of(const_cast<ControlState&>(c), number);
-    if (!place.value) return false;
-    value = place.length ? *place.value / c.unit_mm : *place.value;
-    return true;
+std::optional<double> offset_variable(int number, const Modal& modal, Frames& frames) {
+    const Place place = place_of(number, modal.settings, frames.stores());
+    if (!place.value) return std::nullopt;
+    return place.length ? *place.value / modal.units.unit_mm : *place.value;
 }
 
-bool write_offset_variable(ControlState& c, int number, double value) {
-    const Place place = place_of(c, number);
+bool set_offset_variable(int number, double value, const Modal& modal, Frames& frames,
+                         Mover& mover) {
+    const Place place = place_of(number, modal.settings, frames.stores());
     if (!place.value) return false;
-    *place.value = place.length ? value * c.unit_mm : value;
+    *place.value = place.length ? value * modal.units.unit_mm : value;
     if (number >= 5521 && number < 5681)
-        c.fixture_changed();
-    else if (number >= 5201 && number <= 8000)
-        c.read_work_offset();
-    else if (number >= 14001)
-        c.read_work_offset();
+        fixture_sets_changed(modal, frames, mover);
+    else if ((number >= 5201 && number <= 8000) || number >= 14001)
+        work_offset_changed(modal, frames, mover);
     return true;
 }
 

@@ -2,12 +2,16 @@
 // offsets.
 #pragma once
 
-#include "controller/control_state.h"
+#include <optional>
+
+#include "controller/mover.h"
 
 namespace trunnion {
 
-/// False when the number belongs to no store. Lengths in the unit in force (G20: inch).
-bool read_offset_variable(const ControlState& c, int number, double& value);
-bool write_offset_variable(ControlState& c, int number, double value);
+/// Nothing when the number belongs to no store. Lengths in the unit in force (G20: inch).
+std::optional<double> offset_variable(int number, const Modal& modal, Frames& frames);
+/// False when the number belongs to no store. Work and fixture offsets act at once.
+bool set_offset_variable(int number, double value, const Modal& modal, Frames& frames,
+                         Mover& mover);
 
 }  // namespace trunnion

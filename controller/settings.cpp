@@ -32,10 +32,38 @@ void decode_axes(const Parameters& parameters, const ControlConfig& config, Cont
     }
 }
 
+CutterSettings decode_cutter(const Parameters& parameters) {
+    CutterSettings out;
+    out.startup_type_b = parameters.bit(5003, 0);
+    out.startup_type_c = parameters.bit(5003, 1);
+    out.circular_corners = parameters.bit(19607, 2);
+    out.blocks_ahead = static_cast<int>(std::clamp(parameters.get(19625, 3.0), 3.0, 8.0));
+    return out;
+}
+
 }  // namespace
+
+void sort_axes(std::vector<ControlAxis>& axes, const Parameters& parameters) {
+    const auto rank = [&](const ControlAxis& axis) {
+        const auto names = parameters.entry.find(1020);
+        if (names != parameters.entry.end())
+            for (const auto& [number, code] : names->second.by_axis)
+                if (static_cast<int>(code) == letter_of(axis.axis)) return number;
+        return 100 + static_cast<int>(index_of(axis.axis));
+    };
+    std::stable_sort(axes.begin(), axes.end(),
+                     [&](const ControlAxis& a, const ControlAxis& b) { return rank(a) < rank(b); });
+}
 
 ControlSettings decode_settings(const Parameters& parameters, const ControlConfig& config) {
     ControlSettings s;
+    s.axes = config.axes;
+    for (const ControlAxis& axis : config.axes)
+        s.axis_letters |= 1U << (letter_of(axis.axis) - 'A');
+    s.family = config.dialect.family;
+    s.g89_feeds_to_initial = config.g89_feeds_to_initial;
+    s.tcp_frame = config.tcp_frame;
+    if (config.dialect.generation == ControlGeneration::fanuc_16i) s.largest_position = 99999999.0;
     s.bare_is_noted = !parameters.find(3401);
     s.bare_is_unit = s.bare_is_noted || parameters.bit(3401, 0);
     s.duplicates_alarm = parameters.bit(3403, 6);
@@ -46,10 +74,7 @@ ControlSettings decode_settings(const Parameters& parameters, const ControlConfi
     s.length_shifts = parameters.bit(5006, 6);
     s.length_axis_type = parameters.bit(5001, 0) ? 2 : parameters.bit(5001, 1) ? 1 : 0;
     s.radius_is_diameter = parameters.bit(5004, 2);
-    s.startup_type_b = parameters.bit(5003, 0);
-    s.startup_type_c = parameters.bit(5003, 1);
-    s.circular_corners = parameters.bit(19607, 2);
-    s.blocks_ahead = std::clamp(static_cast<int>(parameters.get(19625, 3.0)), 3, 8);
+    s.cutter = decode_cutter(parameters);
     s.work_positions_with_length = config.work_positions_with_length;
     s.wear_first = parameters.bit(6000, 3);
     s.least_surface_rpm = parameters.get(3771);

@@ -3,13 +3,22 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
-#include "controller/controller.h"
+#include "controller/control_config.h"
+#include "cutter/beside_path.h"
+#include "offsets/stores.h"
 
 namespace trunnion {
 
 /// Decoded CNC parameters. Numbers behind each field; where the store has no entry, the value here.
 struct ControlSettings {
+    std::vector<ControlAxis> axes;          ///< number 1 is [0]
+    std::uint32_t axis_letters = 0;         ///< letters of the axes, bits as in SortedWords
+    double largest_position = 999999999.0;  ///< of a position word, in least increments
+    DialectFamily family = DialectFamily::fanuc;
+    bool g89_feeds_to_initial = true;      ///< own option, see ControlConfig
+    TcpFrame tcp_frame = TcpFrame::start;  ///< G43.4 with the table turned
     bool bare_is_unit =
         true;  ///< 3401#0 DPI: X58 is 58 mm; 0: 58 least increments. Absent: 1 (assumed)
     bool bare_is_noted = false;      ///< 3401 absent: the first such word gives a note
@@ -21,11 +30,8 @@ struct ControlSettings {
     bool length_shifts = false;      ///< 5006#6 TOS: G43 shifts the coordinates instead of moving
     int length_axis_type =
         0;  ///< 5001#0 TLC, #1 TLB: 0 A (always Z), 1 B (normal of plane), 2 C (axis in block)
-    bool radius_is_diameter = false;  ///< 5004#2 ODI: D holds diameters
-    bool startup_type_b = false;      ///< 5003#0 SUP: outside corners of start-up, cancel
-    bool startup_type_c = false;      ///< 5003#1 SUV: G41, G40 alone in a block shift the tool
-    bool circular_corners = false;    ///< 19607#2 CCC (assumed): outside corners by an arc
-    int blocks_ahead = 3;             ///< 19625 (assumed; absent: 3): read ahead under G41, G42
+    bool radius_is_diameter = false;         ///< 5004#2 ODI: D holds diameters
+    CutterSettings cutter;                   ///< 5003, 19607, 19625
     bool work_positions_with_length = true;  ///< #5041, #5061 include length (own option, see docs)
     bool wear_first = false;                 ///< 6000#3 V15: #2001 geometry instead of wear
     std::uint16_t rollover = 0;              ///< 1008#0 ROA by axis letter bit
@@ -37,6 +43,9 @@ struct ControlSettings {
     std::array<std::array<double, axis_count>, 4> reference{};  ///< 1240-1243, mm and deg
 };
 
+/// Axis number of each letter: parameter 1020 where it is set, else X Y Z A B C U V W.
+void sort_axes(std::vector<ControlAxis>& axes, const Parameters& parameters);
+/// `config.axes` in the order of their numbers.
 ControlSettings decode_settings(const Parameters& parameters, const ControlConfig& config);
 
 }  // namespace trunnion

@@ -1,99 +1,105 @@
-// Codes that shape the programmed figure: scaling G51, mirror G51.1, rotation G68.
-#include "controller/control_state.h"
-#include "controller/g_codes.h"
-#include "controller/g_handlers.h"
+#include "controller/shapes.h"
+
+#include "controller/alarms.h"
 
 namespace trunnion {
 
 namespace {
 
 /// A factor word: with a decimal point as it stands, else thousandths (5400#7 SCR, assumed 0.001).
-double factor_word(const ControlState& c, char letter) {
-    const double value = c.words.get(letter);
-    const double factor = c.words.is_bare(letter) ? value * 0.001 : value;
-    if (factor == 0.0) raise_alarm(142, c.words.column_of(letter));
+double factor_word(const SortedWords& words, char letter) {
+    const double factor = words.get(letter) * (words.is_bare(letter) ? 0.001 : 1.0);
+    if (factor == 0.0) raise_alarm(142, words.column_of(letter));
     return factor;
 }
 
 /// Centre from the axis words; the present position where an axis is not named.
-ControlPosition centre_of(const ControlState& c) {
-    ControlPosition out = c.program;
-    for (const ControlAxis& entry : c.config.axes)
-        if (c.words.has(letter_of(entry.axis))) out[entry.axis] = c.axis_word(entry.axis);
+ControlPosition centre_of(const SortedWords& words, const Modal& modal, const Frames& frames) {
+    ControlPosition out = frames.program;
+    for (const ControlAxis& entry : modal.settings.axes)
+        if (words.has(entry.axis)) out[entry.axis] = words.axis_value(entry.axis);
     return out;
 }
 
 }  // namespace
 
-void g_scaling(ControlState& c, const GCode& code) {
+void set_scaling(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover) {
     Coordinates::AxisFactor scaling;
     scaling.factor.value.fill(1.0);
-    scaling.centre = centre_of(c);
+    scaling.centre = centre_of(words, modal, frames);
     constexpr std::pair<Axis, char> own[] = {{Axis::X, 'I'}, {Axis::Y, 'J'}, {Axis::Z, 'K'}};
-    const bool each = c.words.has('I') || c.words.has('J') || c.words.has('K');
+    const bool each = words.has('I') || words.has('J') || words.has('K');
     for (const auto& [axis, letter] : own) {
-        if (each && c.words.has(letter)) scaling.factor[axis] = factor_word(c, letter);
-        if (!each && c.words.has('P')) scaling.factor[axis] = factor_word(c, 'P');
+        if (each && words.has(letter)) scaling.factor[axis] = factor_word(words, letter);
+        if (!each && words.has('P')) scaling.factor[axis] = factor_word(words, 'P');
     }
-    if (!each && !c.words.has('P')) raise_alarm(142);
-    c.modal.set(ModalGroup::scaling, code.code10);
-    c.coordinates.scaling = scaling;
-    c.frame_changed();
+    if (!each && !words.has('P')) raise_alarm(142);
+    modal.codes.set(ModalGroup::scaling, 510);
+    frames.stages.scaling = scaling;
+    mover.frames_changed();
 }
 
-void g_scaling_off(ControlState& c, const GCode& code) {
-    c.modal.set(ModalGroup::scaling, code.code10);
-    c.coordinates.scaling.reset();
-    c.frame_changed();
+void end_scaling(Modal& modal, Frames& frames, Mover& mover) {
+    modal.codes.set(ModalGroup::scaling, 500);
+    frames.stages.scaling.reset();
+    mover.frames_changed();
 }
 
-void g_mirror(ControlState& c, const GCode& code) {
-    if (!c.coordinates.mirror) {
-        c.coordinates.mirror.emplace();
-        c.coordinates.mirror->factor.value.fill(1.0);
+void set_mirror(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover) {
+    auto& mirror = frames.stages.mirror;
+    if (!mirror) {
+        mirror.emplace();
+        mirror->factor.value.fill(1.0);
     }
-    Coordinates::AxisFactor& mirror = *c.coordinates.mirror;
-    for (const ControlAxis& entry : c.config.axes) {
-        if (!c.words.has(letter_of(entry.axis))) continue;
-        mirror.factor[entry.axis] = -1.0;
-        mirror.centre[entry.axis] = c.axis_word(entry.axis);
+    for (const ControlAxis& entry : modal.settings.axes) {
+        if (!words.has(entry.axis)) continue;
+        mirror->factor[entry.axis] = -1.0;
+        mirror->centre[entry.axis] = words.axis_value(entry.axis);
     }
-    c.modal.set(ModalGroup::mirror, code.code10);
-    c.frame_changed();
+    modal.codes.set(ModalGroup::mirror, 511);
+    mover.frames_changed();
 }
 
-void g_mirror_off(ControlState& c, const GCode& code) {
-    if (!c.coordinates.mirror) return;
+void end_mirror(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover) {
+    auto& mirror = frames.stages.mirror;
+    if (!mirror) return;
     bool left = false;
-    for (const ControlAxis& entry : c.config.axes) {
-        double& factor = c.coordinates.mirror->factor[entry.axis];
-        if (c.words.has(letter_of(entry.axis)) || !c.words.has_axis()) factor = 1.0;
+    for (const ControlAxis& entry : modal.settings.axes) {
+        double& factor = mirror->factor[entry.axis];
+        if (words.has(entry.axis) || !words.has_axis()) factor = 1.0;
         left = left || factor != 1.0;
     }
     if (!left) {
-        c.coordinates.mirror.reset();
-        c.modal.set(ModalGroup::mirror, code.code10);
+        mirror.reset();
+        modal.codes.set(ModalGroup::mirror, 501);
     }
-    c.frame_changed();
+    mover.frames_changed();
 }
 
-void g_rotation(ControlState& c, const GCode& code) {
-    if (c.five_axis.plane) raise_alarm(5457, "(G68 inside G68.2)");  // assumed
-    const PlaneAxes& plane = plane_axes(c.modal);
+void set_rotation(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover) {
+    if (frames.plane) raise_alarm(5457, "(G68 inside G68.2)");
+    const PlaneAxes& plane = modal.plane();
+    const Parameters& parameters = frames.stores().parameters;
     Coordinates::PlaneRotation rotation;
-    ControlPosition centre = c.program;
+    ControlPosition centre = frames.program;
     for (const Axis axis : {plane.first, plane.second})
-        if (c.words.has(letter_of(axis))) centre[axis] = c.axis_word(axis);
+        if (words.has(axis)) centre[axis] = words.axis_value(axis);
     rotation.centre = xyz_of(centre);
-    rotation.axis = Vector3::Unit(static_cast<Eigen::Index>(index_of(plane.normal)));
+    rotation.axis = unit_along(plane.normal);
     // R without a point: thousandths of a degree, or degrees with 3401#0 = 1.
-    rotation.angle_deg = c.words.get('R', c.stores.parameters.get(5410)) *
-                         (c.words.has('R') && c.words.is_bare('R') ? c.bare_rotary : 1.0);
-    const bool adds = !c.absolute() && c.stores.parameters.bit(5400, 0);  // RIN
-    if (adds && c.coordinates.rotation) rotation.angle_deg += c.coordinates.rotation->angle_deg;
-    c.modal.set(ModalGroup::rotation, code.code10);
-    c.coordinates.rotation = rotation;
-    c.frame_changed();
+    rotation.angle_deg = words.has('R') ? words.angle_deg('R') : parameters.get(5410);
+    const bool adds = !modal.absolute() && parameters.bit(5400, 0);  // RIN
+    const auto& present = frames.stages.rotation;
+    if (adds && present) rotation.angle_deg += present->angle_deg;
+    modal.codes.set(ModalGroup::rotation, 680);
+    frames.stages.rotation = rotation;
+    mover.frames_changed();
+}
+
+void end_rotation(Modal& modal, Frames& frames, Mover& mover) {
+    modal.codes.set(ModalGroup::rotation, 690);
+    frames.stages.rotation.reset();
+    mover.frames_changed();
 }
 
 }  // namespace trunnion

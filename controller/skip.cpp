@@ -1,18 +1,29 @@
-// G31: a straight move that ends where the skip signal comes; the place is latched in #5061...
-#include "controller/g_codes.h"
-#include "controller/g_handlers.h"
-#include "controller/moves.h"
-#include "controller/system_variables.h"
+#include "controller/skip.h"
+
+#include "controller/alarms.h"
+#include "controller/commanded.h"
 
 namespace trunnion {
 
-void g_skip(ControlState& c, const GCode&) {
-    if (!c.modal.is(ModalGroup::cutter, 400)) raise_alarm(36);
-    c.move.until_skip = true;
-    const MoveResult result = move_line(c, MotionKind::linear, c.target());
-    c.move.until_skip = false;
-    c.skip.triggered = result.skipped;
-    c.skip.work = work_position(c);
+ControlPosition work_position(const Modal& modal, const Frames& frames) {
+    ControlPosition out = frames.stages.shaped_from_program(frames.program);
+    if (!modal.settings.work_positions_with_length) return out;
+    const ControlPosition length = frames.shown_length();
+    for (std::size_t i = 0; i < axis_count; ++i) out.value[i] += length.value[i];
+    return out;
+}
+
+void skip_move(SkipState& skip, const SortedWords& words, Modal& modal, const Frames& frames,
+               Mover& mover) {
+    if (!modal.cutter_is_off()) raise_alarm(36);
+    skip.triggered = false;
+    if (words.has_axis() || (words.present & tool_vector_letters)) {
+        mover.axes.until_skip(true);
+        skip.triggered =
+            mover.line(MotionKind::linear, commanded_position(words, modal, frames)).skipped;
+        mover.axes.until_skip(false);
+    }
+    skip.work = work_position(modal, frames);
 }
 
 }  // namespace trunnion

@@ -2,11 +2,21 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+
+#include "controller/g_codes.h"
+#include "geometry/axes.h"
 
 namespace trunnion {
 
-struct GCode;
+/// What words in this block are counted in: G20 or G21, 3401#0.
+struct WordUnits {
+    double unit_mm = 1.0;      ///< mm in one programmed unit: 1 or 25.4
+    double bare_linear = 1.0;  ///< mm for one unit of a word without a point
+    double bare_rotary = 1.0;  ///< deg for the same
+    bool inch() const { return unit_mm != 1.0; }
+};
 
 /// Values as written (no unit applied). Only letters whose bit is set in `present` hold a value.
 struct SortedWords {
@@ -33,8 +43,7 @@ struct SortedWords {
     std::array<std::uint16_t, max_codes> m_column{};
     std::size_t m_count = 0;
     std::uint16_t running_column = 0;  ///< of the code that is carried out, 0: the axis words
-    int line = 0;
-    std::uint64_t byte = 0;
+    WordUnits units;
 
     bool has(char letter) const { return (present & bit(letter)) != 0; }
     double get(char letter) const { return value[static_cast<std::size_t>(letter - 'A')]; }
@@ -42,6 +51,22 @@ struct SortedWords {
         return has(letter) ? get(letter) : otherwise;
     }
     bool is_bare(char letter) const { return (bare & bit(letter)) != 0; }
+    /// A dimension word (X I R Q ..) in mm.
+    double length_mm(char letter) const {
+        return get(letter) * (is_bare(letter) ? units.bare_linear : units.unit_mm);
+    }
+    /// An angle word in deg, also a component of a direction.
+    double angle_deg(char letter) const {
+        return get(letter) * (is_bare(letter) ? units.bare_rotary : 1.0);
+    }
+    /// An axis word in mm or deg.
+    double axis_value(Axis axis) const;
+    /// A word that must be a whole number: H D P L T ...; PS0007 otherwise, PS0003 beyond 9 digits.
+    int whole(char letter) const;
+    bool has(Axis axis) const { return has(letter_of(axis)); }
+    /// One of the codes outside group 01.
+    bool has_code(int code10) const;
+
     /// 0 when the block has no such word.
     int column_of(char letter) const { return column_of_first(bit(letter)); }
     /// Of the leftmost word with one of these letters (bits as in `present`), 0: none.

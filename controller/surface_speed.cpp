@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "controller/g_codes.h"
-#include "controller/g_handlers.h"
+#include "base/units.h"
+#include "controller/alarms.h"
 
 namespace trunnion {
 
@@ -33,56 +33,58 @@ struct TurnTime {
     }
 };
 
-TurnTime turn_time(const ControlState& c) {
-    const double mm_min = c.spindle.surface * (c.inch() ? 304.8 : 1000.0);
-    const double g92 = c.spindle.most_rpm > 0.0 ? c.spindle.most_rpm : c.settings.most_rpm;
-    const double most = std::min(g92, c.settings.most_rpm);
-    const double least = std::clamp(c.settings.least_surface_rpm, 1e-9, most);
+TurnTime turn_time(const Modal& modal) {
+    const ControlSettings& settings = modal.settings;
+    const double mm_min = modal.spindle.surface * (modal.units.inch() ? 304.8 : 1000.0);
+    const double g92 = modal.spindle.most_rpm > 0.0 ? modal.spindle.most_rpm : settings.most_rpm;
+    const double most = std::min(g92, settings.most_rpm);
+    const double least = std::clamp(settings.least_surface_rpm, 1e-9, most);
     return {2.0 * pi / mm_min, 1.0 / most, 1.0 / least};
 }
 
-Axis radius_axis(const ControlState& c) {
-    const bool named = c.words.has('P') && c.words.get('P') != 0.0;
-    const int number = named ? c.whole_word('P') : c.settings.surface_axis_number;
-    if (number < 1 || number > static_cast<int>(c.config.axes.size()) ||
-        c.config.axes[static_cast<std::size_t>(number - 1)].rotary)
-        raise_alarm(190, c.words.column_of('P'));
-    return c.config.axes[static_cast<std::size_t>(number - 1)].axis;
+Axis radius_axis(const SortedWords& words, const ControlSettings& settings) {
+    const bool named = words.has('P') && words.get('P') != 0.0;
+    const int number = named ? words.whole('P') : settings.surface_axis_number;
+    if (number < 1 || number > static_cast<int>(settings.axes.size()) ||
+        settings.axes[static_cast<std::size_t>(number - 1)].rotary)
+        raise_alarm(190, words.column_of('P'));
+    return settings.axes[static_cast<std::size_t>(number - 1)].axis;
 }
 
-void turn_at(ControlState& c, double radius_mm) {
-    if (!c.spindle.by_surface || c.spindle.surface <= 0.0) return;
-    c.spindle.rpm = 1.0 / turn_time(c).at(radius_mm);
+void turn_at(Modal& modal, double radius_mm) {
+    if (!modal.spindle.by_surface || modal.spindle.surface <= 0.0) return;
+    modal.spindle.rpm = 1.0 / turn_time(modal).at(radius_mm);
 }
 
 }  // namespace
 
-void take_s_word(ControlState& c, double s) {
-    c.spindle.programmed = s;
-    (c.spindle.by_surface ? c.spindle.surface : c.spindle.rpm) = s;
-    turn_at(c, c.program[c.spindle.radius_axis]);
+void take_s_word(Modal& modal, double s, const ControlPosition& position) {
+    SpindleState& spindle = modal.spindle;
+    spindle.programmed = s;
+    (spindle.by_surface ? spindle.surface : spindle.rpm) = s;
+    turn_at(modal, position[spindle.radius_axis]);
 }
 
-void follow_surface_speed(ControlState& c, const ControlPosition& target) {
-    if (c.spindle.surface <= 0.0) return;
-    const Axis axis = c.spindle.radius_axis;
-    const double from_mm = c.program[axis];
-    turn_at(c, target[axis]);
-    c.move.spindle_rpm = c.spindle_rpm();
-    if (!c.modal.is(ModalGroup::feed_mode, 950) || c.spindle.direction == 0) return;
-    const double mm_turn = c.feed.programmed * c.unit_mm;
+void follow_surface_speed(Modal& modal, const ControlPosition& from, const ControlPosition& to) {
+    if (modal.spindle.surface <= 0.0) return;
+    const Axis axis = modal.spindle.radius_axis;
+    turn_at(modal, to[axis]);
+    modal.block.spindle_rpm = modal.spindle.signed_rpm();
+    if (!modal.is(ModalGroup::feed_mode, 950) || modal.spindle.direction == 0) return;
+    FeedState& feed = modal.block.feed;
+    const double mm_turn = feed.programmed * modal.units.unit_mm;
     if (mm_turn <= 0.0) return;
-    c.feed.seconds_per_mm = 60.0 * turn_time(c).mean(from_mm, target[axis]) / mm_turn;
-    c.feed.mm_min = mm_turn * c.spindle.rpm;
+    feed.seconds_per_mm = 60.0 * turn_time(modal).mean(from[axis], to[axis]) / mm_turn;
+    feed.mm_min = mm_turn * modal.spindle.rpm;
 }
 
-/// G97 without S keeps the speed that G96 had reached; G96 without S takes its last one.
-void g_speed_mode(ControlState& c, const GCode& code) {
-    c.modal.set(code.group, code.code10);
-    c.spindle.by_surface = code.code10 == 960;
-    if (c.spindle.by_surface) c.spindle.radius_axis = radius_axis(c);
-    turn_at(c, c.program[c.spindle.radius_axis]);
-    c.feed_changed();
+void set_speed_mode(const SortedWords& words, Modal& modal, int code10,
+                    const ControlPosition& position) {
+    modal.codes.set(ModalGroup::surface_speed, code10);
+    modal.spindle.by_surface = code10 == 960;
+    if (modal.spindle.by_surface) modal.spindle.radius_axis = radius_axis(words, modal.settings);
+    turn_at(modal, position[modal.spindle.radius_axis]);
+    modal.feed_changed();
 }
 
 }  // namespace trunnion

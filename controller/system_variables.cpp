@@ -1,32 +1,32 @@
 #include "controller/system_variables.h"
 
-#include "controller/five_axis.h"
+#include "controller/alarms.h"
 #include "controller/offset_variables.h"
-#include "controller/state_variables.h"
+#include "controller/position_variables.h"
 
 namespace trunnion {
 
-ControlPosition work_position(const ControlState& c) {
-    ControlPosition out = c.coordinates.shaped_from_program(c.program);
-    if (!c.settings.work_positions_with_length) return out;
-    const ControlPosition length = shown_tool_length(c);
-    for (std::size_t i = 0; i < axis_count; ++i) out.value[i] += length.value[i];
-    return out;
+std::optional<double> ControlVariables::find(int number) const {
+    if (const auto value = offset_variable(number, c_.modal, c_.frames)) return value;
+    if (const auto value = signal_variable(number, c_.stores.signals)) return value;
+    if (const auto value = c_.clock.get(number, c_.mover.record().time_s)) return value;
+    if (const auto value = modal_variable(number, c_.modal, c_.place)) return value;
+    return position_variable(number, c_.modal, c_.frames, c_.skip);
 }
 
 double ControlVariables::get(int number) {
-    double value = 0.0;
-    if (number >= 5061 && number <= 5080) c_.result.reads_skip = true;
-    if (read_offset_variable(c_, number, value) || read_state_variable(c_, number, value))
-        return value;
-    raise_alarm(115);
+    if (number >= 5061 && number <= 5080) reads_skip_ = true;
+    const auto value = find(number);
+    if (!value) raise_alarm(115);
+    return *value;
 }
 
 void ControlVariables::set(int number, double value, const char* comment) {
-    if (write_state_variable(c_, number, value, comment ? comment : "")) return;
-    if (write_offset_variable(c_, number, is_vacant(value) ? 0.0 : value)) return;
-    double ignored = 0.0;
-    raise_alarm(read_state_variable(c_, number, ignored) ? 116 : 115);
+    if (c_.clock.set(number, value, comment ? comment : "", c_.mover)) return;
+    if (set_signal_variable(number, value, c_.stores.signals)) return;
+    const double written = is_vacant(value) ? 0.0 : value;
+    if (set_offset_variable(number, written, c_.modal, c_.frames, c_.mover)) return;
+    raise_alarm(find(number) ? 116 : 115);
 }
 
 double ControlVariables::parameter(int number, int bit, int axis) {

@@ -2,25 +2,28 @@
 // state.
 #pragma once
 
-#include "controller/control_state.h"
+#include "controller/control.h"
 #include "interpreter/variables.h"
 
 namespace trunnion {
 
-/// Present position in the work frame, mm and deg: #5041... Includes the tool length when the
-/// configuration says so (default; facts/control.md 2.8, assumed).
-ControlPosition work_position(const ControlState& c);
-
 class ControlVariables : public SystemVariables {
   public:
-    explicit ControlVariables(ControlState& control) : c_(control) {}
+    explicit ControlVariables(Control& control) : c_(control) {}
 
     double get(int number) override;
     void set(int number, double value, const char* comment) override;
     double parameter(int number, int bit, int axis) override;
 
+    /// The program asked where G31 touched (#5061..).
+    bool reads_skip() const { return reads_skip_; }
+    void start_run() { reads_skip_ = false; }
+
   private:
-    ControlState& c_;
+    std::optional<double> find(int number) const;
+
+    Control& c_;
+    bool reads_skip_ = false;
 };
 
 }  // namespace trunnion

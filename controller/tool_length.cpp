@@ -1,69 +1,79 @@
-// G43, G44, G49: tool length compensation, types A, B and C (5001#0, #1), move or shift (5006#6).
 #include "controller/tool_length.h"
 
-#include "controller/five_axis.h"
-#include "controller/g_codes.h"
-#include "controller/g_handlers.h"
+#include "controller/alarms.h"
 
 namespace trunnion {
 
 namespace {
 
-Axis length_axis(const ControlState& c) {
-    if (c.settings.length_axis_type == 0) return Axis::Z;
-    if (c.settings.length_axis_type == 1) return plane_axes(c.modal).normal;
-    for (const ControlAxis& entry : c.config.axes)  // type C: the axis named in the block
-        if (c.words.has(letter_of(entry.axis))) return entry.axis;
+Axis length_axis(const SortedWords& words, const Modal& modal) {
+    const ControlSettings& settings = modal.settings;
+    if (settings.length_axis_type == 0) return Axis::Z;
+    if (settings.length_axis_type == 1) return modal.plane().normal;
+    for (const ControlAxis& entry : settings.axes)  // type C: the axis named in the block
+        if (words.has(entry.axis)) return entry.axis;
     raise_alarm(27);
+}
+
+/// The length of types A to C lies along one axis, which need not be X, Y or Z.
+ControlPosition length_along(Axis axis, double length_mm) {
+    ControlPosition out;
+    out[axis] = length_mm;
+    return out;
+}
+
+/// Shift type, or the length was left out at the reference position: the position display changes.
+/// Otherwise the program position stands and the axis goes to it.
+void put_in_force(const ControlPosition& length, const Modal& modal, Frames& frames, Mover& mover) {
+    const ControlPosition program = frames.program;
+    const bool parked = frames.length_parked;
+    frames.stages.length = frames.staged_length(length);
+    mover.frames_changed();
+    if (modal.settings.length_shifts || parked) return;
+    frames.program = program;
+    frames.length_moves = true;
 }
 
 }  // namespace
 
-double tool_length_mm(const ControlState& c, int number) {
-    if (number < 0 || number >= static_cast<int>(c.stores.tools.tool.size()))
-        raise_alarm(30, c.words.column_of('H'));
-    return number == 0 ? 0.0 : c.stores.tools.tool[static_cast<std::size_t>(number)].length_mm();
+double tool_length_mm(const SortedWords& words, const ToolOffsets& tools, int number) {
+    if (number < 0 || number >= static_cast<int>(tools.tool.size()))
+        raise_alarm(30, words.column_of('H'));
+    return number == 0 ? 0.0 : tools.tool[static_cast<std::size_t>(number)].length_mm();
 }
 
-void apply_tool_length(ControlState& c, const ControlPosition& length) {
-    const ControlPosition program = c.program;
-    const bool parked = c.length_parked;
-    c.coordinates.length = length;
-    c.frame_changed();
-    // Shift type, or the length was left out at the reference position: the position display
-    // changes. Otherwise the program position stands and the axis goes to it.
-    if (c.settings.length_shifts || parked) return;
-    c.program = program;
-    c.length_moves = true;
-}
-
-void g_tool_length(ControlState& c, const GCode& code) {
-    const bool from_tcp = c.five_axis.tcp.has_value();
-    cancel_tool_centre(c);
-    c.modal.set(ModalGroup::length, code.code10);
-    if (c.words.has('H')) c.length_number = c.whole_word('H');
+void apply_tool_length(const ToolVector& tool, const Modal& modal, Frames& frames, Mover& mover) {
+    frames.tool = tool;
     ControlPosition length;
-    if (code.code10 != 490) {
-        const double sign = code.code10 == 440 ? -1.0 : 1.0;
-        length[length_axis(c)] = sign * tool_length_mm(c, c.length_number);
-    }
-    c.move.tool_offset = code.code10 == 490 ? 0 : c.length_number;
-    c.move.tool_vector_mm = xyz_of(length);
-    if (c.five_axis.plane) length = tool_length_in_plane(c);
-    apply_tool_length(c, length);
-    // G49 of G43.4 moves nothing: the axes stand where the tip was led to (assumed).
-    if (from_tcp && code.code10 == 490) {
-        c.length_moves = false;
-        c.frame_changed();
-    }
+    set_xyz(length, tool.vector_mm);
+    put_in_force(length, modal, frames, mover);
 }
 
-/// H without a code: the other offset in the present way (assumed).
-void change_length_number(ControlState& c) {
-    const int present = c.modal[ModalGroup::length];
-    if (present == 430 || present == 440) return g_tool_length(c, *find_g_code(0.1 * present));
-    c.length_number = c.whole_word('H');
-    if (c.five_axis.tcp) change_tool_centre_length(c);
+void cancel_tool_centre(Frames& frames, Mover& mover) {
+    if (!frames.tip.in_force) return;
+    frames.tip.in_force.reset();
+    mover.frames_changed();
+}
+
+void set_tool_length(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover,
+                     int code10) {
+    const bool from_tcp = frames.tip.in_force.has_value();
+    cancel_tool_centre(frames, mover);
+    modal.codes.set(ModalGroup::length, code10);
+    if (words.has('H')) modal.number.length = words.whole('H');
+    const bool on = code10 != 490;
+    ControlPosition length;
+    if (on) {
+        const double sign = code10 == 440 ? -1.0 : 1.0;
+        length =
+            length_along(length_axis(words, modal),
+                         sign * tool_length_mm(words, frames.stores().tools, modal.number.length));
+    }
+    frames.tool = {xyz_of(length), on ? modal.number.length : 0};
+    put_in_force(length, modal, frames, mover);
+    if (!from_tcp || on) return;
+    frames.length_moves = false;
+    mover.frames_changed();
 }
 
 }  // namespace trunnion

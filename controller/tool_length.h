@@ -1,16 +1,21 @@
-// The tool length in force, for whoever puts it along another direction (G43.4, G53.1).
+// G43, G44, G49: tool length compensation, types A, B and C (5001#0, #1), move or shift (5006#6).
 #pragma once
 
-#include "controller/control_state.h"
+#include "controller/mover.h"
 
 namespace trunnion {
 
-/// Geometry + wear of offset number H in mm; 0 for H0. Throws PS0030.
-double tool_length_mm(const ControlState& c, int number);
-/// Puts a length vector (tip to gauge point) in force. The program position stays and the axis will
-/// move by the change with this block (5006#6 = 0), or the position shifts without motion.
-void apply_tool_length(ControlState& c, const ControlPosition& length);
-/// H without a code of its own in the block.
-void change_length_number(ControlState& c);
+/// G43, G44, G49; also ends tool centre point control: G49 of G43.4 moves nothing, the axes stand
+/// where the tip was led to (assumed).
+void set_tool_length(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover,
+                     int code10);
+/// Geometry + wear of offset number H in mm; 0 for H0. PS0030 at the word H when there is none.
+double tool_length_mm(const SortedWords& words, const ToolOffsets& tools, int number);
+/// Puts the tool's length (`vector_mm`: tip to gauge point, rotaries at zero) in force. The program
+/// position stays and the axis will move by the change with this block (5006#6 = 0), or the
+/// position shifts without motion.
+void apply_tool_length(const ToolVector& tool, const Modal& modal, Frames& frames, Mover& mover);
+/// Tool centre point control ends: the axes stay, the position counts without it from now on.
+void cancel_tool_centre(Frames& frames, Mover& mover);
 
 }  // namespace trunnion

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "controller/alarms.h"
 #include "controller/arcs.h"
-#include "controller/g_codes.h"
-#include "controller/g_handlers.h"
+#include "controller/commanded.h"
 
 namespace trunnion {
 
@@ -74,8 +74,11 @@ class PolarCurve : public FigureCurve {
 class CylinderCurve : public FigureCurve {
   public:
     CylinderCurve(const PlaneElement& figure, const AxisPositions& from, const AxisPositions& to,
-                  Axis first, Axis second, double radius_mm)
-        : FigureCurve(figure, from, to), first_(first), second_(second), radius_mm_(radius_mm) {}
+                  const PlaneAxes& plane, double radius_mm)
+        : FigureCurve(figure, from, to),
+          first_(plane.first),
+          second_(plane.second),
+          radius_mm_(radius_mm) {}
 
     AxisPositions at(double s) const override {
         AxisPositions out = others_at(s);
@@ -91,135 +94,139 @@ class CylinderCurve : public FigureCurve {
     double radius_mm_;
 };
 
-/// The figure of this block between two points of a plane whose centre words are given.
-PlaneElement figure_of(const ControlState& c, PlanePoint start, PlanePoint end, char first_centre,
-                       char second_centre) {
-    PlaneElement e;
-    e.start = e.centre = start;
-    e.end = end;
-    const int code = c.modal[ModalGroup::motion];
-    e.arc = code == 20 || code == 30;
-    if (!e.arc) return e;
-    if (c.words.has('R')) {
-        e.centre = centre_from_radius(start, end, c.length_word('R'), code == 20,
-                                      c.settings.arc_tolerance_mm);
-    } else {
-        if (c.words.has(first_centre)) e.centre.x += c.length_word(first_centre);
-        if (c.words.has(second_centre)) e.centre.y += c.length_word(second_centre);
-        check_radii(e.centre, start, end, c.settings.arc_tolerance_mm);
-    }
-    e.sweep_rad = sweep_of(e.centre, start, end, code == 20);
-    return e;
+/// A line or arc between two points of a plane whose centre words are given.
+PlaneElement figure_of(const SortedWords& words, const Modal& modal, const PlaneAxes& letters,
+                       PlaneElement figure) {
+    const int code = modal.codes[ModalGroup::motion];
+    if (code == 20 || code == 30) bend_to_arc(words, letters, arc_rule(modal), figure);
+    return figure;
 }
 
-std::optional<Axis> first_rotary(const ControlState& c) {
-    for (const ControlAxis& axis : c.config.axes)
-        if (axis.rotary && c.words.has(letter_of(axis.axis))) return axis.axis;
+std::optional<Axis> first_rotary(const SortedWords& words, const ControlSettings& settings) {
+    for (const ControlAxis& axis : settings.axes)
+        if (axis.rotary && words.has(axis.axis)) return axis.axis;
     return std::nullopt;
 }
 
-/// G12.1 X C: Y belongs to no figure, C turns about Z (5460, 5461; absent: X and C).
-Axis axis_by_parameter(const ControlState& c, int number, Axis otherwise) {
-    const int n = static_cast<int>(c.stores.parameters.get(number));
-    if (n < 1 || n > static_cast<int>(c.config.axes.size())) return otherwise;
-    return c.config.axes[static_cast<std::size_t>(n - 1)].axis;
+/// 5460, 5461: the axis of a number; absent: as given.
+Axis axis_by_number(const ControlSettings& settings, double number, Axis otherwise) {
+    if (!(number >= 1.0) || number > static_cast<double>(settings.axes.size())) return otherwise;
+    return settings.axes[static_cast<std::size_t>(number) - 1].axis;
+}
+
+CurveMove along_curve(const PathCurve& curve, const PlaneElement& figure) {
+    CurveMove way;
+    way.curve = &curve;
+    way.length_mm = way.feed_length_mm = way_of(figure);
+    return way;
+}
+
+MotionKind kind_of(const Modal& modal) {
+    switch (modal.codes[ModalGroup::motion]) {
+        case 20:
+            return MotionKind::arc_cw;
+        case 30:
+            return MotionKind::arc_ccw;
+        default:
+            return MotionKind::linear;
+    }
 }
 
 }  // namespace
 
-void g_polar_motion(ControlState& c, const GCode& code) {
-    const bool on = code.code10 == 121;
-    if (!c.modal.is(ModalGroup::cutter, 400) || c.five_axis.active) raise_alarm(145);
-    c.modal.set(ModalGroup::polar_motion, code.code10);
-    c.polar.reset();
-    if (!on) return;
+void WrappedMotion::set_polar(Modal& modal, const Frames& frames, int code10) {
+    if (!modal.cutter_is_off() || frames.tip.in_force || frames.plane || frames.fixture_number != 0)
+        raise_alarm(145);
+    modal.codes.set(ModalGroup::polar_motion, code10);
+    polar_.reset();
+    if (code10 != 121) return;
+    const Parameters& parameters = frames.stores().parameters;
     PolarMotion polar;
-    polar.linear = axis_by_parameter(c, 5460, Axis::X);
-    polar.rotary = axis_by_parameter(c, 5461, Axis::C);
-    if (!c.has_axis(polar.linear) || !c.has_axis(polar.rotary)) raise_alarm(145);
-    polar.x_mm = c.program[polar.linear];  // the rotary axis stands at its zero of the figure
-    c.polar = polar;
+    polar.linear = axis_by_number(modal.settings, parameters.get(5460), Axis::X);
+    polar.rotary = axis_by_number(modal.settings, parameters.get(5461), Axis::C);
+    if (!modal.has_axis(polar.linear) || !modal.has_axis(polar.rotary)) raise_alarm(145);
+    polar.at.x = frames.program[polar.linear];  // the rotary axis stands at its zero of the figure
+    polar_ = polar;
 }
 
-void move_polar(ControlState& c) {
-    PolarMotion& polar = *c.polar;
-    const int code = c.modal[ModalGroup::motion];
-    if (code == 0 && (c.words.has(letter_of(polar.linear)) || c.words.has(letter_of(polar.rotary))))
-        raise_alarm(146);
+void WrappedMotion::set_cylinder(const SortedWords& words, const Modal& modal) {
+    const auto axis = first_rotary(words, modal.settings);
+    if (!axis) raise_alarm(175);
+    const double radius = words.length_mm(letter_of(*axis));
+    if (radius < 0.0) raise_alarm(175);
+    if (!modal.cutter_is_off()) raise_alarm(176);
+    cylinder_.reset();
+    if (radius > 0.0) cylinder_ = CylinderMotion{*axis, radius};
+}
+
+/// The words of the figure are taken out; the others move evenly.
+void WrappedMotion::move_polar(SortedWords& words, Modal& modal, const Frames& frames,
+                               Mover& mover) {
+    PolarMotion& polar = *polar_;
+    const bool rapid = modal.is(ModalGroup::motion, 0);
+    if (rapid && (words.has(polar.linear) || words.has(polar.rotary))) raise_alarm(146);
     const char x_word = letter_of(polar.linear), y_word = letter_of(polar.rotary);
-    PlanePoint end{polar.x_mm, polar.y_mm};
+    PlaneElement figure;
+    figure.start = figure.end = polar.at;
     const auto read = [&](char letter, double& value) {
-        if (c.words.has(letter)) value = (c.absolute() ? 0.0 : value) + c.length_word(letter);
+        if (words.has(letter)) value = (modal.absolute() ? 0.0 : value) + words.length_mm(letter);
     };
-    read(x_word, end.x);
-    read(y_word, end.y);
-    c.words.present &= ~(SortedWords::bit(x_word) | SortedWords::bit(y_word));
-    ControlPosition target = c.target();
-    const PlaneElement figure = figure_of(c, {polar.x_mm, polar.y_mm}, end, 'I', 'J');
-    const AxisPositions from = c.move.from;
-    const double turned = PolarCurve(figure, from, from, polar).turned(1.0);
+    read(x_word, figure.end.x);
+    read(y_word, figure.end.y);
+    words.present &= ~(SortedWords::bit(x_word) | SortedWords::bit(y_word));
+    figure = figure_of(words, modal, plane_xy, figure);
+    ControlPosition target = commanded_position(words, modal, frames);
+    const double turned = PolarCurve(figure, frames.axes, frames.axes, polar).turned(1.0);
     target[polar.linear] += length_of(figure.end) - length_of(figure.start);
     target[polar.rotary] += deg_from_rad(turned);
-    const ControlPosition machine = c.coordinates.machine_from_program(target);
-    const PolarCurve curve(figure, from, axis_positions_of(machine), polar);
-    if (figure.arc || figure.moves())
-        move_curve(c,
-                   code == 30   ? MotionKind::arc_ccw
-                   : code == 20 ? MotionKind::arc_cw
-                                : MotionKind::linear,
-                   target, machine, curve, way_of(figure));
-    else
-        move_line(c, code == 0 ? MotionKind::rapid : MotionKind::linear, target);
-    polar.x_mm = end.x;
-    polar.y_mm = end.y;
+    polar.at = figure.end;
+    if (!figure.moves()) {
+        mover.line(rapid ? MotionKind::rapid : MotionKind::linear, target);
+        return;
+    }
+    const ControlPosition machine = frames.stages.machine_from_program(target);
+    const AxisPositions from = frames.axes, to = axis_positions_of(machine);
+    const PolarCurve curve(figure, from, to, polar);
+    mover.axes.along(kind_of(modal), {target, machine, to}, along_curve(curve, figure));
 }
 
-void g_cylinder(ControlState& c, const GCode&) {
-    const auto axis = first_rotary(c);
-    if (!axis) raise_alarm(175);
-    const double radius = c.words.get(letter_of(*axis)) *
-                          (c.words.is_bare(letter_of(*axis)) ? c.bare_linear : c.unit_mm);
-    if (radius < 0.0) raise_alarm(175);
-    if (!c.modal.is(ModalGroup::cutter, 400)) raise_alarm(176);
-    c.cylinder.reset();
-    if (radius > 0.0) c.cylinder = CylinderMotion{*axis, radius};
-}
-
-/// F is the speed on the cylinder: a rotary axis counts its way at the radius.
-void move_cylinder_line(ControlState& c) {
-    const CylinderMotion& cylinder = *c.cylinder;
-    const ControlPosition target = c.target();
-    const ControlPosition machine = c.coordinates.machine_from_program(target);
+/// Straight lines are straight for the axes as well. F is the speed on the cylinder: a rotary axis
+/// counts its way at the radius.
+void WrappedMotion::move_cylinder_line(const SortedWords& words, Modal& modal, const Frames& frames,
+                                       Mover& mover) {
+    const ControlPosition target = commanded_position(words, modal, frames);
+    const ControlPosition machine = frames.stages.machine_from_program(target);
     double square = 0.0;
     for (std::size_t i = 0; i < axis_count; ++i) {
-        const bool wound = all_axes[i] == cylinder.rotary;
-        const double d = machine.value[i] - c.machine.value[i];
-        square += std::pow(wound ? rad_from_deg(d) * cylinder.radius_mm : d, 2);
+        const bool wound = all_axes[i] == cylinder_->rotary;
+        const double d = machine.value[i] - frames.machine.value[i];
+        square += std::pow(wound ? rad_from_deg(d) * cylinder_->radius_mm : d, 2);
     }
     CurveMove way;
     way.length_mm = way.feed_length_mm = std::sqrt(square);
-    move_along(c, MotionKind::linear, target, machine, axis_positions_of(machine), way);
+    mover.axes.along(MotionKind::linear, {target, machine, axis_positions_of(machine)}, way);
 }
 
-void move_cylinder_arc(ControlState& c, bool clockwise) {
-    const CylinderMotion& cylinder = *c.cylinder;
-    const PlaneAxes& plane = plane_axes(c.modal);
+void WrappedMotion::move_cylinder_arc(const SortedWords& words, Modal& modal, const Frames& frames,
+                                      Mover& mover) {
+    PlaneAxes plane = modal.plane();
+    if (!has_arc_words(words, plane)) raise_alarm(modal.settings.arc_needs_centre ? 22 : 176);
     // The rotary axis stands for X in G18, else for Y (its linear direction by 1022, assumed).
     const Axis replaced = plane.first == Axis::Z ? Axis::X : Axis::Y;
-    Axis first = plane.first, second = plane.second;
-    (first == replaced ? first : second) = cylinder.rotary;
-    if (!has_arc_words(c)) raise_alarm(c.settings.arc_needs_centre ? 22 : 176);
-    const ControlPosition target = c.target();
-    const double per_degree = cylinder.radius_mm * rad_from_deg(1.0);
-    const auto scale = [&](Axis axis) { return is_rotary(axis) ? per_degree : 1.0; };
-    const PlanePoint start{c.program[first] * scale(first), c.program[second] * scale(second)};
-    const PlanePoint end{target[first] * scale(first), target[second] * scale(second)};
-    const PlaneElement figure = figure_of(c, start, end, plane.centre_first, plane.centre_second);
-    const ControlPosition machine = c.coordinates.machine_from_program(target);
-    const CylinderCurve curve(figure, c.move.from, axis_positions_of(machine), first, second,
-                              cylinder.radius_mm);
-    move_curve(c, clockwise ? MotionKind::arc_cw : MotionKind::arc_ccw, target, machine, curve,
-               way_of(figure));
+    (plane.first == replaced ? plane.first : plane.second) = cylinder_->rotary;
+    const ControlPosition target = commanded_position(words, modal, frames);
+    const double per_degree = cylinder_->radius_mm * rad_from_deg(1.0);
+    const auto unrolled = [&](const ControlPosition& p, Axis axis) {
+        return p[axis] * (is_rotary(axis) ? per_degree : 1.0);
+    };
+    PlaneElement figure;
+    figure.start = {unrolled(frames.program, plane.first), unrolled(frames.program, plane.second)};
+    figure.end = {unrolled(target, plane.first), unrolled(target, plane.second)};
+    figure = figure_of(words, modal, plane, figure);
+    const ControlPosition machine = frames.stages.machine_from_program(target);
+    const AxisPositions from = frames.axes, to = axis_positions_of(machine);
+    const CylinderCurve curve(figure, from, to, plane, cylinder_->radius_mm);
+    mover.axes.along(kind_of(modal), {target, machine, to}, along_curve(curve, figure));
 }
 
 }  // namespace trunnion

@@ -70,6 +70,14 @@ double length_of(PlanePoint a) {
     return std::hypot(a.x, a.y);
 }
 
+double sweep_of(PlanePoint centre, PlanePoint start, PlanePoint end, bool clockwise) {
+    const PlanePoint r0 = start - centre, r1 = end - centre;
+    const double angle = std::atan2(cross(r0, r1), dot(r0, r1));
+    constexpr double same = 1e-9;  // rad: rounding of a full circle's end point
+    if (clockwise) return angle >= -same ? angle - 2.0 * pi : angle;
+    return angle <= same ? angle + 2.0 * pi : angle;
+}
+
 bool PlaneElement::moves() const {
     return arc || length_of(end - start) > tiny;
 }

@@ -30,6 +30,10 @@ inline PlanePoint left_of(PlanePoint t) {
     return {-t.y, t.x};
 }
 
+/// Signed angle from start to end about the centre, in (0, 2 pi] counter-clockwise, negative
+/// clockwise; equal directions are a full turn.
+double sweep_of(PlanePoint centre, PlanePoint start, PlanePoint end, bool clockwise);
+
 /// Unit tangents in the direction of travel.
 PlanePoint tangent_at_start(const PlaneElement& e);
 PlanePoint tangent_at_end(const PlaneElement& e);

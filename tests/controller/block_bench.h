@@ -94,7 +94,7 @@ struct Bench {
 
     Stores stores;
     Recorder sink;
-    ControlState control;
+    Control control;
     int line = 0;
 };
 

@@ -110,7 +110,7 @@ TEST_CASE("what the control does not know is an alarm with its column") {
     CHECK(b.alarm("G0 A5.") == 9);
     CHECK(b.alarm("G1 X7.") == 11);
     b("M77;M77");
-    CHECK(b.control.result.notes.size() == 1);
+    CHECK(b.control.mover.record().notes.size() == 1);
     CHECK_THROWS_AS(ControlVariables(b.control).set(3000, 5, "PROBE OPEN"), Alarm);
 }
 

@@ -42,7 +42,7 @@ std::vector<Vector3> tips(bool tilted, const std::string& body, int* alarm) {
     for (const AxisMove& m : b.sink.moves)
         for (const double s : {0.5, 1.0})
             out.push_back(plane.inverse() *
-                          b.control.five_axis.transform->tip_W(m.at(s), m.tool_vector_mm));
+                          b.control.frames.believed.transform->tip_W(m.at(s), m.tool_vector_mm));
     return out;
 }
 

@@ -17,7 +17,7 @@ TEST_CASE("G54.2: motion of both rotaries, cancel, change of set, with G43") {
     b.stores.fixture.set[1].offset[Axis::Y] = 50;
     b.stores.fixture.set[1].reference_angles[Axis::C] = 90;
     b.run("G90 G54 G0 X0 Y0 Z0 B0 C0;G54.2 P1");
-    CHECK(b.control.move.from[Axis::X] == 0.0);  // the position shifts, nothing moves
+    CHECK(b.control.frames.axes[Axis::X] == 0.0);  // the position shifts, nothing moves
     CHECK(b.variable(5001) == -100.0);
     b.run("G43 H1 X1. Y2. Z3. C90.");  // left-handed table: C90 carries +X to -Y
     CHECK((xyz(b.last().to) - Vector3(1, -98, 123.25)).norm() < 1e-12);
@@ -56,14 +56,14 @@ TEST_CASE("roll-over axes take the shorter way, or the way of the sign") {
     TableBench b;
     b.stores.parameters.entry[1008].by_axis[5] = 1;
     b.control.parameters_changed();
-    const auto c_deg = [&] { return deg_from_rad(b.control.move.from[Axis::C]); };
+    const auto c_deg = [&] { return deg_from_rad(b.control.frames.axes[Axis::C]); };
     b.run("G90 G54 G0 C350.;C10.");
     CHECK(c_deg() == Approx(10).margin(1e-9));
     b.run("C350.");
     CHECK(c_deg() == Approx(-10).margin(1e-9));
     b.run("G91 C400.;G90 B300.");
     CHECK(c_deg() == Approx(390).margin(1e-9));
-    CHECK(deg_from_rad(b.control.move.from[Axis::B]) == Approx(300));
+    CHECK(deg_from_rad(b.control.frames.axes[Axis::B]) == Approx(300));
     b.stores.parameters.entry[1008].by_axis[5] = 3;
     b.control.parameters_changed();
     b.run("C-20.");

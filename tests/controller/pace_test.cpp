@@ -48,10 +48,10 @@ struct Timed : Bench {
     }
     /// Seconds that these blocks take.
     double operator[](const std::string& program) {
-        control.pace.stop();
-        const double before = control.result.time_s;
+        control.mover.axes.stop();
+        const double before = control.mover.record().time_s;
         (*this)(program);
-        return control.result.time_s - before;
+        return control.mover.record().time_s - before;
     }
 };
 
@@ -124,19 +124,19 @@ TEST_CASE("a corner is passed at F / R_max of parameter 1783: below, at, above")
 TEST_CASE("an arc: v^2 / r stays within the acceleration, the axes within their speed") {
     Timed b;
     const double way = 2 * pi * 4.0;
-    b.control.limits.per_acceleration[index_of(Axis::Y)] = 1 / a_x;
+    b.control.mover.axes.limits.per_acceleration[index_of(Axis::Y)] = 1 / a_x;
     // r 4 mm: v^2 / r = 1000 at 63.2 mm/s.
     const double v = std::sqrt(4.0 * a_x);
     CHECK(b["G2 I4. J0 F6000."] == Approx(way / v + v / a_x));
     CHECK(b["G2 I4. J0 F3000."] == Approx(way / 50 + 50 / a_x));
     CHECK(b.last().feed_mm_min == Approx(3000.0));
-    b.control.limits.per_acceleration.fill(0.0);
+    b.control.mover.axes.limits.per_acceleration.fill(0.0);
     CHECK(b["G2 I40. J0 F60000."] == Approx(2 * pi * 40 / v_x));  // X at 200 mm/s
 }
 
 TEST_CASE("tangent line and arc run into each other") {
     Timed b;
-    b.control.limits.per_acceleration[index_of(Axis::Y)] = 1 / a_x;
+    b.control.mover.axes.limits.per_acceleration[index_of(Axis::Y)] = 1 / a_x;
     const double f = 50.0;
     CHECK(b["G1 X100. F3000.;G3 X100. Y60. J30.;G1 X0"] == Approx((200 + 30 * pi) / f + f / a_x));
 }
@@ -174,8 +174,8 @@ TEST_CASE("rates of a curve are those of the circle it is") {
         const AxisLimits* limits = nullptr;
         PathRates rates;
     } look;
-    look.limits = &b.control.limits;
-    ControlState control(b.control.config, b.stores, look);
+    look.limits = &b.control.mover.axes.limits;
+    Control control(b.control.config, b.stores, look);
     for (const char* text : {"G90 G54 G0 B0 C0", "G43.4 H1 X100. Y0 Z0", "C180."})
         execute_block(control, bench::words_of(text));
     CHECK(look.rates.start[Axis::Y] == Approx(-100 * pi).epsilon(1e-3));

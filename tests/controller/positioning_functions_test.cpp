@@ -51,25 +51,25 @@ struct FourFunctions {
         return rotation_about(line, -rad_from_deg(tilt_deg)) *
                rotation_about(Vector3::UnitZ(), -rad_from_deg(c_deg));
     }
-    Vector3 where() const { return xyz(b.control.move.from); }
+    Vector3 where() const { return xyz(b.control.frames.axes); }
 
     /// `from_pivot`: the point as the program's author found it, from the pivot, table at zero.
     Vector3 dpp(const Vector3& from_pivot, double tilt_deg, double c_deg) {
         b.run("G55 G43 H1 G0" + words(xyz_words, rotation(tilt_deg, c_deg) * from_pivot) +
               turn(tilt_deg, c_deg));
-        CHECK(b.control.move.mode == PositioningMode::dpp);
+        CHECK(b.control.frames.mode(b.control.modal.settings) == PositioningMode::dpp);
         return finish("G49");
     }
     Vector3 rtdfo(const Vector3& q, double tilt_deg, double c_deg) {
         b.run("G55 G54.2 P3;G43 H1 G0" + words(xyz_words, rotation(tilt_deg, c_deg) * q) +
               turn(tilt_deg, c_deg));
-        CHECK(b.control.move.mode == PositioningMode::rtdfo);
+        CHECK(b.control.frames.mode(b.control.modal.settings) == PositioningMode::rtdfo);
         return finish("G49;G54.2 P0");
     }
     Vector3 rtcp(const Vector3& q, double tilt_deg, double c_deg) {
         b.run("G54 G0" + turn(0, 0) + ";G43.4 H1 X0. Y0. Z50.;" + words(xyz_words, q) +
               turn(tilt_deg, c_deg));
-        CHECK(b.control.move.mode == PositioningMode::rtcp);
+        CHECK(b.control.frames.mode(b.control.modal.settings) == PositioningMode::rtcp);
         return finish("G49");
     }
     Vector3 tw(const Vector3& q, double tilt_deg, double c_deg) {
@@ -80,7 +80,7 @@ struct FourFunctions {
         b.run("G53.1");
         CHECK(b.sink.moves.size() == moves);  // the rotaries were placed first: it only confirms
         b.run("G43 H1 G0" + words(xyz_words, rotation(tilt_deg, c_deg) * q));
-        CHECK(b.control.move.mode == PositioningMode::tw);
+        CHECK(b.control.frames.mode(b.control.modal.settings) == PositioningMode::tw);
         return finish("G49;G69");
     }
     Vector3 finish(const std::string& cancel) {
@@ -191,7 +191,7 @@ TEST_CASE("G43.4 and G68.2/G53.1 put the tip on the programmed point on every ma
         const double t = 160 * (noise.uniform() - 0.5), c = 300 * (noise.uniform() - 0.5);
         b.run("G90 G21 G54 G0 B0 C0;G43.4 H1 X0 Y0 Z0;" + words(xyz_words, q) +
               fmt::format(" B{:.12f} C{:.12f}", t, c));
-        const AxisPositions by_tcp = b.control.move.from;
+        const AxisPositions by_tcp = b.control.frames.axes;
         worst_mm = std::max(worst_mm, (b.tip_W(by_tcp) - zero - q).norm());
         CHECK(std::abs(b.variable(5001) - q.x()) < 1e-9);
         const Vector3 n = b.belief().tool_direction_W(by_tcp);
@@ -202,7 +202,7 @@ TEST_CASE("G43.4 and G68.2/G53.1 put the tip on the programmed point on every ma
         b.run("G49;G68.2 P3 Q1 X1. Y2. Z3. " + words("I{:.15e} J{:.15e} K{:.15e}", x) +
               ";G68.2 P3 Q2 " + words("I{:.15e} J{:.15e} K{:.15e}", n));
         b.run("G53.1;G43 H1 G0 " + words(xyz_words, frame.transpose() * (q - Vector3(1, 2, 3))));
-        const AxisPositions by_plane = b.control.move.from;
+        const AxisPositions by_plane = b.control.frames.axes;
         worst_mm = std::max(worst_mm, (b.tip_W(by_plane) - zero - q).norm());
         worst_rad = std::max(worst_rad, b.belief().tool_direction_W(by_plane).cross(n).norm());
         if (std::abs(by_plane[Axis::B] - by_tcp[Axis::B]) < 1e-9 &&

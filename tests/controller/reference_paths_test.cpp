@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "block_bench.h"
+#include "controller/controller.h"
 
 namespace trunnion {
 

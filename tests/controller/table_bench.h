@@ -49,9 +49,10 @@ struct TableBench : Bench {
         stores.work.standard[0][Axis::X] = zero.x();
         stores.work.standard[0][Axis::Y] = zero.y();
         stores.work.standard[0][Axis::Z] = zero.z();
-        control.read_work_offset();
+        control.frames.take_work_offset(control.modal);
+        control.mover.frames_changed();
     }
-    const RotaryTransform& belief() const { return *control.five_axis.transform; }
+    const RotaryTransform& belief() const { return *control.frames.believed.transform; }
     Vector3 tip_W(const AxisPositions& q) const { return belief().tip_W(q, {0, 0, 120.25}); }
     void run(const std::string& text) { (*this)(text); }
 

@@ -21,14 +21,14 @@ TEST_CASE("13 indexations of a BC machine, each reached from its Euler angles") 
         TableBench b;
         b.run(fmt::format("G54 G90 G0 B0 C0;G68.2 X0 Y0 Z0 I{} J{} K-90.;G53.1 P{}", c + 90.0, tilt,
                           tilt < 0 ? 2 : 1));
-        const AxisPositions q = b.control.move.from;
+        const AxisPositions q = b.control.frames.axes;
         CHECK(std::abs(std::remainder(deg_from_rad(q[Axis::B]) - tilt, 360)) < 1e-9);
         CHECK(std::abs(std::remainder(deg_from_rad(q[Axis::C]) - c, 360)) < 1e-9);
         // Without P: whichever branch is nearer, the tool stands along the same direction.
         TableBench nearest;
         nearest.run(
             fmt::format("G54 G90 G0 B0 C0;G68.2 X0 Y0 Z0 I{} J{} K-90.;G53.1", c + 90.0, tilt));
-        const Vector3 n = nearest.belief().tool_direction_W(nearest.control.move.from);
+        const Vector3 n = nearest.belief().tool_direction_W(nearest.control.frames.axes);
         reached += n.cross(b.belief().tool_direction_W(q)).norm() < 1e-12 &&
                    n.dot(b.belief().tool_direction_W(q)) > 0;
     }
@@ -39,8 +39,8 @@ TEST_CASE("13 indexations of a BC machine, each reached from its Euler angles") 
 TEST_CASE("both solutions of G53.1 stand in the notes") {
     TableBench b;
     b.run("G54 G90 G0;G68.2 X0 Y0 Z0 I120. J40. K-90.;G53.1");
-    REQUIRE(b.control.result.notes.size() == 1);
-    CHECK(b.control.result.notes[0].find(
+    REQUIRE(b.control.mover.record().notes.size() == 1);
+    CHECK(b.control.mover.record().notes[0].find(
               "B40.0000 C30.0000, other solution B-40.0000 C-150.0000") != std::string::npos);
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("arcs, G52, G91 and G31 count along the tilted plane") {
     b.set_g54({30, -10, 15});
     b.run("G90 G17 G54 G0 B0 C0;G43 H1;G68.2 X5. Y6. Z7. I90. J35. K-90.;G53.1;X20. Y0 Z1.");
     const Pose plane{rotation_about(Vector3::UnitY(), rad_from_deg(35)), Vector3(5, 6, 7)};
-    const auto tip = [&] { return Vector3(b.tip_W(b.control.move.from) - Vector3(30, -10, 15)); };
+    const auto tip = [&] { return Vector3(b.tip_W(b.control.frames.axes) - Vector3(30, -10, 15)); };
     CHECK((tip() - plane * Vector3(20, 0, 1)).norm() < 1e-9);
     b.run("G3 X0 Y20. I-20. J0 F400.");
     REQUIRE(b.last().arc);
@@ -70,7 +70,7 @@ TEST_CASE("arcs, G52, G91 and G31 count along the tilted plane") {
     b.sink.trigger_at = -1;
     b.run("G49;G69;G0 X0 Y0 Z0 B0 C0");
     CHECK((xyz(b.last().to) - Vector3(30, -10, 15)).norm() < 1e-12);
-    CHECK(b.control.move.mode == PositioningMode::dpp);
+    CHECK(b.control.frames.mode(b.control.modal.settings) == PositioningMode::dpp);
 }
 
 TEST_CASE("G68.2 inside G52, G68.4 on top, G69 restores") {
@@ -89,8 +89,8 @@ TEST_CASE("G68.3 takes the plane from the tool as it stands") {
     b.run("G90 G54 G0 G43 H1 X10. Y20. Z100. B30. C40.;G68.3 R0");
     CHECK(std::abs(b.variable(5001)) + std::abs(b.variable(5002)) + std::abs(b.variable(5003)) <
           1e-9);
-    const Vector3 before = b.tip_W(b.control.move.from);
-    const Vector3 n = b.belief().tool_direction_W(b.control.move.from);
+    const Vector3 before = b.tip_W(b.control.frames.axes);
+    const Vector3 n = b.belief().tool_direction_W(b.control.frames.axes);
     const std::size_t moves = b.sink.moves.size();
     b.run("G53.1");
     CHECK(b.sink.moves.size() == moves);
@@ -102,7 +102,7 @@ TEST_CASE("G53.6 keeps the tip on the work, G53.1 moves the rotaries only") {
     TableBench b;
     b.set_pivot({1, 2, 40}, {0.5, 0.25, -20});
     b.run("G90 G54 G0 B0 C0 G43 H1 X10. Y20. Z30.;G68.2 X0 Y0 Z0 I90. J35. K-90.");
-    const AxisPositions before = b.control.move.from;
+    const AxisPositions before = b.control.frames.axes;
     b.run("G53.6 H1");
     CHECK((b.tip_W(b.last().to) - b.tip_W(before)).norm() < 1e-9);
     CHECK(b.last().to[Axis::B] == Approx(rad_from_deg(35)));

@@ -62,7 +62,7 @@ TEST_CASE("WKP: X Y Z are the end point after the table has turned") {
 
 TEST_CASE("TCP: feed counts along the tip, G93, rotaries alone, axis speed") {
     TableBench b;
-    b.control.limits.seconds_per_unit.fill(0.0);
+    b.control.mover.axes.limits.seconds_per_unit.fill(0.0);
     b.set_pivot({0, 0, 40}, {0, 0, -20});
     b.run("G90 G54 G0 B0 C0;G43.4 H1 X100. Y0 Z5.;G1 X130. Y40. B60. C90. F600.");
     CHECK(b.last().length_mm == Approx(50.0));
@@ -76,7 +76,7 @@ TEST_CASE("TCP: feed counts along the tip, G93, rotaries alone, axis speed") {
     b.stores.parameters.set_bit(19696, 6, true);
     b.run("G1 C90. F600.");  // RFC = 1: F is deg/min
     CHECK(b.last().duration_s == Approx(9.0));
-    b.control.limits.seconds_per_unit[index_of(Axis::C)] = 60.0 / rad_from_deg(90.0);
+    b.control.mover.axes.limits.seconds_per_unit[index_of(Axis::C)] = 60.0 / rad_from_deg(90.0);
     b.run("G1 X101. C180. F60000.");
     CHECK(b.last().duration_s == Approx(60.0));
 }
@@ -106,7 +106,7 @@ TEST_CASE("TCP: an arc with standing rotaries is an arc of the axes, with turnin
         bool curve = false;
     } check;
     Stores stores = b.stores;
-    ControlState control(b.control.config, stores, check);
+    Control control(b.control.config, stores, check);
     const auto run = [&](const char* text) { execute_block(control, bench::words_of(text)); };
     for (const char* text : {"G90 G54 G17 G0 B0 C0", "G43.4 H1 X20. Y0 Z0"}) run(text);
     check.worst_mm = 0.0;
@@ -137,7 +137,7 @@ TEST_CASE("G43.5: tool axis by vector, keep, singular, lean, limits") {
     b.run("G49;G0 B0 C0;G43.5 H1 Q10. X0 Y0 Z5.;G1 X10. K1.");
     CHECK(b.last().to[Axis::B] == Approx(rad_from_deg(10)));  // leans towards +X
     b.run("G49");
-    b.control.limits.min[index_of(Axis::B)] = 0;
+    b.control.mover.axes.limits.min[index_of(Axis::B)] = 0;
     b.stores.parameters.set(19741, 120);
     b.stores.parameters.set(19742, -1);
     b.control.parameters_changed();
@@ -161,7 +161,7 @@ TEST_CASE("G31 under G43.4 latches the programmed frame") {
     b.run("G31 X10. Y0 Z10. F100.");
     CHECK(b.variable(5003) == Approx(40.0));
     CHECK(b.variable(5063) - b.variable(5083) == Approx(40.0));
-    CHECK((b.tip_W(b.control.move.from) - Vector3(10, 0, 40)).norm() < 1e-9);
+    CHECK((b.tip_W(b.control.frames.axes) - Vector3(10, 0, 40)).norm() < 1e-9);
 }
 
 TEST_CASE("TCP inside a tilted plane keeps the plane's coordinates") {
@@ -172,9 +172,9 @@ TEST_CASE("TCP inside a tilted plane keeps the plane's coordinates") {
     b.run("X3. Y4. Z5. B50. C10.");
     CHECK((b.tip_W(b.last().to) - plane * Vector3(3, 4, 5)).norm() < 1e-9);
     b.run("G49");
-    const AxisPositions stood = b.control.move.from;
+    const AxisPositions stood = b.control.frames.axes;
     b.run("G69");
-    CHECK(b.control.move.from == stood);
+    CHECK(b.control.frames.axes == stood);
 }
 
 TEST_CASE("Hurco: M128 and M129, M126 and M127") {
@@ -184,23 +184,23 @@ TEST_CASE("Hurco: M128 and M129, M126 and M127") {
     b.run("G90 G54 G0 G43 H1 X10. Y0 Z50. B30. C40.;M128;X10. Y5. Z20.");
     CHECK((b.tip_W(b.last().to) - Vector3(10, 5, 20)).norm() < 1e-9);
     CHECK(b.last().mode == PositioningMode::rtcp);
-    const AxisPositions stood = b.control.move.from;
+    const AxisPositions stood = b.control.frames.axes;
     b.run("M129");
-    CHECK(b.control.move.from == stood);
+    CHECK(b.control.frames.axes == stood);
     b.run("X10. Y5. Z20. B0 C0");
     CHECK((xyz(b.last().to) - Vector3(10, 5, 140.25)).norm() < 1e-9);
     b.run("C350.;M126;C10.");
-    CHECK(deg_from_rad(b.control.move.from[Axis::C]) == Approx(370));
+    CHECK(deg_from_rad(b.control.frames.axes[Axis::C]) == Approx(370));
     b.run("M127;C0");
-    CHECK(b.control.move.from[Axis::C] == Approx(0).margin(1e-12));
+    CHECK(b.control.frames.axes[Axis::C] == Approx(0).margin(1e-12));
     TableBench fanuc;
     fanuc.run("G90 G54 M128");
-    CHECK_FALSE(fanuc.control.five_axis.tcp);
+    CHECK_FALSE(fanuc.control.frames.tip.in_force);
 }
 
 TEST_CASE("axes may not swing beyond their stroke on the way of the tip") {
     TableBench b;
-    b.control.limits.max[index_of(Axis::Y)] = 40.0;
+    b.control.mover.axes.limits.max[index_of(Axis::Y)] = 40.0;
     b.run("G90 G54 G0 B0 C0;G43.4 H1 X50. Y0 Z0");
     CHECK(b.alarm("C-180.") == 500);  // both ends have Y0, half-way it is at 50
     b.run("C180.");

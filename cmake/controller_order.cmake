@@ -1,0 +1,18 @@
+# The subjects of the control, lowest first: a file may include only subjects that stand before its
+# own. tests/layering.cmake reads this list.
+set(TRUNNION_CONTROLLER_ORDER
+  # what is configured, what can go wrong
+  clamp control_alarms alarms control_config run_result code_calls
+  # the words of a block, what is in force
+  modal_groups g_codes sorted_words settings modal run_record surface_speed word_sorting
+  # where the control stands
+  coordinates frames commanded
+  # what takes a path to the axes
+  feed_time axis_mover tip_mover mover
+  # codes by subject
+  arcs word_readings cutter_codes cycles wrapped_motion work_frames fixture_offset_codes tool_length
+  tool_centre tilted_plane_codes shapes reference_points skip data_setting dialect_codes m_codes
+  # system variables
+  offset_variables position_variables modal_variables signal_variables
+  # put together
+  control system_variables g_actions block_execution controller)

@@ -1,0 +1,226 @@
+#include "controller/axis_mover.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "controller/alarms.h"
+#include "controller/feed_time.h"
+#include "controller/surface_speed.h"
+#include "motion/tool_centre_point.h"
+
+namespace trunnion {
+
+namespace {
+
+/// Way of the tip while the rotaries stand.
+double linear_length(const AxisMove& m) {
+    return (m.parallel.linear(m.to) - m.parallel.linear(m.from)).norm();
+}
+
+/// The arc as the stages lay it into the machine. A mirror turns it round.
+ArcPath arc_in_machine(const Frames& frames, const ProgramArc& arc, MotionKind& kind) {
+    ArcPath path;
+    const Matrix3& linear = frames.stages.linear();
+    const Vector3 start = xyz_of(frames.program), gauge = xyz_of(frames.machine);
+    if (frames.stages.is_shift()) {
+        path.centre_mm = arc.centre + (gauge - start);
+        path.normal = arc.normal;
+        path.sweep_rad = arc.sweep_rad;
+    } else {
+        path.centre_mm = linear * (arc.centre - start) + gauge;
+        const double side = linear.determinant() < 0.0 ? -1.0 : 1.0;
+        path.normal = (linear * arc.normal).normalized();
+        path.sweep_rad = side * arc.sweep_rad;
+        if (side < 0.0 && path.normal.dot(arc.normal) > 0.0)
+            kind = kind == MotionKind::arc_ccw ? MotionKind::arc_cw : MotionKind::arc_ccw;
+    }
+    path.turns = turns_of(path.sweep_rad);
+    return path;
+}
+
+double arc_length(const ArcPath& path, const Vector3& from, const Vector3& to) {
+    const Vector3 radius_vector = from - path.centre_mm;
+    const double rise = path.normal.dot(to - from);
+    const double radius = (radius_vector - radius_vector.dot(path.normal) * path.normal).norm();
+    const double bow = radius * path.sweep_rad;
+    return std::sqrt(bow * bow + rise * rise);
+}
+
+}  // namespace
+
+AxisMover::AxisMover(const SortedWords& words, Modal& modal, Frames& frames, MotionSink& sink)
+    : words_(words), modal_(modal), frames_(frames), sink_(sink) {}
+
+void AxisMover::configure(const ControlConfig& config) {
+    limits = axis_limits(config.axes);
+    clamps_ = config.clamps;
+}
+
+void AxisMover::parameters_changed() {
+    set_corner_jumps(modal_.settings, limits);
+    move_.parallel = frames_.believed.parallel;
+}
+
+void AxisMover::start_run() {
+    record = {};
+    move_.arc.reset();
+    move_.curve = nullptr;
+    move_.until_skip = false;
+    pace_.stop();
+}
+
+void AxisMover::check_stroke(const AxisPositions& to) const {
+    for (std::size_t i = 0; i < axis_count; ++i) {
+        if (to.value[i] <= limits.max[i] && to.value[i] >= limits.min[i]) continue;
+        const char letter = letter_of(all_axes[i]);
+        raise_alarm(to.value[i] > limits.max[i] ? 500 : 501, std::string(1, letter),
+                    words_.column_of(letter));
+    }
+}
+
+void AxisMover::check_clamps(const AxisPositions& to) const {
+    for (const ClampCode& clamp : clamps_) {
+        const std::size_t i = index_of(clamp.axis);
+        const char letter = letter_of(clamp.axis);
+        if (clamp.alarm && clamped_[i] && to.value[i] != frames_.axes.value[i])
+            raise_alarm(9001, std::string(1, letter), words_.column_of(letter));
+    }
+}
+
+double AxisMover::duration(MotionKind kind, double way) const {
+    const double shortest = rapid_time(limits, move_.from, move_.to);
+    if (kind == MotionKind::rapid) return shortest;
+    return std::max(commanded_time(modal_.block.feed, way, words_.column_of('F')), shortest);
+}
+
+/// What the move takes from modal state and frames.
+void AxisMover::take_marks() {
+    const BlockMarks& marks = modal_.block;
+    move_.spindle_rpm = marks.spindle_rpm;
+    move_.coolant = marks.coolant;
+    move_.gap_free = marks.gap_free;
+    move_.tool = marks.tool;
+    move_.line = marks.line;
+    move_.byte = marks.byte;
+    move_.program = marks.program;
+    move_.tool_offset = frames_.tool.number;
+    move_.tool_vector_mm = frames_.tool.vector_mm;
+    move_.mode = frames_.mode(modal_.settings);
+    move_.transform = frames_.believed.transform ? &*frames_.believed.transform : nullptr;
+}
+
+/// Everything is in `move_` but the marks. `way`: what F divides, mm.
+MoveResult AxisMover::send(MotionKind kind, const MoveTarget& target, double way) {
+    AxisMove& m = move_;
+    m.kind = kind;
+    check_stroke(m.to);
+    if (!clamps_.empty()) check_clamps(m.to);
+    take_marks();
+    const double cruise_s = pace_.take(m, limits, way);
+    m.feed_mm_min = kind == MotionKind::rapid ? 0.0
+                    : m.length_mm > 0.0 && cruise_s > 0
+                        ? 60.0 * m.length_mm / cruise_s
+                        : modal_.block.feed.mm_min / modal_.units.unit_mm;
+    const MoveResult result = sink_.move(m);
+    ++record.moves;
+    record.time_s += result.part * m.duration_s;
+    record.path_mm += result.part * m.length_mm;
+    if (result.skipped) {
+        frames_.axes = result.stopped;
+        frames_.machine = control_position_of(result.stopped);
+        frames_.program = frames_.program_at(frames_.machine);
+        return result;
+    }
+    frames_.axes = m.to;
+    frames_.machine = target.machine;
+    frames_.program = target.program;
+    frames_.length_parked = false;
+    return result;
+}
+
+MoveResult AxisMover::straight(MotionKind kind, const ControlPosition& target) {
+    const ControlPosition machine = frames_.stages.machine_from_program(target);
+    AxisMove& m = move_;
+    m.from = frames_.axes;
+    m.to = axis_positions_of(machine);
+    if (m.to == m.from) {  // no way to go: nothing goes out
+        frames_.machine = machine;
+        frames_.program = target;
+        return {};
+    }
+    m.length_mm = linear_length(m);
+    if (modal_.spindle.by_surface) follow_surface_speed(modal_, frames_.program, target);
+    const double way = std::sqrt(feed_square(frames_.machine, machine, modal_.units.unit_mm));
+    m.duration_s = duration(kind, way);
+    return send(kind, {target, machine, m.to}, way);
+}
+
+void AxisMover::to_machine(MotionKind kind, const ControlPosition& target) {
+    AxisMove& m = move_;
+    m.from = frames_.axes;
+    m.to = axis_positions_of(target);
+    const ControlPosition program = frames_.program_at(target);
+    if (m.to == m.from) {
+        frames_.machine = target;
+        frames_.program = program;
+        return;
+    }
+    m.length_mm = linear_length(m);
+    const double way = std::sqrt(feed_square(frames_.machine, target, modal_.units.unit_mm));
+    m.duration_s = duration(kind, way);
+    send(kind, {program, target, m.to}, way);
+}
+
+void AxisMover::arc(MotionKind kind, const ControlPosition& target, const ProgramArc& arc) {
+    const ControlPosition machine = frames_.stages.machine_from_program(target);
+    AxisMove& m = move_;
+    m.from = frames_.axes;
+    m.to = axis_positions_of(machine);
+    const ArcPath path = arc_in_machine(frames_, arc, kind);
+    m.length_mm = arc_length(path, xyz_of(frames_.machine), xyz_of(machine));
+    if (modal_.spindle.by_surface) follow_surface_speed(modal_, frames_.program, target);
+    const double way = std::sqrt(m.length_mm * m.length_mm +
+                                 feed_square(frames_.machine, machine, modal_.units.unit_mm, 3));
+    m.duration_s = duration(kind, way);
+    m.arc = path;
+    send(kind, {target, machine, m.to}, way);
+    m.arc.reset();
+}
+
+MoveResult AxisMover::along(MotionKind kind, const MoveTarget& target, const CurveMove& way) {
+    AxisMove& m = move_;
+    m.from = frames_.axes;
+    m.to = target.axes;
+    if (m.to == m.from && !way.arc) {
+        frames_.machine = target.machine;
+        frames_.program = target.program;
+        return {};
+    }
+    m.length_mm = way.length_mm;
+    if (modal_.spindle.by_surface) follow_surface_speed(modal_, frames_.program, target.program);
+    m.duration_s = duration(kind, way.feed_length_mm);
+    if (way.curve) {
+        m.curve = way.curve;
+        // The axes may swing further out on the way than where they end.
+        const int parts = curve_parts(m.from, m.to);
+        for (int k = 1; k < parts; ++k) check_stroke(way.curve->at(static_cast<double>(k) / parts));
+    }
+    if (way.arc) m.arc = *way.arc;
+    const MoveResult result = send(kind, target, way.feed_length_mm);
+    m.curve = nullptr;
+    m.arc.reset();
+    return result;
+}
+
+void AxisMover::dwell(double duration_s) {
+    pace_.stop();
+    record.time_s += duration_s;
+    sink_.dwell(duration_s);
+}
+
+void AxisMover::m_code(int code) {
+    pace_.stop();
+    sink_.m_code(code);
+}
+
+}  // namespace trunnion

@@ -1,0 +1,88 @@
+// The last stage in front of the door: limits, clamps, durations; keeps where the axes stopped.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "controller/clamp.h"
+#include "controller/frames.h"
+#include "controller/run_record.h"
+#include "motion/axis_limits.h"
+#include "motion/motion.h"
+#include "motion/pace.h"
+
+namespace trunnion {
+
+/// An arc or helix of the tip in program coordinates, mm.
+struct ProgramArc {
+    Vector3 centre = Vector3::Zero();
+    Vector3 normal = Vector3::UnitZ();
+    double sweep_rad = 0.0;  ///< signed about the normal
+};
+
+/// A place that has been worked out: what the control counts, and where the axes go.
+struct MoveTarget {
+    ControlPosition program;  ///< program coordinates
+    ControlPosition machine;  ///< mm and deg
+    AxisPositions axes;       ///< mm and rad
+};
+
+/// How the axes get there: along a curve, an arc, or straight.
+struct CurveMove {
+    const PathCurve* curve = nullptr;
+    std::optional<ArcPath> arc;
+    double length_mm = 0.0;       ///< of the programmed point's path
+    double feed_length_mm = 0.0;  ///< what F divides
+};
+
+/// Sends moves out with all that is in force in `modal` and `frames`. OT0500, OT0501 beyond a
+/// stored stroke, 9001 for a clamped axis, PS0011 and PS1202 without feed: before anything moves.
+class AxisMover {
+  public:
+    /// `words`: of the block that runs, for the columns of alarms.
+    AxisMover(const SortedWords& words, Modal& modal, Frames& frames, MotionSink& sink);
+
+    /// Limits and clamps of the axes.
+    void configure(const ControlConfig& config);
+    void parameters_changed();
+
+    /// A straight move of the tip by the coordinate stages alone. A target where the axes stand
+    /// sends nothing.
+    MoveResult straight(MotionKind kind, const ControlPosition& target);
+    /// A straight move of the axes to a machine position (G53, G28); the program position follows.
+    void to_machine(MotionKind kind, const ControlPosition& target);
+    void arc(MotionKind kind, const ControlPosition& target, const ProgramArc& arc);
+    MoveResult along(MotionKind kind, const MoveTarget& target, const CurveMove& way);
+    void dwell(double duration_s);
+    /// The block behind an M code waits for its completion.
+    void m_code(int code);
+    /// The next move begins at rest.
+    void stop() { pace_.stop(); }
+    void clamp(Axis axis, bool clamped) { clamped_[index_of(axis)] = clamped; }
+    /// The next move ends where the skip signal comes (G31).
+    void until_skip(bool on) { move_.until_skip = on; }
+    /// Before a run.
+    void start_run();
+
+    RunRecord record;
+    AxisLimits limits;  ///< of the configuration and 1783
+
+  private:
+    MoveResult send(MotionKind kind, const MoveTarget& target, double way);
+    double duration(MotionKind kind, double way) const;
+    void take_marks();
+    void check_stroke(const AxisPositions& to) const;
+    void check_clamps(const AxisPositions& to) const;
+
+    const SortedWords& words_;
+    Modal& modal_;
+    Frames& frames_;
+    MotionSink& sink_;
+    std::vector<ClampCode> clamps_;
+    std::array<bool, axis_count> clamped_{};
+    Pace pace_;
+    AxisMove move_;  ///< the one that goes out; fields that rarely change stay
+};
+
+}  // namespace trunnion

@@ -1,0 +1,37 @@
+#include "controller/control.h"
+
+namespace trunnion {
+
+namespace {
+
+ControlConfig in_order(ControlConfig config, const Parameters& parameters) {
+    sort_axes(config.axes, parameters);
+    return config;
+}
+
+}  // namespace
+
+Control::Control(ControlConfig config_, Stores& stores_, MotionSink& sink)
+    : config(in_order(std::move(config_), stores_.parameters)),
+      stores(stores_),
+      frames(stores_),
+      mover(words, modal, frames, sink),
+      m_codes(config),
+      clock(config.clock_s) {
+    modal.codes = initial_modal_codes(static_cast<unsigned>(stores.parameters.get(3402)));
+    if (stores.parameters.bit(0, 2)) modal.codes.set(ModalGroup::units, 200);
+    mover.axes.configure(config);
+    parameters_changed();
+    frames.take_work_offset(modal);
+    frames.stand_at({});
+}
+
+void Control::parameters_changed() {
+    modal.settings = decode_settings(stores.parameters, config);
+    frames.parameters_changed(modal.settings);
+    mover.axes.parameters_changed();
+    mover.cutter.set(modal.settings.cutter);
+    modal.units_changed();
+}
+
+}  // namespace trunnion

@@ -1,0 +1,42 @@
+// The parts of a running control, put together once. Only the block's execution, the table of
+// actions and the system variables see it; every subject gets the parts that it needs.
+#pragma once
+
+#include "controller/cycles.h"
+#include "controller/data_setting.h"
+#include "controller/m_codes.h"
+#include "controller/modal_variables.h"
+#include "controller/reference_points.h"
+#include "controller/signal_variables.h"
+#include "controller/skip.h"
+#include "controller/tilted_plane_codes.h"
+#include "controller/wrapped_motion.h"
+
+namespace trunnion {
+
+struct Control {
+    Control(ControlConfig config_, Stores& stores_, MotionSink& sink);
+
+    ControlConfig config;
+    Stores& stores;
+    SortedWords words;  ///< of the block that runs
+    Modal modal;
+    Frames frames;
+    Mover mover;
+
+    CycleData cycle;
+    SkipState skip;
+    PlaneCodes plane_codes;
+    WrappedMotion wrapped;
+    ReferencePoints reference_points;
+    MCodes m_codes;
+    ClockVariables clock;
+    ProgramPlace place;
+    DataEntry data_entry = DataEntry::none;
+    bool moved = false;  ///< the block that ran moved an axis: G66 calls follow it
+
+    /// After parameters changed: settings, geometry and limits anew.
+    void parameters_changed();
+};
+
+}  // namespace trunnion

@@ -1,0 +1,116 @@
+#include "controller/cutter_codes.h"
+
+#include <algorithm>
+
+#include "controller/alarms.h"
+#include "controller/arcs.h"
+#include "controller/commanded.h"
+
+namespace trunnion {
+
+namespace {
+
+bool is_round(const Modal& modal) {
+    return modal.is(ModalGroup::motion, 20) || modal.is(ModalGroup::motion, 30);
+}
+
+/// Cutter radius in force, signed: + to the left of the path (G41), - to the right (G42).
+double offset_mm(const Modal& modal, const Frames& frames) {
+    if (modal.cutter_is_off()) return 0.0;
+    const auto number = static_cast<std::size_t>(modal.number.radius);
+    const double radius = frames.stores().tools.tool[number].radius_mm();
+    const double value = modal.settings.radius_is_diameter ? 0.5 * radius : radius;
+    const auto& scaling = frames.stages.scaling;
+    const double scale = scaling ? scaling->factor[modal.plane().first] : 1.0;
+    return (modal.is(ModalGroup::cutter, 410) ? value : -value) / scale;
+}
+
+/// The move of this block to `target`, straight.
+PathMove straight_move(const SortedWords& words, const Modal& modal, const Frames& frames,
+                       const ControlPosition& target) {
+    PathMove m;
+    m.axes = modal.plane();
+    m.plane.start = {frames.program[m.axes.first], frames.program[m.axes.second]};
+    m.plane.end = {target[m.axes.first], target[m.axes.second]};
+    m.to = target;
+    m.rapid = modal.is(ModalGroup::motion, 0);
+    m.offset_mm = offset_mm(modal, frames);
+    m.chamfer = words.corner_chamfer;
+    m.round = words.corner_radius;
+    m.corner_mm = words.corner;
+    m.marks = modal.block;
+    return m;
+}
+
+/// Type C: G40 stood alone, the tool shifts back to the programmed point.
+PathMove shift_back(const SortedWords& words, const Modal& modal, const Frames& frames) {
+    PathMove back = straight_move(words, modal, frames, frames.program);
+    back.offset_mm = 0.0;
+    return back;
+}
+
+/// One-shot codes that neither move nor change frames.
+bool keeps_path(const SortedWords& words, Action action) {
+    if (action == Action::data_setting) {
+        const double l = words.get('L', 10.0);
+        return l >= 10.0 && l <= 13.0;
+    }
+    return action == Action::dwell || action == Action::accepted || action == Action::corner_arc;
+}
+
+}  // namespace
+
+void set_cutter(const SortedWords& words, Modal& modal, const Frames& frames, Mover& mover,
+                int code10) {
+    if (words.has('D')) modal.number.radius = words.whole('D');
+    const int offsets = static_cast<int>(frames.stores().tools.tool.size());
+    if (modal.number.radius < 0 || modal.number.radius >= offsets)
+        raise_alarm(30, words.column_of('D'));
+    const bool on = code10 != 400, alone = !words.has_axis();
+    const bool changes = modal.cutter_is_off() == on;
+    if (is_round(modal) && changes && !alone) raise_alarm(34);
+    if (on) {
+        mover.cutter.start(frames.program, alone);
+    } else {
+        std::optional<PathMove> back;
+        if (alone && changes && modal.settings.cutter.startup_type_c)
+            back = shift_back(words, modal, frames);
+        mover.cutter.end(back);
+    }
+    modal.codes.set(ModalGroup::cutter, code10);
+}
+
+void corner_arc(const SortedWords& words, const Modal& modal, Mover& mover) {
+    if (modal.cutter_is_off() || words.has_axis()) raise_alarm(10);
+    const PlaneAxes& plane = modal.plane();
+    PlanePoint to;
+    if (words.has(plane.centre_first)) to.x = words.length_mm(plane.centre_first);
+    if (words.has(plane.centre_second)) to.y = words.length_mm(plane.centre_second);
+    if (!mover.cutter.round_next_corner(to)) mover.note("G39 without a side before it");
+}
+
+bool uses_cutter_path(const SortedWords& words, const Mover& mover) {
+    return mover.cutter.engaged() || words.corner_radius || words.corner_chamfer;
+}
+
+void queue_motion(const SortedWords& words, Modal& modal, const Frames& frames, Mover& mover) {
+    const PlaneAxes& plane = modal.plane();
+    const bool arc = is_round(modal);
+    if (arc) check_plane_of_centre(words, plane);
+    if (arc && !has_arc_words(words, plane) && modal.settings.arc_needs_centre) raise_alarm(22);
+    PathMove move = straight_move(words, modal, frames, commanded_position(words, modal, frames));
+    if (arc && has_arc_words(words, plane)) bend_to_arc(words, plane, arc_rule(modal), move.plane);
+    mover.queue(move);
+}
+
+bool pauses_path(const SortedWords& words) {
+    for (std::size_t i = 0; i < words.code_count; ++i) {
+        const GCode& code = *words.code[i];
+        const bool acts = code.phase == Phase::shot || code.phase == Phase::work_offset ||
+                          code.phase == Phase::frame || code.phase == Phase::cycle;
+        if (acts && !keeps_path(words, code.action)) return true;
+    }
+    return false;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,44 @@
+#include "controller/position_variables.h"
+
+namespace trunnion {
+
+namespace {
+
+ControlPosition shown_position(int row, const Modal& modal, const Frames& frames,
+                               const SkipState& skip) {
+    switch (row) {
+        case 0:
+            return frames.stages.shaped_from_program(frames.program);
+        case 1:
+            return frames.machine;
+        case 2:
+            return work_position(modal, frames);
+        case 3:
+            return skip.work;
+        case 4:
+            return frames.shown_length();
+        default:
+            return {};
+    }
+}
+
+/// Of axis number `n` from 0; nothing when there is no such axis.
+std::optional<double> in_units(const ControlPosition& p, int n, const Modal& modal) {
+    if (n < 0 || n >= static_cast<int>(modal.settings.axes.size())) return std::nullopt;
+    const ControlAxis& axis = modal.settings.axes[static_cast<std::size_t>(n)];
+    return p[axis.axis] / (axis.rotary ? 1.0 : modal.units.unit_mm);
+}
+
+}  // namespace
+
+std::optional<double> position_variable(int number, const Modal& modal, const Frames& frames,
+                                        const SkipState& skip) {
+    if (number == 5500) return frames.fixture_number;
+    if (number > 5500 && number <= 5520)
+        return in_units(frames.stages.fixture, number - 5501, modal);
+    if (number < 5001 || number > 5120) return std::nullopt;
+    const int n = number - 5001;
+    return in_units(shown_position(n / 20, modal, frames, skip), n % 20, modal);
+}
+
+}  // namespace trunnion

@@ -1,0 +1,24 @@
+// What a run has done so far: moves, time, way, notes.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace trunnion {
+
+struct RunRecord {
+    std::uint64_t moves = 0;
+    double time_s = 0.0;
+    double path_mm = 0.0;
+    std::vector<std::string> notes;
+    std::set<std::string, std::less<>> noted;
+
+    /// One line in the notes, the first time it is said.
+    void note(std::string text) {
+        if (noted.insert(text).second) notes.push_back(std::move(text));
+    }
+};
+
+}  // namespace trunnion

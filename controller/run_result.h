@@ -1,0 +1,30 @@
+// What a run of a program left behind.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/alarm.h"
+#include "geometry/axes.h"
+
+namespace trunnion {
+
+enum class RunStatus : unsigned char { ok, alarm, limit };
+
+struct RunResult {
+    RunStatus status = RunStatus::ok;
+    std::optional<Alarm> alarm;
+    std::uint64_t blocks = 0;
+    std::uint64_t moves = 0;
+    double time_s = 0.0;
+    double path_mm = 0.0;
+    AxisPositions machine;           ///< final, mm and rad
+    AxisPositions work;              ///< final, in the active work frame, mm and rad
+    std::vector<std::string> modal;  ///< "G00", "G17", ... one for each modal group, in group order
+    bool reads_skip = false;         ///< the program asked where G31 touched (#5061..)
+    std::vector<std::string> notes;  ///< unknown M codes, codes accepted without effect, ...
+};
+
+}  // namespace trunnion

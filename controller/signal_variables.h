@@ -1,0 +1,38 @@
+// Variables of the machine's signals and of the clock: #1000-#1135, #3000-#3012.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string_view>
+
+#include "controller/mover.h"
+
+namespace trunnion {
+
+using Signals = std::map<int, double>;
+
+/// #1000-#1031 single inputs, #1032-#1035 words; #1100.. the outputs. Nothing for another number.
+std::optional<double> signal_variable(int number, const Signals& signals);
+/// Outputs only; false for another number.
+bool set_signal_variable(int number, double value, Signals& signals);
+
+/// #3000 alarm, #3001 timer (ms), #3002 hours, #3003, #3004, #3007 controls, #3006 stop with a
+/// message, #3011 date, #3012 time.
+class ClockVariables {
+  public:
+    /// `clock_s`: when the run begins, seconds since 1970.
+    explicit ClockVariables(std::int64_t clock_s) : clock_s_(clock_s) {}
+
+    std::optional<double> get(int number, double run_time_s) const;
+    /// False when the number cannot be written. #3000 throws the program's alarm with `comment`.
+    bool set(int number, double value, std::string_view comment, Mover& mover);
+
+  private:
+    std::int64_t clock_s_;
+    double offset_ms_ = 0.0;            ///< #3001 = value
+    std::array<double, 8> controls_{};  ///< [n] = #3000+n
+};
+
+}  // namespace trunnion

@@ -1,0 +1,45 @@
+// Moves under G43.4, G43.5 and M128: the tip is led along its way on the work, the axes follow.
+#pragma once
+
+#include "controller/axis_mover.h"
+
+namespace trunnion {
+
+/// I J K: the tool axis of G43.5.
+constexpr std::uint32_t tool_vector_letters =
+    SortedWords::bit('I') | SortedWords::bit('J') | SortedWords::bit('K');
+
+/// The stage in front of the axes while tool centre point control is in force (`frames.tip`).
+class TipMover {
+  public:
+    TipMover(const SortedWords& words, const Modal& modal, const Frames& frames, AxisMover& axes)
+        : words_(words), modal_(modal), frames_(frames), axes_(axes) {}
+
+    /// A straight move of the tip on the work to a program position. PS5421 for words of the other
+    /// way to command the tool axis, and for an axis that no rotary position reaches.
+    MoveResult line(MotionKind kind, const ControlPosition& target);
+    /// An arc of the tip on the work; PS5421 under G43.5.
+    void arc(MotionKind kind, const ControlPosition& target, const ProgramArc& arc);
+
+  private:
+    struct TipWay {
+        Vector3 start_W, end_W;  ///< of the tip, mm
+        MoveTarget target;
+    };
+    const ToolCentrePoint& tcp() const { return *frames_.tip.in_force; }
+    void check_words() const;
+    Vector3 staged_tip(const ControlPosition& machine) const;
+    TipWay way_to(const ControlPosition& target) const;
+    void orient_tool(const Vector3& travel_W, AxisPositions& rotaries) const;
+    double feed_length(double tip_mm, const ControlPosition& machine) const;
+    ControlPosition reached(ControlPosition target, const ControlPosition& machine) const;
+    bool turns(const AxisPositions& to) const;
+    ArcPath arc_in_W(const ProgramArc& arc, const AxisPositions& rotaries) const;
+
+    const SortedWords& words_;
+    const Modal& modal_;
+    const Frames& frames_;
+    AxisMover& axes_;
+};
+
+}  // namespace trunnion

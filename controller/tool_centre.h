@@ -1,0 +1,19 @@
+// G43.4 and G43.5, and M128 of a Hurco: start-up, change of length.
+#pragma once
+
+#include "controller/mover.h"
+
+namespace trunnion {
+
+/// G43.4, G43.5. The start-up block moves as plain length compensation does; tool centre point
+/// control takes over at its end (`frames.tip.starting`). PS5420 without five-axis parameters,
+/// PS5421 under G54.2 or cutter compensation, PS5459 for G43.5 with WKP.
+void start_tool_centre(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover,
+                       const GCode& code);
+/// At the end of the start-up block.
+void take_over_tool_centre(const SortedWords& words, Frames& frames, Mover& mover);
+/// H without a code of its own in the block: the other offset in the present way (assumed), under
+/// G43.4 along the tool; the frame stays.
+void change_length_number(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover);
+
+}  // namespace trunnion

@@ -1,0 +1,19 @@
+// Codes that change how words are read: units, plane, feed; and F, dwell.
+#pragma once
+
+#include "controller/mover.h"
+
+namespace trunnion {
+
+/// What one unit of the F word of this block means, in mm/min, inch/min or a turn.
+double feed_word_unit(const SortedWords& words, const Modal& modal);
+/// G20, G21: F stays the same speed.
+void change_units(Modal& modal, int code10);
+/// G17, G18, G19; PS0037 under cutter compensation.
+void change_plane(Modal& modal, int code10);
+/// G93, G94, G95: another mode forgets F.
+void change_feed_mode(Modal& modal, int code10);
+/// G4 P (ms), X or U (s); PS0006 when negative.
+void dwell(const SortedWords& words, const Modal& modal, Mover& mover);
+
+}  // namespace trunnion

@@ -1,0 +1,105 @@
+#include "controller/word_sorting.h"
+
+#include <bit>
+#include <cmath>
+
+#include "controller/alarms.h"
+
+namespace trunnion {
+
+namespace {
+
+/// Addresses that a block may hold besides axes: all but E, N, O.
+constexpr std::uint32_t known_letters =
+    0x3FFFFFFU & ~(SortedWords::bit('E') | SortedWords::bit('N') | SortedWords::bit('O'));
+
+void add_code(SortedWords& w, const ControlSettings& settings, const GCode* code,
+              std::uint16_t column) {
+    if (code->group != ModalGroup::one_shot) {
+        for (std::size_t i = 0; i < w.code_count; ++i) {
+            if (w.code[i]->group != code->group) continue;
+            if (settings.duplicates_alarm) raise_alarm(5074, column);
+            w.code[i] = code;
+            w.code_column[i] = column;
+            w.phases |= phase_bit(code->phase);
+            return;
+        }
+    }
+    if (w.code_count == SortedWords::max_codes) raise_alarm(10, column);
+    w.code_column[w.code_count] = column;
+    w.code[w.code_count++] = code;
+    w.phases |= phase_bit(code->phase);
+}
+
+void drop_cycle(SortedWords& w) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < w.code_count; ++i) {
+        if (w.code[i]->phase == Phase::cycle) continue;
+        w.code_column[kept] = w.code_column[i];
+        w.code[kept++] = w.code[i];
+    }
+    w.code_count = kept;
+}
+
+void add_g(SortedWords& w, const ControlSettings& settings, const WordValue& word) {
+    const GCode* code = find_g_code(word.value);
+    if (!code) raise_alarm(10, word.column);
+    if (code->phase != Phase::motion) return add_code(w, settings, code, word.column);
+    if (w.motion && settings.duplicates_alarm) raise_alarm(5074, word.column);
+    drop_cycle(w);  // G81 G0: the cycle is not carried out
+    w.motion = code;
+    w.motion_column = word.column;
+}
+
+void add_m(SortedWords& w, const WordValue& word) {
+    if (w.m_count == SortedWords::max_codes) raise_alarm(9, word.column);
+    w.m_column[w.m_count] = word.column;
+    w.m[w.m_count++] = static_cast<int>(word.value + 0.5);
+}
+
+void add_letter(SortedWords& w, const Modal& modal, const WordValue& word) {
+    const std::uint32_t bit = SortedWords::bit(word.letter);
+    if ((w.present & bit) && modal.settings.duplicates_alarm) raise_alarm(5074, word.column);
+    const auto i = static_cast<std::size_t>(word.letter - 'A');
+    const double largest = word.decimal_point ? modal.largest[i] : modal.largest_bare[i];
+    if (std::abs(word.value) > largest) raise_alarm(3, word.column);
+    w.present |= bit;
+    w.value[i] = word.value;
+    w.column[i] = word.column;
+    w.bare = word.decimal_point ? w.bare & ~bit : w.bare | bit;
+}
+
+void add_corner(SortedWords& w, const WordValue& word) {
+    w.corner = word.value * (word.decimal_point ? w.units.unit_mm : w.units.bare_linear);
+    (word.letter == 'r' ? w.corner_radius : w.corner_chamfer) = true;
+}
+
+}  // namespace
+
+void sort_words(const BlockWords& block, const Modal& modal, SortedWords& words) {
+    words.clear();
+    words.units = modal.units;
+    for (const WordValue& word : block) {
+        if (word.vacant) continue;
+        switch (word.letter) {
+            case 'G':
+                add_g(words, modal.settings, word);
+                break;
+            case 'M':
+                add_m(words, word);
+                break;
+            case 'r':
+            case 'c':
+                add_corner(words, word);
+                break;
+            default:
+                add_letter(words, modal, word);
+        }
+    }
+    const std::uint32_t allowed =
+        (known_letters & ~SortedWords::axis_letters) | modal.settings.axis_letters;
+    if (const std::uint32_t strange = words.present & ~allowed)
+        raise_alarm(9, words.column[static_cast<std::size_t>(std::countr_zero(strange))]);
+}
+
+}  // namespace trunnion

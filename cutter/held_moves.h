@@ -1,0 +1,36 @@
+// Compensated moves on their way out. Some are held back, so that the interference check sees
+// several sides before the first of them goes out.
+#pragma once
+
+#include <vector>
+
+#include "cutter/path_move.h"
+
+namespace trunnion {
+
+class HeldMoves {
+  public:
+    explicit HeldMoves(PathReceiver& receiver) : receiver_(receiver) {}
+
+    /// A move of the compensated point. PS0041 when it runs beside the contour and crosses a way
+    /// held back although the programmed sides do not touch. Which of the control's own tests finds
+    /// this is assumed.
+    void add(const PathOutput& out);
+    /// A dwell or an M code in its turn: at once when nothing waits.
+    void add_event(const PathOutput& event);
+    /// Everything held back goes out.
+    void release();
+    void clear() { ahead_.clear(); }
+
+    std::uint64_t block = 0;  ///< moves in the plane so far
+    int blocks_ahead = 3;     ///< how many of them are held back
+
+  private:
+    void emit(const PathOutput& out);
+    void check_crossing(const PathOutput& next) const;
+
+    PathReceiver& receiver_;
+    std::vector<PathOutput> ahead_;
+};
+
+}  // namespace trunnion
