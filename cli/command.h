@@ -20,6 +20,7 @@ void add_check(CLI::App& app, Run& run);
 void add_compare(CLI::App& app, Run& run);
 void add_diagnose(CLI::App& app, Run& run);
 void add_identify(CLI::App& app, Run& run);
+void add_import(CLI::App& app, Run& run);
 void add_merge(CLI::App& app, Run& run);
 void add_pivot(CLI::App& app, Run& run);
 void add_predict(CLI::App& app, Run& run);

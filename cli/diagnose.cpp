@@ -181,7 +181,7 @@ void add_diagnose(CLI::App& app, Run& run) {
     reads_file(command->add_option("readings", options->readings,
                                    "table of readings (CSV); several are joined in this order"))
         ->required();
-    reads_file(command->add_option("--setup", options->setup, "setup file (TOML)"));
+    reads_file(command->add_option("--setup", options->setup, "setup file (TOML), needed"));
     reads_file(command->add_option("--holdout", options->holdout,
                                    "readings that take no part in the fit"));
     not_negative(

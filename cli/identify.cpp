@@ -108,7 +108,7 @@ void add_identify(CLI::App& app, Run& run) {
     reads_file(command->add_option("readings", options->readings,
                                    "table of readings (CSV); several are joined in this order"))
         ->required();
-    reads_file(command->add_option("--setup", options->setup, "setup file (TOML)"));
+    reads_file(command->add_option("--setup", options->setup, "setup file (TOML), needed"));
     command->add_option("--effects", options->effects,
                         "names, comma between; without it those of [model].modelled");
     writes_file(command->add_option("--out", options->out, "setup with the values entered"));

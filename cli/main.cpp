@@ -31,6 +31,7 @@ const std::initializer_list<void (*)(CLI::App&, Run&)> commands = {
     add_compensate,
     add_diagnose,
     add_identify,
+    add_import,
     add_merge,
     add_pivot,
     add_predict,

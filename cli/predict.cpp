@@ -33,7 +33,7 @@ void add_predict(CLI::App& app, Run& run) {
     const auto options = std::make_shared<Options>();
     reads_file(command->add_option("readings", options->readings, "table of readings (CSV)"))
         ->required();
-    reads_file(command->add_option("--setup", options->setup, "setup file (TOML)"));
+    reads_file(command->add_option("--setup", options->setup, "setup file (TOML), needed"));
     command->add_option("--inject", options->inject, "switch an effect on: 'C.backlash=60urad'");
     command->callback([options, &run] { run = [options] { return predict(*options); }; });
 }

@@ -1,5 +1,6 @@
 #include "cli/readings_command.h"
 
+#include "base/alarm.h"
 #include "base/read_file.h"
 #include "cli/files.h"
 #include "effects/settings.h"
@@ -20,8 +21,11 @@ ReadingTable load_readings(const std::vector<std::string>& paths) {
 }
 
 Setup load_setup_option(const std::string& path, const std::vector<std::string>& inject) {
+    if (path.empty())
+        throw InputError(
+            "--setup is missing: readings belong to the machine that they were taken on");
     std::vector<std::string> notes;
-    Setup setup = load_setup(path.empty() ? shipped("machines/bc_table.toml") : path, notes);
+    Setup setup = load_setup(path, notes);
     print_notes(notes);
     if (inject.empty()) return setup;
     const Catalogue catalogue = make_catalogue(setup);

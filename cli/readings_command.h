@@ -1,11 +1,11 @@
-// What identify, diagnose and predict share: the readings and the setup they are given.
+// What identify, diagnose, predict and import share: the readings and the setup they are given.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "setup/setup.h"
 #include "records/readings.h"
+#include "setup/setup.h"
 
 namespace trunnion {
 
@@ -14,7 +14,8 @@ ReadingTable load_readings(const std::string& path);
 /// The same of several files, joined in the order given.
 ReadingTable load_readings(const std::vector<std::string>& paths);
 
-/// Reads a setup, machines/bc_table.toml when `path` is empty, and switches on what `inject` says.
+/// Reads a setup and switches on what `inject` says. Throws InputError when `path` is empty:
+/// readings are never judged against a machine that nobody named.
 Setup load_setup_option(const std::string& path, const std::vector<std::string>& inject = {});
 
 }  // namespace trunnion

@@ -18,6 +18,7 @@ set(TRUNNION_ROOMS
   "check: interpreter"
   "backup: offsets base"
   "setup: controller positioning kinematics offsets interpreter geometry base"
+  "imports: setup records geometry base"
   "emulator: setup ballbar probe controller motion positioning records kinematics geometry base"
   "effects: emulator records geometry base"
   "estimation"
@@ -29,7 +30,7 @@ set(TRUNNION_ROOMS
   "volumetric: emulator setup kinematics base"
   "ballbar/test: emulator setup records kinematics interpreter geometry base"
   "report: ballbar/test volumetric pivot diagnosis regression emulator setup check geometry base"
-  "cli: report compensation diagnosis regression identification effects emulator setup backup check controller records interpreter base"
+  "cli: report imports compensation diagnosis regression identification effects emulator setup backup check controller records interpreter base"
 )
 
 # What stands behind the colon of one line of the list.

@@ -1,0 +1,64 @@
+// trunnion import: files of instruments and controls as readings.
+#include "imports/import.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "base/output_files.h"
+#include "base/read_file.h"
+#include "cli/command.h"
+#include "cli/files.h"
+#include "cli/options.h"
+#include "cli/readings_command.h"
+
+namespace trunnion {
+namespace {
+
+struct Options {
+    std::string kind, setup, map, out;
+    std::vector<std::string> files, told;
+};
+
+const std::map<std::string, ImportKind> kinds{{"ballbar", ImportKind::ballbar},
+                                              {"iso230-2", ImportKind::iso230_2},
+                                              {"points", ImportKind::points},
+                                              {"axis-log", ImportKind::axis_log},
+                                              {"table", ImportKind::table}};
+
+int import_command(const Options& options) {
+    const Setup setup = load_setup_option(options.setup);
+    std::vector<ImportFile> files;
+    for (const std::string& path : options.files) files.push_back({path, read_file_or_input(path)});
+    ImportRequest request{setup, files, Facts(options.told), {}};
+    if (!options.map.empty()) request.map = {options.map, read_file_or_input(options.map)};
+    Imported result = import_readings(kinds.at(options.kind), request);
+    for (const std::string& line : result.summary) fmt::print(stderr, "{}\n", line);
+    print_notes(result.notes);
+    OutputFiles out;
+    out.add(options.out, std::move(result.readings));
+    out.write();
+    return exit_done;
+}
+
+}  // namespace
+
+void add_import(CLI::App& app, Run& run) {
+    auto* command = app.add_subcommand("import", "files of instruments and controls as readings");
+    const auto options = std::make_shared<Options>();
+    command->add_option("kind", options->kind, "what the files are")
+        ->required()
+        ->check(CLI::IsMember(kinds));
+    reads_file(command->add_option("files", options->files, "in the order taken"))->required();
+    reads_file(command->add_option("--setup", options->setup, "setup file (TOML), needed"));
+    writes_file(command->add_option("--out", options->out, "readings (CSV)"))->required();
+    reads_file(command->add_option("--map", options->map, "of kind table: which column is what"));
+    command
+        ->add_option("--with", options->told,
+                     "what the files do not tell: 'unit=um', 'axis=X' (docs/readings.md)")
+        ->allow_extra_args(false);
+    command->callback([options, &run] { run = [options] { return import_command(*options); }; });
+}
+
+}  // namespace trunnion

@@ -1,0 +1,218 @@
+// A ballbar's recording of one circle: angle or time against radius.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/alarm.h"
+#include "base/units.h"
+#include "imports/row_writer.h"
+
+namespace trunnion {
+namespace {
+
+/// One circle about the pivot, as the program commanded it.
+struct Circle {
+    int plane = 0;  ///< 0 XY, 1 YZ, 2 ZX
+    double sense = 1.0;
+    double start_rad = 0.0, end_rad = 0.0;
+    std::optional<double> feed_mm_min;
+};
+
+struct BarColumns {
+    std::optional<NumberColumn> angle;
+    NumberColumn value;
+    bool radius = false;  ///< whole lengths, not deviations
+};
+
+[[noreturn]] void ask(const TextTable& table, const std::string& what) {
+    throw InputError(what, {table.path(), 1, 1});
+}
+
+Circle circle_of(const TextTable& table, const Facts& facts) {
+    Circle circle;
+    const std::string plane = facts.text("plane");
+    const std::vector<std::string> planes{"XY", "YZ", "ZX"};
+    const auto it = std::find(planes.begin(), planes.end(), plane);
+    if (it == planes.end())
+        ask(table, "which plane, XY, YZ or ZX? --with plane=XY, or a line 'Plane: XY'");
+    circle.plane = static_cast<int>(it - planes.begin());
+    const std::string sense = facts.text("sense");
+    if (sense != "cw" && sense != "ccw" && sense != "CW" && sense != "CCW")
+        ask(table, "which sense, cw or ccw? --with sense=ccw, or a line 'Direction: CCW'");
+    circle.sense = sense == "ccw" || sense == "CCW" ? 1.0 : -1.0;
+    circle.feed_mm_min = facts.positive("feed");
+    circle.start_rad = rad_from_deg(facts.number("start_deg").value_or(0.0));
+    const double whole = rad_from_deg(360.0) * circle.sense;
+    circle.end_rad =
+        facts.has("end_deg") ? rad_from_deg(*facts.number("end_deg")) : circle.start_rad + whole;
+    return circle;
+}
+
+BarColumns columns_of(const TextTable& table, const Facts& facts) {
+    BarColumns columns;
+    const auto angle = find_column(table, {"angle", "winkel", "theta", "phi", "position"});
+    if (angle) columns.angle = number_column(table, *angle, Quantity::angle, "deg");
+    const auto radius = find_column(table, {"radius", "length", "laenge", "r", "l"});
+    const auto deviation =
+        find_column(table, {"deviation", "abweichung", "error", "value", "dev", "dr", "reading",
+                            "readout", "radialdeviation", "radiusdeviation", "bar"});
+    if (!radius && !deviation)
+        table.header_line().fail("no column of deviations (\"deviation\") or lengths (\"radius\")",
+                                 1);
+    columns.radius = !deviation;
+    columns.value = number_column(table, deviation ? *deviation : *radius, Quantity::length,
+                                  facts.text("unit"));
+    return columns;
+}
+
+/// Angles of the rows, rad: told, or even steps from start to end in time.
+std::vector<double> angles_of(const TextTable& table, const BarColumns& columns,
+                              const Circle& circle, const std::vector<double>& times) {
+    std::vector<double> angles;
+    std::vector<TableCell> cells;
+    const double span_s = times.back() - times.front();
+    if (!columns.angle && span_s <= 0.0)
+        ask(table, "neither angles nor times: a column 'angle' or 'time' is missing");
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        table.read(i, cells);
+        angles.push_back(columns.angle
+                             ? number_in(table, i, cells, *columns.angle)
+                             : circle.start_rad + (circle.end_rad - circle.start_rad) *
+                                                      (times[i] - times.front()) / span_s);
+    }
+    return angles;
+}
+
+/// A recording passes the angles in the sense that is told; 359 to 0 is a step forwards.
+void unwrap(const TextTable& table, const Circle& circle, std::vector<double>& angles) {
+    for (std::size_t i = 1; i < angles.size(); ++i) {
+        angles[i] = angles[i - 1] + std::remainder(angles[i] - angles[i - 1], 2.0 * pi);
+        if ((angles[i] - angles[i - 1]) * circle.sense <= 0.0)
+            table.fail(i, 0,
+                       circle.sense > 0.0 ? "the angle does not rise, as ccw says it does"
+                                          : "the angle does not fall, as cw says it does");
+    }
+}
+
+/// Without times of their own the rows follow from angle and feed.
+void fill_times(const Circle& circle, double length_mm, const std::vector<double>& angles,
+                std::vector<double>& times) {
+    const double speed = circle.feed_mm_min ? *circle.feed_mm_min / 60.0 / length_mm : 0.0;
+    for (std::size_t i = 0; i < times.size(); ++i)
+        times[i] =
+            speed > 0.0 ? std::abs(angles[i] - angles[0]) / speed : 60.0 * static_cast<double>(i);
+}
+
+class BarRows {
+  public:
+    BarRows(const Setup& setup, const Artefact& pivot, const AxisPositions& at)
+        : setup_(setup), pivot_(pivot), at_(at) {
+        if (!setup.ballbar) throw InputError("the setup has no [ballbar]", {setup.path});
+    }
+
+    /// Gauge point that puts the cup on the circle, the rotary axes standing: machine positions.
+    AxisPositions on_circle(const Circle& circle, double angle_rad) const {
+        const Eigen::Index a = circle.plane, b = (circle.plane + 1) % 3;
+        Vector3 along = Vector3::Zero();
+        along(a) = std::cos(angle_rad);
+        along(b) = std::sin(angle_rad);
+        const Vector3 center_M = setup_.machine.poses(at_).pose_MW * pivot_.center_W_mm;
+        const Vector3 cup_M = center_M + setup_.ballbar->length_mm * along;
+        AxisPositions q = at_;
+        const Vector3 xyz = cup_M - setup_.ballbar->cup_S_mm;
+        for (std::size_t d = 0; d < 3; ++d) q[all_axes[d]] = xyz(static_cast<Eigen::Index>(d));
+        check(q, cup_M);
+        return q;
+    }
+
+  private:
+    /// The formula holds for slides along X, Y and Z of M; on a machine of another kind it says so.
+    void check(const AxisPositions& q, const Vector3& cup_M) const {
+        const auto poses = setup_.machine.poses(q);
+        const Vector3 between =
+            poses.pose_MW * pivot_.center_W_mm - poses.pose_MS * setup_.ballbar->cup_S_mm;
+        const Vector3 wanted = setup_.machine.poses(at_).pose_MW * pivot_.center_W_mm - cup_M;
+        if ((between - wanted).norm() > 1e-6)
+            throw InputError(
+                "the slides of this machine are not along X, Y and Z: give axis "
+                "positions (import table)",
+                {setup_.path});
+    }
+
+    const Setup& setup_;
+    const Artefact& pivot_;
+    AxisPositions at_;
+};
+
+std::string circle_words(const Circle& circle, const std::vector<double>& angles) {
+    static constexpr const char* planes[] = {"XY", "YZ", "ZX"};
+    return fmt::format("{} {}, {:.0f} to {:.0f} deg{}", planes[circle.plane],
+                       circle.sense > 0.0 ? "ccw" : "cw", deg_from_rad(angles.front()),
+                       deg_from_rad(angles.back()),
+                       circle.feed_mm_min ? fmt::format(", {} mm/min", *circle.feed_mm_min) : "");
+}
+
+std::vector<double> times_of(const TextTable& table, const TimeColumn& time) {
+    std::vector<double> times;
+    std::vector<TableCell> cells;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        table.read(i, cells);
+        times.push_back(time.time_s(table, i, cells));
+    }
+    return times;
+}
+
+void import_circle(const ImportRequest& request, const ImportFile& file, RowWriter& rows,
+                   Imported& result) {
+    const TextTable table(file.text, file.path);
+    const Facts facts = request.facts.with_head_of(table);
+    const Setup& setup = request.setup;
+    const Artefact& pivot =
+        artefact_for(setup, facts.text("feature"), Artefact::Kind::center_pivot);
+    const BarRows bar(setup, pivot, positions_told(setup, facts.text("at")));
+    const Circle circle = circle_of(table, facts);
+    const BarColumns columns = columns_of(table, facts);
+    const TimeColumn time(table, facts);
+    std::vector<double> times = times_of(table, time);
+    std::vector<double> angles = angles_of(table, columns, circle, times);
+    unwrap(table, circle, angles);
+    if (time.invented()) fill_times(circle, setup.ballbar->length_mm, angles, times);
+    Reading row;
+    row.test = facts.text(
+        "test", fmt::format("{}_{}", facts.text("plane"), circle.sense > 0.0 ? "ccw" : "cw"));
+    row.device = Device::ballbar;
+    row.feature = pivot.name;
+    row.feed_mm_min = circle.feed_mm_min.value_or(0.0);
+    rows.begin_file(table, facts);
+    std::vector<TableCell> cells;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        table.read(i, cells);
+        row.time_s = times[i];
+        row.commanded = bar.on_circle(circle, angles[i]);
+        row.value_mm = number_in(table, i, cells, columns.value) -
+                       (columns.radius ? setup.ballbar->length_mm : 0.0);
+        rows.add(row, table.line(i).number);
+    }
+    result.summary.push_back(fmt::format("{}: ballbar, {}, {} readings; {}", table.path(),
+                                         circle_words(circle, angles), table.size(),
+                                         table.dialect_words()));
+    if (time.invented())
+        result.notes.push_back(table.path() +
+                               (circle.feed_mm_min
+                                    ? ": times from angle and feed"
+                                    : ": neither times nor a feed: speeds are not known, nothing "
+                                      "can be said about the servo (--with feed=1000)"));
+}
+
+}  // namespace
+
+Imported import_ballbar(const ImportRequest& request) {
+    Imported result;
+    RowWriter rows(request.setup, "ballbar", {"feed_mm_min"}, false, false);
+    for (const ImportFile& file : request.files) import_circle(request, file, rows, result);
+    result.readings = rows.take();
+    return result;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,117 @@
+#include "imports/columns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "base/alarm.h"
+#include "imports/times.h"
+
+namespace trunnion {
+namespace {
+
+bool upper(char c) {
+    return std::isupper(static_cast<unsigned char>(c)) != 0;
+}
+bool word_part(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || (c & 0x80) != 0;
+}
+
+}  // namespace
+
+std::vector<std::string> words_of(const std::string& name) {
+    std::vector<std::string> words;
+    std::string word;
+    for (std::size_t k = 0; k <= name.size(); ++k) {
+        const bool part = k < name.size() && word_part(name[k]);
+        const bool hump = part && k > 0 && upper(name[k]) && !upper(name[k - 1]);
+        if ((!part || hump) && !word.empty()) words.push_back(std::exchange(word, {}));
+        if (part) word += static_cast<char>(std::tolower(static_cast<unsigned char>(name[k])));
+    }
+    return words;
+}
+
+std::string plain_name(const std::string& name) {
+    std::string out;
+    for (const std::string& word : words_of(name)) out += word;
+    return out;
+}
+
+std::optional<std::size_t> find_column(const TextTable& table,
+                                       const std::vector<std::string>& names) {
+    std::optional<std::size_t> found;
+    for (std::size_t k = 0; k < table.columns().size(); ++k) {
+        const std::string name = plain_name(table.columns()[k].name);
+        if (std::find(names.begin(), names.end(), name) == names.end()) continue;
+        if (found)
+            table.header_line().fail("'" + table.columns()[k].name + "' and '" +
+                                         table.columns()[*found].name + "' hold the same",
+                                     table.columns()[k].column);
+        found = k;
+    }
+    return found;
+}
+
+NumberColumn number_column(const TextTable& table, std::size_t index, Quantity quantity,
+                           const std::string& otherwise) {
+    const TextColumn& column = table.columns()[index];
+    const std::string& name = column.unit.empty() ? otherwise : column.unit;
+    const auto unit = find_unit(name);
+    if (name.empty())
+        table.header_line().fail("the unit of '" + column.name +
+                                     "' is not told: in its name ([um]), in a row of units, or "
+                                     "--with unit=um",
+                                 column.column);
+    if (!unit || unit->quantity != quantity)
+        table.header_line().fail("'" + name + "' is no unit for '" + column.name + "' here",
+                                 column.column);
+    return {index, unit->factor};
+}
+
+double number_in(const TextTable& table, std::size_t row, const std::vector<TableCell>& cells,
+                 const NumberColumn& column) {
+    const TableCell& cell = cells[column.index];
+    const std::string& name = table.columns()[column.index].name;
+    if (const auto value = table.find_number(cell.text)) return *value * column.factor;
+    const std::size_t cut = cell.text.find_first_not_of("+-0123456789.,eE ");
+    if (cut != std::string_view::npos && cut > 0 && find_unit(cell.text.substr(cut)))
+        table.line(row).fail("a unit in the cell: '" + name +
+                                 "' has one unit, told in its name or in a row of units",
+                             cell.column);
+    return table.number(row, cell, name);
+}
+
+TimeColumn::TimeColumn(const TextTable& table, const Facts& facts,
+                       std::optional<std::size_t> column) {
+    column_ = column ? column
+                     : find_column(table, {"time", "times", "timestamp", "datetime", "date", "zeit",
+                                           "zeitstempel", "t", "uhrzeit", "clock"});
+    if (const auto step = facts.positive("step_s")) step_s_ = *step;
+    if (!column_) return;
+    name_ = table.columns()[*column_].name;
+    std::vector<TableCell> cells;
+    table.read(0, cells);
+    stamps_ = !table.find_number(cells[*column_].text);
+    if (!stamps_) factor_ = number_column(table, *column_, Quantity::time, "s").factor;
+}
+
+double TimeColumn::time_s(const TextTable& table, std::size_t row,
+                          const std::vector<TableCell>& cells) const {
+    if (!column_) return step_s_ * static_cast<double>(row);
+    if (!stamps_) return number_in(table, row, cells, {*column_, factor_});
+    const TableCell& cell = cells[*column_];
+    const auto time = seconds_of(cell.text);
+    if (!time)
+        table.line(row).fail("'" + std::string(cell.text) +
+                                 "' is no time as 2024-03-01T08:15:30 (01/02/2024 is two days)",
+                             cell.column);
+    return *time;
+}
+
+std::string TimeColumn::words() const {
+    if (column_) return "times from '" + name_ + '\'';
+    return invented() ? "no times: rows one minute apart" : fmt::format("{} s a row", step_s_);
+}
+
+}  // namespace trunnion

@@ -1,0 +1,131 @@
+#include "imports/facts.h"
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "base/alarm.h"
+#include "base/numbers.h"
+#include "base/units.h"
+
+namespace trunnion {
+namespace {
+
+const std::set<std::string>& known_keys() {
+    static const std::set<std::string> keys{
+        "axis",    "unit", "feature",  "test",  "session", "instrument",
+        "step_s",  "at",   "feed",     "plane", "sense",   "start_deg",
+        "end_deg", "sign", "position", "zone",  "sigma",   "values"};
+    return keys;
+}
+
+/// Other words for a key, as head lines of measuring software have them.
+const std::map<std::string, std::string>& other_words() {
+    static const std::map<std::string, std::string> words{
+        {"feedrate", "feed"},   {"feed rate", "feed"}, {"feed_mm_min", "feed"},
+        {"vorschub", "feed"},   {"ebene", "plane"},    {"achse", "axis"},
+        {"axis name", "axis"},  {"units", "unit"},     {"einheit", "unit"},
+        {"direction", "sense"}, {"richtung", "sense"}, {"start angle", "start_deg"}};
+    return words;
+}
+
+std::string upper(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return text;
+}
+
+}  // namespace
+
+Facts::Facts(const std::vector<std::string>& told) {
+    for (const std::string& text : told) {
+        const std::size_t equal = text.find('=');
+        if (equal == std::string::npos)
+            throw InputError("--with: '" + text + "' does not read 'unit=um'");
+        const std::string key(without_blanks(text.substr(0, equal)));
+        if (!known_keys().contains(key)) throw InputError("--with: no import has '" + key + "'");
+        if (has(key)) throw InputError("--with: '" + key + "' is told twice");
+        facts_[key] = without_blanks(std::string_view(text).substr(equal + 1));
+    }
+}
+
+Facts Facts::with_head_of(const TextTable& table) const {
+    Facts all = *this;
+    for (const auto& [word, value] : table.head()) {
+        const auto other = other_words().find(word);
+        const std::string& key = other == other_words().end() ? word : other->second;
+        if (known_keys().contains(key)) all.facts_.emplace(key, value);
+    }
+    return all;
+}
+
+std::string Facts::text(const std::string& key, const std::string& otherwise) const {
+    const auto it = facts_.find(key);
+    return it == facts_.end() ? otherwise : it->second;
+}
+
+std::optional<double> Facts::number(const std::string& key) const {
+    if (!has(key)) return std::nullopt;
+    const std::string& text = facts_.at(key);
+    const auto value = parse_number(std::string_view(text).substr(0, text.find(' ')));
+    if (!value) throw InputError(key + ": '" + text + "' is not a finite number");
+    return value;
+}
+
+std::optional<double> Facts::positive(const std::string& key) const {
+    const auto value = number(key);
+    if (value && *value <= 0.0) throw InputError(key + ": " + text(key) + " is not above 0");
+    return value;
+}
+
+std::optional<Axis> axis_named(const Setup& setup, const std::string& name) {
+    if (name.empty()) return std::nullopt;
+    const std::string word = upper(name);
+    const std::string rest = word.substr(1);
+    const bool plain = rest.empty() || rest == "1" || rest == "-AXIS" || rest == " AXIS" ||
+                       rest == "_AXIS" || rest == "AXIS" || rest == "-ACHSE";
+    const auto axis = plain ? axis_of(word[0]) : std::nullopt;
+    return axis && setup.machine.chain.find(*axis) ? axis : std::nullopt;
+}
+
+AxisPositions positions_told(const Setup& setup, const std::string& text) {
+    AxisPositions at;
+    std::string_view left = text;
+    while (!(left = without_blanks(left)).empty()) {
+        const std::size_t end = std::min(left.find_first_of(" ,"), left.size());
+        const std::string_view word = left.substr(0, end);
+        left.remove_prefix(std::min(end + 1, left.size()));
+        const std::size_t equal = word.find('=');
+        const auto axis = axis_named(setup, std::string(word.substr(0, equal)));
+        const std::string_view digits =
+            equal == std::string_view::npos ? std::string_view() : word.substr(equal + 1);
+        const auto value = parse_number(digits);
+        if (!axis || !value)
+            throw InputError("at: '" + std::string(word) + "' does not read Y=100 for an axis of " +
+                             setup.path);
+        // value_or: the compiler does not see that the value is there.
+        const double told = value.value_or(0.0);
+        at[*axis] = is_rotary(*axis) ? rad_from_deg(told) : told;
+    }
+    return at;
+}
+
+const Artefact& artefact_for(const Setup& setup, const std::string& feature, Artefact::Kind kind) {
+    static constexpr const char* words[] = {"sphere", "center_pivot", "target"};
+    const std::string what = words[static_cast<std::size_t>(kind)];
+    const Artefact* found = nullptr;
+    for (const Artefact& artefact : setup.artefacts) {
+        if (artefact.kind != kind || (!feature.empty() && artefact.name != feature)) continue;
+        if (found)
+            throw InputError("the setup has several artefacts of kind " + what +
+                                 ": say which one, --with feature=" + artefact.name,
+                             {setup.path});
+        found = &artefact;
+    }
+    if (!found)
+        throw InputError("the setup has no [[artefact]] of kind \"" + what + "\"" +
+                             (feature.empty() ? "" : " named '" + feature + "'"),
+                         {setup.path});
+    return *found;
+}
+
+}  // namespace trunnion

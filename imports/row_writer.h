@@ -1,0 +1,42 @@
+// Readings of an import in the order taken: numbers them, keeps the clock, remembers their source.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "imports/columns.h"
+#include "imports/import.h"
+#include "records/readings.h"
+
+namespace trunnion {
+
+/// Rows go to text at once: a servo log of a million rows is never a table of readings.
+class RowWriter {
+  public:
+    /// `columns`: optional columns that rows of this import fill (source and, where it is told,
+    /// session are added).
+    RowWriter(const Setup& setup, const std::string& kind, std::vector<std::string> columns,
+              bool directions, bool degrees);
+
+    /// Rows that follow come from this file. A clock that starts at zero again goes on a minute
+    /// after the last row.
+    void begin_file(const TextTable& table, const Facts& facts);
+    /// `row.time_s` is the file's; throws InputError when it runs back within the session.
+    /// `line`: of the file, 0 for a row that no line says.
+    void add(Reading row, int line);
+    const std::string& file_name() const { return name_; }
+    int count() const { return index_; }
+    std::string take() { return std::move(text_); }
+
+  private:
+    ReadingTable head_;
+    ReadingWriter writer_;
+    std::string text_, path_, name_, session_, last_session_;
+    int index_ = 0;
+    bool begins_ = false;
+    double shift_s_ = 0.0, last_s_ = 0.0;
+    double last_file_s_ = 0.0;  ///< the same by the file's clock
+    AxisPositions last_at_;
+};
+
+}  // namespace trunnion

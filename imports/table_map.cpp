@@ -1,0 +1,260 @@
+// Any CSV, with a small map (TOML) that says which column is what.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/alarm.h"
+#include "base/numbers.h"
+#include "base/toml_reader.h"
+#include "base/units.h"
+#include "imports/row_writer.h"
+#include "records/reading_columns.h"
+
+namespace trunnion {
+namespace {
+
+/// One key of the map: a text or number for every row, or a column (less another one).
+struct Source {
+    std::string name;  ///< of the readings column
+    StoreCell store;
+    std::string constant;
+    std::optional<NumberColumn> column, minus;
+    std::optional<std::size_t> text_column, time_column;
+    double factor = 1.0;  ///< of the column's value, to the unit of the readings column
+};
+
+using Sources = std::vector<Source>;
+
+struct Map {
+    Sources common;
+    std::vector<Sources> readings;  ///< rows of each line
+    std::vector<std::string> columns;
+    bool directions = false;
+};
+
+/// What a readings column is told in.
+struct Told {
+    std::optional<Quantity> quantity;  ///< nothing: a text
+    double per_inside = 1.0;           ///< mm, rad, s to the unit of the column
+};
+
+Told told_in(const std::string& name) {
+    const double deg = deg_from_rad(1.0);
+    if (name == "feed_mm_min") return {Quantity::speed, 60.0};
+    if (name.ends_with("_mm_s")) return {Quantity::speed, 1.0};
+    if (name.ends_with("_deg_s")) return {Quantity::turning, deg};
+    if (name.ends_with("_s2")) return {Quantity::per_s2, 1.0};
+    if (name == "time_s") return {Quantity::time, 1.0};
+    if (name.ends_with("_mm")) return {Quantity::length, 1.0};
+    if (name.ends_with("_deg")) return {Quantity::angle, deg};
+    if (name == "temperature_c") return {Quantity::temperature, 1.0};
+    if (name.starts_with("dir_") || name == "load_kg" || name == "clamped" || name == "index")
+        return {Quantity::temperature, 1.0};  // a number without a unit
+    return {};
+}
+
+class MapReader {
+  public:
+    MapReader(const TomlFile& file, const TextTable& table, const Setup& setup)
+        : file_(file), table_(table), setup_(setup) {}
+
+    Map read() const {
+        Map map;
+        const TomlValue& root = file_.root();
+        if (const TomlValue* common = root.find("columns"))
+            map.common = sources(file_.table(*common), map);
+        const TomlValue* list = root.find("reading");
+        if (!list || list->kind != TomlValue::Kind::array)
+            file_.fail(root, "the map has no [[reading]]: the rows that each line gives");
+        for (const TomlValue& item : list->items)
+            map.readings.push_back(sources(file_.table(item), map));
+        return map;
+    }
+
+  private:
+    Sources sources(const TomlValue& table, Map& map) const {
+        Sources list;
+        for (const auto& [key, value] : table.entries) {
+            value.used = true;
+            list.push_back(source(key, value));
+            const ReadingColumn* column = find_reading_column(key);
+            if (column && column->optional && key != "session" && key != "source" &&
+                std::find(map.columns.begin(), map.columns.end(), key) == map.columns.end())
+                map.columns.push_back(key);
+            map.directions |= key.starts_with("dir_");
+        }
+        return list;
+    }
+
+    Source source(const std::string& key, const TomlValue& value) const {
+        Source result;
+        result.name = key;
+        if (const ReadingColumn* column = find_reading_column(key)) {
+            result.store = column->store;
+        } else if (const auto axis = axis_of_column(key)) {
+            if (!setup_.machine.chain.find(*axis))
+                file_.fail(value, "the machine of " + setup_.path + " has no axis for " + key);
+            result.store = axis_store(*axis);
+        } else {
+            file_.fail(value, "readings have no column '" + key + "'");
+        }
+        const Told told = told_in(key);
+        if (told.quantity)
+            read_number(value, told, result);
+        else
+            read_text(value, result);
+        return result;
+    }
+
+    void read_text(const TomlValue& value, Source& result) const {
+        if (value.kind == TomlValue::Kind::table)
+            result.text_column = column(*required(value, "column"));
+        else
+            result.constant = file_.text(value);
+    }
+
+    void read_number(const TomlValue& value, const Told& told, Source& result) const {
+        if (value.kind == TomlValue::Kind::number) {
+            result.constant = shortest(file_.number(value));
+            return;
+        }
+        const bool whole = value.kind == TomlValue::Kind::table;
+        const TomlValue& name = whole ? *required(value, "column") : value;
+        std::string unit;
+        if (const TomlValue* said = whole ? value.find("unit") : nullptr) unit = file_.text(*said);
+        if (told.quantity == Quantity::time && unit.empty()) {
+            result.time_column = column(name);
+            return;
+        }
+        result.column = number(column(name), told, unit);
+        const double sign = whole ? file_.find_number(value, "factor").value_or(1.0) : 1.0;
+        result.factor = sign * told.per_inside;
+        if (const TomlValue* minus = whole ? value.find("minus") : nullptr)
+            result.minus = number(column(*minus), told, unit);
+    }
+
+    NumberColumn number(std::size_t index, const Told& told, const std::string& unit) const {
+        if (*told.quantity == Quantity::temperature) return {index, 1.0};
+        if (unit.empty()) return number_column(table_, index, *told.quantity, "");
+        const auto found = find_unit(unit);
+        if (!found || found->quantity != *told.quantity)
+            table_.header_line().fail("'" + unit + "' is no unit for this column",
+                                      table_.columns()[index].column);
+        return {index, found->factor};
+    }
+
+    const TomlValue* required(const TomlValue& table, const char* key) const {
+        const TomlValue* value = table.find(key);
+        if (!value) file_.fail(table, std::string("'") + key + "' is missing here");
+        return value;
+    }
+
+    std::size_t column(const TomlValue& name) const {
+        for (std::size_t k = 0; k < table_.columns().size(); ++k)
+            if (table_.columns()[k].name == file_.text(name)) return k;
+        file_.fail(name, table_.path() + " has no column '" + name.text + "'");
+    }
+
+    const TomlFile& file_;
+    const TextTable& table_;
+    const Setup& setup_;
+};
+
+/// Puts one line's values into a row.
+class LineReader {
+  public:
+    LineReader(const TextTable& table, const TimeColumn& time) : table_(table), time_(time) {}
+
+    void next(std::size_t i) {
+        row_ = i;
+        table_.read(i, cells_);
+    }
+    void fill(const Sources& sources, Reading& reading) const {
+        for (const Source& source : sources) fill(source, reading);
+    }
+    double time_s() const { return time_.time_s(table_, row_, cells_); }
+
+  private:
+    void fill(const Source& source, Reading& reading) const {
+        if (source.time_column) return;  // TimeColumn reads it, dates too
+        TableLine line = table_.line(row_);
+        TableCell cell{source.constant, 1, false};
+        std::string text;
+        if (source.text_column) {
+            cell = cells_[*source.text_column];
+        } else if (source.column) {
+            cell.column = cells_[source.column->index].column;
+            if (!cells_[source.column->index].text.empty()) text = shortest(value(source));
+            cell.text = text;
+        }
+        source.store(reading, line, cell);
+    }
+    double value(const Source& source) const {
+        double v = number_in(table_, row_, cells_, *source.column);
+        if (source.minus) v -= number_in(table_, row_, cells_, *source.minus);
+        return v * source.factor;
+    }
+
+    const TextTable& table_;
+    const TimeColumn& time_;
+    std::size_t row_ = 0;
+    std::vector<TableCell> cells_;
+};
+
+/// A map can ask for rows that no reading is: they are refused here, not by the next command.
+void check_rows(const std::string& readings, const std::string& map_path) {
+    std::vector<std::string> notes;
+    try {
+        parse_readings(readings, map_path, notes);
+    } catch (const InputError& error) {
+        throw InputError("the rows of this map are no readings: " + error.message, {map_path},
+                         error.line_text);
+    }
+}
+
+std::optional<std::size_t> time_column_of(const Map& map) {
+    for (const Source& source : map.common)
+        if (source.time_column) return source.time_column;
+    return std::nullopt;
+}
+
+}  // namespace
+
+Imported import_table(const ImportRequest& request) {
+    if (request.map.path.empty())
+        throw InputError("import table needs --map MAP.toml: which column is what");
+    const TomlFile map_file(request.map.text, request.map.path);
+    Imported result;
+    std::optional<RowWriter> rows;
+    for (const ImportFile& file : request.files) {
+        const TextTable table(file.text, file.path);
+        const Facts facts = request.facts.with_head_of(table);
+        const Map map = MapReader(map_file, table, request.setup).read();
+        if (!rows) rows.emplace(request.setup, "table", map.columns, true, true);
+        const TimeColumn time(table, facts, time_column_of(map));
+        LineReader line(table, time);
+        rows->begin_file(table, facts);
+        for (std::size_t i = 0; i < table.size(); ++i) {
+            line.next(i);
+            Reading common;
+            common.commanded = positions_told(request.setup, facts.text("at"));
+            common.test = facts.text("test", "table");
+            line.fill(map.common, common);
+            common.time_s = line.time_s();
+            for (const Sources& sources : map.readings) {
+                Reading row = common;
+                line.fill(sources, row);
+                rows->add(std::move(row), table.line(i).number);
+            }
+        }
+        result.summary.push_back(fmt::format("{}: {} lines, {} readings each, {}; {}", table.path(),
+                                             table.size(), map.readings.size(), time.words(),
+                                             table.dialect_words()));
+    }
+    for (std::string& note : map_file.unknown_keys()) result.notes.push_back(std::move(note));
+    result.readings = rows->take();
+    check_rows(result.readings, request.map.path);
+    return result;
+}
+
+}  // namespace trunnion

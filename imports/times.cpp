@@ -1,0 +1,126 @@
+#include "imports/times.h"
+
+#include <array>
+#include <charconv>
+#include <chrono>
+
+#include "base/numbers.h"
+#include "records/table_line.h"
+
+namespace trunnion {
+namespace {
+
+std::optional<int> whole(std::string_view& text, std::size_t most_digits) {
+    int value = 0;
+    const char* const end = text.data() + std::min(text.size(), most_digits);
+    const auto [stop, fault] = std::from_chars(text.data(), end, value);
+    if (fault != std::errc{} || value < 0) return std::nullopt;
+    text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
+    return value;
+}
+
+bool skip(std::string_view& text, char c) {
+    if (text.empty() || text.front() != c) return false;
+    text.remove_prefix(1);
+    return true;
+}
+
+/// Three numbers with the same mark between them.
+std::optional<std::array<int, 3>> three(std::string_view& text, char mark) {
+    std::array<int, 3> parts{};
+    std::string_view left = text;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto part = whole(left, 4);
+        if (!part || (k < 2 && !skip(left, mark))) return std::nullopt;
+        parts[k] = *part;
+    }
+    text = left;
+    return parts;
+}
+
+std::optional<double> day(int year, int month, int of_month) {
+    const std::chrono::year_month_day date{std::chrono::year(year),
+                                           std::chrono::month(static_cast<unsigned>(month)),
+                                           std::chrono::day(static_cast<unsigned>(of_month))};
+    if (!date.ok() || year < 1900) return std::nullopt;
+    const auto days = std::chrono::sys_days(date).time_since_epoch();
+    return 86400.0 * static_cast<double>(days.count());
+}
+
+/// The date that `text` begins with; nothing, and `text` as it was, when there is none.
+std::optional<double> take_date(std::string_view& text) {
+    if (const auto iso = three(text, '-')) return day((*iso)[0], (*iso)[1], (*iso)[2]);
+    if (const auto german = three(text, '.')) return day((*german)[2], (*german)[1], (*german)[0]);
+    if (const auto slash = three(text, '/')) {
+        const auto [a, b, c] = *slash;
+        if (a > 31) return day(a, b, c);
+        if (a <= 12 && b <= 12 && a != b) return std::nullopt;  // which one is the month?
+        return a > 12 ? day(c, b, a) : day(c, a, b);
+    }
+    return std::nullopt;
+}
+
+/// Seconds with a fraction behind point or comma.
+std::optional<double> take_seconds(std::string_view& text) {
+    const auto seconds = whole(text, 2);
+    if (!seconds || *seconds > 60) return std::nullopt;
+    if (text.empty() || (text[0] != '.' && text[0] != ',')) return *seconds;
+    std::size_t digits = 1;
+    while (digits < text.size() && text[digits] >= '0' && text[digits] <= '9') ++digits;
+    const auto fraction = parse_number("0." + std::string(text.substr(1, digits - 1)));
+    text.remove_prefix(digits);
+    return fraction ? std::optional(*seconds + *fraction) : std::nullopt;
+}
+
+std::optional<double> take_clock(std::string_view& text) {
+    const auto hours = whole(text, 2);
+    if (!hours || *hours > 24 || !skip(text, ':')) return std::nullopt;
+    const auto minutes = whole(text, 2);
+    if (!minutes || *minutes > 59) return std::nullopt;
+    double time_s = 3600.0 * *hours + 60.0 * *minutes;
+    if (skip(text, ':')) {
+        const auto seconds = take_seconds(text);
+        if (!seconds) return std::nullopt;
+        time_s += *seconds;
+    }
+    text = without_blanks(text);
+    if (text == "PM" || text == "pm") time_s += *hours < 12 ? 43200.0 : 0.0;
+    if (text == "AM" || text == "am") time_s -= *hours == 12 ? 43200.0 : 0.0;
+    if (text.size() == 2 && (text[1] == 'M' || text[1] == 'm')) text = {};
+    return time_s;
+}
+
+/// Z, +01:00, -0530 or nothing.
+std::optional<double> take_zone(std::string_view text) {
+    if (text.empty() || text == "Z") return 0.0;
+    const double sign = text[0] == '+' ? 1.0 : -1.0;
+    if (text[0] != '+' && text[0] != '-') return std::nullopt;
+    text.remove_prefix(1);
+    const auto hours = whole(text, 2);
+    skip(text, ':');
+    const auto minutes = text.empty() ? std::optional(0) : whole(text, 2);
+    if (!hours || !minutes || !text.empty()) return std::nullopt;
+    return sign * (3600.0 * *hours + 60.0 * *minutes);
+}
+
+}  // namespace
+
+std::optional<double> seconds_of(std::string_view text) {
+    text = without_blanks(text);
+    const bool dated = text.find_first_of("-./") < 5;
+    std::optional<double> date = 0.0;
+    if (dated && text.find(':') > 4) {
+        date = take_date(text);
+        if (!date) return std::nullopt;
+        if (text.empty()) return date;
+        if (!skip(text, 'T') && !skip(text, ' ')) return std::nullopt;
+        text = without_blanks(text);
+    }
+    const auto clock = take_clock(text);
+    if (!clock) return std::nullopt;
+    const auto zone = take_zone(text);
+    if (!zone) return std::nullopt;
+    return *date + *clock - *zone;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,86 @@
+#include "imports/units.h"
+
+#include <cctype>
+#include <map>
+#include <string>
+
+#include "base/units.h"
+
+namespace trunnion {
+namespace {
+
+/// Lower case, without blanks; both signs for micro (U+00B5, U+03BC) and Latin-1's as u.
+std::string plain(std::string_view name) {
+    std::string out;
+    for (std::size_t k = 0; k < name.size(); ++k) {
+        const std::string_view two = name.substr(k, 2);
+        if (two == "\xC2\xB5" || two == "\xCE\xBC") {
+            out += 'u';
+            ++k;
+        } else if (two == "\xC2\xB0") {
+            out += "deg";
+            ++k;
+        } else if (name[k] == '\xB5') {
+            out += 'u';
+        } else if (name[k] != ' ') {
+            out += static_cast<char>(std::tolower(static_cast<unsigned char>(name[k])));
+        }
+    }
+    return out;
+}
+
+const std::map<std::string, Unit, std::less<>>& units() {
+    using Q = Quantity;
+    constexpr double deg = pi / 180.0, minute = 60.0;
+    static const std::map<std::string, Unit, std::less<>> table{
+        {"mm", {Q::length, 1.0}},
+        {"um", {Q::length, 1e-3}},
+        {"micron", {Q::length, 1e-3}},
+        {"microns", {Q::length, 1e-3}},
+        {"nm", {Q::length, 1e-6}},
+        {"cm", {Q::length, 10.0}},
+        {"m", {Q::length, 1e3}},
+        {"in", {Q::length, 25.4}},
+        {"inch", {Q::length, 25.4}},
+        {"mil", {Q::length, 0.0254}},
+        {"deg", {Q::angle, deg}},
+        {"degree", {Q::angle, deg}},
+        {"degrees", {Q::angle, deg}},
+        {"grad", {Q::angle, deg}},
+        {"rad", {Q::angle, 1.0}},
+        {"mrad", {Q::angle, 1e-3}},
+        {"urad", {Q::angle, 1e-6}},
+        {"arcsec", {Q::angle, deg / 3600.0}},
+        {"arcmin", {Q::angle, deg / 60.0}},
+        {"\"", {Q::angle, deg / 3600.0}},
+        {"s", {Q::time, 1.0}},
+        {"sec", {Q::time, 1.0}},
+        {"ms", {Q::time, 1e-3}},
+        {"us", {Q::time, 1e-6}},
+        {"min", {Q::time, minute}},
+        {"h", {Q::time, 3600.0}},
+        {"mm/s", {Q::speed, 1.0}},
+        {"mm/min", {Q::speed, 1.0 / minute}},
+        {"m/min", {Q::speed, 1e3 / minute}},
+        {"m/s", {Q::speed, 1e3}},
+        {"deg/s", {Q::turning, deg}},
+        {"rad/s", {Q::turning, 1.0}},
+        {"deg/min", {Q::turning, deg / minute}},
+        {"mm/s2", {Q::per_s2, 1.0}},
+        {"mm/s^2", {Q::per_s2, 1.0}},
+        {"m/s2", {Q::per_s2, 1e3}},
+        {"m/s^2", {Q::per_s2, 1e3}},
+        {"degc", {Q::temperature, 1.0}},
+        {"c", {Q::temperature, 1.0}},
+    };
+    return table;
+}
+
+}  // namespace
+
+std::optional<Unit> find_unit(std::string_view name) {
+    const auto it = units().find(plain(name));
+    return it == units().end() ? std::nullopt : std::optional(it->second);
+}
+
+}  // namespace trunnion

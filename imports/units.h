@@ -1,0 +1,19 @@
+// Units as files name them, and what turns a number into mm, rad or s.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace trunnion {
+
+enum class Quantity : unsigned char { length, angle, time, speed, turning, per_s2, temperature };
+
+struct Unit {
+    Quantity quantity;
+    double factor;  ///< to mm, rad, s, mm/s, rad/s, mm/s^2; 1 for deg C
+};
+
+/// "um", "µm", "arcsec", "ms", "mm/min", "deg/s" ...; nothing for a word that is no unit.
+std::optional<Unit> find_unit(std::string_view name);
+
+}  // namespace trunnion

@@ -1,0 +1,99 @@
+// Separators, decimal marks, byte order marks, line ends, units and times as files have them.
+#include "imports/text_table.h"
+#include "imports/times.h"
+#include "imports/units.h"
+#include "tests/imports/import_bench.h"
+
+using namespace trunnion;
+using import_bench::Case;
+
+TEST_CASE("one servo log in many dialects gives the same readings") {
+    const Setup setup = import_bench::setup();
+    const std::string texts[] = {
+        "time [s],X cmd [mm],X act [mm]\n0,1.5,1.501\n0.1,2.5,2.5015\n",
+        "\xEF\xBB\xBFtime [s],X cmd [mm],X act [mm]\r\n0,1.5,1.501\r\n0.1,2.5,2.5015\r\n",
+        "Zeit (s);X Soll (mm);X Ist (mm)\n0;1,5;1,501\n0,1;2,5;2,5015\n",
+        "Zeit;Soll X;Ist X\ns;mm;mm\n0;1,5;1,501\n0,1;2,5;2,5015\n",
+        "time\tx_cmd\tx_act\ns\tmm\tmm\n0\t1.5\t1.501\n0.1\t2.5\t2.5015\n",
+        "t_s  xcmd_mm  xact_mm\n0  1.5  1.501\n0.1  2.5  2.5015\n",
+        "Maschine: A 1\nDatum: 1.3.2024\n\ntime [ms];X cmd [um];X act [um]\n0;1500;1501\n"
+        "100;2500;2501,5\n",
+        "time,X cmd [mm],X act [mm]\n2024-03-01T08:15:30Z,1.5,1.501\n2024-03-01T08:15:30.1Z,2.5,"
+        "2.5015\n",
+        "time;X cmd [mm];X act [mm]\n01.03.2024 08:15:30;1,5;1,501\n01.03.2024 08:15:30,1;2,5;"
+        "2,5015\n",
+        "\"time [s]\",\"X cmd [mm]\",\"X act "
+        "[mm]\"\n\"0\",\"1.5\",\"1.501\"\n\"0.1\",\"2.5\",\"2.5015\"\n"};
+    for (const std::string& text : texts) {
+        INFO(text);
+        const auto rows = import_bench::read_rows(setup, {ImportKind::axis_log, text, {}, ""});
+        REQUIRE(rows.size() == 2);
+        CHECK(rows[0].time_s == 0.0);
+        CHECK(rows[1].time_s == Approx(0.1).margin(2e-7));
+        CHECK(rows[1].commanded[Axis::X] == Approx(2.5));
+        CHECK(*rows[0].value_mm == Approx(0.001).epsilon(1e-9));
+        CHECK(*rows[1].value_mm == Approx(0.0015).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("times as files write them") {
+    const double day = *seconds_of("2024-03-01");
+    CHECK(day == 1709251200.0);  // date -u -d 2024-03-01 +%s
+    CHECK(*seconds_of("2024-03-01T08:15:30Z") - day == 29730.0);
+    CHECK(*seconds_of("2024-03-01 08:15:30.25") - day == 29730.25);
+    CHECK(*seconds_of("2024-03-01T08:15:30+01:00") - day == 26130.0);
+    CHECK(*seconds_of("01.03.2024 08:15:30") - day == 29730.0);
+    CHECK(*seconds_of("03/25/2024 8:15 PM") - day == 24 * 86400 + 72900.0);
+    CHECK(*seconds_of("08:15:30,5") == 29730.5);
+    for (const char* bad : {"", "noon", "2024-02-30 08:00:00", "01/02/2024 08:00:00", "25:99",
+                            "2024-03-01T", "08:15:30 CET", "2024-03-01T08:15:3x"})
+        CHECK_FALSE(seconds_of(bad));
+}
+
+TEST_CASE("units in lower and upper case, and every micro") {
+    for (const char* um : {"um", "\xC2\xB5m", "\xCE\xBCm", "\xB5m", "UM", "micron"})
+        CHECK(find_unit(um)->factor == 1e-3);
+    CHECK(find_unit("arcsec")->factor == Approx(4.848136811e-6));
+    CHECK(find_unit("mm/min")->factor == Approx(1.0 / 60));
+    CHECK_FALSE(find_unit("furlong"));
+    CHECK_FALSE(find_unit(""));
+}
+
+TEST_CASE("what is no table is refused with its line") {
+    const auto refused = [](const std::string& text, const std::string& part, int line) {
+        import_bench::refuses(import_bench::setup(), {ImportKind::axis_log, text, {}, ""}, part,
+                              line);
+    };
+    const std::string head = "time [s],X cmd [mm],X act [mm]\n";
+    refused("", "empty", 1);
+    refused("hello\nworld\n", "no line of numbers", 1);
+    refused(
+        "\xFF\xFE"
+        "a",
+        "UTF-16", 1);
+    refused("1,2,3\n4,5,6\n", "names of the columns", 1);
+    refused(head + "0,1\n1,2,3\n2,3,4\n", "cells", 2);
+    refused(head + "0,1,1\n1,abc,2\n", "not a finite number", 3);
+    refused(head + "0,1,1\n1,nan,2\n", "not a finite number", 3);
+    refused(head + "0,1,1\n1,2 um,2\n", "a unit in the cell", 3);
+    refused(head + "0,1,1\n1,2,\n", "not a finite number", 3);
+    refused(head + "5,1,1\n4,2,2\n", "clock runs back", 3);
+    refused(head + "0,1,1\n1,\"2,2\n", "quote", 3);
+    refused("time;X cmd;X act\n0;1,5;1.5\n", "decimal comma", 2);
+    refused("time [furlong],X cmd,X act [mm]\n0,1,1\n", "no unit for", 1);
+    refused("time [s],X cmd [deg],X act [mm]\n0,1,1\n", "no unit for", 1);
+    refused("time [s],X cmd [mm]\n0,1\n", "no axis has both", 1);
+    refused("time [s],Q cmd [mm],Q act [mm]\n0,1,1\n", "no axis has both", 1);
+    refused("time [s],X cmd [mm],X lag [um]\n0,1,1\n", "sign=", 1);
+    refused("time [s],X cmd [mm],X cmd [um],X act\n0,1,1,1\n", "second column", 1);
+    refused("time,X cmd [mm],X act [mm]\n01/02/2024 08:00,1,1\n", "is no time", 2);
+}
+
+TEST_CASE("a row remembers the file and the line that it came from") {
+    const auto rows = import_bench::read_rows(
+        import_bench::setup(),
+        {ImportKind::axis_log, "made by hand\n\ntime,X cmd,X act\n0,1,1\n1,2,2\n", {}, ""});
+    REQUIRE(rows.size() == 2);
+    CHECK(rows[0].source == "f.txt:4");
+    CHECK(rows[1].source == "f.txt:5");
+}
