@@ -7,13 +7,16 @@
 #include "base/console.h"
 #include "base/numbers.h"
 #include "base/output_files.h"
+#include "base/sha256.h"
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/long_work.h"
 #include "cli/options.h"
+#include "cli/page_options.h"
 #include "cli/program_choice.h"
 #include "cli/setups.h"
 #include "effects/settings.h"
+#include "report/run_page.h"
 #include "report/run_report.h"
 
 namespace trunnion {
@@ -27,6 +30,8 @@ struct Options {
     std::uint64_t seed = 1, max_blocks = most_blocks;
     double trace_step_mm = 0.0, trace_chord_mm = 0.0;
     bool truth = false, json = false;
+    PageOptions page;
+    const CLI::App* command = nullptr;  ///< as parsed, for the page's foot
 };
 
 int whole(const std::string& text, const char* option) {
@@ -126,7 +131,35 @@ RunLog run_watched(const Setup& setup, ProgramAndFolders& program, RunOptions op
     return run_program(setup, program.folders, program.program, options);
 }
 
+/// The page of a run needs the physical tip and curves that look like curves.
+constexpr double page_chord_mm = 0.05;
+
+void follow_path(RunOptions& options, RunPath& path) {
+    options.trace = options.truth = true;
+    if (options.trace_chord_mm == 0.0) options.trace_chord_mm = page_chord_mm;
+    options.trace_chunk = [&path](std::string_view text) { path.add(text); };
+}
+
+std::vector<PageInput> inputs_of(const Setup& setup, const std::vector<ProgramText>& programs) {
+    std::vector<PageInput> inputs{{setup.path, sha256(read_program(setup.path).text)}};
+    for (const ProgramText& program : programs)
+        inputs.push_back({program.name, sha256(program.text)});
+    return inputs;
+}
+
+std::string page_of_run(const Options& o, const Setup& setup, const RunLog& log,
+                        const RunPath& path, const std::vector<ProgramText>& programs) {
+    ProgramTexts texts;
+    for (const ProgramText& program : programs) texts[program.name] = std::string(program.text);
+    Page page = run_page(setup, log, path, texts);
+    page.origin = page_origin(*o.command, o.page, inputs_of(setup, programs));
+    page.origin.seed = o.seed;
+    return page_html(page);
+}
+
 int run_command(const Options& o) {
+    if (!o.page.html.empty() && !o.trace.empty())
+        throw InputError("--html and --trace are two runs: the page samples curves by itself");
     if ((o.truth || o.trace_step_mm > 0.0 || o.trace_chord_mm > 0.0) && o.trace.empty())
         throw InputError("--truth, --trace-step and --trace-chord belong to --trace FILE");
     const Setup setup = setup_of(o);
@@ -138,6 +171,8 @@ int run_command(const Options& o) {
         options.trace_chunk = [&out = files.open(o.trace)](std::string_view text) {
             out.append(text);
         };
+    RunPath path;
+    if (!o.page.html.empty()) follow_path(options, path);
     const RunLog log = run_watched(setup, program, options);
     print_notes(log.notes);
     if (o.json)
@@ -146,6 +181,8 @@ int run_command(const Options& o) {
         print_out("{}", log.printed);
     if (!o.json && !o.variables.empty()) print_out("{}", variables_text(log));
     if (!o.json) print_error("{}\n", run_summary(log));
+    if (!o.page.html.empty())
+        files.add(o.page.html, page_of_run(o, setup, log, path, program.folders.used()));
     write_files(o, log, files);
     return exit_code(log.result);
 }
@@ -182,6 +219,8 @@ void add_run(CLI::App& app, Run& run) {
         ->allow_extra_args(false);
     command->add_option("--max-blocks", o->max_blocks, "stop after so many blocks, 0: never");
     command->add_flag("--json", o->json, "one JSON object on stdout");
+    add_page_options(*command, o->page);
+    o->command = command;
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });
 }
 
