@@ -26,7 +26,7 @@ struct ControlConfig {
     std::vector<ControlAxis> axes;  ///< in the control's order: axis number 1 is [0]
     Dialect dialect;
     std::vector<ClampCode> clamps;
-    /// #5041.. and #5061.. include the tool length (facts/control.md 2.8: assumed).
+    /// #5041.. and #5061.. include the tool length (docs/control.md, own choices: assumed).
     bool work_positions_with_length = true;
     /// G89 under G98: feeds all the way out to the initial level, as the reference paths do; false:
     /// feeds to R and rapids on like G85 (Fanuc's drawing, from memory).

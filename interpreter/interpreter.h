@@ -17,7 +17,7 @@
 
 namespace trunnion {
 
-/// Codes that call programs by parameters 6050-6089 and 6001#5 (facts/backup_files.md).
+/// Codes that call programs by parameters 6050-6089 and 6001#5 (docs/backup_files.md).
 struct CodeCalls {
     struct Call {
         int program = 0;

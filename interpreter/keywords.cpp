@@ -31,7 +31,7 @@ constexpr FunctionRow functions[] = {
     {"POW", OpCode::pow},   {"ADP", OpCode::adp},     {"PRM", OpCode::prm},
 };
 
-/// Fanuc's order: * / MOD AND before + - OR XOR before comparisons (nc_language.md, control.md).
+/// Fanuc's order: * / MOD AND before + - OR XOR before comparisons (docs/control.md).
 struct OperatorRow {
     const char* word;
     OpCode code;

@@ -18,7 +18,7 @@ enum class BarConstant : unsigned char { none, length, per_test };
 
 /// What is known of the centre pivot: nothing but about where it is, its place on the table (W), or
 /// that it was clamped where the spindle stood with the rotary axes at zero: its place in M then,
-/// so that errors of the axes show only once they turn (the 2015 paper, facts/kinematics.md 1.4).
+/// so that errors of the axes show only once they turn (ballbar 2015, docs/ballbar.md).
 enum class PivotPlace : unsigned char { unknown, on_table, at_spindle };
 
 struct BallbarUnknowns {

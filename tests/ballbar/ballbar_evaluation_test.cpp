@@ -134,7 +134,7 @@ TEST_CASE("predicted uncertainties are the Cramer-Rao bounds of the facts") {
         std::vector<double> um_urad;
     };
     // Pivot clamped where the spindle says (home pose free of error); what is added to the readings
-    // differs. EY0A EZ0A EB0A EC0A EX0C EY0C EA0C EB0C as printed in kinematics.md 1.4.
+    // differs. EY0A EZ0A EB0A EC0A EX0C EY0C EA0C EB0C as the withheld oracle computes it.
     const PivotPlace clamped = PivotPlace::at_spindle;
     const std::vector<Case> cases = {{"one free constant a test",
                                       {false, clamped, BarConstant::per_test},

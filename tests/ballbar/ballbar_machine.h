@@ -31,7 +31,7 @@ inline Machine nominal_ac(double ox_mm = 75, double oz_mm = 110) {
     return machine;
 }
 
-/// Uncompensated values of the paper's Table 2 (two misprints corrected, kinematics.md 1.4): lines
+/// Uncompensated values of the paper's Table 2 (two misprints corrected, docs/sources.md): lines
 /// in M at the nominal intersection.
 inline std::vector<NamedError> paper_errors() {
     return {{{'Y', true, Axis::A}, 0.0726},    {{'Z', true, Axis::A}, -0.0202},

@@ -132,11 +132,8 @@ void compare(const std::filesystem::path& program) {
 }
 
 std::filesystem::path reference_folder() {
-    if (const char* folder = std::getenv("TRUNNION_REFERENCE")) return folder;
-    for (const char* up : {"/../shared/reference", "/../../shared/reference"})
-        if (std::filesystem::exists(std::string(TRUNNION_SOURCE_DIR) + up + "/paths"))
-            return std::string(TRUNNION_SOURCE_DIR) + up;
-    return {};
+    const char* folder = std::getenv("TRUNNION_REFERENCE");
+    return folder ? folder : "";
 }
 
 }  // namespace

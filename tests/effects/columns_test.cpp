@@ -1,4 +1,4 @@
-// Columns of effects against the closed forms of the design page and of facts/kinematics.md.
+// Columns of effects against closed forms.
 #include <catch2/catch.hpp>
 
 #include "identification/base_model.h"

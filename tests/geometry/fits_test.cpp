@@ -11,7 +11,7 @@ using namespace trunnion;
 
 namespace {
 
-/// Gander, Golub and Strebel's six points; results of Chernov's own programs (kinematics.md 1.4).
+/// Gander, Golub and Strebel's six points; results of Chernov's own programs (docs/sources.md).
 /// His Kasa line (4.921166, 3.835123, 4.123176) does not solve Kasa's own normal equations: the
 /// values below come from solving them in exact fractions.
 const std::vector<Vector2> gander = {{1, 7}, {2, 6}, {5, 8}, {7, 7}, {9, 5}, {3, 7}};

@@ -1,5 +1,4 @@
-// The three student exercises of the 2022 paper on HTM error compensation
-// (facts/kinematics.md 1.5).
+// The three student exercises of the 2022 paper on HTM error compensation (docs/sources.md).
 #include <catch2/catch.hpp>
 #include <cmath>
 

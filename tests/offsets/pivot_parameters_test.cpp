@@ -1,4 +1,4 @@
-// Parameters 19680-19714 read as the table of facts/control.md 2.1 says, and written back.
+// Parameters 19680-19714 read as A-79348E says, and written back.
 #include "offsets/pivot_parameters.h"
 
 #include <catch2/catch.hpp>

@@ -91,7 +91,7 @@ TEST_CASE("the same part posted for a BC and for an AC machine is equal across b
 }
 
 TEST_CASE("what a part loses when nobody updates P1970x is the closed form", "[compare]") {
-    // facts/kinematics.md 1.3: |(R - I) (dp + dd) - (R1 - I) dd|, R1 the tilting axis alone.
+    // Closed form of docs/notation.md: |(R - I) (dp + dd) - (R1 - I) dd|, R1 the tilting axis alone.
     PartOnTable part;
     part.tilt = GENERATE('B', 'A');
     const Vector3 dp = GENERATE(values<Vector3>({{0.08, 0, 0}, {0.05, -0.03, 0.07}, {0, 0, 0}}));

@@ -25,9 +25,8 @@ from oracle import Fit
 from reference import load_machine
 from rows import approach_sign, read_csv
 
-FOLDERS = (os.environ.get("TRUNNION_REFERENCE", ""), "/work/shared/reference/readings",
-           os.path.join(os.path.dirname(__file__), "..", "..", "reference", "readings"))
-REFERENCE = next((f for f in FOLDERS if f and os.path.isdir(f)), None)
+FOLDER = os.path.join(os.environ.get("TRUNNION_REFERENCE", ""), "readings")
+REFERENCE = FOLDER if os.path.isdir(FOLDER) else None
 
 
 def small_case(letters, devices=("sphere", "ballbar"), **plan):
