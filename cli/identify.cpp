@@ -28,24 +28,12 @@ struct Options {
     bool json = false;
 };
 
-std::vector<std::string> split_names(const std::string& text) {
-    std::vector<std::string> names;
-    std::string name;
-    for (const char c : text + ",") {
-        if (c != ',') {
-            if (c != ' ') name += c;
-        } else if (!name.empty()) {
-            names.push_back(std::exchange(name, {}));
-        }
-    }
-    return names;
-}
-
 nlohmann::ordered_json to_json(const Identification& result) {
     nlohmann::ordered_json json;
     json["schema"] = "trunnion.identification/1";
     json["parameters"] = json_parameters(result.parameters);
     json["inseparable"] = json_inseparable(result.inseparable);
+    json["covariance"] = json_covariance(result.parameters, result.covariance);
     json["rms_before_um"] = result.rms_before_um;
     json["rms_after_um"] = result.rms_after_um;
     json["dof"] = result.dof;

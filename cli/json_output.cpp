@@ -41,6 +41,29 @@ std::string with_component(const FitParameter& p) {
     return p.component < 0 ? p.name : p.name + '[' + "xyz"[p.component] + ']';
 }
 
+nlohmann::ordered_json json_covariance(const std::vector<FitParameter>& parameters,
+                                       const Eigen::MatrixXd& covariance) {
+    nlohmann::ordered_json json;
+    json["names"] = nlohmann::ordered_json::array();
+    const Eigen::Index n = covariance.rows();
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const FitParameter& p = parameters[static_cast<std::size_t>(i)];
+        json["names"].push_back(p.effect + '.' + with_component(p));
+    }
+    const Eigen::VectorXd sigma = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+    json["matrix"] = json["correlation"] = nlohmann::ordered_json::array();
+    for (Eigen::Index i = 0; i < n; ++i) {
+        nlohmann::ordered_json row = nlohmann::ordered_json::array(), correlation = row;
+        for (Eigen::Index k = 0; k < n; ++k) {
+            row.push_back(number(covariance(i, k)));
+            correlation.push_back(number(covariance(i, k) / (sigma(i) * sigma(k))));
+        }
+        json["matrix"].push_back(row);
+        json["correlation"].push_back(correlation);
+    }
+    return json;
+}
+
 nlohmann::ordered_json json_inseparable(const std::vector<Inseparable>& groups) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
     for (const Inseparable& group : groups)

@@ -16,6 +16,10 @@ nlohmann::ordered_json json_parameters(const std::vector<FitParameter>& paramete
 /// "dp_mm[y]"
 std::string with_component(const FitParameter& parameter);
 /// [{"names": [...], "direction": [...]}]
+/// {"names", "matrix", "correlation"}: rows and columns in the order of names, units of the
+/// parameters; null where a parameter is not seen.
+nlohmann::ordered_json json_covariance(const std::vector<FitParameter>& parameters,
+                                       const Eigen::MatrixXd& covariance);
 nlohmann::ordered_json json_inseparable(const std::vector<Inseparable>& groups);
 
 }  // namespace trunnion

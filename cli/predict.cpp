@@ -2,25 +2,57 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "base/numbers.h"
 #include "base/output_files.h"
 #include "cli/command.h"
+#include "cli/json_output.h"
 #include "cli/options.h"
 #include "cli/readings_command.h"
 #include "effects/settings.h"
 #include "emulator/replay.h"
+#include "identification/base_model.h"
 
 namespace trunnion {
 namespace {
 
 struct Options {
-    std::string readings, setup;
+    std::string readings, setup, jacobian, effects;
     std::vector<std::string> inject;
 };
+
+/// One row for each device row: its index, then d value / d parameter in mm (rad) for each unit.
+std::string jacobian_text(const Setup& setup, const ReadingTable& table,
+                          const std::vector<std::string>& effects) {
+    const Replay replay(setup, table);
+    const ForwardModel model(setup.machine);
+    std::vector<Perturbation> gradient;
+    for (std::size_t i = 0; i < replay.size(); ++i)
+        gradient.push_back(replay.gradient(i, model, {}));
+    const BaseColumns base = base_columns(setup, replay, make_catalogue(setup), effects, gradient);
+    std::string out = "index";
+    for (const FitParameter& p : base.parameters)
+        out += ',' + p.effect + '.' + with_component(p) + " [" + p.unit + ']';
+    out += '\n';
+    for (std::size_t i = 0; i < replay.size(); ++i) {
+        out += std::to_string(table.rows[replay.table_row(i)].index);
+        for (std::size_t j = 0; j < base.parameters.size(); ++j)
+            out += ',' + shortest(base.columns(static_cast<Eigen::Index>(i),
+                                               static_cast<Eigen::Index>(j)) /
+                                  base.parameters[j].typical);
+        out += '\n';
+    }
+    return out;
+}
 
 int predict(const Options& options) {
     const Setup setup = load_setup_option(options.setup, options.inject);
     const ReadingTable table = load_readings(options.readings);
     OutputFiles files;
+    if (!options.jacobian.empty()) {
+        const auto named = split_names(options.effects);
+        files.add(options.jacobian,
+                  jacobian_text(setup, table, named.empty() ? setup.model.modelled : named));
+    }
     files.add("-", format_readings(predicted(setup, table, active_models(setup))));
     files.write();
     return exit_done;
@@ -34,6 +66,10 @@ void add_predict(CLI::App& app, Run& run) {
     reads_file(command->add_option("readings", options->readings, "table of readings (CSV)"))
         ->required();
     reads_file(command->add_option("--setup", options->setup, "setup file (TOML), needed"));
+    writes_file(command->add_option("--jacobian", options->jacobian,
+                                    "also CSV: derivatives of each reading by each parameter"));
+    command->add_option("--effects", options->effects,
+                        "of --jacobian; without it those of [model].modelled");
     command->add_option("--inject", options->inject, "switch an effect on: 'C.backlash=60urad'");
     command->callback([options, &run] { run = [options] { return predict(*options); }; });
 }

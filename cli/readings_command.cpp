@@ -20,6 +20,19 @@ ReadingTable load_readings(const std::vector<std::string>& paths) {
     return join_readings(std::move(tables));
 }
 
+std::vector<std::string> split_names(const std::string& text) {
+    std::vector<std::string> names;
+    std::string name;
+    for (const char c : text + ",") {
+        if (c != ',') {
+            if (c != ' ') name += c;
+        } else if (!name.empty()) {
+            names.push_back(std::exchange(name, {}));
+        }
+    }
+    return names;
+}
+
 Setup load_setup_option(const std::string& path, const std::vector<std::string>& inject) {
     if (path.empty())
         throw InputError(

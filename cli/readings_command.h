@@ -14,6 +14,9 @@ ReadingTable load_readings(const std::string& path);
 /// The same of several files, joined in the order given.
 ReadingTable load_readings(const std::vector<std::string>& paths);
 
+/// "a, b" as a and b.
+std::vector<std::string> split_names(const std::string& text);
+
 /// Reads a setup and switches on what `inject` says. Throws InputError when `path` is empty:
 /// readings are never judged against a machine that nobody named.
 Setup load_setup_option(const std::string& path, const std::vector<std::string>& inject = {});

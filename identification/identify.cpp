@@ -241,6 +241,7 @@ Identification identify(const Setup& setup, const ReadingTable& table,
     take_values(base, with_keys);
     add_key_uncertainty(replay, with_keys, base, result.parameters);
     result.inseparable = base.inseparable;
+    result.covariance = base.covariance;
     result.rms_before_um = rms_um(base.start_residual_mm);
     result.rms_after_um = rms_um(base.residual_mm);
     result.dof = static_cast<int>(replay.size()) - base.rank;

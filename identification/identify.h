@@ -11,6 +11,9 @@ struct Identification {
     double rms_before_um = 0.0;  ///< with the setup as it stands
     double rms_after_um = 0.0;
     int dof = 0;
+    /// Of the parameters that are no keys, in their order and units: it comes with the directions
+    /// that the readings see (`inseparable` lists the others).
+    Eigen::MatrixXd covariance;
     Setup setup;  ///< with the values entered; loads again
 };
 

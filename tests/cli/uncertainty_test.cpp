@@ -1,0 +1,94 @@
+// Covariance of an identification and derivatives of a prediction, as the commands print them.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/numbers.h"
+#include "records/readings.h"
+#include "tests/cli/command_bench.h"
+#include "tests/support/campaign.h"
+
+using namespace trunnion;
+using Json = nlohmann::json;
+
+namespace {
+
+/// Parts of a text between marks.
+std::vector<std::string> split(const std::string& text, char mark) {
+    std::vector<std::string> parts;
+    std::istringstream in(text);
+    for (std::string part; std::getline(in, part, mark);) parts.push_back(part);
+    return parts;
+}
+
+struct Campaign : CommandBench {
+    Setup setup = campaign::bc_setup();
+    std::string readings, file_of_setup;
+    Campaign() {
+        ReadingTable table = campaign::empty_table(setup);
+        campaign::add_sphere_map(table, setup, 40, 5);
+        const Setup real = campaign::real_machine(setup);
+        readings = write("r.csv", format_readings(campaign::measured(real, table, 3)));
+        file_of_setup = write("s.toml", format_setup(setup));
+    }
+    ReadingTable predicted(const Setup& changed) const {
+        write("changed.toml", format_setup(changed));
+        REQUIRE(trunnion("predict " + readings + " --setup " + file("changed.toml")) == 0);
+        std::vector<std::string> notes;
+        return parse_readings(read("out.txt"), "out", notes);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("identify --json: variances are the squares of the sigmas, correlations fit them") {
+    const Campaign bench;
+    REQUIRE(bench.trunnion("identify " + bench.readings + " --json --setup " +
+                           bench.file_of_setup) == 0);
+    const Json json = Json::parse(bench.read("out.txt"));
+    const Json& c = json["covariance"];
+    const std::size_t n = c["names"].size();
+    REQUIRE(n >= 8);
+    REQUIRE(c["matrix"].size() == n);
+    for (std::size_t i = 0; i < n; ++i) {
+        CHECK(c["correlation"][i][i].get<double>() == Approx(1.0));
+        for (std::size_t k = 0; k < n; ++k) {
+            CHECK(std::abs(c["correlation"][i][k].get<double>()) <= 1.0 + 1e-9);
+            CHECK(c["matrix"][i][k].get<double>() ==
+                  Approx(c["matrix"][k][i].get<double>()).margin(1e-15));
+        }
+    }
+    const Json& first = json["parameters"][0];
+    CHECK(c["names"][0] ==
+          first["effect"].get<std::string>() + "." + first["name"].get<std::string>());
+    CHECK(std::sqrt(c["matrix"][0][0].get<double>()) == Approx(first["sigma"].get<double>()));
+}
+
+TEST_CASE("predict --jacobian: the derivatives are differences of predictions") {
+    const Campaign bench;
+    REQUIRE(bench.trunnion("predict " + bench.readings + " --setup " + bench.file_of_setup +
+                           " --jacobian " + bench.file("j.csv")) == 0);
+    const auto lines = split(bench.read("j.csv"), '\n');
+    const auto names = split(lines[0], ',');
+    const auto column =
+        std::find_if(names.begin(), names.end(),
+                     [](auto& name) { return name.find("EX0C") != std::string::npos; }) -
+        names.begin();
+    REQUIRE(column < static_cast<long>(names.size()));
+    constexpr double step_mm = 1e-3;
+    Setup more = bench.setup, less = bench.setup;
+    more.machine.errors.location({'X', true, Axis::C}) += step_mm;
+    less.machine.errors.location({'X', true, Axis::C}) -= step_mm;
+    const ReadingTable above = bench.predicted(more), below = bench.predicted(less);
+    std::size_t line = 1;
+    for (std::size_t i = 0; i < above.rows.size(); ++i) {
+        if (!above.rows[i].value_mm || above.rows[i].device == Device::none) continue;
+        const double difference =
+            (*above.rows[i].value_mm - *below.rows[i].value_mm) / (2.0 * step_mm);
+        const auto cells = split(lines[line++], ',');
+        CHECK(*parse_number(cells[static_cast<std::size_t>(column)]) ==
+              Approx(difference).margin(1e-6));
+    }
+    CHECK(line == lines.size());
+}
