@@ -27,7 +27,7 @@ struct Options {
     std::vector<std::string> readings;
     std::string setup, holdout, out, html;
     std::optional<double> limit_um;
-    bool json = false;
+    bool json = false, allow_large = false;
 };
 
 Json to_json(const HeldOut& heldout) {
@@ -151,7 +151,8 @@ Diagnosis diagnose_watched(const Setup& setup, const ReadingTable& table, Diagno
 }
 
 int diagnose_command(const Options& options) {
-    const Setup setup = load_setup_option(options.setup);
+    Setup setup = load_setup_option(options.setup);
+    setup.model.allow_large = options.allow_large;
     const ReadingTable table = load_readings(options.readings);
     std::optional<ReadingTable> holdout;
     if (!options.holdout.empty()) holdout = load_readings(options.holdout);
@@ -188,6 +189,8 @@ void add_diagnose(CLI::App& app, Run& run) {
         command->add_option("--limit-um", options->limit_um, "exit 1 when the gap is larger"));
     writes_file(command->add_option("--out", options->out, "setup with the effects added"));
     writes_file(command->add_option("--html", options->html, "report as one HTML file"));
+    command->add_flag("--allow-large", options->allow_large,
+                      "residuals that no machine tool has are meant, no slip of units");
     command->add_flag("--json", options->json, "result as JSON on stdout");
     command->callback([options, &run] { run = [options] { return diagnose_command(*options); }; });
 }

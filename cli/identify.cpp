@@ -11,6 +11,7 @@
 #include "base/console.h"
 #include "base/output_files.h"
 #include "cli/command.h"
+#include "cli/files.h"
 #include "cli/json_output.h"
 #include "cli/long_work.h"
 #include "cli/options.h"
@@ -25,7 +26,7 @@ struct Options {
     std::string setup, effects, out;
     int runs = 0;
     std::uint64_t seed = 1;
-    bool json = false;
+    bool json = false, allow_large = false;
 };
 
 nlohmann::ordered_json to_json(const Identification& result) {
@@ -68,7 +69,8 @@ int repeat(const Setup& setup, const ReadingTable& table, const std::vector<std:
 }
 
 int identify_command(const Options& options) {
-    const Setup setup = load_setup_option(options.setup);
+    Setup setup = load_setup_option(options.setup);
+    setup.model.allow_large = options.allow_large;
     const ReadingTable table = load_readings(options.readings);
     const std::vector<std::string> effects = split_names(options.effects);
     Identification result = [&] {
@@ -76,6 +78,7 @@ int identify_command(const Options& options) {
         progress.stage(fmt::format("fit to {} rows", table.rows.size()));
         return identify(setup, table, effects);
     }();
+    print_notes(result.notes);
     const int repetitions = options.runs > 0 ? repeat(setup, table, effects, options, result) : 0;
     OutputFiles files;
     if (!options.out.empty()) files.add(options.out, format_setup(result.setup));
@@ -105,6 +108,8 @@ void add_identify(CLI::App& app, Run& run) {
                      "also the uncertainty by so many simulated repetitions")
         ->check(CLI::Range(2, 100000));
     command->add_option("--seed", options->seed, "of the repetitions' noise (1)");
+    command->add_flag("--allow-large", options->allow_large,
+                      "residuals that no machine tool has are meant, no slip of units");
     command->add_flag("--json", options->json, "result as JSON on stdout");
     command->callback([options, &run] { run = [options] { return identify_command(*options); }; });
 }

@@ -29,7 +29,7 @@ struct Options {
     std::vector<std::string> folders, sets, injections;
     std::uint64_t seed = 1, max_blocks = most_blocks;
     double trace_step_mm = 0.0, trace_chord_mm = 0.0;
-    bool truth = false, json = false;
+    bool truth = false, ballbar = false, json = false;
     PageOptions page;
     const CLI::App* command = nullptr;  ///< as parsed, for the page's foot
 };
@@ -93,6 +93,7 @@ RunOptions run_options(const Options& o, const Setup& setup) {
     options.trace_step_mm = o.trace_step_mm;
     options.trace_chord_mm = o.trace_chord_mm;
     options.truth = o.truth;
+    options.automatic_ballbar = o.ballbar;
     options.max_blocks = o.max_blocks;
     options.variables = parse_sets(o.sets);
     options.wanted_variables = parse_variables(o.variables);
@@ -217,6 +218,8 @@ void add_run(CLI::App& app, Run& run) {
     command->add_option("--vars", o->variables, "variables to report, 100-149,500");
     command->add_option("--inject", o->injections, "effect, 'C.backlash: gap_rad=6e-5'")
         ->allow_extra_args(false);
+    command->add_flag("--ballbar", o->ballbar,
+                      "the ballbar also reads feed moves in its range, without BALLBAR ON");
     command->add_option("--max-blocks", o->max_blocks, "stop after so many blocks, 0: never");
     command->add_flag("--json", o->json, "one JSON object on stdout");
     add_page_options(*command, o->page);

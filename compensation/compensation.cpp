@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "base/alarm.h"
+#include "base/units.h"
 #include "compensation/flat_program.h"
 #include "compensation/path_stretches.h"
 #include "compensation/tip_corrector.h"
-#include "base/alarm.h"
-#include "base/units.h"
+#include "emulator/follow_move.h"
 
 namespace trunnion {
 namespace {
@@ -98,6 +99,13 @@ CompensatedProgram::Worst errors_at(const BelievedTool& is, const BelievedTool& 
     return errors;
 }
 
+/// The axes stand at machine zero, from the sides that the setup says.
+TravelHistory at_start(const Setup& setup) {
+    TravelHistory history(setup.side_before);
+    history.place({});
+    return history;
+}
+
 /// Rewrites every move as it comes from the control.
 class RewritingSink : public MotionSink {
   public:
@@ -106,7 +114,9 @@ class RewritingSink : public MotionSink {
         : corrector_(setup, effects, options.largest_turn_rad, options.decimals),
           text_(setup, options.decimals),
           options_(options),
-          out_(out) {}
+          out_(out),
+          tracker_(at_start(setup)),
+          written_(at_start(setup)) {}
 
     MoveResult move(const AxisMove& move) override {
         const PathSampler path{move, tracker_, clock_s_, move.mode};
@@ -125,7 +135,7 @@ class RewritingSink : public MotionSink {
             write_rapid(path, stretches.back());
         else
             for (const PathStretch& stretch : stretches) write_feed(path, stretch);
-        tracker_.follow(move);
+        follow(tracker_, move);
         clock_s_ += move.duration_s;
         return {false, move.to};
     }
@@ -283,8 +293,8 @@ class RewritingSink : public MotionSink {
     FlatProgram text_;
     CompensationOptions options_;
     CompensatedProgram& out_;
-    AxisTracker tracker_;  ///< of the original
-    AxisTracker written_;  ///< of the program written
+    TravelHistory tracker_;  ///< of the original
+    TravelHistory written_;  ///< of the program written
     double clock_s_ = 0.0;
     bool turned_ = false;
     double spindle_rpm_ = 0.0;
@@ -296,13 +306,13 @@ class RewritingSink : public MotionSink {
 class CheckingSink : public MotionSink {
   public:
     CheckingSink(const Setup& setup, const EffectModels& effects, CompensatedProgram& out)
-        : corrector_(setup, effects), out_(out) {}
+        : corrector_(setup, effects), out_(out), tracker_(at_start(setup)) {}
 
     MoveResult move(const AxisMove& move) override {
         const PathSampler path{move, tracker_, clock_s_, move.mode};
         if (next_ < out_.blocks.size() && out_.blocks[next_].written_line == move.line)
             look(path, out_.blocks[next_++]);
-        tracker_.follow(move);
+        follow(tracker_, move);
         clock_s_ += move.duration_s;
         return {false, move.to};
     }
@@ -318,7 +328,7 @@ class CheckingSink : public MotionSink {
 
     TipCorrector corrector_;
     CompensatedProgram& out_;
-    AxisTracker tracker_;
+    TravelHistory tracker_;
     double clock_s_ = 0.0;
     std::size_t next_ = 0;
 };

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "emulator/axis_tracker.h"
+#include "emulator/follow_move.h"
 
 namespace trunnion {
 namespace {
@@ -15,7 +15,7 @@ Travel direction_at(const AxisMove& move, double s) {
                         b = move.at(std::min(1.0, s + near_s));
     Travel travel{};
     for (std::size_t i = 0; i < axis_count; ++i)
-        if (const double way = b.value[i] - a.value[i]; std::abs(way) > standing)
+        if (const double way = b.value[i] - a.value[i]; std::abs(way) > path_rounding.mm)
             travel[i] = way > 0.0 ? 1 : -1;
     return travel;
 }
@@ -59,7 +59,8 @@ std::vector<PathStretch> path_stretches(const AxisMove& move) {
     if (!move.arc && !move.curve) {
         PathStretch whole;
         for (std::size_t i = 0; i < axis_count; ++i)
-            if (const double way = move.to.value[i] - move.from.value[i]; std::abs(way) > standing)
+            if (const double way = move.to.value[i] - move.from.value[i];
+                std::abs(way) > path_rounding.mm)
                 whole.travel[i] = way > 0.0 ? 1 : -1;
         return {whole};
     }

@@ -52,7 +52,7 @@ TipCorrector::TipCorrector(const Setup& setup, const EffectModels& effects, doub
                            int decimals)
     : setup_(setup),
       nominal_(setup.machine),
-      machine_(setup.machine, effects),
+      machine_(setup, effects),
       largest_turn_rad_(largest_turn_rad),
       digit_mm_(std::pow(10.0, -decimals)) {
     nominal_.errors = {};
@@ -158,7 +158,7 @@ double TipCorrector::digit(std::size_t axis) const {
 }
 
 /// Travel with which the axes come to q; what no digit says moves nothing.
-Travel TipCorrector::arrival(const AxisPositions& q, const AxisTracker& written) const {
+Travel TipCorrector::arrival(const AxisPositions& q, const TravelHistory& written) const {
     Travel travel = written.travel();
     for (std::size_t i = 0; i < axis_count; ++i)
         if (const double way = q.value[i] - written.position().value[i];
@@ -168,7 +168,7 @@ Travel TipCorrector::arrival(const AxisPositions& q, const AxisTracker& written)
 }
 
 Correction TipCorrector::corrected(const PathSampler& path, const PathStretch& stretch, double s,
-                                   const AxisTracker& written) const {
+                                   const TravelHistory& written) const {
     // Rotaries first: what they do moves the linear axes.
     constexpr std::array<std::size_t, axis_count> order{3, 4, 5, 0, 1, 2, 6, 7, 8};
     constexpr int most_rounds = 16;

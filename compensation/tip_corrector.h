@@ -3,7 +3,7 @@
 
 #include "compensation/path_stretches.h"
 #include "emulator/path_sampler.h"
-#include "emulator/physical_machine.h"
+#include "emulator/tool_tip.h"
 #include "emulator/trace.h"
 
 namespace trunnion {
@@ -41,7 +41,7 @@ class TipCorrector {
     /// of the axes on their corrected way; what is wanted of an axis may lie inside its gap: then
     /// it is held on the nearer side of it. `stretch` holds s and tells how the program moves.
     Correction corrected(const PathSampler& path, const PathStretch& stretch, double s,
-                         const AxisTracker& written) const;
+                         const TravelHistory& written) const;
 
   private:
     using Held = std::array<std::optional<double>, axis_count>;  ///< positions of axes that wait
@@ -53,11 +53,11 @@ class TipCorrector {
     AxisPositions solved(const PathSampler& path, double s, const Travel& travel,
                          const Held& held) const;
     double digit(std::size_t axis) const;
-    Travel arrival(const AxisPositions& q, const AxisTracker& written) const;
+    Travel arrival(const AxisPositions& q, const TravelHistory& written) const;
 
     const Setup& setup_;
     Machine nominal_;
-    PhysicalMachine machine_;
+    Observer machine_;
     double largest_turn_rad_, digit_mm_;
 };
 

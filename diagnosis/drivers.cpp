@@ -240,7 +240,7 @@ class DriverList {
             });
         for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
             speed.push_back([this, axis](std::size_t i) {
-                return base_.gradient[i].axis[axis] * replay_.contact(i).acceleration[axis] * 0.01;
+                return base_.gradient[i].axis[axis] * replay_.sample(i).acceleration[axis] * 0.01;
             });
         add("velocity", "along the path", "grows with the feed", {[](std::size_t) { return 1.0; }},
             speed);

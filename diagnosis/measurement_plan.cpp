@@ -43,6 +43,7 @@ MeasurementPlan::MeasurementPlan(const Setup& setup, std::string name, std::stri
     for (const Artefact& a : setup.artefacts)
         (a.kind == Artefact::Kind::sphere ? spheres_ : pivots_).push_back(a);
     state_.test = result_.name;
+    result_.table.side_before = setup.side_before;
     std::string zeros;
     for (const Axis axis : result_.table.axes) zeros += fmt::format(" {}0.", letter_of(axis));
     result_.program = fmt::format(
@@ -120,7 +121,8 @@ MeasurementPlan::Target MeasurementPlan::aim(const AxisPositions& rotary, const 
                                              const Vector3& tip_S) const {
     Target target{rotary, true};
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) target.at[axis] = 0.0;
-    const Vector3 gauge = setup_.machine.poses(target.at).pose_MW * target_W - tip_S;
+    const MachinePose poses = setup_.machine.poses(target.at);
+    const Vector3 gauge = poses.pose_MW * target_W - poses.pose_MS * tip_S;
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
         target.at[axis] = plan_rounded(gauge(static_cast<int>(index_of(axis))), 1e-4);
     for (const AxisGeometry& axis : setup_.machine.chain.axes()) {
@@ -176,6 +178,21 @@ void MeasurementPlan::go_clear() {
     last_[Axis::Z] = clear_mm();
     result_.program += fmt::format("G53 G0 Z{:.4f}\n", last_[Axis::Z]);
     pass_through(last_);
+}
+
+void MeasurementPlan::define_sides() {
+    go_clear();
+    AxisPositions aside, zero;
+    for (const Axis axis : result_.table.axes) {
+        const AxisGeometry& geometry = *setup_.machine.chain.find(axis);
+        const double step = geometry.rotary ? rad_from_deg(1.0) : 1.0;
+        aside[axis] = geometry.min && *geometry.min > -step ? step : -step;
+    }
+    aside[Axis::Z] = zero[Axis::Z] = last_[Axis::Z];
+    go(aside, false);
+    go(zero, false);
+    go(aside, true);
+    go(zero, true);
 }
 
 Measurement MeasurementPlan::done() {

@@ -22,6 +22,10 @@ class MeasurementPlan {
     /// `start_s`: when it begins, on the clock of the readings so far.
     MeasurementPlan(const Setup& setup, std::string name, std::string text, double start_s);
 
+    /// First of all: every axis but Z goes 1 mm or deg aside and back, so that its side is known. Z
+    /// comes down to whatever it measures.
+    void define_sides();
+
     bool has_sphere() const { return !spheres_.empty() && setup_.probe.has_value(); }
     bool has_bar() const { return !pivots_.empty() && setup_.ballbar.has_value(); }
     std::size_t rotary_count() const { return rotary_.size(); }

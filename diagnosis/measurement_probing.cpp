@@ -1,10 +1,11 @@
 // Spheres found and touched: rows and program of a measurement.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
-#include "diagnosis/measurement_plan.h"
 #include "base/units.h"
+#include "diagnosis/measurement_plan.h"
 
 namespace trunnion {
 namespace {
@@ -153,6 +154,9 @@ void MeasurementPlan::lead_by_tcp(const AxisPositions& before, const AxisPositio
 void MeasurementPlan::sphere_by_store(PositioningMode mode,
                                       const std::vector<std::vector<double>>& angles_deg,
                                       double approach_deg) {
+    const auto& tool = setup_.machine.chain.tool;
+    if (std::any_of(tool.begin(), tool.end(), [](const AxisGeometry& a) { return a.rotary; }))
+        return;  // what leads the tool below is that of a table
     const Artefact& sphere = spheres_.front();
     if (!this->sphere(0, {0.0, 0.0}, approach_deg)) return;
     const bool dpp = mode == PositioningMode::dpp;

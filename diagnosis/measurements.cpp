@@ -1,5 +1,6 @@
 #include "diagnosis/measurements.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -146,9 +147,12 @@ std::vector<Measurement> ready_measurements(const Setup& setup, double start_s) 
     for (const Ready& ready : ready_list()) {
         MeasurementPlan plan(setup, ready.name, ready.text, start_s);
         if (plan.rotary_count() != 2 || !(ready.bar ? plan.has_bar() : plan.has_sphere())) continue;
+        plan.define_sides();
         ready.fill(plan);
         Measurement measurement = plan.done();
-        if (!measurement.table.rows.empty()) list.push_back(std::move(measurement));
+        const auto& rows = measurement.table.rows;
+        if (std::any_of(rows.begin(), rows.end(), [](auto& r) { return r.device != Device::none; }))
+            list.push_back(std::move(measurement));
     }
     return list;
 }

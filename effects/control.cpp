@@ -17,11 +17,11 @@ struct PathTurn {
     double speed = 0.0;
 };
 
-PathTurn turn_of(const AxisSample& sample, const Contact& contact) {
+PathTurn turn_of(const AxisSample& sample) {
     PathTurn turn;
     Vector3 velocity;
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
-        turn.acceleration(static_cast<int>(index_of(axis))) = contact.acceleration[axis];
+        turn.acceleration(static_cast<int>(index_of(axis))) = sample.acceleration[axis];
         velocity(static_cast<int>(index_of(axis))) = sample.velocity[axis];
     }
     turn.speed = velocity.norm();
@@ -105,9 +105,9 @@ Effect control_chord(const Chain&) {
         [](const AxisSample& sample, const Contact& contact, std::span<const double> value,
            Perturbation& out) {
             if (contact.device != Device::ballbar) return;
-            const PathTurn turn = turn_of(sample, contact);
+            const PathTurn turn = turn_of(sample);
             if (turn.speed < 1e-6) return;
-            const double s = std::fmod(contact.path_mm, value[1]);
+            const double s = std::fmod(sample.path_mm, value[1]);
             const double time2 = s * (value[1] - s) / (turn.speed * turn.speed);
             move_axes(value[0] * 0.5 * time2 * turn.acceleration, out);
         }};

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/replay.h"
+#include "emulator/instruments.h"
 
 namespace trunnion {
 

@@ -4,7 +4,7 @@
 
 #include "effects/models.h"
 #include "base/units.h"
-#include "records/readings.h"
+#include "records/travel.h"
 
 namespace trunnion {
 
@@ -43,12 +43,12 @@ namespace {
 constexpr double law_radius_mm = 100.0;  ///< an angle of the path is given as way on this circle
 
 /// Angle (rad) by which the path has turned since the axis stood still: from its direction.
-double angle_since_quadrant(Axis axis, const AxisSample& sample, const Contact& contact) {
+double angle_since_quadrant(Axis axis, const AxisSample& sample) {
     const Vector3 v(sample.velocity[Axis::X], sample.velocity[Axis::Y], sample.velocity[Axis::Z]);
     const double along = std::abs(sample.velocity[axis]);
     if (along == 0.0) return 0.0;
     const double angle = std::asin(std::min(1.0, along / v.norm()));
-    const bool slows = contact.acceleration[axis] * sample.travel[index_of(axis)] < 0.0;
+    const bool slows = sample.acceleration[axis] * sample.travel[index_of(axis)] < 0.0;
     return slows ? pi - angle : angle;
 }
 
@@ -80,7 +80,7 @@ Effect linear_reversal_spike(const AxisGeometry& axis) {
                                     (value[3] == 0.0 && sample.run_up_unknown[i]);
             if (is_probe(contact) || not_turned) return;
             const double way = value[2] == 0.0
-                                   ? law_radius_mm * angle_since_quadrant(k, sample, contact)
+                                   ? law_radius_mm * angle_since_quadrant(k, sample)
                                    : sample.since_reversal[i];
             out.axis[k] -= value[0] * sample.travel[i] * std::exp(-way / value[1]);
         }};

@@ -35,10 +35,10 @@ Effect servo_contour(const Chain& chain) {
             "raise loop gain or feed-forward, or lower the feed on tight curves",
             "position + lag2_s2 * acceleration of the linear axes",
             {{"lag2_s2", "s^2", 1.0e-4, -1, {}, true}},
-            [axes](const AxisSample&, const Contact& contact, std::span<const double> value,
+            [axes](const AxisSample& sample, const Contact&, std::span<const double> value,
                    Perturbation& out) {
                 for (const Axis axis : axes)
-                    out.axis[axis] += value[0] * contact.acceleration[axis];
+                    out.axis[axis] += value[0] * sample.acceleration[axis];
             }};
 }
 

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "ballbar/ballbar.h"
 #include "base/numbers.h"
 #include "base/units.h"
+#include "emulator/replay.h"
 
 namespace trunnion {
 namespace {
@@ -40,60 +42,53 @@ std::string place_of(const AxisMove& move) {
 
 }  // namespace
 
-BallbarStation::BallbarStation(const Setup& setup, std::uint64_t seed)
-    : setup_(setup), noise_(seed) {}
+BallbarStation::BallbarStation(const Setup& setup, std::uint64_t seed, bool automatic)
+    : setup_(setup), nominal_(setup.machine), noise_(seed), automatic_(automatic) {}
 
 void BallbarStation::start(double time_s) {
-    commanded_ = ever_commanded_ = running_ = true;
-    out_of_range_ = false;
+    commanded_ = setup_.ballbar.has_value();
     start_s_ = time_s;
     angle_left_rad_ = 0.0;
 }
 
-void BallbarStation::stop() {
-    commanded_ = running_ = false;
+/// Ball-to-ball length - nominal length without effects.
+double BallbarStation::nominal_mm(const AxisMove& move, double s, const Artefact& pivot,
+                                  const Reading& row) const {
+    const Ballbar bar{setup_.ballbar->cup_with(row.extension_mm), pivot.center_W_mm,
+                      setup_.ballbar->warm_length_mm()};
+    return length_deviation_mm(nominal_.poses(move.at(s), row.spindle_rad), bar);
 }
 
-double BallbarStation::deviation_mm(const PathSampler& path, double s,
-                                    const PhysicalMachine& machine, Contact contact,
-                                    Contact* filled) const {
-    Ballbar bar{setup_.ballbar->cup_with(path.shop.extension_mm), pivot_->center_W_mm,
-                setup_.ballbar->warm_length_mm()};
-    const AxisSample sample = path.at(s);
-    const MachinePose nominal = machine.at(sample, contact).poses;
-    contact.direction_M = cup_to_pivot_M(nominal, bar).normalized();
-    contact.direction_W = nominal.pose_MW.rotation.transpose() * contact.direction_M;
-    const PhysicalState state = machine.at(sample, contact);
-    bar.cup_S_mm += state.extra.tip_shift_mm;
-    bar.pivot_W_mm += state.extra.work_shift_mm;
-    if (filled) *filled = contact;
-    return length_deviation_mm(state.poses, bar) + state.extra.reading_mm;
-}
-
-const Artefact* BallbarStation::mounted_pivot(const PathSampler& path,
-                                              const PhysicalMachine& machine) {
+bool BallbarStation::stays_in_range(const AxisMove& move, const Artefact& pivot,
+                                    const Reading& row) {
     const Ballbar bar;
-    if (!commanded_ && apart_mm_ > farthest_way_mm(apart_at_, path.move.from)) return nullptr;
+    for (int i = 0; i <= range_checks; ++i) {
+        const double off_mm = nominal_mm(move, static_cast<double>(i) / range_checks, pivot, row);
+        if (i == 0) apart_mm_ = std::min(apart_mm_, std::abs(off_mm) - bar.range_mm - effects_mm);
+        if (!in_range(off_mm, bar)) return false;
+    }
+    return true;
+}
+
+/// Told to read: the pivot that the bar reaches best. Automatic: one it reaches all the way.
+void BallbarStation::choose_pivot(const AxisMove& move, const Reading& row) {
+    if (commanded_ && pivot_) return;
+    const bool looks = commanded_ || (automatic_ && move.kind != MotionKind::rapid);
+    pivot_ = nullptr;
+    if (!looks || (!commanded_ && apart_mm_ > farthest_way_mm(apart_at_, move.from))) return;
     apart_mm_ = std::numeric_limits<double>::infinity();
-    apart_at_ = path.move.from;
+    apart_at_ = move.from;
+    double nearest_mm = std::numeric_limits<double>::infinity();
     for (const Artefact& artefact : setup_.artefacts) {
         if (artefact.kind != Artefact::Kind::center_pivot) continue;
+        const double off_mm = std::abs(nominal_mm(move, 0.0, artefact, row));
+        if (off_mm >= nearest_mm || (!commanded_ && !stays_in_range(move, artefact, row))) continue;
+        nearest_mm = off_mm;
         pivot_ = &artefact;
-        bool inside = true;
-        for (int i = 0; i <= range_checks && inside; ++i) {
-            const double off_mm =
-                deviation_mm(path, static_cast<double>(i) / range_checks, machine, {}, nullptr);
-            if (i == 0)
-                apart_mm_ = std::min(apart_mm_, std::abs(off_mm) - bar.range_mm - effects_mm);
-            inside = in_range(off_mm, bar);
-        }
-        if (inside || commanded_) return pivot_;
     }
-    return nullptr;
 }
 
-std::vector<double> BallbarStation::places(const PathSampler& path) {
-    const AxisMove& move = path.move;
+std::vector<double> BallbarStation::places(const AxisMove& move, double time_s) {
     std::vector<double> places;
     const double angle = swept_rad(move),
                  step = rad_from_deg(sample_deg_ > 0.0 ? sample_deg_ : setup_.ballbar->sample_deg);
@@ -103,64 +98,77 @@ std::vector<double> BallbarStation::places(const PathSampler& path) {
         angle_left_rad_ -= angle;
     } else if (move.duration_s > 0.0) {
         for (const double t :
-             sample_times(start_s_, setup_.ballbar->sample_hz, path.start_s, path.time_s(1.0)))
-            places.push_back(std::clamp((t - path.start_s) / move.duration_s, 0.0, 1.0));
+             sample_times(start_s_, setup_.ballbar->sample_hz, time_s, time_s + move.duration_s))
+            places.push_back(std::clamp((t - time_s) / move.duration_s, 0.0, 1.0));
     }
     return places;
 }
 
-void BallbarStation::read(PathSampler path, double s, const PhysicalMachine& machine,
-                          ReadingLog& log) {
-    Contact contact;
-    contact.device = Device::ballbar;
-    contact.artefact = static_cast<int>(pivot_ - setup_.artefacts.data());
-    contact.acceleration = path.acceleration(s);
-    contact.extension_mm = path.shop.extension_mm;
-    const double noise_mm = mm_from_um(setup_.ballbar->noise_um) * noise_.normal();
-    const double value_mm = deviation_mm(path, s, machine, contact, &contact) + noise_mm;
-    if (!in_range(value_mm, Ballbar{})) {
-        if (!std::exchange(out_of_range_, true))
-            notes_.push_back(place_of(path.move) + ": the ballbar is out of its range of 1 mm (" +
-                             shortest(std::round(value_mm * 1e6) / 1e6) + " mm) in test " +
-                             log.test() + "; no readings there");
-        return;
-    }
-    Reading row;
-    row.time_s = path.time_s(s);
-    row.device = Device::ballbar;
-    row.feature = pivot_->name;
-    row.mode = path.mode;
-    row.commanded = path.move.at(s);
-    row.value_mm = value_mm;
-    row.feed_mm_min = path.move.feed_mm_min;
-    set_up_like(path.shop, row);
-    log.add(std::move(row));
-}
-
-bool BallbarStation::record(const PathSampler& move, const PhysicalMachine& machine,
-                            ReadingLog& log, AxisTracker& tracker) {
-    if (!setup_.ballbar) return false;
-    const bool automatic = !ever_commanded_ && move.move.kind != MotionKind::rapid;
-    pivot_ = commanded_ || automatic ? mounted_pivot(move, machine) : nullptr;
-    if (!pivot_) {
-        running_ = commanded_;
-        return false;
-    }
-    if (!running_) {
-        running_ = true;
-        start_s_ = move.start_s;
+bool BallbarStation::record(const AxisMove& move, const Reading& row, ReadingLog& log) {
+    if (!listens()) return false;
+    choose_pivot(move, row);
+    if (!pivot_) return false;
+    if (moves_.empty() && !commanded_) {
+        start_s_ = row.time_s;
         angle_left_rad_ = 0.0;
-        log.set_test("bar" + std::to_string(++passes_));
+        log.set_pass("bar" + std::to_string(++passes_));
     }
-    PathSampler path = move;
-    path.by_velocity = true;
-    if (move.move.duration_s > 0.0)
-        path.half_step = std::min(0.5, 1.0 / (setup_.ballbar->sample_hz * move.move.duration_s));
-    for (const double s : places(path)) {
-        tracker.advance(path.move.at(s));
-        read(path, s, machine, log);
+    moves_.push_back({std::numeric_limits<std::size_t>::max(), place_of(move)});
+    for (const double s : places(move, row.time_s)) {
+        Reading reading = row;
+        reading.time_s = row.time_s + s * move.duration_s;
+        reading.device = Device::ballbar;
+        reading.feature = pivot_->name;
+        reading.commanded = move.at(s);
+        reading.feed_mm_min = move.feed_mm_min;
+        log.add(std::move(reading));
+        if (moves_.back().row > log.size()) moves_.back().row = log.size() - 1;
     }
     return true;
+}
+
+void BallbarStation::note_out_of_range(std::size_t row, double value_mm, const std::string& test) {
+    std::string place = moves_.front().text;
+    for (const Place& move : moves_)
+        if (move.row <= row) place = move.text;
+    notes_.push_back(place + ": the ballbar is out of its range of 1 mm (" +
+                     shortest(std::round(value_mm * 1e6) / 1e6) + " mm) in test " + test +
+                     "; no readings there");
+}
+
+void BallbarStation::read_pass(const Observer& observer, ReadingLog& log,
+                               const std::vector<double>& noise_mm) {
+    const std::span<Reading> rows = log.pass();
+    const std::vector<AxisSample> samples = log.pass_samples();
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        if (rows[k].device != Device::ballbar) continue;
+        const DeviceRow ready = device_row(observer, rows[k], samples[k]);
+        rows[k].value_mm = observer.read(ready.sample, ready.contact) + noise_mm[k];
+    }
+}
+
+/// Rows beyond the range keep their place in the path, without a reading.
+void BallbarStation::stop(const Observer& observer, ReadingLog& log) {
+    if (!moves_.empty()) {
+        const std::span<Reading> rows = log.pass();
+        std::vector<double> noise_mm(rows.size());
+        for (double& noise : noise_mm)
+            noise = mm_from_um(setup_.ballbar->noise_um) * noise_.normal();
+        read_pass(observer, log, noise_mm);
+        bool out = false;
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            Reading& row = rows[k];
+            if (!row.value_mm || in_range(*row.value_mm, Ballbar{})) continue;
+            if (!std::exchange(out, true))
+                note_out_of_range(log.size() - rows.size() + k, *row.value_mm, log.test());
+            row.device = Device::none;
+            row.value_mm.reset();
+        }
+        if (out) read_pass(observer, log, noise_mm);
+    }
+    moves_.clear();
+    pivot_ = nullptr;
+    commanded_ = false;
 }
 
 }  // namespace trunnion

@@ -4,49 +4,59 @@
 #include <string>
 #include <vector>
 
-#include "ballbar/ballbar.h"
-#include "emulator/path_sampler.h"
-#include "emulator/physical_machine.h"
-#include "emulator/reading_log.h"
-#include "setup/setup.h"
 #include "base/random.h"
+#include "emulator/observer.h"
+#include "emulator/reading_log.h"
+#include "motion/motion.h"
 
 namespace trunnion {
 
 /// When it reads: between the lines `BALLBAR ON name` and `BALLBAR OFF` that the program prints to
-/// its PC; in a program that prints no such line, along every feed move that stays within the range
-/// of the transducer from end to end.
+/// its PC, or, when asked to (`automatic`), along every feed move that stays within the range of
+/// the transducer from end to end. The rows of a pass are kept without values; when it ends they
+/// are read as any table of readings is.
 class BallbarStation {
   public:
     /// `setup` must outlive the station.
-    BallbarStation(const Setup& setup, std::uint64_t seed);
+    BallbarStation(const Setup& setup, std::uint64_t seed, bool automatic);
 
     void start(double time_s);
-    void stop();
+    /// Ends a pass, reads its rows. Safe when none runs.
+    void stop(const Observer& observer, ReadingLog& log);
     bool commanded() const { return commanded_; }
+    bool running() const { return !moves_.empty(); }
+    /// A move may be read.
+    bool listens() const { return setup_.ballbar && (commanded_ || automatic_); }
     /// From now on a reading every so many degrees of the swept angle.
     void sample_every(double degrees) { sample_deg_ = degrees; }
 
-    /// Readings along the move, appended to the log. False when the bar did not read.
-    bool record(const PathSampler& path, const PhysicalMachine& machine, ReadingLog& log,
-                AxisTracker& tracker);
+    /// Rows along the move, begun at `row`'s time. False when the bar does not read.
+    bool record(const AxisMove& move, const Reading& row, ReadingLog& log);
     std::vector<std::string> take_notes() { return std::move(notes_); }
 
   private:
-    const Artefact* mounted_pivot(const PathSampler& path, const PhysicalMachine& machine);
-    std::vector<double> places(const PathSampler& path);
-    void read(PathSampler path, double s, const PhysicalMachine& machine, ReadingLog& log);
-    double deviation_mm(const PathSampler& path, double s, const PhysicalMachine& machine,
-                        Contact contact, Contact* filled) const;
+    struct Place {
+        std::size_t row;  ///< of the log, the first of a move
+        std::string text;
+    };
+    double nominal_mm(const AxisMove& move, double s, const Artefact& pivot,
+                      const Reading& row) const;
+    bool stays_in_range(const AxisMove& move, const Artefact& pivot, const Reading& row);
+    void choose_pivot(const AxisMove& move, const Reading& row);
+    std::vector<double> places(const AxisMove& move, double time_s);
+    void read_pass(const Observer& observer, ReadingLog& log, const std::vector<double>& noise_mm);
+    void note_out_of_range(std::size_t row, double value_mm, const std::string& test);
 
     const Setup& setup_;
+    ForwardModel nominal_;
     SeededNoise noise_;
-    bool commanded_ = false, ever_commanded_ = false, running_ = false, out_of_range_ = false;
+    bool automatic_ = false, commanded_ = false;
     double start_s_ = 0.0;
     double sample_deg_ = 0.0;      ///< above 0: instead of the setup's
     double angle_left_rad_ = 0.0;  ///< to the next sample, when sampling by angle
     int passes_ = 0;
-    const Artefact* pivot_ = nullptr;
+    const Artefact* pivot_ = nullptr;  ///< of the pass
+    std::vector<Place> moves_;         ///< of the pass
     /// Of all pivots beyond the bar's range when the axes stood at `apart_at_`: until they have
     /// gone that far nobody need look again.
     double apart_mm_ = -1.0;

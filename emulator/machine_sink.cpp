@@ -6,6 +6,7 @@
 
 #include "base/numbers.h"
 #include "base/units.h"
+#include "emulator/follow_move.h"
 #include "motion/tool_centre_point.h"
 
 namespace trunnion {
@@ -77,10 +78,13 @@ std::string test_name(std::string_view words) {
 MachineSink::MachineSink(const Setup& setup, EffectModels effects, const SinkOptions& options)
     : setup_(setup),
       options_(options),
-      machine_(setup.machine, std::move(effects)),
+      machine_(setup, std::move(effects)),
       touch_(setup, options.seed),
-      bar_(setup, options.seed ^ 0x5bd1e995u),  // another stream than the probe's
-      log_(axes_of(setup.machine.chain), options.test) {
+      bar_(setup, options.seed ^ 0x5bd1e995u,  // another stream than the probe's
+           options.automatic_ballbar),
+      log_(axes_of(setup.machine.chain), setup.side_before, options.test),
+      history_(setup.side_before),
+      test_(options.test) {
     can_read_ = setup.probe || setup.ballbar;
     for (const AxisGeometry& axis : setup.machine.chain.axes()) has_rotary_ |= axis.rotary;
     if (has_rotary_) mode_ = plain_mode_ = PositioningMode::dpp;
@@ -89,7 +93,7 @@ MachineSink::MachineSink(const Setup& setup, EffectModels effects, const SinkOpt
 }
 
 void MachineSink::place(const AxisPositions& machine) {
-    tracker_.place(machine);
+    history_.place(machine);
 }
 
 void MachineSink::printed(std::string_view text) {
@@ -103,12 +107,28 @@ void MachineSink::printed(std::string_view text) {
     }
 }
 
+/// The bar stops reading; rows to come belong to the test again.
+void MachineSink::end_pass() {
+    bar_.stop(machine_, log_);
+    log_.set_test(test_);
+}
+
+ReadingTable MachineSink::take_readings() {
+    end_pass();
+    return log_.take();
+}
+
 void MachineSink::obey(std::string_view line) {
     constexpr std::string_view test = "TEST ", on = "BALLBAR ON", off = "BALLBAR OFF";
-    if (line.starts_with(off)) bar_.stop();
-    if (line.starts_with(test) || line.starts_with(on)) {
-        log_.set_test(test_name(line.substr(line.starts_with(on) ? on.size() : test.size())));
-        if (line.starts_with(on)) bar_.start(clock_s_);
+    if (line.starts_with(off)) end_pass();
+    if (line.starts_with(test)) {
+        test_ = test_name(line.substr(test.size()));
+        end_pass();
+    }
+    if (line.starts_with(on)) {
+        end_pass();
+        log_.set_pass(test_name(line.substr(on.size())));
+        bar_.start(clock_s_);
     }
     set_shop(line);
 }
@@ -169,40 +189,41 @@ std::vector<double> MachineSink::sample_places(const AxisMove& move) const {
     return places;
 }
 
-std::optional<Touch> MachineSink::probe(const PathSampler& path) {
-    const auto touch = touch_.touch(path, machine_);
-    if (!touch || touch->direction_M.isZero()) return touch;
-    log_.passed(path.move.from, path.start_s, path.mode);
+/// What the shop set up for a reading taken from now on.
+Reading MachineSink::row_now() const {
     Reading row;
-    row.time_s = path.time_s(touch->s);
-    row.mode = path.mode;
-    row.device = Device::touch;
-    row.feature = touch->sphere->name;
-    row.commanded = path.move.to;
-    row.direction_M = touch->direction_M;
-    row.value_mm = touch->value_mm;
-    row.feed_mm_min = path.move.feed_mm_min;
-    set_up_like(path.shop, row);
-    log_.add(std::move(row));
+    row.time_s = clock_s_;
+    row.mode = mode_;
+    row.spindle_rad = shop_.spindle_rad;
+    row.load_kg = shop_.load_kg;
+    row.temperature_c = shop_.temperature_c;
+    row.clamped = shop_.clamped;
+    row.extension_mm = shop_.extension_mm;
+    return row;
+}
+
+std::optional<Touch> MachineSink::probe(const AxisMove& move) {
+    if (!move.until_skip || !touch_.mounted(move)) return std::nullopt;
+    if (!bar_.commanded()) end_pass();
+    log_.passed(move.from, clock_s_, mode_);
+    const auto touch = touch_.touch(move, row_now(), machine_, log_);
+    if (touch && touch->row.device != Device::none) log_.add(touch->row);
     return touch;
 }
 
 MoveResult MachineSink::move(const AxisMove& move) {
     follow_mode(move);
-    PathSampler path{move, tracker_, clock_s_, mode_};
-    path.shop = shop_;
-    std::optional<Touch> touch;
-    if (move.until_skip && touch_.mounted(move)) touch = probe(path);
+    if (can_read_ && log_.empty()) log_.passed(move.from, clock_s_, mode_);
+    const std::optional<Touch> touch = probe(move);
     const double end_s = touch ? touch->s : 1.0;
-    if (trace_) write_trace(path, end_s);
-    const bool read = !touch && !move.until_skip && bar_.record(path, machine_, log_, tracker_);
+    if (trace_) write_trace({move, history_, clock_s_, mode_, shop_}, end_s);
+    const bool read = bar_.listens() && !move.until_skip && bar_.record(move, row_now(), log_);
+    if (!read && bar_.running() && !bar_.commanded()) end_pass();
     const AxisPositions end = touch ? touch->stopped : move.to;
-    clock_s_ = path.time_s(end_s);
+    clock_s_ += end_s * move.duration_s;
     if (!read && !touch && can_read_) log_.passed(end, clock_s_, mode_);
-    if (touch || read)
-        tracker_.advance(end);
-    else
-        tracker_.follow(move);
+    if (options_.truth && !touch) follow(history_, move);
+    if (options_.truth && touch) history_.advance(end);
     return {touch.has_value(), end, end_s};
 }
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "emulator/ballbar_station.h"
-#include "emulator/reading_log.h"
+#include "emulator/path_sampler.h"
+#include "emulator/tool_tip.h"
 #include "emulator/touch_station.h"
 #include "emulator/trace.h"
-#include "motion/motion.h"
 
 namespace trunnion {
 
@@ -22,8 +22,9 @@ struct SinkOptions {
     double trace_chord_mm = 0.0;  ///< above 0: SAMPLE rows so close that X Y Z stay within this of
                                   ///< the straight lines between rows
     bool truth = false;
-    TraceChunk trace_chunk;    ///< empty: the trace waits for take_trace
-    std::string test = "run";  ///< name of the test until the program names one
+    bool automatic_ballbar = false;  ///< the bar reads without being told to
+    TraceChunk trace_chunk;          ///< empty: the trace waits for take_trace
+    std::string test = "run";        ///< name of the test until the program names one
 };
 
 /// Advances the clock, follows the axes, answers G31 from the probe, reads the ballbar, writes the
@@ -31,9 +32,9 @@ struct SinkOptions {
 /// `TEST words` names the test, `BALLBAR ON words` and `BALLBAR OFF` bound a pass. A name is the
 /// words joined by '_', in lower case except single letters: RADIAL A POS is radial_A_pos. What the
 /// operator set up is told the same way: SPINDLE 180, LOAD 80, TEMPERATURE 24, CLAMPED 1, EXTENSION
-/// 60 (deg, kg, deg C, 0 or 1, mm). SAMPLE 5: the ballbar
-/// reads every 5 degrees of the swept angle. POSITIONS DIRECT: turns without a function come from
-/// no store (empty mode); POSITIONS STORE ends that.
+/// 60 (deg, kg, deg C, 0 or 1, mm). SAMPLE 5: the ballbar reads every 5 degrees of the swept angle.
+/// POSITIONS DIRECT: turns without a function come from no store (empty mode); POSITIONS STORE ends
+/// that. Readings are those of the rows that are written: device_row and Observer, as predict asks.
 class MachineSink : public MotionSink {
   public:
     /// `setup` must outlive the sink.
@@ -45,7 +46,8 @@ class MachineSink : public MotionSink {
     void printed(std::string_view text);
 
     double clock_s() const { return clock_s_; }
-    ReadingTable take_readings() { return log_.take(); }
+    /// Ends what still reads.
+    ReadingTable take_readings();
     std::string take_trace() { return trace_ ? trace_->take() : std::string(); }
     std::vector<std::string> take_notes() { return bar_.take_notes(); }
 
@@ -53,25 +55,28 @@ class MachineSink : public MotionSink {
     void obey(std::string_view line);
     void set_shop(std::string_view line);
     void follow_mode(const AxisMove& move);
-    std::optional<Touch> probe(const PathSampler& path);
+    std::optional<Touch> probe(const AxisMove& move);
+    Reading row_now() const;
+    void end_pass();
     std::vector<double> sample_places(const AxisMove& move) const;
     void write_trace(const PathSampler& path, double end_s);
     Vector3 true_tip_W(const PathSampler& path, double s) const;
 
     const Setup& setup_;
     SinkOptions options_;
-    PhysicalMachine machine_;
+    Observer machine_;
     TouchStation touch_;
     BallbarStation bar_;
     ReadingLog log_;
     std::optional<TraceWriter> trace_;
-    AxisTracker tracker_;
+    TravelHistory history_;  ///< of the path itself, for the true tip
     double clock_s_ = 0.0;
     bool has_rotary_ = false;
     bool can_read_ = false;  ///< there is a device, so the way to its readings counts
     PositioningMode mode_ = PositioningMode::none;  ///< function that positioned the rotary axes
     PositioningMode plain_mode_ = PositioningMode::none;  ///< of turns without a function
     ShopState shop_;
+    std::string test_;  ///< of readings outside passes
     std::string line_;
 };
 

@@ -5,7 +5,7 @@
 namespace trunnion {
 namespace {
 
-/// Moves kept between two readings; a longer way than this says nothing more about approach.
+/// Moves kept between two readings before those that say nothing about a side are dropped.
 constexpr std::size_t kept_stops = 64;
 /// Between rows of different positions, even where a move takes no time.
 constexpr double shortest_time_s = 1e-6;
@@ -26,10 +26,15 @@ bool passes_through(const AxisPositions& a, const AxisPositions& b, const AxisPo
 
 }  // namespace
 
-ReadingLog::ReadingLog(std::vector<Axis> axes, std::string test) : test_(std::move(test)) {
+ReadingLog::ReadingLog(std::vector<Axis> axes, const AxisSides& sides, std::string test)
+    : test_(std::move(test)),
+      names_{test_},
+      history_(sides, rows_rounding),
+      before_stretch_(sides, rows_rounding) {
     table_.axes = std::move(axes);
     table_.optional_columns = {"mode", "feed_mm_min"};
     table_.comment = {{"schema", "trunnion.readings/1"}, {"source", "simulated"}};
+    table_.side_before = sides;
 }
 
 ReadingTable ReadingLog::take() {
@@ -47,41 +52,103 @@ ReadingTable ReadingLog::take() {
 
 void ReadingLog::set_test(std::string test) {
     test_ = std::move(test);
+    names_.insert(test_);
+}
+
+void ReadingLog::set_pass(const std::string& test) {
+    test_ = test;
+    for (int k = 2; !names_.insert(test_).second; ++k) test_ = test + '_' + std::to_string(k);
 }
 
 void ReadingLog::passed(const AxisPositions& to, double time_s, PositioningMode mode) {
     const std::size_t n = stops_.size();
     if (n > 0 && stops_.back().at == to) return;
-    if (n >= 2 && passes_through(stops_[n - 2].at, stops_[n - 1].at, to)) stops_.pop_back();
-    stops_.push_back({to, time_s, mode});
-    if (stops_.size() > kept_stops) stops_.pop_front();
+    if (n == 0 && !table_.rows.empty() && table_.rows.back().commanded == to) return;
+    if (n >= 2 && stops_[n - 2].test == test_ &&
+        passes_through(stops_[n - 2].at, stops_[n - 1].at, to))
+        stops_.pop_back();
+    stops_.push_back({to, time_s, mode, test_});
+    if (stops_.size() > kept_stops) prune();
+}
+
+/// Keeps the last motion of every axis, and where they stand.
+void ReadingLog::prune() {
+    std::vector<bool> needed(stops_.size(), false);
+    needed.back() = true;
+    for (std::size_t i = 0; i < axis_count; ++i)
+        for (std::size_t k = stops_.size() - 1; k > 0; --k)
+            if (stops_[k].at.value[i] != stops_[k - 1].at.value[i]) {
+                needed[k] = needed[k - 1] = true;
+                break;
+            }
+    std::vector<Stop> kept;
+    for (std::size_t k = 0; k < stops_.size(); ++k)
+        if (k == 0 || needed[k]) kept.push_back(std::move(stops_[k]));
+    stops_ = std::move(kept);
+}
+
+Reading ReadingLog::row_of(const Stop& stop) {
+    Reading row;
+    row.commanded = stop.at;
+    row.time_s = stop.time_s;
+    row.mode = stop.mode;
+    row.test = stop.test;
+    return row;
+}
+
+AxisSample ReadingLog::sample_of(Reading row) const {
+    std::vector<Reading> rows;
+    if (!table_.rows.empty()) rows.push_back(table_.rows.back());
+    for (const Stop& stop : stops_) rows.push_back(row_of(stop));
+    if (!stops_.empty() && stops_.back().at == row.commanded) rows.pop_back();
+    row.test = test_;
+    rows.push_back(std::move(row));
+    return samples_of(rows, table_.axes, history_).back();
 }
 
 void ReadingLog::append(Reading row) {
-    if (!table_.rows.empty()) {
-        const Reading& last = table_.rows.back();
-        if (row.commanded != last.commanded)
-            row.time_s = std::max(row.time_s, last.time_s + shortest_time_s);
+    const Reading* last = table_.rows.empty() ? nullptr : &table_.rows.back();
+    if (last) {
+        const double step_s = row.commanded == last->commanded ? 0.0 : shortest_time_s;
+        row.time_s = std::max(row.time_s, last->time_s + step_s);
+    }
+    history_.advance(row.commanded);
+    if (last && way_unknown(*last, row)) {
+        history_.begin_anew();
+        stretch_ = table_.rows.size();
+        before_stretch_ = history_;
     }
     row.index = static_cast<int>(table_.rows.size());
-    row.test = test_;
     table_.rows.push_back(std::move(row));
 }
 
 void ReadingLog::add(Reading row) {
-    if (row.device == Device::ballbar) stops_.clear();  // its rows tell velocities themselves
-    const bool begins = table_.rows.empty() || table_.rows.back().test != test_;
-    for (std::size_t i = begins ? 0 : 1; i < stops_.size(); ++i) {
-        Reading stop;
-        stop.commanded = stops_[i].at;
-        stop.time_s = stops_[i].time_s;
-        stop.mode = stops_[i].mode;
-        stop.feature = row.feature;
-        append(std::move(stop));
+    if (!stops_.empty() && stops_.back().at == row.commanded) stops_.pop_back();
+    for (const Stop& stop : stops_) {
+        Reading passing = row_of(stop);
+        passing.feature = row.feature;
+        append(std::move(passing));
     }
     stops_.clear();
-    stops_.push_back({row.commanded, row.time_s, row.mode});
+    row.test = test_;
     append(std::move(row));
+}
+
+std::size_t ReadingLog::pass_begin() const {
+    std::size_t begin = table_.rows.size();
+    while (begin > stretch_ && table_.rows[begin - 1].test == test_) --begin;
+    return begin;
+}
+
+std::span<Reading> ReadingLog::pass() {
+    return std::span(table_.rows).subspan(pass_begin());
+}
+
+std::vector<AxisSample> ReadingLog::pass_samples() const {
+    const auto rows = std::span(table_.rows).subspan(stretch_);
+    std::vector<AxisSample> all = samples_of(rows, table_.axes, before_stretch_);
+    all.erase(all.begin(), all.begin() + static_cast<long>(pass_begin() - stretch_));
+    return all;
 }
 
 }  // namespace trunnion

@@ -1,26 +1,35 @@
 #include "emulator/replay.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <tuple>
 
 #include "base/alarm.h"
+#include "records/samples.h"
 
 namespace trunnion {
 namespace {
 
-struct Place {
-    const Setup& setup;
-    const ReadingTable& table;
-    [[noreturn]] void refuse(const Reading& row, const std::string& message) const {
-        throw InputError(message + " (setup " + setup.path + ")", place_of(table, row));
-    }
-};
+[[noreturn]] void refuse(const Setup& setup, const ReadingTable& table, const Reading& row,
+                         const std::string& message) {
+    throw InputError(message + " (setup " + setup.path + ")", place_of(table, row));
+}
 
-int artefact_index(const Place& place, const Reading& row) {
-    const auto& artefacts = place.setup.artefacts;
-    for (std::size_t k = 0; k < artefacts.size(); ++k)
-        if (artefacts[k].name == row.feature) return static_cast<int>(k);
-    place.refuse(row, "the setup has no artefact named '" + row.feature + "'");
+void check_axes(const Setup& setup, const ReadingTable& table) {
+    for (const AxisGeometry& axis : setup.machine.chain.axes())
+        if (std::find(table.axes.begin(), table.axes.end(), axis.axis) == table.axes.end())
+            throw InputError(std::string("no column for axis ") + letter_of(axis.axis) +
+                                 " of the setup's machine: readings of another machine?",
+                             {table.path, 0, 0});
+    for (const Axis axis : table.axes) {
+        if (setup.machine.chain.find(axis)) continue;
+        for (const Reading& row : table.rows)
+            if (row.commanded[axis] != 0.0)
+                refuse(setup, table, row,
+                       std::string("axis ") + letter_of(axis) +
+                           " moves, but the setup's machine has no such axis");
+    }
 }
 
 int touches_of(const ReadingTable& table) {
@@ -28,152 +37,78 @@ int touches_of(const ReadingTable& table) {
     return it == table.comment.end() ? 0 : std::atoi(it->second.c_str());
 }
 
-/// Second derivative of one axis at row k of its test, from up to five rows around it.
-double acceleration_at(const ReadingTable& table, const std::vector<std::size_t>& rows,
-                       std::size_t k, Axis axis) {
-    const std::size_t n = rows.size();
-    if (n < 5) return 0.0;
-    const std::size_t first = k < 2 ? 0 : std::min(k - 2, n - 5);
-    Eigen::Matrix<double, 5, 3> a;
-    Eigen::Matrix<double, 5, 1> q;
-    const double t0 = table.rows[rows[k]].time_s;
-    for (std::size_t j = 0; j < 5; ++j) {
-        const Reading& row = table.rows[rows[first + j]];
-        const double t = row.time_s - t0;
-        a.row(static_cast<Eigen::Index>(j)) << 1.0, t, 0.5 * t * t;
-        q(static_cast<Eigen::Index>(j)) = row.commanded[axis] - table.rows[rows[k]].commanded[axis];
-    }
-    const Eigen::Matrix3d normal = a.transpose() * a;
-    const Vector3 fit = normal.ldlt().solve(a.transpose() * q);
-    return std::isfinite(fit(2)) ? fit(2) : 0.0;
-}
-
-Vector3 linear_position(const Reading& row) {
-    return {row.commanded[Axis::X], row.commanded[Axis::Y], row.commanded[Axis::Z]};
-}
-
-/// Length of the path from row k - 1 to row k of a test: the arc through three rows, not the chord.
-double arc_mm(const ReadingTable& table, const std::vector<std::size_t>& rows, std::size_t k) {
-    const Vector3 a = linear_position(table.rows[rows[k - 1]]);
-    const Vector3 b = linear_position(table.rows[rows[k]]);
-    const double chord = (b - a).norm();
-    if (rows.size() < 3) return chord;
-    const Vector3 c = linear_position(table.rows[rows[k + 1 < rows.size() ? k + 1 : k - 2]]);
-    const double area = (b - a).cross(c - a).norm();
-    if (area < 1e-9) return chord;
-    const double radius = chord * (c - a).norm() * (c - b).norm() / (2.0 * area);
-    return chord < 1.4 * radius ? 2.0 * radius * std::asin(chord / (2.0 * radius)) : chord;
-}
-
-Vector3 shift_of(const ExtensionErrors& errors, const Contact& contact) {
-    const auto it = errors.find(contact.extension_mm);
-    return it == errors.end() ? Vector3(Vector3::Zero()) : it->second;
-}
-
 }  // namespace
 
+DeviceRow device_row(const Observer& observer, const Reading& row, const AxisSample& sample,
+                     int touches) {
+    DeviceRow ready{sample, contact_of(observer.setup(), observer.nominal(sample), row)};
+    for (const Axis axis : all_axes)
+        if (row.device == Device::sphere && !is_rotary(axis)) {
+            ready.sample.travel[index_of(axis)] = 0;
+            ready.sample.side_unknown[index_of(axis)] = false;
+        } else if (ready.sample.side_unknown[index_of(axis)]) {
+            ready.sample.travel[index_of(axis)] = 1;
+        }
+    if (row.device == Device::sphere) ready.contact.touches = touches;
+    return ready;
+}
+
 Replay::Replay(const Setup& setup, const ReadingTable& table) : setup_(setup) {
-    for (const AxisGeometry& axis : setup.machine.chain.axes())
-        if (std::find(table.axes.begin(), table.axes.end(), axis.axis) == table.axes.end())
-            throw InputError(std::string("no column for axis ") + letter_of(axis.axis) +
-                                 " of the setup's machine: readings of another machine?",
-                             {table.path, 0, 0});
-    const Place where{setup, table};
-    for (const Axis axis : table.axes) {
-        if (setup.machine.chain.find(axis)) continue;
-        for (const Reading& row : table.rows)
-            if (row.commanded[axis] != 0.0)
-                where.refuse(row, std::string("axis ") + letter_of(axis) +
-                                      " moves, but the setup's machine has no such axis");
-    }
-    const std::vector<AxisSample> all = samples_of(table);
-    const ForwardModel model(setup.machine);
-    const int touches = touches_of(table);
-    std::map<std::string, std::vector<std::size_t>> tests;
-    std::vector<std::size_t> place(table.rows.size());
-    std::vector<double> path_mm(table.rows.size(), 0.0);
-    for (std::size_t r = 0; r < table.rows.size(); ++r) {
-        auto& rows = tests[table.rows[r].test];
-        place[r] = rows.size();
-        rows.push_back(r);
-    }
-    for (const auto& [test, rows] : tests)
-        for (std::size_t k = 1; k < rows.size(); ++k)
-            path_mm[rows[k]] = path_mm[rows[k - 1]] + arc_mm(table, rows, k);
+    check_axes(setup, table);
+    const std::vector<AxisSample> samples = samples_of(table);
+    const Observer nominal(setup_, {});
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const Reading& row = table.rows[r];
         if (row.device == Device::none) continue;
-        if (row.device > Device::ballbar)
-            where.refuse(row,
-                         "no prediction for device '" + std::string(name_of(row.device)) + "'");
-        AxisSample sample = all[r];
-        Contact contact;
-        contact.device = row.device;
-        contact.artefact = artefact_index(where, row);
-        contact.direction_M = row.direction_M;
-        contact.extension_mm = row.extension_mm;
-        contact.path_mm = path_mm[r];
-        if (row.device == Device::ballbar) {
-            if (!setup.ballbar) where.refuse(row, "a ballbar row, but no [ballbar] in the setup");
-            for (const Axis axis : table.axes)
-                contact.acceleration[axis] =
-                    acceleration_at(table, tests[row.test], place[r], axis);
-        } else if (!setup.probe) {
-            where.refuse(row, "a probe row, but no [probe] in the setup");
+        try {
+            DeviceRow ready = device_row(nominal, row, samples[r], touches_of(table));
+            if (row.device == Device::touch) nominal.go_to_contact(ready.sample, ready.contact);
+            rows_.push_back(r);
+            samples_.push_back(ready.sample);
+            contacts_.push_back(ready.contact);
+            commanded_.push_back(row.commanded);
+        } catch (const InputError& error) {
+            refuse(setup, table, row, error.message);
         }
-        const auto& artefact = setup.artefacts[static_cast<std::size_t>(contact.artefact)];
-        if (row.device != Device::ballbar && artefact.kind != Artefact::Kind::sphere)
-            where.refuse(row, "a probe row on '" + artefact.name + "', which is no sphere");
-        const MachinePose poses = model.poses(row.commanded, row.spindle_rad);
-        if (row.device == Device::ballbar)
-            contact.direction_M = (poses.pose_MW * artefact.center_W_mm -
-                                   poses.pose_MS * setup.ballbar->cup_with(row.extension_mm))
-                                      .normalized();
-        if (row.device == Device::sphere) {
-            contact.touches = touches;
-            for (const Axis axis : all_axes)
-                if (!is_rotary(axis)) sample.travel[index_of(axis)] = 0;
-        }
-        contact.direction_W = poses.pose_MW.rotation.transpose() * contact.direction_M;
-        rows_.push_back(r);
-        samples_.push_back(sample);
-        contacts_.push_back(contact);
     }
+    list_unknown_sides(table);
+}
+
+void Replay::list_unknown_sides(const ReadingTable& table) {
+    std::map<std::tuple<int, std::string, Axis>, std::size_t> known;
+    for (std::size_t i = 0; i < size(); ++i)
+        for (const Axis axis : table.axes) {
+            if (!samples_[i].side_unknown[index_of(axis)]) continue;
+            const Reading& row = table.rows[rows_[i]];
+            const auto [at, added] =
+                known.try_emplace({row.part, row.session, axis}, unknown_.size());
+            if (added) unknown_.push_back({axis, {}});
+            unknown_[at->second].rows.push_back(i);
+        }
+}
+
+void Replay::assume_side(std::size_t k, signed char side) {
+    for (const std::size_t i : unknown_[k].rows)
+        samples_[i].travel[index_of(unknown_[k].axis)] = side;
 }
 
 double Replay::read(std::size_t i, const ForwardModel& model, const ReplayOffsets& offsets,
                     const Perturbation& extra) const {
-    const Contact& contact = contacts_[i];
-    const auto a = static_cast<std::size_t>(contact.artefact);
-    const MachinePose poses = model.poses(samples_[i].position, extra, spindle_angle(samples_[i]));
-    Vector3 center_W = setup_.artefacts[a].center_W_mm + extra.work_shift_mm;
-    if (a < offsets.artefact_W.size()) center_W += offsets.artefact_W[a];
-    const Vector3 center_M = poses.pose_MW * center_W;
-    if (contact.device == Device::ballbar) {
-        const Vector3 cup_S = setup_.ballbar->cup_with(contact.extension_mm) + offsets.cup_S +
-                              shift_of(offsets.long_cup_S, contact) + extra.tip_shift_mm;
-        return (center_M - poses.pose_MS * cup_S).norm() - setup_.ballbar->warm_length_mm() -
-               offsets.length + extra.reading_mm;
-    }
-    const Vector3 tip_S = setup_.probe->tip_with(contact.extension_mm) +
-                          shift_of(offsets.stylus_S, contact) + extra.tip_shift_mm;
-    const Vector3 tip_M = poses.pose_MS * tip_S;
-    const Vector3 away = tip_M - center_M;
-    const double along = away.dot(contact.direction_M);
-    if (contact.device == Device::sphere) return -along + extra.reading_mm;
-    const double reach = 0.5 * (setup_.artefacts[a].diameter_mm + setup_.probe->ball_diameter_mm);
-    const double inside = along * along - away.squaredNorm() + reach * reach;
-    return -along - std::sqrt(std::max(0.0, inside)) + extra.reading_mm;
+    const PhysicalState state{model.poses(samples_[i].position, extra, spindle_angle(samples_[i])),
+                              extra};
+    return reading_mm({setup_, offsets, contacts_[i], state});
 }
 
 std::vector<double> Replay::predict(const Machine& machine, const ReplayOffsets& offsets,
                                     const EffectModels& models) const {
-    const ForwardModel model(machine);
+    const Observer observer(setup_, machine, models, offsets);
     std::vector<double> value_mm(size());
     for (std::size_t i = 0; i < size(); ++i) {
-        Perturbation extra;
-        for (const auto& effect : models) effect->perturb(samples_[i], contacts_[i], extra);
-        value_mm[i] = read(i, model, offsets, extra);
+        AxisSample sample = samples_[i];
+        Contact contact = contacts_[i];
+        sample.position = commanded_[i];
+        contact.along_mm = 0.0;
+        value_mm[i] = observer.read(sample, contact);
     }
     return value_mm;
 }

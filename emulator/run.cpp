@@ -12,6 +12,7 @@ SinkOptions sink_options(const RunOptions& options, const ProgramChoice& program
     sink.trace_step_mm = options.trace_step_mm;
     sink.trace_chord_mm = options.trace_chord_mm;
     sink.truth = options.truth;
+    sink.automatic_ballbar = options.automatic_ballbar;
     sink.trace_chunk = options.trace_chunk;
     if (const auto* number = std::get_if<int>(&program)) {
         sink.test = "O" + std::to_string(*number);

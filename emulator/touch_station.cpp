@@ -1,66 +1,128 @@
 #include "emulator/touch_station.h"
 
+#include <algorithm>
+
 #include "base/units.h"
+#include "emulator/replay.h"
 
 namespace trunnion {
+namespace {
 
-TouchStation::TouchStation(const Setup& setup, std::uint64_t seed) : setup_(setup), noise_(seed) {}
+/// Only X, Y and Z move, straight: the line of the row is that of the move.
+bool is_plain(const AxisMove& move) {
+    if (move.arc || move.curve) return false;
+    for (const Axis axis : all_axes)
+        if (axis != Axis::X && axis != Axis::Y && axis != Axis::Z &&
+            move.from[axis] != move.to[axis])
+            return false;
+    return true;
+}
+
+/// A move towards one sphere, and where its ball touches.
+class Approach {
+  public:
+    Approach(const AxisMove& move, Reading row, const Observer& observer, const ReadingLog& log)
+        : move_(move), row_(std::move(row)), observer_(observer), log_(log) {
+        const Vector3 way = gauge(move.to) - gauge(move.from);
+        length_mm_ = way.norm();
+        start_s_ = row_.time_s;
+        row_.commanded = move.to;
+        row_.device = Device::touch;
+        row_.feed_mm_min = move.feed_mm_min;
+        row_.direction_M = length_mm_ > 0.0 ? Vector3(way / length_mm_) : Vector3::UnitZ();
+    }
+
+    /// With the row's value, without noise; s is that of the contact. Nothing when the ball passes.
+    std::optional<Touch> on(const std::string& sphere) {
+        row_.feature = sphere;
+        row_.time_s = start_s_ + move_.duration_s;
+        return is_plain(move_) && length_mm_ > 0.0 ? straight() : along_path();
+    }
+    double length_mm() const { return length_mm_; }
+
+  private:
+    Vector3 gauge(const AxisPositions& q) const { return move_.parallel.linear(q); }
+    DeviceRow ready() const { return device_row(observer_, row_, log_.sample_of(row_)); }
+
+    std::optional<Touch> straight() {
+        DeviceRow at = ready();
+        const double rough_mm = observer_.touch(at.sample, at.contact).contact_mm;
+        if (rough_mm > length_mm_ || rough_mm < -2.0 * length_mm_) return std::nullopt;
+        row_.time_s = start_s_ + move_.duration_s * part(rough_mm);
+        at.sample.time_s = row_.time_s;
+        const TouchReading touch = observer_.touch(at.sample, at.contact);
+        if (!touch.meets || touch.contact_mm > 0.0) return std::nullopt;
+        if (touch.contact_mm < -length_mm_) return in_contact(at);
+        return done(part(touch.contact_mm), touch.value_mm);
+    }
+
+    /// The skip signal is there before the move begins: it stops at once, and nothing was measured.
+    std::optional<Touch> in_contact(DeviceRow at) {
+        at.sample.position = move_.from;
+        if (observer_.centre_to_tip_M(at.sample, at.contact).norm() >
+            observer_.reach_mm(at.contact))
+            return std::nullopt;
+        Touch touch = done(0.0, -length_mm_);
+        touch.row.device = Device::none;
+        return touch;
+    }
+
+    std::optional<Touch> along_path() {
+        const DeviceRow at = ready();
+        const auto here = [&](double s) {
+            AxisSample sample = at.sample;
+            sample.position = move_.at(s);
+            return sample;
+        };
+        const auto s =
+            first_contact([&](double t) { return observer_.centre_to_tip_M(here(t), at.contact); },
+                          observer_.reach_mm(at.contact));
+        if (!s) return std::nullopt;
+        row_.time_s = start_s_ + move_.duration_s * *s;
+        const double later_mm = observer_.at(here(*s), at.contact).extra.reading_mm;
+        return done(*s, length_mm_ * (*s - 1.0) + later_mm);
+    }
+
+    double part(double value_mm) const { return std::clamp(1.0 + value_mm / length_mm_, 0.0, 1.0); }
+
+    Touch done(double s, double value_mm) {
+        Touch touch{s, {}, row_};
+        touch.row.value_mm = value_mm;
+        return touch;
+    }
+
+    const AxisMove& move_;
+    Reading row_;
+    const Observer& observer_;
+    const ReadingLog& log_;
+    double length_mm_ = 0.0, start_s_ = 0.0;
+};
+
+}  // namespace
 
 bool TouchStation::mounted(const AxisMove& move) const {
     if (!setup_.probe) return false;
     return setup_.probe->tool == 0 || move.tool == 0 || move.tool == setup_.probe->tool;
 }
 
-std::optional<Touch> TouchStation::touch(const PathSampler& path, const PhysicalMachine& machine) {
-    const ProbeSettings& settings = *setup_.probe;
-    const Vector3 way =
-        path.move.parallel.linear(path.move.to) - path.move.parallel.linear(path.move.from);
-    Contact contact;
-    contact.device = Device::touch;
-    contact.extension_mm = path.shop.extension_mm;
-    const Vector3 tip_S_mm = settings.tip_with(path.shop.extension_mm);
-    if (way.norm() > 0.0) contact.direction_M = way.normalized();
-    std::optional<double> first;
-    for (std::size_t i = 0; i < setup_.artefacts.size(); ++i) {
-        const Artefact& artefact = setup_.artefacts[i];
+std::optional<Touch> TouchStation::touch(const AxisMove& move, Reading row,
+                                         const Observer& observer, const ReadingLog& log) {
+    Approach approach(move, std::move(row), observer, log);
+    std::optional<Touch> first;
+    for (const Artefact& artefact : setup_.artefacts) {
         if (artefact.kind != Artefact::Kind::sphere) continue;
-        Contact here = contact;
-        here.artefact = static_cast<int>(i);
-        const auto separation = [&](double s) -> Vector3 {
-            const PhysicalState state = machine.at(path.at(s), here);
-            return state.poses.pose_MS * (tip_S_mm + state.extra.tip_shift_mm) -
-                   state.poses.pose_MW * (artefact.center_W_mm + state.extra.work_shift_mm);
-        };
-        const double reach_mm = 0.5 * (settings.ball_diameter_mm + artefact.diameter_mm);
-        const auto s = first_contact(separation, reach_mm);
-        if (s && (!first || *s < *first)) {
-            first = s;
-            contact.artefact = here.artefact;
-        }
+        auto touch = approach.on(artefact.name);
+        if (touch && (!first || touch->s < first->s)) first = std::move(touch);
     }
-    if (!first) return std::nullopt;
-    return latched(path, machine, contact, *first);
-}
-
-std::optional<Touch> TouchStation::latched(const PathSampler& path, const PhysicalMachine& machine,
-                                           Contact contact, double contact_s) {
-    const ProbeSettings& settings = *setup_.probe;
-    const PhysicalState state = machine.at(path.at(contact_s), contact);
-    contact.direction_W = state.poses.pose_MW.rotation.transpose() * contact.direction_M;
-    const double reading_mm = machine.at(path.at(contact_s), contact).extra.reading_mm;
-    const double noise_mm = mm_from_um(settings.repeatability_um) * noise_.normal();
-    const double over_mm = mm_from_um(settings.pretravel_um) + reading_mm + noise_mm;
-    const auto gauge = [&](double s) { return path.move.parallel.linear(path.move.at(s)); };
-    const auto s = latch(gauge, contact_s, over_mm);
-    if (!s) return std::nullopt;
-    Touch touch;
-    touch.s = *s;
-    touch.stopped = path.move.at(*s);
-    touch.sphere = &setup_.artefacts[static_cast<std::size_t>(contact.artefact)];
-    touch.direction_M = contact.direction_M;
-    touch.value_mm = contact.direction_M.dot(path.move.parallel.linear(touch.stopped) -
-                                             path.move.parallel.linear(path.move.to));
-    return touch;
+    if (!first) return first;
+    double& value_mm = *first->row.value_mm;
+    value_mm += mm_from_um(setup_.probe->repeatability_um) * noise_.normal();
+    if (value_mm > 0.0) return std::nullopt;
+    const double length_mm = approach.length_mm();
+    if (length_mm > 0.0) first->s = std::clamp(1.0 + value_mm / length_mm, 0.0, 1.0);
+    first->stopped = move.at(first->s);
+    if (length_mm == 0.0) first->row.device = Device::none;
+    return first;
 }
 
 }  // namespace trunnion

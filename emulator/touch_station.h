@@ -3,36 +3,33 @@
 
 #include <optional>
 
-#include "emulator/path_sampler.h"
-#include "emulator/physical_machine.h"
-#include "setup/setup.h"
 #include "base/random.h"
-#include "probe/touch_probe.h"
+#include "emulator/observer.h"
+#include "emulator/reading_log.h"
+#include "motion/motion.h"
 
 namespace trunnion {
 
 struct Touch {
-    double s = 0.0;  ///< of the move, where the skip latched
+    double s = 1.0;  ///< of the move, where the skip latched
     AxisPositions stopped;
-    const Artefact* sphere = nullptr;
-    Vector3 direction_M = Vector3::Zero();  ///< of the approach; zero when no linear axis moved
-    double value_mm = 0.0;  ///< along direction_M from the commanded end to the latch
+    Reading row;  ///< with its value; no device when no linear axis moved
 };
 
 class TouchStation {
   public:
     /// `setup` must outlive the station.
-    TouchStation(const Setup& setup, std::uint64_t seed);
+    TouchStation(const Setup& setup, std::uint64_t seed) : setup_(setup), noise_(seed) {}
 
     /// The probe is in the spindle: no tool called yet, or the one the setup names.
     bool mounted(const AxisMove& move) const;
-    /// The first sphere that the stylus meets on the path.
-    std::optional<Touch> touch(const PathSampler& path, const PhysicalMachine& machine);
+    /// The first sphere that the stylus meets on the move; `row` holds what the shop set up and
+    /// when the move started. The value is that of the row by the rules of a table; where the move
+    /// also turns rotary axes or runs along a curve, that of the path.
+    std::optional<Touch> touch(const AxisMove& move, Reading row, const Observer& observer,
+                               const ReadingLog& log);
 
   private:
-    std::optional<Touch> latched(const PathSampler& path, const PhysicalMachine& machine,
-                                 Contact contact, double contact_s);
-
     const Setup& setup_;
     SeededNoise noise_;
 };

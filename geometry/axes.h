@@ -52,12 +52,14 @@ enum class PositioningMode : unsigned char { none, dpp, rtdfo, rtcp, tw };
 struct AxisSample {
     AxisPositions position;                        ///< commanded machine coordinates, mm and rad
     AxisPositions velocity;                        ///< mm/s and rad/s, 0 for a standing axis
-    std::array<signed char, axis_count> travel{};  ///< sign of the last motion (approach) or of the
-                                                   ///< velocity (ballbar): -1, 0, +1
+    AxisPositions acceleration;                    ///< mm/s^2 and rad/s^2, commanded
+    AxisSides travel{};  ///< side from which each axis came; 0: a turning point, or not known
+    std::array<bool, axis_count> side_unknown{};  ///< nothing tells the side: travel is assumed
     std::array<double, axis_count> since_reversal{};  ///< mm or rad travelled since the axis turned
     /// The axis began its test at a turning point and has not turned since: whether it came there
     /// from the other side (a run-up) no row tells; since_reversal counts as if it had.
     std::array<bool, axis_count> run_up_unknown{};
+    double path_mm = 0.0;  ///< of the linear axes since the test began
     double time_s = 0.0;
     double feed_mm_min = 0.0;
     double spindle_rad = 0.0;

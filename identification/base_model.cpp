@@ -86,32 +86,37 @@ void take_measured(BaseModel& model, const ReadingTable& table, const Replay& re
     }
 }
 
-[[noreturn]] void refuse_machine(const std::string& what, const SourceRef& where) {
-    throw InputError(what +
-                         " after fitting: wrong units (um for mm?), wrong frame, or the setup of "
-                         "another machine",
-                     where);
+/// What no machine has: refused, or noted when it is meant.
+void tell_absurd(BaseModel& model, bool meant, const std::string& what, const SourceRef& where) {
+    const std::string message = what + " after fitting: wrong units (um for mm?), wrong frame, or "
+                                       "the setup of another machine";
+    if (!meant) throw InputError(message + "; --allow-large takes it as meant", where);
+    model.notes.push_back(where.program + ": " + message + "; taken as meant");
 }
 
-void refuse_absurd(const BaseModel& model, const Replay& replay, const ReadingTable& table) {
+void tell_absurd_residuals(BaseModel& model, const Replay& replay, const ReadingTable& table) {
+    const bool allowed = model.setup.model.allow_large;
     Eigen::Index worst = 0;
     const double most = model.residual_mm.cwiseAbs().maxCoeff(&worst);
+    const Reading& row = table.rows[replay.table_row(static_cast<std::size_t>(worst))];
+    const bool meant = allowed || row.sigma_mm.value_or(0.0) > 0.0;
     if (most > absurd_mm)
-        refuse_machine(
-            fmt::format("a residual of {:.3g} mm", most),
-            place_of(table, table.rows[replay.table_row(static_cast<std::size_t>(worst))]));
+        tell_absurd(model, meant, fmt::format("a residual of {:.3g} mm", most),
+                    place_of(table, row));
     const double rms =
         std::sqrt(model.residual_mm.squaredNorm() / static_cast<double>(model.residual_mm.size()));
     if (rms > absurd_rms_mm)
-        refuse_machine(fmt::format("residuals of {:.3g} mm rms", rms), {table.path, 0, 0});
+        tell_absurd(model, meant, fmt::format("residuals of {:.3g} mm rms", rms),
+                    {table.path, 0, 0});
 }
 
 /// A location error that no assembly has means that the setup describes another machine.
-void refuse_absurd_location(const FitParameter& p, const ReadingTable& table) {
+void tell_absurd_location(BaseModel& model, const FitParameter& p, const ReadingTable& table) {
     if (p.effect == "location" && std::isfinite(p.sigma) &&
         std::abs(p.value) > (p.unit == "mm" ? absurd_mm : absurd_rad))
-        refuse_machine(fmt::format("{} comes out as {:.3g} {}", p.name, p.value, p.unit),
-                       {table.path, 0, 0});
+        tell_absurd(model, model.setup.model.allow_large,
+                    fmt::format("{} comes out as {:.3g} {}", p.name, p.value, p.unit),
+                    {table.path, 0, 0});
 }
 
 void name_null_space(BaseModel& model, const std::vector<Slot>& slots, const LinearFit& fit) {
@@ -241,7 +246,7 @@ BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& 
     for (Eigen::Index j = 0; j < p; ++j)
         typical(j) = slots[static_cast<std::size_t>(j)].fit.typical;
     LinearFit fit;
-    for (int pass = 0; pass < 8; ++pass) {
+    for (int pass = 0; pass < 8 && p > 0; ++pass) {
         const Eigen::VectorXd weight = row_weights(model, model.residual_mm);
         const Eigen::MatrixXd a = weight.asDiagonal() * model.columns;
         Eigen::MatrixXd information = a.transpose() * a;
@@ -258,7 +263,7 @@ BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& 
         take_step(model, replay, slots, weight, typical.cwiseProduct(fit.value));
         if (fit.value.cwiseAbs().maxCoeff() < 1e-7) break;
     }
-    refuse_absurd(model, replay, table);
+    tell_absurd_residuals(model, replay, table);
     name_null_space(model, slots, fit);
     model.rank = static_cast<int>(p) - static_cast<int>(fit.null_space.size());
     model.covariance = typical.asDiagonal() * fit.covariance * typical.asDiagonal();
@@ -279,7 +284,7 @@ BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& 
                 if (setting.name == slot.effect->name)
                     done.value = values_of(*slot.effect, setting)[slot.parameter];
         }
-        refuse_absurd_location(done, table);
+        tell_absurd_location(model, done, table);
         model.parameters.push_back(done);
     }
     model.models = active_models(model.setup);

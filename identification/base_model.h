@@ -53,10 +53,12 @@ struct BaseModel {
     bool noise_given = true;
     Eigen::MatrixXd covariance;  ///< of the parameters, in their units
     int rank = 0;
+    std::vector<std::string> notes;  ///< large residuals that were meant
 };
 
 /// Throws InputError when a device row has no value, and on residuals that no machine can have
-/// (units, frames or the setup of another machine).
+/// (units, frames or the setup of another machine), unless they are meant: by `allow_large` of the
+/// setup's model or by a `sigma_mm` of the row itself. Then a note tells them.
 BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& replay,
                    const Catalogue& catalogue, const std::vector<std::string>& effects);
 

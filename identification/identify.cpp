@@ -10,6 +10,7 @@
 #include "effects/settings.h"
 #include "base/alarm.h"
 #include "identification/keys.h"
+#include "identification/unknown_sides.h"
 
 namespace trunnion {
 namespace {
@@ -209,7 +210,7 @@ void take_values(const BaseModel& base, std::vector<KeyedEffect>& effects) {
 Identification identify(const Setup& setup, const ReadingTable& table,
                         std::vector<std::string> effects) {
     if (effects.empty()) effects = setup.model.modelled;
-    const Replay replay(setup, table);
+    Replay replay(setup, table);
     if (replay.size() < 2)
         throw InputError("fewer than two readings with a device", {table.path, 0, 0});
     Catalogue catalogue = make_catalogue(setup, extent_of(setup, table));
@@ -219,6 +220,7 @@ Identification identify(const Setup& setup, const ReadingTable& table,
         if (!effect) refuse_effect_name(setup, name);
         if (!keyed(*effect)) plain.push_back(name);
     }
+    std::vector<std::string> notes = choose_sides(setup, table, replay, catalogue, plain);
     std::vector<KeyedEffect> with_keys;
     if (plain.size() < effects.size()) {
         const BaseModel base = fit_base(setup, table, replay, catalogue, plain);
@@ -250,6 +252,8 @@ Identification identify(const Setup& setup, const ReadingTable& table,
             fmt::format("{} readings cannot fix {} unknowns and show how well they fit",
                         replay.size(), base.rank),
             {table.path, 0, 0});
+    result.notes = std::move(notes);
+    result.notes.insert(result.notes.end(), base.notes.begin(), base.notes.end());
     result.setup = std::move(base.setup);
     return result;
 }

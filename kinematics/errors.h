@@ -67,8 +67,6 @@ struct ErrorCurve {
 struct AxisErrors {
     std::array<double, 6> location{};
     std::array<ErrorCurve, 6> motion{};
-    double backlash =
-        0.0;  ///< reversal value B of ISO 230-2: actual = commanded + B/2 * sign of travel
 };
 
 struct GeometricErrors {

@@ -51,6 +51,12 @@ Vector3 centre_to_tip_M(const MachinePose& poses, const TouchProbe& probe,
     return poses.pose_MS * probe.tip_S_mm - poses.pose_MW * sphere.center_W_mm;
 }
 
+WayToSphere way_to_sphere(const Vector3& separation, const Vector3& direction, double reach_mm) {
+    const double along = separation.dot(direction);
+    const double inside = along * along - separation.squaredNorm() + reach_mm * reach_mm;
+    return {-along - std::sqrt(std::max(0.0, inside)), inside >= 0.0};
+}
+
 std::optional<double> first_contact(const Separation& separation, double reach_mm) {
     const auto gap = [&](double s) { return separation(s).norm() - reach_mm; };
     double s = 0.0, g = gap(s);
@@ -64,16 +70,6 @@ std::optional<double> first_contact(const Separation& separation, double reach_m
         s = next, g = g_next;
     }
     return std::nullopt;
-}
-
-std::optional<double> latch(const Separation& separation, double contact_s, double over_mm) {
-    constexpr double h = 1e-4;
-    const double a = std::max(0.0, contact_s - h), b = std::min(1.0, contact_s + h);
-    const double speed_mm = (separation(b) - separation(a)).norm() / (b - a);
-    if (speed_mm == 0.0) return contact_s;
-    const double s = contact_s + over_mm / speed_mm;
-    if (s > 1.0) return std::nullopt;
-    return std::max(0.0, s);
 }
 
 }  // namespace trunnion

@@ -13,7 +13,6 @@ namespace trunnion {
 struct TouchProbe {
     Vector3 tip_S_mm = Vector3(0, 0, -150);  ///< stylus ball centre in S
     double ball_diameter_mm = 6.0;
-    double pretravel_mm = 0.0;  ///< travel from contact to the trigger
 };
 
 /// A sphere on the table.
@@ -26,6 +25,20 @@ struct SphereTarget {
 Vector3 centre_to_tip_M(const MachinePose& poses, const TouchProbe& probe,
                         const SphereTarget& sphere);
 
+/// Distance of the two centres at contact.
+inline double reach_mm(const TouchProbe& probe, const SphereTarget& sphere) {
+    return 0.5 * (sphere.diameter_mm + probe.ball_diameter_mm);
+}
+
+/// Way along the unit vector `direction` to the first place where `separation` (centre to tip) is
+/// `reach_mm` long, in closed form; negative when it lies behind. `meets` false: the ball passes
+/// the sphere by, and the way is that to the nearest point.
+struct WayToSphere {
+    double way_mm = 0.0;
+    bool meets = true;
+};
+WayToSphere way_to_sphere(const Vector3& separation, const Vector3& direction, double reach_mm);
+
 /// Vector from sphere centre to ball centre (mm) at s in [0, 1] of a move: smooth in s.
 using Separation = std::function<Vector3(double)>;
 
@@ -33,9 +46,5 @@ using Separation = std::function<Vector3(double)>;
 /// a contact deeper than 1e-6 mm, root found to 1e-9 mm. 0 when in contact at the start, nothing
 /// when the path ends before.
 std::optional<double> first_contact(const Separation& separation, double reach_mm);
-
-/// Where the skip latches: `over_mm` (pretravel and noise) further along the path than the contact;
-/// nothing when the path ends before.
-std::optional<double> latch(const Separation& separation, double contact_s, double over_mm);
 
 }  // namespace trunnion

@@ -63,6 +63,7 @@ void append(ReadingTable& to, ReadingTable from) {
         row.index = static_cast<int>(to.rows.size());
         to.rows.push_back(std::move(row));
     }
+    to.part_sides[static_cast<int>(to.parts.size())] = from.side_before;
     for (std::string& column : from.optional_columns)
         if (std::find(to.optional_columns.begin(), to.optional_columns.end(), column) ==
             to.optional_columns.end())

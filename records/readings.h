@@ -16,9 +16,6 @@ namespace trunnion {
 
 enum class Device : unsigned char { none, sphere, touch, ballbar, linear, angle, point, axis };
 
-/// since_reversal of an axis that has not turned since its test began: more than this (mm or rad).
-constexpr double no_reversal_seen = 1e6;
-
 std::string_view name_of(Device device);         ///< "sphere", ...; "" for none
 std::string_view name_of(PositioningMode mode);  ///< "dpp", ...; "" for none
 
@@ -57,6 +54,7 @@ struct ReadingTable {
     std::vector<std::string> parts;              ///< of a joined table: path of each file
     std::map<std::string, std::string> comment;  ///< `# key = value`
     AxisSides side_before{};  ///< head line `side`: of the first session; 0 where not told
+    std::map<int, AxisSides> part_sides;  ///< the same of the further files of a joined table
     std::vector<Axis> axes;   ///< machine axes with a column
     std::vector<std::string> optional_columns;  ///< optional columns present, in file order
     std::vector<Reading> rows;
@@ -91,12 +89,5 @@ class ReadingWriter {
 };
 /// "X+ Y+ C-": the axes of `axes` whose side is known.
 std::string format_sides(const std::vector<Axis>& axes, const AxisSides& sides);
-
-/// AxisSample of each row: velocity and direction of travel by the contract's rules. Ballbar rows:
-/// central differences within the test, travel 0 where the axis stands or turns within rounding.
-/// Other rows: sign of the axis's last non-zero move. `since_reversal` counts from the turning
-/// point (of the parabola through the samples around it); before the first turn of a test it is
-/// beyond `no_reversal_seen`.
-std::vector<AxisSample> samples_of(const ReadingTable& table);
 
 }  // namespace trunnion

@@ -1,30 +1,13 @@
-// Velocity, direction of travel and distance since reversal, from positions and times alone.
-#include <cmath>
+#include "records/samples.h"
 
-#include "base/units.h"
-#include "records/readings.h"
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <map>
 
 namespace trunnion {
 namespace {
 
-/// Positions are written with six decimals (mm or deg): less movement than this is none.
-constexpr double rounding_mm = 1.5e-6;
-
-double rounding(Axis axis) {
-    return is_rotary(axis) ? rad_from_deg(rounding_mm) : rounding_mm;
-}
-
-signed char sign_of(double v, double tolerance) {
-    return v > tolerance ? 1 : v < -tolerance ? -1 : 0;
-}
-
 using Rows = std::vector<std::size_t>;  // of one test, in order
-
-std::map<std::string, Rows> rows_by_test(const ReadingTable& table) {
-    std::map<std::string, Rows> tests;
-    for (std::size_t i = 0; i < table.rows.size(); ++i) tests[table.rows[i].test].push_back(i);
-    return tests;
-}
 
 AxisSample sample_of(const Reading& row) {
     AxisSample sample;
@@ -39,99 +22,205 @@ AxisSample sample_of(const Reading& row) {
     return sample;
 }
 
-/// One axis of one test.
-class AxisHistory {
-  public:
-    AxisHistory(const ReadingTable& table, const Rows& rows, Axis axis,
-                std::vector<AxisSample>& samples)
-        : table_(table), rows_(rows), axis_(axis), samples_(samples) {}
+signed char sign_of(Axis axis, double moved) {
+    const double rounding = is_rotary(axis) ? rows_rounding.rad : rows_rounding.mm;
+    return moved > rounding ? 1 : moved < -rounding ? -1 : 0;
+}
 
-    void fill() {
-        fill_approach();
-        for (std::size_t k = 0; k < rows_.size(); ++k)
-            if (row(k).device == Device::ballbar) fill_velocity(k);
-        fill_since_reversal();
+Vector3 linear_position(const Reading& row) {
+    return {row.commanded[Axis::X], row.commanded[Axis::Y], row.commanded[Axis::Z]};
+}
+
+/// Rows of one test, as far as their differences are velocities.
+class Pass {
+  public:
+    Pass(std::span<const Reading> all, const Rows& rows) : all_(all), rows_(rows) {}
+
+    void fill(const std::vector<Axis>& axes, std::vector<AxisSample>& samples) const {
+        double path_mm = 0.0;
+        for (std::size_t k = 0; k < rows_.size(); ++k) {
+            AxisSample& sample = samples[rows_[k]];
+            if (k > 0) path_mm += arc_mm(k);
+            sample.path_mm = path_mm;
+            if (!is_continuous(row(k).device)) continue;
+            for (const Axis axis : axes) {
+                fill_velocity(k, axis, sample);
+                sample.acceleration[axis] = acceleration(k, axis);
+            }
+        }
     }
 
   private:
-    const Reading& row(std::size_t k) const { return table_.rows[rows_[k]]; }
-    double q(std::size_t k) const { return row(k).commanded[axis_]; }
-    AxisSample& sample(std::size_t k) { return samples_[rows_[k]]; }
-    signed char move(std::size_t k) const { return sign_of(q(k) - q(k - 1), rounding(axis_)); }
+    const Reading& row(std::size_t k) const { return all_[rows_[k]]; }
+    double q(std::size_t k, Axis axis) const { return row(k).commanded[axis]; }
 
-    void fill_approach() {
-        signed char last = 0;
-        for (std::size_t k = 1; k < rows_.size() && last == 0; ++k) last = move(k);
-        for (std::size_t k = 0; k < rows_.size(); ++k) {
-            if (k > 0 && move(k) != 0) last = move(k);
-            sample(k).travel[index_of(axis_)] = last;
-        }
-    }
-
-    void fill_velocity(std::size_t k) {
-        const std::size_t before = k == 0 ? k : k - 1;
-        const std::size_t after = k + 1 == rows_.size() ? k : k + 1;
+    void fill_velocity(std::size_t k, Axis axis, AxisSample& sample) const {
+        const std::size_t before = k == 0 ? k : k - 1, after = k + 1 == rows_.size() ? k : k + 1;
         const double time_s = row(after).time_s - row(before).time_s;
-        const double moved = q(after) - q(before);
-        const signed char sign =
-            time_s > 0.0 ? sign_of(moved, rounding(axis_)) : static_cast<signed char>(0);
-        sample(k).travel[index_of(axis_)] = sign;
-        sample(k).velocity[axis_] = sign == 0 ? 0.0 : moved / time_s;
+        const double moved = q(after, axis) - q(before, axis);
+        const signed char sign = time_s > 0.0 ? sign_of(axis, moved) : static_cast<signed char>(0);
+        const bool moves = sign_of(axis, q(after, axis) - q(k, axis)) != 0;
+        if (sign != 0 || moves) sample.travel[index_of(axis)] = sign;
+        if (sign != 0) sample.velocity[axis] = moved / time_s;
     }
 
-    /// Where the axis turned: vertex of the parabola through rows k-1, k, k+1 of a reversal at k.
-    double turning_point(std::size_t k) const {
-        if (k == 0 || k + 1 >= rows_.size()) return q(k);
-        const double a = q(k - 1) - q(k), b = q(k + 1) - q(k);
-        const double curvature = a + b;
-        if (curvature == 0.0) return q(k);
-        return q(k) - (b - a) * (b - a) / (8.0 * curvature);
+    /// Second derivative at row k, from up to five rows around it.
+    double acceleration(std::size_t k, Axis axis) const {
+        const std::size_t n = rows_.size();
+        if (n < 5) return 0.0;
+        const std::size_t first = k < 2 ? 0 : std::min(k - 2, n - 5);
+        Eigen::Matrix<double, 5, 3> a;
+        Eigen::Matrix<double, 5, 1> moved;
+        for (std::size_t j = 0; j < 5; ++j) {
+            const double t = row(first + j).time_s - row(k).time_s;
+            a.row(static_cast<Eigen::Index>(j)) << 1.0, t, 0.5 * t * t;
+            moved(static_cast<Eigen::Index>(j)) = q(first + j, axis) - q(k, axis);
+        }
+        if (moved.isZero(0.0)) return 0.0;
+        const Eigen::Matrix3d normal = a.transpose() * a;
+        const Vector3 fit = normal.ldlt().solve(a.transpose() * moved);
+        return std::isfinite(fit(2)) ? fit(2) : 0.0;
     }
 
-    /// An axis that starts at its turning point (a circle begun at a quadrant) moves three times as
-    /// far in the second step as in the first.
-    bool starts_at_turn() const {
-        if (rows_.size() < 3 || row(0).device != Device::ballbar) return false;
-        const double first = q(1) - q(0), second = q(2) - q(1);
-        return first * second > 0.0 && std::abs(first) < 0.5 * std::abs(second);
+    /// Length of the path from row k - 1 to row k: the arc through three rows, not the chord.
+    double arc_mm(std::size_t k) const {
+        const Vector3 a = linear_position(row(k - 1)), b = linear_position(row(k));
+        const double chord = (b - a).norm();
+        if (rows_.size() < 3) return chord;
+        const Vector3 c = linear_position(row(k + 1 < rows_.size() ? k + 1 : k - 2));
+        const double area = (b - a).cross(c - a).norm();
+        if (area < 1e-9) return chord;
+        const double radius = chord * (c - a).norm() * (c - b).norm() / (2.0 * area);
+        return chord < 1.4 * radius ? 2.0 * radius * std::asin(chord / (2.0 * radius)) : chord;
     }
 
-    void fill_since_reversal() {
-        double from = q(0);
-        bool at_start = starts_at_turn(), turned = at_start;
-        signed char direction = 0;
-        for (std::size_t k = 0; k < rows_.size(); ++k) {
-            const signed char step = k == 0 ? static_cast<signed char>(0) : move(k);
-            if (step != 0 && direction != 0 && step != direction) {
-                from = row(k).device == Device::ballbar ? turning_point(k - 1) : q(k - 1);
-                turned = true;
-                at_start = false;
-                if (sample(k - 1).travel[index_of(axis_)] == step) {  // it turned before that row
-                    sample(k - 1).since_reversal[index_of(axis_)] = std::abs(q(k - 1) - from);
-                    sample(k - 1).run_up_unknown[index_of(axis_)] = false;
-                }
-            }
-            if (step != 0) direction = step;
-            sample(k).since_reversal[index_of(axis_)] =
-                std::abs(q(k) - from) + (turned ? 0.0 : no_reversal_seen + 1.0);
-            sample(k).run_up_unknown[index_of(axis_)] = at_start;
+    std::span<const Reading> all_;
+    const Rows& rows_;
+};
+
+bool dense(const Reading& a, const Reading& b) {
+    return is_continuous(a.device) && is_continuous(b.device) && a.test == b.test;
+}
+
+/// Where each axis turned when it did so at row k: vertex of the parabola through its neighbours.
+AxisPositions turning_points(std::span<const Reading> rows, std::size_t k) {
+    AxisPositions at = rows[k].commanded;
+    for (std::size_t i = 0; i < axis_count; ++i) {
+        const double a = rows[k - 1].commanded.value[i] - at.value[i],
+                     b = rows[k + 1].commanded.value[i] - at.value[i];
+        if (a + b != 0.0) at.value[i] -= (b - a) * (b - a) / (8.0 * (a + b));
+    }
+    return at;
+}
+
+/// An axis that starts at its turning point (a circle begun at a quadrant) moves three times as far
+/// in the second step as in the first.
+void assume_turns(std::span<const Reading> rows, std::size_t k, TravelHistory& history) {
+    if (k + 2 >= rows.size() || !dense(rows[k], rows[k + 1]) || !dense(rows[k], rows[k + 2]))
+        return;
+    for (std::size_t i = 0; i < axis_count; ++i) {
+        const double first = rows[k + 1].commanded.value[i] - rows[k].commanded.value[i],
+                     second = rows[k + 2].commanded.value[i] - rows[k + 1].commanded.value[i];
+        if (first * second > 0.0 && std::abs(first) < 0.5 * std::abs(second))
+            history.assume_turned(i);
+    }
+}
+
+/// One row after the other through the history.
+class Walk {
+  public:
+    Walk(std::span<const Reading> rows, TravelHistory history)
+        : rows_(rows), history_(std::move(history)) {}
+
+    std::vector<AxisSample> samples() {
+        for (std::size_t k = 0; k < rows_.size(); ++k) step(k);
+        return std::move(samples_);
+    }
+
+  private:
+    void step(std::size_t k) {
+        const bool begins = k == 0 ? history_.begun() : way_unknown(rows_[k - 1], rows_[k]);
+        if (k > 1 && dense(rows_[k - 2], rows_[k - 1]) && dense(rows_[k - 1], rows_[k])) {
+            const AxisPositions turned_at = turning_points(rows_, k - 1);
+            history_.advance(rows_[k].commanded, &turned_at);
+            look_back(k, turned_at);
+        } else {
+            history_.advance(rows_[k].commanded);
+        }
+        if (begins) history_.begin_anew();
+        if (begins) assume_turns(rows_, k, history_);
+        samples_.push_back(sample_of(rows_[k]));
+        history_.describe(samples_.back());
+    }
+
+    /// An axis that turned before the last row: it did not go on to there.
+    void look_back(std::size_t k, const AxisPositions& turned_at) {
+        for (std::size_t i = 0; i < axis_count; ++i) {
+            const double from = rows_[k - 2].commanded.value[i], at = rows_[k].commanded.value[i];
+            if (!history_.just_turned(i) || (at - from) * history_.travel()[i] <= 0.0) continue;
+            samples_[k - 1].since_reversal[i] =
+                std::abs(rows_[k - 1].commanded.value[i] - turned_at.value[i]);
+            samples_[k - 1].run_up_unknown[i] = false;
         }
     }
 
-    const ReadingTable& table_;
-    const Rows& rows_;
-    Axis axis_;
-    std::vector<AxisSample>& samples_;
+    std::span<const Reading> rows_;
+    TravelHistory history_;
+    std::vector<AxisSample> samples_;
 };
+
+/// Rows from `begin` on that share a session.
+std::size_t session_end(const std::vector<Reading>& rows, std::size_t begin) {
+    std::size_t end = begin;
+    while (end < rows.size() && rows[end].part == rows[begin].part &&
+           rows[end].session == rows[begin].session)
+        ++end;
+    return end;
+}
+
+/// Sides before the first row: what the head of its file says, for its first session.
+AxisSides sides_before(const ReadingTable& table, std::size_t begin) {
+    if (begin == 0) return table.side_before;
+    const auto known = table.part_sides.find(table.rows[begin].part);
+    const bool first = table.rows[begin - 1].part != table.rows[begin].part;
+    return first && known != table.part_sides.end() ? known->second : AxisSides{};
+}
 
 }  // namespace
 
+bool is_continuous(Device device) {
+    return device == Device::ballbar;
+}
+
+bool way_unknown(const Reading& from, const Reading& to) {
+    return from.device != Device::none && from.test != to.test;
+}
+
+std::vector<AxisSample> samples_of(std::span<const Reading> rows, const std::vector<Axis>& axes,
+                                   TravelHistory history) {
+    std::vector<AxisSample> samples = Walk(rows, std::move(history)).samples();
+    for (AxisSample& sample : samples)
+        for (const Axis axis : axes)
+            sample.side_unknown[index_of(axis)] = sample.travel[index_of(axis)] == 0;
+    std::map<std::string, Rows> tests;
+    for (std::size_t k = 0; k < rows.size(); ++k) tests[rows[k].test].push_back(k);
+    for (const auto& [test, list] : tests) Pass(rows, list).fill(axes, samples);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        for (const Axis axis : axes)
+            if (samples[k].velocity[axis] != 0.0) samples[k].side_unknown[index_of(axis)] = false;
+    return samples;
+}
+
 std::vector<AxisSample> samples_of(const ReadingTable& table) {
     std::vector<AxisSample> samples;
-    samples.reserve(table.rows.size());
-    for (const Reading& row : table.rows) samples.push_back(sample_of(row));
-    for (const auto& [test, rows] : rows_by_test(table))
-        for (const Axis axis : table.axes) AxisHistory(table, rows, axis, samples).fill();
+    const std::span<const Reading> rows(table.rows);
+    for (std::size_t begin = 0; begin < rows.size();) {
+        const std::size_t end = session_end(table.rows, begin);
+        const TravelHistory history(sides_before(table, begin), rows_rounding);
+        const auto part = samples_of(rows.subspan(begin, end - begin), table.axes, history);
+        samples.insert(samples.end(), part.begin(), part.end());
+        begin = end;
+    }
     return samples;
 }
 

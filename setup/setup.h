@@ -26,7 +26,6 @@ struct ProbeSettings {
     Vector3 tip_S_mm = Vector3(0, 0, -150);  ///< physical stylus ball centre in S
     double ball_diameter_mm = 6.0;
     double repeatability_um = 0.0;
-    double pretravel_um = 0.0;
     ExtensionErrors extension_errors;
     Vector3 tip_with(double extension_mm) const;  ///< stylus ball centre with a longer stylus
 };
@@ -93,6 +92,7 @@ struct ModelSettings {
     std::map<std::string, double> noise_um;               ///< by device name, of rows in mm
     std::map<std::string, double> noise_urad;             ///< the same of rows in degrees
     std::map<std::string, CalibrationPrior> calibration;  ///< by ISO 230 name
+    bool allow_large = false;  ///< --allow-large: residuals that no machine has are told, not refused
 };
 
 /// +1 for every axis.
@@ -109,7 +109,7 @@ struct Setup {
     Machine machine;
     AxisSides side_before = came_travelling_plus();  ///< [machine] side: before the first move
     std::array<bool, axis_count> scale_encoder{};  ///< encoder = "scale": reads behind the backlash
-    std::vector<EffectSetting> effects;
+    std::vector<EffectSetting> effects;  ///< backlash and pretravel keys too
     Dialect dialect;
     TcpFrame tcp_frame = TcpFrame::start;    ///< [control] tcp_frame = "start" or "rotary_zero"
     bool work_positions_with_length = true;  ///< #5041.. and #5061.. include the tool length

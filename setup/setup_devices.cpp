@@ -1,5 +1,6 @@
 // [probe], [ballbar], [model] and [effects] of a setup file.
 #include "setup/artefact_keys.h"
+#include "base/units.h"
 #include "setup/setup_reader.h"
 
 namespace trunnion {
@@ -28,7 +29,9 @@ void read_probe(const TomlFile& file, const TomlValue& table, Setup& setup) {
     if (const TomlValue* ball = table.find("ball_diameter_mm"))
         probe.ball_diameter_mm = file.positive(*ball);
     probe.repeatability_um = file.find_number(table, "repeatability_um").value_or(0.0);
-    probe.pretravel_um = file.find_number(table, "pretravel_um").value_or(0.0);
+    if (const TomlValue* pretravel = table.find("pretravel_um"))
+        add_effect_key(file, *pretravel, "probe.radius", "radius_mm",
+                       -mm_from_um(file.number(*pretravel)), setup);
     probe.extension_errors = read_extensions(file, table);
     setup.probe = probe;
 }

@@ -58,7 +58,7 @@ std::string curve_text(const ErrorCurve& curve, bool rotary) {
     return "{ " + out + " }";
 }
 
-std::string axis_text(const AxisGeometry& axis, double backlash) {
+std::string axis_text(const AxisGeometry& axis) {
     std::string out = std::string("\n[machine.axis.") + letter_of(axis.axis) + "]\n";
     out += "direction = " + toml_numbers(axis.direction) + '\n';
     if (axis.rotary) out += "point_mm = " + toml_numbers(axis.point_mm) + '\n';
@@ -71,9 +71,6 @@ std::string axis_text(const AxisGeometry& axis, double backlash) {
     if (axis.max_acceleration)
         out += std::string(axis.rotary ? "accel_deg_s2" : "accel_mm_s2") + " = " +
                position(axis.rotary, *axis.max_acceleration) + '\n';
-    if (backlash != 0.0)
-        out += std::string(axis.rotary ? "backlash_rad" : "backlash_mm") + " = " +
-               shortest(backlash) + '\n';
     return out;
 }
 
@@ -122,7 +119,7 @@ std::string machine_text(const Setup& setup) {
     std::string errors;
     for (const AxisGeometry& axis : setup.machine.chain.axes()) {
         const AxisErrors& own = setup.machine.errors.axis[index_of(axis.axis)];
-        out += axis_text(axis, own.backlash);
+        out += axis_text(axis);
         if (setup.scale_encoder[index_of(axis.axis)]) out += "encoder = \"scale\"\n";
         errors += axis_error_text(axis, own);
     }
@@ -250,7 +247,7 @@ std::string probe_text(const ProbeSettings& probe) {
     return out + "tip_mm = " + toml_numbers(probe.tip_S_mm) +
            "\nball_diameter_mm = " + shortest(probe.ball_diameter_mm) +
            "\nrepeatability_um = " + shortest(probe.repeatability_um) +
-           "\npretravel_um = " + shortest(probe.pretravel_um) + '\n' +
+           '\n' +
            extensions_text(probe.extension_errors);
 }
 

@@ -30,8 +30,7 @@ void read_dynamics(const TomlFile& file, const TomlValue& table, AxisGeometry& a
         axis.max_acceleration = from_file(axis.rotary, file.positive(*most));
 }
 
-void read_axis(const TomlFile& file, const TomlValue& table, AxisGeometry& axis,
-               AxisErrors& errors) {
+void read_axis(const TomlFile& file, const TomlValue& table, AxisGeometry& axis, Setup& setup) {
     if (const TomlValue* direction = table.find("direction")) {
         const Vector3 v = file.vector3(*direction);
         if (v.norm() < 1e-9) file.fail(*direction, "a direction is not the zero vector");
@@ -46,8 +45,9 @@ void read_axis(const TomlFile& file, const TomlValue& table, AxisGeometry& axis,
     }
     read_limits(file, table, axis);
     read_dynamics(file, table, axis);
-    if (const auto gap = file.find_number(table, axis.rotary ? "backlash_rad" : "backlash_mm"))
-        errors.backlash = *gap;
+    if (const TomlValue* gap = table.find(axis.rotary ? "backlash_rad" : "backlash_mm"))
+        add_effect_key(file, *gap, letter_of(axis.axis) + std::string(".backlash"),
+                       axis.rotary ? "gap_rad" : "gap_mm", file.number(*gap), setup);
 }
 
 AxisGeometry* find_axis(Chain& chain, std::string_view letter) {
@@ -84,7 +84,7 @@ void read_axes(const TomlFile& file, const TomlValue& axes, Setup& setup) {
         AxisGeometry* axis = find_axis(setup.machine.chain, letter);
         if (!axis) file.fail(value, "axis " + letter + " does not stand in the chain");
         const std::size_t k = index_of(axis->axis);
-        read_axis(file, file.table(value), *axis, setup.machine.errors.axis[k]);
+        read_axis(file, file.table(value), *axis, setup);
         setup.scale_encoder[k] = read_scale_encoder(file, value);
     }
 }
@@ -173,6 +173,14 @@ ErrorCurve read_curve(const TomlFile& file, const TomlValue& value, bool rotary)
 }
 
 }  // namespace
+
+void add_effect_key(const TomlFile& file, const TomlValue& place, const std::string& effect,
+                    const std::string& parameter, double value, Setup& setup) {
+    const TomlValue* effects = file.root().find("effects");
+    if (effects && effects->find(effect))
+        file.fail(place, "this is " + effect + ", which [effects] gives too: say it once");
+    if (value != 0.0) setup.effects.push_back({effect, {{parameter, {value}}}});
+}
 
 void read_machine(const TomlFile& file, const TomlValue& machine, Setup& setup) {
     if (const TomlValue* name = machine.find("name")) setup.name = file.text(*name);

@@ -10,6 +10,10 @@
 namespace trunnion {
 
 void read_machine(const TomlFile& file, const TomlValue& machine, Setup& setup);
+/// A key that is another name of an effect's parameter: backlash, pretravel. Refused at `place`
+/// when the effect stands already.
+void add_effect_key(const TomlFile& file, const TomlValue& place, const std::string& effect,
+                    const std::string& parameter, double value, Setup& setup);
 void read_machine_errors(const TomlFile& file, const TomlValue& errors, Setup& setup);
 void read_control(const TomlFile& file, const TomlValue& control, const BackupReader& backup,
                   Setup& setup);

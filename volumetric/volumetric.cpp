@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "emulator/physical_machine.h"
+#include "emulator/tool_tip.h"
 #include "base/units.h"
 #include "kinematics/jacobian.h"
 
@@ -101,12 +101,12 @@ class Mapper {
         : setup_(setup),
           nominal_(setup.machine),
           named_(errors_present(setup.machine)),
-          whole_(setup.machine, effects),
+          whole_(setup, effects),
           tip_S_mm_(0, 0, -length_mm) {
         tool_.tip = tool_.stylus = true;
         nominal_.errors = {};
         for (const auto& effect : effects)
-            alone_.push_back(std::make_unique<PhysicalMachine>(nominal_, EffectModels{effect}));
+            alone_.push_back(std::make_unique<Observer>(setup, nominal_, EffectModels{effect}));
     }
 
     std::vector<std::string> names(const std::vector<std::string>& effect_names) const {
@@ -149,8 +149,8 @@ class Mapper {
     const Setup& setup_;
     Machine nominal_;
     std::vector<NamedError> named_;
-    PhysicalMachine whole_;
-    std::vector<std::unique_ptr<PhysicalMachine>> alone_;
+    Observer whole_;
+    std::vector<std::unique_ptr<Observer>> alone_;
     Vector3 tip_S_mm_;
     Contact tool_;  ///< what effects of the tool act on
 };

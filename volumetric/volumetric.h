@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "emulator/replay.h"
+#include "emulator/effect_model.h"
 #include "setup/setup.h"
 
 namespace trunnion {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "records/samples.h"
 
 namespace trunnion {
 

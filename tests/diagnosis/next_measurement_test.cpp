@@ -9,6 +9,7 @@
 #include "identification/identify.h"
 #include "interpreter/program_folders.h"
 #include "tests/support/campaign.h"
+#include "records/samples.h"
 
 namespace trunnion {
 namespace {

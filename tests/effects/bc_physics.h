@@ -47,7 +47,7 @@ inline Vector3 about_z(const Vector3& v, double word) {
 }
 
 inline const Vector3 point_b(12, -8, 20), point_c(12, -8, 65), stylus(0, 0, -150), cup(0, 0, -120);
-constexpr double bar_mm = 100.0, reach_mm = 0.5 * (25.4 + 6.0);
+constexpr double bar_mm = 100.0, touching_mm = 0.5 * (25.4 + 6.0);
 
 inline Vector3 artefact(const std::string& name) {
     return name == "S1"   ? Vector3(142, -8, 155)
@@ -74,7 +74,7 @@ inline double reading(const Seen& s, const Wrong& w) {
     const Vector3& d = s.row->direction_M;
     if (s.row->device == Device::sphere) return d.dot(apart) + w.reading;
     const double along = d.dot(apart);
-    return along - std::sqrt(along * along - apart.squaredNorm() + reach_mm * reach_mm) + w.reading;
+    return along - std::sqrt(along * along - apart.squaredNorm() + touching_mm * touching_mm) + w.reading;
 }
 
 inline double sign(double v) {
@@ -114,10 +114,10 @@ struct Physics {
             row.commanded[Axis::B] = 0.1 * k;
             row.commanded[Axis::C] = 0.5 * k;
             const Vector3 out(std::cos(angle * k) * 0.8, std::sin(angle * k) * 0.8, 0.6);
-            for (const double distance : {reach_mm + 8.0, reach_mm - 1.5}) {
+            for (const double distance : {touching_mm + 8.0, touching_mm - 1.5}) {
                 campaign::aim(row, setup, artefact("S1"), stylus - distance * out);
                 row.time_s = time_s += 3.0;
-                row.device = distance > reach_mm ? Device::none : Device::touch;
+                row.device = distance > touching_mm ? Device::none : Device::touch;
                 row.direction_M = -out;
                 table.rows.push_back(row);
             }
@@ -126,14 +126,11 @@ struct Physics {
 
     double word(std::size_t i, Axis axis) const { return table.rows[i].commanded[axis]; }
 
-    /// Sign of the last move of an axis in the test, or of the first one to come.
+    /// Sign of the last move of an axis; + before its first one.
     double approach(std::size_t i, Axis axis) const {
-        const auto same = [&](std::size_t k) { return table.rows[k].test == table.rows[i].test; };
-        for (std::size_t k = i; k > 0 && same(k - 1); --k)
+        for (std::size_t k = i; k > 0; --k)
             if (const double s = sign(word(k, axis) - word(k - 1, axis)); s != 0.0) return s;
-        for (std::size_t k = i + 1; k < table.rows.size() && same(k); ++k)
-            if (const double s = sign(word(k, axis) - word(k - 1, axis)); s != 0.0) return s;
-        return 0.0;
+        return 1.0;
     }
 
     Seen look(std::size_t i) const {
@@ -142,14 +139,12 @@ struct Physics {
         s.at = Vector3(word(i, Axis::X), word(i, Axis::Y), word(i, Axis::Z));
         s.b = word(i, Axis::B);
         s.c = word(i, Axis::C);
-        if (s.row->device != Device::ballbar) {
-            s.travel_b = approach(i, Axis::B);
-            s.travel_c = approach(i, Axis::C);
-            if (s.row->device == Device::touch)
-                s.travel = {approach(i, Axis::X), approach(i, Axis::Y), approach(i, Axis::Z)};
-            return s;
-        }
-        planar(i, s);
+        s.travel_b = approach(i, Axis::B);
+        s.travel_c = approach(i, Axis::C);
+        if (s.row->device != Device::sphere)
+            s.travel = {approach(i, Axis::X), approach(i, Axis::Y), approach(i, Axis::Z)};
+        if (s.row->device == Device::touch) s.at += reading(s, {}) * s.row->direction_M;
+        if (s.row->device == Device::ballbar) planar(i, s);
         return s;
     }
 
@@ -168,7 +163,7 @@ struct Physics {
         s.velocity(p) = -bar(q) * sense * speed;
         s.velocity(q) = bar(p) * sense * speed;
         s.acceleration = -bar * speed * speed / bar_mm;
-        for (int d = 0; d < 3; ++d)
+        for (const int d : {p, q})  // the third axis stands and keeps its side
             s.travel(d) = std::abs(s.velocity(d)) > 0.03 * speed ? sign(s.velocity(d)) : 0;
         s.path = angle * bar_mm;
         // X turns where the bar lies along X; a pass that begins there begins with the turn.

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/effects/bc_physics.h"
+#include "records/samples.h"
 
 namespace trunnion {
 
@@ -86,7 +87,7 @@ TEST_CASE("time constants, pitches and decays at their limits", "[effects]") {
             sample.velocity[Axis::Y] = -speed * std::sin(angle);
             Contact contact;
             contact.device = Device::ballbar;
-            contact.acceleration[Axis::Y] = -std::cos(angle);
+            sample.acceleration[Axis::Y] = -std::cos(angle);
             Perturbation out;
             spike.add(sample, contact, std::vector<double>{0.006, 2.0, 0.0, 1.0}, out);
             CHECK(out.axis[Axis::Y] == Approx(0.006 * std::exp(-angle / 0.02)).margin(1e-15));

@@ -3,6 +3,7 @@
 
 #include "identification/base_model.h"
 #include "tests/support/campaign.h"
+#include "records/samples.h"
 
 namespace trunnion {
 namespace {

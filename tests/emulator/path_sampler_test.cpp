@@ -4,7 +4,7 @@
 
 #include "base/random.h"
 #include "base/units.h"
-#include "records/readings.h"
+#include "emulator/follow_move.h"
 
 using namespace trunnion;
 
@@ -20,7 +20,7 @@ AxisMove line(MotionKind kind, double x_mm) {
 }
 
 double velocity(const AxisMove& move, double s) {
-    const AxisTracker tracker;
+    const TravelHistory tracker;
     return PathSampler{move, tracker}.at(s).velocity[Axis::X];
 }
 
@@ -50,12 +50,13 @@ TEST_CASE("axes stand where positioning, G31 and exact stops end: nothing lags t
 }
 
 TEST_CASE("the smallest step tells a direction, rounding does not") {
-    const AxisTracker tracker;
+    const TravelHistory tracker;
     CHECK(PathSampler{line(MotionKind::linear, 1e-7), tracker}.at(1.0).travel[0] == 1);
     CHECK(PathSampler{line(MotionKind::linear, -1e-7), tracker}.at(1.0).travel[0] == -1);
     CHECK(PathSampler{line(MotionKind::linear, 1e-13), tracker}.at(1.0).travel[0] == 0);
-    AxisTracker axes;
+    TravelHistory axes;
     AxisPositions q;
+    axes.place(q);
     q[Axis::X] = 1.0;
     axes.advance(q);
     q[Axis::X] = 1.0 - 1e-13;
@@ -64,11 +65,11 @@ TEST_CASE("the smallest step tells a direction, rounding does not") {
 }
 
 TEST_CASE("a full circle leaves the axes with the travel of its end") {
-    AxisTracker tracker;
+    TravelHistory tracker;
     AxisPositions start;
     start[Axis::X] = 60.0;
     tracker.place(start);
-    tracker.follow(full_circle(60.0));
+    follow(tracker, full_circle(60.0));
     CHECK(tracker.travel()[0] == 1);  // from the quadrant at Y -60 back to X +60
     CHECK(tracker.travel()[1] == 1);
     AxisSample sample;
@@ -99,9 +100,9 @@ TEST_CASE("on arcs the axes turn where small steps show it") {
             move.to.value[i] = to[static_cast<Eigen::Index>(i)];
         }
         move.arc = ArcPath{centre, normal, turns_of(sweep_rad), sweep_rad};
-        AxisTracker at_once, in_steps;
-        for (AxisTracker* tracker : {&at_once, &in_steps}) tracker->place(move.from);
-        at_once.follow(move);
+        TravelHistory at_once, in_steps;
+        for (TravelHistory* tracker : {&at_once, &in_steps}) tracker->place(move.from);
+        follow(at_once, move);
         for (int s = 1; s <= 20000; ++s) in_steps.advance(move.at(s / 20000.0));
         AxisSample is, should;
         at_once.describe(is);

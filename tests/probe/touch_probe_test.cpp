@@ -62,18 +62,28 @@ TEST_CASE("in contact at the start, and no motion at all") {
     CHECK_FALSE(first_contact([](double) { return Vector3(3, 0, 0); }, 2.0));
 }
 
-TEST_CASE("pretravel moves the latch on along the path") {
-    const auto path = [](double t) { return Vector3(50 - 40 * t, 3, 0); };
-    const double s = first_contact(path, 15.0).value();
-    CHECK((path(s) - path(latch(path, s, 0.01).value())).norm() == Approx(0.01).epsilon(1e-9));
-    CHECK_FALSE(latch(path, s, 100.0));
-    CHECK(latch(path, s, -100.0).value() == 0.0);
+TEST_CASE("the way to a sphere in closed form is that of the search along the path") {
+    SeededNoise noise(5);
+    int met = 0;
+    for (int i = 0; i < 300; ++i) {
+        const Vector3 from(60 + 10 * noise.normal(), 8 * noise.normal(), 8 * noise.normal());
+        const WayToSphere way = way_to_sphere(from, -Vector3::UnitX(), 15.7);
+        const auto s =
+            first_contact([&](double t) { return from - 100 * t * Vector3::UnitX(); }, 15.7);
+        REQUIRE(way.meets == s.has_value());
+        if (!s) continue;
+        CHECK(std::abs(way.way_mm - 100.0 * *s) < 1e-9);
+        ++met;
+    }
+    CHECK(met > 100);
+    CHECK_FALSE(way_to_sphere(Vector3(50, 20, 0), -Vector3::UnitX(), 15.7).meets);
+    CHECK(way_to_sphere(Vector3(50, 20, 0), -Vector3::UnitX(), 15.7).way_mm == 50.0);
 }
 
 TEST_CASE("the separation comes from the physical machine") {
     Machine machine;
     machine.chain = parse_chain("w C b X Y Z t");
-    const TouchProbe probe{Vector3(0, 0, -150), 6.0, 0.0};
+    const TouchProbe probe{Vector3(0, 0, -150), 6.0};
     const SphereTarget sphere{Vector3(100, 0, 50), 25.4};
     AxisPositions q;
     q[Axis::Z] = 200;

@@ -8,6 +8,7 @@
 #include "base/alarm.h"
 #include "base/numbers.h"
 #include "base/units.h"
+#include "records/samples.h"
 
 using namespace trunnion;
 
@@ -233,20 +234,39 @@ TEST_CASE("sphere and touch rows: last non-zero move, device-less rows included"
                                     "0,0,m,,sphere,S,0,5,1,0,0,0\n"  // before the first move of b
                                     "1,1,m,,,S,10,5,,,,\n"
                                     "2,2,m,,sphere,S,10,0,1,0,0,0\n"
-                                    "3,3,n,,sphere,S,-7,3,1,0,0,0\n"  // another test: not a move
+                                    "3,3,n,,sphere,S,-7,3,1,0,0,0\n"  // another test: a move too
                                     "4,4,m,,,S,10,-6,,,,\n"
                                     "5,5,m,,touch,S,9,2,1,0,0,0\n");
     const auto samples = samples_of(table);
     const auto travel = [&](int i, Axis axis) {
         return int(samples[std::size_t(i)].travel[index_of(axis)]);
     };
-    CHECK(travel(0, Axis::X) == 1);
-    CHECK(travel(0, Axis::B) == -1);
+    CHECK(travel(0, Axis::X) == 0);
+    CHECK(samples[0].side_unknown[index_of(Axis::B)]);
+    CHECK(samples[1].side_unknown[index_of(Axis::B)]);
+    CHECK_FALSE(samples[1].side_unknown[index_of(Axis::X)]);
     CHECK(travel(2, Axis::X) == 1);
     CHECK(travel(2, Axis::B) == -1);
-    CHECK(travel(3, Axis::X) == 0);
+    CHECK(travel(3, Axis::X) == -1);
     CHECK(travel(5, Axis::X) == -1);
     CHECK(travel(5, Axis::B) == 1);
-    CHECK(samples[5].since_reversal[index_of(Axis::B)] == Approx(rad_from_deg(8)));
+    CHECK(samples[4].since_reversal[index_of(Axis::B)] > no_reversal_seen);  // n to m: untold
     CHECK(samples[5].velocity[Axis::X] == 0.0);
+}
+
+TEST_CASE("the head line tells sides before the first motion of the first session") {
+    const std::string columns = "index,time_s,test,device,feature,x_mm,c_deg,session,value_mm\n";
+    const auto samples = samples_of(read("# side = C-\n" + columns +
+                                         "0,0,m,ballbar,P,0,5,,0\n"
+                                         "1,1,n,ballbar,P,3,5,,0\n"
+                                         "2,2,n,ballbar,P,3,5,late,0\n"
+                                         "3,3,n,ballbar,P,3,6,late,0\n"));
+    const auto c = [&](std::size_t i) { return int(samples[i].travel[index_of(Axis::C)]); };
+    CHECK(c(0) == -1);
+    CHECK(c(1) == -1);  // stands, in another test too
+    CHECK(samples[0].side_unknown[index_of(Axis::X)]);
+    CHECK(samples[1].travel[index_of(Axis::X)] == 1);
+    CHECK(c(2) == 1);  // its own velocity, one-sided
+    CHECK(samples[2].side_unknown[index_of(Axis::X)]);
+    CHECK(c(3) == 1);
 }

@@ -138,9 +138,11 @@ TEST_CASE("every key of the contract arrives") {
     CHECK(s.machine.errors.spindle.location[3] == 1e-5);
     CHECK(s.machine.errors.spindle.motion[0](pi / 2) == Approx(0.004));
     CHECK(s.machine.errors.spindle.motion[2](1.0) == 0.004);
-    REQUIRE(s.effects.size() == 2);
-    CHECK(s.effects[0].name == "C.backlash");
-    CHECK(s.effects[1].parameters.at("dg_mm") == std::vector<double>{0.1, 0.2, 0.3});
+    REQUIRE(s.effects.size() == 3);
+    CHECK(s.effects[0].name == "probe.radius");  // pretravel_um = 3
+    CHECK(s.effects[0].parameters.at("radius_mm") == std::vector<double>{-0.003});
+    CHECK(s.effects[1].name == "C.backlash");
+    CHECK(s.effects[2].parameters.at("dg_mm") == std::vector<double>{0.1, 0.2, 0.3});
     CHECK(s.dialect.family == DialectFamily::hurco);
     CHECK(s.stores.work.standard[0][Axis::Z] == -250.5);
     CHECK(s.stores.work.standard[0][Axis::B] == 30);
@@ -155,7 +157,6 @@ TEST_CASE("every key of the contract arrives") {
     CHECK(s.stores.tools.tool[1].radius_mm() == 3);
     CHECK(s.stores.variables.at(500) == 3.5);
     CHECK(s.stores.signals.at(1000) == 1);
-    CHECK(s.probe->pretravel_um == 3);
     CHECK(s.ballbar->free_length);
     CHECK(s.ballbar->sample_hz == 250);
     REQUIRE(s.find_artefact("P1"));
@@ -305,4 +306,23 @@ TEST_CASE("a backup is read before the file's own keys") {
     CHECK(folder == "dir/b");
     CHECK(s.stores.parameters.get(19700) == 4);
     CHECK(s.stores.parameters.get(3410) == 0.02);
+}
+
+TEST_CASE("keys for backlash and pretravel are effects") {
+    const std::string head =
+        "[machine]\nchain = \"w C b X Y Z t\"\nside = { C = \"-\" }\n"
+        "[machine.axis.C]\npoint_mm = [0, 0, 0]\nbacklash_rad = 2e-5\n"
+        "[machine.axis.X]\nbacklash_mm = 0.004\n[probe]\npretravel_um = 5\n";
+    const Setup s = read(head);
+    REQUIRE(s.effects.size() == 3);
+    CHECK(s.side_before[index_of(Axis::C)] == -1);
+    CHECK(s.side_before[index_of(Axis::X)] == 1);
+    const std::string text = format_setup(s);
+    CHECK_THAT(text, Catch::Contains("\"C.backlash\" = { gap_rad = 2e-05 }") &&
+                         Catch::Contains("\"X.backlash\" = { gap_mm = 0.004 }") &&
+                         Catch::Contains("\"probe.radius\" = { radius_mm = -0.005 }") &&
+                         Catch::Contains("side = { C = \"-\" }"));
+    CHECK(format_setup(read(text)) == text);
+    check_fault(head + "[effects]\n\"X.backlash\" = { gap_mm = 0.001 }\n", "say it once", 8);
+    check_fault(head + "[effects]\n\"probe.radius\" = { delay_s = 1 }\n", "say it once", 10);
 }

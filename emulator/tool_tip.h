@@ -1,29 +1,10 @@
-// The machine as it stands in the shop: geometry with its errors, backlash and effects.
+// The physical tip of the tool in the spindle, whatever the control believes.
 #pragma once
 
-#include "emulator/replay.h"
-#include "kinematics/forward.h"
+#include "emulator/observer.h"
 #include "motion/motion.h"
 
 namespace trunnion {
-
-/// Where the bodies and the device are at one sample.
-struct PhysicalState {
-    MachinePose poses;
-    Perturbation extra;  ///< what effects add: the device reads tip, work and reading shifts here
-};
-
-class PhysicalMachine {
-  public:
-    PhysicalMachine(const Machine& machine, EffectModels effects);
-
-    PhysicalState at(const AxisSample& sample, const Contact& contact) const;
-
-  private:
-    ForwardModel model_;
-    std::array<double, axis_count> half_backlash_{};
-    EffectModels effects_;
-};
 
 /// The physical tip in S during a move: the stylus when the setup's probe is in the spindle, else
 /// tool T, as long as offset T of the setup says, whatever H is in force. A tool that the setup

@@ -1,0 +1,114 @@
+#include "emulator/instruments.h"
+
+#include "ballbar/ballbar.h"
+
+namespace trunnion {
+namespace {
+
+Vector3 shift_of(const ExtensionErrors& errors, const Contact& contact) {
+    const auto it = errors.find(contact.extension_mm);
+    return it == errors.end() ? Vector3(Vector3::Zero()) : it->second;
+}
+
+Vector3 center_W_mm(const InstrumentView& view) {
+    const auto k = static_cast<std::size_t>(view.contact.artefact);
+    Vector3 center = view.setup.artefacts[k].center_W_mm + view.state.extra.work_shift_mm;
+    if (k < view.offsets.artefact_W.size()) center += view.offsets.artefact_W[k];
+    return center;
+}
+
+TouchProbe probe_of(const InstrumentView& view) {
+    const ProbeSettings& probe = *view.setup.probe;
+    return {probe.tip_with(view.contact.extension_mm) +
+                shift_of(view.offsets.stylus_S, view.contact) + view.state.extra.tip_shift_mm,
+            probe.ball_diameter_mm};
+}
+
+SphereTarget sphere_of(const InstrumentView& view) {
+    const auto k = static_cast<std::size_t>(view.contact.artefact);
+    return {center_W_mm(view), view.setup.artefacts[k].diameter_mm};
+}
+
+double sphere_mm(const InstrumentView& view) {
+    return -centre_to_tip_M(view).dot(view.contact.direction_M) + view.state.extra.reading_mm;
+}
+
+double touch_mm(const InstrumentView& view) {
+    return view.contact.along_mm + way_to_contact(view).way_mm + view.state.extra.reading_mm;
+}
+
+double ballbar_mm(const InstrumentView& view) {
+    const BallbarSettings& bar = *view.setup.ballbar;
+    const Vector3 cup_S_mm = bar.cup_with(view.contact.extension_mm) + view.offsets.cup_S +
+                             shift_of(view.offsets.long_cup_S, view.contact) +
+                             view.state.extra.tip_shift_mm;
+    const Ballbar mounted{cup_S_mm, center_W_mm(view), bar.warm_length_mm() + view.offsets.length};
+    return length_deviation_mm(view.state.poses, mounted) + view.state.extra.reading_mm;
+}
+
+/// One device: what it reads, on which kind of artefact, and what the setup must have for it.
+struct DeviceEntry {
+    Device device;
+    double (*read)(const InstrumentView&);
+    Artefact::Kind target;
+    bool (*mounted)(const Setup&);
+    const char* missing;
+};
+
+constexpr DeviceEntry devices[] = {
+    {Device::sphere, sphere_mm, Artefact::Kind::sphere,
+     [](const Setup& s) { return s.probe.has_value(); }, "a probe row, but no [probe]"},
+    {Device::touch, touch_mm, Artefact::Kind::sphere,
+     [](const Setup& s) { return s.probe.has_value(); }, "a probe row, but no [probe]"},
+    {Device::ballbar, ballbar_mm, Artefact::Kind::center_pivot,
+     [](const Setup& s) { return s.ballbar.has_value(); }, "a ballbar row, but no [ballbar]"},
+};
+
+const DeviceEntry& entry_of(Device device) {
+    for (const DeviceEntry& entry : devices)
+        if (entry.device == device) return entry;
+    throw InputError("no prediction for device '" + std::string(name_of(device)) + "'");
+}
+
+int artefact_index(const Setup& setup, const std::string& name) {
+    for (std::size_t k = 0; k < setup.artefacts.size(); ++k)
+        if (setup.artefacts[k].name == name) return static_cast<int>(k);
+    throw InputError("the setup has no artefact named '" + name + "'");
+}
+
+}  // namespace
+
+double reading_mm(const InstrumentView& view) {
+    return entry_of(view.contact.device).read(view);
+}
+
+Vector3 centre_to_tip_M(const InstrumentView& view) {
+    return centre_to_tip_M(view.state.poses, probe_of(view), sphere_of(view));
+}
+
+WayToSphere way_to_contact(const InstrumentView& view) {
+    return way_to_sphere(centre_to_tip_M(view), view.contact.direction_M,
+                         reach_mm(probe_of(view), sphere_of(view)));
+}
+
+Contact contact_of(const Setup& setup, const MachinePose& nominal, const Reading& row) {
+    const DeviceEntry& entry = entry_of(row.device);
+    if (!entry.mounted(setup))
+        throw InputError(std::string(entry.missing) + " in the setup");
+    Contact contact;
+    contact.device = row.device;
+    contact.artefact = artefact_index(setup, row.feature);
+    contact.extension_mm = row.extension_mm;
+    contact.direction_M = row.direction_M;
+    const Artefact& artefact = setup.artefacts[static_cast<std::size_t>(contact.artefact)];
+    if (artefact.kind != entry.target && entry.target == Artefact::Kind::sphere)
+        throw InputError("a probe row on '" + artefact.name + "', which is no sphere");
+    if (row.device == Device::ballbar)
+        contact.direction_M = cup_to_pivot_M(nominal, {setup.ballbar->cup_with(row.extension_mm),
+                                                       artefact.center_W_mm})
+                                  .normalized();
+    contact.direction_W = nominal.pose_MW.rotation.transpose() * contact.direction_M;
+    return contact;
+}
+
+}  // namespace trunnion
