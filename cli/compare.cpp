@@ -26,14 +26,14 @@ namespace trunnion {
 namespace {
 
 struct CompareCommand {
-    std::string a, b, suite, setup, setup_b, by, format = "text", shard, reason, out = "-";
+    std::string a, b, suite, setup, setup_b, by, call, format = "text", shard, reason, out = "-";
     std::vector<std::string> program_folders;
     double tol_lin_mm = Tolerances{}.position_mm;
     double tol_ang_deg = deg_from_rad(Tolerances{}.direction_rad);
     double tol_feed = Tolerances{}.feed_ratio, tol_time = Tolerances{}.time_ratio;
     unsigned threads = 0;
     std::uint64_t max_blocks = 100'000'000;  ///< an endless loop ends here, exit code 4
-    bool json = false, update = false;
+    bool json = false, update = false, devices = false;
 };
 
 void put(const std::string& path, std::string text) {
@@ -55,10 +55,13 @@ SuiteCase case_of(const CompareCommand& c) {
     like.options.tolerances.time_ratio = c.tol_time;
     like.options.program_folders = c.program_folders;
     like.options.max_blocks = c.max_blocks;
+    like.options.call = c.call;
+    like.options.devices = c.devices;
     if (c.by.empty()) return like;
     const auto layer = std::find(layer_names.begin(), layer_names.end(), c.by);
     if (layer == layer_names.end())
-        throw InputError("--by " + c.by + ": one of text, words, blocks, path, axes, effects");
+        throw InputError("--by " + c.by +
+                         ": one of text, words, blocks, path, functions, axes, effects");
     like.options.by = static_cast<Layer>(layer - layer_names.begin());
     return like;
 }
@@ -186,8 +189,12 @@ void add_compare(CLI::App& app, Run& run) {
         ->capture_default_str();
     command->add_option("--tol-time", c->tol_time, "cycle time tolerance, relative")
         ->capture_default_str();
-    command->add_option("--by", c->by, "one layer: text, words, blocks, path, axes, effects");
-    command->add_option("--format", c->format, "text, json, junit, sarif, github, html");
+    command->add_option("--by", c->by,
+                        "one layer: text, words, blocks, path, functions, axes, effects");
+    command->add_option("--call", c->call,
+                        "the block that calls both programs, e.g. \"G65 P9814 D25.4\"");
+    command->add_flag("--devices", c->devices, "the setup's probe and artefacts answer G31");
+    command->add_option("--format", c->format, "text, json, junit, sarif, github, html, markdown");
     command->add_flag("--json", c->json, "the same as --format json");
     writes_file(command->add_option("--out", c->out,
                                     "file for the report or part ({i}: the shard's number)"));
@@ -208,7 +215,7 @@ void add_merge(CLI::App& app, Run& run) {
     CLI::App* command =
         app.add_subcommand("merge", "one report from the parts of 'compare --shard'");
     reads_file(command->add_option("PART", o->parts, "parts, in any order"))->required();
-    command->add_option("--format", o->format, "text, json, junit, sarif, github, html");
+    command->add_option("--format", o->format, "text, json, junit, sarif, github, html, markdown");
     command->add_flag_callback(
         "--json", [o] { o->format = "json"; }, "the same as --format json");
     writes_file(command->add_option("--out", o->out, "file for the report"));

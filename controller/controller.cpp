@@ -31,6 +31,7 @@ struct Controller::State {
     Control control;
     ControlVariables variables;
     Interpreter language;
+    BlockWatch watch;
 };
 
 InterpreterOptions Controller::State::language_options() const {
@@ -52,6 +53,7 @@ void Controller::State::run_blocks() {
         control.modal.block.program = &language.program_name();
         const bool inch = control.modal.units.inch();
         execute_block(control, *block);
+        if (watch) watch(control);
         if (control.moved) language.block_moved();
         // ROUND in a word rounds to the least input increment: 0.001 mm or 0.0001 inch.
         if (control.modal.units.inch() != inch) language.set_increment_digits(inch ? 3 : 4);
@@ -112,6 +114,7 @@ template <typename Program>
 RunResult Controller::State::run(const Program& program) {
     RunResult result;
     start_run();
+    if (watch) watch(control);
     try {
         language.open(program);
         run_blocks();
@@ -166,6 +169,10 @@ double Controller::variable(int number) const {
 
 std::vector<int> Controller::used_common_variables() const {
     return state_->language.used_common_variables();
+}
+
+void Controller::watch(BlockWatch watch) {
+    state_->watch = std::move(watch);
 }
 
 void Controller::place(const AxisPositions& machine) {

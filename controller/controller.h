@@ -13,6 +13,10 @@
 
 namespace trunnion {
 
+struct Control;
+/// Looks at the control: before the first block and after each one.
+using BlockWatch = std::function<void(const Control&)>;
+
 class Controller {
   public:
     /// `stores` is changed by the program (G10, system variables, #500...).
@@ -28,6 +32,9 @@ class Controller {
     void set_variable(int number, double value);
     double variable(int number) const;
     std::vector<int> used_common_variables() const;
+
+    /// Who looks on; for callers that compare or explain, who read the state in one place.
+    void watch(BlockWatch watch);
 
     /// Machine position the axes stand at before the run (default: all zero).
     void place(const AxisPositions& machine);

@@ -87,6 +87,18 @@ double length_mm(const PathPoint& start, const Segment& segment) {
     return std::hypot(radius * segment.sweep_rad, f.end_height - f.start_height);
 }
 
+Vector3 centroid(const PathPoint& start, const Segment& segment) {
+    const Vector3 end = Vector3(segment.end_mm.data());
+    if (!segment.is_arc()) return 0.5 * (start.position_mm + end);
+    const ArcFrame f = arc_frame(start, segment);
+    const double angle = segment.sweep_rad;
+    const double scale = 0.5 * (1.0 + f.end_over_start_radius);
+    return f.centre + 0.5 * (f.start_height + f.end_height) * f.normal +
+           scale / angle *
+               (std::sin(angle) * f.radius_start +
+                (1.0 - std::cos(angle)) * f.normal.cross(f.radius_start));
+}
+
 void append_chords(const PathPoint& start, const Segment& segment, const Tolerances& tolerances,
                    std::vector<PathPoint>& points) {
     const PathPoint end = segment.end();

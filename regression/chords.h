@@ -14,6 +14,9 @@ PathPoint point_at(const PathPoint& start, const Segment& segment, double s);
 /// Length of the position's path along a segment, mm.
 double length_mm(const PathPoint& start, const Segment& segment);
 
+/// Centre of gravity of a segment's line.
+Vector3 centroid(const PathPoint& start, const Segment& segment);
+
 /// Chords of one segment within the tolerances' chord error; appends the points after `start`, the
 /// last one being exactly the segment's end.
 void append_chords(const PathPoint& start, const Segment& segment, const Tolerances& tolerances,

@@ -7,8 +7,13 @@
 
 #include "base/units.h"
 #include "interpreter/program_folders.h"
+#include "regression/causes.h"
 #include "regression/describe.h"
 #include "regression/effects_layer.h"
+#include "regression/function_compare.h"
+#include "regression/run_notes.h"
+#include "regression/verdict.h"
+#include "regression/written_layers.h"
 
 namespace trunnion {
 
@@ -37,7 +42,7 @@ class ProgramComparer {
         else if (&setup_a_ == &setup_b_)
             by_layer(Layer::text) || by_layer(Layer::words) || by_what_runs();
         else
-            by_layer(Layer::path);
+            by_path();
         finish();
         return std::move(result_);
     }
@@ -45,9 +50,9 @@ class ProgramComparer {
     /// A golden in the place of A: only its path is known.
     Comparison run_against(const PathRecord& golden) {
         result_.by = Layer::path;
-        run_b_.emplace(record_run(
-            setup_b_, b_,
-            {PathSpace::tip, options_.tolerances, options_.program_folders, options_.max_blocks}));
+        run_b_.emplace(record_run(setup_b_, b_,
+                                  {PathSpace::tip, options_.tolerances, options_.program_folders,
+                                   options_.max_blocks, "", options_.devices}));
         describe(golden, run_b_->path, PathSpace::tip);
         result_.layers.push_back({Layer::path, result_.differences.empty()});
         finish();
@@ -65,11 +70,8 @@ class ProgramComparer {
         result_.notes.clear();
         switch (layer) {
             case Layer::text:
-                written(*text_keys(a_.text), *text_keys(b_.text));
-                break;
             case Layer::words:
-                written(*word_keys(a_.text, setup_a_.dialect),
-                        *word_keys(b_.text, setup_b_.dialect));
+                written(layer);
                 break;
             case Layer::blocks:
                 record(PathSpace::tip);
@@ -77,6 +79,9 @@ class ProgramComparer {
                 break;
             case Layer::path:
                 paths(PathSpace::tip);
+                break;
+            case Layer::functions:
+                functions(false);
                 break;
             case Layer::axes:
                 paths(PathSpace::joints);
@@ -95,11 +100,24 @@ class ProgramComparer {
     /// A deeper layer will say what differs, so these only have to say that something does.
     bool only_verdict() const { return !options_.by; }
 
-    void written(LineKeys& a, LineKeys& b) {
-        if (only_verdict())
-            equal_so_far_ = same_keys(a, b, result_.compared);
-        else
-            gaps(all_keys(a), all_keys(b));
+    void written(Layer layer) {
+        const WrittenSide a = written_side(a_, setup_a_, run_a_),
+                          b = written_side(b_, setup_b_, run_b_);
+        if (only_verdict()) {
+            equal_so_far_ = written_alike(layer, a, b, result_.compared);
+        } else {
+            describe_written(layer, a, b, options_.most_differences, result_);
+        }
+    }
+
+    /// A program that may call others is what it is together with them: only a run tells which.
+    WrittenSide written_side(const ProgramText& program, const Setup& setup,
+                             const std::optional<RecordedRun>& run) {
+        const bool calls =
+            !options_.call.empty() || may_call(a_.text, setup_a_) || may_call(b_.text, setup_b_);
+        if (!calls) return {&program, nullptr, &setup};
+        record(PathSpace::tip);
+        return {&program, &run->opened, &setup};
     }
 
     void gaps(const KeyedLines& a, const KeyedLines& b) {
@@ -119,14 +137,39 @@ class ProgramComparer {
         walk.tolerances = options_.tolerances;
         walk.other_machine = &setup_a_ != &setup_b_ && !one_machine();
         const PathComparison found = compare_paths(a, b, walk, options_.most_differences);
-        describe_paths(found, a, b, space, lines_a_, lines_b_, options_.tolerances, result_);
+        describe_paths(found, explained(found, space), a, b, space, {lines_a_, lines_b_},
+                       options_.tolerances, result_);
+        if (result_.differences.empty() || !run_a_ || !one_control()) return;
+        for (const std::string& hint : {frame_hint(*run_a_, "A"), frame_hint(*run_b_, "B")})
+            if (!hint.empty()) result_.notes.push_back(hint);
+    }
+
+    /// States of different machines differ by nature, and a golden has none.
+    std::vector<ExplainedCluster> explained(const PathComparison& found, PathSpace space) {
+        if (run_a_ && one_control() && space == PathSpace::tip)
+            return explain(found.clusters,
+                           {*run_a_, *run_b_, &written_gaps(), transform(), options_.tolerances});
+        std::vector<ExplainedCluster> plain;
+        for (const PathCluster& cluster : found.clusters) plain.push_back({cluster});
+        return plain;
+    }
+
+    WrittenGaps& written_gaps() {
+        if (!gaps_) gaps_.emplace(a_, setup_a_, b_, setup_b_);
+        return *gaps_;
+    }
+    const std::optional<RotaryTransform>& transform() {
+        // With two stores of one machine the shifts are known to come from them.
+        if (!transform_ && &setup_a_ == &setup_b_) transform_ = believed_transform(setup_a_);
+        return transform_;
     }
 
     void record(PathSpace space) {
         if (run_a_ && space == space_) return;
         space_ = space;
-        const RecordOptions record{space, options_.tolerances, options_.program_folders,
-                                   options_.max_blocks};
+        const RecordOptions record{
+            space,         options_.tolerances, options_.program_folders, options_.max_blocks,
+            options_.call, options_.devices};
         run_a_.reset();
         run_b_.reset();
         run_a_.emplace(record_run(setup_a_, a_, record));
@@ -143,17 +186,124 @@ class ProgramComparer {
     }
 
     /// An alarm or a limit: no deeper layer can say more.
-    bool stopped() const {
-        return run_a_ &&
-               (run_a_->result.status != RunStatus::ok || run_b_->result.status != RunStatus::ok) &&
-               result_.by == Layer::path;
+    bool stopped() const { return run_a_ && !ran_to_the_end() && result_.by == Layer::path; }
+    bool ran_to_the_end() const {
+        return run_a_->result.status == RunStatus::ok && run_b_->result.status == RunStatus::ok;
     }
 
-    /// Programs that move nothing are what they leave behind.
     bool by_what_runs() {
         record(PathSpace::tip);
-        if (run_a_->path.size() == 0 && run_b_->path.size() == 0) return by_layer(Layer::effects);
-        return by_layer(Layer::blocks) || by_layer(Layer::path);
+        if (same_alarm()) return by_words_before_alarm();
+        const bool moves = run_a_->path.size() > 0 || run_b_->path.size() > 0;
+        const bool equal = !moves                    ? by_layer(Layer::effects) && by_functions()
+                           : by_layer(Layer::blocks) ? by_functions()
+                                                     : by_path();
+        if (equal) as_increments();
+        return equal;
+    }
+
+    /// Path and functions together are the machining.
+    bool by_path() {
+        const bool equal = by_layer(Layer::path);
+        if (!ran_to_the_end()) return false;
+        if (equal) return by_functions();
+        if (one_control()) functions(false);
+        return false;
+    }
+
+    bool one_control() const { return &setup_a_ == &setup_b_ || one_machine(); }
+
+    /// Adds the layer `functions` to an equal one before it.
+    bool by_functions() {
+        if (!one_control()) {
+            result_.notes.push_back("M codes, dwells and modes were not compared: another machine");
+            return true;
+        }
+        functions(true);
+        const bool equal = result_.differences.empty();
+        // The layer that made both equal stays the last one.
+        const auto place = equal && !result_.layers.empty() ? std::prev(result_.layers.end())
+                                                            : result_.layers.end();
+        result_.layers.insert(place, {Layer::functions, equal});
+        if (!equal) result_.by = Layer::functions;
+        return equal;
+    }
+
+    void functions(bool places) {
+        record(PathSpace::tip);
+        const bool stores = &setup_a_ == &setup_b_ && run_a_->path.modes() == run_b_->path.modes();
+        const bool same_writes = compare_functions(
+            *run_a_, *run_b_, {options_.tolerances, places, stores, options_.most_differences},
+            lines_a_, lines_b_, result_);
+        const std::size_t before = result_.differences.size();
+        compare_leftovers(*run_a_, *run_b_, stores && same_writes, options_.tolerances, result_);
+        for (std::size_t k = before; k < result_.differences.size(); ++k)
+            place_value(result_.differences[k]);
+        if (!stores)
+            result_.notes.push_back(
+                "stores that G10 writes were not compared: the sides position by other functions, "
+                "or start from other stores");
+    }
+
+    /// The first block that writes stores or variables and is written differently.
+    void place_value(Difference& d) {
+        const auto written = written_gaps().first_that_writes();
+        if (!written || d.a.line > 0) return;
+        d.cause = written->what;
+        d.a.line = d.a.last_line = written->line_a;
+        d.b.line = d.b.last_line = written->line_b;
+        lines_a_.show(d.a);
+        lines_b_.show(d.b);
+    }
+
+    /// Both stop with one alarm: what runs before it says nothing about the rest.
+    bool same_alarm() const {
+        const auto &p = run_a_->result, &q = run_b_->result;
+        return p.alarm && q.alarm && p.alarm->number == q.alarm->number;
+    }
+
+    bool by_words_before_alarm() {
+        result_.by = Layer::words;
+        describe_written(Layer::words, written_side(a_, setup_a_, run_a_),
+                         written_side(b_, setup_b_, run_b_), options_.most_differences, result_);
+        result_.notes.push_back(fmt::format(
+            "both stop with alarm {} {} (A line {}, B line {}): a program that needs arguments is "
+            "compared with --call \"G65 P.. ..\"",
+            run_a_->result.alarm->number, run_a_->result.alarm->text,
+            run_a_->result.alarm->where.line, run_b_->result.alarm->where.line));
+        return true;
+    }
+
+    /// Parameter 3401 is not given, so numbers without a point were taken as whole units: equal
+    /// only when the programs are equal too where they are least increments.
+    void as_increments() {
+        if (!run_a_->reads_bare_words && !run_b_->reads_bare_words) return;
+        Setup setup = setup_a_;
+        setup.stores.parameters.entry[3401] = {};
+        for (RecordedRun* run : {&*run_a_, &*run_b_}) {  // what they hold was compared
+            run->path = {};
+            run->blocks = {};
+        }
+        const Comparison other =
+            ProgramComparer(a_, setup, b_, setup, options_).run_as_increments();
+        if (other.equal) return;
+        Difference d = other.differences.front();
+        d.kind = DifferenceKind::value;
+        d.what =
+            "numbers without a decimal point: equal only while they are whole units "
+            "(parameter 3401 is not given); where they are least increments: " +
+            d.what;
+        result_.by = Layer::functions;
+        result_.layers.push_back({Layer::functions, false});
+        result_.differences.push_back(std::move(d));
+    }
+
+    Comparison run_as_increments() {
+        record(PathSpace::tip);
+        if (same_alarm()) return {};  // nobody runs them that way
+        by_layer(Layer::path);
+        finish();
+        return std::move(result_);
     }
 
     void finish() {
@@ -168,16 +318,23 @@ class ProgramComparer {
             take_end(run_a_->result, result_.alarm_a, "A", lines_a_);
         }
         result_.equal = result_.status == CompareStatus::equal;
-        result_.verdict = verdict();
+        result_.verdict = verdict_of(result_, options_.tolerances);
+        if (run_b_ && result_.by != Layer::text && result_.by != Layer::words) add_notes();
         add_fingerprints(result_);
+    }
+
+    void add_notes() {
+        for (const std::string& note : notes_of(run_a_ ? &*run_a_ : nullptr, *run_b_, options_))
+            result_.notes.push_back(note);
     }
 
     void take_end(const RunResult& run, std::string& alarm, const char* side, SourceLines& lines) {
         if (run.status == RunStatus::limit && result_.status != CompareStatus::alarm)
             result_.status = CompareStatus::limit;
         if (run.status != RunStatus::alarm || !run.alarm) return;
-        result_.status = CompareStatus::alarm;
         alarm = fmt::format("{} {}", run.alarm->number, run.alarm->text);
+        if (result_.by == Layer::text || result_.by == Layer::words) return;
+        result_.status = CompareStatus::alarm;
         Difference d;
         d.kind = DifferenceKind::alarm;
         d.what =
@@ -187,53 +344,26 @@ class ProgramComparer {
             run.alarm->where.program.empty() ? lines.main_name() : run.alarm->where.program;
         place.line = place.last_line = run.alarm->where.line;
         (side[0] == 'A' ? d.b : d.a).program = side[0] == 'A' ? result_.b : result_.a;
+        place_alarm(d, run, side[0] == 'A');
         lines.show(place);
         if (place.block.empty()) place.block = run.alarm->block;
         result_.differences.insert(result_.differences.begin(), std::move(d));
     }
 
-    std::string verdict() const {
-        if (result_.status == CompareStatus::alarm) return "alarm: " + result_.differences[0].what;
-        if (result_.status == CompareStatus::limit)
-            return "limit: a program was not run to its end";
-        if (result_.equal) return equal_verdict();
-        const std::uint64_t count = result_.differences.size() + result_.differences_left_out;
-        const std::size_t gravest = gravest_difference(result_);
-        std::string text = fmt::format("differs by {}: ", name_of(result_.by));
-        if (count > 1) text += fmt::format("{} differences, the gravest: ", count);
-        text += with_place(result_.differences[gravest]);
-        if (gravest > 0) text += ", the first: " + with_place(result_.differences.front());
-        return text + longer_cut();
-    }
-
-    static std::string with_place(const Difference& d) {
-        if (d.b.line == 0) return d.what;
-        return fmt::format("{} at A line {}, B line {}", d.what, d.a.line, d.b.line);
-    }
-
-    /// How much more or less is cut, when that is more than rounding.
-    std::string longer_cut() const {
-        double cut_a = 0.0, cut_b = 0.0;
-        for (const ToolRow& row : result_.tools) {
-            cut_a += row.cut_a_mm;
-            cut_b += row.cut_b_mm;
-        }
-        if (std::abs(cut_b - cut_a) < std::max(0.1, 1e-4 * cut_a)) return {};
-        return fmt::format("; cut {:.3f} -> {:.3f} mm", cut_a, cut_b);
-    }
-
-    std::string equal_verdict() const {
-        static constexpr std::array<const char*, 6> same{
-            "the same text",      "the same words",       "the same blocks",
-            "the same machining", "the same axis motion", "the same effects"};
-        std::string text = fmt::format("equal by {}: {}", name_of(result_.by),
-                                       same[static_cast<std::size_t>(result_.by)]);
-        if (result_.by == Layer::path || result_.by == Layer::axes)
-            text += fmt::format(" within {:g} mm and {:g} deg", options_.tolerances.position_mm,
-                                deg_from_rad(options_.tolerances.direction_rad));
-        if (result_.layers.size() > 1)
-            text += fmt::format("; first to differ: {}", name_of(result_.layers.front().layer));
-        return text;
+    /// The block that an alarm of one side comes from, as far as the words tell.
+    void place_alarm(Difference& d, const RunResult& run, bool side_is_a) {
+        if (!run_a_ || (run_a_->result.alarm && run_b_->result.alarm)) return;
+        const int line = run.alarm->where.line;
+        const auto cause = written_gaps().before(side_is_a ? line : 0, side_is_a ? 0 : line);
+        if (!cause || cause->what.empty()) return;
+        d.cause = cause->what;
+        d.what += "; " + cause->what;
+        if ((side_is_a ? cause->line_a : cause->line_b) == line) return;
+        d.a.line = d.a.last_line = cause->line_a;
+        d.b.line = d.b.last_line = cause->line_b;
+        d.a.program = lines_a_.main_name();
+        d.b.program = lines_b_.main_name();
+        (side_is_a ? lines_b_ : lines_a_).show(side_is_a ? d.b : d.a);
     }
 
     const ProgramText &a_, &b_;
@@ -242,6 +372,8 @@ class ProgramComparer {
     SourceLines lines_a_, lines_b_;
     PathSpace space_ = PathSpace::tip;
     std::optional<RecordedRun> run_a_, run_b_;
+    std::optional<WrittenGaps> gaps_;
+    std::optional<RotaryTransform> transform_;
     bool equal_so_far_ = true;  ///< of the layer at hand, where it keeps no differences
     Comparison result_;
 };

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "setup/setup.h"
 #include "interpreter/program_source.h"
 #include "regression/comparison.h"
 #include "regression/recorded_run.h"
+#include "setup/setup.h"
 
 namespace trunnion {
 
@@ -18,11 +18,14 @@ struct CompareOptions {
     std::vector<std::string> program_folders;
     std::size_t most_differences = 1000;
     std::uint64_t max_blocks = 0;
+    std::string call;      ///< both programs are called by this block ("G65 P9814 D25.4")
+    bool devices = false;  ///< the setups' probes and artefacts answer G31
 };
 
 /// Compares two programs on one or two setups (the same object: one). Bad NC programs are results.
-/// Without `by` the layers are text, words, blocks, path (only path where the setups differ), then
-/// effects where neither program moves anything.
+/// Without `by` the layers are text, words, blocks, then path and functions (only these where the
+/// setups differ); effects and functions where neither program moves anything. Where both stop with
+/// the same alarm, the words say what changed.
 Comparison compare_programs(const ProgramText& a, const Setup& setup_a, const ProgramText& b,
                             const Setup& setup_b, const CompareOptions& options);
 

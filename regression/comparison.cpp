@@ -14,6 +14,8 @@ double gravity(const Difference& d) {
         case DifferenceKind::only_b:
         case DifferenceKind::tool:
             return 1e6 + d.position_mm;
+        case DifferenceKind::function:
+            return 1e3;  // M3 or a dwell that is missing: no distance tells how bad it is
         case DifferenceKind::reordered:
             return 1e-6;
         default:
@@ -30,6 +32,12 @@ std::size_t gravest_difference(const Comparison& comparison) {
     };
     return static_cast<std::size_t>(std::max_element(list.begin(), list.end(), graver) -
                                     list.begin());
+}
+
+double gravity_of(const Comparison& c) {
+    if (c.equal) return 0.0;
+    const std::size_t gravest = gravest_difference(c);
+    return gravest < c.differences.size() ? gravity(c.differences[gravest]) : 2e9;
 }
 
 std::vector<ExpectedDifference> no_longer_occurring(const CompareReport& report) {

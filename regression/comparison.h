@@ -9,9 +9,9 @@
 namespace trunnion {
 
 /// The layers, from what is written to what it does.
-enum class Layer : std::uint8_t { text, words, blocks, path, axes, effects };
-constexpr std::array<const char*, 6> layer_names{"text", "words", "blocks",
-                                                 "path", "axes",  "effects"};
+enum class Layer : std::uint8_t { text, words, blocks, path, functions, axes, effects };
+constexpr std::array<const char*, 7> layer_names{"text",      "words", "blocks", "path",
+                                                 "functions", "axes",  "effects"};
 constexpr const char* name_of(Layer layer) {
     return layer_names[static_cast<std::size_t>(layer)];
 }
@@ -39,11 +39,12 @@ enum class DifferenceKind : std::uint8_t {
     time,
     value,
     alarm,
-    text
+    text,
+    function
 };
-constexpr std::array<const char*, 13> difference_names{
+constexpr std::array<const char*, 14> difference_names{
     "moved",   "path", "only-in-a", "only-in-b", "reordered", "feed", "spindle",
-    "coolant", "tool", "time",      "value",     "alarm",     "text"};
+    "coolant", "tool", "time",      "value",     "alarm",     "text", "function"};
 constexpr const char* name_of(DifferenceKind kind) {
     return difference_names[static_cast<std::size_t>(kind)];
 }
@@ -51,7 +52,8 @@ constexpr const char* name_of(DifferenceKind kind) {
 /// One cluster: the same change in `count` places, the first of which is shown.
 struct Difference {
     DifferenceKind kind = DifferenceKind::path;
-    std::string what;  ///< one sentence
+    std::string what;   ///< one sentence
+    std::string cause;  ///< what of it is known: "H2 instead of H3"; stands in `what` too
     ComparePlace a, b;
     double position_mm = 0.0;
     double direction_deg = 0.0;
@@ -128,6 +130,9 @@ struct Comparison {
 /// Index of the difference to name first: an alarm, then machining that is missing, added or with
 /// another tool, then what lies farthest apart. Where nothing ranks higher, the first.
 std::size_t gravest_difference(const Comparison& comparison);
+/// To put programs in order, gravest first: that of its gravest difference; one that could not be
+/// compared stands before all.
+double gravity_of(const Comparison& comparison);
 
 /// A difference that is meant, in one case (or any: empty name), by fingerprint.
 struct ExpectedDifference {

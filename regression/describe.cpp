@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "interpreter/lexical.h"
 #include "interpreter/program_folders.h"
+#include "regression/compare_picture.h"
 
 namespace trunnion {
 
@@ -42,21 +43,22 @@ void SourceLines::show(ComparePlace& place) {
 
 namespace {
 
+/// Of a stretch; `cause` says where it enters, when that is another block.
 ComparePlace place_of(SegmentWindow& path, const PathRecord& record, Stretch stretch,
-                      SourceLines& lines) {
+                      CausePlace cause, SourceLines& lines) {
     ComparePlace place;
     place.program = lines.main_name();
     if (record.size() == 0) return place;
     // Where one side has nothing, the block before which it is missing is shown.
     const std::uint64_t at = std::min(stretch.first, record.segments().size() - 1);
     const Segment segment = path[at];
-    if (segment.program < record.programs().size())
-        place.program = record.programs()[segment.program];
-    place.line = static_cast<int>(segment.line);
+    const std::uint16_t program = cause.line > 0 ? cause.program : segment.program;
+    if (program < record.programs().size()) place.program = record.programs()[program];
+    place.line = static_cast<int>(cause.line > 0 ? cause.line : segment.line);
     place.last_line = place.line;
     if (stretch.last > stretch.first) {
         const Segment last = path[stretch.last - 1];
-        if (last.program == segment.program)
+        if (last.program == program)
             place.last_line = std::max(place.line, static_cast<int>(last.line));
     }
     lines.show(place);
@@ -131,61 +133,6 @@ std::array<double, 3> array_of(const Vector3& v) {
     return {v.x(), v.y(), v.z()};
 }
 
-ComparePicture::Line thin_line(const PathRecord& record, Stretch stretch, std::uint64_t points,
-                               const Tolerances& tolerances) {
-    ComparePicture::Line line;
-    SegmentWindow path(record.segments());
-    const std::uint64_t step = 1 + (stretch.last - stretch.first) / points;
-    std::vector<PathPoint> chords;
-    for (std::uint64_t k = stretch.first; k < stretch.last; k += step) {
-        const PathPoint start = path[k - 1].end();
-        const Segment segment = path[k];
-        if (segment.kind == SegmentKind::jump) continue;  // no motion
-        if (line.empty()) line.push_back(array_of(start.position_mm));
-        if (segment.is_arc() && step == 1) {
-            chords.clear();
-            append_chords(start, segment, tolerances, chords);
-            const std::size_t stride = 1 + chords.size() / 12;
-            for (std::size_t c = 0; c + 1 < chords.size(); c += stride)
-                line.push_back(array_of(chords[c].position_mm));
-        }
-        line.push_back(array_of(segment.end().position_mm));
-    }
-    return line;
-}
-
-/// Cuts and the rapids between them; of many passes evenly chosen ones.
-void draw_path(const PathRecord& record, const Tolerances& tolerances,
-               std::vector<ComparePicture::Line>& cuts, std::vector<ComparePicture::Line>& rapids) {
-    constexpr std::uint64_t most_passes = 300, most_points = 3000;
-    const std::uint64_t count = record.passes().size();
-    const std::uint64_t step = 1 + count / most_passes;
-    const std::uint64_t points = most_points / std::max<std::uint64_t>(1, count / step) + 4;
-    SpilledWindow<Pass> passes(record.passes());
-    for (std::uint64_t k = 0; k < count; k += step) {
-        const Pass pass = passes[k];
-        auto rapid = thin_line(record, {pass.first, pass.cut_first}, 8, tolerances);
-        if (rapid.size() > 1) rapids.push_back(std::move(rapid));
-        auto cut = thin_line(record, {pass.cut_first, pass.last}, points, tolerances);
-        if (cut.size() > 1) cuts.push_back(std::move(cut));
-    }
-}
-
-void draw(const PathComparison& found, const PathRecord& a, const PathRecord& b,
-          const Tolerances& tolerances, ComparePicture& picture) {
-    if (found.clusters.empty()) return;
-    Tolerances coarse = tolerances;
-    coarse.position_mm = std::max(0.5, tolerances.position_mm);
-    constexpr std::size_t marked = 40;
-    draw_path(a, coarse, picture.cuts_a, picture.rapids_a);
-    draw_path(b, coarse, picture.cuts_b, picture.rapids_b);
-    for (std::size_t k = 0; k < std::min(marked, found.clusters.size()); ++k) {
-        const PathRegion& r = found.clusters[k].first;
-        picture.marks.push_back(
-            {k, thin_line(a, r.a, 100, coarse), thin_line(b, r.b, 100, coarse)});
-    }
-}
-
 /// The block without its N number and blanks: what a fingerprint is made of.
 std::string bare(const std::string& block) {
     std::string out;
@@ -198,16 +145,20 @@ std::string bare(const std::string& block) {
 
 }  // namespace
 
-void describe_paths(const PathComparison& found, const PathRecord& a, const PathRecord& b,
-                    PathSpace space, SourceLines& lines_a, SourceLines& lines_b,
+void describe_paths(const PathComparison& found, const std::vector<ExplainedCluster>& clusters,
+                    const PathRecord& a, const PathRecord& b, PathSpace space, DescribedSides lines,
                     const Tolerances& tolerances, Comparison& result) {
+    SourceLines &lines_a = lines.a, &lines_b = lines.b;
     SegmentWindow path_a(a.segments()), path_b(b.segments());
-    for (const PathCluster& c : found.clusters) {
+    std::vector<PathRegion> regions;
+    for (const ExplainedCluster& e : clusters) {
+        const PathCluster& c = e.cluster;
         Difference d;
         d.kind = c.kind;
-        d.what = sentence(c, space, tolerances);
-        d.a = place_of(path_a, a, c.first.a, lines_a);
-        d.b = place_of(path_b, b, c.first.b, lines_b);
+        d.cause = e.cause;
+        d.what = (e.cause.empty() ? "" : e.cause + ": ") + sentence(c, space, tolerances);
+        d.a = place_of(path_a, a, c.first.a, e.a, lines_a);
+        d.b = place_of(path_b, b, c.first.b, e.b, lines_b);
         d.position_mm = c.position_mm;
         d.direction_deg = deg_from_rad(c.direction_rad);
         d.shift_mm = array_of(c.first.shift_mm);
@@ -216,12 +167,13 @@ void describe_paths(const PathComparison& found, const PathRecord& a, const Path
         d.tool = c.tool;
         d.count = c.count;
         result.differences.push_back(std::move(d));
+        regions.push_back(c.first);
     }
     result.differences_left_out += found.left_out;
     result.position_mm = found.totals.position_mm;
     result.direction_deg = deg_from_rad(found.totals.direction_rad);
-    result.worst_a = place_of(path_a, a, {found.totals.worst_a, found.totals.worst_a}, lines_a);
-    result.worst_b = place_of(path_b, b, {found.totals.worst_b, found.totals.worst_b}, lines_b);
+    result.worst_a = place_of(path_a, a, {found.totals.worst_a, found.totals.worst_a}, {}, lines_a);
+    result.worst_b = place_of(path_b, b, {found.totals.worst_b, found.totals.worst_b}, {}, lines_b);
     result.tools = found.tools;
     result.compared = found.totals.compared;
     if (found.approaches_differ > 0)
@@ -230,7 +182,7 @@ void describe_paths(const PathComparison& found, const PathRecord& a, const Path
                         "functions or "
                         "machines; only where they end was compared",
                         found.approaches_differ));
-    draw(found, a, b, tolerances, result.picture);
+    draw_paths(regions, a, b, tolerances, result.picture);
 }
 
 namespace {

@@ -8,6 +8,7 @@
 
 #include "interpreter/program_source.h"
 #include "regression/comparison.h"
+#include "regression/explained_cluster.h"
 #include "regression/path_compare.h"
 #include "regression/path_recorder.h"
 #include "regression/program_lines.h"
@@ -30,9 +31,13 @@ class SourceLines {
     std::map<std::string, std::optional<ProgramLines>> lines_;
 };
 
+struct DescribedSides {
+    SourceLines &a, &b;
+};
+
 /// Puts a path comparison into `result`: differences, worst place, table, picture.
-void describe_paths(const PathComparison& found, const PathRecord& a, const PathRecord& b,
-                    PathSpace space, SourceLines& lines_a, SourceLines& lines_b,
+void describe_paths(const PathComparison& found, const std::vector<ExplainedCluster>& clusters,
+                    const PathRecord& a, const PathRecord& b, PathSpace space, DescribedSides lines,
                     const Tolerances& tolerances, Comparison& result);
 
 /// Puts the gaps of a layer of lines or blocks into `result`.

@@ -111,6 +111,22 @@ void compare_times(const RecordedRun& a, const RecordedRun& b, const Tolerances&
     result.differences.push_back(std::move(d));
 }
 
+void compare_leftovers(const RecordedRun& a, const RecordedRun& b, bool stores,
+                       const Tolerances& tolerances, Comparison& result) {
+    Values in_a = values_of(a), in_b = values_of(b);
+    if (!stores)
+        for (Values* values : {&in_a, &in_b})
+            std::erase_if(*values, [](const auto& v) { return !v.first.starts_with("#"); });
+    for (int number = 100; number < 200; ++number) {
+        const std::string name = fmt::format("#{}", number);
+        if (in_a.contains(name) == in_b.contains(name)) continue;
+        in_a.erase(name);
+        in_b.erase(name);
+    }
+    compare_values(in_a, in_b, tolerances, result);
+    compare_printed(a.printed, b.printed, result);
+}
+
 void compare_effects(const RecordedRun& a, const RecordedRun& b, const Tolerances& tolerances,
                      Comparison& result) {
     compare_values(values_of(a), values_of(b), tolerances, result);

@@ -95,7 +95,7 @@ class PathComparer {
     void compare_same(const PassPair& pair) {
         const Pass p = passes_a_[pair.a.first], q = passes_b_[pair.b.first];
         std::vector<PathRegion> regions;
-        if (p.modes != q.modes || options_.other_machine) {
+        if (other_functions(p, q)) {
             walk_.compare({p.first, p.cut_first}, {q.first, q.cut_first}, regions, unused_);
             result_.approaches_differ += regions.empty() ? 0 : 1;
             regions.clear();
@@ -106,6 +106,12 @@ class PathComparer {
             walk(p.cut_first, p.last, q.cut_first, q.last, regions);
         }
         take(regions, pair.a);
+    }
+
+    /// The way to the cut cannot agree: another machine, or another positioning function there.
+    bool other_functions(const Pass& p, const Pass& q) const {
+        return options_.other_machine || p.cut_modes != q.cut_modes ||
+               (a_.modes() != b_.modes() && p.modes != q.modes);
     }
 
     void compare_changed(const PassPair& pair) {

@@ -44,14 +44,18 @@ void PathRecord::add(Segment segment) {
     const Vector3 end = Vector3(segment.end_mm.data());
     if (cut && pass.cut_first == file_.size()) pass.start_mm = array_of(end_.position_mm);
     if (!cut && pass.cut_first == file_.size()) ++pass.cut_first;
-    const Vector3 half = point_at(end_, segment, 0.5).position_mm;
+    const Vector3 middle = centroid(end_, segment);
     double& total = pass.cuts() || cut ? pass.cut_mm : pass.rapid_mm;
     if (cut && pass.cut_mm == 0.0) pass.centroid_mm = {};
     for (std::size_t k = 0; k < 3; ++k)
-        pass.centroid_mm[k] += length * half[static_cast<Eigen::Index>(k)];
+        pass.centroid_mm[k] += length * middle[static_cast<Eigen::Index>(k)];
     total += length;
     pass.end_mm = array_of(end);
-    pass.modes = static_cast<std::uint16_t>(pass.modes | (1U << segment.mode));
+    const unsigned mode = 1U << segment.mode;
+    pass.modes = static_cast<std::uint16_t>(pass.modes | mode);
+    if (cut) pass.cut_modes = static_cast<std::uint16_t>(pass.cut_modes | mode);
+    modes_ = static_cast<std::uint16_t>(modes_ | mode);
+    if (cut) cut_mm_ += length;
     count(segment, length);
     file_.append(segment);
     pass.last = file_.size();

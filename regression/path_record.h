@@ -20,7 +20,8 @@ struct Pass {
     double cut_mm = 0.0, rapid_mm = 0.0;
     std::uint32_t line = 0;
     std::uint16_t tool = 0;
-    std::uint16_t modes = 0;  ///< bit n: PositioningMode n occurs
+    std::uint16_t modes = 0;      ///< bit n: PositioningMode n occurs
+    std::uint16_t cut_modes = 0;  ///< the same in the cut
 
     bool cuts() const { return last > cut_first; }
 };
@@ -50,6 +51,12 @@ class PathRecord {
     /// Motion segments added (the origin does not count).
     std::uint64_t size() const { return file_.size() == 0 ? 0 : file_.size() - 1; }
 
+    /// Where the path stands, and how much was cut, so far.
+    const PathPoint& end() const { return end_; }
+    double cut_mm() const { return cut_mm_; }
+    /// Positioning functions that occur, as in Pass.
+    std::uint16_t modes() const { return modes_; }
+
   private:
     void begin_pass(const Segment& segment);
     void count(const Segment& segment, double length_mm);
@@ -60,6 +67,8 @@ class PathRecord {
     std::vector<std::string> programs_;
     std::map<int, ToolTotals> totals_;
     PathPoint end_;
+    double cut_mm_ = 0.0;
+    std::uint16_t modes_ = 0;
     bool open_ = false;
 };
 

@@ -42,7 +42,15 @@ double turned_rad(const AxisMove& move) {
 }  // namespace
 
 PathRecorder::PathRecorder(PathRecord& record, PathSpace space, const Tolerances& tolerances)
-    : record_(record), space_(space), tolerances_(tolerances) {}
+    : record_(record),
+      runs_(record, tolerances.position_mm),
+      space_(space),
+      tolerances_(tolerances) {}
+
+void PathRecorder::finish() {
+    runs_.finish();
+    record_.finish();
+}
 
 /// Prepares the map from X Y Z to the tip for the rotary positions in frame_.
 void PathRecorder::refresh(const AxisMove& move) {
@@ -88,6 +96,7 @@ Segment PathRecorder::plain_segment(const AxisMove& move) {
     s.feed_mm_min = s.kind == SegmentKind::feed ? static_cast<float>(move.feed_mm_min) : 0.0F;
     s.spindle_rpm = static_cast<float>(move.spindle_rpm);
     s.coolant = move.coolant;
+    s.timed = by_time_;
     s.tool = static_cast<std::uint16_t>(move.tool);
     s.mode = static_cast<std::uint8_t>(move.mode);
     s.line = static_cast<std::uint32_t>(move.line);
@@ -120,11 +129,12 @@ MoveResult PathRecorder::record(const AxisMove& move) {
     Segment segment = plain_segment(move);
     if (move.from == move.to && !move.arc && move.curve == nullptr) return {};
     const PathPoint start = point(move, move.from);
-    if (record_.segments().size() == 0) {
+    if (!begun_) {
+        begun_ = true;
         Segment origin = segment;
         origin.kind = SegmentKind::origin;
         set_end(origin, start);
-        record_.add(origin);
+        runs_.add(origin);
         last_ = origin;
     } else if (Vector3(last_.end_mm.data()) != start.position_mm) {
         // G43, G49, a new table frame: the tip the control believes in is elsewhere without motion.
@@ -133,10 +143,11 @@ MoveResult PathRecorder::record(const AxisMove& move) {
         jump.kind = SegmentKind::jump;
         jump.feed_mm_min = 0.0F;
         set_end(jump, start);
-        if (jump_mm > 1e-9) record_.add(jump);
+        if (jump_mm > 1e-9) runs_.add(jump);
     }
     const PathPoint end = point(move, move.to);
     segment.turning = turned_rad(move) > 0.0;
+    segment.timed = segment.timed || segment.turning;
     set_end(segment, end);
     const bool curved = move.curve != nullptr || (space_ == PathSpace::tip && segment.turning);
     if (move.arc && !segment.turning)
@@ -144,7 +155,7 @@ MoveResult PathRecorder::record(const AxisMove& move) {
     else if ((curved || move.arc) && segment.kind == SegmentKind::feed)
         add_curve(move, segment);
     else
-        record_.add(segment);  // rapids that turn: only where they end is machining
+        runs_.add(segment);  // rapids that turn: only where they end is machining
     last_ = segment;
     return {};
 }
@@ -165,7 +176,7 @@ void PathRecorder::add_arc(const AxisMove& move, Segment segment, const PathPoin
                       static_cast<float>(normal.z())};
     segment.sweep_rad = move.arc->sweep_rad;
     set_end(segment, end);
-    record_.add(segment);
+    runs_.add(segment);
 }
 
 void PathRecorder::add_curve(const AxisMove& move, const Segment& segment) {
@@ -186,7 +197,7 @@ void PathRecorder::add_curve(const AxisMove& move, const Segment& segment) {
     }
     for (const PathPoint& p : points_) {
         set_end(chord, p);
-        record_.add(chord);
+        runs_.add(chord);
     }
 }
 

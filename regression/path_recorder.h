@@ -7,7 +7,7 @@
 
 #include "motion/motion.h"
 #include "regression/chords.h"
-#include "regression/path_record.h"
+#include "regression/short_runs.h"
 
 namespace trunnion {
 
@@ -24,6 +24,9 @@ class PathRecorder : public MotionSink {
     void see_through(const RotaryTransform* transform, std::vector<double> tool_length_mm);
 
     MoveResult move(const AxisMove& move) override;
+    /// The feed of the moves that come is that of their length and time: G93.
+    void feeds_by_time(bool on) { by_time_ = on; }
+    void finish();
 
   private:
     MoveResult record(const AxisMove& move);
@@ -34,8 +37,10 @@ class PathRecorder : public MotionSink {
     void add_curve(const AxisMove& move, const Segment& segment);
 
     PathRecord& record_;
+    ShortRuns runs_;
     PathSpace space_;
     Tolerances tolerances_;
+    bool begun_ = false, by_time_ = false;
     const RotaryTransform* seen_through_ = nullptr;
     std::vector<double> seen_length_mm_;
     const std::string* program_ = nullptr;

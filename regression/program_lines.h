@@ -53,7 +53,9 @@ std::unique_ptr<LineKeys> text_keys(std::string_view text);
 /// Layer `words`: each block as the control reads it. N numbers (unless the program jumps), blanks,
 /// comments, the way a number is written, the order of words and repeated modal words (G codes, F,
 /// S, positions) do not count. A line that cannot be read counts as it is written.
-std::unique_ptr<LineKeys> word_keys(std::string_view text, const Dialect& dialect);
+/// With `codes_call` any G, M or T code may call a program, so nothing is a repetition.
+std::unique_ptr<LineKeys> word_keys(std::string_view text, const Dialect& dialect,
+                                    bool codes_call = false);
 
 /// Stops at the first that differs, and keeps none; `compared`: how many were looked at.
 bool same_keys(LineKeys& a, LineKeys& b, std::uint64_t& compared);

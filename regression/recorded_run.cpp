@@ -4,9 +4,10 @@
 #include <cstring>
 #include <filesystem>
 
-#include "interpreter/program_folders.h"
-#include "emulator/run.h"
 #include "base/units.h"
+#include "emulator/machine_sink.h"
+#include "emulator/run.h"
+#include "interpreter/program_folders.h"
 #include "positioning/rotary_transform.h"
 
 namespace trunnion {
@@ -22,6 +23,7 @@ class BlockKeys {
     void move(const AxisMove& m) {
         std::uint64_t h = mix(1, static_cast<std::uint64_t>(m.kind) | (m.until_skip ? 8U : 0U) |
                                      (m.gap_free ? 16U : 0U) | (m.coolant ? 32U : 0U) |
+                                     (m.curve != nullptr ? 64U : 0U) |
                                      (static_cast<std::uint64_t>(m.mode) << 8U));
         for (const Axis axis : all_axes)
             h = mix(h, grid(is_rotary(axis) ? deg_from_rad(m.to[axis]) : m.to[axis]));
@@ -29,17 +31,15 @@ class BlockKeys {
         h = mix(h, grid(m.spindle_rpm));
         h = mix(h, static_cast<std::uint64_t>(m.tool) * 1000U +
                        static_cast<std::uint64_t>(m.tool_offset));
+        for (int k = 0; k < 3; ++k) h = mix(h, grid(m.tool_vector_mm[k]));
         if (m.arc) {
             for (int k = 0; k < 3; ++k) h = mix(h, grid(m.arc->centre_mm[k]));
             h = mix(h, grid(deg_from_rad(m.arc->sweep_rad)));
         }
-        line_ = m.line;
-        add(h);
+        lines_.append({h, static_cast<std::uint32_t>(m.line)});
     }
-    void event(std::uint64_t kind, double value) { add(mix(kind, grid(value))); }
 
   private:
-    void add(std::uint64_t key) { lines_.append({key, static_cast<std::uint32_t>(line_)}); }
     static std::uint64_t grid(double value) {
         return static_cast<std::uint64_t>(std::llround(value * 1e4));
     }
@@ -49,38 +49,83 @@ class BlockKeys {
     }
 
     KeyedLines& lines_;
-    int line_ = 0;
 };
 
-/// Writes the path and the block keys of one run at the same time.
+/// Writes the path, the block keys, the functions and the states of one run at the same time.
 class RecordingSink : public MotionSink {
   public:
-    RecordingSink(RecordedRun& run, const RecordOptions& options)
-        : path_(run.path, options.space, options.tolerances), keys_(run.blocks) {}
+    RecordingSink(RecordedRun& run, const Setup& setup, const RecordOptions& options)
+        : run_(run),
+          path_(run.path, options.space, options.tolerances),
+          keys_(run.blocks),
+          functions_(run.functions, run.path, run.blocks) {
+        if (options.devices) machine_.emplace(setup, EffectModels{}, SinkOptions{});
+    }
     MoveResult move(const AxisMove& move) override {
-        keys_.move(move);
-        return path_.move(move);
+        const MoveResult made = machine_ ? machine_->move(move) : MoveResult{};
+        run_.skips = run_.skips || move.until_skip;
+        AxisMove seen = move;
+        if (made.skipped) seen.to = made.stopped;
+        if (control_ != nullptr) path_.feeds_by_time(feeds_by_inverse_time(*control_));
+        functions_.before_move(seen);
+        keys_.move(seen);
+        path_.move(seen);
+        return made;
     }
     void see_through(const RotaryTransform& transform, const Stores& stores) {
         std::vector<double> lengths_mm;
         for (const ToolOffset& tool : stores.tools.tool) lengths_mm.push_back(tool.length_mm());
         path_.see_through(&transform, std::move(lengths_mm));
     }
-    void dwell(double duration_s) override { keys_.event(2, duration_s); }
-    void m_code(int code) override { keys_.event(3, code); }
+    void dwell(double duration_s) override {
+        if (machine_) machine_->dwell(duration_s);
+        functions_.dwell(duration_s);
+    }
+    void m_code(int code) override {
+        if (control_ != nullptr)
+            functions_.m_code(code, tool_in_spindle(*control_), running_line(*control_));
+    }
+    void printed(std::string_view text) {
+        run_.printed += text;
+        if (machine_) machine_->printed(text);
+    }
+    void watch(const Control& control) {
+        control_ = &control;
+        const BlockLook look = look_at(control, state_);
+        run_.reads_bare_words = run_.reads_bare_words || look.bare_words_meet_no_parameter;
+        functions_.block(state_, look);
+        keep_state(look);
+        segments_before_ = run_.path.segments().size();
+    }
+    void finish() {
+        functions_.finish();
+        path_.finish();
+    }
 
   private:
+    void keep_state(const BlockLook& look) {
+        if (run_.states.size() == 0 || !(state_ == kept_)) {
+            const bool known = look.program != nullptr;
+            const auto program = known ? run_.path.program_index(*look.program) : std::uint16_t{0};
+            run_.states.append(
+                {segments_before_, static_cast<std::uint32_t>(look.line), program, state_});
+            kept_ = state_;
+        }
+        if (run_.rotaries.size() == 0 || look.rotary_deg != rotary_deg_)
+            run_.rotaries.append({segments_before_, look.rotary_deg});
+        rotary_deg_ = look.rotary_deg;
+    }
+
+    RecordedRun& run_;
     PathRecorder path_;
     BlockKeys keys_;
+    FunctionRecorder functions_;
+    std::optional<MachineSink> machine_;
+    const Control* control_ = nullptr;
+    ControlSnapshot state_, kept_;
+    std::array<double, 3> rotary_deg_{};
+    std::uint64_t segments_before_ = 0;
 };
-
-std::optional<RotaryTransform> transform_of(const Setup& setup) {
-    std::vector<Axis> order;
-    for (const ControlAxis& axis : control_config(setup).axes) order.push_back(axis.axis);
-    const auto pivot = decode_pivot(setup.stores.parameters, order);
-    if (!pivot) return std::nullopt;
-    return RotaryTransform(*pivot);
-}
 
 std::vector<std::string> folders_of(const ProgramText& program, const RecordOptions& options) {
     std::vector<std::string> folders = options.program_folders;
@@ -90,27 +135,43 @@ std::vector<std::string> folders_of(const ProgramText& program, const RecordOpti
     return folders;
 }
 
+/// A main program in memory that calls the one to compare.
+ProgramText caller_of(const std::string& call) {
+    const auto text = std::make_shared<const std::string>(call + "\nM30\n");
+    return {"--call", *text, text};
+}
+
 }  // namespace
+
+std::optional<RotaryTransform> believed_transform(const Setup& setup) {
+    std::vector<Axis> order;
+    for (const ControlAxis& axis : control_config(setup).axes) order.push_back(axis.axis);
+    const auto pivot = decode_pivot(setup.stores.parameters, order);
+    if (!pivot) return std::nullopt;
+    return RotaryTransform(*pivot);
+}
 
 RecordedRun record_run(const Setup& setup, const ProgramText& program, const RecordOptions& options,
                        const Setup* seen_through) {
     RecordedRun run;
     run.stores = setup.stores;
-    RecordingSink sink(run, options);
-    const auto seen = seen_through != nullptr ? transform_of(*seen_through) : std::nullopt;
+    RecordingSink sink(run, setup, options);
+    const auto seen = seen_through != nullptr ? believed_transform(*seen_through) : std::nullopt;
     if (seen) sink.see_through(*seen, seen_through->stores);
-    ProgramFolders programs(folders_of(program, options));
-    programs.add_file(program);
+    ProgramFolders folders(folders_of(program, options));
+    folders.add_file(program);
+    RememberingSource programs(folders, run.opened);
     ControlConfig config = control_config(setup);
     config.max_blocks = options.max_blocks;
     Controller controller(std::move(config), run.stores, programs, sink,
-                          [&run](std::string_view text) { run.printed += text; });
+                          [&sink](std::string_view text) { sink.printed(text); });
     for (const auto& [number, value] : setup.stores.variables)
         controller.set_variable(number, value);
-    run.result = controller.run(program);
+    controller.watch([&sink](const Control& control) { sink.watch(control); });
+    run.result = controller.run(options.call.empty() ? program : caller_of(options.call));
     for (const int number : controller.used_common_variables())
         run.variables[number] = controller.variable(number);
-    run.path.finish();
+    sink.finish();
     return run;
 }
 

@@ -6,16 +6,38 @@
 #include <vector>
 
 #include "controller/controller.h"
-#include "setup/setup.h"
+#include "positioning/rotary_transform.h"
+#include "regression/machine_functions.h"
+#include "regression/opened_programs.h"
 #include "regression/path_recorder.h"
 #include "regression/program_lines.h"
+#include "setup/setup.h"
 
 namespace trunnion {
+
+/// What is in force from a segment on, until the next row.
+struct StateRow {
+    std::uint64_t first_segment = 0;
+    std::uint32_t line = 0;  ///< of the block; 0: before the first
+    std::uint16_t program = 0;
+    ControlSnapshot state;
+};
+/// Where the rotary axes stand from a segment on.
+struct RotaryRow {
+    std::uint64_t first_segment = 0;
+    std::array<double, 3> rotary_deg{};
+};
 
 struct RecordedRun {
     RunResult result;
     PathRecord path;    ///< in the space asked for
-    KeyedLines blocks;  ///< one key for each move, dwell and M code: layer `blocks`
+    KeyedLines blocks;  ///< one key for each move and function: layer `blocks`
+    FunctionEvents functions;
+    SpilledArray<StateRow> states;
+    SpilledArray<RotaryRow> rotaries;
+    std::vector<OpenedProgram> opened;  ///< subprograms, in the order of their first call
+    bool reads_bare_words = false;      ///< axis words without a point, parameter 3401 not given
+    bool skips = false;                 ///< G31 moved
     std::string printed;
     std::map<int, double> variables;  ///< common variables in use
     Stores stores;                    ///< as the program left them
@@ -26,9 +48,14 @@ struct RecordOptions {
     Tolerances tolerances;
     std::vector<std::string> program_folders;  ///< searched before the program's own folder
     std::uint64_t max_blocks = 0;
+    std::string call;  ///< a block that calls the program ("G65 P9814 D25.4"); empty: runs itself
+    bool devices = false;  ///< the setup's probe and artefacts answer G31
 };
 
-/// Devices are not there: G31 runs to its end. NC alarms are in the result. With `seen_through` the
+/// The kinematics that the setup's control believes in; nothing without parameters.
+std::optional<RotaryTransform> believed_transform(const Setup& setup);
+
+/// Without `devices` G31 runs to its end. NC alarms are in the result. With `seen_through` the
 /// path is where the tip goes when that setup's pivot parameters and tool lengths are the true
 /// ones.
 RecordedRun record_run(const Setup& setup, const ProgramText& program, const RecordOptions& options,

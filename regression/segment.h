@@ -35,9 +35,10 @@ struct Segment {
     std::uint16_t program = 0;  ///< index into PathRecord::programs
     std::uint16_t tool = 0;
     SegmentKind kind = SegmentKind::rapid;
-    bool coolant = false;
     std::uint8_t mode = 0;  ///< PositioningMode in force
-    bool turning = false;   ///< rotary axes move in this segment
+    bool coolant : 1 = false;
+    bool turning : 1 = false;  ///< rotary axes move in this segment
+    bool timed : 1 = false;    ///< its feed is that of its length and time: G93, or turning
 
     PathPoint end() const { return {Vector3(end_mm.data()), Vector3(end_orientation.data())}; }
     bool is_arc() const { return sweep_rad != 0.0; }

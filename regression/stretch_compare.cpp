@@ -15,10 +15,6 @@ bool near(const PathPoint& p, const PathPoint& q, const Tolerances& t) {
            (p.orientation - q.orientation).squaredNorm() <= t.direction_rad * t.direction_rad;
 }
 
-bool ratio_differs(double a, double b, double ratio) {
-    return std::abs(a - b) > ratio * std::max(std::abs(a), std::abs(b));
-}
-
 }  // namespace
 
 void WalkTotals::worst(double position, double direction, std::uint64_t a, std::uint64_t b) {
@@ -41,6 +37,7 @@ void StretchComparer::compare(Stretch a, Stretch b, std::vector<PathRegion>& reg
     regions_ = &regions;
     totals_ = &totals;
     first_region_ = regions.size();
+    attributes_.begin(regions);
     commits_.clear();
     Corner at{a.first, b.first};
     bool together = common(at.i, at.j);
@@ -76,6 +73,7 @@ void StretchComparer::compare(Stretch a, Stretch b, std::vector<PathRegion>& reg
         together = common(at.i, at.j);
         commits_.clear();
     }
+    attributes_.end();
 }
 
 /// Segment against segment from a common corner: lines end together, arcs run together.
@@ -152,19 +150,11 @@ StretchComparer::Corner StretchComparer::first_failing(const FrechetResult& fail
 // Feed, spindle, coolant, tool ------------------------------------------------------------------
 
 void StretchComparer::attributes(Corner at) {
-    const Segment &sa = a_[at.i], &sb = b_[at.j];
-    if (sa.kind != SegmentKind::feed) return;
-    const double ratio = options_.tolerances.feed_ratio;
-    if (sa.tool != sb.tool) add_attribute(RegionKind::tool, at, sa.tool, sb.tool);
-    if (ratio_differs(sa.feed_mm_min, sb.feed_mm_min, ratio))
-        add_attribute(RegionKind::feed, at, sa.feed_mm_min, sb.feed_mm_min);
-    if (ratio_differs(sa.spindle_rpm, sb.spindle_rpm, ratio))
-        add_attribute(RegionKind::spindle, at, sa.spindle_rpm, sb.spindle_rpm);
-    if (sa.coolant != sb.coolant) add_attribute(RegionKind::coolant, at, sa.coolant, sb.coolant);
+    const double length_a = length_mm(a_[at.i - 1].end(), a_[at.i]);
+    attributes_.pair(at.i, at.j, length_a, length_mm(b_[at.j - 1].end(), b_[at.j]));
 }
 
-/// Stretches that agree as paths but are cut differently: pairs by fraction of length, and what
-/// overlaps by less than the tolerance does not count.
+/// Stretches that agree as paths but are cut differently: pairs by fraction of length.
 void StretchComparer::attributes_between(Corner from, Corner to) {
     const auto length_of = [](SegmentWindow& path, std::uint64_t first, std::uint64_t last) {
         std::vector<double> ends;
@@ -176,40 +166,18 @@ void StretchComparer::attributes_between(Corner from, Corner to) {
     const auto ends_a = length_of(a_, from.i, to.i), ends_b = length_of(b_, from.j, to.j);
     if (ends_a.empty() || ends_b.empty() || ends_a.back() <= 0.0 || ends_b.back() <= 0.0) return;
     const double scale = ends_a.back() / ends_b.back();
-    const double least = 4.0 * options_.tolerances.position_mm;
     std::size_t i = 0, j = 0;
     double done = 0.0;
     while (i < ends_a.size() && j < ends_b.size()) {
         const double end_b = ends_b[j] * scale;
         const double end = std::min(ends_a[i], end_b);
-        if (end - done > least) attributes({from.i + i, from.j + j});
-        done = end;
+        if (end > done) attributes_.pair(from.i + i, from.j + j, end - done, (end - done) / scale);
+        done = std::max(done, end);
         if (ends_a[i] <= end_b)
             ++i;
         else
             ++j;
     }
-}
-
-void StretchComparer::add_attribute(RegionKind kind, Corner at, double value_a, double value_b) {
-    // The same change goes on: it is one difference, across rapids too.
-    const std::size_t look_back = std::min<std::size_t>(4, regions_->size() - first_region_);
-    for (std::size_t k = 1; k <= look_back; ++k) {
-        PathRegion& r = (*regions_)[regions_->size() - k];
-        if (r.kind != kind || std::abs(r.value_a - value_a) > 1e-3 * std::abs(value_a) ||
-            std::abs(r.value_b - value_b) > 1e-3 * std::abs(value_b))
-            continue;
-        r.a.last = std::max(r.a.last, at.i + 1);
-        r.b.last = std::max(r.b.last, at.j + 1);
-        return;
-    }
-    PathRegion region;
-    region.kind = kind;
-    region.a = {at.i, at.i + 1};
-    region.b = {at.j, at.j + 1};
-    region.value_a = value_a;
-    region.value_b = value_b;
-    regions_->push_back(region);
 }
 
 // Where the paths meet again --------------------------------------------------------------------

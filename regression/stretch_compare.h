@@ -6,21 +6,9 @@
 #include <vector>
 
 #include "regression/align.h"
-#include "regression/frechet.h"
+#include "regression/attribute_compare.h"
 
 namespace trunnion {
-
-/// How a region differs. `moved`: the same path shifted by one vector.
-enum class RegionKind : std::uint8_t { moved, path, only_a, only_b, feed, spindle, coolant, tool };
-
-struct PathRegion {
-    RegionKind kind = RegionKind::path;
-    Stretch a, b;              ///< the differing segments; empty: nothing on that side
-    double position_mm = 0.0;  ///< largest distance of one path from the other there
-    double direction_rad = 0.0;
-    Vector3 shift_mm = Vector3::Zero();   ///< B minus A (moved)
-    double value_a = 0.0, value_b = 0.0;  ///< feed mm/min, spindle rpm, coolant 0/1, tool number
-};
 
 /// What was seen on the way, differences or not.
 struct WalkTotals {
@@ -46,7 +34,7 @@ struct WalkOptions {
 class StretchComparer {
   public:
     StretchComparer(const SegmentFile& a, const SegmentFile& b, WalkOptions options)
-        : a_(a), b_(b), options_(options) {}
+        : a_(a), b_(b), options_(options), attributes_(a_, b_, options.tolerances) {}
 
     void compare(Stretch a, Stretch b, std::vector<PathRegion>& regions, WalkTotals& totals);
 
@@ -58,7 +46,6 @@ class StretchComparer {
     bool same_arc(Corner at);
     void attributes(Corner at);
     void attributes_between(Corner from, Corner to);
-    void add_attribute(RegionKind kind, Corner at, double value_a, double value_b);
     Corner first_failing(const FrechetResult& failed, Corner from, Stretch a, Stretch b);
     Corner meet_again(Corner at, Stretch a, Stretch b);
     bool meet_near(Corner& at, Stretch a, Stretch b);
@@ -74,6 +61,7 @@ class StretchComparer {
 
     SegmentWindow a_, b_;
     WalkOptions options_;
+    AttributeComparer attributes_;
     std::vector<PathRegion>* regions_ = nullptr;
     WalkTotals* totals_ = nullptr;
     std::size_t first_region_ = 0;

@@ -91,6 +91,11 @@ class SuiteReader {
             into.options.by = static_cast<Layer>(found - layer_names.begin());
         }
         if (const TomlValue* b = table.find("setup_b")) into.setup_b = path_of(file_.text(*b));
+        into.options.call = text_or(table, "call", into.options.call);
+        if (const TomlValue* devices = table.find("devices")) {
+            if (devices->kind != TomlValue::Kind::boolean) file_.fail(*devices, "true or false");
+            into.options.devices = devices->truth;
+        }
         for (const std::string& folder : list(table, "programs_folders"))
             into.options.program_folders.push_back(path_of(folder));
     }

@@ -150,9 +150,10 @@ std::map<std::string, std::string> updated_goldens(const Suite& suite, const std
             if (now.equal) continue;
             reasons.insert(reasons.end(), golden.reasons.begin(), golden.reasons.end());
         }
-        const RecordedRun run = record_run(setups.at(c.setup), read_program(c.b),
-                                           {PathSpace::tip, c.options.tolerances,
-                                            c.options.program_folders, c.options.max_blocks});
+        const RecordedRun run =
+            record_run(setups.at(c.setup), read_program(c.b),
+                       {PathSpace::tip, c.options.tolerances, c.options.program_folders,
+                        c.options.max_blocks, "", c.options.devices});
         if (run.result.alarm) {
             Alarm alarm = *run.result.alarm;
             throw alarm;

@@ -35,6 +35,7 @@ ComparePlace place_of(const Json& j) {
 Json difference_json(const Difference& d) {
     return {{"kind", name_of(d.kind)},
             {"what", valid_utf8(d.what)},
+            {"cause", valid_utf8(d.cause)},
             {"a", place_json(d.a, true)},
             {"b", place_json(d.b, true)},
             {"position_mm", d.position_mm},
@@ -60,6 +61,7 @@ Difference difference_of(const Json& j) {
     Difference d;
     d.kind = static_cast<DifferenceKind>(index_of_name(difference_names, j.at("kind")));
     d.what = j.at("what");
+    d.cause = j.at("cause");
     d.a = place_of(j.at("a"));
     d.b = place_of(j.at("b"));
     d.position_mm = j.at("position_mm");

@@ -26,6 +26,7 @@ const std::vector<ReportRule>& rules() {
         {"value", "Another result: variable, offset or printed line"},
         {"alarm", "An NC alarm stopped a program"},
         {"text", "What is written differs"},
+        {"function", "Another machine function: M or T code, dwell, mode, store"},
         {"case", "A program could not be compared"},
         {"stale-expectation", "An expected difference no longer occurs"}};
     return table;
@@ -48,6 +49,30 @@ ReportItem item_of(const Difference& d) {
     return item;
 }
 
+/// A whole program as one item: at its gravest difference, with its verdict.
+ReportItem item_of(const Comparison& c) {
+    const std::size_t gravest = gravest_difference(c);
+    ReportItem item;
+    if (gravest < c.differences.size())
+        item = item_of(c.differences[gravest]);
+    else
+        item.rule = "case";
+    if (item.path.empty()) item.path = c.b.empty() ? c.a : c.b;
+    item.level = "error";
+    item.text = c.verdict;
+    return item;
+}
+
+ReportItem item_of(const ExpectedDifference& e, const std::string& suite) {
+    ReportItem item;
+    item.rule = "stale-expectation";
+    item.level = "warning";
+    item.path = suite;
+    item.text = fmt::format("expected, but no longer there: {} {} ({})", e.case_name, e.fingerprint,
+                            e.reason);
+    return item;
+}
+
 std::vector<ReportItem> items_of(const CompareReport& report) {
     std::vector<ReportItem> items;
     for (const Comparison& c : report.cases) {
@@ -59,15 +84,33 @@ std::vector<ReportItem> items_of(const CompareReport& report) {
         whole.text = c.verdict;
         items.push_back(whole);
     }
-    for (const ExpectedDifference& e : no_longer_occurring(report)) {
-        ReportItem item;
-        item.rule = "stale-expectation";
-        item.level = "warning";
-        item.path = report.suite;
-        item.text = fmt::format("expected, but no longer there: {} {} ({})", e.case_name,
-                                e.fingerprint, e.reason);
-        items.push_back(item);
-    }
+    for (const ExpectedDifference& e : no_longer_occurring(report))
+        items.push_back(item_of(e, report.suite));
+    return items;
+}
+
+/// GitHub shows ten annotations of a step: one for each program that differs, gravest first, and
+/// the last one counts the programs that found no place.
+std::vector<ReportItem> annotations_of(const CompareReport& report) {
+    constexpr std::size_t shown = 10;
+    std::vector<const Comparison*> order;
+    for (const Comparison& c : report.cases)
+        if (!c.equal) order.push_back(&c);
+    std::stable_sort(order.begin(), order.end(), [](const Comparison* p, const Comparison* q) {
+        return gravity_of(*p) > gravity_of(*q);
+    });
+    std::vector<ReportItem> items;
+    const std::size_t room = order.size() > shown ? shown - 1 : order.size();
+    for (std::size_t k = 0; k < room; ++k) items.push_back(item_of(*order[k]));
+    for (const ExpectedDifference& e : no_longer_occurring(report))
+        if (items.size() < shown && order.size() <= room) items.push_back(item_of(e, report.suite));
+    if (order.size() <= room) return items;
+    ReportItem rest;
+    rest.rule = "case";
+    rest.level = "error";
+    rest.path = order[room]->b.empty() ? order[room]->a : order[room]->b;
+    rest.text = fmt::format("{} more programs differ: see the report", order.size() - room);
+    items.push_back(rest);
     return items;
 }
 
@@ -93,15 +136,16 @@ std::string junit_of(const CompareReport& report) {
     return format_junit(report.suite.empty() ? "trunnion compare" : report.suite, cases);
 }
 
-constexpr std::array<const char*, 6> format_names{"text",  "json",   "junit",
-                                                  "sarif", "github", "html"};
+constexpr std::array<const char*, 7> format_names{"text",   "json", "junit",   "sarif",
+                                                  "github", "html", "markdown"};
 
 }  // namespace
 
 ReportFormat report_format(const std::string& name) {
     const auto found = std::find(format_names.begin(), format_names.end(), name);
     if (found == format_names.end())
-        throw InputError("--format " + name + ": one of text, json, junit, sarif, github, html");
+        throw InputError("--format " + name +
+                         ": one of text, json, junit, sarif, github, html, markdown");
     return static_cast<ReportFormat>(found - format_names.begin());
 }
 
@@ -118,7 +162,9 @@ std::string format_comparison(const CompareReport& report, ReportFormat format) 
         case ReportFormat::sarif:
             return format_sarif(rules(), items_of(report), {}, left_out_of(report));
         case ReportFormat::github:
-            return format_github(items_of(report));
+            return format_github(annotations_of(report));
+        case ReportFormat::markdown:
+            return comparison_markdown(report);
     }
     return {};
 }

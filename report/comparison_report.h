@@ -7,7 +7,7 @@
 
 namespace trunnion {
 
-enum class ReportFormat : unsigned char { text, json, junit, sarif, github, html };
+enum class ReportFormat : unsigned char { text, json, junit, sarif, github, html, markdown };
 /// The format of a name on the command line; throws InputError that lists them.
 ReportFormat report_format(const std::string& name);
 
@@ -16,6 +16,9 @@ std::string format_comparison(const CompareReport& report, ReportFormat format);
 std::string comparison_text(const CompareReport& report);
 /// The contract's JSON, see docs/compare.md.
 std::string comparison_json(const CompareReport& report);
+/// For step summaries: the answer, a table of the programs that differ, and their first
+/// differences.
+std::string comparison_markdown(const CompareReport& report);
 std::string comparison_html(const CompareReport& report);
 
 /// One shard's part of a suite's results: everything a report is written from, as JSON, and back.

@@ -25,19 +25,19 @@ Comparison by(Layer layer, const std::string& a, const std::string& b) {
 TEST_CASE("each layer alone, with the place of what it finds", "[compare]") {
     struct Row {
         const char *what, *with;
-        bool text, words, blocks, path, axes, effects;  ///< equal?
+        bool text, words, blocks, path, functions, axes, effects;  ///< equal?
     };
     const Row row = GENERATE(values<Row>({
-        {"N7 X60. F500.", "N7 X60. F500.  ", true, true, true, true, true, true},
-        {"N7 X60. F500.", "N70 F500 X60.0", false, true, true, true, true, true},
-        {"N7 X60. F500.", "N7 G91 X50. F500.\nG90", false, false, true, true, true, true},
-        {"N7 X60. F500.", "N7 X30. F500.\nX60.", false, false, false, true, true, true},
-        {"N7 X60.", "N7 X60.02", false, false, false, false, false, true},
-        {"F500.", "F510.", false, false, false, false, false, false},
-        {"#100=3.5", "#100=3.6", false, false, true, true, true, false},
-        {"DPRNT[POS", "DPRNT[POZ", false, false, true, true, true, false},
-        {"N9 G0", "N9 G4 X20.\nG0", false, false, false, true, false, false},
-        {"C45.", "C405.", false, false, false, true, false, false},
+        {"N7 X60. F500.", "N7 X60. F500.  ", true, true, true, true, true, true, true},
+        {"N7 X60. F500.", "N70 F500 X60.0", false, true, true, true, true, true, true},
+        {"N7 X60. F500.", "N7 G91 X50. F500.\nG90", false, false, true, true, true, true, true},
+        {"N7 X60. F500.", "N7 X30. F500.\nX60.", false, false, false, true, true, true, true},
+        {"N7 X60.", "N7 X60.02", false, false, false, false, true, false, true},
+        {"F500.", "F510.", false, false, false, false, true, false, false},
+        {"#100=3.5", "#100=3.6", false, false, true, true, false, true, false},
+        {"DPRNT[POS", "DPRNT[POZ", false, false, true, true, false, true, false},
+        {"N9 G0", "N9 G4 X20.\nG0", false, false, false, true, false, false, false},
+        {"C45.", "C405.", false, false, false, true, true, false, false},
     }));
     const std::string b = replaced(part, row.what, row.with);
     INFO(row.what << " became " << row.with);
@@ -46,7 +46,8 @@ TEST_CASE("each layer alone, with the place of what it finds", "[compare]") {
         INFO(name_of(layer) << ": " << r.verdict);
         CHECK(r.equal == equal);
         CHECK(r.by == layer);
-        if (equal || layer == Layer::effects || layer == Layer::axes) return;
+        if (equal || layer == Layer::effects || layer == Layer::axes || layer == Layer::functions)
+            return;
         // A dwell in its layer stands at the move before it.
         if (layer == Layer::blocks && std::string(row.with).find("G4") != std::string::npos) return;
         // Where the line, block or cut is named it is the edited one, on both sides.
@@ -57,12 +58,13 @@ TEST_CASE("each layer alone, with the place of what it finds", "[compare]") {
     check(Layer::words, row.words);
     check(Layer::blocks, row.blocks);
     check(Layer::path, row.path);
+    check(Layer::functions, row.functions);
     check(Layer::axes, row.axes);
     check(Layer::effects, row.effects);
     // The default names the first layer that differs, and where it became equal.
     static const Setup setup = bc_table();
     const Comparison r = compare_texts(part, b, setup);
-    CHECK(r.equal == row.path);
+    CHECK(r.equal == (row.path && row.functions));
     CHECK(r.layers.front().layer == Layer::text);
     CHECK(r.layers.front().equal == row.text);
     if (!row.text) CHECK(r.layers.back().layer == r.by);

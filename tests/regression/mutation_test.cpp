@@ -6,9 +6,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "base/random.h"
 #include "controller/controller.h"
 #include "emulator/run.h"
-#include "base/random.h"
 #include "tests/regression/plain_interpreter.h"
 #include "tests/regression/programs.h"
 

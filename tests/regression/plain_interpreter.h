@@ -20,16 +20,25 @@ struct PlainMove {
     std::vector<std::array<double, 3>> tips_mm;
 };
 
-/// G0-G3, G17, G20/G21, G40, G43 H Z, G49, G54, G80, G81, G90/G91, G94, G98/G99 and plain M codes
-/// on a three-axis machine.
+/// What a block does besides moving: M and T codes as written, dwells ('D') in seconds.
+struct PlainFunction {
+    char kind = 'M';
+    double value = 0.0;
+    std::size_t moves_before = 0;
+};
+
+/// G0-G3, G4, G17, G20/G21, G40, G43 H Z, G49, G54, G55, G80-G82, G90/G91, G94, G98/G99 and plain M
+/// codes on a three-axis machine.
 class PlainInterpreter {
   public:
-    PlainInterpreter(std::array<double, 3> g54_mm, std::map<int, double> length_mm)
-        : g54_(g54_mm), length_of_(std::move(length_mm)) {}
+    PlainInterpreter(std::array<double, 3> g54_mm, std::map<int, double> length_mm,
+                     std::array<double, 3> g55_mm = {})
+        : g54_(g54_mm), first_(g54_mm), second_(g55_mm), length_of_(std::move(length_mm)) {}
 
     bool unsure = false;   ///< met something outside its subset
     bool stopped = false;  ///< a fault that stops a control
     std::vector<PlainMove> moves;
+    std::vector<PlainFunction> functions;
 
     void run(const std::string& program) {
         std::size_t at = 0;
@@ -80,7 +89,7 @@ class PlainInterpreter {
 
     void obey(const Words& words) {
         int motion_codes = 0;
-        bool length_code = false;
+        bool length_code = false, dwells = false;
         for (const auto& [letter, value] : words) {
             int same = 0;
             for (const auto& [l, v] : words) same += l == letter;
@@ -95,7 +104,12 @@ class PlainInterpreter {
                     cycle_ = false;
                     ++motion_codes;
                     break;
+                case 40:
+                    dwells = true;
+                    break;
                 case 810:
+                case 820:
+                    drill_dwells_ = std::lround(value) == 82;
                     if (!cycle_) initial_z_ = program_z();
                     cycle_ = true;
                     ++motion_codes;
@@ -126,9 +140,13 @@ class PlainInterpreter {
                 case 430:
                     length_code = true;
                     break;
+                case 540:
+                case 550:
+                    if (cycle_) return void(unsure = true);
+                    g54_ = std::lround(value) == 54 ? first_ : second_;
+                    break;
                 case 170:
                 case 400:
-                case 540:
                 case 940:
                     break;
                 case 490:
@@ -140,13 +158,24 @@ class PlainInterpreter {
         }
         if (motion_codes > 1) return void(unsure = true);
         if (const auto s = find(words, 'S')) speed_ = *s;
-        if (const auto t = find(words, 'T')) chosen_ = static_cast<int>(*t);
+        if (const auto t = find(words, 'T')) {
+            chosen_ = static_cast<int>(*t);
+            note('T', *t);
+        }
+        if (dwells) return dwell(words);
         if (const auto f = find(words, 'F')) feed_ = *f * unit();
         const auto m = find(words, 'M');
+        if (m && words.size() > 1 && (*m == 0 || *m == 1) &&
+            (find(words, 'X') || find(words, 'Y') || find(words, 'Z')))
+            return void(unsure = true);
+        if (m) note('M', *m);
         if (m && !machine_code(static_cast<int>(*m))) return;
         for (const auto& [letter, value] : words)
-            if (std::string("GXYZIJRFSTMH").find(letter) == std::string::npos)
+            if (std::string("GXYZIJRFSTMHP").find(letter) == std::string::npos)
                 return void(unsure = true);
+        const auto p = find(words, 'P');
+        if (p && !(cycle_ && drill_dwells_)) return void(unsure = true);
+        if (p) drill_dwell_s_ = *p * 0.001;
         if (find(words, 'H').has_value() != length_code) return void(unsure = true);
         if (length_code) {
             if (!find(words, 'Z') || cycle_) return void(unsure = true);
@@ -200,6 +229,15 @@ class PlainInterpreter {
     void machine_off(int m) {
         if (m == 5) turning_ = 0;
         if (m == 9) coolant_ = false;
+    }
+
+    void note(char kind, double value) { functions.push_back({kind, value, moves.size()}); }
+
+    void dwell(const Words& words) {
+        for (const auto& [letter, value] : words)
+            if (letter != 'G' && letter != 'P') return void(unsure = true);
+        if (words.size() != 2 || !find(words, 'P')) return void(unsure = true);
+        note('D', *find(words, 'P') * 0.001);
     }
 
     double unit() const { return inch_ ? 25.4 : 1.0; }
@@ -291,19 +329,22 @@ class PlainInterpreter {
         line_to(to, true);
         line_to({to[0], to[1], *return_z_}, true);
         line_to({to[0], to[1], *depth_z_}, false);
+        if (drill_dwells_ && drill_dwell_s_ > 0.0) note('D', drill_dwell_s_);
         const double up = to_initial_ ? initial_z_ + g54_[2] + length_ : *return_z_;
         line_to({to[0], to[1], up}, true);
         if (to_initial_ && up < *return_z_) unsure = true;
     }
 
-    std::array<double, 3> g54_;
+    std::array<double, 3> g54_;  ///< in force
+    std::array<double, 3> first_, second_;
     std::map<int, double> length_of_;
     std::array<double, 3> gauge_{};
     double length_ = 0.0, feed_ = 0.0, speed_ = 0.0, initial_z_ = 0.0;
     std::optional<double> return_z_, depth_z_;
     int motion_ = 0, turning_ = 0, tool_ = 0, chosen_ = 0;
     bool cycle_ = false, incremental_ = false, inch_ = false, coolant_ = false, to_initial_ = true;
-    bool done_ = false;
+    bool done_ = false, drill_dwells_ = false;
+    double drill_dwell_s_ = 0.0;
 };
 
 }  // namespace trunnion::testing

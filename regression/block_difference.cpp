@@ -1,0 +1,151 @@
+#include "regression/block_difference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "interpreter/lexical.h"
+
+namespace trunnion {
+
+namespace {
+
+struct WrittenWord {
+    char letter = 0;
+    std::string number;
+    double value = 0.0;
+    bool point() const { return number.find('.') != std::string::npos; }
+    std::string text() const { return letter + number; }
+};
+
+/// Words with plain numbers, N aside; nothing where the block computes.
+std::vector<WrittenWord> words_of(const std::string& block) {
+    std::vector<WrittenWord> words;
+    bool comment = false;
+    for (const char raw : block) {
+        const char c = upper(raw);
+        if (c == '(' || c == ')') comment = c == '(';
+        if (comment || c == ')' || is_blank(c) || c == '/') continue;
+        if (c == '#' || c == '[' || c == '=') return {};
+        if (is_letter(c))
+            words.push_back({c, "", 0.0});
+        else if (!words.empty())
+            words.back().number += c;
+    }
+    std::erase_if(words, [](const WrittenWord& w) { return w.letter == 'N' || w.letter == 'O'; });
+    for (WrittenWord& w : words) w.value = std::strtod(w.number.c_str(), nullptr);
+    return words;
+}
+
+/// What only one side has, after words with the same letter and value are taken from both.
+void cancel(std::vector<WrittenWord>& a, std::vector<WrittenWord>& b) {
+    for (std::size_t i = 0; i < a.size();) {
+        const auto same = std::find_if(b.begin(), b.end(), [&](const WrittenWord& q) {
+            return q.letter == a[i].letter && q.value == a[i].value &&
+                   (q.point() == a[i].point() || q.value == 0.0 || q.letter == 'F');
+        });
+        if (same == b.end()) {
+            ++i;
+            continue;
+        }
+        b.erase(same);
+        a.erase(a.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+}
+
+std::string joined(const std::vector<WrittenWord>& words) {
+    std::string out;
+    for (const WrittenWord& w : words) out += (out.empty() ? "" : " ") + w.text();
+    return out;
+}
+
+bool same_letters(const std::vector<WrittenWord>& a, const std::vector<WrittenWord>& b) {
+    return a.size() == b.size() &&
+           std::equal(a.begin(), a.end(), b.begin(),
+                      [](const auto& p, const auto& q) { return p.letter == q.letter; });
+}
+
+/// The property that holds for every pair of words, if one does.
+template <typename Holds>
+bool all_pairs(const std::vector<WrittenWord>& a, const std::vector<WrittenWord>& b,
+               const Holds& holds) {
+    return std::equal(a.begin(), a.end(), b.begin(), holds);
+}
+
+std::string letters(const std::vector<WrittenWord>& words) {
+    std::string out;
+    for (const WrittenWord& w : words) out += (out.empty() ? "" : " ") + std::string(1, w.letter);
+    return out;
+}
+
+bool near(double a, double b) {
+    return std::abs(a - b) <= 0.002 + 1e-6 * std::abs(a);
+}
+
+/// I J K measured from the start on one side and from the program zero on the other.
+std::string centre_cause(const std::vector<WrittenWord>& a, const std::vector<WrittenWord>& b,
+                         const std::array<std::optional<double>, 3>& start) {
+    const auto shifted = [&](double sign) {
+        return all_pairs(a, b, [&](const WrittenWord& p, const WrittenWord& q) {
+            if (p.letter < 'I' || p.letter > 'K') return false;
+            const auto from = start[static_cast<std::size_t>(p.letter - 'I')];
+            return from && near(q.value - p.value, sign * *from);
+        });
+    };
+    if (shifted(1.0)) return letters(a) + " absolute instead of incremental: ";
+    if (shifted(-1.0)) return letters(a) + " incremental instead of absolute: ";
+    return {};
+}
+
+/// A name for what happened to the values, in front of them.
+std::string value_cause(const std::vector<WrittenWord>& a, const std::vector<WrittenWord>& b) {
+    const auto pairs = [&](const auto& holds) { return all_pairs(a, b, holds); };
+    if (pairs([](const auto& p, const auto& q) { return p.point() && !q.point(); }))
+        return "decimal point lost: ";
+    if (pairs([](const auto& p, const auto& q) { return !p.point() && q.point(); }))
+        return "decimal point added: ";
+    if (pairs([](const auto& p, const auto& q) { return p.value == -q.value; }))
+        return letters(a) + " of opposite sign: ";
+    if (a.size() == 2 && a[0].value == b[1].value && a[1].value == b[0].value)
+        return fmt::format("{} and {} exchanged: ", a[0].letter, a[1].letter);
+    if (pairs([](const auto& p, const auto& q) { return near(p.value, 25.4 * q.value); }))
+        return "inch instead of mm: ";
+    if (pairs([](const auto& p, const auto& q) { return near(25.4 * p.value, q.value); }))
+        return "mm instead of inch: ";
+    return {};
+}
+
+}  // namespace
+
+std::string block_difference(const std::string& block_a, const std::string& block_b,
+                             const std::array<std::optional<double>, 3>& start) {
+    std::vector<WrittenWord> a = words_of(block_a), b = words_of(block_b);
+    if (a.empty() && b.empty()) return {};
+    cancel(a, b);
+    if (a.empty() && b.empty()) return {};
+    if (b.empty()) return fmt::format("{} is missing in B", joined(a));
+    if (a.empty()) return fmt::format("{} is only in B", joined(b));
+    std::string name;
+    const auto by_letter = [](const auto& p, const auto& q) { return p.letter < q.letter; };
+    std::stable_sort(a.begin(), a.end(), by_letter);
+    std::stable_sort(b.begin(), b.end(), by_letter);
+    if (same_letters(a, b)) {
+        name = value_cause(a, b);
+        if (name.empty()) name = centre_cause(a, b, start);
+    }
+    if (name.empty() && std::max(a.size(), b.size()) > 3) return {};
+    return name + joined(b) + " instead of " + joined(a);
+}
+
+std::array<std::optional<double>, 3> position_words(const std::string& block) {
+    std::array<std::optional<double>, 3> found;
+    for (const WrittenWord& word : words_of(block))
+        if (word.letter >= 'X' && word.letter <= 'Z')
+            found[static_cast<std::size_t>(word.letter - 'X')] = word.value;
+    return found;
+}
+
+}  // namespace trunnion

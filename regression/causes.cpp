@@ -1,0 +1,340 @@
+#include "regression/causes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "regression/moved_pivot.h"
+
+namespace trunnion {
+
+namespace {
+
+using Fields = std::vector<std::size_t>;
+
+bool same(const std::array<double, 3>& p, const std::array<double, 3>& q) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (std::abs(p[k] - q[k]) > 1e-3 + 1e-6 * std::abs(p[k])) return false;
+    return true;
+}
+
+/// The states of one run by segment.
+class States {
+  public:
+    explicit States(const RecordedRun& run) : rows_(run.states) {}
+
+    /// Row in force at a segment.
+    std::uint64_t at(std::uint64_t segment) {
+        std::uint64_t low = 0, high = rows_.size();
+        while (low + 1 < high) {
+            const std::uint64_t middle = (low + high) / 2;
+            (rows_[middle].first_segment <= segment ? low : high) = middle;
+        }
+        return low;
+    }
+    StateRow row(std::uint64_t index) { return rows_[index]; }
+
+    /// The row where a field took the value that it has at `index`.
+    std::uint64_t entry(const SnapshotField& field, std::uint64_t index) {
+        const auto value = field.value(rows_[index].state);
+        constexpr std::uint64_t farthest = 20000;
+        const std::uint64_t stop = index > farthest ? index - farthest : 0;
+        while (index > stop && same(field.value(rows_[index - 1].state), value)) --index;
+        return index;
+    }
+    bool empty() const { return rows_.size() == 0; }
+
+  private:
+    SpilledWindow<StateRow> rows_;
+};
+
+unsigned explaining(DifferenceKind kind) {
+    switch (kind) {
+        case DifferenceKind::feed:
+            return explains_feed;
+        case DifferenceKind::spindle:
+            return explains_speed;
+        case DifferenceKind::coolant:
+            return explains_coolant;
+        case DifferenceKind::tool:
+            return explains_tool;
+        default:
+            return explains_path;
+    }
+}
+
+/// Only said where nothing before them in the table explains: they follow from others.
+bool follows_from_others(const std::string& name) {
+    return name == "cutter radius" || name == "tool length" || name == "work zero" ||
+           name == "work zero of the rotary axes" || name == "motion" || name == "local shift" ||
+           name == "angles of the tilted plane" || name == "feed" || name == "speed";
+}
+
+/// May differ for a while before a path shows it.
+bool can_lie_hidden(const std::string& name, bool arc) {
+    if (name == "plane") return arc;
+    return name == "units" || name == "feed mode" || name == "radius number" ||
+           name == "cutter radius" || name == "level after a cycle" || name == "surface speed" ||
+           name == "spindle" || name == "speed" || name == "coolant" || name == "tool" ||
+           name == "feed";
+}
+
+/// What is only on one side, or elsewhere, needs no cause: its block is its place.
+bool says_all(DifferenceKind kind) {
+    return kind == DifferenceKind::only_a || kind == DifferenceKind::only_b ||
+           kind == DifferenceKind::reordered;
+}
+
+class Explainer {
+  public:
+    explicit Explainer(const CauseInput& input)
+        : in_(input),
+          a_(input.a),
+          b_(input.b),
+          path_a_(input.a.path.segments()),
+          path_b_(input.b.path.segments()) {}
+
+    std::vector<ExplainedCluster> run(const std::vector<PathCluster>& clusters) {
+        for (const PathCluster& cluster : clusters) add(cause_of(cluster), cluster);
+        if (const auto moved = moved_pivot(clusters, {in_.a, in_.transform, in_.tolerances}))
+            return one_pivot(*moved);
+        return std::move(result_);
+    }
+
+  private:
+    struct Found {
+        std::string cause, group;  ///< clusters with one group are one difference; empty: alone
+        CausePlace a, b;
+    };
+
+    /// One cause, or the same words at the same place, is one difference.
+    void add(const Found& found, const PathCluster& cluster) {
+        std::vector<std::string> keys;
+        if (!found.group.empty()) keys.push_back(found.group);
+        if (!found.cause.empty())
+            keys.push_back(fmt::format("{}@{},{}", found.cause, found.a.line, found.b.line));
+        for (const std::string& key : keys)
+            if (const auto known = groups_.find(key); known != groups_.end())
+                return join(result_[known->second].cluster, cluster);
+        for (const std::string& key : keys) groups_[key] = result_.size();
+        result_.push_back({cluster, found.cause, found.a, found.b});
+    }
+
+    static void join(PathCluster& into, const PathCluster& more) {
+        into.count += more.count;
+        into.position_mm = std::max(into.position_mm, more.position_mm);
+        into.direction_rad = std::max(into.direction_rad, more.direction_rad);
+        into.cut_a_mm += more.cut_a_mm;
+        into.cut_b_mm += more.cut_b_mm;
+    }
+
+    Found cause_of(const PathCluster& c) {
+        if (says_all(c.kind) || a_.empty() || b_.empty()) return {};
+        const std::uint64_t i = c.first.a.first, j = c.first.b.first;
+        const Fields now = differing(i, j, explaining(c.kind));
+        Fields fresh = now;
+        if (i > 1 && j > 1) {
+            const Fields before = differing(i - 1, j - 1, explaining(c.kind));
+            std::erase_if(fresh, [&](std::size_t f) {
+                return std::find(before.begin(), before.end(), f) != before.end();
+            });
+        }
+        if (Found missing = by_missing_block(i, j); !missing.cause.empty()) return missing;
+        if (!fresh.empty()) return active_ = by_state(fresh, i, j);
+        if (!active_.group.empty() && active_fields_stand(now)) return active_;
+        if (Found written = by_blocks(c, i, j); !written.cause.empty()) return written;
+        return hidden(now, i, j);
+    }
+
+    Found hidden(Fields now, std::uint64_t i, std::uint64_t j) {
+        const bool arc = i < in_.a.path.segments().size() && path_a_[i].is_arc();
+        std::erase_if(
+            now, [arc](std::size_t f) { return !can_lie_hidden(snapshot_fields()[f].name, arc); });
+        return now.empty() ? Found{} : active_ = by_state(now, i, j);
+    }
+
+    bool active_fields_stand(const Fields& now) const {
+        return !active_fields_.empty() &&
+               std::all_of(active_fields_.begin(), active_fields_.end(), [&](std::size_t f) {
+                   return std::find(now.begin(), now.end(), f) != now.end();
+               });
+    }
+
+    Fields differing(std::uint64_t i, std::uint64_t j, unsigned explains) {
+        const ControlSnapshot p = a_.row(a_.at(i)).state, q = b_.row(b_.at(j)).state;
+        Fields fields;
+        const auto all = snapshot_fields();
+        for (std::size_t f = 0; f < all.size(); ++f)
+            if ((all[f].explains & explains) != 0 && !same(all[f].value(p), all[f].value(q)))
+                fields.push_back(f);
+        return fields;
+    }
+
+    Found by_state(Fields fields, std::uint64_t i, std::uint64_t j) {
+        active_fields_ = fields;
+        const auto first_order = [](std::size_t f) {
+            return !follows_from_others(snapshot_fields()[f].name);
+        };
+        if (std::any_of(fields.begin(), fields.end(), first_order))
+            std::erase_if(fields, [&](std::size_t f) { return !first_order(f); });
+        Found found;
+        for (std::size_t k = 0; k < std::min<std::size_t>(2, fields.size()); ++k) {
+            const std::string said = say(snapshot_fields()[fields[k]], i, j, k == 0, found);
+            found.cause += (k > 0 ? ", " : "") + said;
+        }
+        found.group = found.cause;
+        const bool value_alone = fields.size() == 1 &&
+                                 std::string_view(snapshot_fields()[fields[0]].name) == "work zero";
+        if (value_alone && in_.gaps != nullptr)
+            if (const auto written = in_.gaps->first_that_writes()) {
+                found.cause = written->what.empty() ? found.cause : written->what;
+                found.a.line = static_cast<std::uint32_t>(written->line_a);
+                found.b.line = static_cast<std::uint32_t>(written->line_b);
+            }
+        return found;
+    }
+
+    /// One field in words; the first one gives the place.
+    std::string say(const SnapshotField& field, std::uint64_t i, std::uint64_t j, bool places,
+                    Found& found) {
+        const std::uint64_t at_a = a_.at(i), at_b = b_.at(j);
+        const std::uint64_t entry_a = a_.entry(field, at_a), entry_b = b_.entry(field, at_b);
+        const StateRow row_a = a_.row(entry_a), row_b = b_.row(entry_b);
+        const auto value_a = field.value(row_a.state), value_b = field.value(row_b.state);
+        const bool a_changed = entry_a > 0 && same(field.value(a_.row(entry_a - 1).state), value_b);
+        const bool b_changed = entry_b > 0 && same(field.value(b_.row(entry_b - 1).state), value_a);
+        if (places) {
+            found.a = {row_a.line, row_a.program};
+            found.b = {row_b.line, row_b.program};
+            // What one side lacks has no block there: the next one that moves stands for it.
+            if (a_changed && !b_changed) found.b = beside(path_b_, row_a.first_segment, i, j);
+            if (b_changed && !a_changed) found.a = beside(path_a_, row_b.first_segment, j, i);
+        }
+        const std::string text_a = field.text(row_a.state), text_b = field.text(row_b.state);
+        if (a_changed && !b_changed && !written_in_b(row_a.line, text_b))
+            return fmt::format("{} is missing in B, {} stays in force", text_a, text_b);
+        return fmt::format("{} instead of {}", text_b, text_a);
+    }
+
+    /// B's block in the place of A's line writes it, although it was in force before.
+    bool written_in_b(std::uint32_t line_a, const std::string& text) {
+        if (in_.gaps == nullptr) return false;
+        const auto cause = in_.gaps->before(static_cast<int>(line_a), 0);
+        return cause && cause->line_a == static_cast<int>(line_a) &&
+               cause->what.find(text + " ") != std::string::npos;
+    }
+
+    /// The block of the other side that stands as far before the difference.
+    static CausePlace beside(SegmentWindow& path, std::uint64_t entry, std::uint64_t own,
+                             std::uint64_t other) {
+        if (path.size() < 2) return {};
+        const std::uint64_t back = own > entry ? own - entry : 0;
+        const std::uint64_t at = other > back ? other - back : 1;
+        const Segment s = path[std::min(at, path.size() - 1)];
+        return {s.line, s.program};
+    }
+
+    /// The block that moves is there on one side alone: what is in force at the next one says
+    /// nothing.
+    Found by_missing_block(std::uint64_t i, std::uint64_t j) {
+        if (in_.gaps == nullptr) return {};
+        const CausePlace a = place(path_a_, i), b = place(path_b_, j);
+        const auto cause =
+            in_.gaps->block_missing(static_cast<int>(a.line), static_cast<int>(b.line));
+        return cause ? found_at(*cause, a, b) : Found{};
+    }
+
+    static Found found_at(const WrittenCause& cause, CausePlace a, CausePlace b) {
+        Found found;
+        found.cause = cause.what;
+        found.a = {static_cast<std::uint32_t>(cause.line_a), a.program};
+        found.b = {static_cast<std::uint32_t>(cause.line_b), b.program};
+        return found;
+    }
+
+    Found by_blocks(const PathCluster& c, std::uint64_t i, std::uint64_t j) {
+        if (in_.gaps == nullptr) return {};
+        const CausePlace a = place(path_a_, i), b = place(path_b_, j);
+        const int line_a = static_cast<int>(a.line), line_b = static_cast<int>(b.line);
+        auto cause = in_.gaps->before(line_a, line_b);
+        constexpr int read_ahead = 3;  // under G41 the next block turns the end of this one
+        if (!cause) cause = in_.gaps->before(line_a + read_ahead, line_b + read_ahead);
+        if (!cause || cause->what.empty()) return {};
+        Found found = found_at(*cause, a, b);
+        const std::size_t name = found.cause.find(": ");
+        if (name != std::string::npos && c.kind != DifferenceKind::feed)
+            found.group = found.cause.substr(0, name);
+        return found;
+    }
+
+    static CausePlace place(SegmentWindow& path, std::uint64_t at) {
+        if (path.size() == 0) return {};
+        const Segment s = path[std::min(at, path.size() - 1)];
+        return {s.line, s.program};
+    }
+
+    std::vector<ExplainedCluster> one_pivot(const MovedPivot& moved) {
+        std::vector<ExplainedCluster> left;
+        std::optional<std::size_t> first;
+        double largest_mm = 0.0;
+        for (const ExplainedCluster& e : result_)
+            if (e.cluster.kind == DifferenceKind::moved)
+                largest_mm = std::max(largest_mm, e.cluster.position_mm);
+        for (ExplainedCluster& e : result_) {
+            const bool between =  // the ways from one shifted section to the next
+                e.cluster.kind == DifferenceKind::path && e.cluster.position_mm < 1.5 * largest_mm;
+            if (e.cluster.kind != DifferenceKind::moved && !between) {
+                left.push_back(std::move(e));
+            } else if (first) {
+                join(left[*first].cluster, e.cluster);
+            } else {
+                first = left.size();
+                e.cause = moved.text;
+                left.push_back(std::move(e));
+            }
+        }
+        return left;
+    }
+
+    const CauseInput& in_;
+    States a_, b_;
+    SegmentWindow path_a_, path_b_;
+    std::vector<ExplainedCluster> result_;
+    std::map<std::string, std::size_t> groups_;
+    Found active_;
+    Fields active_fields_;
+};
+
+}  // namespace
+
+std::vector<ExplainedCluster> explain(const std::vector<PathCluster>& clusters,
+                                      const CauseInput& input) {
+    return Explainer(input).run(clusters);
+}
+
+std::string frame_hint(const RecordedRun& run, const char* side) {
+    constexpr std::uint64_t looked_at = 100000;
+    constexpr std::size_t length = 8;
+    SpilledWindow<StateRow> rows(run.states);
+    SpilledWindow<RotaryRow> turns(run.rotaries);
+    std::uint64_t turn = 0;
+    for (std::uint64_t k = 1; k < std::min(looked_at, rows.size()); ++k) {
+        const StateRow row = rows[k];
+        const int code = row.state.modal10[length], before = rows[k - 1].state.modal10[length];
+        if ((code != 434 && code != 435) || code == before) continue;
+        while (turn + 1 < turns.size() && turns[turn + 1].first_segment < row.first_segment) ++turn;
+        const auto deg = turns[turn].rotary_deg;
+        if (deg == std::array<double, 3>{}) continue;
+        return fmt::format(
+            "{} line {}: {} begins with the rotary axes at A{:g} B{:g} C{:g}; its coordinates are "
+            "read in the work frame as it lies then (tcp_frame of the setup); a post that means "
+            "the "
+            "frame at rotary zero writes other ones",
+            side, row.line, code == 434 ? "G43.4" : "G43.5", deg[0], deg[1], deg[2]);
+    }
+    return {};
+}
+
+}  // namespace trunnion

@@ -1,0 +1,74 @@
+// What a control has in force, as plain values: what differences are explained by.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace trunnion {
+
+struct Control;
+
+/// The state after a block. Filled in control_snapshot.cpp alone, whatever the controller looks
+/// like inside.
+struct ControlSnapshot {
+    std::array<std::int16_t, 24> modal10{};        ///< code * 10 by modal group
+    std::int16_t work_number = 0;                  ///< P of G54.1
+    std::int16_t fixture_number = 0;               ///< P of G54.2
+    std::int16_t length_number = 0;                ///< H
+    std::int16_t radius_number = 0;                ///< D
+    std::int32_t tool_selected = 0;                ///< T
+    std::int32_t tool = 0;                         ///< in the spindle
+    std::int32_t spindle_direction = 0;            ///< +1 M3, -1 M4, 0 M5
+    std::int32_t coolant = 0;                      ///< 0, 1
+    float feed = 0.0F;                             ///< F as written
+    float speed = 0.0F;                            ///< S as written
+    float radius_mm = 0.0F;                        ///< of D while G41, G42 are in force
+    std::array<float, 3> length_mm{};              ///< tool length vector
+    std::array<float, 3> origin_mm{};              ///< zero of the work frame, machine coordinates
+    std::array<float, 3> origin_deg{};             ///< the same of A B C
+    std::array<float, 3> local_mm{};               ///< G52
+    std::array<float, 9> feature{};                ///< rotation of the tilted plane
+    std::array<float, 3> scale{1.0F, 1.0F, 1.0F};  ///< G51 times G51.1
+    float rotation_deg = 0.0F;                     ///< G68
+    std::array<float, 3> smoothing{};              ///< values of G5.1 Q, G5 P, G8 P
+    friend bool operator==(const ControlSnapshot&, const ControlSnapshot&) = default;
+};
+
+/// What a block besides moves does, or where the axes stand: not part of what is in force.
+struct BlockLook {
+    int line = 0;
+    const std::string* program = nullptr;
+    std::uint64_t store_key = 0;                ///< of a G10 block's words; 0: none
+    std::array<double, 3> rotary_deg{};         ///< A B C, machine positions
+    bool bare_words_meet_no_parameter = false;  ///< numbers without a point, 3401 not given
+};
+
+/// Brings `snapshot` up to date (`smoothing` is kept from block to block).
+BlockLook look_at(const Control& control, ControlSnapshot& snapshot);
+int tool_in_spindle(const Control& control);
+/// Of the block that runs.
+int running_line(const Control& control);
+/// G93 in force for the move that goes out now.
+bool feeds_by_inverse_time(const Control& control);
+
+/// What a field can explain.
+enum Explains : unsigned {
+    explains_path = 1,
+    explains_feed = 2,
+    explains_speed = 4,
+    explains_coolant = 8,
+    explains_tool = 16
+};
+
+/// One thing that can be in force, to be compared and said.
+struct SnapshotField {
+    const char* name;
+    unsigned explains;
+    std::array<double, 3> (*value)(const ControlSnapshot&);
+    std::string (*text)(const ControlSnapshot&);  ///< "G54.1 P1", "H2"
+};
+std::span<const SnapshotField> snapshot_fields();
+
+}  // namespace trunnion

@@ -1,0 +1,182 @@
+#include "regression/function_compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace trunnion {
+
+namespace {
+
+KeyedLines keys_of(const FunctionEvents& events) {
+    KeyedLines keys;
+    SpilledWindow<FunctionEvent> window(events);
+    for (std::uint64_t k = 0; k < events.size(); ++k) keys.append({window[k].key, window[k].line});
+    return keys;
+}
+
+/// Coolant and everything else are two sequences: M8 M3 and M3 M8 at one place are the same.
+FunctionEvents kept(const FunctionEvents& all, bool stores, bool coolant) {
+    FunctionEvents events;
+    SpilledWindow<FunctionEvent> window(all);
+    for (std::uint64_t k = 0; k < all.size(); ++k) {
+        const FunctionKind kind = window[k].kind;
+        if ((kind == FunctionKind::coolant) != coolant) continue;
+        if (stores || kind != FunctionKind::store) events.append(window[k]);
+    }
+    return events;
+}
+
+double distance(const FunctionEvent& p, const FunctionEvent& q) {
+    return std::hypot(p.tip_mm[0] - q.tip_mm[0], p.tip_mm[1] - q.tip_mm[1],
+                      p.tip_mm[2] - q.tip_mm[2]);
+}
+
+class FunctionComparer {
+  public:
+    FunctionComparer(const RecordedRun& a, const RecordedRun& b,
+                     const FunctionCompareOptions& options, SourceLines& lines_a,
+                     SourceLines& lines_b, bool coolant, Comparison& result)
+        : run_a_(a),
+          run_b_(b),
+          kept_a_(kept(a.functions, options.stores, coolant)),
+          kept_b_(kept(b.functions, options.stores, coolant)),
+          a_(kept_a_),
+          b_(kept_b_),
+          options_(options),
+          lines_a_(lines_a),
+          lines_b_(lines_b),
+          result_(result) {}
+
+    bool run() {
+        const KeyedLines keys_a = keys_of(kept_a_), keys_b = keys_of(kept_b_);
+        KeyGap before;
+        key_gaps(keys_a, keys_b, [&](const KeyGap& gap) {
+            matched(before.a_last, gap.a_first, before.b_last);
+            gap_between(gap);
+            before = gap;
+        });
+        matched(before.a_last, kept_a_.size(), before.b_last);
+        result_.compared += std::max(kept_a_.size(), kept_b_.size());
+        return same_writes_;
+    }
+
+  private:
+    void matched(std::uint64_t first, std::uint64_t last, std::uint64_t b_first) {
+        for (std::uint64_t k = first; k < last; ++k) pair(k, b_first + (k - first));
+    }
+
+    void pair(std::uint64_t i, std::uint64_t j) {
+        const FunctionEvent p = a_[i], q = b_[j];
+        if (p.kind == FunctionKind::dwell &&
+            std::abs(p.value - q.value) >
+                options_.tolerances.time_ratio * std::max(p.value, q.value) + 1e-4)
+            add(fmt::format("{} -> {:g} s", text_of(p), q.value), i, j, p.value, q.value);
+        else if (options_.places && p.placed && q.placed && elsewhere(p, q))
+            add(fmt::format("{} stands at another place of the path", text_of(p)), i, j, 0.0, 0.0);
+        cut_a_mm_ = p.cut_mm;
+        cut_b_mm_ = q.cut_mm;
+    }
+
+    /// Cuts since the last function that both have: chords are a little shorter than arcs.
+    bool elsewhere(const FunctionEvent& p, const FunctionEvent& q) const {
+        const double cut_a = p.cut_mm - cut_a_mm_, cut_b = q.cut_mm - cut_b_mm_;
+        if (std::abs(cut_a - cut_b) > 0.01 * std::max(cut_a, cut_b) + 0.05) return true;
+        if (run_a_.path.modes() != run_b_.path.modes()) return false;
+        return distance(p, q) > 4.0 * options_.tolerances.position_mm;
+    }
+
+    void gap_between(const KeyGap& gap) {
+        for (std::uint64_t k = gap.a_first; k < gap.a_last; ++k)
+            same_writes_ = same_writes_ && a_[k].kind != FunctionKind::store;
+        for (std::uint64_t k = gap.b_first; k < gap.b_last; ++k)
+            same_writes_ = same_writes_ && b_[k].kind != FunctionKind::store;
+        const std::uint64_t in_a = gap.a_last - gap.a_first, in_b = gap.b_last - gap.b_first;
+        const std::uint64_t both = std::min(in_a, in_b);
+        for (std::uint64_t k = 0; k < both; ++k) {
+            const std::uint64_t i = gap.a_first + k, j = gap.b_first + k;
+            add(fmt::format("{} instead of {}", text_of(b_[j]), text_of(a_[i])), i, j, a_[i].value,
+                b_[j].value);
+        }
+        for (std::uint64_t k = gap.a_first + both; k < gap.a_last; ++k)
+            if (!ends_only(a_[k], exact_only_a_))
+                add(fmt::format("{} is missing in B", text_of(a_[k])), k, gap.b_last, 0.0, 0.0);
+        for (std::uint64_t k = gap.b_first + both; k < gap.b_last; ++k)
+            if (!ends_only(b_[k], exact_only_b_))
+                add(fmt::format("{} is only in B", text_of(b_[k])), gap.a_last, k, 0.0, 0.0);
+    }
+
+    /// The end of an exact stop that only this side began is no difference of its own.
+    static bool ends_only(const FunctionEvent& e, bool& begun) {
+        if (e.kind != FunctionKind::exact_stop) return false;
+        const bool ends = begun && e.value == 0.0;
+        begun = e.value != 0.0;
+        return ends;
+    }
+
+    /// `i` or `j` may stand for a function that is missing: the next one of that side names the
+    /// place.
+    void add(const std::string& what, std::uint64_t i, std::uint64_t j, double value_a,
+             double value_b) {
+        // The path may have said so already.
+        if (std::any_of(result_.differences.begin(), result_.differences.end(),
+                        [&](const Difference& d) { return d.cause.starts_with(what); }))
+            return;
+        const auto known = known_.find(what);
+        if (known != known_.end()) {
+            ++result_.differences[known->second].count;
+            return;
+        }
+        if (result_.differences.size() >= options_.most_differences) {
+            ++result_.differences_left_out;
+            return;
+        }
+        Difference d;
+        d.kind = DifferenceKind::function;
+        d.what = what;
+        d.a = place(a_, run_a_, i, lines_a_);
+        d.b = place(b_, run_b_, j, lines_b_);
+        d.value_a = value_a;
+        d.value_b = value_b;
+        known_[what] = result_.differences.size();
+        result_.differences.push_back(std::move(d));
+    }
+
+    static ComparePlace place(SpilledWindow<FunctionEvent>& events, const RecordedRun& run,
+                              std::uint64_t at, SourceLines& lines) {
+        ComparePlace p;
+        p.program = lines.main_name();
+        if (events.size() == 0) return p;
+        const FunctionEvent e = events[std::min(at, events.size() - 1)];
+        if (e.line == 0) return p;
+        if (e.program < run.path.programs().size()) p.program = run.path.programs()[e.program];
+        p.line = p.last_line = static_cast<int>(e.line);
+        lines.show(p);
+        return p;
+    }
+
+    const RecordedRun &run_a_, &run_b_;
+    FunctionEvents kept_a_, kept_b_;
+    SpilledWindow<FunctionEvent> a_, b_;
+    FunctionCompareOptions options_;
+    SourceLines &lines_a_, &lines_b_;
+    Comparison& result_;
+    std::map<std::string, std::size_t> known_;  ///< differences so far by their sentence
+    bool same_writes_ = true;
+    bool exact_only_a_ = false, exact_only_b_ = false;
+    double cut_a_mm_ = 0.0, cut_b_mm_ = 0.0;  ///< at the last function that both have
+};
+
+}  // namespace
+
+bool compare_functions(const RecordedRun& a, const RecordedRun& b,
+                       const FunctionCompareOptions& options, SourceLines& lines_a,
+                       SourceLines& lines_b, Comparison& result) {
+    const bool same_writes = FunctionComparer(a, b, options, lines_a, lines_b, false, result).run();
+    FunctionComparer(a, b, options, lines_a, lines_b, true, result).run();
+    return same_writes;
+}
+
+}  // namespace trunnion

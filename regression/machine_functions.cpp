@@ -1,0 +1,159 @@
+#include "regression/machine_functions.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace trunnion {
+
+namespace {
+
+std::uint64_t mix(std::uint64_t h, std::uint64_t n) {
+    h = (h ^ n) * 0xBF58476D1CE4E5B9ULL;
+    return h ^ (h >> 29U);
+}
+
+std::uint64_t key_of(const FunctionEvent& e) {
+    const std::uint64_t h = mix(11, static_cast<std::uint64_t>(e.kind));
+    if (e.kind == FunctionKind::dwell) return h;  // its time is compared with a tolerance
+    return mix(mix(h, static_cast<std::uint64_t>(std::llround(e.value * 1e3))),
+               static_cast<std::uint64_t>(std::llround(e.detail)));
+}
+
+}  // namespace
+
+void FunctionRecorder::before_move(const AxisMove& move) {
+    if (move.kind != MotionKind::rapid) now_.exact_stop = move.gap_free ? 0 : 1;
+    tell_states();
+    mode_ = static_cast<std::uint8_t>(move.mode);
+}
+
+void FunctionRecorder::dwell(double duration_s) {
+    tell_states();
+    add(FunctionKind::dwell, duration_s);
+}
+
+void FunctionRecorder::m_code(int code, int tool, int line) {
+    const auto here = static_cast<std::uint32_t>(std::max(0, line));
+    switch (code) {
+        case 3:
+        case 4:
+        case 5:
+            now_.spindle = code == 5 ? 0 : code == 3 ? 1 : -1;
+            now_.spindle_line = here;
+            return;
+        case 7:
+        case 8:
+            now_.coolant = std::max(0, now_.coolant) | (code == 8 ? 1 : 2);
+            now_.coolant_line = here;
+            return;
+        case 9:
+            now_.coolant = 0;
+            now_.coolant_line = here;
+            return;
+        case 6:
+            now_.tool = told_.tool = tool;
+            break;
+        default:
+            break;
+    }
+    tell_states();
+    add(FunctionKind::m_code, code, code == 6 ? tool : 0.0);
+    if (code != 6 && code > 1) return;
+    now_.spindle = told_.spindle = nothing_said;
+    now_.coolant = told_.coolant = nothing_said;
+}
+
+void FunctionRecorder::block(const ControlSnapshot& s, const BlockLook& look) {
+    now_.tool = s.tool_selected;
+    const bool exact_mode = s.modal10[15] == 610;
+    if (exact_mode != exact_mode_) exact_line_ = static_cast<std::uint32_t>(std::max(0, look.line));
+    exact_mode_ = exact_mode;
+    const std::int16_t path_mode = s.modal10[15] == 610 ? std::int16_t{640} : s.modal10[15];
+    if (path_mode != path_mode_) add(FunctionKind::path_mode, path_mode * 0.1, 0.0, false);
+    path_mode_ = path_mode;
+    for (std::size_t k = 0; k < smoothing_.size(); ++k)
+        if (s.smoothing[k] != smoothing_[k])
+            add(FunctionKind::smoothing, s.smoothing[k], static_cast<double>(k), false);
+    smoothing_ = s.smoothing;
+    if (look.store_key != 0) {
+        tell_states();
+        add(FunctionKind::store, static_cast<double>(look.store_key >> 20U), 0.0, false);
+    }
+    if (held_.empty()) return;
+    const bool known = look.program != nullptr;
+    write_held(static_cast<std::uint32_t>(std::max(0, look.line)),
+               known ? path_.program_index(*look.program) : std::uint16_t{0});
+}
+
+void FunctionRecorder::finish() {
+    tell_states();
+    write_held(0, 0);
+}
+
+void FunctionRecorder::tell_states() {
+    tell(now_.tool, told_.tool, FunctionKind::tool_call);
+    tell(now_.spindle, told_.spindle, FunctionKind::spindle, now_.spindle_line);
+    tell(now_.coolant, told_.coolant, FunctionKind::coolant, now_.coolant_line);
+    tell(now_.exact_stop, told_.exact_stop, FunctionKind::exact_stop, exact_line_);
+}
+
+void FunctionRecorder::tell(int now, int& told, FunctionKind kind, std::uint32_t line) {
+    if (now == told) return;
+    told = now;
+    add(kind, now).line = line;
+}
+
+FunctionEvent& FunctionRecorder::add(FunctionKind kind, double value, double detail, bool placed) {
+    FunctionEvent e;
+    e.kind = kind;
+    e.value = value;
+    e.detail = detail;
+    e.placed = placed && kind != FunctionKind::tool_call;
+    e.cut_mm = path_.cut_mm();
+    const PathPoint& end = path_.end();
+    e.tip_mm = {end.position_mm.x(), end.position_mm.y(), end.position_mm.z()};
+    e.mode = mode_;
+    e.key = key_of(e);
+    held_.push_back(e);
+    const std::uint64_t whole = mix(e.key, static_cast<std::uint64_t>(std::llround(value * 1e4)));
+    blocks_.append({whole, 0});
+    return held_.back();
+}
+
+void FunctionRecorder::write_held(std::uint32_t line, std::uint16_t program) {
+    for (FunctionEvent& e : held_) {
+        if (e.line == 0) e.line = line;
+        e.program = program;
+        events_.append(e);
+    }
+    held_.clear();
+}
+
+std::string text_of(const FunctionEvent& e) {
+    static constexpr std::array<const char*, 3> smoothing{"G5.1 Q", "G5 P", "G8 P"};
+    switch (e.kind) {
+        case FunctionKind::m_code:
+            return e.value == 6.0 ? fmt::format("T{:g} M6", e.detail)
+                                  : fmt::format("M{:g}", e.value);
+        case FunctionKind::tool_call:
+            return fmt::format("T{:g}", e.value);
+        case FunctionKind::dwell:
+            return fmt::format("dwell {:g} s", e.value);
+        case FunctionKind::spindle:
+            return e.value > 0.0 ? "M3" : e.value < 0.0 ? "M4" : "M5";
+        case FunctionKind::coolant:
+            return e.value == 0.0 ? "M9" : e.value == 1.0 ? "M8" : e.value == 2.0 ? "M7" : "M7 M8";
+        case FunctionKind::exact_stop:
+            return e.value != 0.0 ? "exact stop (G9, G61)" : "end of exact stop (G64)";
+        case FunctionKind::path_mode:
+            return fmt::format("G{:g}", e.value);
+        case FunctionKind::smoothing:
+            return fmt::format("{}{:g}", smoothing[static_cast<std::size_t>(e.detail)], e.value);
+        case FunctionKind::store:
+            return "G10 that writes a store";
+    }
+    return {};
+}
+
+}  // namespace trunnion

@@ -1,0 +1,85 @@
+// What a run does besides moving: M and T codes, dwells, modes and stores, in their order.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "motion/motion.h"
+#include "regression/control_snapshot.h"
+#include "regression/path_record.h"
+#include "regression/program_lines.h"
+
+namespace trunnion {
+
+enum class FunctionKind : std::uint8_t {
+    m_code,
+    tool_call,
+    dwell,
+    spindle,
+    coolant,
+    exact_stop,
+    path_mode,
+    smoothing,
+    store
+};
+
+/// One function at its place on the path. Plain data: it is written to a temporary file as it is.
+struct FunctionEvent {
+    std::uint64_t key = 0;           ///< equal for the same function; a dwell's time is apart
+    double value = 0.0;              ///< code, seconds, tool; what `kind` says
+    double detail = 0.0;             ///< tool loaded by M6; which code of `smoothing`
+    double cut_mm = 0.0;             ///< length of all cuts before it
+    std::array<double, 3> tip_mm{};  ///< where the tip stands, in W
+    std::uint32_t line = 0;
+    std::uint16_t program = 0;
+    std::uint8_t mode = 0;  ///< PositioningMode of the last move
+    FunctionKind kind = FunctionKind::m_code;
+    bool placed = true;  ///< false: its place between the moves of its block is not known
+};
+using FunctionEvents = SpilledArray<FunctionEvent>;
+
+/// Gathers the functions of one run. Spindle, coolant and exact stop are states: they count where
+/// the next move, dwell or other function meets them, so M3 S500 in one block or in two is the
+/// same, and M8 twice is M8 once. After M6, M0 and M1 nothing is taken as still commanded: on a
+/// real machine the change stops spindle and coolant.
+class FunctionRecorder {
+  public:
+    FunctionRecorder(FunctionEvents& events, PathRecord& path, KeyedLines& blocks)
+        : events_(events), path_(path), blocks_(blocks) {}
+
+    void before_move(const AxisMove& move);
+    void dwell(double duration_s);
+    /// `tool`: in the spindle after the code.
+    void m_code(int code, int tool, int line);
+    /// Behind each block.
+    void block(const ControlSnapshot& snapshot, const BlockLook& look);
+    void finish();
+
+  private:
+    static constexpr int nothing_said = -99;
+    struct States {
+        int tool = 0, spindle = 0, coolant = 0, exact_stop = 0;
+        std::uint32_t spindle_line = 0, coolant_line = 0;  ///< where they were commanded
+    };
+    void tell_states();
+    void tell(int now, int& told, FunctionKind kind, std::uint32_t line = 0);
+    FunctionEvent& add(FunctionKind kind, double value, double detail = 0.0, bool placed = true);
+    void write_held(std::uint32_t line, std::uint16_t program);
+
+    FunctionEvents& events_;
+    PathRecord& path_;
+    KeyedLines& blocks_;
+    States now_, told_;
+    std::int16_t path_mode_ = 640;
+    bool exact_mode_ = false;
+    std::uint32_t exact_line_ = 0;  ///< of G61, G64
+    std::array<float, 3> smoothing_{};
+    std::uint8_t mode_ = 0;
+    std::vector<FunctionEvent> held_;  ///< of the block that runs: its line is known behind it
+};
+
+/// "M8", "dwell 0.5 s", "exact stop".
+std::string text_of(const FunctionEvent& event);
+
+}  // namespace trunnion

@@ -1,0 +1,48 @@
+// What is in force as far as the words of a program tell it: which words only repeat it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "interpreter/code.h"
+
+namespace trunnion {
+
+/// Where the words do not tell what is in force, nothing is a repetition.
+class WordMemory {
+  public:
+    /// At power-on: G40, G94, G97 (no parameter makes it otherwise).
+    WordMemory();
+
+    /// Nothing is known any more, not even whether a macro is called with each move.
+    void forget();
+    void forget_positions() { position_.fill(std::nullopt); }
+
+    /// The key of a block of plain words, or nothing when all of them repeat what is in force.
+    std::optional<std::uint64_t> key_of(const Item* items, std::size_t count);
+
+    struct BlockLook;
+
+  private:
+    struct Word {
+        char letter;
+        std::uint64_t value;
+    };
+    void forget_values();
+    void take_g(const Item& item, const BlockLook& look);
+    void take(const Item& item, const BlockLook& look);
+    bool repeats(char letter, std::uint64_t value, const BlockLook& look);
+    bool per_minute() const;
+    bool absolute_straight() const;
+    std::uint64_t hash(const BlockLook& look, const Item* items, std::size_t count);
+
+    std::array<std::optional<int>, 16> group_{};  ///< code * 10 by modal group
+    std::array<std::optional<std::uint64_t>, 26> position_{};
+    std::optional<std::uint64_t> feed_, speed_;
+    bool modal_call_ = false;  ///< G66, G16, or not known: a move of no length does something
+    std::vector<Word> words_;
+};
+
+}  // namespace trunnion

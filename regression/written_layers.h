@@ -1,0 +1,30 @@
+// The layers `text` and `words`: what is written, in the main programs and in all that they call.
+#pragma once
+
+#include <memory>
+
+#include "regression/describe.h"
+#include "regression/recorded_run.h"
+
+namespace trunnion {
+
+/// One side: its main program, and what its run opened (empty where nothing can be called).
+struct WrittenSide {
+    const ProgramText* main = nullptr;
+    const std::vector<OpenedProgram>* opened = nullptr;
+    const Setup* setup = nullptr;
+};
+
+/// The keys of one program in a layer, text or words.
+std::unique_ptr<LineKeys> written_keys(const ProgramText& program, Layer layer, const Setup& setup);
+
+/// True when all programs are written alike in that layer; then, on one setup, both runs are the
+/// same.
+bool written_alike(Layer layer, const WrittenSide& a, const WrittenSide& b,
+                   std::uint64_t& compared);
+
+/// Adds a difference for each stretch that is written differently.
+void describe_written(Layer layer, const WrittenSide& a, const WrittenSide& b, std::size_t most,
+                      Comparison& result);
+
+}  // namespace trunnion
