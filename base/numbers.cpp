@@ -4,12 +4,14 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/alarm.h"
 #include "base/units.h"
 
 namespace trunnion {
 
 std::string shortest(double value) {
     if (value == 0.0) return "0";
+    if (!std::isfinite(value)) throw InputError("a result is not a finite number");
     std::array<char, 32> text;
     const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
     return {text.data(), end};

@@ -7,7 +7,8 @@
 
 namespace trunnion {
 
-/// The shortest text that reads back to the same double; "0" for -0.
+/// The shortest text that reads back to the same double; "0" for -0. Throws InputError for what is
+/// not finite: no file with "nan" in it is written.
 std::string shortest(double value);
 /// An angle in degrees: the shortest text whose value, turned into rad again, is the same double
 /// (the nearest where no double of degrees does that).

@@ -61,6 +61,35 @@ void list_unused(const TomlValue& value, const std::string& name, const std::str
     for (const TomlValue& item : value.items) list_unused(item, name, path, notes);
 }
 
+/// The first key nobody asked for, with its whole name; nullptr: none.
+const TomlValue* first_unused(const TomlValue& value, std::string& name) {
+    for (const auto& [key, child] : value.entries) {
+        const std::string full = name.empty() ? key : name + '.' + key;
+        std::string inner = full;
+        const TomlValue* unused = child.used ? first_unused(child, inner) : &child;
+        if (!unused) continue;
+        name = inner;
+        return unused;
+    }
+    for (const TomlValue& item : value.items)
+        if (const TomlValue* unused = first_unused(item, name)) return unused;
+    return nullptr;
+}
+
+/// Line of the first key that has too many parts; 0: none. The parser would go down a level for
+/// each of them until the stack is full.
+int line_of_deep_key(std::string_view text) {
+    constexpr std::ptrdiff_t most_dots = 64;
+    int line = 1;
+    for (; !text.empty(); ++line) {
+        const std::string_view whole = text.substr(0, text.find('\n'));
+        const std::string_view key = whole.substr(0, whole.find('='));
+        if (std::count(key.begin(), key.end(), '.') > most_dots) return line;
+        text.remove_prefix(std::min(whole.size() + 1, text.size()));
+    }
+    return 0;
+}
+
 }  // namespace
 
 const TomlValue* TomlValue::find(std::string_view key) const {
@@ -74,6 +103,8 @@ const TomlValue* TomlValue::find(std::string_view key) const {
 
 TomlFile::TomlFile(std::string text, std::string path)
     : text_(std::move(text)), path_(std::move(path)) {
+    if (const int line = line_of_deep_key(text_); line > 0)
+        throw InputError("a key has more than 64 parts", {path_, line, 1}, line_text(line));
     try {
         root_ = convert(toml::parse(text_, path_));
         root_.line = root_.column = 1;
@@ -101,6 +132,8 @@ void TomlFile::fail(const TomlValue& at, const std::string& message) const {
 double TomlFile::number(const TomlValue& value) const {
     if (value.kind != TomlValue::Kind::number || !std::isfinite(value.number))
         fail(value, "a finite number is expected here");
+    constexpr double largest = 1e12;  // in any unit: beyond, squares and products overflow
+    if (std::abs(value.number) > largest) fail(value, "a number of at most 1e12 is expected here");
     return value.number;
 }
 
@@ -148,6 +181,12 @@ std::vector<std::string> TomlFile::unknown_keys() const {
     std::vector<std::string> notes;
     list_unused(root_, "", path_, notes);
     return notes;
+}
+
+void TomlFile::refuse_unknown_keys() const {
+    std::string name;
+    if (const TomlValue* unused = first_unused(root_, name))
+        fail(*unused, "key '" + name + "' is not known");
 }
 
 }  // namespace trunnion

@@ -31,7 +31,8 @@ struct TomlValue {
 /// is of another kind.
 class TomlFile {
   public:
-    /// Throws InputError (line, column, text of the line) for text that is not TOML.
+    /// Throws InputError (line, column, text of the line) for text that is not TOML, and for a key
+    /// of more than 64 parts (each is a level of tables).
     TomlFile(std::string text, std::string path);
 
     const TomlValue& root() const { return root_; }
@@ -53,6 +54,8 @@ class TomlFile {
 
     /// One line for each key nobody asked for.
     std::vector<std::string> unknown_keys() const;
+    /// Throws InputError at the first of them.
+    void refuse_unknown_keys() const;
 
   private:
     SourceRef place(const TomlValue& value) const { return {path_, value.line, value.column}; }

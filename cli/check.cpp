@@ -37,7 +37,9 @@ std::vector<std::string> files_of(const std::vector<std::string>& paths) {
             files.push_back(path);
             continue;
         }
-        for (const std::string& name : programs_below(path))
+        const auto names = programs_below(path);
+        if (names.empty()) throw InputError("no NC program in this folder", {path, 0, 0});
+        for (const std::string& name : names)
             files.push_back((std::filesystem::path(path) / name).generic_string());
     }
     return files;
@@ -93,7 +95,7 @@ int check(const CheckCommand& c) {
     const std::vector<std::string> files = files_of(c.paths);
     std::vector<Finding> findings;
     for (const std::string& file : files) {
-        const ProgramText program = read_program(file);
+        const ProgramText program = read_main_program(file);
         ProgramFolders programs = folders_for(program, c);
         CheckOptions options;
         options.dialect = setup.dialect;

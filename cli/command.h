@@ -4,6 +4,8 @@
 #include <functional>
 #include <string>
 
+#include "base/exit_codes.h"
+
 namespace CLI {
 class App;
 }
@@ -27,15 +29,5 @@ void add_predict(CLI::App& app, Run& run);
 void add_run(CLI::App& app, Run& run);
 void add_compensate(CLI::App& app, Run& run);
 void add_volumetric(CLI::App& app, Run& run);
-
-/// Exit codes of formats.md.
-enum ExitCode : int {
-    exit_done = 0,
-    exit_differs = 1,
-    exit_bad_input = 2,
-    exit_alarm = 3,
-    exit_limit = 4,
-    exit_internal = 5
-};
 
 }  // namespace trunnion

@@ -67,7 +67,7 @@ SuiteCase case_of(const CompareCommand& c) {
 }
 
 CompareReport compare_two(const CompareCommand& c, const SuiteCase& like) {
-    const ProgramText a = read_program(c.a), b = read_program(c.b);
+    const ProgramText a = read_main_program(c.a), b = read_main_program(c.b);
     const Setup setup_a = open_setup(like.setup);
     CompareReport report;
     if (like.setup_b == like.setup) {
@@ -81,10 +81,7 @@ CompareReport compare_two(const CompareCommand& c, const SuiteCase& like) {
 
 Suite suite_of(const CompareCommand& c, const SuiteCase& like) {
     if (c.suite.empty()) return suite_of_folders(c.a, c.b, like);
-    std::vector<std::string> notes;
-    Suite suite = read_suite(c.suite, like, notes);
-    print_notes(notes);
-    return suite;
+    return read_suite(c.suite, like);
 }
 
 int update(const CompareCommand& c, const Suite& suite) {

@@ -7,8 +7,10 @@
 #include "base/console.h"
 #include "base/output_files.h"
 #include "base/units.h"
+#include "cli/budget_options.h"
 #include "cli/command.h"
 #include "cli/files.h"
+#include "cli/long_work.h"
 #include "cli/options.h"
 #include "cli/program_choice.h"
 #include "cli/setups.h"
@@ -23,6 +25,7 @@ struct Options {
     std::vector<std::string> folders;
     double tolerance_um = 0.05, largest_turn_deg = 0.1;
     int decimals = 6;
+    BudgetOptions limits;
 };
 
 int report_alarm(const Alarm& alarm) {
@@ -44,12 +47,15 @@ int run_command(const Options& o) {
     if (o.decimals < 1 || o.decimals > 9) throw InputError("--decimals: 1 to 9");
     const Setup setup = open_setup(o.setup);
     ProgramAndFolders program = open_program(o.program, o.folders);
-    const CompensatedProgram c = compensate_program(
-        setup, program.folders, program.program, active_models(setup),
-        {mm_from_um(o.tolerance_um), o.decimals, rad_from_deg(o.largest_turn_deg)});
+    const Interruption interruption;
+    const CompensatedProgram c =
+        compensate_program(setup, program.folders, program.program, active_models(setup),
+                           {mm_from_um(o.tolerance_um), o.decimals,
+                            rad_from_deg(o.largest_turn_deg), budget_of(o.limits)});
     print_notes(c.notes);
     if (c.original.alarm) return report_alarm(*c.original.alarm);
     if (c.executed.alarm) return report_alarm(*c.executed.alarm);
+    if (c.limit != BudgetLimit::none) return report_limit(c.limit, c.original.blocks);
     OutputFiles files;
     files.add(o.out, c.program);
     files.write();
@@ -83,6 +89,7 @@ void add_compensate(CLI::App& app, Run& run) {
                         "rotary axes turn by at most this to correct the tool's direction (0.1; 0: "
                         "they keep their words)");
     command->add_option("--decimals", o->decimals, "of the words written (6)");
+    add_budget(*command, o->limits);
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });
 }
 

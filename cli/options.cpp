@@ -29,6 +29,11 @@ std::string count(const std::string& text) {
     return fault == std::errc{} && stop == end ? "" : "'" + text + "' is not 0, 1, 2, ...";
 }
 
+/// A variable of a script that is not set must not switch an output off.
+std::string has_name(const std::string& path) {
+    return path.empty() ? "a file name is empty" : "";
+}
+
 struct NamedFile {
     std::string option, text;
     fs::path path;
@@ -71,11 +76,11 @@ void refuse_beside_json(const CLI::App& command, const std::vector<NamedFile>& f
 }  // namespace
 
 CLI::Option* reads_file(CLI::Option* option) {
-    return option->type_name(read_type);
+    return option->type_name(read_type)->check(has_name);
 }
 
 CLI::Option* writes_file(CLI::Option* option) {
-    return option->type_name(written_type);
+    return option->type_name(written_type)->check(has_name);
 }
 
 CLI::Option* not_negative(CLI::Option* option) {

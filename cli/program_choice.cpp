@@ -44,7 +44,7 @@ ProgramAndFolders open_program(const std::string& name, std::vector<std::string>
     add_shipped(folders);
     ProgramFolders source(folders);
     if (is_file) {
-        const ProgramText text = read_program(name);
+        const ProgramText text = read_main_program(name);
         source.add_file(text);
         return {text, std::move(source)};
     }

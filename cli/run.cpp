@@ -8,6 +8,7 @@
 #include "base/numbers.h"
 #include "base/output_files.h"
 #include "base/sha256.h"
+#include "cli/budget_options.h"
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/long_work.h"
@@ -22,12 +23,11 @@
 namespace trunnion {
 namespace {
 
-constexpr std::uint64_t most_blocks = 100'000'000;  ///< an endless loop ends here, exit code 4
-
 struct Options {
     std::string program, setup, control, trace, readings, print, variables;
     std::vector<std::string> folders, sets, injections;
-    std::uint64_t seed = 1, max_blocks = most_blocks;
+    std::uint64_t seed = 1;
+    BudgetOptions limits;
     double trace_step_mm = 0.0, trace_chord_mm = 0.0;
     bool truth = false, ballbar = false, json = false;
     PageOptions page;
@@ -94,7 +94,7 @@ RunOptions run_options(const Options& o, const Setup& setup) {
     options.trace_chord_mm = o.trace_chord_mm;
     options.truth = o.truth;
     options.automatic_ballbar = o.ballbar;
-    options.max_blocks = o.max_blocks;
+    options.budget = budget_of(o.limits);
     options.variables = parse_sets(o.sets);
     options.wanted_variables = parse_variables(o.variables);
     options.effects = active_models(setup);
@@ -108,12 +108,9 @@ void write_files(const Options& o, const RunLog& log, OutputFiles& files) {
     files.write();
 }
 
-int exit_code(const RunResult& result) {
-    if (result.status == RunStatus::limit) {
-        print_error("trunnion: stopped after {} blocks ({})\n", result.blocks,
-                    Interruption::asked() ? "interrupted" : "--max-blocks");
-        return exit_limit;
-    }
+int exit_code(const RunLog& log) {
+    const RunResult& result = log.result;
+    if (result.status == RunStatus::limit) return report_limit(log.limit, result.blocks);
     if (!result.alarm) return exit_done;
     const Alarm& alarm = *result.alarm;
     print_error("{}\n",
@@ -125,9 +122,8 @@ int exit_code(const RunResult& result) {
 /// Shows how far it is; Ctrl-C ends the run as a limit does.
 RunLog run_watched(const Setup& setup, ProgramAndFolders& program, RunOptions options) {
     Progress progress;
-    options.go_on = [&](std::uint64_t blocks) {
+    options.budget.progress = [&](std::uint64_t blocks) {
         progress.show([&] { return fmt::format("{:.1f} million blocks", 1e-6 * double(blocks)); });
-        return !Interruption::asked();
     };
     return run_program(setup, program.folders, program.program, options);
 }
@@ -185,7 +181,7 @@ int run_command(const Options& o) {
     if (!o.page.html.empty())
         files.add(o.page.html, page_of_run(o, setup, log, path, program.folders.used()));
     write_files(o, log, files);
-    return exit_code(log.result);
+    return exit_code(log);
 }
 
 }  // namespace
@@ -220,7 +216,7 @@ void add_run(CLI::App& app, Run& run) {
         ->allow_extra_args(false);
     command->add_flag("--ballbar", o->ballbar,
                       "the ballbar also reads feed moves in its range, without BALLBAR ON");
-    command->add_option("--max-blocks", o->max_blocks, "stop after so many blocks, 0: never");
+    add_budget(*command, o->limits);
     command->add_flag("--json", o->json, "one JSON object on stdout");
     add_page_options(*command, o->page);
     o->command = command;

@@ -335,9 +335,13 @@ class CheckingSink : public MotionSink {
 
 template <class Program>
 RunResult execute(const Setup& setup, ProgramSource& programs, MotionSink& sink,
-                  const Program& program) {
+                  const Program& program, BudgetMeter& meter) {
     Stores stores = setup.stores;
-    Controller controller(control_config(setup), stores, programs, sink, [](std::string_view) {});
+    std::uint64_t printed_bytes = 0;
+    ControlConfig config = control_config(setup);
+    config.go_on = [&](std::uint64_t blocks) { return meter.allows({blocks, printed_bytes, 0}); };
+    Controller controller(std::move(config), stores, programs, sink,
+                          [&](std::string_view text) { printed_bytes += text.size(); });
     for (const auto& [number, value] : setup.stores.variables)
         controller.set_variable(number, value);
     return controller.run(program);
@@ -356,18 +360,27 @@ CompensatedProgram compensate_program(const Setup& setup, ProgramSource& program
                                       const CompensationOptions& options) {
     CompensatedProgram out;
     RewritingSink sink(setup, effects, options, out);
-    out.original =
-        std::visit([&](const auto& p) { return execute(setup, programs, sink, p); }, program);
+    BudgetMeter meter(options.budget);
+    out.original = std::visit(
+        [&](const auto& p) { return execute(setup, programs, sink, p, meter); }, program);
     out.notes.insert(out.notes.end(), out.original.notes.begin(), out.original.notes.end());
     if (out.original.reads_skip && sink.last_skip())
         throw InputError(
             "the program asks where G31 touched: what it does then cannot be written beforehand",
             *sink.last_skip());
+    out.limit = meter.reached();
     if (out.original.status != RunStatus::ok) return out;
     out.program = sink.take();
     CheckingSink check(setup, effects, out);
+    BudgetMeter checking(options.budget);
     ProgramsInMemory none;
-    out.executed = execute(setup, none, check, ProgramText{"compensated", out.program, nullptr});
+    out.executed =
+        execute(setup, none, check, ProgramText{"compensated", out.program, nullptr}, checking);
+    out.limit = checking.reached();
+    if (out.limit != BudgetLimit::none) {
+        out.program.clear();
+        return out;
+    }
     if (out.executed.alarm)
         out.notes.push_back("the compensated program stops with alarm " +
                             std::to_string(out.executed.alarm->number) + ' ' +

@@ -13,6 +13,7 @@ struct CompensationOptions {
     double tolerance_mm = 5e-5;  ///< deviation of the path between the points that are met exactly
     int decimals = 6;            ///< of the words written
     double largest_turn_rad = 2e-3;  ///< a rotary axis is turned by at most this; 0: never
+    Budget budget = {};              ///< of each of the two runs; used up: no program is written
 };
 
 /// One motion block of the program written.
@@ -29,7 +30,8 @@ struct CompensatedBlock {
 struct CompensatedProgram {
     std::string program;  ///< flat: what the original executed, without loops and calls
     std::vector<CompensatedBlock> blocks;
-    RunResult original, executed;  ///< of the original and of the program written
+    BudgetLimit limit = BudgetLimit::none;  ///< which one ended the work: `program` is empty then
+    RunResult original, executed;           ///< of the original and of the program written
     /// Largest errors at a block's end: of the tip; of the direction where the rotaries correct it;
     /// of the direction where they keep their words.
     struct Worst {

@@ -46,6 +46,7 @@ class MachineSink : public MotionSink {
     void printed(std::string_view text);
 
     double clock_s() const { return clock_s_; }
+    std::size_t readings() const { return log_.size(); }
     /// Ends what still reads.
     ReadingTable take_readings();
     std::string take_trace() { return trace_ ? trace_->take() : std::string(); }

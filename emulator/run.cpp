@@ -65,8 +65,11 @@ RunLog run_program(const Setup& setup, ProgramSource& programs, const ProgramCho
     if (options.compensation) compensating.emplace(sink, options.compensation);
     MotionSink& door = compensating ? static_cast<MotionSink&>(*compensating) : sink;
     ControlConfig config = control_config(setup);
-    config.max_blocks = options.max_blocks;
-    config.go_on = options.go_on;
+    BudgetMeter meter(options.budget);
+    config.max_blocks = options.budget.blocks;
+    config.go_on = [&](std::uint64_t blocks) {
+        return meter.allows({blocks, log.printed.size(), sink.readings()});
+    };
     Controller controller(std::move(config), log.stores, programs, door,
                           [&](std::string_view text) {
                               log.printed += text;
@@ -77,6 +80,8 @@ RunLog run_program(const Setup& setup, ProgramSource& programs, const ProgramCho
         controller.set_variable(number, value);
     for (const auto& [number, value] : options.variables) controller.set_variable(number, value);
     log.result = std::visit([&](const auto& choice) { return controller.run(choice); }, program);
+    if (log.result.status == RunStatus::limit)
+        log.limit = meter.reached() == BudgetLimit::none ? BudgetLimit::blocks : meter.reached();
     log.variables = report_variables(controller, options);
     log.readings = sink.take_readings();
     log.readings.comment["seed"] = std::to_string(options.seed);

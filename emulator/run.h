@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "base/budget.h"
 #include "controller/controller.h"
 #include "emulator/compensating_sink.h"
 #include "emulator/replay.h"
@@ -19,15 +19,13 @@ namespace trunnion {
 struct RunOptions {
     std::uint64_t seed = 1;
     bool trace = false;
-    double trace_step_mm = 0.0;      ///< above 0: SAMPLE rows at this distance along the path
-    double trace_chord_mm = 0.0;     ///< above 0: SAMPLE rows that follow curves this closely
-    bool truth = false;              ///< physical tip in the trace
-    bool automatic_ballbar = false;  ///< the bar reads where it can, without BALLBAR ON
-    TraceChunk trace_chunk;          ///< receives the trace as it grows; empty: RunLog::trace_csv
-    std::uint64_t max_blocks = 0;    ///< 0: no limit
-    /// Asked every few thousand blocks with their number; false: the run ends with `limit`.
-    std::function<bool(std::uint64_t blocks)> go_on;
-    std::map<int, double> variables;    ///< set before the run
+    double trace_step_mm = 0.0;       ///< above 0: SAMPLE rows at this distance along the path
+    double trace_chord_mm = 0.0;      ///< above 0: SAMPLE rows that follow curves this closely
+    bool truth = false;               ///< physical tip in the trace
+    bool automatic_ballbar = false;   ///< the bar reads where it can, without BALLBAR ON
+    TraceChunk trace_chunk;           ///< receives the trace as it grows; empty: RunLog::trace_csv
+    Budget budget;                    ///< used up: the run ends with `limit`
+    std::map<int, double> variables;  ///< set before the run
     std::vector<int> wanted_variables;  ///< reported after it; none: all common ones in use
     AxisPositions start;                ///< where the axes stand before the run
     EffectModels effects;
@@ -38,6 +36,7 @@ struct RunOptions {
 /// What a run did.
 struct RunLog {
     RunResult result;
+    BudgetLimit limit = BudgetLimit::none;  ///< which one ended the run
     std::string printed;
     ReadingTable readings;
     std::string trace_csv;

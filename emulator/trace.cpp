@@ -23,10 +23,13 @@ void append_integer(std::string& out, Integer value) {
 /// A program's name as a CSV cell.
 void append_name(std::string& out, const std::string* name) {
     if (!name) return;
-    const bool quoted = name->find(',') != std::string::npos;
-    if (quoted) out += '"';
-    out += *name;
-    if (quoted) out += '"';
+    if (name->find_first_of(",\"\r\n") == std::string::npos) {
+        out += *name;
+        return;
+    }
+    out += '"';
+    for (const char c : *name) out.append(c == '"' ? 2 : 1, c);
+    out += '"';
 }
 
 }  // namespace

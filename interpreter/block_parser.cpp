@@ -13,6 +13,8 @@ bool is_name_character(char c) {
     return is_letter(c) || is_digit(c) || c == '+' || c == '-' || c == '_' || c == '.' || c == ' ';
 }
 
+constexpr std::size_t most_items = 4096;  ///< of a block, so that a line of any length ends soon
+
 /// Letters whose least increment is that of positions; ROUND in them keeps it.
 bool takes_increment(char letter) {
     return std::strchr("ABCIJKQRUVWXYZ", letter) != nullptr;
@@ -82,6 +84,8 @@ Item& BlockParser::add(ItemKind kind, std::uint16_t column) {
     if (words_ && statements_) raise_language_alarm(127, column);
     if (closed_ && kind != ItemKind::skip) raise_language_alarm(125, column);
     in_.leading = false;
+    if (out_.items.size() - block_.items.first >= most_items)
+        raise_language_alarm(1090, column, "too many words in a block");
     Item& item = out_.items.emplace_back();
     item.kind = kind;
     item.column = column;

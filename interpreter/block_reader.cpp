@@ -41,7 +41,7 @@ void BlockReader::read_comment() {
     } while (depth > 0);
     comment.size =
         static_cast<std::uint32_t>(static_cast<std::uint64_t>(p - 1 - text_) - comment.byte);
-    out_.comments.push_back(comment);
+    if (out_.comments.size() - first_comment_ < most_comments) out_.comments.push_back(comment);
 }
 
 void BlockReader::expect(char c, int alarm) {

@@ -19,7 +19,8 @@ class BlockReader {
           end(text.data() + text.size()),
           text_(text.data()),
           nested_comments_(nested_comments),
-          out_(out) {}
+          out_(out),
+          first_comment_(out.comments.size()) {}
 
     /// Next character that counts, upper case, not consumed; at_end at the line's or text's end.
     char peek();
@@ -40,6 +41,8 @@ class BlockReader {
     const char* text_;
     bool nested_comments_;
     Code& out_;
+    std::size_t first_comment_;
+    static constexpr std::size_t most_comments = 4096;  ///< of a block; more are passed over
 };
 
 }  // namespace trunnion

@@ -6,6 +6,8 @@
 namespace trunnion {
 namespace {
 
+constexpr std::size_t most_ops = 65536;  ///< of a block, so that a line of any length ends soon
+
 std::uint32_t size_of(const Code& code) {
     return static_cast<std::uint32_t>(code.ops.size());
 }
@@ -46,6 +48,8 @@ Span ExpressionParser::variable_number(int& number) {
 void ExpressionParser::emit(OpCode code, std::uint16_t column, int operands) {
     stack_ += 1 - operands;
     if (stack_ > expression_stack) raise_language_alarm(118, column);
+    if (out_.ops.size() - first_op_ >= most_ops)
+        raise_language_alarm(1090, column, "too long an expression");
     Op op;
     op.code = code;
     op.column = column;

@@ -10,7 +10,7 @@ namespace trunnion {
 class ExpressionParser {
   public:
     ExpressionParser(BlockReader& in, const ParseOptions& options, Code& out)
-        : in_(in), options_(options), out_(out) {}
+        : in_(in), options_(options), out_(out), first_op_(out.ops.size()) {}
 
     /// sum level, or with comparisons.
     Span expression(Precedence lowest);
@@ -42,6 +42,7 @@ class ExpressionParser {
     BlockReader& in_;
     const ParseOptions& options_;
     Code& out_;
+    std::size_t first_op_;
     int brackets_ = 0;  ///< open ones that group
     int depth_ = 0;     ///< open ones of any kind
     int stack_ = 0;

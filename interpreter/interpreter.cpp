@@ -76,7 +76,9 @@ std::string Interpreter::block_text() const {
     const std::string_view text = state_->text();
     const char* const first =
         text.data() + std::min<std::size_t>(state_->current.byte, text.size());
-    return {first, find_line_end(first, text.data() + text.size())};
+    const char* const end = find_line_end(first, text.data() + text.size());
+    constexpr std::ptrdiff_t longest = 4096;  // enough to be shown
+    return {first, first + std::min(longest, end - first)};
 }
 
 int Interpreter::program_number() const {

@@ -36,8 +36,9 @@ struct InterpreterOptions {
     int increment_digits = 3;         ///< least input increment 1e-3 (IS-B): ROUND inside a word
     bool asin_0_to_minus_90 = false;  ///< parameter 6004#0 = 1: ASIN -90..90, ATAN[a]/[b]
                                       ///< -180..180; 0: 270..90 and 0..360
-    std::uint64_t max_blocks = 0;     ///< 0: no limit; reached: stop with `limit`
-    /// Asked every few thousand blocks with their number; false: stop with `limit`.
+    std::uint64_t max_blocks = 0;     ///< 0: no limit; reached: stop with `limit`. Lines without a
+                                      ///< block count a little, see runner.cpp
+    /// Asked every few thousand lines with the number of blocks; false: stop with `limit`.
     std::function<bool(std::uint64_t blocks)> go_on;
     bool whole_arguments_as_written = true;  ///< parameter 3401#0 = 1: G65 A10 passes 10.; 0: ten
                                              ///< least increments

@@ -154,6 +154,7 @@ void ProgramFiles::build_index(Section& section) {
     section.indexed = true;
     for (LineScan scan(section.file->text.text, section.begin); scan.next();) {
         const LineHead& head = scan.head();
+        ++lines_searched_;
         if (begins_other(head, section)) break;
         if (head.sequence_number < 0) continue;
         if (section.index.size() == largest_index) {
@@ -166,12 +167,12 @@ void ProgramFiles::build_index(Section& section) {
     std::sort(section.index.begin(), section.index.end(), by_number);
 }
 
-namespace {
-
-std::optional<TextPlace> search_text(const Section& section, int number, std::uint64_t after) {
+std::optional<TextPlace> ProgramFiles::search_text(const Section& section, int number,
+                                                   std::uint64_t after) {
     std::optional<TextPlace> before;
     for (LineScan scan(section.file->text.text, section.begin); scan.next();) {
         const LineHead& head = scan.head();
+        ++lines_searched_;
         if (begins_other(head, section)) break;
         if (head.sequence_number != number) continue;
         if (head.place.byte > after) return head.place;
@@ -179,8 +180,6 @@ std::optional<TextPlace> search_text(const Section& section, int number, std::ui
     }
     return before;
 }
-
-}  // namespace
 
 std::optional<TextPlace> ProgramFiles::find_sequence(Section& section, int number,
                                                      std::uint64_t after) {
@@ -197,10 +196,11 @@ std::optional<TextPlace> ProgramFiles::find_sequence(Section& section, int numbe
 }
 
 std::optional<TextPlace> ProgramFiles::find_loop_end(const Section& section, TextPlace from,
-                                                     int number) const {
+                                                     int number) {
     const std::string_view text = section.file->text.text;
     std::vector<int> open{number};
     for (LineScan scan(text, from); scan.next();) {
+        ++lines_searched_;
         if (begins_other(scan.head(), section)) return std::nullopt;
         const int step = loop_step(scan.head(), text.data() + text.size());
         if (step > 0 && std::find(open.begin(), open.end(), step) != open.end())

@@ -61,10 +61,11 @@ class ProgramFiles {
     /// start.
     std::optional<TextPlace> find_sequence(Section& section, int number, std::uint64_t after);
     /// Behind the END `number` that closes the DO whose block ends at `from`, or nothing.
-    std::optional<TextPlace> find_loop_end(const Section& section, TextPlace from,
-                                           int number) const;
+    std::optional<TextPlace> find_loop_end(const Section& section, TextPlace from, int number);
 
     void forget_first_blocks();
+    /// Lines that all searches so far have passed.
+    std::uint64_t lines_searched() const { return lines_searched_; }
 
   private:
     ProgramFile& add(const ProgramText& text);
@@ -72,10 +73,12 @@ class ProgramFiles {
     Section* find_in(ProgramFile& file, int number);
     Section* find_in(ProgramFile& file, std::string_view name);
     void build_index(Section& section);
+    std::optional<TextPlace> search_text(const Section& section, int number, std::uint64_t after);
 
     ProgramSource& source_;
     std::vector<std::unique_ptr<ProgramFile>> files_;
     std::vector<std::unique_ptr<Section>> sections_;
+    std::uint64_t lines_searched_ = 0;
     std::map<std::string, Section*, std::less<>> named_;
     std::map<std::pair<int, int>, Section*> found_;  ///< by file id (-1: none) and number;
                                                      ///< missing ones too

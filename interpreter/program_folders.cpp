@@ -60,6 +60,13 @@ ProgramText read_program(const std::string& path) {
     return {path, *bytes, bytes};
 }
 
+ProgramText read_main_program(const std::string& path) {
+    ProgramText program = read_program(path);
+    if (program.text.find_first_not_of(" \t\r\n%") == std::string_view::npos)
+        throw InputError("the program is empty", {path, 0, 0});
+    return program;
+}
+
 ProgramFolders::ProgramFolders(std::vector<std::string> folders) : folders_(std::move(folders)) {
     for (const std::string& folder : folders_)
         if (std::error_code unknown; !fs::is_directory(folder, unknown))

@@ -13,6 +13,10 @@ namespace trunnion {
 /// Throws InputError when it cannot be read.
 ProgramText read_program(const std::string& path);
 
+/// The same for a program that is to be run or judged: one without any block is refused, because a
+/// file that a post or a copy left empty must not pass.
+ProgramText read_main_program(const std::string& path);
+
 /// Looks for O1234 in each folder in turn: files named O1234, O1234.nc (or .txt .tap .min .mpf .cnc
 /// .ngc .eia .iso .prg), 1234, 1234.nc, leading zeros free, upper or lower case; then any file that
 /// holds a line starting with O1234 or :1234, the way one file carries several programs.

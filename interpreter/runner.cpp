@@ -51,13 +51,30 @@ void Interpreter::State::start(Section& section) {
     moved = ended = limit = false;
 }
 
+namespace {
+
+/// A program that jumps to and fro over empty lines executes few blocks and takes long: a block
+/// limit holds for them too, with this much more.
+constexpr std::uint64_t lines_of_a_block = 64, lines_without_blocks = 1000000;
+
+bool is_at_limit(std::uint64_t blocks, std::uint64_t passed, std::uint64_t most) {
+    if (most == 0) return false;
+    if (most > ~std::uint64_t{0} / 2 / lines_of_a_block) return blocks >= most;
+    return blocks >= most || passed >= lines_of_a_block * most + lines_without_blocks;
+}
+
+}  // namespace
+
 bool Interpreter::State::limit_hit() {
-    if (executed < look_up_at) return false;
-    constexpr std::uint64_t stride = 4096, never = ~std::uint64_t{0};
-    const std::uint64_t most = options.max_blocks == 0 ? never : options.max_blocks;
-    limit = executed >= most || (options.go_on && !options.go_on(executed));
+    const std::uint64_t passed = lines + files.lines_searched();
+    if (passed < look_up_at) return false;
+    constexpr std::uint64_t stride = 4096;
+    limit = is_at_limit(executed, passed, options.max_blocks) ||
+            (options.go_on && !options.go_on(executed));
     ended = ended || limit;
-    look_up_at = options.go_on ? std::min(most, executed + stride) : most;
+    const std::uint64_t blocks_left =
+        options.max_blocks > executed ? options.max_blocks - executed : stride;
+    look_up_at = passed + std::min(stride, blocks_left);
     return limit;
 }
 
@@ -67,6 +84,7 @@ const BlockWords* Interpreter::State::step() {
     if (moved) call_after_motion();
     while (!ended && !limit_hit()) {
         bool give = false;
+        ++lines;
         if (at.block < 0 && (at.byte >= frame().section->read_to || !resolve())) {
             if (!first_reading(give)) continue;
         } else {

@@ -147,7 +147,8 @@ struct Interpreter::State {
     bool ended = true;
     bool limit = false;
     std::uint64_t executed = 0;
-    std::uint64_t look_up_at = 0;  ///< blocks executed when a limit may be there
+    std::uint64_t lines = 0;       ///< run, empty ones too
+    std::uint64_t look_up_at = 0;  ///< lines run or searched when a limit may be there
     int sequence_number = 0;
 };
 

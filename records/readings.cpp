@@ -70,6 +70,12 @@ void read_comment(std::string_view text, ReadingTable& table) {
         without_blanks(text.substr(equal + 1));
 }
 
+void check_schema(const TableLine& line, const ReadingTable& table) {
+    const auto schema = table.comment.find("schema");
+    if (schema != table.comment.end() && schema->second != "trunnion.readings/1")
+        line.fail("this version reads schema trunnion.readings/1", 1);
+}
+
 /// "X+ Y+ C-"; `line` is the head line that says so.
 AxisSides read_sides(const TableLine& line, const ReadingTable& table) {
     AxisSides sides{};
@@ -161,6 +167,7 @@ ReadingTable parse_readings(std::string_view text, const std::string& path,
         if (line.text[0] == '#') {
             read_comment(line.text, table);
             if (table.comment.erase("side") > 0) side = line;
+            check_schema(line, table);
             continue;
         }
         line.split(',', cells);

@@ -1,6 +1,7 @@
 #include "records/table_line.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/alarm.h"
 #include "base/numbers.h"
@@ -60,6 +61,9 @@ double TableLine::number_of(const TableCell& cell, std::string_view what) const 
     if (!value)
         fail(std::string(what) + ": '" + std::string(cell.text) + "' is not a finite number",
              cell.column);
+    constexpr double largest = 1e9;  // mm, deg, s, mm/min: beyond, squares and products overflow
+    if (std::abs(*value) > largest)
+        fail(std::string(what) + ": " + std::string(cell.text) + " is beyond 1e9", cell.column);
     return *value;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/exit_codes.h"
+
 namespace trunnion {
 
 namespace {
@@ -62,10 +64,10 @@ int exit_code(const CompareReport& report) {
         return std::any_of(report.cases.begin(), report.cases.end(),
                            [&](const Comparison& c) { return c.status == status && !c.equal; });
     };
-    if (any(CompareStatus::bad_input)) return 2;
-    if (any(CompareStatus::alarm)) return 3;
-    if (any(CompareStatus::limit)) return 4;
-    return any(CompareStatus::differs) ? 1 : 0;
+    if (any(CompareStatus::bad_input)) return exit_bad_input;
+    if (any(CompareStatus::alarm)) return exit_alarm;
+    if (any(CompareStatus::limit)) return exit_limit;
+    return any(CompareStatus::differs) ? exit_differs : exit_done;
 }
 
 std::string verdict_of(const CompareReport& report) {

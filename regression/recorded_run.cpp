@@ -151,6 +151,8 @@ std::optional<RotaryTransform> believed_transform(const Setup& setup) {
     return RotaryTransform(*pivot);
 }
 
+constexpr std::size_t most_printed_bytes = 100'000'000;  ///< an endless DPRNT ends here
+
 RecordedRun record_run(const Setup& setup, const ProgramText& program, const RecordOptions& options,
                        const Setup* seen_through) {
     RecordedRun run;
@@ -163,6 +165,7 @@ RecordedRun record_run(const Setup& setup, const ProgramText& program, const Rec
     RememberingSource programs(folders, run.opened);
     ControlConfig config = control_config(setup);
     config.max_blocks = options.max_blocks;
+    config.go_on = [&run](std::uint64_t) { return run.printed.size() < most_printed_bytes; };
     Controller controller(std::move(config), run.stores, programs, sink,
                           [&sink](std::string_view text) { sink.printed(text); });
     for (const auto& [number, value] : setup.stores.variables)

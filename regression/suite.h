@@ -37,7 +37,7 @@ Suite suite_of_folders(const std::string& a, const std::string& b, const SuiteCa
 
 /// Reads a suite file (docs/compare.md); paths in it are relative to its folder. `like` holds what
 /// the command line gives: tolerances, setups.
-Suite read_suite(const std::string& path, const SuiteCase& like, std::vector<std::string>& notes);
+Suite read_suite(const std::string& path, const SuiteCase& like);
 
 /// Shard `index` (from 1) of `count`.
 struct Shard {

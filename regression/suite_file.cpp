@@ -29,14 +29,34 @@ bool is_program(const fs::path& path) {
     return std::find(nc_endings.begin(), nc_endings.end(), ending) != nc_endings.end();
 }
 
-/// `*` stands for any characters, `?` for one.
+/// `*` stands for any characters, `?` for one. Where a match fails only the last `*` takes more:
+/// what those before it took can stay, so the time is at most pattern times name.
 bool matches(std::string_view pattern, std::string_view name) {
-    if (pattern.empty()) return name.empty();
-    if (pattern[0] == '*')
-        return matches(pattern.substr(1), name) ||
-               (!name.empty() && matches(pattern, name.substr(1)));
-    return !name.empty() && (pattern[0] == '?' || pattern[0] == name[0]) &&
-           matches(pattern.substr(1), name.substr(1));
+    std::size_t p = 0, n = 0, behind_star = std::string_view::npos, star_to = 0;
+    while (n < name.size()) {
+        if (p < pattern.size() && pattern[p] == '*') {
+            behind_star = ++p;
+            star_to = n;
+        } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
+            ++p, ++n;
+        } else {
+            if (behind_star == std::string_view::npos) return false;
+            p = behind_star;
+            n = ++star_to;
+        }
+    }
+    return pattern.find_first_not_of('*', p) == std::string_view::npos;
+}
+
+bool is_regular(const fs::directory_entry& entry) {
+    std::error_code unknown;  // a link that leads round in a circle
+    return entry.is_regular_file(unknown);
+}
+
+/// A golden of this name stays inside its folder.
+bool stays_inside(const std::string& name) {
+    const fs::path path = fs::path(name).lexically_normal();
+    return !name.empty() && path.is_relative() && *path.begin() != "..";
 }
 
 class SuiteReader {
@@ -55,6 +75,7 @@ class SuiteReader {
             for (const TomlValue& c : cases->items) read_case(c);
         if (const TomlValue* expected = file_.root().find("expected"))
             for (const TomlValue& e : expected->items) read_expected(e);
+        if (suite_.cases.empty()) file_.fail(file_.root(), "the suite has no [[case]]");
         refuse_doubles();
         return std::move(suite_);
     }
@@ -127,6 +148,8 @@ class SuiteReader {
         if (name_setup) c.name += "@" + fs::path(setup).stem().string();
         const std::string against = text_or(table, "against", "");
         if (against.empty()) {
+            if (!stays_inside(c.name))
+                file_.fail(table, "the golden '" + c.name + "' would lie outside its folder");
             const std::string goldens =
                 text_or(table, "goldens", text_or(file_.root(), "goldens", "goldens"));
             c.golden = path_of(goldens) + "/" + c.name + ".csv";
@@ -145,7 +168,7 @@ class SuiteReader {
         std::vector<std::string> names;
         if (fs::is_directory(folder))
             for (const auto& entry : fs::directory_iterator(folder))
-                if (entry.is_regular_file() && matches(last, entry.path().filename().string()))
+                if (is_regular(entry) && matches(last, entry.path().filename().string()))
                     names.push_back((parent / entry.path().filename()).generic_string());
         std::sort(names.begin(), names.end());
         return names;
@@ -179,7 +202,7 @@ std::set<std::string> programs_below(const std::string& folder) {
     if (!fs::is_directory(folder)) throw InputError("no such folder", {folder, 0, 0});
     std::set<std::string> names;
     for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (entry.is_regular_file() && is_program(entry.path()))
+        if (is_regular(entry) && is_program(entry.path()))
             names.insert(entry.path().lexically_relative(folder).generic_string());
     return names;
 }
@@ -201,10 +224,10 @@ Suite suite_of_folders(const std::string& a, const std::string& b, const SuiteCa
     return suite;
 }
 
-Suite read_suite(const std::string& path, const SuiteCase& like, std::vector<std::string>& notes) {
+Suite read_suite(const std::string& path, const SuiteCase& like) {
     const TomlFile file(read_file(path), path);
     Suite suite = SuiteReader(file, like).read();
-    for (const std::string& key : file.unknown_keys()) notes.push_back(key);
+    file.refuse_unknown_keys();
     return suite;
 }
 

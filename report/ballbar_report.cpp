@@ -118,12 +118,17 @@ std::string time_text(const BallbarResult& r) {
         minutes(r.times.remount_s));
 }
 
+/// Empty where there is no number: what no reading sees has no sigma.
+std::string cell(double value) {
+    return std::isfinite(value) ? shortest(value) : std::string();
+}
+
 std::string csv_rows(const char* where, const std::vector<BallbarErrorRow>& rows) {
     std::string text;
     for (const BallbarErrorRow& row : rows)
         text += fmt::format("{},{},{},{},{},{},{},{},{}\n", where, to_string(row.name),
-                            shortest(row.before), shortest(row.sigma_before), shortest(row.after),
-                            shortest(row.sigma), shortest(row.change_percent()),
+                            cell(row.before), cell(row.sigma_before), cell(row.after),
+                            cell(row.sigma), cell(row.change_percent()),
                             row.published_before ? shortest(*row.published_before) : "",
                             row.name.angular() ? "rad" : "mm");
     return text;

@@ -60,8 +60,7 @@ std::string write_suite(const Folder& folder) {
 
 TEST_CASE("a suite gives the same bytes whatever the shards and threads", "[suite]") {
     const Folder folder;
-    std::vector<std::string> notes;
-    const Suite suite = read_suite(write_suite(folder), {}, notes);
+    const Suite suite = read_suite(write_suite(folder), {});
     REQUIRE(suite.cases.size() == 5);
     const SuiteRun whole = run_suite(suite, {}, load_default, 1);
     CHECK(exit_code(whole.report) == 1);
@@ -87,8 +86,7 @@ TEST_CASE("a suite gives the same bytes whatever the shards and threads", "[suit
 TEST_CASE("a difference that is expected by fingerprint does not fail, others do", "[suite]") {
     const Folder folder;
     const std::string path = write_suite(folder);
-    std::vector<std::string> notes;
-    Suite suite = read_suite(path, {}, notes);
+    Suite suite = read_suite(path, {});
     const SuiteRun before = run_suite(suite, {}, load_default, 1);
     const std::string fingerprint = before.report.cases[3].differences.front().fingerprint;
     suite.expected.push_back({"new/p3", fingerprint, "faster on purpose"});
@@ -122,8 +120,7 @@ TEST_CASE("a difference that is expected by fingerprint does not fail, others do
 
 TEST_CASE("an interrupted suite keeps what is finished and says what is not", "[suite]") {
     const Folder folder;
-    std::vector<std::string> notes;
-    const Suite suite = read_suite(write_suite(folder), {}, notes);
+    const Suite suite = read_suite(write_suite(folder), {});
     std::size_t finished = 0;
     const SuiteWatch watch{[&](std::size_t done, std::size_t total) {
                                finished = done;
@@ -144,8 +141,7 @@ TEST_CASE("a golden holds a path as numbers and finds what moved", "[suite]") {
     const std::string path = folder.write(
         "suite.toml",
         "schema = \"trunnion.suite/1\"\n[[case]]\nname = \"p\"\nprogram = \"new/p.nc\"\n");
-    std::vector<std::string> notes;
-    const Suite suite = read_suite(path, {}, notes);
+    const Suite suite = read_suite(path, {});
     CHECK(exit_code(run_suite(suite, {}, load_default, 1).report) == 1);  // none yet
     const auto written = updated_goldens(suite, "first", load_default);
     REQUIRE(written.size() == 1);

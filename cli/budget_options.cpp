@@ -1,0 +1,36 @@
+#include "cli/budget_options.h"
+
+#include <CLI/CLI.hpp>
+#include <array>
+
+#include "base/console.h"
+#include "cli/command.h"
+#include "cli/long_work.h"
+#include "cli/options.h"
+
+namespace trunnion {
+
+void add_budget(CLI::App& command, BudgetOptions& limits) {
+    command.add_option("--max-blocks", limits.blocks, "stop after so many blocks (1e8; 0: never)");
+    command.add_option("--max-print", limits.printed_bytes,
+                       "stop when DPRNT printed so many bytes (1e8; 0: never)");
+    command.add_option("--max-readings", limits.rows,
+                       "stop after so many readings (1e7; 0: never)");
+    not_negative(
+        command.add_option("--max-seconds", limits.time_s, "stop after so long (0: never)"));
+}
+
+Budget budget_of(const BudgetOptions& limits) {
+    return {limits.blocks, limits.printed_bytes, limits.rows,
+            limits.time_s, Interruption::asked,  {}};
+}
+
+int report_limit(BudgetLimit limit, std::uint64_t blocks) {
+    constexpr std::array<const char*, 6> reasons{
+        "", "--max-blocks", "--max-print", "--max-readings", "--max-seconds", "interrupted"};
+    print_error("trunnion: stopped after {} blocks ({})\n", blocks,
+                reasons[static_cast<std::size_t>(limit)]);
+    return exit_limit;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,27 @@
+// The limits of a command that runs NC programs: --max-blocks, --max-print, --max-readings,
+// --max-seconds.
+#pragma once
+
+#include <cstdint>
+
+#include "base/budget.h"
+
+namespace CLI {
+class App;
+}
+
+namespace trunnion {
+
+/// 0: no limit. An endless program ends by the first of these, exit code 4.
+struct BudgetOptions {
+    std::uint64_t blocks = 100'000'000, printed_bytes = 100'000'000, rows = 10'000'000;
+    double time_s = 0.0;
+};
+
+void add_budget(CLI::App& command, BudgetOptions& limits);
+/// With Ctrl-C as one of the limits.
+Budget budget_of(const BudgetOptions& limits);
+/// Says on stderr which limit ended the work; returns its exit code.
+int report_limit(BudgetLimit limit, std::uint64_t blocks);
+
+}  // namespace trunnion

@@ -1,0 +1,111 @@
+#!/usr/bin/env bash
+# assure.sh [--seconds 60] [--mutants 20] [--out docs/assurance.md] [--only faults,soak,fuzz,coverage,mutation]
+# Long checks one after the other; what they found is printed and written as a page. Run by ./dev assure,
+# which builds what is needed.
+set -eu
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+seconds=60 mutants=20 page=docs/assurance.md only=faults,soak,fuzz,coverage,mutation
+while [ $# -gt 0 ]; do
+  [ $# -ge 2 ] || { echo "assure: $1 needs a value" >&2; exit 2; }
+  case $1 in
+    --seconds) seconds=$2 ;;
+    --mutants) mutants=$2 ;;
+    --out) page=$2 ;;
+    --only) only=$2 ;;
+    *) echo "assure: unknown option $1" >&2; exit 2 ;;
+  esac
+  shift 2
+done
+work=out/assurance
+mkdir -p "$work"
+text=$work/page.md
+rooms="base geometry interpreter offsets kinematics positioning controller identification diagnosis regression"
+
+wanted() { case ",$only," in *",$1,"*) ;; *) return 1 ;; esac; }
+
+# The page keeps the section of an earlier run where this one leaves a check out.
+section() {
+  if wanted "$1"; then
+    echo "assure: $1" >&2
+    "$1" > "$work/$1.md"
+  fi
+  if [ -f "$work/$1.md" ]; then cat "$work/$1.md"; else echo "($2: not run yet)"; fi
+  echo
+}
+
+faults() {
+  echo "## Failing calls of the system"
+  echo
+  TRUNNION_FAULTS=all build/release/bin/test_faults > "$work/faults.log" 2>&1 && state=holds || state=FAILS
+  echo "Every command, each call of open, read, write, close, fsync, rename, linkat, pread, pwrite, fchmod, readdir (up to 300 places each), and 300 places of malloc: the law **$state**, $(grep -oE '[0-9]+ assertions' "$work/faults.log" | tail -1)."
+}
+
+soak() {
+  echo "## Random programs on random machines"
+  echo
+  TRUNNION_SOAK_SECONDS=$seconds TRUNNION_SOAK_SEED=$(date +%s) build/release/bin/test_soak \
+    > "$work/soak.log" 2>&1 && state=hold || state=FAIL
+  echo "The laws **$state**: $(grep -oE '[0-9]+ programs from seed [0-9]+ in [0-9.]+ s' "$work/soak.log" | tail -1)."
+}
+
+fuzz() {
+  echo "## Fuzzing with sanitizers"
+  echo
+  echo "| target | seconds | executions | failures |"
+  echo "|---|---|---|---|"
+  for target in build/fuzz/bin/*_fuzz; do
+    name=$(basename "$target")
+    mkdir -p "out/corpus/$name"
+    "$target" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
+      -artifact_prefix="$work/" "out/corpus/$name" tests/nc > "$work/$name.log" 2>&1 && failures=0 || failures=1
+    echo "| $name | $seconds | $(sed -nE 's/stat::number_of_executed_units: *//p' "$work/$name.log") | $failures |"
+  done
+}
+
+coverage() {
+  echo "## Branches that the tests take"
+  echo
+  find build/coverage -name '*.gcda' -delete
+  ctest --preset coverage -j"$(nproc)" > "$work/coverage_tests.log" 2>&1 || true
+  echo "| room | branches | taken |"
+  echo "|---|---|---|"
+  tests/assurance/coverage.py build/coverage |
+    sed -E 's/^([^ ]+) +([0-9]+) of +([0-9]+) +([0-9.]+) %/| \1 | \3 | \4 % |/'
+}
+
+mutation() {
+  echo "## Mutants that the tests of a room kill"
+  echo
+  # shellcheck disable=SC2086
+  tests/assurance/mutate.py build/release $rooms --mutants "$mutants" --seed 1 --out "$work/mutation.json" \
+    > "$work/mutation.log"
+  echo "| room | mutants | killed |"
+  echo "|---|---|---|"
+  python3 -c 'import json, sys
+for r in json.load(open(sys.argv[1])): print("| %s | %d of %d | %d |" % (r["room"], r["mutants"], r["candidates"], r["killed"]))' \
+    "$work/mutation.json"
+  echo
+  echo "Survivors:"
+  echo
+  sed -nE 's/^survived (.*)/- `\1`/p' "$work/mutation.log"
+}
+
+{
+  echo "# Assurance"
+  echo
+  echo "Written by \`./dev assure\`: what the long checks found. Each command below repeats one of them."
+  echo
+  echo "    ./dev assure --only faults          # a library fails single calls of the system"
+  echo "    ./dev soak SECONDS [SEED]           # laws on random programs and machines"
+  echo "    ./dev fuzz SECONDS"
+  echo "    ./dev assure --only coverage"
+  echo "    ./dev assure --only mutation --mutants N"
+  echo
+  section faults "failing calls"
+  section soak "random programs"
+  section fuzz "fuzzing"
+  section coverage "branches"
+  section mutation "mutants"
+} > "$text"
+cp "$text" "$page"
+cat "$page"

@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""Mutation score of rooms: changes one thing in one line, builds the room's tests, runs them.
+
+    mutate.py BUILD ROOM... [--mutants 20] [--seed 1] [--out FILE]
+
+A mutant is killed when its tests do not compile, fail, or take ten times as long. Survivors are printed with
+file, line and change. The source is changed in place and always put back; run it in a clone of its own.
+"""
+import argparse
+import json
+import pathlib
+import random
+import re
+import subprocess
+import sys
+import time
+
+# What is looked for, and what stands in its place. Each is one plausible slip of a programmer.
+CHANGES = [(r" < ", " <= "), (r" <= ", " < "), (r" > ", " >= "), (r" >= ", " > "), (r" == ", " != "),
+           (r" != ", " == "), (r" && ", " || "), (r" \|\| ", " && "), (r" \+ ", " - "), (r" - ", " + "),
+           (r" \* ", " / "), (r" / ", " * "), (r" \+= ", " -= "), (r" -= ", " += "), (r"\btrue\b", "false"),
+           (r"\bfalse\b", "true"), (r"\(!", "("), (r"\bstd::min\b", "std::max"), (r"\bstd::max\b", "std::min"),
+           (r"\bstd::cos\b", "std::sin"), (r"\bstd::sin\b", "std::cos"), (r"\b0\.5\b", "0.25"),
+           (r"\breturn false;", "return true;"), (r"\bcontinue;", "break;")]
+PASSED_OVER = re.compile(r"^\s*(//|#|template|using|static_assert|raise_|throw|case )|fmt::|\"")
+
+
+def candidates(root, room):
+    for path in sorted((root / room).glob("*.cpp")):
+        for number, line in enumerate(path.read_text().splitlines()):
+            if PASSED_OVER.search(line):
+                continue
+            for pattern, instead in CHANGES:
+                for match in re.finditer(pattern, line.split("//")[0]):
+                    yield path, number, match.span(), instead
+
+
+def run(command, limit):
+    try:
+        return subprocess.run(command, capture_output=True, timeout=limit).returncode
+    except subprocess.TimeoutExpired:
+        return -1
+
+
+def judge(build, room, mutant, plain_s):
+    path, number, (begin, end), instead = mutant
+    before = path.read_text()
+    lines = before.splitlines(keepends=True)
+    line = lines[number]
+    lines[number] = line[:begin] + instead + line[end:]
+    try:
+        path.write_text("".join(lines))
+        if run(["cmake", "--build", str(build), "--target", f"test_{room}"], 1800) != 0:
+            return "killed", lines[number].strip()
+        code = run([str(build / "bin" / f"test_{room}")], 10 * plain_s + 10)
+        return ("survived" if code == 0 else "killed"), lines[number].strip()
+    finally:
+        path.write_text(before)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("rooms", nargs="+")
+    parser.add_argument("--mutants", type=int, default=20)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--out", type=pathlib.Path)
+    options = parser.parse_args()
+    root = pathlib.Path(__file__).resolve().parents[2]
+    result = []
+    for room in options.rooms:
+        random.seed(f"{options.seed} {room}")
+        every = list(candidates(root, room))
+        chosen = random.sample(every, min(options.mutants, len(every)))
+        if run(["cmake", "--build", str(options.build), "--target", f"test_{room}"], 3600) != 0:
+            sys.exit(f"mutate: test_{room} does not build")
+        start = time.monotonic()
+        if run([str(options.build / "bin" / f"test_{room}")], 3600) != 0:
+            sys.exit(f"mutate: test_{room} fails before anything is changed")
+        plain_s = time.monotonic() - start
+        survivors = []
+        for mutant in chosen:
+            verdict, text = judge(options.build, room, mutant, plain_s)
+            place = f"{mutant[0].relative_to(root)}:{mutant[1] + 1}"
+            print(f"{verdict:8} {place}: {text}", flush=True)
+            if verdict == "survived":
+                survivors.append(f"{place}: {text}")
+        run(["cmake", "--build", str(options.build), "--target", f"test_{room}"], 3600)
+        result.append({"room": room, "candidates": len(every), "mutants": len(chosen),
+                       "killed": len(chosen) - len(survivors), "survivors": survivors})
+    if options.out:
+        options.out.write_text(json.dumps(result, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()
