@@ -1,11 +1,10 @@
 // trunnion import: files of instruments and controls as readings.
 #include "imports/import.h"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "base/console.h"
 #include "base/output_files.h"
 #include "base/read_file.h"
 #include "cli/command.h"
@@ -34,7 +33,7 @@ int import_command(const Options& options) {
     ImportRequest request{setup, files, Facts(options.told), {}};
     if (!options.map.empty()) request.map = {options.map, read_file_or_input(options.map)};
     Imported result = import_readings(kinds.at(options.kind), request);
-    for (const std::string& line : result.summary) fmt::print(stderr, "{}\n", line);
+    for (const std::string& line : result.summary) print_error("{}\n", line);
     print_notes(result.notes);
     OutputFiles out;
     out.add(options.out, std::move(result.readings));

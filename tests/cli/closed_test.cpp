@@ -74,12 +74,13 @@ TEST_CASE("readings of another schema and positions beyond any machine are refus
     const std::string head =
         "index,time_s,test,device,feature,x_mm,y_mm,z_mm,b_deg,c_deg,dir_x,"
         "dir_y,dir_z,value_mm\n";
-    bench.refuses("predict " + bench.write("r.csv", "# schema = trunnion.readings/2\n" + head +
-                                                        "0,0,t,sphere,S1,0,0,0,0,0,1,0,0,0\n"),
+    bench.refuses("predict --setup " TRUNNION_SOURCE_DIR "/machines/bc_table.toml " +
+                      bench.write("r.csv", "# schema = trunnion.readings/2\n" + head +
+                                               "0,0,t,sphere,S1,0,0,0,0,0,1,0,0,0\n"),
                   "trunnion.readings/1");
-    bench.refuses(
-        "predict " + bench.write("r.csv", head + "0,0,t,sphere,S1,1e200,0,0,0,0,1,0,0,0\n"),
-        "beyond 1e9");
+    bench.refuses("predict --setup " TRUNNION_SOURCE_DIR "/machines/bc_table.toml " +
+                      bench.write("r.csv", head + "0,0,t,sphere,S1,1e200,0,0,0,0,1,0,0,0\n"),
+                  "beyond 1e9");
 }
 
 TEST_CASE("a name with a quote stands in the trace as CSV says") {

@@ -4,10 +4,12 @@
 #include <sys/wait.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <numbers>
 #include <set>
 #include <sstream>
 
@@ -62,15 +64,19 @@ class FaultBench : public CommandBench {
         write("in/machine.toml", read_whole(source + "/machines/bc_table.toml"));
     }
 
-    /// A sphere found at turns of C to and fro: the numbers need not make sense.
+    /// A sphere found at turns of C to and fro, with some backlash.
     static std::string readings() {
         std::string text =
             "# schema = trunnion.readings/1\nindex,time_s,test,device,feature,x_mm,y_mm,z_mm,b_deg,"
             "c_deg,dir_x,dir_y,dir_z,value_mm\n";
-        for (int k = 0; k < 36; ++k)
-            text += fmt::format("{},{},t,sphere,S1,100,0,80,0,{},{},{},{},{}\n", k, k,
-                                k < 18 ? 20 * k : 360 - 20 * (k - 17), k % 3 == 0, k % 3 == 1,
-                                k % 3 == 2, 0.001 * (k % 7) + (k < 18 ? 0.004 : -0.004));
+        for (int k = 0; k < 36; ++k) {
+            const double c_deg = k < 18 ? 20.0 * k : 360.0 - 20.0 * (k - 17);
+            const double c_rad = c_deg * std::numbers::pi / 180.0;
+            text += fmt::format("{},{},t,sphere,S1,{},{},230,0,{},{},{},{},{}\n", k, k,
+                                120.0 * std::cos(c_rad), -120.0 * std::sin(c_rad), c_deg,
+                                int{k % 3 == 0}, int{k % 3 == 1}, int{k % 3 == 2},
+                                0.001 * (k % 7) + (k < 18 ? 0.004 : -0.004));
+        }
         return text;
     }
 

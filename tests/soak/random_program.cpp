@@ -38,7 +38,7 @@ std::string plane(SeededNoise& noise) {
 std::string tool_centre(SeededNoise& noise) {
     std::string out = "G43.4 H1 Z200.";
     for (int k = 0; k < 4; ++k) out += "\nG1" + words(noise, "XYZBC", 60) + " F1000.";
-    return out + "\nG49";
+    return out + "\nG49\nG43 H1";  // without a length the control knows no tip
 }
 
 const std::vector<Maker>& makers() {
@@ -71,7 +71,6 @@ const std::vector<Maker>& makers() {
             return fmt::format("DPRNT[A#100[43]**{}]", one_of(n, std::array{"X", "YZ"}));
         },
         [](auto&) { return std::string("G43 H1"); },
-        [](auto&) { return std::string("G49"); },
         plane,
         tool_centre};
     return list;
