@@ -24,7 +24,6 @@ class RowWriter {
     /// `row.time_s` is the file's; throws InputError when it runs back within the session.
     /// `line`: of the file, 0 for a row that no line says.
     void add(Reading row, int line);
-    const std::string& file_name() const { return name_; }
     int count() const { return index_; }
     std::string take() { return std::move(text_); }
 

@@ -30,7 +30,6 @@ class TextTable {
     const std::vector<TextColumn>& columns() const { return columns_; }
     const std::map<std::string, std::string>& head() const { return head_; }  ///< `Feed: 1000` ..
     char separator() const { return separator_; }
-    bool decimal_comma() const { return decimal_comma_; }
     /// "; between the columns, decimal comma"
     std::string dialect_words() const;
 

@@ -90,9 +90,6 @@ int Interpreter::sequence_number() const {
 std::uint64_t Interpreter::blocks_executed() const {
     return state_->executed;
 }
-int Interpreter::call_depth() const {
-    return state_->frames.empty() ? 0 : static_cast<int>(state_->frames.size()) - 1;
-}
 void Interpreter::set_increment_digits(int digits) {
     state_->options.increment_digits = digits;
     state_->rules.increments_per_unit = powers_of_ten[static_cast<std::size_t>(digits)];

@@ -89,8 +89,6 @@ class Interpreter {
     int program_number() const;
     int sequence_number() const;
     std::uint64_t blocks_executed() const;
-    /// Calls inside each other at present: 0 in the main program.
-    int call_depth() const;
     /// Digits behind the point of the least input increment (G20 on IS-B: 4): ROUND inside a word.
     void set_increment_digits(int digits);
     bool limit_reached() const;

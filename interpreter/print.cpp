@@ -307,11 +307,6 @@ std::string print_number(double value, bool decimal_point) {
     return text;
 }
 
-std::string print_expression(const ParsedProgram& program, Span expression) {
-    if (expression.count == 0) return {};
-    return ExpressionPrinter().print(program.expression(expression)).text;
-}
-
 std::string print_block(const ParsedProgram& program, const Block& block) {
     return BlockPrinter(program, block).print();
 }

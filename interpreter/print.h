@@ -11,9 +11,6 @@ namespace trunnion {
 /// `decimal_point` is false.
 std::string print_number(double value, bool decimal_point);
 
-/// Infix text with no more brackets than needed.
-std::string print_expression(const ParsedProgram& program, Span expression);
-
 /// One line without its end: O or <name>, N, leading comments, items, other comments.
 std::string print_block(const ParsedProgram& program, const Block& block);
 
