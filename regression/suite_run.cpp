@@ -55,11 +55,11 @@ Comparison compare_case(const SuiteCase& c, const Setups& setups) {
             return not_compared(c, "no golden yet: " + c.golden + " (--update --reason writes it)",
                                 CompareStatus::differs);
         const Golden golden = parse_golden(*text, c.golden);
-        return compare_with_golden(golden.path, c.golden, read_program(c.b), setups.at(c.setup),
-                                   c.options);
+        return compare_with_golden(golden.path, c.golden, read_main_program(c.b),
+                                   setups.at(c.setup), c.options);
     }
     if (c.a.empty()) return not_compared(c, "only in B: " + c.b, CompareStatus::differs);
-    return compare_programs(read_program(c.a), setups.at(c.setup), read_program(c.b),
+    return compare_programs(read_main_program(c.a), setups.at(c.setup), read_main_program(c.b),
                             setups.at(c.setup_b), c.options);
 }
 
@@ -145,13 +145,13 @@ std::map<std::string, std::string> updated_goldens(const Suite& suite, const std
         std::vector<std::string> reasons{reason};
         if (const auto text = read_golden(c.golden)) {
             const Golden golden = parse_golden(*text, c.golden);
-            const Comparison now = compare_with_golden(golden.path, c.golden, read_program(c.b),
-                                                       setups.at(c.setup), c.options);
+            const Comparison now = compare_with_golden(
+                golden.path, c.golden, read_main_program(c.b), setups.at(c.setup), c.options);
             if (now.equal) continue;
             reasons.insert(reasons.end(), golden.reasons.begin(), golden.reasons.end());
         }
         const RecordedRun run =
-            record_run(setups.at(c.setup), read_program(c.b),
+            record_run(setups.at(c.setup), read_main_program(c.b),
                        {PathSpace::tip, c.options.tolerances, c.options.program_folders,
                         c.options.max_blocks, "", c.options.devices});
         if (run.result.alarm) {
