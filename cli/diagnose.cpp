@@ -153,9 +153,9 @@ Diagnosis diagnose_watched(const Setup& setup, const ReadingTable& table, Diagno
 int diagnose_command(const Options& options) {
     Setup setup = load_setup_option(options.setup);
     setup.model.allow_large = options.allow_large;
-    const ReadingTable table = load_readings(options.readings);
+    const ReadingTable table = load_readings(options.readings, setup);
     std::optional<ReadingTable> holdout;
-    if (!options.holdout.empty()) holdout = load_readings(options.holdout);
+    if (!options.holdout.empty()) holdout = load_readings(options.holdout, setup);
     DiagnosisOptions how;
     how.holdout = holdout ? &*holdout : nullptr;
     std::optional<Interruption> planning;

@@ -71,7 +71,7 @@ int repeat(const Setup& setup, const ReadingTable& table, const std::vector<std:
 int identify_command(const Options& options) {
     Setup setup = load_setup_option(options.setup);
     setup.model.allow_large = options.allow_large;
-    const ReadingTable table = load_readings(options.readings);
+    const ReadingTable table = load_readings(options.readings, setup);
     const std::vector<std::string> effects = split_names(options.effects);
     Identification result = [&] {
         Progress progress;

@@ -46,7 +46,7 @@ std::string jacobian_text(const Setup& setup, const ReadingTable& table,
 
 int predict(const Options& options) {
     const Setup setup = load_setup_option(options.setup, options.inject);
-    const ReadingTable table = load_readings(options.readings);
+    const ReadingTable table = load_readings(options.readings, setup);
     OutputFiles files;
     if (!options.jacobian.empty()) {
         const auto named = split_names(options.effects);

@@ -7,16 +7,17 @@
 
 namespace trunnion {
 
-ReadingTable load_readings(const std::string& path) {
+ReadingTable load_readings(const std::string& path, const Setup& setup) {
     std::vector<std::string> notes;
-    ReadingTable table = parse_readings(read_file_or_input(path), path, notes);
+    ReadingTable table =
+        parse_readings(read_file_or_input(path), path, notes, setup.machine.chain.names());
     print_notes(notes);
     return table;
 }
 
-ReadingTable load_readings(const std::vector<std::string>& paths) {
+ReadingTable load_readings(const std::vector<std::string>& paths, const Setup& setup) {
     std::vector<ReadingTable> tables;
-    for (const std::string& path : paths) tables.push_back(load_readings(path));
+    for (const std::string& path : paths) tables.push_back(load_readings(path, setup));
     return join_readings(std::move(tables));
 }
 

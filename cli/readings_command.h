@@ -9,10 +9,11 @@
 
 namespace trunnion {
 
-/// Reads a table of readings; notes go to stderr. Throws InputError with path and line.
-ReadingTable load_readings(const std::string& path);
+/// Reads a table of readings of the setup's machine; notes go to stderr. Throws InputError with
+/// path and line.
+ReadingTable load_readings(const std::string& path, const Setup& setup);
 /// The same of several files, joined in the order given.
-ReadingTable load_readings(const std::vector<std::string>& paths);
+ReadingTable load_readings(const std::vector<std::string>& paths, const Setup& setup);
 
 /// "a, b" as a and b.
 std::vector<std::string> split_names(const std::string& text);

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <set>
 
+#include "base/units.h"
 #include "diagnosis/rules.h"
 #include "diagnosis/statistics.h"
-#include "base/units.h"
 
 namespace trunnion {
 namespace {
@@ -43,6 +43,7 @@ class DriverList {
 
   private:
     std::size_t n() const { return replay_.size(); }
+    bool turns(Axis axis) const { return table_.names.is_rotary(axis); }
 
     RowFunction machine(int d) const {
         return [this, d](std::size_t i) { return replay_.contact(i).direction_M(d); };
@@ -52,7 +53,7 @@ class DriverList {
     }
     RowFunction axis_response(Axis axis) const {
         return [this, axis](std::size_t i) {
-            return base_.gradient[i].axis[axis] * (is_rotary(axis) ? 0.01 : 1.0);
+            return base_.gradient[i].axis[axis] * (turns(axis) ? 0.01 : 1.0);
         };
     }
     RowFunction tilt_response(Axis axis, int d) const {
@@ -104,16 +105,16 @@ class DriverList {
                 low = std::min(low, q(i));
                 high = std::max(high, q(i));
             }
-            if (high - low < (is_rotary(axis) ? 0.05 : 1.0)) continue;
-            const bool turn = is_rotary(axis) && high - low > 5.0;
+            if (high - low < (turns(axis) ? 0.05 : 1.0)) continue;
+            const bool turn = turns(axis) && high - low > 5.0;
             auto functions = smooth(q, low, high, turn, turn ? 6 : 7);
             if (low < 0.0 && high > 0.0 && !turn)
                 functions.push_back([q](std::size_t i) { return q(i) > 0.0 ? 1.0 : -1.0; });
             std::vector<RowFunction> carriers{machine(0), machine(1), machine(2)};
             carriers.push_back(axis_response(axis));
-            const std::string name(1, letter_of(axis));
+            const std::string& name = table_.names[axis];
             add(name, "machine frame", "follows the position of " + name, functions, carriers);
-            if (!is_rotary(axis)) continue;
+            if (!turns(axis)) continue;
             add(name, "angles", "follows the position of " + name + " as a tilt", functions,
                 {tilt_response(axis, 0), tilt_response(axis, 1), tilt_response(axis, 2)});
         }
@@ -125,15 +126,15 @@ class DriverList {
                 return static_cast<double>(replay_.sample(i).travel[index_of(axis)]);
             };
             const RowFunction q = [this, axis](std::size_t i) {
-                return replay_.sample(i).position[axis] * (is_rotary(axis) ? 0.5 : 0.01);
+                return replay_.sample(i).position[axis] * (turns(axis) ? 0.5 : 0.01);
             };
             std::set<double> values;
             for (std::size_t i = 0; i < n(); ++i) values.insert(sign(i));
             if (!values.count(-1.0) || !values.count(1.0)) continue;
-            const std::string name(1, letter_of(axis));
+            const std::string& name = table_.names[axis];
             const RowFunction since = [this, axis, sign](std::size_t i) {
                 const double s = replay_.sample(i).since_reversal[index_of(axis)];
-                return sign(i) * std::exp(-s / (is_rotary(axis) ? 0.1 : 3.0));
+                return sign(i) * std::exp(-s / (turns(axis) ? 0.1 : 3.0));
             };
             add("direction of " + name, "machine frame",
                 "changes sign with the direction of " + name,

@@ -60,6 +60,7 @@ class FreshTable {
         fresh_.parts = table.parts;
         fresh_.comment = table.comment;
         fresh_.axes = table.axes;
+        fresh_.names = table.names;
         fresh_.optional_columns = table.optional_columns;
         start_s_ = table.rows.front().time_s;
         session_s_ = table.rows.back().time_s - start_s_;
@@ -71,7 +72,8 @@ class FreshTable {
         const AxisPositions there = table_.rows[other.rows.back()].commanded;
         AxisPositions turn;
         for (const Axis axis : table_.axes)
-            if (is_rotary(axis)) turn[axis] = random_.uniform() * (there[axis] - here[axis]);
+            if (table_.names.is_rotary(axis))
+                turn[axis] = random_.uniform() * (there[axis] - here[axis]);
         const double begun_s = table_.rows[visit.rows.front()].time_s, now_s = any_time();
         for (const std::size_t r : visit.rows) {
             Reading row = table_.rows[r];
@@ -109,8 +111,9 @@ class FreshTable {
     bool turns(const Visit& visit) const {
         const AxisPositions first = table_.rows[visit.rows.front()].commanded;
         const AxisPositions last = table_.rows[visit.rows.back()].commanded;
-        return std::any_of(table_.axes.begin(), table_.axes.end(),
-                           [&](Axis axis) { return is_rotary(axis) && first[axis] != last[axis]; });
+        return std::any_of(table_.axes.begin(), table_.axes.end(), [&](Axis axis) {
+            return table_.names.is_rotary(axis) && first[axis] != last[axis];
+        });
     }
 
     Matrix3 any_tilt() {
@@ -137,7 +140,7 @@ class FreshTable {
         for (const bool of_work : {true, false}) {
             const auto& side = of_work ? setup_.machine.chain.work : setup_.machine.chain.tool;
             for (const AxisGeometry& axis : side)
-                if (const std::size_t k = index_of(axis.axis); k < 3)
+                if (const std::size_t k = index_of(axis.axis); k < 3 && is_letter(axis))
                     row.commanded[axis.axis] +=
                         (of_work ? -1.0 : 1.0) * way_M(static_cast<Eigen::Index>(k));
         }

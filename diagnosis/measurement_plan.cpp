@@ -36,6 +36,7 @@ MeasurementPlan::MeasurementPlan(const Setup& setup, std::string name, std::stri
     result_.name = std::move(name);
     result_.text = std::move(text);
     result_.table.path = "measurement " + result_.name;
+    result_.table.names = setup.machine.chain.names();
     for (const AxisGeometry& axis : setup.machine.chain.axes()) {
         result_.table.axes.push_back(axis.axis);
         if (axis.rotary) rotary_.push_back(axis);

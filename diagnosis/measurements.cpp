@@ -142,8 +142,20 @@ const std::vector<Ready>& ready_list() {
 
 }  // namespace
 
+namespace {
+
+/// The programs are NC programs that place a tip by X, Y and Z words.
+bool takes_words(const Chain& chain) {
+    const auto axes = chain.axes();
+    return chain.find(Axis::X) && chain.find(Axis::Y) && chain.find(Axis::Z) &&
+           std::all_of(axes.begin(), axes.end(), is_letter);
+}
+
+}  // namespace
+
 std::vector<Measurement> ready_measurements(const Setup& setup, double start_s) {
     std::vector<Measurement> list;
+    if (!takes_words(setup.machine.chain)) return list;
     for (const Ready& ready : ready_list()) {
         MeasurementPlan plan(setup, ready.name, ready.text, start_s);
         if (plan.rotary_count() != 2 || !(ready.bar ? plan.has_bar() : plan.has_sphere())) continue;

@@ -69,7 +69,8 @@ std::vector<NoiseBlock> noise_blocks(const Replay& replay, const ReadingTable& t
             same = before + 1 == i && other.feature == row.feature && other.mode == row.mode &&
                    blocks[it->second].rows.size() < 64;
             for (const Axis axis : table.axes)
-                if (is_rotary(axis)) same = same && other.commanded[axis] == row.commanded[axis];
+                if (table.names.is_rotary(axis))
+                    same = same && other.commanded[axis] == row.commanded[axis];
             if (row.device == Device::sphere) same = same && other.time_s == row.time_s;
         }
         if (!same) {

@@ -153,7 +153,7 @@ Key key_of(const Replay& replay, const ReadingTable& table, std::size_t i) {
     std::vector<int> travel;
     for (const Axis axis : table.axes) {
         place.push_back(std::lround(sample.position[axis] * 1e5));
-        if (is_rotary(axis) || contact.device == Device::ballbar)
+        if (table.names.is_rotary(axis) || contact.device == Device::ballbar)
             travel.push_back(sample.travel[index_of(axis)]);
     }
     if (contact.device != Device::ballbar)

@@ -47,10 +47,10 @@ double Diagnoser::aliased_square() const {
     double sum = 0.0;
     for (const std::size_t m : set_.members) {
         const Effect& effect = *design_->candidates()[m].effect;
-        const auto axis = axis_of(effect.name[0]);
-        if (effect.name.find(".cyclic") == std::string::npos || !axis || !is_rotary(*axis) ||
-            !has(effect.name.substr(0, 1) + ".positioning"))
-            continue;
+        const auto axis = std::find_if(table_.axes.begin(), table_.axes.end(), [&](Axis a) {
+            return table_.names.is_rotary(a) && effect.name == table_.names[a] + ".cyclic";
+        });
+        if (axis == table_.axes.end() || !has(table_.names[*axis] + ".positioning")) continue;
         std::set<long> places;
         for (std::size_t i = 0; i < replay_.size(); ++i)
             places.insert(std::lround(replay_.sample(i).position[*axis] * 1e4));

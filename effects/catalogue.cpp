@@ -30,6 +30,18 @@ void append_axis_effects(Catalogue& list, const Chain& chain) {
     }
 }
 
+/// The axes that NC words and stores count on: a G54 is set in X, Y and Z.
+bool has_basic_axes(const Chain& chain) {
+    const AxisNames names = chain.names();
+    return names.find("X") && names.find("Y") && names.find("Z");
+}
+
+void append_squareness(Catalogue& list, const Chain& chain) {
+    list.push_back(squareness("XY", *chain.find(Axis::Y), 2));
+    list.push_back(squareness("YZ", *chain.find(Axis::Z), 0));
+    list.push_back(squareness("ZX", *chain.find(Axis::Z), 1));
+}
+
 std::string parameter_text(const Effect& effect) {
     std::string text, last;
     for (const EffectParameter& p : effect.parameters) {
@@ -45,11 +57,14 @@ std::string parameter_text(const Effect& effect) {
 
 Catalogue make_catalogue(const Setup& setup, const DataExtent& extent) {
     const Chain& chain = setup.machine.chain;
-    Catalogue list{location_effect(chain), pivot_g54(chain), pivot_p1970x(chain)};
+    const bool basic = has_basic_axes(chain);
+    Catalogue list{location_effect(chain)};
+    if (basic) {
+        list.push_back(pivot_g54(chain));
+        list.push_back(pivot_p1970x(chain));
+    }
     append_axis_effects(list, chain);
-    list.push_back(squareness("XY", Axis::Y, 2));
-    list.push_back(squareness("YZ", Axis::Z, 0));
-    list.push_back(squareness("ZX", Axis::Z, 1));
+    if (basic) append_squareness(list, chain);
     list.push_back(servo_mismatch(chain));
     list.push_back(servo_contour(chain));
     list.push_back(thermal_drift(extent));
@@ -64,7 +79,7 @@ Catalogue make_catalogue(const Setup& setup, const DataExtent& extent) {
     list.push_back(artefact_form(setup.artefacts));
     list.push_back(artefact_moved(setup.artefacts, extent));
     list.push_back(control_rounding(chain));
-    list.push_back(control_chord(chain));
+    if (basic) list.push_back(control_chord(chain));
     list.push_back(clamp_shift(chain));
     return list;
 }

@@ -1,8 +1,8 @@
 // What the control itself does to the path: rounding, chords, wrong pivot stores.
 #include <cmath>
 
-#include "effects/models.h"
 #include "base/units.h"
+#include "effects/models.h"
 
 namespace trunnion {
 namespace {
@@ -70,8 +70,6 @@ Vector3 three(std::span<const double> value) {
 }  // namespace
 
 Effect control_rounding(const Chain& chain) {
-    std::vector<Axis> axes;
-    for (const AxisGeometry& axis : chain.axes()) axes.push_back(axis.axis);
     return {"control.rounding",
             "Commanded positions are rounded to a coarse increment on their way to the drive",
             "post-processor digits, least input increment, encoder resolution",
@@ -85,11 +83,12 @@ Effect control_rounding(const Chain& chain) {
               {0.0, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1},
               false},
              {"increment_mm", "mm", 0.0, -1, {0.0, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05}, false}},
-            [axes](const AxisSample& sample, const Contact&, std::span<const double> value,
-                   Perturbation& out) {
-                for (const Axis axis : axes) {
-                    const double step = is_rotary(axis) ? rad_from_deg(value[1]) : value[2];
-                    out.axis[axis] += value[0] * rounding_error(sample.position[axis], step);
+            [axes = chain.axes()](const AxisSample& sample, const Contact&,
+                                  std::span<const double> value, Perturbation& out) {
+                for (const AxisGeometry& axis : axes) {
+                    const double step = axis.rotary ? rad_from_deg(value[1]) : value[2];
+                    out.axis[axis.axis] +=
+                        value[0] * rounding_error(sample.position[axis.axis], step);
                 }
             }};
 }

@@ -18,10 +18,12 @@ struct EffectParameter {
     std::string unit;
     double typical = 1.0;  ///< linear: standard deviation expected in the trade; key: usual value
     int component = -1;    ///< 0.. of a vector parameter of this name
-    std::vector<double> grid;  ///< a key: values to try first, rising; empty for a linear parameter
-    bool refine = true;        ///< a key may lie between grid values
-    bool usual = true;         ///< false: lets the form deviate from the textbook's; what only such
-                               ///< parameters explain counts as not explained
+    std::vector<double> grid =
+        {};              ///< a key: values to try first, rising; empty for a linear parameter
+    bool refine = true;  ///< a key may lie between grid values
+    bool usual = true;   ///< false: lets the form deviate from the textbook's; what only such
+                         ///< parameters explain counts as not explained
+    std::optional<ErrorName> location = {};  ///< the location error that this is
     bool is_key() const { return !grid.empty(); }
 };
 

@@ -41,16 +41,16 @@ std::vector<double> geometric_grid(double low, double high, int count) {
     return grid;
 }
 
-std::string motion_name(int direction, Axis axis) {
-    return std::string("E") + "XYZABC"[direction] + letter_of(axis);
+std::string motion_name(int direction, const AxisGeometry& axis) {
+    return std::string{'E', "XYZABC"[direction]} + axis.name;
 }
 
-std::string effect_name(Axis axis, const char* what) {
-    return letter_of(axis) + std::string(what);
+std::string effect_name(const AxisGeometry& axis, const char* what) {
+    return axis.name + what;
 }
 
-std::string axis_parameter(const char* before, Axis axis, const char* after) {
-    return std::string(before) + static_cast<char>(letter_of(axis) - 'A' + 'a') + after;
+std::string axis_parameter(const char* before, const AxisGeometry& axis, const char* after) {
+    return before + lower_case(axis.name) + after;
 }
 
 bool is_probe(const Contact& contact) {

@@ -2,14 +2,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "effects/models.h"
 #include "base/units.h"
+#include "effects/models.h"
 #include "records/travel.h"
 
 namespace trunnion {
 
 Effect linear_cyclic(const AxisGeometry& axis) {
-    return {effect_name(axis.axis, ".cyclic"),
+    return {effect_name(axis, ".cyclic"),
             "A ripple of the position that repeats with every turn of the ballscrew",
             "ballscrew eccentricity, coupling, encoder interpolation",
             "check coupling and screw bearing; a linear scale removes it",
@@ -25,7 +25,7 @@ Effect linear_cyclic(const AxisGeometry& axis) {
 }
 
 Effect linear_backlash(const AxisGeometry& axis) {
-    return {effect_name(axis.axis, ".backlash"),
+    return {effect_name(axis, ".backlash"),
             "The axis stops short by half the gap, on the side it comes from",
             "ballscrew nut or thrust bearing worn; negative: a drive that lags",
             "readjust nut and bearing, or correct backlash compensation (on Fanuc parameter 1851, "
@@ -56,7 +56,7 @@ double angle_since_quadrant(Axis axis, const AxisSample& sample) {
 
 Effect linear_reversal_spike(const AxisGeometry& axis) {
     return {
-        effect_name(axis.axis, ".reversal_spike"),
+        effect_name(axis, ".reversal_spike"),
         "The axis sticks for a moment when it turns round, then catches up",
         "friction at standstill with a soft or slow velocity loop",
         "raise the loop gain or switch on friction (quadrant) compensation",
@@ -79,16 +79,15 @@ Effect linear_reversal_spike(const AxisGeometry& axis) {
             const bool not_turned = sample.since_reversal[i] >= no_reversal_seen ||
                                     (value[3] == 0.0 && sample.run_up_unknown[i]);
             if (is_probe(contact) || not_turned) return;
-            const double way = value[2] == 0.0
-                                   ? law_radius_mm * angle_since_quadrant(k, sample)
-                                   : sample.since_reversal[i];
+            const double way = value[2] == 0.0 ? law_radius_mm * angle_since_quadrant(k, sample)
+                                               : sample.since_reversal[i];
             out.axis[k] -= value[0] * sample.travel[i] * std::exp(-way / value[1]);
         }};
 }
 
 Effect linear_lateral_play(const AxisGeometry& axis) {
     std::vector<int> directions;
-    Effect effect{effect_name(axis.axis, ".lateral_play"),
+    Effect effect{effect_name(axis, ".lateral_play"),
                   "The slide steps sideways when the axis changes direction",
                   "guideway clearance, worn gibs or carriages",
                   "readjust gibs or preload of the guideway",

@@ -23,7 +23,7 @@ double polynomial(double q, int first, std::span<const double> value) {
 }  // namespace
 
 Effect linear_scale(const AxisGeometry& axis) {
-    return {effect_name(axis.axis, ".scale"),
+    return {effect_name(axis, ".scale"),
             "The axis moves too far or not far enough, in proportion to the distance",
             "ballscrew lead or scale error, warm screw, wrong pitch compensation",
             "measure with laser or step gauge and correct the pitch compensation",
@@ -39,7 +39,7 @@ Effect linear_scale(const AxisGeometry& axis) {
 }
 
 Effect linear_straightness(const AxisGeometry& axis) {
-    Effect effect{effect_name(axis.axis, ".straightness"),
+    Effect effect{effect_name(axis, ".straightness"),
                   "The axis runs on a bowed line: it strays sideways along its travel",
                   "guideway wear, bed settling, machine not levelled",
                   "level the machine, check the guideways",
@@ -51,7 +51,7 @@ Effect linear_straightness(const AxisGeometry& axis) {
         if (d == main_direction(axis)) continue;
         directions.push_back(d);
         for (int n = 1; n <= 4; ++n)
-            effect.parameters.push_back({fmt::format("{}_p{}_mm", motion_name(d, axis.axis), n),
+            effect.parameters.push_back({fmt::format("{}_p{}_mm", motion_name(d, axis), n),
                                          "mm",
                                          n <= 2 ? 5e-3 : 3e-3,
                                          -1,
@@ -70,7 +70,7 @@ Effect linear_straightness(const AxisGeometry& axis) {
 
 Effect linear_angular(const AxisGeometry& axis) {
     Effect effect{
-        effect_name(axis.axis, ".angular"),
+        effect_name(axis, ".angular"),
         "The axis pitches, yaws and rolls along its travel: errors grow with tool length and "
         "with the travel of the slides that it carries",
         "guideway bow, bed settling, overhang",
@@ -80,14 +80,13 @@ Effect linear_angular(const AxisGeometry& axis) {
         {}};
     for (int d = 0; d < 3; ++d)
         for (int n = 1; n <= 2; ++n)
-            effect.parameters.push_back(
-                {fmt::format("{}_p{}_rad", motion_name(3 + d, axis.axis), n),
-                 "rad",
-                 25e-6 / n,
-                 -1,
-                 {},
-                 true,
-                 n == 1});
+            effect.parameters.push_back({fmt::format("{}_p{}_rad", motion_name(3 + d, axis), n),
+                                         "rad",
+                                         25e-6 / n,
+                                         -1,
+                                         {},
+                                         true,
+                                         n == 1});
     effect.add = [k = axis.axis](const AxisSample& sample, const Contact&,
                                  std::span<const double> value, Perturbation& out) {
         for (std::size_t d = 0; d < 3; ++d)
@@ -97,18 +96,18 @@ Effect linear_angular(const AxisGeometry& axis) {
     return effect;
 }
 
-Effect squareness(const std::string& plane, Axis moving, int about) {
-    const Vector3 along = Vector3::Unit(static_cast<int>(index_of(moving)));
+Effect squareness(const std::string& plane, const AxisGeometry& moving, int about) {
+    const Vector3 along = Vector3::Unit(static_cast<int>(index_of(moving.axis)));
     const Vector3 stray = Vector3::Unit(about).cross(along);
     return {plane + ".squareness",
             "Two linear axes are not at right angles",
             "machine not levelled, column or saddle misaligned, a crash",
             "level and realign, or correct it in the control's squareness compensation",
-            fmt::format("{} tilted by angle_rad about {}", letter_of(moving), "XYZ"[about]),
+            fmt::format("{} tilted by angle_rad about {}", moving.name, "XYZ"[about]),
             {{"angle_rad", "rad", 40e-6, -1, {}, true}},
-            [moving, stray](const AxisSample& sample, const Contact&, std::span<const double> value,
-                            Perturbation& out) {
-                out.motion[index_of(moving)].shift_mm += value[0] * sample.position[moving] * stray;
+            [k = moving.axis, stray](const AxisSample& sample, const Contact&,
+                                     std::span<const double> value, Perturbation& out) {
+                out.motion[index_of(k)].shift_mm += value[0] * sample.position[k] * stray;
             }};
 }
 

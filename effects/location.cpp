@@ -1,4 +1,4 @@
-// Location errors of the rotary axes: where their lines really are.
+// Location errors of the axes: where their lines really are.
 #include <fmt/format.h>
 
 #include "effects/models.h"
@@ -6,11 +6,44 @@
 namespace trunnion {
 namespace {
 
-/// One location error: axis, and 0..5 = X Y Z A B C.
+/// One location error: 0..5 = X Y Z A B C of an axis.
 struct Place {
-    Axis axis;
+    AxisGeometry axis;
     int direction;
 };
+
+/// Two positions and two tilts of a rotary axis, across its line. Of linear axes with letters XY,
+/// YZ and ZX squareness are effects of their own; one of another name has its two tilts here.
+std::vector<Place> places_of(const Chain& chain) {
+    std::vector<Place> places;
+    for (const AxisGeometry& axis : chain.axes())
+        for (int k = axis.rotary ? 0 : 3; k < 6; ++k)
+            if (k % 3 != main_direction(axis) && (axis.rotary || !is_letter(axis)))
+                places.push_back({axis, k});
+    return places;
+}
+
+EffectParameter parameter_of(const Place& place) {
+    const bool shift = place.direction < 3;
+    const char direction = "XYZABC"[place.direction], *unit = shift ? "mm" : "rad";
+    EffectParameter p{fmt::format("E{}0{}_{}", direction, place.axis.name, unit), unit,
+                      shift ? 0.05 : 3e-4};
+    p.location = ErrorName{direction, true, place.axis.axis};
+    return p;
+}
+
+/// What one location error of this size adds to the axis's error motion.
+void add_place(const Place& place, double value, const AxisSample& sample, Perturbation& out) {
+    SmallMotion& motion = out.motion[index_of(place.axis.axis)];
+    const int k = place.direction;
+    if (k < 3)
+        motion.shift_mm(k) += value;
+    else if (place.axis.rotary)
+        motion.tilt_rad(k - 3) += value;
+    else  // it leans the way, not the slide
+        motion.shift_mm += value * sample.position[place.axis.axis] *
+                           Vector3::Unit(k - 3).cross(place.axis.direction);
+}
 
 }  // namespace
 
@@ -22,29 +55,11 @@ Effect location_effect(const Chain& chain) {
                   "constant error motion: x' = q + d + exp(e x) Rot (x - q), d and e at home",
                   {},
                   {}};
-    std::vector<Place> places;
-    for (const AxisGeometry& axis : chain.axes()) {
-        if (!axis.rotary) continue;
-        for (int k = 0; k < 6; ++k) {
-            if (k % 3 == main_direction(axis)) continue;
-            places.push_back({axis.axis, k});
-            const char* unit = k < 3 ? "mm" : "rad";
-            effect.parameters.push_back(
-                {fmt::format("E{}0{}_{}", "XYZABC"[k], letter_of(axis.axis), unit),
-                 unit,
-                 k < 3 ? 0.05 : 3e-4,
-                 -1,
-                 {},
-                 true});
-        }
-    }
-    effect.add = [places](const AxisSample&, const Contact&, std::span<const double> value,
+    const std::vector<Place> places = places_of(chain);
+    for (const Place& place : places) effect.parameters.push_back(parameter_of(place));
+    effect.add = [places](const AxisSample& sample, const Contact&, std::span<const double> value,
                           Perturbation& out) {
-        for (std::size_t j = 0; j < places.size(); ++j) {
-            SmallMotion& motion = out.motion[index_of(places[j].axis)];
-            const int k = places[j].direction;
-            (k < 3 ? motion.shift_mm(k) : motion.tilt_rad(k - 3)) += value[j];
-        }
+        for (std::size_t j = 0; j < places.size(); ++j) add_place(places[j], value[j], sample, out);
     };
     return effect;
 }

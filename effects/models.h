@@ -28,7 +28,7 @@ Effect linear_backlash(const AxisGeometry& axis);
 Effect linear_reversal_spike(const AxisGeometry& axis);
 Effect linear_lateral_play(const AxisGeometry& axis);
 /// XY, YZ or ZX: `moving` is the axis that is out of square, tilted about direction `about`.
-Effect squareness(const std::string& plane, Axis moving, int about);
+Effect squareness(const std::string& plane, const AxisGeometry& moving, int about);
 Effect servo_mismatch(const Chain& chain);
 Effect servo_contour(const Chain& chain);
 Effect thermal_drift(const DataExtent& extent);
@@ -60,11 +60,11 @@ int main_direction(const AxisGeometry& axis);
 /// Values from `low` to `high` with a constant ratio.
 std::vector<double> geometric_grid(double low, double high, int count);
 /// "EXC", "EAC": ISO 230 name of an error motion, direction 0..5 = X Y Z A B C.
-std::string motion_name(int direction, Axis axis);
+std::string motion_name(int direction, const AxisGeometry& axis);
 /// "C" + ".backlash".
-std::string effect_name(Axis axis, const char* what);
+std::string effect_name(const AxisGeometry& axis, const char* what);
 /// "tau_" + "x" + "_s".
-std::string axis_parameter(const char* before, Axis axis, const char* after);
+std::string axis_parameter(const char* before, const AxisGeometry& axis, const char* after);
 bool is_probe(const Contact& contact);
 
 }  // namespace trunnion

@@ -1,8 +1,8 @@
 // Errors of a rotary axis's angle: zero offset, positioning, gear error, backlash.
 #include <cmath>
 
-#include "effects/models.h"
 #include "base/units.h"
+#include "effects/models.h"
 
 namespace trunnion {
 namespace {
@@ -14,7 +14,7 @@ bool endless(const AxisGeometry& axis) {
 }  // namespace
 
 Effect rotary_zero(const AxisGeometry& axis) {
-    return {effect_name(axis.axis, ".zero"),
+    return {effect_name(axis, ".zero"),
             "The axis's zero is not where the table is level or aligned",
             "encoder replaced, reference mark moved",
             "set the zero with a level or an indicator on the table: sphere readings cannot see it",
@@ -25,7 +25,7 @@ Effect rotary_zero(const AxisGeometry& axis) {
 }
 
 Effect rotary_positioning(const AxisGeometry& axis) {
-    Effect effect{effect_name(axis.axis, ".positioning"),
+    Effect effect{effect_name(axis, ".positioning"),
                   "The axis turns a little more or less than commanded, the same every turn",
                   "eccentric encoder, wrong gear ratio, no or stale pitch compensation",
                   "load a compensation table from these values or from an autocollimator",
@@ -47,7 +47,7 @@ Effect rotary_positioning(const AxisGeometry& axis) {
 Effect rotary_cyclic(const AxisGeometry& axis) {
     std::vector<double> turns;
     for (int n = 10; n <= 360; ++n) turns.push_back(n);
-    return {effect_name(axis.axis, ".cyclic"),
+    return {effect_name(axis, ".cyclic"),
             "A ripple of the angle that repeats with every tooth or worm turn",
             "worm or gear error, encoder interpolation",
             "adjust or replace the worm; a direct encoder removes it",
@@ -63,7 +63,7 @@ Effect rotary_cyclic(const AxisGeometry& axis) {
 }
 
 Effect rotary_backlash(const AxisGeometry& axis) {
-    return {effect_name(axis.axis, ".backlash"),
+    return {effect_name(axis, ".backlash"),
             "The axis stops short by half the gap, on the side it comes from",
             "worn worm gear, loose preload, drive belt; negative: a drive that lags",
             "readjust the preload, or enter the gap as backlash compensation (on Fanuc parameter "

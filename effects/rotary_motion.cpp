@@ -11,7 +11,7 @@ constexpr std::size_t each = 2 * orders;
 Effect motion_effect(const AxisGeometry& axis, Effect effect, std::vector<int> directions,
                      double typical, int usual_orders = 2) {
     for (const int d : directions)
-        append_harmonics(effect.parameters, motion_name(d, axis.axis) + "_", d < 3 ? "mm" : "rad",
+        append_harmonics(effect.parameters, motion_name(d, axis) + "_", d < 3 ? "mm" : "rad",
                          orders, typical, usual_orders);
     effect.add = [k = axis.axis, directions](const AxisSample& sample, const Contact&,
                                              std::span<const double> value, Perturbation& out) {
@@ -36,7 +36,7 @@ std::vector<int> across(const AxisGeometry& axis, int first) {
 
 Effect rotary_radial(const AxisGeometry& axis) {
     return motion_effect(axis,
-                         {effect_name(axis.axis, ".radial"),
+                         {effect_name(axis, ".radial"),
                           "The axis line wanders sideways as the table turns",
                           "worn or out-of-round bearing, mounting distortion",
                           "check the bearing; map and compensate if it repeats",
@@ -48,7 +48,7 @@ Effect rotary_radial(const AxisGeometry& axis) {
 
 Effect rotary_axial(const AxisGeometry& axis) {
     return motion_effect(axis,
-                         {effect_name(axis.axis, ".axial"),
+                         {effect_name(axis, ".axial"),
                           "The table rises and falls along its axis as it turns",
                           "axial bearing, table not flat on its flange",
                           "check the axial bearing and its seat",
@@ -60,7 +60,7 @@ Effect rotary_axial(const AxisGeometry& axis) {
 
 Effect rotary_tilt(const AxisGeometry& axis) {
     return motion_effect(axis,
-                         {effect_name(axis.axis, ".tilt"),
+                         {effect_name(axis, ".tilt"),
                           "The table wobbles: the axis line tilts as it turns",
                           "bearing tilt, flange out of square, table bending",
                           "check bearing preload; map and compensate if it repeats",

@@ -15,7 +15,7 @@ Effect servo_mismatch(const Chain& chain) {
     for (const AxisGeometry& axis : chain.axes()) {
         axes.push_back(axis.axis);
         effect.parameters.push_back(
-            {axis_parameter("tau_", axis.axis, "_s"), "s", 0.25e-3, -1, {}, true});
+            {axis_parameter("tau_", axis, "_s"), "s", 0.25e-3, -1, {}, true});
     }
     effect.add = [axes](const AxisSample& sample, const Contact&, std::span<const double> value,
                         Perturbation& out) {

@@ -24,8 +24,6 @@ Effect gravity_sag(const AxisGeometry& tilting) {
 
 Effect clamp_shift(const Chain& chain) {
     std::vector<Axis> rotary;
-    for (const AxisGeometry& axis : chain.work)
-        if (axis.rotary) rotary.push_back(axis.axis);
     Effect effect{
         "clamp.shift",
         "The table moves when its clamp closes",
@@ -35,7 +33,9 @@ Effect clamp_shift(const Chain& chain) {
         "and turned by turn_R_rad",
         {},
         {}};
-    for (const Axis axis : rotary) {
+    for (const AxisGeometry& axis : chain.work) {
+        if (!axis.rotary) continue;
+        rotary.push_back(axis.axis);
         for (int d = 0; d < 3; ++d)
             effect.parameters.push_back(
                 {axis_parameter("shift_", axis, "_mm"), "mm", 5e-3, d, {}, true});

@@ -39,7 +39,7 @@ Effect thermal_expansion(const Chain& chain) {
         if (axis.rotary) continue;
         axes.push_back(axis.axis);
         effect.parameters.push_back(
-            {axis_parameter("growth_", axis.axis, "_per_k"), "1/K", 8e-6, -1, {}, true});
+            {axis_parameter("growth_", axis, "_per_k"), "1/K", 8e-6, -1, {}, true});
     }
     effect.add = [axes](const AxisSample& sample, const Contact&, std::span<const double> value,
                         Perturbation& out) {

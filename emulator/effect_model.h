@@ -16,6 +16,8 @@ struct Contact {
     int artefact = -1;                      ///< index in Setup::artefacts
     Vector3 direction_M = Vector3::Zero();  ///< component read, approach, or cup to pivot
     Vector3 direction_W = Vector3::Zero();  ///< the same seen from the table
+    int instrument = -1;  ///< of a point row: index in Setup::instruments, -1 without one
+    Vector3 direction_I = Vector3::Zero(), commanded_I_mm = Vector3::Zero();  ///< of a point row
     double along_mm = 0.0;      ///< touch: from the commanded end to the sample, along direction_M
     int touches = 0;            ///< of the pattern behind a sphere row, 0 = unknown
     double extension_mm = 0.0;  ///< of stylus or cup, beyond the setup's

@@ -1,6 +1,7 @@
 #include "emulator/instruments.h"
 
 #include "ballbar/ballbar.h"
+#include "emulator/points.h"
 
 namespace trunnion {
 namespace {
@@ -13,7 +14,7 @@ Vector3 shift_of(const ExtensionErrors& errors, const Contact& contact) {
 Vector3 center_W_mm(const InstrumentView& view) {
     const auto k = static_cast<std::size_t>(view.contact.artefact);
     Vector3 center = view.setup.artefacts[k].center_W_mm + view.state.extra.work_shift_mm;
-    if (k < view.offsets.artefact_W.size()) center += view.offsets.artefact_W[k];
+    if (k < view.offsets.artefact.size()) center += view.offsets.artefact[k];
     return center;
 }
 
@@ -62,6 +63,7 @@ constexpr DeviceEntry devices[] = {
      [](const Setup& s) { return s.probe.has_value(); }, "a probe row, but no [probe]"},
     {Device::ballbar, ballbar_mm, Artefact::Kind::center_pivot,
      [](const Setup& s) { return s.ballbar.has_value(); }, "a ballbar row, but no [ballbar]"},
+    {Device::point, point_mm, Artefact::Kind::target, [](const Setup&) { return true; }, ""},
 };
 
 const DeviceEntry& entry_of(Device device) {
@@ -93,8 +95,7 @@ WayToSphere way_to_contact(const InstrumentView& view) {
 
 Contact contact_of(const Setup& setup, const MachinePose& nominal, const Reading& row) {
     const DeviceEntry& entry = entry_of(row.device);
-    if (!entry.mounted(setup))
-        throw InputError(std::string(entry.missing) + " in the setup");
+    if (!entry.mounted(setup)) throw InputError(std::string(entry.missing) + " in the setup");
     Contact contact;
     contact.device = row.device;
     contact.artefact = artefact_index(setup, row.feature);
@@ -103,6 +104,9 @@ Contact contact_of(const Setup& setup, const MachinePose& nominal, const Reading
     const Artefact& artefact = setup.artefacts[static_cast<std::size_t>(contact.artefact)];
     if (artefact.kind != entry.target && entry.target == Artefact::Kind::sphere)
         throw InputError("a probe row on '" + artefact.name + "', which is no sphere");
+    if (artefact.kind != entry.target && entry.target == Artefact::Kind::target)
+        throw InputError("a point row on '" + artefact.name + "', which is no target");
+    if (row.device == Device::point) aim_at_point(setup, row, contact);
     if (row.device == Device::ballbar)
         contact.direction_M = cup_to_pivot_M(nominal, {setup.ballbar->cup_with(row.extension_mm),
                                                        artefact.center_W_mm})

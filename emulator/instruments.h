@@ -15,7 +15,12 @@ struct PhysicalState {
 
 /// Set-up quantities that differ from the setup file's, mm.
 struct ReplayOffsets {
-    std::vector<Vector3> artefact_W;  ///< by artefact
+    std::vector<Vector3> artefact;  ///< by artefact: of its centre in W, of a tool's target in S
+    struct InstrumentError {
+        SmallMotion pose;
+        double scale = 0.0;
+    };
+    std::vector<InstrumentError> instruments;
     Vector3 cup_S = Vector3::Zero();
     double length = 0.0;                   ///< of the ballbar
     ExtensionErrors stylus_S, long_cup_S;  ///< by extension

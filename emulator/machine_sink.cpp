@@ -17,7 +17,8 @@ constexpr double standing_rad = 1e-9;
 
 std::vector<Axis> axes_of(const Chain& chain) {
     std::vector<Axis> axes;
-    for (const AxisGeometry& axis : chain.axes()) axes.push_back(axis.axis);
+    for (const AxisGeometry& axis : chain.axes())
+        if (is_letter(axis)) axes.push_back(axis.axis);
     return axes;
 }
 

@@ -19,7 +19,7 @@ namespace {
 void check_axes(const Setup& setup, const ReadingTable& table) {
     for (const AxisGeometry& axis : setup.machine.chain.axes())
         if (std::find(table.axes.begin(), table.axes.end(), axis.axis) == table.axes.end())
-            throw InputError(std::string("no column for axis ") + letter_of(axis.axis) +
+            throw InputError("no column for axis " + axis.name +
                                  " of the setup's machine: readings of another machine?",
                              {table.path, 0, 0});
     for (const Axis axis : table.axes) {
@@ -27,7 +27,7 @@ void check_axes(const Setup& setup, const ReadingTable& table) {
         for (const Reading& row : table.rows)
             if (row.commanded[axis] != 0.0)
                 refuse(setup, table, row,
-                       std::string("axis ") + letter_of(axis) +
+                       "axis " + table.names[axis] +
                            " moves, but the setup's machine has no such axis");
     }
 }
@@ -37,13 +37,19 @@ int touches_of(const ReadingTable& table) {
     return it == table.comment.end() ? 0 : std::atoi(it->second.c_str());
 }
 
+bool turns(const Chain& chain, Axis axis) {
+    const AxisGeometry* geometry = chain.find(axis);
+    return geometry && geometry->rotary;
+}
+
 }  // namespace
 
 DeviceRow device_row(const Observer& observer, const Reading& row, const AxisSample& sample,
                      int touches) {
     DeviceRow ready{sample, contact_of(observer.setup(), observer.nominal(sample), row)};
+    const Chain& chain = observer.setup().machine.chain;
     for (const Axis axis : all_axes)
-        if (row.device == Device::sphere && !is_rotary(axis)) {
+        if (row.device == Device::sphere && !turns(chain, axis)) {
             ready.sample.travel[index_of(axis)] = 0;
             ready.sample.side_unknown[index_of(axis)] = false;
         } else if (ready.sample.side_unknown[index_of(axis)]) {

@@ -43,8 +43,9 @@ void append(std::vector<std::string>& to, std::vector<std::string> from) {
 ControlConfig control_config(const Setup& setup) {
     ControlConfig config;
     for (const AxisGeometry& axis : setup.machine.chain.axes())
-        config.axes.push_back(
-            {axis.axis, axis.rotary, axis.min, axis.max, axis.max_speed, axis.max_acceleration});
+        if (is_letter(axis))
+            config.axes.push_back({axis.axis, axis.rotary, axis.min, axis.max, axis.max_speed,
+                                   axis.max_acceleration});
     config.dialect = setup.dialect;
     config.tcp_frame = setup.tcp_frame;
     config.work_positions_with_length = setup.work_positions_with_length;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "effects/settings.h"
 #include "base/alarm.h"
+#include "effects/settings.h"
 #include "estimation/ranked_least_squares.h"
 #include "identification/unknowns.h"
 
@@ -28,8 +28,7 @@ Eigen::VectorXd residual(const BaseModel& model, const Replay& replay, const Set
 }
 
 double location_value(const Setup& setup, const FitParameter& fit) {
-    const auto name = parse_error_name(fit.name.substr(0, 4));
-    return name ? setup.machine.errors.location(*name) : 0.0;
+    return fit.location ? setup.machine.errors.location(*fit.location) : 0.0;
 }
 
 /// Weighted squares of the residuals and of what calibrated values are off.
@@ -156,7 +155,8 @@ RowNoise row_noise(const Setup& setup, const ReadingTable& table, const Replay& 
     static const std::map<Device, std::pair<const char*, double>> usual_um{
         {Device::sphere, {"sphere", 1.0}},
         {Device::touch, {"touch", 1.0}},
-        {Device::ballbar, {"ballbar", 0.5}}};
+        {Device::ballbar, {"ballbar", 0.5}},
+        {Device::point, {"point", 10.0}}};
     RowNoise noise;
     noise.sigma_mm.resize(static_cast<Eigen::Index>(replay.size()));
     for (std::size_t i = 0; i < replay.size(); ++i) {
@@ -199,8 +199,7 @@ Eigen::VectorXd effect_column(const Replay& replay, const std::vector<Perturbati
 void add_effect(Setup& setup, const Effect& effect, const std::vector<double>& values) {
     if (effect.name == "location") {
         for (std::size_t j = 0; j < values.size(); ++j)
-            if (const auto name = parse_error_name(effect.parameters[j].name.substr(0, 4)))
-                setup.machine.errors.location(*name) += values[j];
+            setup.machine.errors.location(*effect.parameters[j].location) += values[j];
         return;
     }
     for (EffectSetting& present : setup.effects) {
@@ -272,11 +271,7 @@ BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& 
         FitParameter done = slot.fit;
         done.sigma = typical(j) * fit.sigma(j);
         if (!slot.effect) {
-            const auto a = static_cast<std::size_t>(std::max(0, slot.artefact));
-            done.value = slot.extension_mm != 0.0 ? extension_error(model.setup, slot)(slot.axis)
-                         : slot.artefact >= 0     ? model.setup.artefacts[a].center_W_mm(slot.axis)
-                         : slot.axis < 3          ? model.setup.ballbar->cup_S_mm(slot.axis)
-                                                  : model.setup.ballbar->length_mm;
+            done.value = number_of(model.setup, slot.fit.set_up);
         } else if (slot.effect->name == "location") {
             done.value = location_value(model.setup, slot.fit);
         } else {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "effects/catalogue.h"
-#include "emulator/replay.h"
+#include "identification/set_up.h"
 
 namespace trunnion {
 
@@ -21,6 +21,8 @@ struct FitParameter {
     double sigma_monte_carlo = 0.0;  ///< the same by repetition, 0 when that was not asked for
     double prior_value = 0.0;
     double prior_sigma = 0.0;  ///< 0: no prior
+    std::optional<ErrorName> location = {};
+    SetUpQuantity set_up = {};
 };
 
 /// Parameters that cannot be told apart: moving along `direction` (in their units) changes nothing.

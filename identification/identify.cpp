@@ -7,8 +7,8 @@
 #include <cmath>
 #include <functional>
 
-#include "effects/settings.h"
 #include "base/alarm.h"
+#include "effects/settings.h"
 #include "identification/keys.h"
 #include "identification/unknown_sides.h"
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "effects/settings.h"
 #include "base/random.h"
+#include "effects/settings.h"
 
 namespace trunnion {
 

@@ -81,16 +81,16 @@ class SideChoice {
 
     std::string note(std::size_t k, double worse) const {
         const char side = side_[k] > 0 ? '+' : '-';
-        const char letter = letter_of(replay_.unknown_sides()[k].axis);
+        const std::string name = setup_.machine.chain.names()[replay_.unknown_sides()[k].axis];
         if (worse < tells)
             return fmt::format(
                 "{}: no row tells from which side {} came before its first motion, "
                 "nor do the readings: taken as {}",
-                table_.path, letter, side);
+                table_.path, name, side);
         return fmt::format(
             "{}: before its first motion {} came travelling {} (the other side fits "
             "worse by {:.3g} in weighted squares)",
-            table_.path, letter, side, worse);
+            table_.path, name, side, worse);
     }
 
     const Setup& setup_;

@@ -16,12 +16,8 @@ class Unknowns {
              const std::vector<std::string>& effects);
 
     struct Slot {
-        const Effect* effect = nullptr;  ///< nullptr: set-up
+        const Effect* effect = nullptr;  ///< nullptr: of the set-up, `fit.set_up`
         std::size_t parameter = 0;       ///< of the effect
-        int artefact = -1,
-            axis = 0;               ///< set-up: artefact centre, else the cup (axis < 3) or length
-        double extension_mm = 0.0;  ///< not 0: ball of this longer stylus or cup
-        bool stylus = false;
         FitParameter fit;
     };
     const std::vector<Slot>& slots() const { return slots_; }
@@ -30,22 +26,16 @@ class Unknowns {
     void add_effect_unknowns(const Catalogue& catalogue, const std::string& name);
     void add_prior(FitParameter& fit) const;
     void add_set_up(const Replay& replay);
-    void add_extensions(const Replay& replay);
-    void push_set_up(const std::string& name, int artefact, int axis);
 
     const Setup& setup_;
     std::vector<Slot> slots_;
 };
 
-/// Where the centre of the ball of a slot's longer stylus or cup is kept, mm in S.
-Vector3& extension_error(Setup& setup, const Unknowns::Slot& slot);
 /// d reading / d unknown of each device row, mm for one typical change.
 Eigen::MatrixXd columns_of(const std::vector<Unknowns::Slot>& slots, const Replay& replay,
                            const std::vector<Perturbation>& gradient);
 /// Applies a step of the fit (in units) to the setup.
 void apply_step(Setup& setup, const std::vector<Unknowns::Slot>& slots,
                 const Eigen::VectorXd& step);
-/// Difference to the setup's own set-up quantities: the replay keeps those of the file.
-ReplayOffsets offsets_between(const Setup& from, const Setup& to);
 
 }  // namespace trunnion

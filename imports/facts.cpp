@@ -83,8 +83,8 @@ std::optional<Axis> axis_named(const Setup& setup, const std::string& name) {
     const std::string rest = word.substr(1);
     const bool plain = rest.empty() || rest == "1" || rest == "-AXIS" || rest == " AXIS" ||
                        rest == "_AXIS" || rest == "AXIS" || rest == "-ACHSE";
-    const auto axis = plain ? axis_of(word[0]) : std::nullopt;
-    return axis && setup.machine.chain.find(*axis) ? axis : std::nullopt;
+    if (!plain || !axis_of(word[0])) return std::nullopt;
+    return setup.machine.chain.names().find(word.substr(0, 1));
 }
 
 AxisPositions positions_told(const Setup& setup, const std::string& text) {

@@ -32,6 +32,7 @@ class Facts {
 };
 
 /// The axis that `name` says ("X", "x", "X1", "X-axis"); nothing when the machine has none such.
+/// Letters only: axes of other names come in through a map (kind table).
 std::optional<Axis> axis_named(const Setup& setup, const std::string& name);
 /// "Y=100 B=-30" (mm, deg): positions of axes that the file does not tell. Throws InputError for
 /// an axis that the machine does not have.

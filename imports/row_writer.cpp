@@ -18,6 +18,7 @@ std::string file_name_of(const std::string& path) {
 ReadingTable head_of(const Setup& setup, const std::string& kind,
                      std::vector<std::string> columns) {
     ReadingTable head;
+    head.names = setup.machine.chain.names();
     head.comment = {{"schema", "trunnion.readings/1"}, {"source", "real"}, {"import", kind}};
     for (const AxisGeometry& axis : setup.machine.chain.axes()) head.axes.push_back(axis.axis);
     head.optional_columns = std::move(columns);

@@ -56,7 +56,7 @@ Told told_in(const std::string& name) {
 class MapReader {
   public:
     MapReader(const TomlFile& file, const TextTable& table, const Setup& setup)
-        : file_(file), table_(table), setup_(setup) {}
+        : file_(file), table_(table), setup_(setup), names_(setup.machine.chain.names()) {}
 
     Map read() const {
         Map map;
@@ -91,10 +91,10 @@ class MapReader {
         result.name = key;
         if (const ReadingColumn* column = find_reading_column(key)) {
             result.store = column->store;
-        } else if (const auto axis = axis_of_column(key)) {
-            if (!setup_.machine.chain.find(*axis))
-                file_.fail(value, "the machine of " + setup_.path + " has no axis for " + key);
-            result.store = axis_store(*axis);
+        } else if (const auto axis = names_.find_column(key)) {
+            result.store = axis_store(*axis, names_.is_rotary(*axis));
+        } else if (AxisNames().find_column(key)) {
+            file_.fail(value, "the machine of " + setup_.path + " has no axis for " + key);
         } else {
             file_.fail(value, "readings have no column '" + key + "'");
         }
@@ -158,6 +158,7 @@ class MapReader {
     const TomlFile& file_;
     const TextTable& table_;
     const Setup& setup_;
+    AxisNames names_;
 };
 
 /// Puts one line's values into a row.
@@ -202,10 +203,10 @@ class LineReader {
 };
 
 /// A map can ask for rows that no reading is: they are refused here, not by the next command.
-void check_rows(const std::string& readings, const std::string& map_path) {
+void check_rows(const std::string& readings, const std::string& map_path, const AxisNames& names) {
     std::vector<std::string> notes;
     try {
-        parse_readings(readings, map_path, notes);
+        parse_readings(readings, map_path, notes, names);
     } catch (const InputError& error) {
         throw InputError("the rows of this map are no readings: " + error.message, {map_path},
                          error.line_text);
@@ -253,7 +254,7 @@ Imported import_table(const ImportRequest& request) {
     }
     for (std::string& note : map_file.unknown_keys()) result.notes.push_back(std::move(note));
     result.readings = rows->take();
-    check_rows(result.readings, request.map.path);
+    check_rows(result.readings, request.map.path, request.setup.machine.chain.names());
     return result;
 }
 

@@ -2,17 +2,20 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "geometry/axes.h"
+#include "geometry/axis_names.h"
 #include "geometry/pose.h"
 
 namespace trunnion {
 
 /// One axis as the setup file describes it.
 struct AxisGeometry {
-    Axis axis = Axis::X;
+    Axis axis = Axis::X;     ///< its slot in positions and errors
+    std::string name = "X";  ///< as the chain calls it
     bool rotary = false;
     Vector3 direction =
         Vector3::UnitX();  ///< in M, all axes at zero, unit: what a + command does to
@@ -31,12 +34,18 @@ struct Chain {
     std::vector<AxisGeometry> tool;
 
     const AxisGeometry* find(Axis axis) const;
-    /// All axes, X Y Z A B C U V W order.
+    /// All axes in the order of their slots: X Y Z A B C U V W, other names in chain order.
     std::vector<AxisGeometry> axes() const;
+    AxisNames names() const;
 };
 
-/// Axis letters only (directions and points at their defaults). Throws InputError without a place
-/// when `text` is not w AXES b AXES t with each letter once; the setup reader adds the place.
+/// What an NC word addresses: an axis called by a letter of ISO 841.
+bool is_letter(const AxisGeometry& axis);
+
+/// Names only: directions and points at their defaults, kinds by letter (A B C turn; other names do
+/// not until the setup says so). A name is a letter and then letters and digits, at most nine axes.
+/// Throws InputError without a place when `text` is not w AXES b AXES t with each name once,
+/// whatever its case; the setup reader adds the place.
 Chain parse_chain(std::string_view text);
 
 }  // namespace trunnion

@@ -57,19 +57,16 @@ double wave_number(const ErrorCurve& curve) {
 
 }  // namespace
 
-std::optional<ErrorName> parse_error_name(std::string_view text) {
-    if (text.size() < 3 || text.size() > 4 || text[0] != 'E') return std::nullopt;
-    const bool location = text.size() == 4;
-    const auto axis = axis_of(text.back());
-    if (directions.find(text[1]) == std::string_view::npos || !axis || (location && text[2] != '0'))
+std::optional<ErrorName> parse_error_name(std::string_view text, const AxisNames& names) {
+    if (text.size() < 3 || text[0] != 'E' || directions.find(text[1]) == std::string_view::npos)
         return std::nullopt;
-    return ErrorName{text[1], location, *axis};
+    const bool location = text[2] == '0';
+    const auto axis = names.find(text.substr(location ? 3 : 2));
+    return axis ? std::optional(ErrorName{text[1], location, *axis}) : std::nullopt;
 }
 
-std::string to_string(const ErrorName& name) {
-    std::string text{'E', name.direction};
-    if (name.location) text += '0';
-    return text + letter_of(name.axis);
+std::string to_string(const ErrorName& name, const AxisNames& names) {
+    return std::string{'E', name.direction} + (name.location ? "0" : "") + names[name.axis];
 }
 
 std::optional<SpindleErrorName> parse_spindle_error_name(std::string_view text) {

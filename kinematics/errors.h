@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/axes.h"
+#include "geometry/axis_names.h"
 #include "geometry/pose.h"
 
 namespace trunnion {
@@ -24,9 +25,9 @@ struct ErrorName {
     friend bool operator==(const ErrorName&, const ErrorName&) = default;
 };
 
-std::optional<ErrorName> parse_error_name(
-    std::string_view text);  ///< "EX0C"; nothing if it is none
-std::string to_string(const ErrorName& name);
+/// "EX0C", "EA0J1"; nothing if it is none of an axis of `names`.
+std::optional<ErrorName> parse_error_name(std::string_view text, const AxisNames& names = {});
+std::string to_string(const ErrorName& name, const AxisNames& names = {});
 
 /// EXS, EA0S, ...: an error of the spindle. ISO 230-7 has no ECS: that is the way it turns.
 struct SpindleErrorName {

@@ -206,27 +206,48 @@ const ReadingColumn* find_reading_column(std::string_view name) {
     return nullptr;
 }
 
-std::string axis_column_name(Axis axis) {
-    const char lower = static_cast<char>(letter_of(axis) + ('a' - 'A'));
-    return std::string(1, lower) + (is_rotary(axis) ? "_deg" : "_mm");
+namespace {
+
+/// A letter of ISO 841, or a letter with a number (j7), then _mm or _deg: meant as an axis.
+bool looks_like_axis(std::string_view column) {
+    const std::size_t unit = column.rfind('_');
+    if (unit == std::string_view::npos || unit == 0) return false;
+    const std::string_view name = column.substr(0, unit), digits = name.substr(1);
+    if (column.substr(unit) != "_mm" && column.substr(unit) != "_deg") return false;
+    if (digits.empty()) return std::string_view("xyzabcuvw").find(name) != std::string_view::npos;
+    return name[0] >= 'a' && name[0] <= 'z' &&
+           digits.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-std::optional<Axis> axis_of_column(std::string_view name) {
+std::string list_of_columns(const AxisNames& names) {
+    std::string out;
     for (const Axis axis : all_axes)
-        if (axis_column_name(axis) == name) return axis;
+        if (names.has(axis)) out += (out.empty() ? "" : ", ") + names.column(axis);
+    return out;
+}
+
+}  // namespace
+
+std::optional<Axis> axis_of_column(const TableLine& line, const TableCell& cell,
+                                   const AxisNames& names) {
+    if (const auto axis = names.find_column(cell.text)) return axis;
+    if (looks_like_axis(cell.text))
+        line.fail("column '" + std::string(cell.text) + "': the machine's axes are " +
+                      list_of_columns(names),
+                  cell.column);
     return std::nullopt;
 }
 
-StoreCell axis_store(Axis axis) {
-    return [axis](Reading& row, const TableLine& line, const TableCell& cell) {
+StoreCell axis_store(Axis axis, bool rotary) {
+    return [axis, rotary](Reading& row, const TableLine& line, const TableCell& cell) {
         const double value = line.number_of(cell, "axis position");
-        row.commanded[axis] = is_rotary(axis) ? rad_from_deg(value) : value;
+        row.commanded[axis] = rotary ? rad_from_deg(value) : value;
     };
 }
 
-std::string axis_text(const Reading& row, Axis axis) {
+std::string axis_text(const Reading& row, Axis axis, bool rotary) {
     const double q = row.commanded[axis];
-    return is_rotary(axis) ? shortest_degrees(q) : shortest(q);
+    return rotary ? shortest_degrees(q) : shortest(q);
 }
 
 }  // namespace trunnion

@@ -27,10 +27,12 @@ const std::vector<ReadingColumn>& reading_columns();
 /// nullptr when no column has this name.
 const ReadingColumn* find_reading_column(std::string_view name);
 
-std::string axis_column_name(Axis axis);  ///< "x_mm", "c_deg"
-std::optional<Axis> axis_of_column(std::string_view name);
-StoreCell axis_store(Axis axis);
-std::string axis_text(const Reading& row, Axis axis);
+/// The axis of a column "x_mm", "j1_deg". Throws InputError for a column that means an axis (a
+/// letter of ISO 841, or a letter with a number) which is none of `names`.
+std::optional<Axis> axis_of_column(const TableLine& line, const TableCell& cell,
+                                   const AxisNames& names);
+StoreCell axis_store(Axis axis, bool rotary);
+std::string axis_text(const Reading& row, Axis axis, bool rotary);
 
 /// The device reads along or about `dir_x dir_y dir_z`.
 bool has_direction(Device device);

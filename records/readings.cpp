@@ -18,14 +18,14 @@ struct Header {
     std::size_t time_cell = 0;
 };
 
-StoreCell store_of(const TableCell& cell, ReadingTable& table) {
+StoreCell store_of(const TableLine& line, const TableCell& cell, ReadingTable& table) {
     if (const ReadingColumn* column = find_reading_column(cell.text)) {
         if (column->optional) table.optional_columns.emplace_back(cell.text);
         return column->store;
     }
-    if (const auto axis = axis_of_column(cell.text)) {
+    if (const auto axis = axis_of_column(line, cell, table.names)) {
         table.axes.push_back(*axis);
-        return axis_store(*axis);
+        return axis_store(*axis, table.names.is_rotary(*axis));
     }
     return {};
 }
@@ -54,7 +54,7 @@ Header read_header(const TableLine& line, const Cells& cells, ReadingTable& tabl
     Header header;
     for (const TableCell& cell : cells) {
         if (cell.text == "time_s") header.time_cell = header.stores.size();
-        header.stores.push_back(store_of(cell, table));
+        header.stores.push_back(store_of(line, cell, table));
         if (!header.stores.back())
             notes.push_back(table.path + ": column '" + std::string(cell.text) +
                             "' is not known and ignored");
@@ -87,13 +87,14 @@ AxisSides read_sides(const TableLine& line, const ReadingTable& table) {
         const std::string_view word = left.substr(0, left.find_first_of(" \t,"));
         left.remove_prefix(std::min(word.size() + 1, left.size()));
         if (word.empty()) continue;
-        const auto axis = word.size() == 2 ? axis_of(word[0]) : std::nullopt;
-        if (!axis || (word[1] != '+' && word[1] != '-'))
+        if (word.back() != '+' && word.back() != '-')
             line.fail("side reads X+ Y- ..., one word an axis", column(word));
+        const auto axis = table.names.find(word.substr(0, word.size() - 1));
+        if (!axis) line.fail("side of an axis that the machine does not have", column(word));
         if (std::find(table.axes.begin(), table.axes.end(), *axis) == table.axes.end())
             line.fail("side of an axis that has no column", column(word));
         if (sides[index_of(*axis)] != 0) line.fail("side of this axis stands twice", column(word));
-        sides[index_of(*axis)] = word[1] == '+' ? 1 : -1;
+        sides[index_of(*axis)] = word.back() == '+' ? 1 : -1;
     }
     return sides;
 }
@@ -108,14 +109,15 @@ void check_time(const TableLine& line, const TableCell& cell, const Reading& bef
 /// The axis that a servo row is about.
 Axis servo_axis(const TableLine& line, const Reading& row, const ReadingTable& table) {
     for (const Axis axis : table.axes)
-        if (row.feature == std::string(1, letter_of(axis))) return axis;
+        if (row.feature == table.names[axis]) return axis;
     line.fail("feature of an axis row is an axis of this table, not '" + row.feature + "'", 1);
 }
 
 /// A row is in degrees exactly where its device reads an angle.
 void check_unit(const TableLine& line, Reading& row, const ReadingTable& table) {
-    const bool angular = row.device == Device::angle ||
-                         (row.device == Device::axis && is_rotary(servo_axis(line, row, table)));
+    const bool angular =
+        row.device == Device::angle ||
+        (row.device == Device::axis && table.names.is_rotary(servo_axis(line, row, table)));
     if (angular != row.angular && (row.value_mm || row.sigma_mm || row.velocity_mm_s))
         line.fail(std::string(name_of(row.device)) + " row of " + row.feature +
                       (angular ? " is read in degrees (value_deg)" : " is read in mm (value_mm)"),
@@ -153,9 +155,10 @@ Reading read_row(const TableLine& line, const Cells& cells, const Header& header
 }  // namespace
 
 ReadingTable parse_readings(std::string_view text, const std::string& path,
-                            std::vector<std::string>& notes) {
+                            std::vector<std::string>& notes, const AxisNames& names) {
     ReadingTable table;
     table.path = path;
+    table.names = names;
     Header header;
     Cells cells;
     TableLine line{{}, 0, path}, side;
@@ -202,12 +205,12 @@ std::vector<const ReadingColumn*> written_columns(const ReadingTable& table, boo
 
 }  // namespace
 
-std::string format_sides(const std::vector<Axis>& axes, const AxisSides& sides) {
+std::string format_sides(const std::vector<Axis>& axes, const AxisSides& sides,
+                         const AxisNames& names) {
     std::string out;
     for (const Axis axis : axes)
         if (const int side = sides[index_of(axis)]; side != 0)
-            out +=
-                (out.empty() ? "" : " ") + std::string(1, letter_of(axis)) + (side > 0 ? '+' : '-');
+            out += (out.empty() ? "" : " ") + names[axis] + (side > 0 ? '+' : '-');
     return out;
 }
 
@@ -222,13 +225,13 @@ ReadingWriter::ReadingWriter(const ReadingTable& head, bool directions, bool deg
 std::string ReadingWriter::head_text() const {
     std::string out;
     for (const auto& [key, value] : head_.comment) out += "# " + key + " = " + value + '\n';
-    const std::string sides = format_sides(head_.axes, head_.side_before);
+    const std::string sides = format_sides(head_.axes, head_.side_before, head_.names);
     if (!sides.empty()) out += "# side = " + sides + '\n';
     for (const ReadingColumn* column : columns_->list) {
         if (column != columns_->list.front()) out += ',';
         out += column->name;
         if (column->name == "feature")
-            for (const Axis axis : head_.axes) out += ',' + axis_column_name(axis);
+            for (const Axis axis : head_.axes) out += ',' + head_.names.column(axis);
     }
     return out + '\n';
 }
@@ -238,7 +241,8 @@ void ReadingWriter::append(const Reading& row, std::string& out) const {
         if (column != columns_->list.front()) out += ',';
         out += column->text(row);
         if (column->name == "feature")
-            for (const Axis axis : head_.axes) out += ',' + axis_text(row, axis);
+            for (const Axis axis : head_.axes)
+                out += ',' + axis_text(row, axis, head_.names.is_rotary(axis));
     }
     out += '\n';
 }

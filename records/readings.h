@@ -10,6 +10,7 @@
 
 #include "base/alarm.h"
 #include "geometry/axes.h"
+#include "geometry/axis_names.h"
 #include "geometry/pose.h"
 
 namespace trunnion {
@@ -56,15 +57,17 @@ struct ReadingTable {
     AxisSides side_before{};  ///< head line `side`: of the first session; 0 where not told
     std::map<int, AxisSides> part_sides;  ///< the same of the further files of a joined table
     std::vector<Axis> axes;   ///< machine axes with a column
+    AxisNames names;          ///< of the machine; the letters by default
     std::vector<std::string> optional_columns;  ///< optional columns present, in file order
     std::vector<Reading> rows;
 };
 
-/// Reads the CSV text. Throws InputError with line and column: a cell that is no number, a row
-/// that does not fit its device (direction no unit vector, degrees for mm, an axis without a
-/// column), time that runs back. Unknown columns are listed in `notes`.
+/// Reads the CSV text of a machine whose axes are called `names`. Throws InputError with line and
+/// column: a cell that is no number, a row that does not fit its device (direction no unit vector,
+/// degrees for mm, an axis without a column), a column of an axis that the machine lacks, time that
+/// runs back. Unknown columns are listed in `notes`.
 ReadingTable parse_readings(std::string_view text, const std::string& path,
-                            std::vector<std::string>& notes);
+                            std::vector<std::string>& notes, const AxisNames& names = {});
 /// Several tables as one, in the order given: one that starts before the last one ended is taken as
 /// 60 s later, a test name that was used already gets a number. Throws InputError when the axes or
 /// the touch patterns differ.
@@ -88,6 +91,7 @@ class ReadingWriter {
     std::shared_ptr<const Columns> columns_;
 };
 /// "X+ Y+ C-": the axes of `axes` whose side is known.
-std::string format_sides(const std::vector<Axis>& axes, const AxisSides& sides);
+std::string format_sides(const std::vector<Axis>& axes, const AxisSides& sides,
+                         const AxisNames& names = {});
 
 }  // namespace trunnion

@@ -22,8 +22,7 @@ AxisSample sample_of(const Reading& row) {
     return sample;
 }
 
-signed char sign_of(Axis axis, double moved) {
-    const double rounding = is_rotary(axis) ? rows_rounding.rad : rows_rounding.mm;
+signed char sign_of(double moved, double rounding) {
     return moved > rounding ? 1 : moved < -rounding ? -1 : 0;
 }
 
@@ -34,7 +33,8 @@ Vector3 linear_position(const Reading& row) {
 /// Rows of one test, as far as their differences are velocities.
 class Pass {
   public:
-    Pass(std::span<const Reading> all, const Rows& rows) : all_(all), rows_(rows) {}
+    Pass(std::span<const Reading> all, const Rows& rows, const AxisNames& names)
+        : all_(all), rows_(rows), names_(names) {}
 
     void fill(const std::vector<Axis>& axes, std::vector<AxisSample>& samples) const {
         double path_mm = 0.0;
@@ -58,8 +58,10 @@ class Pass {
         const std::size_t before = k == 0 ? k : k - 1, after = k + 1 == rows_.size() ? k : k + 1;
         const double time_s = row(after).time_s - row(before).time_s;
         const double moved = q(after, axis) - q(before, axis);
-        const signed char sign = time_s > 0.0 ? sign_of(axis, moved) : static_cast<signed char>(0);
-        const bool moves = sign_of(axis, q(after, axis) - q(k, axis)) != 0;
+        const double rounding = names_.is_rotary(axis) ? rows_rounding.rad : rows_rounding.mm;
+        const signed char sign =
+            time_s > 0.0 ? sign_of(moved, rounding) : static_cast<signed char>(0);
+        const bool moves = sign_of(q(after, axis) - q(k, axis), rounding) != 0;
         if (sign != 0 || moves) sample.travel[index_of(axis)] = sign;
         if (sign != 0) sample.velocity[axis] = moved / time_s;
     }
@@ -96,6 +98,7 @@ class Pass {
 
     std::span<const Reading> all_;
     const Rows& rows_;
+    const AxisNames& names_;
 };
 
 bool dense(const Reading& a, const Reading& b) {
@@ -197,14 +200,14 @@ bool way_unknown(const Reading& from, const Reading& to) {
 }
 
 std::vector<AxisSample> samples_of(std::span<const Reading> rows, const std::vector<Axis>& axes,
-                                   TravelHistory history) {
+                                   TravelHistory history, const AxisNames& names) {
     std::vector<AxisSample> samples = Walk(rows, std::move(history)).samples();
     for (AxisSample& sample : samples)
         for (const Axis axis : axes)
             sample.side_unknown[index_of(axis)] = sample.travel[index_of(axis)] == 0;
     std::map<std::string, Rows> tests;
     for (std::size_t k = 0; k < rows.size(); ++k) tests[rows[k].test].push_back(k);
-    for (const auto& [test, list] : tests) Pass(rows, list).fill(axes, samples);
+    for (const auto& [test, list] : tests) Pass(rows, list, names).fill(axes, samples);
     for (std::size_t k = 0; k < rows.size(); ++k)
         for (const Axis axis : axes)
             if (samples[k].velocity[axis] != 0.0) samples[k].side_unknown[index_of(axis)] = false;
@@ -216,8 +219,9 @@ std::vector<AxisSample> samples_of(const ReadingTable& table) {
     const std::span<const Reading> rows(table.rows);
     for (std::size_t begin = 0; begin < rows.size();) {
         const std::size_t end = session_end(table.rows, begin);
-        const TravelHistory history(sides_before(table, begin), rows_rounding);
-        const auto part = samples_of(rows.subspan(begin, end - begin), table.axes, history);
+        const TravelHistory history(sides_before(table, begin), rows_rounding, table.names);
+        const auto part =
+            samples_of(rows.subspan(begin, end - begin), table.axes, history, table.names);
         samples.insert(samples.end(), part.begin(), part.end());
         begin = end;
     }

@@ -27,7 +27,7 @@ bool is_continuous(Device device);
 std::vector<AxisSample> samples_of(const ReadingTable& table);
 /// The same for rows of one session that follow what `history` saw.
 std::vector<AxisSample> samples_of(std::span<const Reading> rows, const std::vector<Axis>& axes,
-                                   TravelHistory history);
+                                   TravelHistory history, const AxisNames& names = {});
 
 /// Nobody tells the way from one row to the next.
 bool way_unknown(const Reading& from, const Reading& to);

@@ -8,6 +8,13 @@ namespace trunnion {
 
 const Rounding rows_rounding{1.5e-6, rad_from_deg(1.5e-6)};
 
+TravelHistory::TravelHistory(const AxisSides& before, const Rounding& rounding,
+                             const AxisNames& names)
+    : side_(before) {
+    for (std::size_t i = 0; i < axis_count; ++i)
+        rounding_[i] = names.rotary[i] ? rounding.rad : rounding.mm;
+}
+
 void TravelHistory::place(const AxisPositions& position) {
     last_ = turned_at_ = position;
     placed_ = true;
@@ -29,7 +36,7 @@ void TravelHistory::assume_turned(std::size_t axis) {
 void TravelHistory::advance(std::size_t axis, double value, const double* turned_at) {
     const double step = value - last_.value[axis];
     just_turned_[axis] = false;
-    if (std::abs(step) < (is_rotary(all_axes[axis]) ? rounding_.rad : rounding_.mm)) return;
+    if (std::abs(step) < rounding_[axis]) return;
     const signed char sign = step > 0.0 ? 1 : -1;
     if (direction_[axis] == -sign) {
         turned_[axis] = just_turned_[axis] = true;

@@ -2,7 +2,7 @@
 // turned.
 #pragma once
 
-#include "geometry/axes.h"
+#include "geometry/axis_names.h"
 
 namespace trunnion {
 
@@ -24,8 +24,8 @@ constexpr Rounding path_rounding{1e-9, 1e-9};
 class TravelHistory {
   public:
     /// `before`: sides before the first motion, 0 where nothing tells them.
-    explicit TravelHistory(const AxisSides& before = {}, const Rounding& rounding = path_rounding)
-        : rounding_(rounding), side_(before) {}
+    explicit TravelHistory(const AxisSides& before = {}, const Rounding& rounding = path_rounding,
+                           const AxisNames& names = {});
 
     /// The axes stand here, however they came.
     void place(const AxisPositions& position);
@@ -41,6 +41,8 @@ class TravelHistory {
     bool placed() const { return placed_; }
     /// No axis moved since `begin_anew`.
     bool begun() const { return direction_ == AxisSides{}; }
+    /// Less motion than this is none, mm or rad.
+    double rounding(std::size_t axis) const { return rounding_[axis]; }
     const AxisPositions& position() const { return last_; }
     const AxisSides& travel() const { return side_; }
     /// The axis turned with the last motion.
@@ -49,7 +51,7 @@ class TravelHistory {
     void describe(AxisSample& sample) const;
 
   private:
-    Rounding rounding_;
+    std::array<double, axis_count> rounding_{};
     AxisSides side_{}, direction_{};  ///< direction: since `begin_anew`
     AxisPositions last_, turned_at_;
     std::array<bool, axis_count> turned_{}, just_turned_{}, run_up_unknown_{};

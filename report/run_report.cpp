@@ -29,9 +29,9 @@ Json position_json(const AxisPositions& q, const Chain& chain) {
     Json out = Json::object();
     for (const AxisGeometry& axis : chain.axes()) {
         const double value = q[axis.axis];
-        out[std::string(1, letter_of(axis.axis))] =
-            axis.rotary ? parse_number(shortest_degrees(value)).value_or(deg_from_rad(value))
-                        : value;
+        out[axis.name] = axis.rotary
+                             ? parse_number(shortest_degrees(value)).value_or(deg_from_rad(value))
+                             : value;
     }
     return out;
 }

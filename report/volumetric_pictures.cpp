@@ -126,7 +126,7 @@ std::string rotary_text(const VolumetricMap& map, const AxisPositions& middle) {
     std::vector<Axis> others;
     for (const Axis axis : map.axes)
         if (index_of(axis) >= 3) others.push_back(axis);
-    return others.empty() ? "" : ", " + place_text(others, middle);
+    return others.empty() ? "" : ", " + place_text(map.names, others, middle);
 }
 
 std::string slice_picture(const VolumetricMap& map, const AxisPositions& middle, double z,
@@ -181,7 +181,7 @@ std::string slice_picture(const VolumetricMap& map, const AxisPositions& middle,
     if (roomy) svg.text({800, 552}, "numbers: length, and Z", 11);
     const auto worst_line = [&](const char* where, const VolumetricPoint& p) {
         return fmt::format("{}: {:.2f} um at {}, mostly {}", where, error_um(p),
-                           place_text(map.axes, p.at), cause_name(map, p));
+                           place_text(map.names, map.axes, p.at), cause_name(map, p));
     };
     svg.text({90, 634}, worst_line("Worst at this height", *worst), 12);
     svg.text({90, 652}, worst_line("Worst in the whole grid", map.points[map.worst]), 12);
@@ -197,7 +197,7 @@ void axis_plot(Svg& svg, Point2 corner, const VolumetricMap& map, Axis axis) {
     };
     std::map<double, Column> columns;
     for (const VolumetricPoint& p : map.points) {
-        Column& column = columns[is_rotary(axis) ? deg_from_rad(p.at[axis]) : p.at[axis]];
+        Column& column = columns[map.names.is_rotary(axis) ? deg_from_rad(p.at[axis]) : p.at[axis]];
         column.worst = std::max(column.worst, error_um(p));
         column.squares += error_um(p) * error_um(p);
         ++column.count;
@@ -205,7 +205,8 @@ void axis_plot(Svg& svg, Point2 corner, const VolumetricMap& map, Axis axis) {
     const double largest = std::max(error_um(map.points[map.worst]), 1e-6);
     Plot plot(svg, corner, 340, 170, round_range(columns.begin()->first, columns.rbegin()->first),
               round_range(0, largest));
-    plot.frame("", fmt::format("{}, {}", letter_of(axis), is_rotary(axis) ? "deg" : "mm"), "um");
+    plot.frame("", fmt::format("{}, {}", map.names[axis], map.names.is_rotary(axis) ? "deg" : "mm"),
+               "um");
     std::vector<Point2> worst, rms;
     for (const auto& [place, column] : columns) {
         worst.push_back(plot.at(place, column.worst));
@@ -226,7 +227,7 @@ std::string axes_picture(const VolumetricMap& map) {
     svg.text({70, 52},
              fmt::format("{} poses, tool {:.6g} mm; rms {:.2f} um, worst {:.2f} um at {}",
                          map.points.size(), map.length_mm, um_from_mm(map.rms_mm), error_um(worst),
-                         place_text(map.axes, worst.at)),
+                         place_text(map.names, map.axes, worst.at)),
              12);
     svg.line({640, 28}, {670, 28}, {plot_colours[4], 2.0, "none", ""});
     svg.text({676, 32}, "worst", 12);

@@ -8,14 +8,9 @@
 namespace trunnion {
 namespace {
 
-std::string axis_column(Axis axis) {
-    const char lower = static_cast<char>(letter_of(axis) + ('a' - 'A'));
-    return std::string(1, lower) + (is_rotary(axis) ? "_deg" : "_mm");
-}
-
-std::string letters(const std::vector<Axis>& axes) {
+std::string list_of(const AxisNames& names, const std::vector<Axis>& axes) {
     std::string out;
-    for (const Axis axis : axes) out += (out.empty() ? "" : " ") + std::string(1, letter_of(axis));
+    for (const Axis axis : axes) out += (out.empty() ? "" : " ") + names[axis];
     return out;
 }
 
@@ -25,21 +20,25 @@ std::string cause_name(const VolumetricMap& map, const VolumetricPoint& point) {
     return map.causes.empty() ? "" : map.causes[point.worst].name;
 }
 
-std::string place_text(const std::vector<Axis>& axes, const AxisPositions& q) {
+std::string place_text(const AxisNames& names, const std::vector<Axis>& axes,
+                       const AxisPositions& q) {
     std::string out;
-    for (const Axis axis : axes)
-        out += fmt::format("{}{}{:.6g}", out.empty() ? "" : " ", letter_of(axis),
-                           is_rotary(axis) ? deg_from_rad(q[axis]) : q[axis]);
+    for (const Axis axis : axes) {
+        const bool number = names[axis].size() > 1;  // J1 30 is not J130
+        out += fmt::format("{}{}{}{:.6g}", out.empty() ? "" : " ", names[axis], number ? " " : "",
+                           names.is_rotary(axis) ? deg_from_rad(q[axis]) : q[axis]);
+    }
     return out;
 }
 
 std::string volumetric_csv(const VolumetricMap& map) {
     std::string out;
-    for (const Axis axis : map.axes) out += axis_column(axis) + ',';
+    for (const Axis axis : map.axes) out += map.names.column(axis) + ',';
     out += "tip_x_mm,tip_y_mm,tip_z_mm,error_x_mm,error_y_mm,error_z_mm,error_mm,cause\n";
     for (const VolumetricPoint& point : map.points) {
         for (const Axis axis : map.axes)
-            out += (is_rotary(axis) ? shortest_degrees(point.at[axis]) : shortest(point.at[axis])) +
+            out += (map.names.is_rotary(axis) ? shortest_degrees(point.at[axis])
+                                              : shortest(point.at[axis])) +
                    ',';
         for (const double v : point.tip_W_mm) out += shortest(v) + ',';
         for (const double v : point.error_W_mm) out += shortest(v) + ',';
@@ -50,16 +49,17 @@ std::string volumetric_csv(const VolumetricMap& map) {
 
 std::string volumetric_text(const VolumetricMap& map) {
     const VolumetricPoint& worst = map.points[map.worst];
-    std::string out = fmt::format(
-        "{} poses: rms {:.2f} um, largest {:.2f} um at {} (mostly {})\n", map.points.size(),
-        um_from_mm(map.rms_mm), um_from_mm(worst.error_W_mm.norm()), place_text(map.axes, worst.at),
-        map.causes.empty() ? "nothing" : cause_name(map, worst));
+    std::string out =
+        fmt::format("{} poses: rms {:.2f} um, largest {:.2f} um at {} (mostly {})\n",
+                    map.points.size(), um_from_mm(map.rms_mm), um_from_mm(worst.error_W_mm.norm()),
+                    place_text(map.names, map.axes, worst.at),
+                    map.causes.empty() ? "nothing" : cause_name(map, worst));
     if (!map.assumed.empty())
         out += fmt::format("no travel in the setup, +-200 mm or +-180 degrees assumed: {}\n",
-                           letters(map.assumed));
+                           list_of(map.names, map.assumed));
     if (!map.clamped.empty())
         out += fmt::format("travel beyond a table of errors, held at its last value there: {}\n",
-                           letters(map.clamped));
+                           list_of(map.names, map.clamped));
     if (!map.causes.empty()) out += "cause                rms um  largest um   share\n";
     for (const VolumetricCause& cause : map.causes)
         out +=

@@ -17,6 +17,7 @@ std::string volumetric_text(const VolumetricMap& map);
 /// The cause that contributes most at a point; empty when there is none.
 std::string cause_name(const VolumetricMap& map, const VolumetricPoint& point);
 /// "X-200 Y0 B30": mm and deg.
-std::string place_text(const std::vector<Axis>& axes, const AxisPositions& q);
+std::string place_text(const AxisNames& names, const std::vector<Axis>& axes,
+                       const AxisPositions& q);
 
 }  // namespace trunnion

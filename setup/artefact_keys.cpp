@@ -27,6 +27,8 @@ void read_place(const TomlFile& file, const TomlValue& table, Artefact& artefact
                              (target ? " and no tool_mm" : ""));
     if (center) artefact.center_W_mm = file.vector3(*center);
     if (tool) artefact.tool_S_mm = file.vector3(*tool);
+    if (!target) return;
+    if (const TomlValue* found = table.find("shift_mm")) artefact.found_mm = file.vector3(*found);
 }
 
 Artefact read_artefact(const TomlFile& file, const TomlValue& table, const Setup& setup) {
@@ -61,6 +63,11 @@ Instrument read_instrument(const TomlFile& file, const TomlValue& table, const S
         instrument.origin_mm = file.vector3(*origin);
     if (const TomlValue* turn = table.find("rotation_deg"))
         instrument.rotation_deg = file.vector3(*turn);
+    if (const TomlValue* shift = table.find("shift_mm"))
+        instrument.pose_error.shift_mm = file.vector3(*shift);
+    if (const TomlValue* tilt = table.find("tilt_rad"))
+        instrument.pose_error.tilt_rad = file.vector3(*tilt);
+    instrument.scale_error = file.find_number(table, "scale").value_or(0.0);
     if (const TomlValue* free = table.find("free")) {
         const auto names = read_free(file, *free, {"pose", "scale"});
         instrument.free_pose = names.contains("pose");
@@ -113,6 +120,7 @@ std::string artefact_text(const Artefact& artefact) {
                               : "center_mm = " + toml_numbers(artefact.center_W_mm);
     if (artefact.kind != Artefact::Kind::target)
         out += "\ndiameter_mm = " + toml_number(artefact.diameter_mm);
+    if (!artefact.found_mm.isZero(0.0)) out += "\nshift_mm = " + toml_numbers(artefact.found_mm);
     std::set<std::string> free;
     if (artefact.free_center) free.insert("center");
     if (artefact.free_tool) free.insert("tool");
@@ -121,12 +129,19 @@ std::string artefact_text(const Artefact& artefact) {
 
 std::string instrument_text(const Instrument& instrument) {
     std::set<std::string> free;
+    std::string found;
+    if (!instrument.pose_error.is_zero())
+        found = "shift_mm = " + toml_numbers(instrument.pose_error.shift_mm) +
+                "\ntilt_rad = " + toml_numbers(instrument.pose_error.tilt_rad) + '\n';
+    if (instrument.scale_error != 0.0)
+        found += "scale = " + toml_number(instrument.scale_error) + '\n';
     if (instrument.free_pose) free.insert("pose");
     if (instrument.free_scale) free.insert("scale");
     return "\n[[instrument]]\nname = " + toml_quoted(instrument.name) +
            (instrument.sees_table ? "\nframe = \"W\"" : "") +
            "\norigin_mm = " + toml_numbers(instrument.origin_mm) +
-           "\nrotation_deg = " + toml_numbers(instrument.rotation_deg) + '\n' + free_text(free);
+           "\nrotation_deg = " + toml_numbers(instrument.rotation_deg) + '\n' + found +
+           free_text(free);
 }
 
 }  // namespace trunnion

@@ -34,12 +34,12 @@ std::string derive_parallel_axes(const Machine& machine, Parameters& parameters)
     bool extra = false;
     int number = 0;
     for (const AxisGeometry& axis : machine.chain.axes()) {
+        if (!is_letter(axis)) continue;  // no NC word moves it
         const int basic = direction[index_of(axis.axis)];
         const bool parallel = is_extra(axis.axis) && basic != 0;
         derived.by_axis[++number] = basic + (parallel ? 4 : 0);
         extra |= is_extra(axis.axis);
-        if (is_extra(axis.axis) && basic == 0)
-            alone += (alone.empty() ? "" : ", ") + std::string(1, letter_of(axis.axis));
+        if (is_extra(axis.axis) && basic == 0) alone += (alone.empty() ? "" : ", ") + axis.name;
     }
     if (!extra || parameters.find(1022)) return {};
     parameters.entry[1022] = derived;

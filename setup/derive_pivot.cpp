@@ -13,7 +13,8 @@ namespace {
 
 std::vector<Axis> control_order(const Machine& machine) {
     std::vector<Axis> order;
-    for (const AxisGeometry& axis : machine.chain.axes()) order.push_back(axis.axis);
+    for (const AxisGeometry& axis : machine.chain.axes())
+        if (is_letter(axis)) order.push_back(axis.axis);
     return order;
 }
 
@@ -79,6 +80,9 @@ std::string derive_pivot_parameters(const Machine& machine, Parameters& paramete
     const auto table = rotaries(machine.chain.work);
     const auto tool = rotaries(machine.chain.tool);
     if (table.size() + tool.size() != 2) return "the machine has not two rotary axes";
+    const auto axes = machine.chain.axes();
+    if (!std::all_of(axes.begin(), axes.end(), is_letter))
+        return "an axis has a name that no NC word addresses";
     if (rotary_carries_linear(machine.chain.work) || rotary_carries_linear(machine.chain.tool))
         return "a rotary axis carries a linear one";
     const PivotParameters pivot = pivot_of(table, tool);
@@ -107,6 +111,7 @@ void derive_fixture_groups(const Machine& machine, Parameters& parameters) {
     if (table.empty() && !rotaries(machine.chain.tool).empty()) derived.set(number, 0);
     for (const AxisGeometry& axis : table) {
         if (number > 7586) break;
+        if (!is_letter(axis)) continue;
         // No group can say that an inclined axis turns the offset: G54.2 is alarm 5459 then.
         const auto plane = turned_plane(axis.direction.normalized());
         derived.set(number, number_of_axis(axis.axis, order));

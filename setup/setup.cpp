@@ -82,6 +82,28 @@ Pose Instrument::pose_IM() const {
     return {turn(2) * turn(1) * turn(0), origin_mm};
 }
 
+Vector3 Instrument::read_mm(const Vector3& p_M_mm) const {
+    const Vector3 p_I_mm = (1.0 + scale_error) * (pose_IM() * p_M_mm);
+    return pose_error.shift_mm + rotation_of(pose_error.tilt_rad) * p_I_mm;
+}
+
+namespace {
+
+/// The flange of a machine that no X, Y or Z places.
+bool is_arm(const Chain& chain) {
+    const AxisNames names = chain.names();
+    return !names.find("X") && !names.find("Y") && !names.find("Z") && !chain.tool.empty() &&
+           chain.tool.back().rotary;
+}
+
+}  // namespace
+
+Vector3 Setup::target_S_mm(const Artefact& target) const {
+    const Vector3 from =
+        is_arm(machine.chain) ? machine.chain.tool.back().point_mm : Vector3(Vector3::Zero());
+    return from + target.tool_S_mm.value_or(Vector3::Zero());
+}
+
 Setup load_setup(const std::string& path, std::vector<std::string>& notes,
                  const BackupReader& backup) {
     return parse_setup(read_file(path), path, notes, backup);

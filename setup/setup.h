@@ -59,6 +59,8 @@ struct Artefact {
     /// Of a target that the tool carries, in S (of an arm without X, Y, Z: from the last axis's
     /// point_mm, along M's axes at zero); a target without it stands on the table at center_W_mm.
     std::optional<Vector3> tool_S_mm;
+    /// Of a target: found so far beside the declared place, which readings count from.
+    Vector3 found_mm = Vector3::Zero();
     double diameter_mm = 25.4;
     bool free_center = false;
     bool free_tool = false;
@@ -72,7 +74,11 @@ struct Instrument {
     Vector3 rotation_deg = Vector3::Zero();  ///< of M, about the instrument's fixed X, then Y, Z
     bool free_pose = false;                  ///< six small numbers left of the pose, each session
     bool free_scale = false;                 ///< a factor on what it reads, each session
+    /// Found: the instrument reads shift + exp([tilt]x) (1 + scale_error) pose_IM p_M.
+    SmallMotion pose_error;
+    double scale_error = 0.0;
     Pose pose_IM() const;
+    Vector3 read_mm(const Vector3& p_M_mm) const;  ///< what it reads of a point
 };
 
 /// One entry of [effects]: name and parameters as in formats.md; a parameter may be a vector.
@@ -109,7 +115,7 @@ struct Setup {
     Machine machine;
     AxisSides side_before = came_travelling_plus();  ///< [machine] side: before the first move
     std::array<bool, axis_count> scale_encoder{};  ///< encoder = "scale": reads behind the backlash
-    std::vector<EffectSetting> effects;  ///< backlash and pretravel keys too
+    std::vector<EffectSetting> effects;            ///< backlash and pretravel keys too
     Dialect dialect;
     TcpFrame tcp_frame = TcpFrame::start;    ///< [control] tcp_frame = "start" or "rotary_zero"
     bool work_positions_with_length = true;  ///< #5041.. and #5061.. include the tool length
@@ -126,6 +132,8 @@ struct Setup {
 
     const Artefact* find_artefact(const std::string& name) const;
     const Instrument* find_instrument(const std::string& name) const;
+    /// A target that the tool carries, in S.
+    Vector3 target_S_mm(const Artefact& target) const;
 };
 
 /// Fills the stores from the backup folder that [control] names, before the file's own keys

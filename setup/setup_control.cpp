@@ -86,8 +86,9 @@ int axis_number(const std::string& key, const Chain& chain) {
     if (const auto n = parse_number(key)) return *n >= 1 && *n <= 99 ? static_cast<int>(*n) : 0;
     int number = 0;
     for (const AxisGeometry& axis : chain.axes()) {
+        if (!is_letter(axis)) continue;
         ++number;
-        if (key.size() == 1 && key[0] == letter_of(axis.axis)) return number;
+        if (key == axis.name) return number;
     }
     return 0;
 }
@@ -146,8 +147,8 @@ void read_switch(const TomlFile& file, const TomlValue& control, const char* nam
 void read_clamps(const TomlFile& file, const TomlValue& table, Setup& setup) {
     for (const auto& [key, value] : file.table(table).entries) {
         value.used = true;
-        const auto axis = key.size() == 1 ? axis_of(key[0]) : std::nullopt;
-        if (!axis || !setup.machine.chain.find(*axis))
+        const auto axis = setup.machine.chain.names().find(key);
+        if (!axis || !is_letter(*setup.machine.chain.find(*axis)))
             file.fail(value, "'" + key + "' is not an axis of this machine");
         const auto code = [&](const char* name, int otherwise) {
             const double m = file.find_number(file.table(value), name).value_or(otherwise);

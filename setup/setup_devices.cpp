@@ -1,6 +1,6 @@
 // [probe], [ballbar], [model] and [effects] of a setup file.
-#include "setup/artefact_keys.h"
 #include "base/units.h"
+#include "setup/artefact_keys.h"
 #include "setup/setup_reader.h"
 
 namespace trunnion {
@@ -55,9 +55,11 @@ void read_ballbar(const TomlFile& file, const TomlValue& table, Setup& setup) {
     setup.ballbar = bar;
 }
 
-CalibrationPrior read_prior(const TomlFile& file, const std::string& name, const TomlValue& table) {
-    const auto error = parse_error_name(name);
-    if (!error) file.fail(table, "'" + name + "' is not an error name of ISO 230, e.g. EX0C");
+CalibrationPrior read_prior(const TomlFile& file, const std::string& name, const TomlValue& table,
+                            const AxisNames& names) {
+    const auto error = parse_error_name(name, names);
+    if (!error)
+        file.fail(table, "'" + name + "' is not an error name of ISO 230 of an axis, e.g. EX0C");
     const std::string unit = error->angular() ? "_rad" : "_mm";
     const TomlValue* sigma = file.table(table).find("sigma" + unit);
     if (!sigma) file.fail(table, name + " needs value" + unit + " and sigma" + unit);
@@ -78,7 +80,8 @@ std::map<std::string, double> read_noise(const TomlFile& file, const TomlValue& 
     return noise;
 }
 
-void read_model(const TomlFile& file, const TomlValue& table, ModelSettings& model) {
+void read_model(const TomlFile& file, const TomlValue& table, const AxisNames& names,
+                ModelSettings& model) {
     if (const TomlValue* modelled = file.table(table).find("modelled"))
         model.modelled = file.texts(*modelled);
     model.noise_um = read_noise(file, table, "noise_um",
@@ -87,7 +90,7 @@ void read_model(const TomlFile& file, const TomlValue& table, ModelSettings& mod
     if (const TomlValue* calibration = table.find("calibration"))
         for (const auto& [name, value] : file.table(*calibration).entries) {
             value.used = true;
-            model.calibration[name] = read_prior(file, name, value);
+            model.calibration[name] = read_prior(file, name, value, names);
         }
 }
 
@@ -112,7 +115,8 @@ void read_devices(const TomlFile& file, Setup& setup) {
     if (const TomlValue* table = root.find("ballbar")) read_ballbar(file, *table, setup);
     read_artefacts(file, setup);
     read_instruments(file, setup);
-    if (const TomlValue* table = root.find("model")) read_model(file, *table, setup.model);
+    if (const TomlValue* table = root.find("model"))
+        read_model(file, *table, setup.machine.chain.names(), setup.model);
     if (const TomlValue* table = root.find("effects")) read_effects(file, *table, setup);
 }
 

@@ -59,7 +59,7 @@ std::string curve_text(const ErrorCurve& curve, bool rotary) {
 }
 
 std::string axis_text(const AxisGeometry& axis) {
-    std::string out = std::string("\n[machine.axis.") + letter_of(axis.axis) + "]\n";
+    std::string out = "\n[machine.axis." + axis.name + "]\n";
     out += "direction = " + toml_numbers(axis.direction) + '\n';
     if (axis.rotary) out += "point_mm = " + toml_numbers(axis.point_mm) + '\n';
     if (axis.min && axis.max)
@@ -77,14 +77,11 @@ std::string axis_text(const AxisGeometry& axis) {
 std::string axis_error_text(const AxisGeometry& axis, const AxisErrors& errors) {
     std::string out;
     for (std::size_t k = 0; k < 6; ++k) {
-        const std::string unit = k < 3 ? "_mm = " : "_rad = ";
-        const char direction = "XYZABC"[k];
+        const std::string unit = k < 3 ? "_mm = " : "_rad = ", error{'E', "XYZABC"[k]};
         if (errors.location[k] != 0.0)
-            out += to_string({direction, true, axis.axis}) + unit + shortest(errors.location[k]) +
-                   '\n';
+            out += error + '0' + axis.name + unit + shortest(errors.location[k]) + '\n';
         if (!errors.motion[k].is_zero())
-            out += to_string({direction, false, axis.axis}) + unit +
-                   curve_text(errors.motion[k], axis.rotary) + '\n';
+            out += error + axis.name + unit + curve_text(errors.motion[k], axis.rotary) + '\n';
     }
     return out;
 }
@@ -108,7 +105,7 @@ std::string sides_text(const Setup& setup) {
     std::string out;
     for (const AxisGeometry& axis : setup.machine.chain.axes())
         if (setup.side_before[index_of(axis.axis)] < 0)
-            out += (out.empty() ? "" : ", ") + std::string(1, letter_of(axis.axis)) + " = \"-\"";
+            out += (out.empty() ? "" : ", ") + axis.name + " = \"-\"";
     return out.empty() ? out : "side = { " + out + " }\n";
 }
 
@@ -246,8 +243,7 @@ std::string probe_text(const ProbeSettings& probe) {
     if (probe.tool != 0) out += "tool = " + std::to_string(probe.tool) + '\n';
     return out + "tip_mm = " + toml_numbers(probe.tip_S_mm) +
            "\nball_diameter_mm = " + shortest(probe.ball_diameter_mm) +
-           "\nrepeatability_um = " + shortest(probe.repeatability_um) +
-           '\n' +
+           "\nrepeatability_um = " + shortest(probe.repeatability_um) + '\n' +
            extensions_text(probe.extension_errors);
 }
 
@@ -276,13 +272,13 @@ std::string noise_text(const char* key, const std::map<std::string, double>& noi
     return out.empty() ? out : std::string(key) + " = { " + out + " }\n";
 }
 
-std::string model_text(const ModelSettings& model) {
+std::string model_text(const ModelSettings& model, const AxisNames& names) {
     std::string out = "\n[model]\nmodelled = " + texts(model.modelled) + '\n' +
                       noise_text("noise_um", model.noise_um) +
                       noise_text("noise_urad", model.noise_urad);
     if (!model.calibration.empty()) out += "\n[model.calibration]\n";
     for (const auto& [name, prior] : model.calibration) {
-        const auto error = parse_error_name(name);
+        const auto error = parse_error_name(name, names);
         const std::string unit = error && error->angular() ? "_rad = " : "_mm = ";
         out += name + " = { value" + unit + shortest(prior.value) + ", sigma" + unit +
                shortest(prior.sigma) + " }\n";
@@ -310,7 +306,7 @@ std::string format_setup(const Setup& setup) {
     if (setup.ballbar) out += ballbar_text(*setup.ballbar);
     for (const Artefact& artefact : setup.artefacts) out += artefact_text(artefact);
     for (const Instrument& instrument : setup.instruments) out += instrument_text(instrument);
-    return out + model_text(setup.model);
+    return out + model_text(setup.model, setup.machine.chain.names());
 }
 
 }  // namespace trunnion

@@ -30,30 +30,63 @@ void read_dynamics(const TomlFile& file, const TomlValue& table, AxisGeometry& a
         axis.max_acceleration = from_file(axis.rotary, file.positive(*most));
 }
 
+constexpr const char* rotary_keys[] = {"point_mm", "limits_deg", "max_deg_min", "accel_deg_s2",
+                                       "backlash_rad"};
+constexpr const char* linear_keys[] = {"limits_mm", "max_mm_min", "accel_mm_s2", "backlash_mm"};
+
+template <class Keys>
+const TomlValue* first_of(const TomlValue& table, const Keys& keys) {
+    for (const char* key : keys)
+        if (const TomlValue* value = table.find(key)) return value;
+    return nullptr;
+}
+
+/// A B C turn and the other letters do not, as NC words address them; any other axis turns when it
+/// has a key of a rotary one. Keys of both kinds are refused.
+void read_kind(const TomlFile& file, const TomlValue& table, AxisGeometry& axis) {
+    if (!is_letter(axis)) axis.rotary = first_of(table, rotary_keys) != nullptr;
+    const TomlValue* other =
+        axis.rotary ? first_of(table, linear_keys) : first_of(table, rotary_keys);
+    if (other)
+        file.fail(*other, fmt::format("this key is for a {} axis, and {} is a {} one",
+                                      axis.rotary ? "linear" : "rotary", axis.name,
+                                      axis.rotary ? "rotary" : "linear"));
+}
+
+/// A linear axis with a letter runs along the axis of its letter; whether a table turns with its
+/// word or against it nobody can guess.
+void read_direction(const TomlFile& file, const TomlValue& table, AxisGeometry& axis) {
+    const TomlValue* direction = table.find("direction");
+    if (!direction && is_letter(axis) && !axis.rotary) return;
+    if (!direction)
+        file.fail(table, "axis " + axis.name +
+                             " has no direction: what a + command does to the carried body, in M");
+    const Vector3 v = file.vector3(*direction);
+    if (v.norm() < 1e-9) file.fail(*direction, "a direction is not the zero vector");
+    axis.direction = std::abs(v.norm() - 1.0) < 1e-15 ? v : Vector3(v.normalized());
+}
+
 void read_axis(const TomlFile& file, const TomlValue& table, AxisGeometry& axis, Setup& setup) {
-    if (const TomlValue* direction = table.find("direction")) {
-        const Vector3 v = file.vector3(*direction);
-        if (v.norm() < 1e-9) file.fail(*direction, "a direction is not the zero vector");
-        axis.direction = std::abs(v.norm() - 1.0) < 1e-15 ? v : Vector3(v.normalized());
-    }
+    read_kind(file, table, axis);
     if (axis.rotary) {
         const TomlValue* point = table.find("point_mm");
         if (!point)
-            file.fail(table, std::string("rotary axis ") + letter_of(axis.axis) +
+            file.fail(table, "rotary axis " + axis.name +
                                  " has no point_mm: a point of its line in M, all axes at zero");
         axis.point_mm = file.vector3(*point);
     }
+    read_direction(file, table, axis);
     read_limits(file, table, axis);
     read_dynamics(file, table, axis);
     if (const TomlValue* gap = table.find(axis.rotary ? "backlash_rad" : "backlash_mm"))
-        add_effect_key(file, *gap, letter_of(axis.axis) + std::string(".backlash"),
-                       axis.rotary ? "gap_rad" : "gap_mm", file.number(*gap), setup);
+        add_effect_key(file, *gap, axis.name + ".backlash", axis.rotary ? "gap_rad" : "gap_mm",
+                       file.number(*gap), setup);
 }
 
-AxisGeometry* find_axis(Chain& chain, std::string_view letter) {
+AxisGeometry* find_axis(Chain& chain, std::string_view name) {
     for (auto* side : {&chain.work, &chain.tool})
         for (AxisGeometry& axis : *side)
-            if (letter.size() == 1 && letter_of(axis.axis) == letter[0]) return &axis;
+            if (axis.name == name) return &axis;
     return nullptr;
 }
 
@@ -68,10 +101,10 @@ bool read_scale_encoder(const TomlFile& file, const TomlValue& table) {
 
 /// Side from which the axes came before their first move; those not named: travelling +.
 void read_sides(const TomlFile& file, const TomlValue& sides, Setup& setup) {
-    for (const auto& [letter, value] : file.table(sides).entries) {
+    for (const auto& [name, value] : file.table(sides).entries) {
         value.used = true;
-        const AxisGeometry* axis = find_axis(setup.machine.chain, letter);
-        if (!axis) file.fail(value, "axis " + letter + " does not stand in the chain");
+        const AxisGeometry* axis = find_axis(setup.machine.chain, name);
+        if (!axis) file.fail(value, "axis " + name + " does not stand in the chain");
         if (file.text(value) != "+" && file.text(value) != "-")
             file.fail(value, "a side is \"+\" or \"-\"");
         setup.side_before[index_of(axis->axis)] = value.text == "+" ? 1 : -1;
@@ -79,10 +112,10 @@ void read_sides(const TomlFile& file, const TomlValue& sides, Setup& setup) {
 }
 
 void read_axes(const TomlFile& file, const TomlValue& axes, Setup& setup) {
-    for (const auto& [letter, value] : file.table(axes).entries) {
+    for (const auto& [name, value] : file.table(axes).entries) {
         value.used = true;
-        AxisGeometry* axis = find_axis(setup.machine.chain, letter);
-        if (!axis) file.fail(value, "axis " + letter + " does not stand in the chain");
+        AxisGeometry* axis = find_axis(setup.machine.chain, name);
+        if (!axis) file.fail(value, "axis " + name + " does not stand in the chain");
         const std::size_t k = index_of(axis->axis);
         read_axis(file, file.table(value), *axis, setup);
         setup.scale_encoder[k] = read_scale_encoder(file, value);
@@ -96,27 +129,28 @@ void check_linear_axes(const TomlFile& file, const TomlValue& axes, const Chain&
     Eigen::Index rank = 0;
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
         const AxisGeometry* geometry = chain.find(axis);
-        if (!geometry) continue;
+        if (!geometry || geometry->rotary) continue;
         Vector3 apart = geometry->direction;
         for (Eigen::Index k = 0; k < rank; ++k) apart -= apart.dot(span.col(k)) * span.col(k);
-        const TomlValue* table = axes.find(std::string(1, letter_of(axis)));
+        const TomlValue* table = axes.find(geometry->name);
         if (apart.norm() < least_sine)
             file.fail(table ? *table : axes,
                       fmt::format("axis {} moves only where the linear axes before it do: "
                                   "directions of X, Y and Z in one plane",
-                                  letter_of(axis)));
+                                  geometry->name));
         span.col(rank++) = apart.normalized();
     }
 }
 
-/// A rotary axis cannot do without its table.
+/// Only a linear axis with a letter of ISO 841 can do without its table.
 void check_axes(const TomlFile& file, const TomlValue& chain_text, const TomlValue* axes,
                 const Chain& chain) {
-    for (const AxisGeometry& axis : chain.axes())
-        if (axis.rotary && !(axes && axes->find(std::string(1, letter_of(axis.axis)))))
-            file.fail(chain_text, std::string("rotary axis ") + letter_of(axis.axis) +
-                                      " has no point_mm: [machine.axis." + letter_of(axis.axis) +
-                                      "] is missing");
+    for (const AxisGeometry& axis : chain.axes()) {
+        if ((is_letter(axis) && !axis.rotary) || (axes && axes->find(axis.name))) continue;
+        const std::string lacks = axis.rotary ? "rotary axis " + axis.name + " has no point_mm"
+                                              : "axis " + axis.name + " has no direction";
+        file.fail(chain_text, lacks + ": [machine.axis." + axis.name + "] is missing");
+    }
 }
 
 std::vector<double> table_positions(const TomlFile& file, const TomlValue& table, bool rotary) {
@@ -227,6 +261,7 @@ void read_spindle_error(const TomlFile& file, const TomlValue& value, const Spin
 
 void read_machine_errors(const TomlFile& file, const TomlValue& table, Setup& setup) {
     GeometricErrors& errors = setup.machine.errors;
+    const AxisNames names = setup.machine.chain.names();
     for (const auto& [key, value] : table.entries) {
         value.used = true;
         const std::string_view word = std::string_view(key).substr(0, key.find('_'));
@@ -235,17 +270,18 @@ void read_machine_errors(const TomlFile& file, const TomlValue& table, Setup& se
             read_spindle_error(file, value, *spindle, errors.spindle);
             continue;
         }
-        const auto name = parse_error_name(word);
+        const auto name = parse_error_name(word, names);
+        if (!name && parse_error_name(word))
+            file.fail(value, "the machine has no axis " + std::string(1, word.back()));
         if (!name)
-            file.fail(value, "'" + key + "' is not an error of ISO 230, e.g. EX0C_mm, EBX_rad");
-        check_unit(file, value, key, to_string(*name), name->angular());
-        const AxisGeometry* axis = setup.machine.chain.find(name->axis);
-        if (!axis)
-            file.fail(value, "the machine has no axis " + std::string(1, letter_of(name->axis)));
+            file.fail(
+                value,
+                "'" + key + "' is not an error of ISO 230 of an axis of the chain, e.g. EX0C_mm");
+        check_unit(file, value, key, to_string(*name, names), name->angular());
         if (name->location)
             errors.location(*name) = file.number(value);
         else
-            errors.motion(*name) = read_curve(file, value, axis->rotary);
+            errors.motion(*name) = read_curve(file, value, names.is_rotary(name->axis));
     }
 }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "emulator/tool_tip.h"
 #include "base/units.h"
+#include "emulator/tool_tip.h"
 #include "kinematics/jacobian.h"
 
 namespace trunnion {
@@ -66,12 +66,13 @@ struct NamedError {
 
 std::vector<NamedError> errors_present(const Machine& machine) {
     std::vector<NamedError> list;
+    const AxisNames names = machine.chain.names();
     for (const AxisGeometry& axis : machine.chain.axes())
         for (std::size_t k = 0; k < 6; ++k) {
             const AxisErrors& own = machine.errors.axis[index_of(axis.axis)];
             const auto add = [&](bool location) {
-                list.push_back({to_string(ErrorName{"XYZABC"[k], location, axis.axis}), axis.axis,
-                                location, k});
+                list.push_back({to_string(ErrorName{"XYZABC"[k], location, axis.axis}, names),
+                                axis.axis, location, k});
             };
             if (own.location[k] != 0.0) add(true);
             if (!own.motion[k].is_zero()) add(false);
@@ -198,6 +199,7 @@ VolumetricMap volumetric_map(const Setup& setup, const std::vector<std::string>&
     VolumetricMap map;
     map.machine = setup.name;
     map.length_mm = options.length_mm;
+    map.names = setup.machine.chain.names();
     for (const AxisGeometry& axis : setup.machine.chain.axes()) map.axes.push_back(axis.axis);
     for (const std::string& name : mapper.names(effect_names)) map.causes.push_back({name});
     for (const AxisGeometry& axis : setup.machine.chain.axes()) {

@@ -29,6 +29,7 @@ struct VolumetricCause {
 struct VolumetricMap {
     std::string machine;     ///< name of the setup
     double length_mm = 0.0;  ///< tool
+    AxisNames names;
     std::vector<Axis> axes;
     std::vector<Axis> assumed;  ///< their travel: the setup gives none
     std::vector<Axis> clamped;  ///< they run beyond a table of their errors, held constant there

@@ -2,9 +2,9 @@
 // paper (spheres) and of the 2015 paper (one ballbar set-up), and from mixtures of devices.
 #include <catch2/catch.hpp>
 
-#include "interpreter/program_folders.h"
 #include "emulator/run.h"
 #include "identification/identify.h"
+#include "interpreter/program_folders.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {

@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
-#include "interpreter/program_folders.h"
 #include "emulator/run.h"
 #include "identification/identify.h"
+#include "interpreter/program_folders.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {

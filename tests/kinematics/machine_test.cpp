@@ -78,7 +78,7 @@ TEST_CASE("chain text is read from the bed outwards") {
     CHECK(chain.tool[2].axis == Axis::Z);
     CHECK(chain.work[1].direction == Vector3(0, 0, -1));
     CHECK(parse_chain("w b X t").work.empty());
-    for (const char* bad : {"", "w t", "w X Y t", "w b X X t", "w Q b X t", "b X t", "w XY b t"})
+    for (const char* bad : {"", "w t", "w X Y t", "w b X X t", "w 1Q b X t", "b X t", "w X-Y b t"})
         CHECK_THROWS_AS(parse_chain(bad), InputError);
 }
 

@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 
 #include "backup/control_files.h"
-#include "interpreter/program_folders.h"
-#include "emulator/run.h"
 #include "base/alarm.h"
+#include "emulator/run.h"
+#include "interpreter/program_folders.h"
 
 using namespace trunnion;
 

@@ -44,6 +44,7 @@ void check_fault(const std::string& text, const std::string& part, int line) {
 
 const std::string everything = sided + axes + R"(
 [machine.axis.X]
+direction = [1, 0, 0]
 limits_mm = [-400, 400]
 max_mm_min = 36000
 accel_mm_s2 = 4000
@@ -250,7 +251,7 @@ TEST_CASE("a bad setup names its place") {
     check_fault("schema = \"x\"\n", "trunnion.setup/1", 1);
     check_fault("x = 1\n", "[machine] is missing", 1);
     check_fault("[machine]\nname = \"m\"\n", "no chain", 1);
-    check_fault("[machine]\nchain = \"w Q b t\"\n", "axis letter", 2);
+    check_fault("[machine]\nchain = \"w Q b t\"\n", "axis Q has no direction", 2);
     check_fault(head, "rotary axis B has no point_mm", 4);
     check_fault(head + "[machine.axis.B]\ndirection=[0,1,0]\n[machine.axis.C]\npoint_mm=[0,0,0]\n",
                 "rotary axis B has no point_mm", 5);
@@ -311,7 +312,8 @@ TEST_CASE("a backup is read before the file's own keys") {
 TEST_CASE("keys for backlash and pretravel are effects") {
     const std::string head =
         "[machine]\nchain = \"w C b X Y Z t\"\nside = { C = \"-\" }\n"
-        "[machine.axis.C]\npoint_mm = [0, 0, 0]\nbacklash_rad = 2e-5\n"
+        "[machine.axis.C]\ndirection = [0, 0, -1]\npoint_mm = [0, 0, 0]\n"
+        "backlash_rad = 2e-5\n"
         "[machine.axis.X]\nbacklash_mm = 0.004\n[probe]\npretravel_um = 5\n";
     const Setup s = read(head);
     REQUIRE(s.effects.size() == 3);
@@ -323,6 +325,6 @@ TEST_CASE("keys for backlash and pretravel are effects") {
                          Catch::Contains("\"probe.radius\" = { radius_mm = -0.005 }") &&
                          Catch::Contains("side = { C = \"-\" }"));
     CHECK(format_setup(read(text)) == text);
-    check_fault(head + "[effects]\n\"X.backlash\" = { gap_mm = 0.001 }\n", "say it once", 8);
-    check_fault(head + "[effects]\n\"probe.radius\" = { delay_s = 1 }\n", "say it once", 10);
+    check_fault(head + "[effects]\n\"X.backlash\" = { gap_mm = 0.001 }\n", "say it once", 9);
+    check_fault(head + "[effects]\n\"probe.radius\" = { delay_s = 1 }\n", "say it once", 11);
 }

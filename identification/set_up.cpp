@@ -1,0 +1,174 @@
+#include "identification/set_up.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace trunnion {
+namespace {
+
+using Kind = SetUpQuantity::Kind;
+
+/// What the device rows of a replay use.
+struct Used {
+    std::set<int> artefacts, instruments;
+    std::set<std::pair<bool, double>> extensions;  ///< of the stylus (true) or the cup
+    bool bar = false;
+};
+
+Used used_by(const Replay& replay) {
+    Used used;
+    for (std::size_t i = 0; i < replay.size(); ++i) {
+        const Contact& contact = replay.contact(i);
+        const bool bar = contact.device == Device::ballbar;
+        used.artefacts.insert(contact.artefact);
+        used.instruments.insert(contact.instrument);
+        if (contact.extension_mm != 0.0) used.extensions.insert({!bar, contact.extension_mm});
+        used.bar = used.bar || bar;
+    }
+    return used;
+}
+
+void add_place(std::vector<FreeQuantity>& list, const std::string& owner, SetUpQuantity place) {
+    for (place.component = 0; place.component < 3; ++place.component)
+        list.push_back({owner + "." + "xyz"[place.component] + "_mm", "mm", 0.1, place});
+}
+
+void add_pose(std::vector<FreeQuantity>& list, const std::string& owner, SetUpQuantity place) {
+    add_place(list, owner, place);
+    for (place.component = 3; place.component < 6; ++place.component)
+        list.push_back({owner + "." + "abc"[place.component - 3] + "_rad", "rad", 1e-4, place});
+}
+
+bool is_free(const Artefact& artefact) {
+    return artefact.tool_S_mm ? artefact.free_tool : artefact.free_center;
+}
+
+/// What a fit moves: readings of a target count from its declared place, which stays.
+Vector3& place_of(Artefact& artefact) {
+    return artefact.kind == Artefact::Kind::target ? artefact.found_mm : artefact.center_W_mm;
+}
+
+Vector3& ball_of(ExtensionErrors& errors, double extension_mm) {
+    return errors.try_emplace(extension_mm, Vector3::Zero()).first->second;
+}
+
+double& number_of(Instrument& instrument, int component) {
+    if (component < 3) return instrument.pose_error.shift_mm(component);
+    if (component < 6) return instrument.pose_error.tilt_rad(component - 3);
+    return instrument.scale_error;
+}
+
+ExtensionErrors difference(const ExtensionErrors& from, ExtensionErrors to) {
+    for (auto& [length_mm, shift] : to)
+        if (const auto it = from.find(length_mm); it != from.end()) shift -= it->second;
+    return to;
+}
+
+double artefact_derivative(const SetUpQuantity& quantity, const Contact& contact,
+                           const Perturbation& gradient, bool on_tool) {
+    if (contact.artefact != quantity.index) return 0.0;
+    return (on_tool ? gradient.tip_shift_mm : gradient.work_shift_mm)(quantity.component);
+}
+
+/// Of first order in the pose: p' = p + shift + tilt x p + scale p.
+double instrument_derivative(const SetUpQuantity& quantity, const Contact& contact) {
+    if (contact.instrument != quantity.index || contact.device != Device::point) return 0.0;
+    const Vector3 &p = contact.commanded_I_mm, &along = contact.direction_I;
+    if (quantity.component < 3) return along(quantity.component);
+    if (quantity.component < 6) return p.cross(along)(quantity.component - 3);
+    return along.dot(p);
+}
+
+}  // namespace
+
+std::vector<FreeQuantity> free_quantities(const Setup& setup, const Replay& replay) {
+    const Used used = used_by(replay);
+    std::vector<FreeQuantity> list;
+    for (int k = 0; k < static_cast<int>(setup.artefacts.size()); ++k) {
+        const Artefact& artefact = setup.artefacts[static_cast<std::size_t>(k)];
+        if (used.artefacts.contains(k) && is_free(artefact))
+            add_place(list, artefact.name,
+                      {artefact.tool_S_mm ? Kind::target_on_tool : Kind::artefact, k});
+    }
+    if (used.bar && setup.ballbar->free_cup) add_place(list, "cup", {Kind::cup});
+    if (used.bar && setup.ballbar->free_length)
+        list.push_back({"length_mm", "mm", 0.1, {Kind::length}});
+    for (const auto& [stylus, extension_mm] : used.extensions)
+        add_place(list, fmt::format("{}{:+}", stylus ? "stylus" : "cup", extension_mm),
+                  {stylus ? Kind::stylus : Kind::long_cup, 0, 0, extension_mm});
+    for (int k = 0; k < static_cast<int>(setup.instruments.size()); ++k) {
+        const Instrument& instrument = setup.instruments[static_cast<std::size_t>(k)];
+        if (!used.instruments.contains(k)) continue;
+        if (instrument.free_pose) add_pose(list, instrument.name, {Kind::instrument, k});
+        if (instrument.free_scale)
+            list.push_back({instrument.name + ".scale", "1", 1e-4, {Kind::instrument, k, 6}});
+    }
+    return list;
+}
+
+double& number_of(Setup& setup, const SetUpQuantity& q) {
+    const auto k = static_cast<std::size_t>(q.index);
+    switch (q.kind) {
+        case Kind::cup:
+            return setup.ballbar->cup_S_mm(q.component);
+        case Kind::stylus:
+            return ball_of(setup.probe->extension_errors, q.extension_mm)(q.component);
+        case Kind::long_cup:
+            return ball_of(setup.ballbar->extension_errors, q.extension_mm)(q.component);
+        case Kind::instrument:
+            return number_of(setup.instruments[k], q.component);
+        case Kind::artefact:
+        case Kind::target_on_tool:
+            return place_of(setup.artefacts[k])(q.component);
+        default:
+            return setup.ballbar->length_mm;
+    }
+}
+
+double set_up_derivative(const SetUpQuantity& q, const Contact& contact,
+                         const Perturbation& gradient) {
+    const bool bar = contact.device == Device::ballbar;
+    const bool same_length = contact.extension_mm == q.extension_mm;
+    switch (q.kind) {
+        case Kind::artefact:
+            return artefact_derivative(q, contact, gradient, false);
+        case Kind::target_on_tool:
+            return artefact_derivative(q, contact, gradient, true);
+        case Kind::instrument:
+            return instrument_derivative(q, contact);
+        case Kind::cup:
+            return bar ? gradient.tip_shift_mm(q.component) : 0.0;
+        case Kind::length:
+            return bar ? -1.0 : 0.0;
+        case Kind::long_cup:
+            return bar && same_length ? gradient.tip_shift_mm(q.component) : 0.0;
+        case Kind::stylus:
+            return !bar && same_length ? gradient.tip_shift_mm(q.component) : 0.0;
+        default:
+            return 0.0;
+    }
+}
+
+ReplayOffsets offsets_between(const Setup& from, const Setup& to) {
+    ReplayOffsets offsets;
+    for (std::size_t k = 0; k < from.artefacts.size(); ++k) {
+        Artefact was = from.artefacts[k], is = to.artefacts[k];
+        offsets.artefact.push_back(place_of(is) - place_of(was));
+    }
+    for (std::size_t k = 0; k < from.instruments.size(); ++k) {
+        const Instrument &was = from.instruments[k], &is = to.instruments[k];
+        offsets.instruments.push_back({{is.pose_error.shift_mm - was.pose_error.shift_mm,
+                                        is.pose_error.tilt_rad - was.pose_error.tilt_rad},
+                                       is.scale_error - was.scale_error});
+    }
+    if (from.probe)
+        offsets.stylus_S = difference(from.probe->extension_errors, to.probe->extension_errors);
+    if (!from.ballbar) return offsets;
+    offsets.long_cup_S = difference(from.ballbar->extension_errors, to.ballbar->extension_errors);
+    offsets.cup_S = to.ballbar->cup_S_mm - from.ballbar->cup_S_mm;
+    offsets.length = to.ballbar->length_mm - from.ballbar->length_mm;
+    return offsets;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,45 @@
+// Quantities of the set-up that readings tell anew: names, places in a setup, derivatives.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "emulator/replay.h"
+
+namespace trunnion {
+
+/// Where one such quantity stands in a setup.
+struct SetUpQuantity {
+    enum class Kind : unsigned char {
+        none,
+        artefact,        ///< its centre in W
+        target_on_tool,  ///< its place in S, beside the declared one
+        cup,
+        length,  ///< of the ballbar
+        stylus,  ///< the ball of a longer one beside its place straight below
+        long_cup,
+        instrument
+    };
+    Kind kind = Kind::none;
+    int index = 0;      ///< of the artefact or the instrument
+    int component = 0;  ///< x y z; of an instrument x y z, a b c of its pose, then its scale
+    double extension_mm = 0.0;  ///< of a longer stylus or cup
+};
+
+struct FreeQuantity {
+    std::string name, unit;  ///< "S1.x_mm", "cup.z_mm", "stylus+60.x_mm", "tracker.a_rad"
+    double typical = 0.1;    ///< in `unit`
+    SetUpQuantity place;
+};
+
+/// Those that the setup leaves free and that the rows of the replay depend on.
+std::vector<FreeQuantity> free_quantities(const Setup& setup, const Replay& replay);
+/// The number itself.
+double& number_of(Setup& setup, const SetUpQuantity& quantity);
+/// d reading / d quantity of one row, from what the reading's gradient says about machine and tool.
+double set_up_derivative(const SetUpQuantity& quantity, const Contact& contact,
+                         const Perturbation& gradient);
+/// Difference to a setup's own quantities: the replay keeps those of the file.
+ReplayOffsets offsets_between(const Setup& from, const Setup& to);
+
+}  // namespace trunnion
