@@ -42,6 +42,11 @@ Json to_json(const DeviceNoise& noise) {
     return {{"scale", noise.scale}, {"shared", noise.shared}, {"memory", noise.memory}};
 }
 
+Json to_json(const TablePoint& point) {
+    return {{"error", point.error}, {"at", point.at},           {"value", point.value},
+            {"sigma", point.sigma}, {"at_unit", point.at_unit}, {"unit", point.unit}};
+}
+
 Json to_json(const Cause& cause) {
     Json json{{"effect", cause.effect},
               {"probability", cause.probability},
@@ -53,6 +58,12 @@ Json to_json(const Cause& cause) {
               {"what", cause.what},
               {"usual_cause", cause.usual_cause},
               {"remedy", cause.remedy}};
+    if (!cause.points.empty()) {
+        json["form"] = "table";
+        json["between_places"] = cause.holds_between;
+        json["points"] = Json::array();
+        for (const TablePoint& p : cause.points) json["points"].push_back(to_json(p));
+    }
     return json;
 }
 
@@ -75,9 +86,15 @@ Json to_json(const Diagnosis& d) {
     json["causes"] = Json::array();
     for (const Cause& cause : d.causes) json["causes"].push_back(to_json(cause));
     json["after"] = {{"rms_um", d.after_rms_um},
+                     {"explained", d.explained},
+                     {"between_places", d.between_places},
                      {"heldout_shrink", d.after.shrink},
                      {"ci95", {d.after.low, d.after.high}},
                      {"unexplained_share", d.unexplained_share}};
+    json["setup"] = Json::array();
+    for (const FitParameter& p : d.set_up)
+        json["setup"].push_back(
+            {{"name", p.name}, {"value", p.value}, {"sigma", p.sigma}, {"unit", p.unit}});
     json["next_measurement"] = Json::array();
     for (const NextMeasurement& next : d.next)
         json["next_measurement"].push_back({{"separates", {next.first, next.second}},
@@ -109,6 +126,9 @@ void print_cause(const Cause& cause) {
                                          : std::string("(no sigma of its own)"));
     for (const Inseparable& group : cause.unseen)
         print_out("  no reading here sees: {}\n", to_string(group));
+    if (!cause.points.empty())
+        print_out("  a table of {} values{}\n", cause.points.size(),
+                   cause.holds_between ? "" : ": at the measured places only");
     if (!cause.rivals.empty())
         print_out("  cannot be told apart here from: {}\n", fmt::join(cause.rivals, ", "));
     print_out(
@@ -125,8 +145,10 @@ void print_report(const Diagnosis& d) {
     for (const Cause& cause : d.causes) print_cause(cause);
     if (!d.causes.empty())
         print_out(
-            "\nafter: rms {:.3f} um; held out the gap shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
-            d.after_rms_um, 100 * d.after.shrink, 100 * d.after.low, 100 * d.after.high);
+            "\nafter: rms {:.3f} um; of readings left out the causes explain {:.0f} %{}; the gap "
+            "shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
+            d.after_rms_um, 100 * d.explained, d.between_places ? "" : " at the measured places",
+            100 * d.after.shrink, 100 * d.after.low, 100 * d.after.high);
     if (d.causes.empty())
         for (const Inseparable& group : d.inseparable)
             print_out("no reading here sees: {}\n", to_string(group));

@@ -1,88 +1,235 @@
+// The pipeline: prepare -> noise -> search -> judgement -> claims -> interval -> verdict.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
-#include "diagnosis/diagnoser.h"
-#include "base/alarm.h"
+#include "diagnosis/candidate_groups.h"
+#include "diagnosis/diagnosis_report.h"
+#include "diagnosis/key_search.h"
+#include "diagnosis/outliers.h"
+#include "diagnosis/ripples.h"
+#include "diagnosis/rules.h"
+#include "diagnosis/solution.h"
+#include "diagnosis/verdict.h"
+#include "effects/settings.h"
+#include "identification/identify.h"
 
 namespace trunnion {
+namespace {
 
-Diagnoser::Diagnoser(const Setup& setup, const ReadingTable& table, const DiagnosisOptions& options)
-    : table_(table),
-      options_(options),
-      replay_(setup, table),
-      catalogue_(make_catalogue(setup, extent_of(setup, table))) {
-    refuse_poor_tables();
-    base_ = fit_base(setup, table, replay_, catalogue_, setup.model.modelled);
-    if (options.holdout) refuse_poor_holdout(*options.holdout);
-    blocks_ = noise_blocks(replay_, table);
-    folds_ = make_folds(blocks_, replay_.size());
-    used_.assign(replay_.size(), true);
-    sigma_mm_ = base_.sigma_mm;
-}
+constexpr int most_rounds = 3;         ///< of search, noise and bent readings
+constexpr double bend_sigma = 0.25;    ///< of a reading: less than this is no bend
+constexpr double outlier_sigma = 1e3;  ///< a reading that is left out has so many sigma
+constexpr int first_keys = 2;
 
-Diagnosis Diagnoser::run() {
-    start_noise();
-    watch("sensitivities of all effects");
-    build_design();
-    drop_outliers();
-    watch("search among sets of effects");
-    set_ = best_set();
-    refine_noise();
-    refine_set();
-    refine_noise();
-    for (int pass = 0; pass < 3 && relinearise(); ++pass) {
+/// Rows, noise and columns of one round.
+struct Round {
+    std::vector<bool> used;
+    NoiseBelief noise;
+    Eigen::VectorXd sigma_mm;
+};
+
+NoiseBelief belief_of(const Prepared& p, const Eigen::VectorXd& residual_mm,
+                      const Eigen::VectorXd& sigma_mm) {
+    NoiseModel start;
+    start.source = p.base.noise_given ? NoiseSource::given : NoiseSource::assumed;
+    NoiseBelief belief;
+    belief.model = noise_from_repeats(p.replay, p.table, p.blocks, residual_mm, sigma_mm, start);
+    switch (belief.model.source) {
+        case NoiseSource::repeats:
+            belief.prior.spread = std::max(0.03, 0.5 * belief.model.doubt);
+            break;
+        case NoiseSource::given:
+            belief.prior.spread = 0.3;
+            break;
+        case NoiseSource::assumed:
+            belief.prior.spread = 0.7;
+            break;
     }
-    prune();
-    watch("what else it may be");
-    add_alternatives();
-    settle();
-    finish_keys();
-    watch("held-out readings");
-    judge();
-    return std::move(result_);
+    belief.most = std::exp(2.0 * 2.0 * std::max(0.3, belief.prior.spread));
+    return belief;
 }
 
-void Diagnoser::refuse_poor_tables() const {
-    if (replay_.size() < 12)
-        throw InputError(fmt::format("{} readings allow no diagnosis", replay_.size()),
-                         {table_.path, 0, 0});
-}
-
-void Diagnoser::refuse_poor_holdout(const ReadingTable& table) const {
-    constexpr double absurd_mm = 5.0;
-    const Replay replay(base_.setup, table);
-    const std::vector<double> read = replay.predict(base_.models);
-    if (replay.size() == 0) throw InputError("no held-out reading", {table.path, 0, 0});
-    for (std::size_t i = 0; i < replay.size(); ++i) {
-        const Reading& row = table.rows[replay.table_row(i)];
-        if (!row.value_mm)
-            throw InputError("a held-out row with a device but without value_mm",
-                             place_of(table, row));
-        if (std::abs(*row.value_mm - read[i]) > absurd_mm)
-            throw InputError(fmt::format("held out, {:.3g} mm away from what the simulation reads: "
-                                         "wrong units (um for mm?), wrong frame, another machine",
-                                         *row.value_mm - read[i]),
-                             place_of(table, row));
+void leave_out(const Prepared& p, const std::vector<std::size_t>& rows, Round& round) {
+    for (const std::size_t i : rows) {
+        const auto row = static_cast<Eigen::Index>(i);
+        round.used[i] = false;
+        round.sigma_mm(row) = outlier_sigma * p.base.sigma_mm(row);
     }
 }
 
-void Diagnoser::start_noise() {
-    noise_.source = base_.noise_given ? NoiseSource::given : NoiseSource::assumed;
-    noise_ = noise_from_repeats(replay_, table_, blocks_, base_.residual_mm, sigma_mm_, noise_);
-    rewhiten();
+/// Whitened set-up and data, with one more row for each calibrated value.
+Design empty_design(const Prepared& p, const Whitener& whitener, const std::vector<bool>& used) {
+    std::vector<std::size_t> calibrated;
+    for (std::size_t j = 0; j < p.base.parameters.size(); ++j)
+        if (p.base.parameters[j].prior_sigma > 0.0) calibrated.push_back(j);
+    const Eigen::Index n = p.base.residual_mm.size();
+    const auto extra = static_cast<Eigen::Index>(calibrated.size());
+    Eigen::MatrixXd known = Eigen::MatrixXd::Zero(n + extra, p.base.columns.cols());
+    Eigen::VectorXd data(n + extra);
+    Eigen::MatrixXd columns = p.base.columns;
+    whitener.apply(columns);
+    known.topRows(n) = columns;
+    data.head(n) = whitener.apply(p.base.residual_mm);
+    for (Eigen::Index k = 0; k < extra; ++k) {
+        const std::size_t j = calibrated[static_cast<std::size_t>(k)];
+        const FitParameter& q = p.base.parameters[j];
+        known(n + k, static_cast<Eigen::Index>(j)) = q.typical / q.prior_sigma;
+        data(n + k) = (q.prior_value - q.value) / q.prior_sigma;
+    }
+    const auto rows = static_cast<double>(std::count(used.begin(), used.end(), true) + extra);
+    return {std::move(known), std::move(data), rows};
 }
 
-void Diagnoser::rewhiten() {
-    whitener_.emplace(replay_, blocks_, noise_, sigma_mm_);
-    if (design_) design_->rewhiten(*whitener_);
+/// Settings of keyed effects that promise most beside a model.
+void add_keyed(Design& design, const Prepared& p, const Whitener& whitener, KeySearch& keys,
+               const Model& beside, int count) {
+    const Eigen::VectorXd left = left_mm(p, design, beside, solved(design, beside));
+    const Eigen::MatrixXd fitted = fitted_mm(p, design, beside);
+    for (const Effect& effect : p.catalogue) {
+        if (modelled(p, effect) || !has_keys(effect)) continue;
+        for (auto& setting : keys.best(effect, left, p.base.sigma_mm, fitted, count))
+            add_ripple_or_other(design, p, whitener, effect, std::move(setting));
+    }
 }
 
-bool Diagnoser::modelled(const Effect& effect) const {
-    const auto& names = base_.setup.model.modelled;
-    return effect.name == "location" ||
-           std::find(names.begin(), names.end(), effect.name) != names.end();
+/// Keys of members refined on what the others leave.
+void add_refined(Design& design, const Prepared& p, const Whitener& whitener, const Model& model) {
+    for (std::size_t k = 0; k < model.members.size(); ++k) {
+        const ColumnGroup group = design.group(model.members[k]);
+        if (group.kind != GroupKind::periodic) continue;
+        const Model rest = without(model, k);
+        add_ripple_or_other(design, p, whitener, *group.effect,
+                            refine_keys(p.replay, p.base, *group.effect, group.keys,
+                                        left_mm(p, design, rest, solved(design, rest))));
+    }
 }
+
+/// Ripples of an axis in the place of its positioning in free form, which may follow them.
+void add_ripples_instead(Design& design, const Prepared& p, const Whitener& whitener,
+                         KeySearch& keys, const Model& model) {
+    for (std::size_t k = 0; k < model.members.size(); ++k) {
+        const ColumnGroup& group = design.group(model.members[k]);
+        if (group.kind != GroupKind::table || !group.name.ends_with(".positioning")) continue;
+        const Effect* ripple = find_effect(p.catalogue, effect_name(group.table.axis, ".cyclic"));
+        if (!ripple || modelled(p, *ripple)) continue;
+        const Model rest = without(model, k);
+        for (auto& setting : keys.best(*ripple, left_mm(p, design, rest, solved(design, rest)),
+                                       p.base.sigma_mm, fitted_mm(p, design, rest), first_keys))
+            add_ripple_or_other(design, p, whitener, *ripple, std::move(setting));
+    }
+}
+
+struct Searched {
+    Design design;
+    SearchSetting setting;
+    Model model;
+};
+
+/// The members of an earlier round in a new design; searched keys are added again.
+Model carried_over(const Searched& earlier, Design& design, const Prepared& p,
+                   const Whitener& whitener) {
+    Model model{{}, {{}, earlier.model.variances.nu}, 0.0};
+    for (std::size_t k = 0; k < earlier.model.members.size(); ++k) {
+        const ColumnGroup& group = earlier.design.group(earlier.model.members[k]);
+        std::optional<std::size_t> at;
+        if (group.kind == GroupKind::periodic)
+            at = add_keyed_group(design, p, whitener, *group.effect, group.keys);
+        for (std::size_t g = 0; !at && g < design.groups().size(); ++g)
+            if (same_cause(design.group(g), group) &&
+                design.group(g).parameters == group.parameters &&
+                design.group(g).shape.rows() == group.shape.rows() &&
+                (group.kind != GroupKind::table || design.group(g).shape == group.shape))
+                at = g;
+        if (!at) continue;
+        model.members.push_back(*at);
+        model.variances.tau.push_back(earlier.model.variances.tau[k]);
+    }
+    return model;
+}
+
+/// All groups, and the model that the search finds; a later round starts from the earlier model.
+Searched search_of(const Prepared& p, const Round& round, KeySearch& keys,
+                   const Searched* earlier) {
+    const Whitener whitener(p.replay, p.blocks, round.noise.model, round.sigma_mm);
+    Design design = empty_design(p, whitener, round.used);
+    const Eigen::Index owned = add_textbook_groups(design, p, whitener);
+    add_table_groups(design, p, whitener);
+    add_offset_groups(design, p, whitener);
+    add_driver_groups(design, p, whitener, owned);
+    const SearchSetting setting = search_setting(design, round.noise.prior);
+    Model model;
+    if (earlier) {
+        model = tuned(design, setting, carried_over(*earlier, design, p, whitener), 2);
+    } else {
+        add_keyed(design, p, whitener, keys, empty_model(design, setting), first_keys);
+        model = searched(design, setting);
+    }
+    for (int pass = 0; pass < 2; ++pass) {
+        const double before = model.score;
+        add_refined(design, p, whitener, model);
+        add_keyed(design, p, whitener, keys, model, 1);
+        add_ripples_instead(design, p, whitener, keys, model);
+        model = settled(design, setting, grown(design, setting, std::move(model)));
+        if (model.score < before + 1.0) break;
+    }
+    model = without_idle_members(design, setting, p, std::move(model), round.used);
+    return {std::move(design), setting, std::move(model)};
+}
+
+/// Large effects bend the readings (a stylus that meets a sphere aside): what the emulator reads
+/// with the model takes the place of the straight line. False when that changed next to nothing.
+bool straighten(Prepared& p, const Searched& s) {
+    const Solution solution = solved(s.design, s.model);
+    const Setup setup = setup_with(p, s.design, s.model, solution);
+    const Replay replay(setup, p.table);
+    const std::vector<double> read = replay.predict(active_models(setup));
+    const Eigen::VectorXd fit = p.base.residual_mm - left_mm(p, s.design, s.model, solution);
+    const Eigen::VectorXd straight =
+        p.base.measured_mm -
+        Eigen::Map<const Eigen::VectorXd>(read.data(), static_cast<Eigen::Index>(read.size())) +
+        fit;
+    const Eigen::VectorXd change = straight - p.base.residual_mm;
+    if (change.cwiseQuotient(p.base.sigma_mm).cwiseAbs().maxCoeff() < bend_sigma) return false;
+    p.base.residual_mm = straight;
+    return true;
+}
+
+bool same_noise(const NoiseModel& a, const NoiseModel& b) {
+    for (const Device device : {Device::sphere, Device::touch, Device::ballbar}) {
+        const DeviceNoise &x = a.of(device), &y = b.of(device);
+        if (std::abs(x.scale - y.scale) > 0.03 * x.scale) return false;
+        if (std::abs(x.shared - y.shared) > 0.03) return false;
+        if (x.shared > 0.03 && std::abs(x.memory - y.memory) > 0.03) return false;
+    }
+    return true;
+}
+
+/// What the first model shows about the round: wild readings, other noise, bent readings. False:
+/// nothing that calls for another search.
+bool corrected(Prepared& p, Searched& s, Round& round) {
+    const Eigen::VectorXd left = left_mm(p, s.design, s.model, solved(s.design, s.model));
+    bool changed = false;
+    const Sizes sizes =
+        sizes_of(s.design, s.model, 1.0, std::vector<bool>(s.model.members.size(), false));
+    const auto wild = wild_readings(sizes.remainder.head(left.size()), round.used);
+    if (!wild.empty()) {
+        leave_out(p, wild, round);
+        changed = true;
+    }
+    if (round.noise.model.source == NoiseSource::repeats && (!s.model.members.empty() || changed)) {
+        NoiseBelief noise = belief_of(p, left, round.sigma_mm);
+        if (!same_noise(noise.model, round.noise.model)) {
+            round.noise = std::move(noise);
+            changed = true;
+        }
+    }
+    if (!s.model.members.empty() && straighten(p, s)) changed = true;
+    return changed;
+}
+
+}  // namespace
 
 const char* to_string(Verdict verdict) {
     switch (verdict) {
@@ -107,7 +254,23 @@ const char* to_string(NoiseSource source) {
 }
 
 Diagnosis diagnose(const Setup& setup, const ReadingTable& table, const DiagnosisOptions& options) {
-    return Diagnoser(setup, table, options).run();
+    const auto watch = [&](const char* stage) {
+        if (options.watch) options.watch(stage);
+    };
+    Prepared p = prepare(setup, table);
+    if (options.holdout) refuse_poor_holdout(p, *options.holdout);
+    Round round{std::vector<bool>(p.replay.size(), true), {}, p.base.sigma_mm};
+    round.noise = belief_of(p, p.base.residual_mm, round.sigma_mm);
+    leave_out(p, lone_probe_readings(p, round.used), round);
+    KeySearch keys(p.replay, p.base);
+    watch("search among models");
+    Searched s = search_of(p, round, keys, nullptr);
+    for (int k = 1; k < most_rounds && corrected(p, s, round); ++k)
+        s = search_of(p, round, keys, &s);
+    watch("held-out readings");
+    const Judgement judgement = judged(s.design, p, s.model, round.noise, round.used);
+    return report_of({p, s.design, s.setting, s.model, judgement, round.noise, round.used},
+                     options);
 }
 
 }  // namespace trunnion

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "diagnosis/noise.h"
-#include "setup/setup.h"
 #include "identification/base_model.h"
 #include "records/readings.h"
+#include "setup/setup.h"
 
 namespace trunnion {
 
@@ -31,15 +31,25 @@ struct DriverShare {
     double share = 0.0, p_value = 1.0;
 };
 
+/// One value of an error in free form.
+struct TablePoint {
+    std::string error;  ///< ISO 230 name: "EXX"
+    double at = 0.0, value = 0.0, sigma = 0.0;
+    std::string at_unit, unit;  ///< mm or rad
+};
+
 struct Cause {
     std::string effect;
     double probability = 0.0;
     std::vector<std::string> rivals;
     std::vector<FitParameter> parameters;
     std::vector<Inseparable> unseen;  ///< directions of the parameters that nothing here shows
-    double share = 0.0;               ///< of the gap, independent of order (Shapley)
+    double share = 0.0;               ///< of the gap: what it does in the fit
     HeldOut heldout;
     std::string what, usual_cause, remedy;
+    std::vector<TablePoint> points;  ///< of a cause in free form, else empty
+    double rms_sigma = 0.0;          ///< what it does to the readings, rms in their sigma
+    bool holds_between = true;       ///< a free form that predicts places left out
 };
 
 struct NextMeasurement {
@@ -56,6 +66,9 @@ struct Diagnosis {
     std::vector<DriverShare> where;
     std::vector<Cause> causes;
     double after_rms_um = 0.0, unexplained_share = 0.0;
+    double explained = 0.0;            ///< H of the readings left out, 0..1: it decides the verdict
+    bool between_places = true;        ///< false: it holds at the measured places only
+    std::vector<FitParameter> set_up;  ///< nuisances: never causes
     HeldOut after;
     std::vector<NextMeasurement> next;
     std::vector<std::string> unseen;       ///< effects that these readings cannot show

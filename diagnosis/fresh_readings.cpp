@@ -197,23 +197,4 @@ FreshReadings::FreshReadings(const BaseModel& base, const Catalogue& catalogue,
                     found.columns.col(static_cast<Eigen::Index>(k));
 }
 
-Eigen::MatrixXd FreshReadings::columns(const Design& design,
-                                       const std::vector<Eigen::Index>& places) const {
-    Eigen::MatrixXd all(base_.rows(), static_cast<Eigen::Index>(places.size()));
-    for (std::size_t k = 0; k < places.size(); ++k) {
-        const auto to = static_cast<Eigen::Index>(k);
-        if (places[k] < design.base_count()) {
-            all.col(to) = base_.col(places[k]);
-            continue;
-        }
-        const Eigen::Index column = places[k] - design.base_count();
-        for (const Candidate& c : design.candidates())
-            if (column >= c.first && column < c.first + c.size())
-                all.col(to) =
-                    effect_column(*replay_, gradient_, *c.effect, c.values,
-                                  c.parameters[static_cast<std::size_t>(column - c.first)]);
-    }
-    return all;
-}
-
 }  // namespace trunnion

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "diagnosis/candidates.h"
+#include "diagnosis/column_group.h"
 #include "diagnosis/noise.h"
 
 namespace trunnion {
@@ -22,9 +22,12 @@ class FreshReadings {
     /// Rows of each pose or pass.
     const std::vector<NoiseBlock>& blocks() const { return blocks_; }
     std::size_t rows() const { return replay_->size(); }
-    /// Derivatives (mm for one typical change) by base parameters and columns of candidates, as
-    /// Design::raw() has them for the readings at hand; `places` as its columns, base first.
-    Eigen::MatrixXd columns(const Design& design, const std::vector<Eigen::Index>& places) const;
+    /// Derivatives (mm for one typical change) by the parameters of the base model.
+    const Eigen::MatrixXd& base() const { return base_; }
+    /// Columns of a cause, as columns_on has them for the readings at hand.
+    Eigen::MatrixXd columns(const ColumnGroup& group) const {
+        return columns_on(*replay_, gradient_, group);
+    }
 
   private:
     std::optional<Replay> replay_;

@@ -1,105 +1,141 @@
 #include "diagnosis/heldout.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/search.h"
-#include "diagnosis/statistics.h"
-#include "base/random.h"
+#include "base/units.h"
+#include "estimation/free_form.h"
 
 namespace trunnion {
 namespace {
 
-double shrink_of(double before, double after, double noise) {
-    const double gap = before - noise;
-    if (gap <= 0.0) return 0.0;
-    return 1.0 - std::sqrt(std::max(0.0, after - noise) / gap);
-}
-
-HeldOut figures_of(const SquaredSums& sums) {
-    double before = 0, after = 0, noise = 0, rows = 0;
-    for (std::size_t g = 0; g < sums.before.size(); ++g) {
-        before += sums.before[g];
-        after += sums.after[g];
-        noise += sums.noise[g];
-        rows += sums.rows[g];
-    }
-    HeldOut result;
-    if (rows == 0.0) return result;
-    result.rms_before_um = 1e3 * std::sqrt(before / rows);
-    result.rms_after_um = 1e3 * std::sqrt(after / rows);
-    result.noise_um = 1e3 * std::sqrt(noise / rows);
-    result.shrink = result.low = result.high = shrink_of(before, after, noise);
-    return result;
-}
+/// Set-up quantities lie within so many typical sizes: directions that a fold does not see stay.
+constexpr double set_up_range = 20.0;
+constexpr std::size_t sectors = 24;  ///< of a whole turn
 
 }  // namespace
 
-Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
-    Folds folds;
-    folds.group.assign(rows, 0);
-    int pass = 0;
-    for (const NoiseBlock& block : blocks) {
-        const bool bar = block.device == Device::ballbar;
-        const std::size_t pieces = bar ? std::min<std::size_t>(6, 1 + block.rows.size() / 8) : 1;
-        const auto first = static_cast<int>(folds.fold.size());
-        for (std::size_t k = 0; k < block.rows.size(); ++k)
-            folds.group[static_cast<std::size_t>(block.rows[k])] =
-                first + static_cast<int>(k * pieces / block.rows.size());
-        for (std::size_t k = 0; k < pieces; ++k)
-            folds.fold.push_back((bar ? 3 * pass + static_cast<int>(k) : pass) % Folds::count);
-        ++pass;
+double BlockLoss::mean() const {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t b = 0; b < square.size(); ++b) {
+        sum += square[b];
+        count += rows[b];
     }
-    return folds;
+    return count > 0.0 ? sum / count : 0.0;
 }
 
-HeldOut summarise(const SquaredSums& sums, std::uint64_t seed, double doubt) {
-    HeldOut result = figures_of(sums);
-    SeededNoise random(seed);
-    std::vector<double> draws;
-    for (int k = 0; k < 400; ++k) {
-        double before = 0, after = 0, noise = 0;
-        for (std::size_t g = 0; g < sums.before.size(); ++g) {
-            const double weight = -std::log(random.uniform());
-            before += weight * sums.before[g];
-            after += weight * sums.after[g];
-            noise += weight * sums.noise[g];
-        }
-        noise *= std::max(0.2, 1.0 + doubt * random.normal());
-        draws.push_back(shrink_of(before, after, noise));
-    }
-    result.low = std::min(result.shrink, quantile(draws, 0.025));
-    result.high = std::max(result.shrink, quantile(draws, 0.975));
+Saving saving_of(const BlockLoss& without, const BlockLoss& with) {
+    std::vector<double> saved;
+    double scale = 0.0, sum = 0.0, square = 0.0;
+    for (std::size_t b = 0; b < without.square.size(); ++b)
+        scale = std::max(scale, std::abs(without.square[b] - with.square[b]));
+    for (std::size_t b = 0; b < without.square.size(); ++b)
+        if (const double d = without.square[b] - with.square[b]; std::abs(d) > 1e-6 * scale)
+            saved.push_back(d);
+    Saving result{0.0, static_cast<double>(saved.size())};
+    if (saved.size() < 2) return result;
+    for (const double d : saved) sum += d;
+    const double mean = sum / result.blocks;
+    for (const double d : saved) square += (d - mean) * (d - mean);
+    const double error = std::sqrt(square / (result.blocks - 1.0) / result.blocks);
+    result.t = error > 0.0 ? mean / error : 0.0;
     return result;
 }
 
-HeldOut cross_validate(const Design& design, const BaseModel& base, const Folds& folds,
-                       const std::vector<std::size_t>& members, double scale,
-                       const Eigen::VectorXd& noise_mm, const std::vector<bool>& used) {
-    const std::vector<Eigen::Index> columns = columns_of(design, members);
-    const auto groups = folds.fold.size();
-    SquaredSums sums{std::vector<double>(groups), std::vector<double>(groups),
-                     std::vector<double>(groups), std::vector<double>(groups)};
-    const auto n = static_cast<std::size_t>(base.residual_mm.size());
-    for (int f = 0; f < Folds::count; ++f) {
-        std::vector<Eigen::Index> test;
-        for (std::size_t i = 0; i < n; ++i)
-            if (folds.fold[static_cast<std::size_t>(folds.group[i])] == f)
-                test.push_back(static_cast<Eigen::Index>(i));
-        const Eigen::VectorXd without = design.residual_without(test, {}, scale);
-        const Eigen::VectorXd with = design.residual_without(test, columns, scale);
-        for (std::size_t k = 0; k < test.size(); ++k) {
-            const auto i = static_cast<std::size_t>(test[k]);
-            if (!used[i]) continue;
-            const auto g = static_cast<std::size_t>(folds.group[i]);
-            const auto at = static_cast<Eigen::Index>(k);
-            sums.before[g] += without(at) * without(at);
-            sums.after[g] += with(at) * with(at);
-            sums.noise[g] += noise_mm(test[k]) * noise_mm(test[k]);
-            sums.rows[g] += 1.0;
-        }
+LeftOut::LeftOut(const Design& design, const Model& model, const Folds& folds,
+                 const std::vector<bool>& used)
+    : folds_(folds), used_(used), data_(design.data()), known_(design.known().cols()) {
+    Eigen::Index count = known_;
+    for (const std::size_t m : model.members) {
+        first_.push_back(count);
+        size_.push_back(design.group(m).columns());
+        count += size_.back();
     }
-    return figures_of(sums);
+    all_.resize(data_.size(), count);
+    all_.leftCols(known_) = design.known();
+    precision_.resize(count);
+    precision_.head(known_).setConstant(1.0 / (set_up_range * set_up_range));
+    const double noise = model.variances.nu * model.variances.nu;
+    for (std::size_t k = 0; k < model.members.size(); ++k) {
+        all_.middleCols(first_[k], size_[k]) = design.columns(model.members[k]);
+        const double tau = std::max(1e-9, model.variances.tau[k]);
+        precision_.segment(first_[k], size_[k]).setConstant(noise / (tau * tau));
+    }
+    const Eigen::MatrixXd whole = all_.transpose() * all_;
+    const Eigen::VectorXd product = all_.transpose() * data_;
+    test_.resize(Folds::count);
+    for (std::size_t i = 0; i < folds_.group.size(); ++i)
+        if (folds_.group[i] >= 0)
+            test_[static_cast<std::size_t>(folds_.fold[static_cast<std::size_t>(folds_.group[i])])]
+                .push_back(static_cast<Eigen::Index>(i));
+    for (const auto& rows : test_) {
+        const Eigen::MatrixXd out = all_(rows, Eigen::all);
+        gram_.push_back(whole - out.transpose() * out);
+        product_.push_back(product - out.transpose() * data_(rows));
+    }
+}
+
+std::vector<Eigen::Index> LeftOut::columns_of(const std::vector<bool>& members) const {
+    std::vector<Eigen::Index> columns;
+    for (Eigen::Index k = 0; k < known_; ++k) columns.push_back(k);
+    for (std::size_t m = 0; m < members.size(); ++m)
+        for (Eigen::Index k = 0; members[m] && k < size_[m]; ++k) columns.push_back(first_[m] + k);
+    return columns;
+}
+
+Eigen::VectorXd LeftOut::residual(const std::vector<bool>& fitted,
+                                  const std::vector<bool>& predicting) const {
+    const std::vector<Eigen::Index> columns = columns_of(fitted);
+    std::vector<bool> both = fitted;
+    for (std::size_t k = 0; k < both.size(); ++k) both[k] = fitted[k] && predicting[k];
+    const std::vector<Eigen::Index> used = columns_of(both);
+    Eigen::VectorXd left = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(folds_.group.size()));
+    for (std::size_t f = 0; f < test_.size(); ++f) {
+        if (test_[f].empty()) continue;
+        Eigen::MatrixXd a = gram_[f](columns, columns);
+        a.diagonal() += precision_(columns);
+        Eigen::VectorXd x = Eigen::VectorXd::Zero(all_.cols());
+        const Eigen::VectorXd right = product_[f](columns), own = a.ldlt().solve(right);
+        x(columns) = own;
+        const Eigen::VectorXd off = data_(test_[f]) - all_(test_[f], used) * x(used);
+        left(test_[f]) = off;
+    }
+    return left;
+}
+
+BlockLoss LeftOut::loss(const std::vector<bool>& fitted,
+                        const std::vector<bool>& predicting) const {
+    const Eigen::VectorXd left = residual(fitted, predicting);
+    BlockLoss loss{std::vector<double>(folds_.fold.size()),
+                   std::vector<double>(folds_.fold.size())};
+    for (std::size_t i = 0; i < folds_.group.size(); ++i) {
+        if (folds_.group[i] < 0 || !used_[i]) continue;
+        const auto g = static_cast<std::size_t>(folds_.group[i]);
+        loss.square[g] += std::pow(left(static_cast<Eigen::Index>(i)), 2);
+        loss.rows[g] += 1.0;
+    }
+    return loss;
+}
+
+Folds place_folds(const Replay& replay, const TableForm& table) {
+    std::vector<double> places = table.knots;
+    if (places.empty())
+        for (std::size_t k = 0; k <= sectors; ++k)
+            places.push_back(-pi + 2.0 * pi * static_cast<double>(k) / sectors);
+    Folds folds;
+    for (std::size_t k = 0; k < places.size(); ++k)
+        folds.fold.push_back(static_cast<int>(k % Folds::count));
+    for (std::size_t i = 0; i < replay.size(); ++i) {
+        const double at = replay.sample(i).position[table.axis];
+        const double q = table.knots.empty() ? std::remainder(at, 2.0 * pi) : at;
+        const auto [before, weight] = place_between(places, q);
+        const auto place = static_cast<int>(before) + (weight > 0.5 ? 1 : 0);
+        const bool end =
+            !table.knots.empty() && (place == 0 || place + 1 == static_cast<int>(places.size()));
+        folds.group.push_back(end ? -1 : place);
+    }
+    return folds;
 }
 
 }  // namespace trunnion

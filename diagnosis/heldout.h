@@ -1,33 +1,50 @@
-// How far the gap shrinks on readings that took no part in the fit.
+// Readings that took no part in the fit: the loss of a model on blocks and on places left out.
 #pragma once
 
-#include "diagnosis/candidates.h"
-#include "diagnosis/diagnosis.h"
+#include "diagnosis/prepare.h"
+#include "diagnosis/search.h"
 
 namespace trunnion {
 
-/// Rows cut into groups that share errors or neighbourhood: the readings of one pose, arcs of a
-/// sixth of a pass. A fold holds out whole groups.
-struct Folds {
-    static constexpr int count = 5;
-    std::vector<int> group;  ///< by device row
-    std::vector<int> fold;   ///< by group
+/// Mean of squared whitened readings left out, by block.
+struct BlockLoss {
+    std::vector<double> square, rows;
+    double mean() const;
 };
-Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows);
+/// Paired t of the loss that `with` saves against `without`, over blocks that see any difference.
+struct Saving {
+    double t = 0.0, blocks = 0.0;
+};
+Saving saving_of(const BlockLoss& without, const BlockLoss& with);
 
-/// Readings before and after, with what each expects from noise alone, by group.
-struct SquaredSums {
-    std::vector<double> before, after, noise, rows;  ///< sums over each group, mm^2
+/// Fits of set-up and members to all but one fold, for any choice of the members that predict.
+class LeftOut {
+  public:
+    /// `group` of each row (blocks; negative: never left out), `fold` of each group. The members'
+    /// variances are those of `model`.
+    LeftOut(const Design& design, const Model& model, const Folds& folds,
+            const std::vector<bool>& used);
+
+    /// Positions of `fitted` take part in the fit, those of `predicting` also in the prediction.
+    Eigen::VectorXd residual(const std::vector<bool>& fitted,
+                             const std::vector<bool>& predicting) const;
+    BlockLoss loss(const std::vector<bool>& fitted, const std::vector<bool>& predicting) const;
+
+  private:
+    std::vector<Eigen::Index> columns_of(const std::vector<bool>& members) const;
+
+    Folds folds_;
+    std::vector<bool> used_;
+    Eigen::MatrixXd all_;               ///< set-up, then members, whitened
+    Eigen::VectorXd data_, precision_;  ///< prior, over the noise
+    Eigen::Index known_ = 0;
+    std::vector<Eigen::Index> first_, size_;
+    std::vector<std::vector<Eigen::Index>> test_;  ///< rows by fold
+    std::vector<Eigen::MatrixXd> gram_;            ///< of all rows but the fold's
+    std::vector<Eigen::VectorXd> product_;
 };
 
-/// From sums to the reported figures: shrink and its bootstrap interval.
-/// `doubt` is the relative standard error of the noise variance.
-HeldOut summarise(const SquaredSums& sums, std::uint64_t seed, double doubt);
-
-/// Group-wise cross-validation of the base with the effects `members` added, against the base
-/// alone. `used` marks rows that count. The interval is left at the shrink (ShrinkDraws has it).
-HeldOut cross_validate(const Design& design, const BaseModel& base, const Folds& folds,
-                       const std::vector<std::size_t>& members, double scale,
-                       const Eigen::VectorXd& noise_mm, const std::vector<bool>& used);
+/// Whole places of an axis left out together, its ends never: does a table hold between places?
+Folds place_folds(const Replay& replay, const TableForm& table);
 
 }  // namespace trunnion

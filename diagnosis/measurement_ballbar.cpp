@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "diagnosis/measurement_plan.h"
 #include "base/units.h"
+#include "diagnosis/measurement_plan.h"
 
 namespace trunnion {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "setup/setup.h"
 #include "records/readings.h"
+#include "setup/setup.h"
 
 namespace trunnion {
 

@@ -49,13 +49,8 @@ Worked work_out(Measurement m, const Setup& setup, const Catalogue& catalogue,
 }
 
 Eigen::MatrixXd effect_block(const Replay& replay, const std::vector<Perturbation>& gradient,
-                             const Eigen::VectorXd& weight, const Candidate& c) {
-    Eigen::MatrixXd m(weight.size(), c.size());
-    for (Eigen::Index j = 0; j < c.size(); ++j)
-        m.col(j) = effect_column(replay, gradient, *c.effect, c.values,
-                                 c.parameters[static_cast<std::size_t>(j)])
-                       .cwiseProduct(weight);
-    return m;
+                             const Eigen::VectorXd& weight, const ColumnGroup& group) {
+    return weight.asDiagonal() * columns_on(replay, gradient, group);
 }
 
 /// Squared part of `target` that neither base nor rival can follow; base columns joined by name.
@@ -105,11 +100,11 @@ class Mimic {
 constexpr double settled_margin = 1.5;
 
 NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& list,
-                         const Design& design, const BaseModel& base) {
+                         const Prepared& prepared) {
+    const BaseModel& base = prepared.base;
     const Eigen::VectorXd weight = base.sigma_mm.cwiseInverse();
-    const auto columns = [&](const Candidate& c) -> Eigen::MatrixXd {
-        return weight.asDiagonal() *
-               design.raw().middleCols(design.base_count() + c.first, c.size());
+    const auto columns = [&](const ColumnGroup& group) {
+        return effect_block(prepared.replay, base.gradient, weight, group);
     };
     Mimic now;
     const Block old{names_of(base.parameters), weight.asDiagonal() * base.columns};
@@ -117,7 +112,7 @@ NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& l
     const Eigen::VectorXd target = columns(*pair.claimed) * pair.values;
     now.add(old, rival, target);
     const double before = now.left();
-    NextMeasurement best{pair.claimed->effect->name, pair.rival->effect->name, "", "", 0.0, 0.0};
+    NextMeasurement best{pair.claimed->name, pair.rival->name, "", "", 0.0, 0.0};
     double rate = 0.0;
     for (const Worked& w : list) {
         Mimic then = now;
@@ -147,21 +142,23 @@ NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& l
 
 }  // namespace
 
-std::vector<NextMeasurement> plan_next(const Design& design, const BaseModel& base,
-                                       const Catalogue& catalogue,
-                                       const std::vector<AmbiguousPair>& pairs, double end_s,
+std::vector<NextMeasurement> plan_next(const Prepared& prepared,
+                                       const std::vector<AmbiguousPair>& pairs,
                                        const std::function<bool()>& go_on) {
+    const BaseModel& base = prepared.base;
+    const double end_s = prepared.table.rows.back().time_s;
     const auto stopped = [&] { return go_on && !go_on(); };
     std::vector<NextMeasurement> plan;
     if (pairs.empty()) return plan;
     std::vector<Worked> list;
     for (Measurement& m : ready_measurements(base.setup, end_s + 600.0)) {
         if (stopped()) return plan;
-        list.push_back(work_out(std::move(m), base.setup, catalogue, base.setup.model.modelled));
+        list.push_back(
+            work_out(std::move(m), base.setup, prepared.catalogue, base.setup.model.modelled));
     }
     for (const AmbiguousPair& pair : pairs) {
         if (stopped()) break;
-        plan.push_back(best_for(pair, list, design, base));
+        plan.push_back(best_for(pair, list, prepared));
     }
     std::stable_sort(plan.begin(), plan.end(),
                      [](const NextMeasurement& a, const NextMeasurement& b) {

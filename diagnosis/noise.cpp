@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace trunnion {
 namespace {
@@ -47,13 +48,43 @@ struct PassFilter {
     }
 };
 
+/// Do two readings in a row of one test share an error: the same pose of a probe or target, the
+/// same approach of a pass?
+bool shares_block(const ReadingTable& table, const Reading& before, const Reading& row,
+                  std::size_t size) {
+    constexpr std::size_t most = 64;
+    if (before.feature != row.feature || before.mode != row.mode || size >= most) return false;
+    const bool pass = row.device == Device::linear || row.device == Device::angle;
+    if (pass) return size < 8;
+    for (const Axis axis : table.axes)
+        if ((table.names.is_rotary(axis) || row.device == Device::point) &&
+            before.commanded[axis] != row.commanded[axis])
+            return false;
+    return row.device == Device::touch || before.time_s == row.time_s;
+}
+
 }  // namespace
 
 const DeviceNoise& NoiseModel::of(Device device) const {
-    return device == Device::sphere ? sphere : device == Device::touch ? touch : ballbar;
+    switch (device) {
+        case Device::sphere:
+            return sphere;
+        case Device::touch:
+            return touch;
+        case Device::linear:
+            return linear;
+        case Device::angle:
+            return angle;
+        case Device::point:
+            return point;
+        case Device::axis:
+            return axis;
+        default:
+            return ballbar;
+    }
 }
 DeviceNoise& NoiseModel::of(Device device) {
-    return device == Device::sphere ? sphere : device == Device::touch ? touch : ballbar;
+    return const_cast<DeviceNoise&>(std::as_const(*this).of(device));
 }
 
 std::vector<NoiseBlock> noise_blocks(const Replay& replay, const ReadingTable& table) {
@@ -63,15 +94,10 @@ std::vector<NoiseBlock> noise_blocks(const Replay& replay, const ReadingTable& t
         const Reading& row = table.rows[replay.table_row(i)];
         const auto it = open.find(row.test);
         bool same = it != open.end() && blocks[it->second].device == row.device;
-        if (same && row.device != Device::ballbar) {
+        if (same && row.device != Device::ballbar && row.device != Device::axis) {
             const auto before = static_cast<std::size_t>(blocks[it->second].rows.back());
-            const Reading& other = table.rows[replay.table_row(before)];
-            same = before + 1 == i && other.feature == row.feature && other.mode == row.mode &&
-                   blocks[it->second].rows.size() < 64;
-            for (const Axis axis : table.axes)
-                if (table.names.is_rotary(axis))
-                    same = same && other.commanded[axis] == row.commanded[axis];
-            if (row.device == Device::sphere) same = same && other.time_s == row.time_s;
+            same = before + 1 == i && shares_block(table, table.rows[replay.table_row(before)], row,
+                                                   blocks[it->second].rows.size());
         }
         if (!same) {
             open[row.test] = blocks.size();

@@ -15,6 +15,7 @@ enum class NoiseSource : unsigned char { given, repeats, assumed };
 ///   sphere   scale^2
 ///   touch    scale^2 ((1 - shared) delta + shared n_i . n_j) within the touches of one pose
 ///   ballbar  scale^2 ((1 - shared) delta + shared memory^|i - j|) along one pass
+///   others   scale^2
 struct DeviceNoise {
     double scale = 1.0;
     double shared = 0.0;  ///< part of the variance that neighbours share
@@ -29,7 +30,7 @@ struct DeviceNoise {
 };
 
 struct NoiseModel {
-    DeviceNoise sphere, touch, ballbar;
+    DeviceNoise sphere, touch, ballbar, linear, angle, point, axis;
     NoiseSource source = NoiseSource::given;
     double doubt = 0.0;  ///< relative standard error of the variance, when repeats set it
     const DeviceNoise& of(Device device) const;

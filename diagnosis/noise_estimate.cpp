@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "diagnosis/noise.h"
-#include "diagnosis/statistics.h"
+#include "estimation/quantiles.h"
 
 namespace trunnion {
 namespace {
@@ -105,7 +105,7 @@ DeviceNoise estimate(const Replay& replay, Device device, const std::vector<Stre
     DeviceNoise plain;
     plain.scale = std::clamp(rms(stretches), low, high);
     plain.shared = 0.0;
-    if (device == Device::sphere) return plain;
+    if (device != Device::touch && device != Device::ballbar) return plain;
     DeviceNoise best = plain;
     double most = likelihood(replay, device, stretches, plain) + 4.0;
     const bool pass = device == Device::ballbar;

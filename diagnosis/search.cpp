@@ -1,102 +1,228 @@
 #include "diagnosis/search.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <set>
 
 namespace trunnion {
 namespace {
 
-constexpr std::array<double, 4> prior_scales{0.3, 1.0, 3.0, 10.0};
+constexpr std::size_t most_members = 12;
+constexpr std::size_t tried = 4;       ///< best offers that are tuned at each step
+constexpr double better = 0.5;         ///< nats by which a swap must be better
+constexpr std::size_t swap_tried = 3;  ///< offers tried in the place of a member
+constexpr int rounds = 2;
 
-bool shares_effect(const Design& design, const std::vector<std::size_t>& members, std::size_t k) {
-    const auto& candidates = design.candidates();
-    return std::any_of(members.begin(), members.end(),
-                       [&](std::size_t m) { return candidates[m].effect == candidates[k].effect; });
+bool in(const Model& model, std::size_t group) {
+    return std::find(model.members.begin(), model.members.end(), group) != model.members.end();
+}
+
+Model with(Model model, const Offer& offer) {
+    model.members.push_back(offer.group);
+    model.variances.tau.push_back(offer.gain.tau);
+    return model;
+}
+
+Offer offer_of(const Design& design, std::size_t k, const GroupInformation& left) {
+    Offer offer{k, group_gain(left), 0.0, left};
+    offer.value = offer.gain.mean + design.group(k).log_prior;
+    return offer;
+}
+
+/// The zeros of tests, which are always offered.
+std::vector<std::size_t> zeros(const Design& design) {
+    std::vector<std::size_t> list;
+    for (std::size_t k = 0; k < design.groups().size(); ++k)
+        if (design.group(k).kind == GroupKind::offset && design.groups()[k].visible())
+            list.push_back(k);
+    return list;
+}
+
+/// One step: the best few offers are tuned, the best score stays.
+bool grow(Design& design, const SearchSetting& setting, Model& model, bool with_zeros) {
+    Model best = model;
+    std::size_t count = 0;
+    for (const Offer& offer : offers(design, model)) {
+        if (count == tried || offer.gain.best + design.group(offer.group).log_prior < 0.0) break;
+        if (!with_zeros && design.group(offer.group).kind == GroupKind::offset) continue;
+        ++count;
+        Model trial = tuned(design, setting, with(model, offer), 1);
+        if (trial.score > best.score + 1e-6) best = std::move(trial);
+    }
+    if (best.members.size() == model.members.size()) return false;
+    model = tuned(design, setting, std::move(best), 2);
+    return true;
+}
+
+Model pruned(Design& design, const SearchSetting& setting, Model model) {
+    while (!model.members.empty()) {
+        const std::vector<Offer> worth = worth_of_members(design, model);
+        const auto least =
+            std::min_element(worth.begin(), worth.end(),
+                             [](const Offer& a, const Offer& b) { return a.value < b.value; });
+        const auto position = static_cast<std::size_t>(least - worth.begin());
+        const bool zero = design.group(least->group).kind == GroupKind::offset;
+        if (least->value >= 0.0 || (zero && least->gain.best > 0.1)) break;
+        model = tuned(design, setting, without(model, position), 2);
+    }
+    return model;
+}
+
+Model swapped(Design& design, const SearchSetting& setting, Model model) {
+    for (std::size_t position = 0; position < model.members.size(); ++position) {
+        const Offer held = worth_of_members(design, model)[position];
+        const Model rest = without(model, position);
+        std::size_t count = 0;
+        for (const Offer& offer : offers(design, rest)) {
+            if (offer.group == held.group) continue;
+            if (++count > swap_tried || offer.value < held.value + better) break;
+            Model trial = tuned(design, setting, with(rest, offer), 2);
+            if (trial.score < model.score + better) continue;
+            model = std::move(trial);
+            break;
+        }
+    }
+    return model;
+}
+
+bool named(GroupKind kind) {
+    return kind == GroupKind::textbook || kind == GroupKind::periodic;
+}
+
+/// A free form makes room for a named effect: it goes, or takes another length, and the best named
+/// effect joins.
+Model paired(Design& design, const SearchSetting& setting, Model model) {
+    for (std::size_t position = 0; position < model.members.size(); ++position) {
+        const std::size_t held = model.members[position];
+        if (design.group(held).kind != GroupKind::table) continue;
+        std::vector<Model> starts{without(model, position)};
+        for (std::size_t k = 0; k < design.groups().size(); ++k)
+            if (k != held && same_cause(design.group(k), design.group(held))) {
+                starts.push_back(model);
+                starts.back().members[position] = k;
+            }
+        for (const Model& start : starts) {
+            const std::vector<Offer> best = offers(design, start, named);
+            if (best.empty()) break;
+            Model trial = tuned(design, setting, with(start, best.front()), 2);
+            if (trial.score < model.score + better) continue;
+            model = std::move(trial);
+            break;
+        }
+    }
+    return model;
 }
 
 }  // namespace
 
-std::vector<Eigen::Index> columns_of(const Design& design,
-                                     const std::vector<std::size_t>& members) {
-    std::vector<Eigen::Index> columns;
-    for (const std::size_t m : members) {
-        const Candidate& c = design.candidates()[m];
-        for (Eigen::Index j = 0; j < c.size(); ++j) columns.push_back(c.first + j);
-    }
-    return columns;
+double Offer::explained() const {
+    Eigen::MatrixXd m = left.information;
+    m.diagonal().array() += 1.0 / (gain.tau * gain.tau);
+    return left.product.dot(m.ldlt().solve(left.product));
 }
 
-EffectSet evaluate(const Design& design, std::vector<std::size_t> members,
-                   const SearchOptions& options) {
-    EffectSet set;
-    set.members = std::move(members);
-    if (set.members.empty()) return set;
-    const std::vector<Eigen::Index> columns = columns_of(design, set.members);
-    const auto p = static_cast<Eigen::Index>(columns.size());
-    Eigen::MatrixXd g(p, p);
-    Eigen::VectorXd h(p);
-    for (Eigen::Index i = 0; i < p; ++i) {
-        const Eigen::Index ci = columns[static_cast<std::size_t>(i)];
-        h(i) = design.product()(ci);
-        for (Eigen::Index j = 0; j < p; ++j)
-            g(i, j) = design.gram()(ci, columns[static_cast<std::size_t>(j)]);
-    }
-    std::array<double, prior_scales.size()> log_value{};
-    double most = -1e300;
-    for (std::size_t k = 0; k < prior_scales.size(); ++k) {
-        const double precision = options.noise_variance / (prior_scales[k] * prior_scales[k]);
-        Eigen::MatrixXd m = g;
-        m.diagonal().array() += precision;
-        const Eigen::LLT<Eigen::MatrixXd> llt(m);
-        const Eigen::VectorXd x = llt.matrixL().solve(h);
-        const double log_det = 2.0 * llt.matrixLLT().diagonal().array().log().sum() -
-                               static_cast<double>(p) * std::log(precision);
-        log_value[k] = 0.5 * x.squaredNorm() / options.noise_variance - 0.5 * log_det;
-        if (log_value[k] <= most) continue;
-        most = log_value[k];
-        set.scale = prior_scales[k];
-        set.explained = x.squaredNorm();
-    }
-    double sum = 0.0;
-    for (const double v : log_value) sum += std::exp(v - most);
-    set.log_evidence = most + std::log(sum / static_cast<double>(prior_scales.size()));
-    for (const std::size_t m : set.members) set.log_evidence += design.candidates()[m].log_prior;
-    return set;
+SearchSetting search_setting(Design& design, const NoisePrior& noise) {
+    SearchSetting setting{noise, 0.0};
+    const GroupEquations e = design.equations({});
+    setting.empty = restricted_likelihood(
+        e, maximise_likelihood(e, {{}, std::exp(noise.log_mean)}, noise, 1), noise);
+    return setting;
 }
 
-std::vector<EffectSet> search_sets(const Design& design, const SearchOptions& options) {
-    const auto better = [](const EffectSet& a, const EffectSet& b) {
-        return a.log_evidence != b.log_evidence ? a.log_evidence > b.log_evidence
-                                                : a.members < b.members;
-    };
-    std::vector<EffectSet> all{EffectSet{}}, beam{EffectSet{}};
-    std::set<std::vector<std::size_t>> met;
-    for (std::size_t size = 1; size <= options.largest; ++size) {
-        std::vector<EffectSet> grown;
-        for (const EffectSet& set : beam)
-            for (std::size_t k = 0; k < design.candidates().size(); ++k) {
-                if (!design.candidates()[k].visible || shares_effect(design, set.members, k))
-                    continue;
-                std::vector<std::size_t> members = set.members;
-                members.insert(std::upper_bound(members.begin(), members.end(), k), k);
-                if (!met.insert(members).second) continue;
-                grown.push_back(evaluate(design, std::move(members), options));
-            }
-        std::sort(grown.begin(), grown.end(), better);
-        all.insert(all.end(), grown.begin(), grown.end());
-        if (grown.empty()) break;
-        const double before = beam.front().log_evidence;
-        // All single effects go on to pairs: a pair may beat what neither of its members does
-        // alone.
-        if (size > 1 && grown.size() > options.width) grown.resize(options.width);
-        beam = std::move(grown);
-        if (beam.front().log_evidence < before - 10.0) break;
+Model empty_model(Design& design, const SearchSetting& setting) {
+    return tuned(design, setting, {{}, {{}, std::exp(setting.noise.log_mean)}, 0.0}, 1);
+}
+
+Model tuned(Design& design, const SearchSetting& setting, Model model, int sweeps) {
+    const GroupEquations e = design.equations(model.members);
+    model.variances = maximise_likelihood(e, model.variances, setting.noise, sweeps);
+    model.score = restricted_likelihood(e, model.variances, setting.noise) - setting.empty;
+    for (const std::size_t m : model.members) model.score += design.group(m).log_prior;
+    return model;
+}
+
+bool same_cause(const ColumnGroup& a, const ColumnGroup& b) {
+    return a.kind == b.kind && a.name == b.name && a.component == b.component;
+}
+
+std::vector<Offer> offers(Design& design, const Model& model,
+                          const std::function<bool(GroupKind)>& takes) {
+    const GivenMembers given(design.equations(model.members), model.variances);
+    std::vector<Offer> list;
+    for (std::size_t k = 0; k < design.groups().size(); ++k) {
+        const auto& entry = design.groups()[k];
+        if (!entry.visible() || in(model, k) || (takes && !takes(entry.group.kind))) continue;
+        if (std::any_of(model.members.begin(), model.members.end(),
+                        [&](std::size_t m) { return same_cause(design.group(m), entry.group); }))
+            continue;
+        list.push_back(offer_of(
+            design, k, given.leave(design.cross(model.members, k), entry.gram, entry.product)));
     }
-    std::sort(all.begin(), all.end(), better);
-    return all;
+    std::stable_sort(list.begin(), list.end(),
+                     [](const Offer& a, const Offer& b) { return a.value > b.value; });
+    return list;
+}
+
+Model without(const Model& model, std::size_t position) {
+    Model rest = model;
+    rest.members.erase(rest.members.begin() + static_cast<long>(position));
+    rest.variances.tau.erase(rest.variances.tau.begin() + static_cast<long>(position));
+    return rest;
+}
+
+std::vector<Offer> worth_of_members(Design& design, const Model& model) {
+    const auto each = each_beside_others(design.equations(model.members), model.variances);
+    std::vector<Offer> worth;
+    for (std::size_t k = 0; k < model.members.size(); ++k)
+        worth.push_back(offer_of(design, model.members[k], each[k]));
+    return worth;
+}
+
+Model grown(Design& design, const SearchSetting& setting, Model model) {
+    while (model.members.size() < most_members && grow(design, setting, model, true)) {
+    }
+    return model;
+}
+
+Model settled(Design& design, const SearchSetting& setting, Model model) {
+    for (int round = 0; round < rounds; ++round) {
+        const double before = model.score;
+        model = pruned(design, setting, std::move(model));
+        if (round == 0) model = swapped(design, setting, std::move(model));
+        if (round == 0) model = paired(design, setting, std::move(model));
+        model = grown(design, setting, std::move(model));
+        if (model.score < before + 0.1) break;
+    }
+    return pruned(design, setting, std::move(model));
+}
+
+Model searched(Design& design, const SearchSetting& setting) {
+    Model from_effects = empty_model(design, setting), from_zeros = from_effects;
+    const std::vector<std::size_t> zero = zeros(design);
+    grow(design, setting, from_effects, false);
+    from_effects = grown(design, setting, std::move(from_effects));
+    if (zero.empty()) return from_effects;
+    for (const std::size_t k : zero) {
+        from_zeros.members.push_back(k);
+        from_zeros.variances.tau.push_back(1.0);
+    }
+    from_zeros = grown(design, setting, tuned(design, setting, std::move(from_zeros), 3));
+    return from_zeros.score > from_effects.score ? from_zeros : from_effects;
+}
+
+Fit fit_of(Design& design, const Model& model) {
+    const GroupEquations e = design.equations(model.members);
+    const GivenMembers given(e, model.variances);
+    Fit fit{given.mean(), given.half(), {}, e.size};
+    for (std::size_t k = 0; k < model.members.size(); ++k) fit.first.push_back(e.first(k));
+    return fit;
+}
+
+Eigen::MatrixXd contributions(Design& design, const Model& model, const Fit& fit) {
+    Eigen::MatrixXd parts(design.data().size(), static_cast<Eigen::Index>(model.members.size()));
+    for (std::size_t k = 0; k < model.members.size(); ++k)
+        parts.col(static_cast<Eigen::Index>(k)) =
+            design.columns(model.members[k]) * fit.mean.segment(fit.first[k], fit.size[k]);
+    return design.projection().beside(parts);
 }
 
 }  // namespace trunnion

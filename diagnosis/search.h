@@ -1,33 +1,65 @@
-// Which set of effects explains the gap: Gaussian evidence of sets, searched by a beam.
+// Which groups of columns explain the readings: restricted likelihood of models, searched step by
+// step. Functions from a model to a better model; the design only answers questions.
 #pragma once
 
+#include <functional>
 #include <vector>
 
-#include "diagnosis/candidates.h"
+#include "diagnosis/design.h"
 
 namespace trunnion {
 
-/// A set of candidates (indices into Design::candidates, rising) with its evidence against none.
-struct EffectSet {
+/// Members (indices into Design::groups) with their variances.
+struct Model {
     std::vector<std::size_t> members;
-    double log_evidence = 0.0;  ///< log Bayes factor against the empty set, with priors
-    double scale = 1.0;         ///< of the prior that served best
-    double explained = 0.0;     ///< fall of the whitened squared sum
+    Variances variances;
+    double score = 0.0;  ///< log likelihood against no member, plus the members' log priors
 };
 
-struct SearchOptions {
-    std::size_t width = 12;
-    std::size_t largest = 5;
-    double noise_variance = 1.0;  ///< of the whitened data
+struct SearchSetting {
+    NoisePrior noise;
+    double empty = 0.0;  ///< likelihood without members, its own noise fitted
 };
+SearchSetting search_setting(Design& design, const NoisePrior& noise);
+Model empty_model(Design& design, const SearchSetting& setting);
 
-/// Evidence of one set, mean over prior scales 0.3, 1, 3, 10 of the catalogue's typical sizes.
-EffectSet evaluate(const Design& design, std::vector<std::size_t> members,
-                   const SearchOptions& options);
+/// The members' variances and the noise anew, from `start`, in so many sweeps.
+Model tuned(Design& design, const SearchSetting& setting, Model start, int sweeps);
 
-/// All sets met by the beam, best first; the empty set is among them.
-std::vector<EffectSet> search_sets(const Design& design, const SearchOptions& options);
+/// A group that could join a model.
+struct Offer {
+    std::size_t group = 0;
+    GroupGain gain;
+    double value = 0.0;        ///< mean gain plus log prior, nats
+    GroupInformation left;     ///< of the group beside the model
+    double explained() const;  ///< chi-squared that it takes at its best size
+};
+/// All visible groups that the model does not hold in another form, best first; of the kinds that
+/// `takes` (where given) takes.
+std::vector<Offer> offers(Design& design, const Model& model,
+                          const std::function<bool(GroupKind)>& takes = {});
+/// The same member, or the same cause in another form?
+bool same_cause(const ColumnGroup& a, const ColumnGroup& b);
+/// What each member adds beside the others, in their order.
+std::vector<Offer> worth_of_members(Design& design, const Model& model);
+Model without(const Model& model, std::size_t position);
 
-std::vector<Eigen::Index> columns_of(const Design& design, const std::vector<std::size_t>& members);
+/// Members added one by one as long as the score rises.
+Model grown(Design& design, const SearchSetting& setting, Model model);
+/// Weak members taken away, members swapped for better ones, free forms for other lengths with a
+/// named effect beside, until the score rises no more.
+Model settled(Design& design, const SearchSetting& setting, Model model);
+/// Started with and without the zeros of tests; the better one.
+Model searched(Design& design, const SearchSetting& setting);
+
+/// Fitted coefficients of the members beside the set-up: mean and root of the covariance.
+struct Fit {
+    Eigen::VectorXd mean;
+    Eigen::MatrixXd half;  ///< R with R'R the covariance
+    std::vector<Eigen::Index> first, size;
+};
+Fit fit_of(Design& design, const Model& model);
+/// Whitened part of the data that each member stands for, set-up projected out: rows x members.
+Eigen::MatrixXd contributions(Design& design, const Model& model, const Fit& fit);
 
 }  // namespace trunnion

@@ -1,11 +1,12 @@
 #include "diagnosis/shrink_interval.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/statistics.h"
 #include "base/random.h"
+#include "estimation/quantiles.h"
 
 namespace trunnion {
 namespace {
@@ -35,7 +36,45 @@ double stretch_weight(SeededNoise& random) {
     return even * even;
 }
 
-/// Rows of stretches: every pass of the ballbar; the poses of the probe, in order, in parts.
+/// Is there a remainder at all? Evidence for a normal mean of unit information against zero.
+double chance_of_remainder(const std::vector<Missed>& missed) {
+    double sum = 0.0, square = 0.0;
+    for (const Missed& m : missed) {
+        sum += m.square;
+        square += m.square * m.square;
+    }
+    if (sum <= 0.0 || square <= 0.0) return 0.0;
+    const double n = static_cast<double>(missed.size());
+    const double factor = std::exp(0.5 * sum * sum / square * n / (n + 1.0)) / std::sqrt(n + 1.0);
+    return factor / (1.0 + factor);
+}
+
+double remainder_per_row(const std::vector<Missed>& missed, double noise_factor,
+                         SeededNoise& random) {
+    double sum = 0.0, rows = 0.0;
+    for (const Missed& m : missed) {
+        const double weight = stretch_weight(random);
+        sum += weight * (m.square - (noise_factor - 1.0) * m.noise);
+        rows += weight * m.rows;
+    }
+    return rows > 0.0 ? sum / rows : 0.0;
+}
+
+/// Directions of the set-up that the readings leave open by more than a typical size.
+Eigen::MatrixXd open_set_up(const Design& design) {
+    Eigen::MatrixXd information = design.known().transpose() * design.known();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(information);
+    const auto open = (solver.eigenvalues().array() < 1.0).count();  // they rise
+    return solver.eigenvectors().leftCols(open);
+}
+
+Model sparse(Model model) {
+    for (double& tau : model.variances.tau) tau = std::min(tau, sparse_scale);
+    return model;
+}
+
+}  // namespace
+
 std::vector<std::vector<Eigen::Index>> stretches_of(const std::vector<NoiseBlock>& blocks) {
     std::vector<std::vector<Eigen::Index>> stretches;
     std::vector<const NoiseBlock*> poses;
@@ -55,85 +94,60 @@ std::vector<std::vector<Eigen::Index>> stretches_of(const std::vector<NoiseBlock
     return stretches;
 }
 
-}  // namespace
-
-ShrinkDraws::ShrinkDraws(const Design& design, const std::vector<NoiseBlock>& blocks,
-                         const FreshReadings& fresh, const Eigen::VectorXd& noise_mm,
-                         const std::vector<bool>& used, std::vector<PossibleTruth> truths,
-                         double unknown, std::uint64_t seed, double doubt, double independent)
-    : design_(design), truths_(std::move(truths)), independent_(std::max(1.0, independent)) {
+ShrinkDraws::ShrinkDraws(const Design& design, const FreshReadings& fresh,
+                         std::vector<PossibleTruth> truths, DrawSetting setting)
+    : design_(design), truths_(std::move(truths)), setting_(std::move(setting)) {
+    setting_.independent = std::max(1.0, setting_.independent);
     take_places(fresh);
-    const double noise_per_row = noise_mm.squaredNorm() / static_cast<double>(noise_mm.size());
-    const std::vector<Missed> missed_here = missed(blocks, noise_mm, used);
-    const double real = chance_of_remainder(missed_here);
-    std::vector<Posterior> posterior, sparse;
+    draw_all();
+    for (const Eigen::MatrixXd& square : square_)
+        moved_.push_back((square * machines_).cwiseProduct(machines_).colwise().sum().transpose());
+}
+
+void ShrinkDraws::draw_all() {
+    const double real = chance_of_remainder(setting_.missed);
+    std::vector<Solution> wide, narrow;
     for (const PossibleTruth& t : truths_) {
-        posterior.push_back(design.posterior(t.columns, t.scale));
-        sparse.push_back(design.posterior(t.columns, std::min(t.scale, sparse_scale)));
+        wide.push_back(solved(design_, t.model));
+        narrow.push_back(solved(design_, sparse(t.model)));
     }
     // What the set-up leaves open here (cup and pivot shifted together) the next one fits anew.
-    const Eigen::MatrixXd open = design.open_base();
-    SeededNoise random(seed);
+    const Eigen::MatrixXd open = open_set_up(design_);
+    SeededNoise random(setting_.seed);
     const auto count = static_cast<Eigen::Index>(square_.size());
-    machines_.resize(static_cast<Eigen::Index>(places_.size()), draw_count);
+    machines_.resize(places_, draw_count);
     weights_.resize(count, draw_count);
     for (Eigen::Index d = 0; d < draw_count; ++d) {
         const std::size_t k = pick(truths_, random.uniform());
-        const double noise_factor = std::max(0.2, 1.0 + doubt * random.normal());
-        Eigen::VectorXd z(posterior[k].mean.size());
+        const double noise_factor = std::max(0.2, 1.0 + setting_.doubt * random.normal());
+        Eigen::VectorXd z(wide[k].mean.size());
         for (double& v : z) v = std::sqrt(noise_factor) * random.normal();
         Draw draw;
-        const Posterior& around = random.uniform() < sparse_chance ? sparse[k] : posterior[k];
+        const Solution& around = random.uniform() < sparse_chance ? narrow[k] : wide[k];
         Eigen::VectorXd off = around.spread(z);
-        off.head(design.base_count()) -= open * (open.transpose() * off.head(design.base_count()));
-        machines_.col(d) = over_places(truths_[k].columns, posterior[k].mean + off);
+        off.head(around.known) -= open * (open.transpose() * off.head(around.known));
+        machines_.col(d) = over_places(truths_[k].model, wide[k].mean + off);
         double rows = 0.0;
         for (Eigen::Index b = 0; b < count; ++b) {
             weights_(b, d) = stretch_weight(random);
             rows += weights_(b, d) * rows_[static_cast<std::size_t>(b)];
         }
-        const double remainder = rows * remainder_per_row(missed_here, noise_factor, random);
+        const double remainder = rows * remainder_per_row(setting_.missed, noise_factor, random);
         if (random.uniform() < real) draw.remainder = std::max(0.0, remainder);
-        if (random.uniform() < unknown)
+        if (random.uniform() < setting_.unknown)
             draw.false_part = -std::log(random.uniform()) * random.uniform();
-        draw.noise = rows * noise_per_row;
+        draw.noise = rows * setting_.noise_per_row;
         draw.off = random.normal();
         draw.along_before = random.normal();
         draw.along_after = random.normal();
         draws_.push_back(draw);
     }
-    for (const Eigen::MatrixXd& square : square_)
-        moved_.push_back((square * machines_).cwiseProduct(machines_).colwise().sum().transpose());
-}
-
-/// Is there a remainder at all? Evidence for a normal mean of unit information against zero.
-double ShrinkDraws::chance_of_remainder(const std::vector<Missed>& missed) {
-    double sum = 0.0, square = 0.0;
-    for (const Missed& m : missed) {
-        sum += m.square;
-        square += m.square * m.square;
-    }
-    if (sum <= 0.0 || square <= 0.0) return 0.0;
-    const double n = static_cast<double>(missed.size());
-    const double factor = std::exp(0.5 * sum * sum / square * n / (n + 1.0)) / std::sqrt(n + 1.0);
-    return factor / (1.0 + factor);
-}
-
-double ShrinkDraws::remainder_per_row(const std::vector<Missed>& missed, double noise_factor,
-                                      SeededNoise& random) {
-    double sum = 0.0, rows = 0.0;
-    for (const Missed& m : missed) {
-        const double weight = stretch_weight(random);
-        sum += weight * (m.square - (noise_factor - 1.0) * m.noise);
-        rows += weight * m.rows;
-    }
-    return rows > 0.0 ? sum / rows : 0.0;
 }
 
 /// A mean square as noisy readings show it once the expected noise is taken off.
 double ShrinkDraws::as_read(double square, const Draw& draw, double along) const {
-    return std::max(0.0, square + draw.noise * std::sqrt(2.0 / independent_) * draw.off +
-                             2.0 * std::sqrt(square * draw.noise / independent_) * along);
+    return std::max(0.0, square + draw.noise * std::sqrt(2.0 / setting_.independent) * draw.off +
+                             2.0 * std::sqrt(square * draw.noise / setting_.independent) * along);
 }
 
 /// Squares of what a prediction x misses of each drawn machine, weighted over the stretches:
@@ -152,14 +166,15 @@ std::vector<double> ShrinkDraws::squares_off(const Eigen::VectorXd& x) const {
 
 /// The columns of all truths once, and their squares over each stretch of fresh readings.
 void ShrinkDraws::take_places(const FreshReadings& fresh) {
-    for (Eigen::Index k = 0; k < design_.base_count(); ++k) places_.push_back(k);
-    std::vector<Eigen::Index> effects;
+    places_ = fresh.base().cols();
     for (const PossibleTruth& t : truths_)
-        effects.insert(effects.end(), t.columns.begin(), t.columns.end());
-    std::sort(effects.begin(), effects.end());
-    effects.erase(std::unique(effects.begin(), effects.end()), effects.end());
-    for (const Eigen::Index k : effects) places_.push_back(design_.base_count() + k);
-    const Eigen::MatrixXd all = fresh.columns(design_, places_);
+        for (const std::size_t m : t.model.members)
+            if (is_cause(design_.group(m).kind) && place_.try_emplace(m, places_).second)
+                places_ += design_.group(m).columns();
+    Eigen::MatrixXd all(fresh.base().rows(), places_);
+    all.leftCols(fresh.base().cols()) = fresh.base();
+    for (const auto& [group, at] : place_)
+        all.middleCols(at, design_.group(group).columns()) = fresh.columns(design_.group(group));
     for (const auto& rows : stretches_of(fresh.blocks())) {
         const Eigen::MatrixXd a = all(rows, Eigen::all);
         square_.push_back(a.transpose() * a);
@@ -167,46 +182,26 @@ void ShrinkDraws::take_places(const FreshReadings& fresh) {
     }
 }
 
-Eigen::VectorXd ShrinkDraws::over_places(const std::vector<Eigen::Index>& columns,
-                                         const Eigen::VectorXd& x) const {
-    const Eigen::Index base = design_.base_count();
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(places_.size()));
-    all.head(base) = x.head(base);
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-        const auto at = std::lower_bound(places_.begin() + base, places_.end(), base + columns[k]);
-        all(at - places_.begin()) = x(base + static_cast<Eigen::Index>(k));
+Eigen::VectorXd ShrinkDraws::over_places(const Model& model, const Eigen::VectorXd& x) const {
+    const Eigen::Index known = design_.known().cols();
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(places_);
+    all.head(known) = x.head(known);
+    Eigen::Index at = known;
+    for (const std::size_t m : model.members) {
+        const Eigen::Index count = design_.group(m).columns();
+        if (const auto it = place_.find(m); it != place_.end())
+            all.segment(it->second, count) = x.segment(at, count);
+        at += count;
     }
     return all;
 }
 
-/// By stretch: what predictions without it miss, squared, beyond noise and the fit's own error.
-std::vector<ShrinkDraws::Missed> ShrinkDraws::missed(const std::vector<NoiseBlock>& blocks,
-                                                     const Eigen::VectorXd& noise_mm,
-                                                     const std::vector<bool>& used) const {
-    std::vector<Missed> list;
-    for (const auto& rows : stretches_of(blocks)) {
-        Eigen::VectorXd fit_variance;
-        const Eigen::VectorXd left = design_.residual_without(rows, truths_.front().columns,
-                                                              truths_.front().scale, &fit_variance);
-        Missed missed;
-        for (std::size_t k = 0; k < rows.size(); ++k) {
-            if (!used[static_cast<std::size_t>(rows[k])]) continue;
-            const auto at = static_cast<Eigen::Index>(k);
-            const double own = noise_mm(rows[k]) * noise_mm(rows[k]);
-            missed.square += left(at) * left(at) - own - fit_variance(at);
-            missed.noise += own;
-            missed.rows += 1.0;
-        }
-        list.push_back(missed);
-    }
-    return list;
-}
-
-std::pair<double, double> ShrinkDraws::interval(const std::vector<Eigen::Index>& columns,
-                                                double scale) const {
-    const Eigen::VectorXd with = over_places(columns, design_.solve(columns, scale));
-    const Eigen::VectorXd without = over_places({}, design_.solve({}, scale));
-    const std::vector<double> off_with = squares_off(with), off_without = squares_off(without);
+std::pair<double, double> ShrinkDraws::interval(const Model& model) const {
+    const Model nothing{{}, {{}, model.variances.nu}, 0.0};
+    const std::vector<double> off_with =
+        squares_off(over_places(model, solved(design_, model).mean));
+    const std::vector<double> off_without =
+        squares_off(over_places(nothing, solved(design_, nothing).mean));
     std::vector<double> shrink;
     for (std::size_t d = 0; d < draws_.size(); ++d) {
         const double before = draws_[d].remainder + off_without[d];

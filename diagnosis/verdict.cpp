@@ -1,211 +1,180 @@
-// From the chosen set to the verdict: size, where, claims, the setup with the effects added.
+#include "diagnosis/verdict.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/diagnoser.h"
 #include "diagnosis/rules.h"
-#include "diagnosis/statistics.h"
+#include "estimation/distributions.h"
+#include "estimation/ranked_least_squares.h"
 
 namespace trunnion {
 namespace {
 
-/// Log evidence of an unknown cause that follows a driver, against noise alone: Laplace, with the
-/// prior size that suits the data best, and the prior of an effect.
-double evidence_of(const DriverTest& t) {
-    const double q = t.columns;
-    const double size = std::max(1.0, t.gain / q);  // prior variance over the estimate's, plus 1
-    return 0.5 * t.gain * (1.0 - 1.0 / size) - 0.5 * q * std::log(size) + rules::effect_prior;
+constexpr std::size_t most_places = 6;  ///< listed in "where"
+
+GroupKind kind_of(const Design& design, const Model& model, std::size_t position) {
+    return design.group(model.members[position]).kind;
 }
 
-/// Of an interval of the shrink: draws go along derivatives, but readings bend, and what is
-/// compared is another fit of the base.
-constexpr double least_half_width = 0.01;
-
-}  // namespace
-
-/// Held-out readings come closer with the chosen set: effects that explain only the readings they
-/// were fitted to (a spike on one of them) explain nothing.
-bool Diagnoser::holds_elsewhere() const {
-    const HeldOut out =
-        cross_validate(*design_, base_, folds_, set_.members, set_.scale, noise_mm(), used_);
-    return out.shrink > rules::least_heldout;
-}
-
-void Diagnoser::judge() {
-    Remainder r = remainder();
-    if (!set_.members.empty() && r.unexplained < rules::admit_share * r.gap && !holds_elsewhere()) {
-        set_ = EffectSet{};
-        r = remainder();
-    }
-    describe_size(r);
-    if (set_.members.empty() && r.unexplained == 0.0) {
-        result_.verdict = Verdict::no_gap;
-        write_setup();
-        return;
-    }
-    describe_where();
-    result_.unexplained_share = std::clamp(r.unexplained / r.gap, 0.0, 1.0);
-    if (!set_.members.empty()) claim(r.gap);
-    double explained = std::clamp(1.0 - r.unexplained / r.gap, 0.0, 1.0);
-    if (coincidence()) explained = std::min(explained, result_.causes.front().share);
-    if (unknown_belief_ > rules::unknown_belief) explained = std::min(explained, 0.49);
-    result_.unexplained_share = 1.0 - explained;
-    const bool rivalled = std::any_of(result_.causes.begin(), result_.causes.end(),
-                                      [](const Cause& c) { return !c.rivals.empty(); });
-    result_.verdict = explained >= 0.8   ? (rivalled ? Verdict::ambiguous : Verdict::explained)
-                      : explained >= 0.5 ? Verdict::partly_explained
-                                         : Verdict::unexplained;
-    if (result_.unexplained_share > rules::admit_share || r.plain)
-        add_unknown(result_.unexplained_share, r.drivers);
-    if (set_.members.empty()) {
-        result_.after = cross_validate(*design_, base_, folds_, {}, 1.0, noise_mm(), used_);
-        result_.after.low -= least_half_width;
-        result_.after.high += least_half_width;
-    }
-    write_setup();
-    if (options_.holdout) test_holdout();
-    if (options_.plan_next) ask_next();
-}
-
-void Diagnoser::describe_size(const Remainder& r) {
-    result_.readings = replay_.size();
-    result_.outliers = static_cast<std::size_t>(std::count(used_.begin(), used_.end(), false));
-    result_.noise = noise_;
-    result_.rms_um = rms_um(base_.residual_mm);
-    result_.noise_um = rms_um(noise_mm());
-    result_.excess_um = std::sqrt(
-        std::max(0.0, result_.rms_um * result_.rms_um - result_.noise_um * result_.noise_um));
-    const Eigen::VectorXd left_mm = left_after(set_);
-    result_.after_rms_um = rms_um(left_mm);
-    for (Eigen::Index i = 0; i < left_mm.size(); ++i) {
-        result_.before_um.push_back(1e3 * base_.residual_mm(i));
-        result_.after_um.push_back(1e3 * left_mm(i));
-    }
-    result_.inseparable = base_.inseparable;
-    for (const Candidate& c : design_->candidates())
-        if (c.visible && c.effect->name.starts_with("pivot."))
-            for (Inseparable& group : unseen_of(c)) result_.inseparable.push_back(std::move(group));
-    for (const Candidate& c : design_->candidates())
-        if (!c.visible && std::find(result_.unseen.begin(), result_.unseen.end(), c.effect->name) ==
-                              result_.unseen.end())
-            result_.unseen.push_back(c.effect->name);
-    const auto width = static_cast<double>(columns_of(*design_, set_.members).size());
-    result_.p_value =
-        set_.members.empty()
-            ? (r.drivers.empty() ? 1.0 : r.drivers.front().p_value)
-            : std::min(1.0, rules::effects_tried * chi_squared_tail(set_.explained, width));
-}
-
-void Diagnoser::describe_where() {
-    const auto tests = test_drivers(replay_, table_, base_, known_columns({}), base_.residual_mm,
-                                    base_.sigma_mm, used_, *whitener_);
-    const double gap = std::max(1e-9, left_square({}) - floor_square());
-    for (const DriverTest& t : tests)
-        unknown_evidence_ = std::max(unknown_evidence_, evidence_of(t));
-    for (const DriverTest& t : tests) {
-        const double share = std::min(1.0, t.explained / gap);
-        if (t.p_value > rules::driver_p || share < rules::driver_share) continue;
-        if (result_.where.size() == 6) break;
-        DriverShare driver{t.by, t.component, "", share, t.p_value};
-        driver.text =
-            fmt::format("{:.0f} % of the gap {} ({})", 100.0 * share, t.text, t.component);
-        result_.where.push_back(std::move(driver));
-    }
-}
-
-std::vector<FitParameter> Diagnoser::parameters_of(const EffectSet& set, std::size_t member) const {
-    const auto columns = columns_of(*design_, set.members);
-    const Eigen::VectorXd x = design_->solve(columns, set.scale);
-    const Eigen::MatrixXd covariance = design_->covariance(columns, set.scale);
-    Eigen::Index at = design_->base_count();
-    for (const std::size_t m : set.members) {
-        if (m == member) break;
-        at += design_->candidates()[m].size();
-    }
-    const Candidate& candidate = design_->candidates()[member];
-    std::vector<FitParameter> list;
-    std::size_t column = 0;
-    for (std::size_t j = 0; j < candidate.effect->parameters.size(); ++j) {
-        const EffectParameter& p = candidate.effect->parameters[j];
-        FitParameter fit{candidate.effect->name, p.name, p.unit, p.component, p.typical, 0.0,
-                         std::nan(""),           0.0,    0.0};
-        if (p.is_key()) {
-            fit.value = candidate.values[j];
-        } else if (column < candidate.parameters.size() && candidate.parameters[column] == j) {
-            const Eigen::Index k = at + static_cast<Eigen::Index>(column++);
-            fit.value = x(k) * p.typical;
-            const double sigma = std::sqrt(covariance(k, k));
-            if (sigma < 0.7 * set.scale) fit.sigma = sigma * p.typical;
-        }
-        list.push_back(fit);
-    }
+std::vector<bool> marked(const Design& design, const Model& model,
+                         const std::function<bool(GroupKind, std::size_t)>& takes) {
+    std::vector<bool> list;
+    for (std::size_t k = 0; k < model.members.size(); ++k)
+        list.push_back(takes(kind_of(design, model, k), k));
     return list;
 }
 
-void Diagnoser::claim(double gap) {
-    const std::vector<double> share = shares_of(set_.members);
-    const std::vector<EffectSet> possible = possible_sets();
-    const auto belief = belief_of(possible);
-    unknown_belief_ = belief.at("unknown");
-    const ShrinkDraws draws = shrink_draws(possible);
-    for (std::size_t k = 0; k < set_.members.size(); ++k) {
-        const std::size_t m = set_.members[k];
-        const Effect& effect = *design_->candidates()[m].effect;
-        Cause cause;
-        cause.effect = effect.name;
-        cause.share = std::clamp(share[k] / gap, 0.0, 1.0);
-        cause.probability = belief.at(effect.name);
-        cause.rivals = rivals_of(m);
-        cause.parameters = parameters_of(set_, m);
-        cause.unseen = unseen_of(design_->candidates()[m]);
-        cause.heldout = held_out({m}, draws);
-        cause.what = effect.what;
-        cause.usual_cause = effect.cause;
-        cause.remedy = effect.remedy;
-        result_.causes.push_back(std::move(cause));
+std::vector<bool> large_zeros(Design& design, const Model& model) {
+    const Eigen::MatrixXd parts = contributions(design, model, fit_of(design, model));
+    return marked(design, model, [&](GroupKind kind, std::size_t k) {
+        const double square = parts.col(static_cast<Eigen::Index>(k)).squaredNorm();
+        return kind == GroupKind::offset &&
+               square > rules::large_zero * rules::large_zero * design.rows();
+    });
+}
+
+/// Does a table predict at places of its axis that were left out?
+bool holds_between(const Design& design, const Prepared& prepared, const Model& model,
+                   std::size_t position, const std::vector<bool>& used) {
+    const ColumnGroup& group = design.group(model.members[position]);
+    const LeftOut left(design, model, place_folds(prepared.replay, group.table), used);
+    std::vector<bool> all(model.members.size(), true), rest = all;
+    rest[position] = false;
+    const double with = left.loss(all, all).mean(), without = left.loss(rest, rest).mean();
+    const double noise = model.variances.nu * model.variances.nu;
+    return without - with > rules::between_least * std::max(1e-12, without - noise);
+}
+
+double share_of_tables(const Sizes& sizes, const std::vector<bool>& those) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < those.size(); ++k)
+        if (those[k]) sum += sizes.along[k] / std::max(1e-12, sizes.whole);
+    return sum;
+}
+
+/// Is there more than noise? Without a driver the evidence must be confirmed by readings left out.
+bool is_gap(const Design& design, const Model& model, const Judgement& j, const Sizes& sizes,
+            const Saving& saving) {
+    if (std::any_of(j.large.begin(), j.large.end(), [](bool b) { return b; })) return true;
+    double driver = 0.0;
+    for (std::size_t k = 0; k < model.members.size(); ++k)
+        if (kind_of(design, model, k) == GroupKind::driver) driver += sizes.square[k];
+    if (driver > rules::least_driver * j.floor * design.rows() &&
+        model.score >= rules::least_evidence)
+        return true;
+    if (model.score < rules::least_evidence) return false;
+    if (saving.t < rules::least_t && model.score < rules::plain_evidence) return false;
+    return j.before - j.after >= rules::least_saving * j.floor;
+}
+
+}  // namespace
+
+Judgement judged(Design& design, const Prepared& prepared, const Model& model,
+                 const NoiseBelief& noise, const std::vector<bool>& used) {
+    Judgement j;
+    const double nu2 = model.variances.nu * model.variances.nu;
+    j.floor = noise.model.source == NoiseSource::repeats ? 1.0 : std::min(nu2, noise.most);
+    j.large = large_zeros(design, model);
+    const LeftOut left(design, model, prepared.folds, used);
+    const std::vector<bool> all(model.members.size(), true);
+    const auto zeros = marked(design, model, [&](GroupKind kind, std::size_t k) {
+        return kind == GroupKind::offset && !j.large[k];
+    });
+    const auto predicting = marked(
+        design, model, [&](GroupKind kind, std::size_t k) { return is_cause(kind) || zeros[k]; });
+    const BlockLoss before = left.loss(zeros, zeros), after = left.loss(all, predicting);
+    j.left = left.residual(all, predicting);
+    j.left_before = left.residual(zeros, zeros);
+    j.before = before.mean();
+    j.after = after.mean();
+    const double rank = static_cast<double>(design.projection().rank());
+    const double excess = j.before - j.floor * (1.0 + rank / std::max(1.0, design.rows()));
+    j.part = excess > 0.0 ? (j.before - j.after) / excess : 0.0;
+    for (std::size_t k = 0; k < model.members.size(); ++k) {
+        std::vector<bool> rest = all, rest_predicting = predicting;
+        rest[k] = rest_predicting[k] = false;
+        j.support.push_back({saving_of(left.loss(rest, rest_predicting), after)});
+        j.interpolates.push_back(kind_of(design, model, k) != GroupKind::table ||
+                                 holds_between(design, prepared, model, k, used));
     }
-    std::stable_sort(result_.causes.begin(), result_.causes.end(),
-                     [](const Cause& a, const Cause& b) { return a.share > b.share; });
-    result_.after = held_out(set_.members, draws);
+    const Sizes sizes = sizes_of(design, model, j.floor, j.large);
+    auto local = j.interpolates;
+    local.flip();
+    j.between_places = share_of_tables(sizes, local) <= rules::between_part;
+    j.gap = is_gap(design, model, j, sizes, saving_of(before, after)) || nu2 > noise.most;
+    return j;
 }
 
-/// How far the gap shrinks with some of the chosen effects: by folds, with the interval drawn.
-HeldOut Diagnoser::held_out(const std::vector<std::size_t>& members,
-                            const ShrinkDraws& draws) const {
-    HeldOut result =
-        cross_validate(*design_, base_, folds_, members, set_.scale, noise_mm(), used_);
-    const auto [low, high] = draws.interval(columns_of(*design_, members), set_.scale);
-    result.low = std::min(low, result.shrink) - least_half_width;
-    result.high = std::min(1.0, std::max(high, result.shrink) + least_half_width);
-    return result;
+Verdict verdict_of(const Judgement& j, const std::vector<Claim>& claims) {
+    if (!j.gap) return Verdict::no_gap;
+    const bool rivalled =
+        std::any_of(claims.begin(), claims.end(), [](const Claim& c) { return !c.rivals.empty(); });
+    if (j.part < rules::partly) return Verdict::unexplained;
+    if (j.part < rules::explained) return Verdict::partly_explained;
+    return rivalled ? Verdict::ambiguous : Verdict::explained;
 }
 
-void Diagnoser::add_unknown(double share, const std::vector<DriverTest>& left) {
-    Cause cause;
-    cause.effect = "unknown";
-    cause.share = share;
-    cause.probability = 1.0;
-    cause.what = "A gap with structure that no effect of the catalogue explains";
-    if (!left.empty()) cause.what += ": it " + left.front().text;
-    cause.heldout = cross_validate(*design_, base_, folds_, {}, 1.0, noise_mm(), used_);
-    const auto at = std::find_if(result_.causes.begin(), result_.causes.end(),
-                                 [&](const Cause& c) { return c.share < share; });
-    result_.causes.insert(at, std::move(cause));
-}
-
-void Diagnoser::write_setup() {
-    const auto columns = columns_of(*design_, set_.members);
-    const Eigen::VectorXd x = design_->solve(columns, set_.scale);
-    result_.setup = base_.setup;
-    shift_base(result_.setup, base_, catalogue_, x.head(design_->base_count()));
-    for (const std::size_t m : set_.members) {
-        const Candidate& candidate = design_->candidates()[m];
-        std::vector<double> values;
-        for (const FitParameter& p : parameters_of(set_, m)) values.push_back(p.value);
-        add_effect(result_.setup, *candidate.effect, values);
+Model without_idle_members(Design& design, const SearchSetting& setting, const Prepared& prepared,
+                           Model model, const std::vector<bool>& used) {
+    constexpr double least_t = 1.0;
+    for (bool again = true; again && !model.members.empty();) {
+        again = false;
+        const LeftOut left(design, model, prepared.folds, used);
+        const std::vector<bool> all(model.members.size(), true);
+        const auto predicting = marked(
+            design, model, [](GroupKind kind, std::size_t) { return kind != GroupKind::driver; });
+        const BlockLoss with = left.loss(all, predicting);
+        double weakest = least_t;
+        std::size_t position = 0;
+        for (std::size_t k = 0; k < model.members.size(); ++k) {
+            if (!is_cause(kind_of(design, model, k))) continue;
+            std::vector<bool> rest = all;
+            rest[k] = false;
+            std::vector<bool> rest_predicting = predicting;
+            rest_predicting[k] = false;
+            const double t = saving_of(left.loss(rest, rest_predicting), with).t;
+            if (t >= weakest) continue;
+            weakest = t;
+            position = k;
+            again = true;
+        }
+        if (again) model = tuned(design, setting, without(model, position), 2);
     }
+    return model;
+}
+
+std::vector<DriverShare> where_of(const Design& design, double floor) {
+    std::vector<DriverShare> where;
+    const Eigen::VectorXd y = design.projection().beside(design.data());
+    const double whole = y.squaredNorm(), freedom = design.freedom();
+    double tried = 0.0;
+    for (const auto& entry : design.groups()) tried += is_cause(entry.group.kind) ? 0.0 : 1.0;
+    for (const auto& entry : design.groups()) {
+        const ColumnGroup& group = entry.group;
+        if (is_cause(group.kind)) continue;
+        const auto own = static_cast<std::ptrdiff_t>(group.columns());
+        const GroupInformation all = design.of({group.features.end() - own, group.features.end()});
+        const LinearFit fit = solve_ranked(all.information, all.product);
+        const double q =
+            static_cast<double>(own - static_cast<std::ptrdiff_t>(fit.null_space.size()));
+        const double explained = all.product.dot(fit.value);
+        if (q < 1.0 || freedom - q < 5.0) continue;
+        const double rest = std::max(1e-12, whole - explained) / (freedom - q);
+        DriverShare d{group.name, group.component, "", 0.0, 1.0};
+        d.p_value = std::min(1.0, tried * f_tail(explained / q / rest, q, freedom - q));
+        d.share =
+            std::clamp((explained - q * rest) / std::max(1e-9, whole - freedom * floor), 0.0, 1.0);
+        if (d.p_value > rules::driver_p || d.share < rules::driver_share) continue;
+        d.text =
+            fmt::format("{:.0f} % of the gap {} ({})", 100.0 * d.share, group.text, d.component);
+        where.push_back(std::move(d));
+    }
+    std::stable_sort(where.begin(), where.end(),
+                     [](const DriverShare& a, const DriverShare& b) { return a.share > b.share; });
+    if (where.size() > most_places) where.resize(most_places);
+    return where;
 }
 
 }  // namespace trunnion

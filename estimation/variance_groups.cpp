@@ -65,45 +65,49 @@ Eigen::MatrixXd scaled_gram(const GroupEquations& equations, const Eigen::Vector
     return m;
 }
 
-std::vector<Eigen::Index> all_but(const GroupEquations& equations, std::size_t group) {
-    std::vector<Eigen::Index> columns;
-    const Eigen::Index from = equations.first(group), to = from + equations.size[group];
-    for (Eigen::Index k = 0; k < equations.product.size(); ++k)
-        if (k < from || k >= to) columns.push_back(k);
-    return columns;
+constexpr double least_size = 1e-3;  ///< below it a group is as good as absent
+
+/// Standard deviation of a remainder `square` with `freedom`, beside what is known beforehand:
+/// Newton's method for its logarithm.
+double best_noise(double square, double freedom, const NoisePrior& prior) {
+    const double weight = 1.0 / (prior.spread * prior.spread);
+    double log_nu = 0.5 * std::log(std::max(1e-12, square) / std::max(1.0, freedom));
+    for (int k = 0; k < 50; ++k) {
+        const double ratio = square * std::exp(-2.0 * log_nu);
+        const double slope = ratio - freedom - weight * (log_nu - prior.log_mean);
+        const double step = slope / (2.0 * ratio + weight);
+        log_nu += std::clamp(step, -0.5, 0.5);
+        if (std::abs(step) < 1e-9) break;
+    }
+    return std::exp(log_nu);
 }
 
-/// The size of one group that serves best beside all others.
-double best_size(const GroupEquations& equations, const Variances& variances, std::size_t group) {
-    const std::vector<Eigen::Index> others = all_but(equations, group);
-    GroupEquations rest{equations.gram(others, others), equations.product(others), equations.square,
-                        equations.rows, equations.size};
-    rest.size.erase(rest.size.begin() + static_cast<long>(group));
-    Variances given = variances;
-    given.tau.erase(given.tau.begin() + static_cast<long>(group));
-    const Eigen::Index from = equations.first(group), count = equations.size[group];
-    const auto own = Eigen::seqN(from, count);
-    return group_gain(GivenMembers(rest, given)
-                          .leave(equations.gram(others, own), equations.gram(own, own),
-                                 equations.product(own)))
-        .tau;
+/// The noise that the remainder asks for, all variances of groups as they are.
+double remaining_noise(const GroupEquations& equations, const Variances& variances,
+                       const NoisePrior& prior) {
+    if (equations.product.size() == 0) return best_noise(equations.square, equations.rows, prior);
+    const GivenMembers given(equations, variances);
+    const Eigen::VectorXd tau = by_column(equations, variances), mean = given.mean();
+    const Eigen::MatrixXd half = given.half() * tau.cwiseInverse().asDiagonal();
+    const double used = static_cast<double>(tau.size()) - half.squaredNorm();
+    const double left =
+        equations.square - 2.0 * mean.dot(equations.product) + mean.dot(equations.gram * mean);
+    return best_noise(std::max(0.0, left), equations.rows - used, prior);
 }
 
-/// A wide bracket first: the noise may be far from what was stated.
-double best_noise(const GroupEquations& equations, Variances variances, const NoisePrior& prior) {
-    const auto value = [&](double log_nu) {
-        variances.nu = std::exp(log_nu);
-        return restricted_likelihood(equations, variances, prior);
-    };
-    double at = std::log(variances.nu), most = value(at);
-    for (const double step : {0.8, 0.2, 0.05, 0.015})
-        for (const double sign : {-1.0, 1.0})
-            for (double next = value(at + sign * step); next > most;
-                 next = value(at + sign * step)) {
-                most = next;
-                at += sign * step;
-            }
-    return std::exp(at);
+Variances one_sweep(const GroupEquations& equations, Variances variances, const NoisePrior& prior) {
+    for (double& tau : variances.tau) tau = std::max(tau, least_size);
+    const std::vector<GroupInformation> groups = each_beside_others(equations, variances);
+    for (std::size_t g = 0; g < groups.size(); ++g) variances.tau[g] = group_gain(groups[g]).tau;
+    variances.nu = remaining_noise(equations, variances, prior);
+    return variances;
+}
+
+Variances between(const Variances& a, Variances b) {
+    for (std::size_t g = 0; g < a.tau.size(); ++g)
+        b.tau[g] = std::sqrt(std::max(a.tau[g], least_size) * b.tau[g]);
+    b.nu = std::sqrt(a.nu * b.nu);
+    return b;
 }
 
 }  // namespace
@@ -180,14 +184,40 @@ GroupGain group_gain(const GroupInformation& group) {
     return result;
 }
 
+std::vector<GroupInformation> each_beside_others(const GroupEquations& equations,
+                                                 const Variances& variances) {
+    std::vector<GroupInformation> list;
+    if (equations.groups() == 0) return list;
+    Variances given = variances;
+    for (double& tau : given.tau) tau = std::max(tau, least_size);
+    const GivenMembers all(equations, given);
+    const Eigen::MatrixXd half = all.half();
+    const Eigen::VectorXd mean = all.mean();
+    for (std::size_t g = 0; g < equations.groups(); ++g) {
+        const Eigen::Index first = equations.first(g), count = equations.size[g];
+        const auto own = half.middleCols(first, count);
+        const Eigen::LLT<Eigen::MatrixXd> covariance(own.transpose() * own);
+        GroupInformation alone;
+        alone.information = covariance.solve(Eigen::MatrixXd::Identity(count, count));
+        alone.product = covariance.solve(mean.segment(first, count));
+        alone.information.diagonal().array() -= 1.0 / (given.tau[g] * given.tau[g]);
+        list.push_back(std::move(alone));
+    }
+    return list;
+}
+
 Variances maximise_likelihood(const GroupEquations& equations, Variances start,
                               const NoisePrior& prior, int sweeps) {
     double before = restricted_likelihood(equations, start, prior);
     for (int k = 0; k < sweeps; ++k) {
-        for (std::size_t g = 0; g < equations.groups(); ++g)
-            start.tau[g] = best_size(equations, start, g);
-        start.nu = best_noise(equations, start, prior);
-        const double now = restricted_likelihood(equations, start, prior);
+        Variances next = one_sweep(equations, start, prior);
+        double now = restricted_likelihood(equations, next, prior);
+        for (int halved = 0; now < before && halved < 4; ++halved) {
+            next = between(start, std::move(next));
+            now = restricted_likelihood(equations, next, prior);
+        }
+        if (now < before) break;
+        start = std::move(next);
         if (now - before < 0.01) break;
         before = now;
     }

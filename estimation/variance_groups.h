@@ -81,8 +81,15 @@ struct GroupGain {
 double gain_at(const GroupInformation& group, double tau);
 GroupGain group_gain(const GroupInformation& group);
 
-/// Variances that maximise the restricted likelihood, from `start`: sweeps of one group after the
-/// other, then of the noise, until the gain of a sweep is below 0.01 or `sweeps` are done.
+/// Each group beside all the others at their variances, from one factorisation: with P the block
+/// of the covariance that belongs to group g, its information alone is P^-1 - I / tau_g^2.
+std::vector<GroupInformation> each_beside_others(const GroupEquations& equations,
+                                                 const Variances& variances);
+
+/// Variances that maximise the restricted likelihood, from `start`: in each sweep every group gets
+/// the size that serves best beside the others as they were, then the noise the size that the
+/// remainder asks for; a sweep that lowers the likelihood is halved (in logarithms). Ends when a
+/// sweep gains less than 0.01 or `sweeps` are done.
 Variances maximise_likelihood(const GroupEquations& equations, Variances start,
                               const NoisePrior& prior, int sweeps);
 

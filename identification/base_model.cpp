@@ -151,24 +151,39 @@ std::string to_string(const Inseparable& group) {
     return text;
 }
 
+namespace {
+
+/// One sigma of a reading where neither row nor setup says one: um, urad for angles.
+double usual_noise(Device device) {
+    switch (device) {
+        case Device::ballbar:
+        case Device::linear:
+        case Device::axis:
+            return 0.5;
+        case Device::point:
+            return 5.0;
+        default:
+            return 1.0;
+    }
+}
+
+}  // namespace
+
 RowNoise row_noise(const Setup& setup, const ReadingTable& table, const Replay& replay) {
-    static const std::map<Device, std::pair<const char*, double>> usual_um{
-        {Device::sphere, {"sphere", 1.0}},
-        {Device::touch, {"touch", 1.0}},
-        {Device::ballbar, {"ballbar", 0.5}},
-        {Device::point, {"point", 10.0}}};
     RowNoise noise;
     noise.sigma_mm.resize(static_cast<Eigen::Index>(replay.size()));
     for (std::size_t i = 0; i < replay.size(); ++i) {
         const Reading& row = table.rows[replay.table_row(i)];
-        const auto& [name, otherwise_um] = usual_um.at(row.device);
-        const auto it = setup.model.noise_um.find(name);
-        double sigma_mm = 1e-3 * (it == setup.model.noise_um.end() ? otherwise_um : it->second);
+        const bool angular = row.device == Device::angle;
+        const auto& known = angular ? setup.model.noise_urad : setup.model.noise_um;
+        const auto it = known.find(std::string(name_of(row.device)));
+        double sigma = (angular ? 1e-6 : 1e-3) *
+                       (it == known.end() ? usual_noise(row.device) : it->second);
         if (row.sigma_mm && *row.sigma_mm > 0.0)
-            sigma_mm = *row.sigma_mm;
-        else if (it == setup.model.noise_um.end())
+            sigma = *row.sigma_mm;
+        else if (it == known.end())
             noise.given = false;
-        noise.sigma_mm(static_cast<Eigen::Index>(i)) = std::max(sigma_mm, 1e-6);
+        noise.sigma_mm(static_cast<Eigen::Index>(i)) = std::max(sigma, angular ? 1e-9 : 1e-6);
     }
     return noise;
 }

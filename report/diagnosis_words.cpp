@@ -119,6 +119,7 @@ std::string answer(const Diagnosis& d) {
         "Machine and simulation differ by {:.2f} µm rms; noise alone would make {:.2f} µm. ",
         d.rms_um, d.noise_um);
     const std::string causes = causes_words(d);
+    const std::string part = fmt::format("{:.0f} %", 100.0 * d.explained);
     switch (d.verdict) {
         case Verdict::explained:
             return size + "The cause is " + causes + ". " + shrink_words(d.after);
@@ -127,15 +128,14 @@ std::string answer(const Diagnosis& d) {
                    ", or another effect that these readings cannot tell from it: see below. " +
                    shrink_words(d.after);
         case Verdict::partly_explained:
-            return size + "Part of it is " + causes +
-                   fmt::format("; {:.0f} % has a structure that no known effect explains. ",
-                               100.0 * d.unexplained_share) +
-                   shrink_words(d.after);
+            return size + part + " of it is explained: " + causes +
+                   ". The rest has a structure that no known effect explains. ";
         default:
             return size + fmt::format(
-                              "{:.0f} % of the gap has a structure that no known effect explains{}",
-                              100.0 * d.unexplained_share,
-                              causes.empty() ? "." : "; the rest looks like " + causes + ".");
+                              "Known effects explain only {} of it on readings that took no part "
+                              "in the fit{}",
+                              part,
+                              causes.empty() ? "." : "; part of it looks like " + causes + ".");
     }
 }
 

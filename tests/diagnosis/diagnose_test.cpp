@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/statistics.h"
 #include "base/alarm.h"
 #include "base/random.h"
 #include "tests/support/campaign.h"
@@ -25,14 +24,6 @@ struct Bench {
 };
 
 }  // namespace
-
-TEST_CASE("Shapley shares add up and do not depend on the order", "[diagnosis]") {
-    // worth by mask: two players that overlap, one that adds nothing.
-    const std::vector<double> share = shapley({0, 4, 4, 5, 0, 4, 4, 5}, 3);
-    REQUIRE(share[0] == Approx(2.5));
-    REQUIRE(share[1] == Approx(2.5));
-    REQUIRE(share[2] == Approx(0.0).margin(1e-12));
-}
 
 TEST_CASE("nothing is claimed on noise alone", "[diagnosis]") {
     const Bench bench;

@@ -83,6 +83,39 @@ TEST_CASE("the gain of a group is the likelihood with it less that without", "[e
         CHECK(gain.best >= gain_at(left, tau) - 1e-6);
 }
 
+TEST_CASE("one factorisation says what each group is beside the others", "[estimation]") {
+    const Bench bench;
+    const GroupEquations all = bench.equations();
+    const Variances v{{0.7, 1.3, 0.2}, 0.9};
+    const auto each = each_beside_others(all, v);
+    GroupEquations two{
+        all.gram.topLeftCorner(3, 3), all.product.head(3), all.square, all.rows, {2, 1}};
+    const GroupInformation last = GivenMembers(two, {{0.7, 1.3}, 0.9})
+                                      .leave(all.gram.topRightCorner(3, 5),
+                                             all.gram.bottomRightCorner(5, 5), all.product.tail(5));
+    CHECK((each[2].information - last.information).norm() < 1e-9 * last.information.norm());
+    CHECK((each[2].product - last.product).norm() < 1e-9 * last.product.norm());
+}
+
+TEST_CASE("the likelihood is at its maximum", "[estimation]") {
+    const Bench bench;
+    const GroupEquations all = bench.equations();
+    const NoisePrior prior{0.0, 0.5};
+    const Variances best = maximise_likelihood(all, {{1, 1, 1}, 1.0}, prior, 60);
+    const double most = restricted_likelihood(all, best, prior);
+    for (std::size_t g = 0; g < 3; ++g)
+        for (const double factor : {0.8, 1.25}) {
+            Variances other = best;
+            other.tau[g] *= factor;
+            CHECK(restricted_likelihood(all, other, prior) < most + 0.05);
+        }
+    for (const double factor : {0.95, 1.05}) {
+        Variances other = best;
+        other.nu *= factor;
+        CHECK(restricted_likelihood(all, other, prior) < most + 0.05);
+    }
+}
+
 TEST_CASE("mean and covariance are those of the ridge fit", "[estimation]") {
     const Bench bench;
     const GroupEquations equations = bench.equations();

@@ -25,6 +25,7 @@ class Wish:
     noise: str = "right"        # right, wrong (30 %, no repeats), repeats (setup wrong too), correlated, ...
     letters: tuple = ("B", "C")
     outliers: bool = False
+    form_sigma: float = 0.0     # visible rms of smooth form errors on every axis
 
 
 @dataclass
@@ -39,12 +40,15 @@ class Case:
     sizes: list = field(default_factory=list)
     sigma_column: bool = False
     nearest: list = field(default_factory=list)
+    background: object = None
 
 
 def schedule(rng, count, kinds, names):
     """A shuffled list of wishes: about 16 % null, 52 % single, 12 % two or three, 10 % outsiders, 6 % foreign."""
     wishes = []
     share = {"null": 0.16, "single": 0.52, "multi": 0.12, "outsider": 0.10, "foreign": 0.06, "outliers": 0.04}
+    if kinds and "form" in kinds:
+        share["form"] = 0.3
     share = {k: v for k, v in share.items() if not kinds or k in kinds}
     if names:
         share = {"single": 1.0}
@@ -56,7 +60,7 @@ def schedule(rng, count, kinds, names):
         pool = []
         for k in range(number):
             letters = (("B", "C"), ("A", "C"))[(k + k // 4) % 2 if kind != "single" else rng.integers(2)]
-            if kind in ("single", "outliers"):
+            if kind in ("single", "outliers", "form"):
                 if not pool:
                     pool = list(rng.permutation(names or registry.all_names(("1", "C"))))
                 effects = (str(pool.pop()).replace("1.", letters[0] + "."),)
@@ -68,7 +72,8 @@ def schedule(rng, count, kinds, names):
                 effects = ("?",) * int(rng.choice([2, 3])) if kind == "multi" else ()
             sort = NULLS[k % len(NULLS)] if kind == "null" else str(
                 rng.choice(["right", "wrong", "repeats", "correlated-repeats"], p=[0.5, 0.1, 0.25, 0.15]))
-            wishes.append(Wish(kind, effects, sort, letters, kind == "outliers"))
+            form = float(np.exp(rng.uniform(np.log(0.7), np.log(12.0)))) if kind == "form" else 0.0
+            wishes.append(Wish(kind, effects, sort, letters, kind == "outliers", form))
     return [wishes[i] for i in rng.permutation(len(wishes))]
 
 
@@ -196,7 +201,7 @@ def try_case(rng, wish):
     if "no-sphere" in needs and "modes" in needs and "ballbar|touch" in needs:
         return None
     case = prepare(rng, wish, needs)
-    low, high = (2.0, 6.0) if wish.kind == "multi" else (1.0, 6.0)
+    low, high = (2.0, 6.0) if wish.kind in ("multi", "form") else (1.0, 6.0)
     for name in names:
         wanted = float(rng.uniform(low, high))
         if name in registry.STEPS:
@@ -213,7 +218,11 @@ def try_case(rng, wish):
         case.nearest = nearest(case, case.effects[0])
         if any(share > limit for (_, share), limit in zip(case.nearest, OUTSIDE)):
             return None
-    case.rivals = [find_rivals(case, e) if wish.kind in ("single", "outliers", "multi") else {} for e in case.effects]
+    if wish.form_sigma:
+        case.background = to_size(case, outsiders.form_errors(rng, case.machine), wish.form_sigma)
+        if case.background is None:
+            return None
+    case.rivals = [find_rivals(case, e) if wish.kind in ("single", "outliers", "multi", "form") else {} for e in case.effects]
     if any(r["cannot_tell"] and r["simpler"] for rivals in case.rivals for r in rivals.values()) and rng.random() < 0.7:
         return None
     return case
@@ -224,7 +233,7 @@ def other_effect(rng, wish):
     if wish.kind in ("outsider", "foreign"):
         source = outsiders.OUTSIDERS if wish.kind == "outsider" else outsiders.FOREIGN
         return replace(wish, effects=(source[rng.integers(len(source))],))
-    if wish.kind in ("single", "outliers"):
+    if wish.kind in ("single", "outliers", "form"):
         return replace(wish, effects=(str(rng.choice(registry.all_names(wish.letters))),))
     return wish
 
@@ -243,8 +252,9 @@ def find_case(rng, wish, tries=25, rounds=8):
 def draw_case(rng, wish):
     """A finished case for a wish."""
     case = find_case(rng, wish)
-    case.clean = case.scene.readings(case.base_values, case.effects)
-    case.clean_hold = case.scene_hold.readings(case.base_values, case.effects)
+    true = case.effects + ([case.background] if case.background else [])
+    case.clean = case.scene.readings(case.base_values, true)
+    case.clean_hold = case.scene_hold.readings(case.base_values, true)
     case.values = case.clean + noise.draw(rng, case.train, case.sigma_train, case.correlated)
     case.values_hold = case.clean_hold + noise.draw(rng, case.hold, case.sigma_hold, case.correlated)
     case.outlier_rows = []

@@ -210,6 +210,19 @@ def clamp_on_carrier(rng, machine):
     return Effect("clamp.shift", ["X_mm", "Y_mm", "Z_mm"], spread(rng, 3, 4e-3), apply, {"clamp", "probe"})
 
 
+def form_errors(rng, machine):
+    """Every linear axis as it is: its position and both straightnesses follow smooth curves of no named form."""
+    waves = 5
+    length = np.exp(rng.uniform(np.log(100.0), np.log(600.0), (3, 3, waves)))
+    phase = rng.uniform(0.0, 2 * np.pi, (3, 3, waves))
+    size = rng.normal(size=(3, 3, waves)) * (length / 600.0)
+    def apply(scene, errors, a):
+        for i in range(3):
+            angle = 2 * np.pi * scene.rows.pos_mm[:, i, None, None] / length[i] + phase[i]
+            errors.gauge_mm += a[i] * (size[i] * np.sin(angle)).sum(axis=2)
+    return Effect("form", ["X_mm", "Y_mm", "Z_mm"], [3e-3, 3e-3, 3e-3], apply)
+
+
 OUTSIDERS = (drift_two_times, backlash_by_position, guide_bump, cubic_bow, over_centre_play, harmonic_five, jump_in_y,
              stick_slip, angle_interaction, wander)
 FOREIGN = (positioning_high, radial_high, straightness_sine, scale_one_side, drift_stretched,

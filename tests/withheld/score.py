@@ -78,6 +78,7 @@ def judge(seed, truth, verdict, values):
     """One record."""
     causes = [c for c in verdict.get("causes", []) if isinstance(c, dict)]
     claimed = [str(c.get("effect")) for c in causes]
+    free = [c.get("form") == "table" for c in causes]
     rivals = [[str(r) for r in c.get("rivals") or []] for c in causes]
     after = verdict.get("after") or {}
     record = {"seed": seed, "name": truth["name"], "kind": truth["kind"], "noise": truth["noise_case"],
@@ -87,7 +88,7 @@ def judge(seed, truth, verdict, values):
               "equivalents": [[n for n, r in e.items() if r["cannot_tell"]] for e in truth["rivals"]],
               "alike": [[n for n, r in e.items() if r["share"] >= 0.95] for e in truth["rivals"]],
               "verdict": verdict.get("verdict"), "noise_source": verdict.get("noise_source"),
-              "claimed": claimed, "rivals": rivals, "p_value": number((verdict.get("gap") or {}).get("p_value")),
+              "claimed": claimed, "free": free, "rivals": rivals, "p_value": number((verdict.get("gap") or {}).get("p_value")),
               "probability": number(causes[0].get("probability")) if causes else None,
               "oracle_shrink": truth["oracle_shrink"], "claimed_shrink": number(after.get("heldout_shrink")),
               "ci95": after.get("ci95"), "measured_shrink": None, "z_after": None}
@@ -137,8 +138,8 @@ def covered_or_rival(r):
 
 
 def admitted(r):
-    """The diagnosis says that it cannot explain (all of) the gap."""
-    return r["verdict"] in ADMITTED or "unknown" in r["claimed"]
+    """The diagnosis says that it cannot explain (all of) the gap, or names an error in free form instead of a fault."""
+    return r["verdict"] in ADMITTED or "unknown" in r["claimed"] or any(r["free"])
 
 
 def shrink_ratio(r):
@@ -245,6 +246,23 @@ def score_others(table, records):
     table.rate("foreign.family", "  family first or rival", foreign, first_or_rival)
 
 
+def score_form(table, records):
+    """One effect beside smooth form errors on every axis."""
+    form = [r for r in records if r["kind"] == "form"]
+    if not form:
+        return
+    table.head("one effect beside smooth form errors of 0.7 to 12 sigma on every axis")
+    table.rate("form.anywhere", "the effect is claimed, or rival", form, covered_or_rival, "reach 92 %")
+    table.rate("form.first", "  claimed first, free forms apart", form, first_named)
+    table.median("form.z_after", "rms left on the withheld positions, in sigma", form, lambda r: r["z_after"])
+
+
+def first_named(r):
+    """The first claim that is no free form is the truth."""
+    named = [c for c, free in zip(r["claimed"], r["free"]) if not free]
+    return named[:1] == r["truth"]
+
+
 def score_shrink(table, records):
     """Held-out figures."""
     known = [r for r in records if r["kind"] in ("single", "multi", "outliers")]
@@ -280,7 +298,7 @@ def mistakes(records):
     """What went wrong, set by set."""
     lines = []
     for r in records:
-        right = {"null": silent, "single": first_or_rival, "outliers": first_or_rival, "multi": covered,
+        right = {"null": silent, "single": first_or_rival, "outliers": first_or_rival, "multi": covered, "form": covered_or_rival,
                  "outsider": admitted, "foreign": lambda r: first_or_rival(r) or admitted(r)}[r["kind"]](r)
         if not right or (r["kind"] == "single" and not first(r)):
             mark = "wrong" if not right else "rival"
@@ -336,7 +354,7 @@ def main(arguments=None):
                        "rate, hits/count, Wilson 95 %, lowest and highest seed")
     table.rate("verdicts", "a verdict and predictions were given", records,
                lambda r: r["verdict"] is not None and r["measured_shrink"] is not None)
-    for part in (score_nulls, score_singles, score_others, score_shrink, score_calibration):
+    for part in (score_nulls, score_singles, score_others, score_form, score_shrink, score_calibration):
         part(table, records)
     if not options.brief:
         table.lines += ["", "single effects", *by_effect(records), "", "outsiders and foreign forms",

@@ -1,15 +1,14 @@
-#include "diagnosis/drivers.h"
+// Where a gap lives: smooth functions of place, time, direction, mode, speed.
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "base/units.h"
+#include "diagnosis/candidate_groups.h"
 #include "diagnosis/rules.h"
-#include "diagnosis/statistics.h"
 
 namespace trunnion {
 namespace {
@@ -20,6 +19,8 @@ struct Driver {
     std::string by, component, text;
     std::vector<std::vector<double>> columns;  ///< by column, one entry a row
 };
+
+constexpr double usual_mm = 5e-3;  ///< size of what follows a driver
 
 using RowFunction = std::function<double(std::size_t)>;
 
@@ -173,11 +174,9 @@ class DriverList {
 
     void states() {
         std::set<PositioningMode> modes;
-        std::set<std::string> tests;
         bool load = false, clamp = false, spindle = false;
         for (std::size_t i = 0; i < n(); ++i) {
             modes.insert(replay_.sample(i).mode);
-            tests.insert(table_.rows[replay_.table_row(i)].test);
             load = load || replay_.sample(i).load_kg != replay_.sample(0).load_kg;
             clamp = clamp || replay_.sample(i).clamped != replay_.sample(0).clamped;
             spindle = spindle || replay_.sample(i).spindle_rad != replay_.sample(0).spindle_rad;
@@ -204,15 +203,6 @@ class DriverList {
                 {[this](std::size_t i) { return std::cos(replay_.sample(i).spindle_rad); },
                  [this](std::size_t i) { return std::sin(replay_.sample(i).spindle_rad); }},
                 machine_axes());
-        if (tests.size() > 1 && tests.size() <= 60) {
-            std::vector<RowFunction> each;
-            for (auto it = std::next(tests.begin()); it != tests.end(); ++it)
-                each.push_back([this, name = *it](std::size_t i) {
-                    return table_.rows[replay_.table_row(i)].test == name ? 1.0 : 0.0;
-                });
-            add("test", "reading", "is an offset of single tests", each,
-                {[](std::size_t) { return 1.0; }});
-        }
     }
 
     void instrument() {
@@ -255,117 +245,28 @@ class DriverList {
 
 }  // namespace
 
-namespace {
-
-/// Fall of a squared sum when `extra` columns join the `known` ones.
-class Gain {
-  public:
-    Gain(Eigen::MatrixXd known, const Eigen::VectorXd& data) : known_(std::move(known)) {
-        for (Eigen::Index j = 0; j < known_.cols(); ++j)
-            known_.col(j) /= std::max(1e-12, known_.col(j).norm());
-        Eigen::MatrixXd square = known_.transpose() * known_;
-        square.diagonal().array() += 1e-9;
-        llt_.compute(square);
-        left_ = data - known_ * llt_.solve(known_.transpose() * data);
-        sum_ = left_.squaredNorm();
-    }
-
-    double of(Eigen::MatrixXd extra) const {
-        for (Eigen::Index j = 0; j < extra.cols(); ++j)
-            extra.col(j) /= std::max(1e-12, extra.col(j).norm());
-        const Eigen::MatrixXd cross = known_.transpose() * extra;
-        Eigen::MatrixXd square = extra.transpose() * extra - cross.transpose() * llt_.solve(cross);
-        square.diagonal().array() += 1e-6;
-        const Eigen::VectorXd h = extra.transpose() * left_;
-        return std::clamp(h.dot(square.ldlt().solve(h)), 0.0, sum_);
-    }
-    double sum() const { return sum_; }
-
-  private:
-    Eigen::MatrixXd known_;
-    Eigen::LLT<Eigen::MatrixXd> llt_;
-    Eigen::VectorXd left_;
-    double sum_ = 0.0;
-};
-
-}  // namespace
-
-std::vector<DriverTest> test_drivers(const Replay& replay, const ReadingTable& table,
-                                     const BaseModel& base, const Eigen::MatrixXd& known,
-                                     const Eigen::VectorXd& left_mm,
-                                     const Eigen::VectorXd& sigma_mm, const std::vector<bool>& used,
-                                     const Whitener& whitener) {
-    Eigen::VectorXd weight = sigma_mm.cwiseInverse();
-    double rows = 0.0;
-    for (Eigen::Index i = 0; i < weight.size(); ++i)
-        used[static_cast<std::size_t>(i)] ? rows += 1.0 : weight(i) = 0.0;
-    const Gain plain(weight.asDiagonal() * known, weight.cwiseProduct(left_mm));
-    Eigen::MatrixXd white_known = known;
-    whitener.apply(white_known);
-    const Gain white(std::move(white_known), whitener.apply(left_mm));
-    const double freedom = rows - static_cast<double>(known.cols());
-    const DriverList list(replay, table, base);
-    std::vector<DriverTest> tests;
+void add_driver_groups(Design& design, const Prepared& prepared, const Whitener& whitener,
+                       Eigen::Index owned) {
+    const DriverList list(prepared.replay, prepared.table, prepared.base);
+    const double prior = rules::table_prior - std::log(static_cast<double>(list.all().size()));
     for (const Driver& driver : list.all()) {
-        Eigen::MatrixXd columns(left_mm.size(), static_cast<Eigen::Index>(driver.columns.size()));
+        Eigen::MatrixXd columns(static_cast<Eigen::Index>(prepared.replay.size()),
+                                static_cast<Eigen::Index>(driver.columns.size()));
         for (std::size_t c = 0; c < driver.columns.size(); ++c)
             columns.col(static_cast<Eigen::Index>(c)) =
-                Eigen::Map<const Eigen::VectorXd>(driver.columns[c].data(), left_mm.size());
-        const double q = static_cast<double>(columns.cols());
-        if (freedom - q < 5.0) continue;
-        const double rest = std::max(1e-12, plain.sum() - plain.of(weight.asDiagonal() * columns));
+                usual_mm *
+                Eigen::Map<const Eigen::VectorXd>(driver.columns[c].data(), columns.rows());
         whitener.apply(columns);
-        const double gain = white.of(columns);
-        const double white_rest = std::max(1e-12, white.sum() - gain) / (freedom - q);
-        DriverTest test{driver.by,   driver.component,
-                        driver.text, 0.0,
-                        1.0,         static_cast<int>(driver.columns.size()),
-                        gain};
-        test.explained = plain.sum() / freedom - rest / (freedom - q);
-        test.p_value = std::min(1.0, f_tail(gain / q / white_rest, q, freedom - q) *
-                                         static_cast<double>(list.all().size()));
-        tests.push_back(test);
+        ColumnGroup group;
+        group.kind = GroupKind::driver;
+        group.name = driver.by;
+        group.component = driver.component;
+        group.text = driver.text;
+        const Eigen::Index first = design.add_features(columns);
+        for (Eigen::Index k = 0; k < columns.cols(); ++k) group.features.push_back(first + k);
+        group.log_prior = prior;
+        design.add_beside(std::move(group), owned);
     }
-    std::stable_sort(tests.begin(), tests.end(), [](const DriverTest& x, const DriverTest& y) {
-        return x.explained > y.explained;
-    });
-    return tests;
-}
-
-Eigen::VectorXd without_drivers(const Replay& replay, const ReadingTable& table,
-                                const BaseModel& base, const Eigen::MatrixXd& known,
-                                const Eigen::VectorXd& left_mm, const Eigen::VectorXd& sigma_mm,
-                                const std::vector<bool>& used, const Whitener& whitener,
-                                double& lost) {
-    lost = 0.0;
-    const DriverList list(replay, table, base);
-    std::vector<const Driver*> chosen;
-    for (const DriverTest& t :
-         test_drivers(replay, table, base, known, left_mm, sigma_mm, used, whitener)) {
-        if (t.p_value > rules::driver_p ||
-            lost + t.columns > static_cast<double>(left_mm.size()) / 3)
-            continue;
-        for (const Driver& d : list.all())
-            if (d.by == t.by && d.component == t.component) chosen.push_back(&d);
-        lost += t.columns;
-    }
-    const auto p = known.cols();
-    Eigen::MatrixXd a(left_mm.size(), p + static_cast<Eigen::Index>(lost));
-    a.leftCols(p) = known;
-    Eigen::Index at = p;
-    for (const Driver* d : chosen)
-        for (const auto& column : d->columns)
-            a.col(at++) = Eigen::Map<const Eigen::VectorXd>(column.data(), left_mm.size());
-    Eigen::VectorXd weight = sigma_mm.cwiseInverse();
-    for (Eigen::Index i = 0; i < weight.size(); ++i)
-        if (!used[static_cast<std::size_t>(i)]) weight(i) = 0.0;
-    a = weight.asDiagonal() * a;
-    for (Eigen::Index j = 0; j < a.cols(); ++j) a.col(j) /= std::max(1e-12, a.col(j).norm());
-    Eigen::MatrixXd square = a.transpose() * a;
-    square.diagonal().array() += 1e-7;
-    const Eigen::VectorXd z = weight.cwiseProduct(left_mm);
-    const Eigen::VectorXd rest = z - a * square.llt().solve(a.transpose() * z);
-    return sigma_mm.cwiseProduct(rest);
 }
 
 }  // namespace trunnion

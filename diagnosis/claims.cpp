@@ -1,0 +1,140 @@
+#include "diagnosis/claims.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "diagnosis/rules.h"
+#include "estimation/distributions.h"
+
+namespace trunnion {
+namespace {
+
+constexpr std::size_t rivals_tried = 6;
+constexpr double doubtful = 0.4;  ///< probability of causes that cancel each other
+
+double log_sum(const std::vector<double>& values) {
+    const double most = *std::max_element(values.begin(), values.end());
+    double sum = 0.0;
+    for (const double v : values) sum += std::exp(v - most);
+    return most + std::log(sum);
+}
+
+/// Block scores of a member against what noise would make of them: 1 when blocks are independent,
+/// less when the remainder follows the member over whole blocks.
+double temper(const Sizes& sizes, std::size_t k, const Folds& folds) {
+    std::vector<double> score(folds.fold.size(), 0.0), own(folds.fold.size(), 0.0);
+    for (std::size_t i = 0; i < folds.group.size(); ++i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        const double c = sizes.parts(row, static_cast<Eigen::Index>(k));
+        const auto b = static_cast<std::size_t>(folds.group[i]);
+        score[b] += c * sizes.remainder(row);
+        own[b] += c * c;
+    }
+    double square = 0.0, expected = 0.0;
+    for (std::size_t b = 0; b < own.size(); ++b) {
+        square += score[b] * score[b];
+        expected += sizes.floor * own[b];
+    }
+    return 1.0 / std::max(1.0, expected > 0.0 ? square / expected : 1.0);
+}
+
+/// Weight of the models that hold member k among: the chosen one, without it, with it replaced.
+double evidence_probability(Design& design, const Offer& held, const std::vector<Offer>& others,
+                            double zeta) {
+    const double own = held.gain.best + design.group(held.group).log_prior;
+    std::vector<double> scores{zeta * own, 0.0};
+    double with = 0.0;
+    std::size_t count = 0;
+    for (const Offer& o : others) {
+        if (o.group == held.group) continue;
+        if (count++ == rivals_tried) break;
+        const double value = o.gain.best + design.group(o.group).log_prior;
+        if (design.group(o.group).name == design.group(held.group).name)
+            with = with == 0.0 ? zeta * value : log_sum({with, zeta * value});
+        scores.push_back(zeta * value);
+    }
+    const double all = log_sum(scores);
+    return std::exp(zeta * own - all) + (with != 0.0 ? std::exp(with - all) : 0.0);
+}
+
+/// Other causes that explain nearly as much in the member's place.
+void name_rivals(const Design& design, const Offer& held, const std::vector<Offer>& others,
+                 Claim& claim) {
+    const double most = rules::rival_limit(held.explained());
+    const ColumnGroup& own = design.group(held.group);
+    std::vector<std::pair<double, std::size_t>> found;
+    for (const Offer& o : others) {
+        const ColumnGroup& group = design.group(o.group);
+        const bool alike =
+            group.kind == GroupKind::table ? own.kind == GroupKind::table : is_cause(group.kind);
+        if (!alike || group.name == own.name || held.explained() - o.explained() > most) continue;
+        found.emplace_back(held.gain.best + own.log_prior - o.gain.best - group.log_prior, o.group);
+    }
+    std::sort(found.begin(), found.end());
+    for (const auto& [worse, k] : found) {
+        const std::string& name = design.group(k).name;
+        if (std::find(claim.rivals.begin(), claim.rivals.end(), name) != claim.rivals.end())
+            continue;
+        claim.rivals.push_back(name);
+        claim.rival_groups.push_back(k);
+    }
+}
+
+}  // namespace
+
+Sizes sizes_of(Design& design, const Model& model, double floor, const std::vector<bool>& large) {
+    Sizes sizes;
+    sizes.floor = floor;
+    sizes.parts = contributions(design, model, fit_of(design, model));
+    sizes.remainder = design.projection().beside(design.data());
+    Eigen::VectorXd causes = Eigen::VectorXd::Zero(sizes.remainder.size());
+    for (std::size_t k = 0; k < model.members.size(); ++k) {
+        const auto c = sizes.parts.col(static_cast<Eigen::Index>(k));
+        sizes.remainder -= c;
+        sizes.square.push_back(c.squaredNorm());
+        if (is_cause(design.group(model.members[k]).kind)) causes += c;
+        const bool place = design.group(model.members[k]).kind == GroupKind::driver || large[k];
+        if (place) sizes.whole += sizes.square.back();
+    }
+    for (std::size_t k = 0; k < model.members.size(); ++k)
+        sizes.along.push_back(sizes.parts.col(static_cast<Eigen::Index>(k)).dot(causes));
+    sizes.whole += causes.squaredNorm() +
+                   std::max(0.0, sizes.remainder.squaredNorm() - design.freedom() * floor);
+    return sizes;
+}
+
+std::vector<Claim> claims_of(Design& design, const Model& model, const Sizes& sizes,
+                             const std::vector<Support>& support, const Folds& folds,
+                             double heldout) {
+    const std::vector<Offer> worth = worth_of_members(design, model);
+    std::vector<Claim> claims;
+    double own = 0.0;
+    for (std::size_t k = 0; k < model.members.size(); ++k) {
+        const ColumnGroup& group = design.group(model.members[k]);
+        if (!is_cause(group.kind)) continue;
+        Claim claim;
+        claim.position = k;
+        claim.name = group.name;
+        claim.share = std::clamp(sizes.along[k] / std::max(1e-12, sizes.whole), 0.0, 1.0);
+        claim.own = sizes.square[k] / std::max(1e-12, sizes.whole);
+        claim.rms = std::sqrt(sizes.square[k] / std::max(1.0, design.rows()));
+        own += claim.own;
+        if (claim.share < rules::least_share && claim.rms < rules::least_rms) continue;
+        const std::vector<Offer> others = offers(design, without(model, k));
+        const double blocks = support[k].saving.blocks;
+        claim.probability =
+            std::min({evidence_probability(design, worth[k], others, temper(sizes, k, folds)),
+                      student_probability(support[k].saving.t, blocks - 1.0),
+                      (blocks + 1.0) / (blocks + 2.0), std::clamp(heldout, 0.0, 1.0)});
+        name_rivals(design, worth[k], others, claim);
+        claims.push_back(std::move(claim));
+    }
+    if (own > rules::most_own)  // parts cancel: none of them is what it seems
+        for (Claim& claim : claims) claim.probability = std::min(claim.probability, doubtful);
+    std::stable_sort(claims.begin(), claims.end(),
+                     [](const Claim& a, const Claim& b) { return a.share > b.share; });
+    return claims;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,42 @@
+// What the chosen model claims: share, probability and rivals of each cause.
+#pragma once
+
+#include "diagnosis/heldout.h"
+#include "diagnosis/search.h"
+
+namespace trunnion {
+
+/// How large everything is, in whitened squares.
+struct Sizes {
+    double floor = 1.0;          ///< variance of the noise of one reading
+    double whole = 0.0;          ///< E: causes together, remainder beyond noise, drivers, zeros
+    std::vector<double> square;  ///< |c_k|^2 of each member
+    std::vector<double> along;   ///< c_k . sum of all causes
+    Eigen::MatrixXd parts;       ///< rows x members
+    Eigen::VectorXd remainder;   ///< what the model leaves, rows
+};
+/// `large` marks zeros that are part of the gap.
+Sizes sizes_of(Design& design, const Model& model, double floor, const std::vector<bool>& large);
+
+struct Claim {
+    std::size_t position = 0;  ///< in the model's members
+    std::string name;
+    double share = 0.0, own = 0.0;
+    double rms = 0.0;  ///< of the readings, in sigma
+    double probability = 0.0;
+    std::vector<std::string> rivals;
+    std::vector<std::size_t> rival_groups;
+    bool interpolates = true;  ///< a table: places left out are predicted
+};
+
+/// What readings left out say about one member.
+struct Support {
+    Saving saving;  ///< of leaving it in against leaving it out
+};
+
+/// Causes above the background, largest share first. `heldout`: H, which no probability exceeds.
+std::vector<Claim> claims_of(Design& design, const Model& model, const Sizes& sizes,
+                             const std::vector<Support>& support, const Folds& folds,
+                             double heldout);
+
+}  // namespace trunnion

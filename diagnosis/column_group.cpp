@@ -1,0 +1,61 @@
+#include "diagnosis/column_group.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "estimation/free_form.h"
+
+namespace trunnion {
+
+double table_unit(int direction) {
+    return direction < 3 ? 5e-3 : 40e-6;
+}
+
+bool has_keys(const Effect& effect) {
+    return std::any_of(effect.parameters.begin(), effect.parameters.end(),
+                       [](const EffectParameter& p) { return p.is_key(); });
+}
+
+Eigen::MatrixXd table_features(const Replay& replay, const std::vector<Perturbation>& gradient,
+                               const TableForm& table) {
+    const Eigen::Index each = table.per_direction();
+    Eigen::MatrixXd features =
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(replay.size()),
+                              each * static_cast<Eigen::Index>(table.directions.size()));
+    for (std::size_t i = 0; i < replay.size(); ++i) {
+        const double q = replay.sample(i).position[table.axis];
+        const SmallMotion& motion = gradient[i].motion[index_of(table.axis)];
+        const auto row = static_cast<Eigen::Index>(i);
+        for (std::size_t k = 0; k < table.directions.size(); ++k) {
+            const int d = table.directions[k];
+            const double by = table_unit(d) * (d < 3 ? motion.shift_mm(d) : motion.tilt_rad(d - 3));
+            const Eigen::Index at = each * static_cast<Eigen::Index>(k);
+            if (!table.knots.empty()) {
+                const auto [knot, weight] = place_between(table.knots, q);
+                features(row, at + knot) = by * (1.0 - weight);
+                features(row, at + knot + 1) = by * weight;
+                continue;
+            }
+            for (int n = 0; n < table.orders; ++n) {
+                features(row, at + 2 * n) = by * std::cos((table.first_order + n) * q);
+                features(row, at + 2 * n + 1) = by * std::sin((table.first_order + n) * q);
+            }
+        }
+    }
+    return features;
+}
+
+Eigen::MatrixXd columns_on(const Replay& replay, const std::vector<Perturbation>& gradient,
+                           const ColumnGroup& group) {
+    if (group.kind == GroupKind::table)
+        return table_features(replay, gradient, group.table) * group.shape;
+    Eigen::MatrixXd columns =
+        Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(replay.size()), group.columns());
+    if (!group.effect) return columns;
+    for (std::size_t k = 0; k < group.parameters.size(); ++k)
+        columns.col(static_cast<Eigen::Index>(k)) =
+            effect_column(replay, gradient, *group.effect, group.keys, group.parameters[k]);
+    return columns;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,404 @@
+#include "diagnosis/diagnosis_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "diagnosis/next_measurement.h"
+#include "diagnosis/rules.h"
+#include "diagnosis/shrink_interval.h"
+#include "diagnosis/solution.h"
+#include "estimation/distributions.h"
+#include "estimation/ranked_least_squares.h"
+
+namespace trunnion {
+namespace {
+
+/// Of an interval of the shrink: draws go along derivatives, but readings bend, and what is
+/// compared is another fit of the set-up.
+constexpr double least_half_width = 0.01;
+constexpr double effects_tried = 60.0;  ///< by which the chance of an effect is corrected
+constexpr double unseen_part = 0.7;     ///< of the prior: a parameter that is no better known
+constexpr double noise_is_off = 0.1;    ///< relative: a stated noise that is wrong
+constexpr double least_weight = 1e-4;   ///< of a model that may be true instead
+constexpr std::size_t most_truths = 24;
+
+Eigen::VectorXd noise_mm(const Outcome& f) {
+    Eigen::VectorXd v = f.prepared.base.sigma_mm * std::sqrt(f.judgement.floor);
+    for (Eigen::Index i = 0; i < v.size(); ++i)
+        v(i) *=
+            f.noise.model.of(f.prepared.replay.contact(static_cast<std::size_t>(i)).device).scale;
+    return v;
+}
+
+double rms_um(const Outcome& f, const Eigen::VectorXd& v) {
+    double sum = 0.0, rows = 0.0;
+    for (std::size_t i = 0; i < f.used.size(); ++i) {
+        if (!f.used[i]) continue;
+        sum += std::pow(v(static_cast<Eigen::Index>(i)), 2);
+        rows += 1.0;
+    }
+    return 1e3 * std::sqrt(sum / std::max(1.0, rows));
+}
+
+double independent_readings(const Outcome& f) {
+    double rows = 0.0;
+    for (const NoiseBlock& block : f.prepared.blocks)
+        rows += f.noise.model.of(block.device).independent(static_cast<double>(block.rows.size()));
+    return rows;
+}
+
+/// Shrink from left-out residuals (whitened), in um of the readings.
+HeldOut held_out(const Outcome& f, const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
+    const Eigen::VectorXd noise = noise_mm(f) / std::sqrt(f.judgement.floor);
+    HeldOut h;
+    h.rms_before_um = rms_um(f, before.cwiseProduct(noise));
+    h.rms_after_um = rms_um(f, after.cwiseProduct(noise));
+    h.noise_um = rms_um(f, noise_mm(f));
+    const double gap = h.rms_before_um * h.rms_before_um - h.noise_um * h.noise_um;
+    const double rest = h.rms_after_um * h.rms_after_um - h.noise_um * h.noise_um;
+    h.shrink = gap > 0.0 ? 1.0 - std::sqrt(std::max(0.0, rest) / gap) : 0.0;
+    h.low = h.high = h.shrink;
+    return h;
+}
+
+/// The model with each member left out or replaced by a rival, beside the chosen one.
+std::vector<PossibleTruth> possible_truths(const Outcome& f) {
+    std::vector<PossibleTruth> truths{{f.model, 1.0}};
+    const std::vector<Offer> worth = worth_of_members(f.design, f.model);
+    for (std::size_t k = 0; k < f.model.members.size(); ++k) {
+        const Model rest = without(f.model, k);
+        const double own = worth[k].gain.best + f.design.group(worth[k].group).log_prior;
+        if (const double weight = std::exp(-own); weight > least_weight)
+            truths.push_back({rest, weight});
+        for (const Offer& o : offers(f.design, rest)) {
+            const double weight = std::exp(o.gain.best + f.design.group(o.group).log_prior - own);
+            if (weight < least_weight || truths.size() > most_truths) break;
+            if (o.group == worth[k].group || !is_cause(f.design.group(o.group).kind)) continue;
+            Model other = rest;
+            other.members.push_back(o.group);
+            other.variances.tau.push_back(o.gain.tau);
+            truths.push_back({std::move(other), std::min(1.0, weight)});
+        }
+    }
+    return truths;
+}
+
+std::vector<Missed> missed_by(const Outcome& f) {
+    const Eigen::VectorXd noise = noise_mm(f), scale = noise / std::sqrt(f.judgement.floor);
+    const double fitted =
+        static_cast<double>(f.design.projection().rank()) / std::max(1.0, f.design.rows());
+    std::vector<Missed> list;
+    for (const auto& rows : stretches_of(f.prepared.blocks)) {
+        Missed m;
+        for (const Eigen::Index i : rows) {
+            if (!f.used[static_cast<std::size_t>(i)]) continue;
+            const double own = noise(i) * noise(i);
+            m.square += std::pow(f.judgement.left(i) * scale(i), 2) - own * (1.0 + fitted);
+            m.noise += own;
+            m.rows += 1.0;
+        }
+        list.push_back(m);
+    }
+    return list;
+}
+
+DrawSetting draw_setting(const Outcome& f, std::uint64_t seed) {
+    const double rows = independent_readings(f);
+    const bool repeated = f.noise.model.source == NoiseSource::repeats;
+    return {missed_by(f),
+            1.0 - std::clamp(f.judgement.part, 0.0, 1.0),
+            repeated ? f.noise.model.doubt : std::sqrt(2.0 / std::max(1.0, rows)),
+            rows,
+            noise_mm(f).squaredNorm() / static_cast<double>(noise_mm(f).size()),
+            seed};
+}
+
+std::vector<FitParameter> parameters_of(const ColumnGroup& group, const Eigen::VectorXd& own,
+                                        const Eigen::VectorXd& sigma, double tau) {
+    std::vector<FitParameter> list;
+    const std::vector<double> values = values_in(group, own);
+    for (std::size_t j = 0; j < group.effect->parameters.size(); ++j) {
+        const EffectParameter& p = group.effect->parameters[j];
+        FitParameter fit{group.effect->name, p.name,       p.unit, p.component, p.typical,
+                         values[j],          std::nan(""), 0.0,    0.0,         0.0};
+        for (std::size_t k = 0; k < group.parameters.size(); ++k) {
+            const double s = sigma(static_cast<Eigen::Index>(k));
+            if (group.parameters[k] == j && s < unseen_part * tau) fit.sigma = s * p.typical;
+        }
+        list.push_back(std::move(fit));
+    }
+    return list;
+}
+
+std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorXd& own,
+                                  const Eigen::MatrixXd& covariance) {
+    const TableForm& table = group.table;
+    const Eigen::VectorXd value = table_values(group, own);
+    const Eigen::VectorXd sigma =
+        (group.shape * covariance * group.shape.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
+    const Eigen::Index each = table.per_direction();
+    std::vector<TablePoint> points;
+    for (std::size_t k = 0; k < table.directions.size(); ++k)
+        for (Eigen::Index j = 0; j < each && !table.knots.empty(); ++j) {
+            const int d = table.directions[k];
+            const Eigen::Index at = static_cast<Eigen::Index>(k) * each + j;
+            points.push_back({motion_name(d, table.axis), table.knots[static_cast<std::size_t>(j)],
+                              value(at), sigma(at) * table_unit(d),
+                              is_rotary(table.axis) ? "rad" : "mm", d < 3 ? "mm" : "rad"});
+        }
+    constexpr int places = 36;  // of a whole turn, from its harmonics
+    for (std::size_t k = 0; k < table.directions.size() && table.knots.empty(); ++k)
+        for (int j = 0; j < places; ++j) {
+            const double q = 2.0 * pi * j / places;
+            Eigen::VectorXd wave = Eigen::VectorXd::Zero(value.size());
+            for (int n = 0; n < table.orders; ++n) {
+                const Eigen::Index at = static_cast<Eigen::Index>(k) * each + 2 * n;
+                wave(at) = std::cos((table.first_order + n) * q);
+                wave(at + 1) = std::sin((table.first_order + n) * q);
+            }
+            const int d = table.directions[k];
+            const Eigen::VectorXd by = group.shape.transpose() * wave;
+            points.push_back({motion_name(d, table.axis), q, wave.dot(value),
+                              table_unit(d) * std::sqrt(std::max(0.0, by.dot(covariance * by))),
+                              "rad", d < 3 ? "mm" : "rad"});
+        }
+    return points;
+}
+
+/// Directions of an effect's parameters that these readings cannot show.
+std::vector<Inseparable> unseen_of(const Design::Entry& entry) {
+    std::vector<Inseparable> groups;
+    const ColumnGroup& group = entry.group;
+    if (!group.effect) return groups;
+    const auto& list = group.effect->parameters;
+    const auto name = [&](std::size_t j) {
+        return full_name({group.effect->name, list[j].name, list[j].unit, list[j].component});
+    };
+    for (std::size_t j = 0; j < list.size(); ++j)
+        if (!list[j].is_key() && list[j].usual &&
+            std::find(group.parameters.begin(), group.parameters.end(), j) ==
+                group.parameters.end())
+            groups.push_back({{name(j)}, {1.0}});
+    const LinearFit fit = solve_ranked(entry.gram, Eigen::VectorXd::Zero(entry.gram.rows()));
+    for (const Eigen::VectorXd& v : fit.null_space) {
+        Inseparable unseen;
+        for (Eigen::Index k = 0; k < v.size(); ++k)
+            if (v(k) != 0.0) {
+                unseen.names.push_back(name(group.parameters[static_cast<std::size_t>(k)]));
+                unseen.direction.push_back(v(k));
+            }
+        groups.push_back(std::move(unseen));
+    }
+    return groups;
+}
+
+Cause cause_of(const Outcome& f, const Claim& claim, const Solution& solution,
+               const Eigen::MatrixXd& covariance) {
+    const std::size_t member = f.model.members[claim.position];
+    const ColumnGroup& group = f.design.group(member);
+    const Eigen::Index first = solution.first[claim.position];
+    const Eigen::Index count = solution.size[claim.position];
+    const Eigen::VectorXd own = solution.mean.segment(first, count);
+    const Eigen::MatrixXd spread = covariance.block(first, first, count, count);
+    Cause cause;
+    cause.effect = claim.name;
+    cause.probability = claim.probability;
+    cause.rivals = claim.rivals;
+    cause.share = claim.share;
+    cause.rms_sigma = claim.rms;
+    if (group.effect) {
+        cause.parameters = parameters_of(group, own, spread.diagonal().cwiseSqrt(),
+                                         f.model.variances.tau[claim.position]);
+        cause.unseen = unseen_of(f.design.groups()[member]);
+        cause.what = group.effect->what;
+        cause.usual_cause = group.effect->cause;
+        cause.remedy = group.effect->remedy;
+        return cause;
+    }
+    cause.points = points_of(group, own, spread);
+    cause.holds_between = f.judgement.interpolates[claim.position];
+    cause.what = "An error of the axis that follows its position in a form of its own";
+    cause.usual_cause = "screw, scale, guide or bearing as they are; no single fault";
+    cause.remedy = "enter the table as pitch or straightness compensation of the axis";
+    return cause;
+}
+
+void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
+    const BaseModel& base = f.prepared.base;
+    d.readings = f.prepared.replay.size();
+    d.outliers = static_cast<std::size_t>(std::count(f.used.begin(), f.used.end(), false));
+    d.noise = f.noise.model;
+    if (d.noise.source != NoiseSource::repeats) {
+        const double chance = 3.0 / std::sqrt(2.0 * std::max(1.0, f.design.freedom()));
+        const double nu = f.model.variances.nu;
+        // Of a gap that nothing explains nobody can say how much is noise.
+        const bool unknown = f.judgement.gap && f.judgement.part < rules::partly;
+        if (unknown || std::abs(std::log(nu)) > std::max(noise_is_off, chance))
+            d.noise.source = NoiseSource::assumed;
+        for (const Device device : {Device::sphere, Device::touch, Device::ballbar})
+            d.noise.of(device).scale *= nu;
+    }
+    const Eigen::VectorXd left = left_mm(f.prepared, f.design, f.model, solution);
+    d.rms_um = rms_um(f, base.residual_mm);
+    d.noise_um = rms_um(f, noise_mm(f));
+    d.excess_um = std::sqrt(std::max(0.0, d.rms_um * d.rms_um - d.noise_um * d.noise_um));
+    d.after_rms_um = rms_um(f, left);
+    for (Eigen::Index i = 0; i < left.size(); ++i) {
+        d.before_um.push_back(1e3 * base.residual_mm(i));
+        d.after_um.push_back(1e3 * left(i));
+    }
+    d.inseparable = base.inseparable;
+    for (const FitParameter& p : base.parameters)
+        if (p.effect == "setup") d.set_up.push_back(p);
+    for (const auto& entry : f.design.groups()) {
+        if (!entry.group.effect || entry.hidden) continue;
+        const std::string& name = entry.group.effect->name;
+        if (!entry.visible() && std::find(d.unseen.begin(), d.unseen.end(), name) == d.unseen.end())
+            d.unseen.push_back(name);
+        if (entry.visible() && name.starts_with("pivot.") &&
+            entry.group.parameters.size() == entry.group.effect->parameters.size())
+            for (Inseparable& group : unseen_of(entry)) d.inseparable.push_back(std::move(group));
+    }
+}
+
+double chance_of(const Outcome& f) {
+    if (f.model.members.empty()) return 1.0;
+    const Eigen::VectorXd y = f.design.projection().beside(f.design.data());
+    const Sizes sizes = sizes_of(f.design, f.model, f.judgement.floor, f.judgement.large);
+    double width = 0.0;
+    for (const std::size_t m : f.model.members)
+        width += static_cast<double>(f.design.group(m).columns());
+    const double explained = (y.squaredNorm() - sizes.remainder.squaredNorm()) / f.judgement.floor;
+    return std::min(1.0, effects_tried * chi_squared_tail(explained, width));
+}
+
+/// Free forms of one axis, none of them the main one: what they are together has no textbook name.
+void merge_free_forms(const Outcome& f, std::vector<Claim>& claims) {
+    for (const Axis axis : all_axes) {
+        std::vector<std::size_t> forms;
+        double sum = 0.0, most = 0.0;
+        for (std::size_t k = 0; k < claims.size(); ++k) {
+            const ColumnGroup& group = f.design.group(f.model.members[claims[k].position]);
+            if (group.kind != GroupKind::table || group.table.axis != axis) continue;
+            forms.push_back(k);
+            sum += claims[k].share;
+            most = std::max(most, claims[k].share);
+        }
+        if (forms.size() < 2 || most >= rules::main_family * sum) continue;
+        for (const std::size_t k : forms)
+            claims[k].name = std::string("free form of ") + letter_of(axis);
+    }
+}
+
+Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
+    Cause cause;
+    cause.effect = "unknown";
+    cause.share = d.unexplained_share;
+    cause.probability = 1.0;
+    cause.what = "A gap with structure that no effect of the catalogue explains";
+    for (std::size_t k = 0; k < f.model.members.size(); ++k) {
+        const ColumnGroup& group = f.design.group(f.model.members[k]);
+        if (group.kind == GroupKind::driver || f.judgement.large[k])
+            cause.what += fmt::format(": it {} ({})", group.text, group.component);
+    }
+    cause.heldout = held_out(f, f.judgement.left_before, f.judgement.left_before);
+    return cause;
+}
+
+/// Members that the written setup has: all causes, but no table that fails between its places.
+Model writable(const Outcome& f) {
+    Model model = f.model;
+    for (std::size_t k = model.members.size(); k-- > 0;)
+        if (!f.judgement.interpolates[k]) model = without(model, k);
+    return tuned(f.design, f.setting, std::move(model), 1);
+}
+
+/// The setup predicts no worse than the one it came from: else that one stays.
+Setup written_setup(const Outcome& f) {
+    const Model none{{}, {{}, f.model.variances.nu}, 0.0};
+    const bool better = f.judgement.gap && f.judgement.after < f.judgement.before;
+    const Model model = better ? writable(f) : none;
+    return setup_with(f.prepared, f.design, model, solved(f.design, model));
+}
+
+std::vector<AmbiguousPair> pairs_of(const Outcome& f, const std::vector<Claim>& claims,
+                                    const Solution& solution) {
+    std::vector<AmbiguousPair> pairs;
+    for (const Claim& claim : claims)
+        for (std::size_t k = 0; k < std::min<std::size_t>(2, claim.rival_groups.size()); ++k)
+            pairs.push_back({&f.design.group(f.model.members[claim.position]),
+                             solution.mean.segment(solution.first[claim.position],
+                                                   solution.size[claim.position]),
+                             &f.design.group(claim.rival_groups[k])});
+    return pairs;
+}
+
+/// Left-out residual with the set-up and one member alone.
+HeldOut alone(const Outcome& f, std::size_t position, const ShrinkDraws& draws) {
+    Model one{{f.model.members[position]},
+              {{f.model.variances.tau[position]}, f.model.variances.nu},
+              0.0};
+    const LeftOut left(f.design, one, f.prepared.folds, f.used);
+    HeldOut h = held_out(f, f.judgement.left_before, left.residual({true}, {true}));
+    const auto [low, high] = draws.interval(one);
+    h.low = std::min(low, h.shrink) - least_half_width;
+    h.high = std::min(1.0, std::max(high, h.shrink) + least_half_width);
+    return h;
+}
+
+}  // namespace
+
+Diagnosis report_of(const Outcome& f, const DiagnosisOptions& options) {
+    Diagnosis d;
+    const Solution solution = solved(f.design, f.model);
+    describe_size(f, solution, d);
+    std::vector<Claim> claims;
+    if (f.judgement.gap) {
+        const Sizes sizes = sizes_of(f.design, f.model, f.judgement.floor, f.judgement.large);
+        claims = claims_of(f.design, f.model, sizes, f.judgement.support, f.prepared.folds,
+                           f.judgement.part);
+        merge_free_forms(f, claims);
+    }
+    d.verdict = verdict_of(f.judgement, claims);
+    d.p_value = chance_of(f);
+    d.explained = f.judgement.gap ? std::clamp(f.judgement.part, 0.0, 1.0) : 0.0;
+    d.between_places = f.judgement.between_places;
+    d.setup = written_setup(f);
+    if (!f.judgement.gap) {
+        d.after_rms_um = d.rms_um;
+        d.after_um = d.before_um;
+        return d;
+    }
+    d.unexplained_share = 1.0 - d.explained;
+    d.where = where_of(f.design, f.judgement.floor);
+    const FreshReadings fresh(f.prepared.base, f.prepared.catalogue, f.prepared.table,
+                              f.prepared.replay, f.prepared.blocks, options.seed);
+    const ShrinkDraws draws(f.design, fresh, possible_truths(f), draw_setting(f, options.seed));
+    const Eigen::MatrixXd covariance = solution.covariance();
+    for (const Claim& claim : claims) {
+        d.causes.push_back(cause_of(f, claim, solution, covariance));
+        d.causes.back().heldout = alone(f, claim.position, draws);
+    }
+    d.after = held_out(f, f.judgement.left_before, f.judgement.left);
+    const auto [low, high] = draws.interval(f.model);
+    d.after.low = std::min(low, d.after.shrink) - least_half_width;
+    d.after.high = std::min(1.0, std::max(high, d.after.shrink) + least_half_width);
+    if (d.verdict == Verdict::unexplained || d.verdict == Verdict::partly_explained) {
+        const auto at = std::find_if(d.causes.begin(), d.causes.end(),
+                                     [&](const Cause& c) { return c.share < d.unexplained_share; });
+        d.causes.insert(at, unknown_cause(f, d));
+    }
+    if (options.holdout) {
+        d.after = measured_shrink(f, d.setup, *options.holdout, options.seed);
+        if (d.causes.size() == 1) d.causes.front().heldout = d.after;
+    }
+    if (!options.plan_next) return d;
+    if (options.watch) options.watch("the next measurement (Ctrl-C: the verdict without it)");
+    d.next = plan_next(f.prepared, pairs_of(f, claims, solution), options.plan_on);
+    return d;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,25 @@
+// The last stage: what was found, as the values that commands print.
+#pragma once
+
+#include "diagnosis/prepare.h"
+#include "diagnosis/verdict.h"
+
+namespace trunnion {
+
+/// Everything that earlier stages found.
+struct Outcome {
+    const Prepared& prepared;
+    Design& design;
+    const SearchSetting& setting;
+    const Model& model;
+    const Judgement& judgement;
+    const NoiseBelief& noise;
+    const std::vector<bool>& used;
+};
+Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options);
+
+/// How far the gap shrinks on a table of its own, raw um; bootstrap over poses and passes.
+HeldOut measured_shrink(const Outcome& found, const Setup& after, const ReadingTable& holdout,
+                        std::uint64_t seed);
+
+}  // namespace trunnion

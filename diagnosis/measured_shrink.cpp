@@ -1,0 +1,90 @@
+// How far the gap shrinks on readings of their own.
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.h"
+#include "diagnosis/diagnosis_report.h"
+#include "effects/settings.h"
+#include "estimation/quantiles.h"
+
+namespace trunnion {
+namespace {
+
+/// Squares before and after, with what each expects from noise alone, by block, mm^2.
+struct SquaredSums {
+    std::vector<double> before, after, noise, rows;
+    double independent = 0.0;
+};
+
+double shrink_of(double before, double after, double noise) {
+    const double gap = before - noise;
+    return gap > 0.0 ? 1.0 - std::sqrt(std::max(0.0, after - noise) / gap) : 0.0;
+}
+
+double total(const std::vector<double>& v) {
+    double sum = 0.0;
+    for (const double x : v) sum += x;
+    return sum;
+}
+
+SquaredSums sums_of(const Outcome& f, const Setup& setup, const ReadingTable& table) {
+    const Replay replay(f.prepared.base.setup, table), fitted(setup, table);
+    const std::vector<double> before = replay.predict(f.prepared.base.models);
+    const std::vector<double> after = fitted.predict(active_models(setup));
+    const RowNoise noise = row_noise(f.prepared.base.setup, table, replay);
+    SquaredSums sums;
+    for (const NoiseBlock& block : noise_blocks(replay, table)) {
+        double b = 0, a = 0, n = 0;
+        for (const Eigen::Index i : block.rows) {
+            const auto k = static_cast<std::size_t>(i);
+            const double value = *table.rows[replay.table_row(k)].value_mm;
+            const double scale = f.noise.model.of(block.device).scale;
+            b += std::pow(value - before[k], 2);
+            a += std::pow(value - after[k], 2);
+            n += f.judgement.floor * std::pow(scale * noise.sigma_mm(i), 2);
+        }
+        sums.before.push_back(b);
+        sums.after.push_back(a);
+        sums.noise.push_back(n);
+        sums.rows.push_back(static_cast<double>(block.rows.size()));
+        sums.independent += f.noise.model.of(block.device).independent(sums.rows.back());
+    }
+    return sums;
+}
+
+}  // namespace
+
+HeldOut measured_shrink(const Outcome& f, const Setup& setup, const ReadingTable& holdout,
+                        std::uint64_t seed) {
+    constexpr int draws = 400;
+    const SquaredSums sums = sums_of(f, setup, holdout);
+    const double before = total(sums.before), after = total(sums.after), noise = total(sums.noise);
+    const double rows = std::max(1.0, total(sums.rows));
+    HeldOut h{1e3 * std::sqrt(before / rows),
+              1e3 * std::sqrt(after / rows),
+              1e3 * std::sqrt(noise / rows),
+              shrink_of(before, after, noise),
+              0.0,
+              0.0};
+    // The noise of these few readings may by chance be smaller or larger than its variance says.
+    const double doubt =
+        std::hypot(f.noise.model.doubt, std::sqrt(2.0 / std::max(1.0, sums.independent)));
+    SeededNoise random(seed);
+    std::vector<double> shrink;
+    for (int k = 0; k < draws; ++k) {
+        double b = 0, a = 0, n = 0;
+        for (std::size_t g = 0; g < sums.before.size(); ++g) {
+            const double weight = -std::log(random.uniform());
+            b += weight * sums.before[g];
+            a += weight * sums.after[g];
+            n += weight * sums.noise[g];
+        }
+        n *= std::max(0.2, 1.0 + doubt * random.normal());
+        shrink.push_back(shrink_of(b, a, n));
+    }
+    h.low = std::min(h.shrink, quantile(shrink, 0.025));
+    h.high = std::max(h.shrink, quantile(shrink, 0.975));
+    return h;
+}
+
+}  // namespace trunnion

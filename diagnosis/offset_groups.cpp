@@ -1,0 +1,73 @@
+// The zero of each test: scatter of zeroing is noise, one large zero is a place.
+#include <map>
+
+#include "diagnosis/candidate_groups.h"
+#include "diagnosis/rules.h"
+
+namespace trunnion {
+namespace {
+
+constexpr Eigen::Index most_tests = 60;
+constexpr double usual_mm = 1e-3;  ///< scatter of a zero
+
+bool probes(const Contact& contact) {
+    return contact.device == Device::sphere || contact.device == Device::touch;
+}
+
+/// Index of each device row's test among those that `takes`, -1 for other rows.
+std::vector<Eigen::Index> tests_of(const Prepared& p,
+                                   const std::function<bool(const Contact&)>& takes,
+                                   Eigen::Index& count) {
+    std::map<std::string, Eigen::Index> met;
+    std::vector<Eigen::Index> test(p.replay.size(), -1);
+    for (std::size_t i = 0; i < p.replay.size(); ++i)
+        if (takes(p.replay.contact(i)))
+            test[i] = met.try_emplace(p.table.rows[p.replay.table_row(i)].test,
+                                      static_cast<Eigen::Index>(met.size()))
+                          .first->second;
+    count = static_cast<Eigen::Index>(met.size());
+    return test;
+}
+
+void add_group(Design& design, const Whitener& whitener, const std::string& name,
+               Eigen::MatrixXd columns) {
+    whitener.apply(columns);
+    ColumnGroup group;
+    group.kind = GroupKind::offset;
+    group.name = name;
+    group.component = "reading";
+    group.text = "is an offset of single tests";
+    const Eigen::Index first = design.add_features(columns);
+    for (Eigen::Index k = 0; k < columns.cols(); ++k) group.features.push_back(first + k);
+    design.add(std::move(group));
+}
+
+}  // namespace
+
+void add_offset_groups(Design& design, const Prepared& prepared, const Whitener& whitener) {
+    const Replay& replay = prepared.replay;
+    const auto rows = static_cast<Eigen::Index>(replay.size());
+    Eigen::Index count = 0;
+    const auto probe = tests_of(prepared, probes, count);
+    if (count > 1 && count <= most_tests) {
+        Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows, 3 * count);
+        for (Eigen::Index i = 0; i < rows; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            if (probe[k] >= 0)
+                columns.block<1, 3>(i, 3 * probe[k]) =
+                    usual_mm * prepared.base.gradient[k].work_shift_mm.transpose();
+        }
+        add_group(design, whitener, "zero of a test", std::move(columns));
+    }
+    const auto other = tests_of(
+        prepared, [](const Contact& c) { return !probes(c); }, count);
+    if (count > 1 && count <= most_tests) {
+        Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows, count);
+        for (Eigen::Index i = 0; i < rows; ++i)
+            if (other[static_cast<std::size_t>(i)] >= 0)
+                columns(i, other[static_cast<std::size_t>(i)]) = usual_mm;
+        add_group(design, whitener, "zero of a pass", std::move(columns));
+    }
+}
+
+}  // namespace trunnion

@@ -1,0 +1,37 @@
+// The first stage: readings beside their simulation, with everything that later stages only read.
+#pragma once
+
+#include "diagnosis/noise.h"
+#include "identification/base_model.h"
+
+namespace trunnion {
+
+/// Rows cut into groups that share errors or neighbourhood: the readings of one pose, arcs of a
+/// sixth of a pass. A fold leaves out whole groups.
+struct Folds {
+    static constexpr int count = 5;
+    std::vector<int> group;  ///< by device row
+    std::vector<int> fold;   ///< by group
+};
+Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows);
+
+/// Never changed after prepare(), but for the residual when large effects bend the readings.
+struct Prepared {
+    Prepared(const Setup& setup, const ReadingTable& table);
+    const ReadingTable& table;
+    Replay replay;
+    Catalogue catalogue;
+    BaseModel base;  ///< location, set-up; residual in mm
+    std::vector<NoiseBlock> blocks;
+    Folds folds;
+};
+
+/// Throws InputError: too few readings, values of another machine.
+Prepared prepare(const Setup& setup, const ReadingTable& table);
+/// Throws InputError for held-out readings that cannot be of this machine.
+void refuse_poor_holdout(const Prepared& prepared, const ReadingTable& holdout);
+
+/// Is the effect one that the simulation has already?
+bool modelled(const Prepared& prepared, const Effect& effect);
+
+}  // namespace trunnion

@@ -1,0 +1,96 @@
+#include "diagnosis/ripples.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "diagnosis/key_search.h"
+
+namespace trunnion {
+namespace {
+
+constexpr std::size_t least_places = 8;
+constexpr double least_turns = 2.0, most_hole = 0.4, least_spacings = 2.0, least_outside = 0.2;
+
+bool evenly_spaced(const std::vector<double>& places) {
+    const double step = (places.back() - places.front()) / static_cast<double>(places.size() - 1);
+    for (std::size_t k = 1; k < places.size(); ++k)
+        if (std::abs(places[k] - places[k - 1] - step) > 1e-3 * step) return false;
+    return true;
+}
+
+double largest_hole(const std::vector<double>& places, double period) {
+    std::vector<double> phase;
+    for (const double q : places) phase.push_back(q / period - std::floor(q / period));
+    std::sort(phase.begin(), phase.end());
+    double hole = 1.0 - phase.back() + phase.front();
+    for (std::size_t k = 1; k < phase.size(); ++k) hole = std::max(hole, phase[k] - phase[k - 1]);
+    return hole;
+}
+
+/// Axis and period of a ripple; nothing for other effects with keys.
+struct Ripple {
+    Axis axis;
+    double period;
+};
+std::optional<Ripple> ripple_of(const Effect& effect, const std::vector<double>& keys) {
+    if (!effect.name.ends_with(".cyclic")) return std::nullopt;
+    const auto axis = axis_of(effect.name.front());
+    if (!axis) return std::nullopt;
+    for (std::size_t j = 0; j < keys.size(); ++j) {
+        if (!effect.parameters[j].is_key()) continue;
+        return Ripple{*axis,
+                      effect.parameters[j].name == periods_key ? 2.0 * pi / keys[j] : keys[j]};
+    }
+    return std::nullopt;
+}
+
+/// Features of the textbook effects of the same axis.
+std::vector<Eigen::Index> of_axis(const Design& design, const Effect& effect) {
+    const std::string axis = effect.name.substr(0, effect.name.find('.') + 1);
+    std::vector<Eigen::Index> features;
+    for (const auto& entry : design.groups())
+        if (entry.group.kind == GroupKind::textbook && entry.group.name.starts_with(axis))
+            features.insert(features.end(), entry.group.features.begin(),
+                            entry.group.features.end());
+    std::sort(features.begin(), features.end());
+    features.erase(std::unique(features.begin(), features.end()), features.end());
+    return features;
+}
+
+}  // namespace
+
+bool shows_period(std::vector<double> places, double period) {
+    std::sort(places.begin(), places.end());
+    if (places.empty()) return false;
+    const double same = 1e-6 * (places.back() - places.front());
+    places.erase(std::unique(places.begin(), places.end(),
+                             [&](double a, double b) { return b - a <= same; }),
+                 places.end());
+    if (places.size() < least_places) return false;
+    if (places.back() - places.front() < least_turns * period) return false;
+    if (largest_hole(places, period) > most_hole) return false;
+    const double spacing =
+        (places.back() - places.front()) / static_cast<double>(places.size() - 1);
+    return !evenly_spaced(places) || period >= least_spacings * spacing;
+}
+
+std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& prepared,
+                                               const Whitener& whitener, const Effect& effect,
+                                               std::vector<double> keys) {
+    const auto ripple = ripple_of(effect, keys);
+    if (ripple) {
+        std::vector<double> places;
+        for (std::size_t i = 0; i < prepared.replay.size(); ++i)
+            places.push_back(prepared.replay.sample(i).position[ripple->axis]);
+        if (!shows_period(std::move(places), ripple->period)) return std::nullopt;
+    }
+    const auto added = add_keyed_group(design, prepared, whitener, effect, std::move(keys));
+    if (added && ripple && design.outside(*added, of_axis(design, effect)) < least_outside) {
+        design.hide(*added);
+        return std::nullopt;
+    }
+    return added;
+}
+
+}  // namespace trunnion

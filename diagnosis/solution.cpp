@@ -1,0 +1,147 @@
+#include "diagnosis/solution.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+namespace trunnion {
+namespace {
+
+constexpr double set_up_range = 20.0;  ///< typical sizes: directions that nothing sees stay
+
+ErrorCurve::Harmonic& harmonic_of(ErrorCurve& curve, double order) {
+    for (ErrorCurve::Harmonic& h : curve.harmonics)
+        if (h.order == order) return h;
+    return curve.harmonics.emplace_back(ErrorCurve::Harmonic{order, 0.0, 0.0});
+}
+
+/// The sum of two tables stands at the places of both.
+void add_table(ErrorCurve& curve, const std::vector<double>& at, const Eigen::VectorXd& value) {
+    ErrorCurve own, old;
+    own.at = at;
+    own.value.assign(value.begin(), value.end());
+    old.at = curve.at;
+    old.value = curve.value;
+    old.interpolation = curve.interpolation;
+    std::vector<double> places = at;
+    places.insert(places.end(), old.at.begin(), old.at.end());
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    curve.at = places;
+    curve.value.clear();
+    for (const double q : places) curve.value.push_back(own(q) + (old.at.empty() ? 0.0 : old(q)));
+}
+
+void add_free_form(Setup& setup, const ColumnGroup& group, const Eigen::VectorXd& coefficients) {
+    const Eigen::VectorXd value = table_values(group, coefficients);
+    const Eigen::Index each = group.table.per_direction();
+    auto& motion = setup.machine.errors.axis[index_of(group.table.axis)].motion;
+    for (std::size_t k = 0; k < group.table.directions.size(); ++k) {
+        ErrorCurve& curve = motion[static_cast<std::size_t>(group.table.directions[k])];
+        const Eigen::VectorXd own = value.segment(static_cast<Eigen::Index>(k) * each, each);
+        if (!group.table.knots.empty()) {
+            add_table(curve, group.table.knots, own);
+            continue;
+        }
+        for (int n = 0; n < group.table.orders; ++n) {
+            ErrorCurve::Harmonic& h = harmonic_of(curve, group.table.first_order + n);
+            h.cosine += own(2 * n);
+            h.sine += own(2 * n + 1);
+        }
+    }
+}
+
+}  // namespace
+
+Eigen::VectorXd Solution::spread(const Eigen::VectorXd& z) const {
+    return factor.triangularView<Eigen::Lower>().transpose().solve(z);
+}
+
+Eigen::MatrixXd Solution::covariance() const {
+    const Eigen::MatrixXd half = factor.triangularView<Eigen::Lower>().solve(
+        Eigen::MatrixXd::Identity(factor.rows(), factor.cols()));
+    return half.transpose() * half;
+}
+
+Solution solved(const Design& design, const Model& model) {
+    Solution s;
+    s.known = design.known().cols();
+    Eigen::Index count = s.known;
+    for (const std::size_t m : model.members) {
+        s.first.push_back(count);
+        s.size.push_back(design.group(m).columns());
+        count += s.size.back();
+    }
+    Eigen::MatrixXd all(design.data().size(), count);
+    all.leftCols(s.known) = design.known();
+    Eigen::VectorXd precision(count);
+    precision.head(s.known).setConstant(1.0 / (set_up_range * set_up_range));
+    for (std::size_t k = 0; k < model.members.size(); ++k) {
+        all.middleCols(s.first[k], s.size[k]) = design.columns(model.members[k]);
+        const double tau = std::max(1e-9, model.variances.tau[k]);
+        precision.segment(s.first[k], s.size[k]).setConstant(1.0 / (tau * tau));
+    }
+    const double noise = model.variances.nu * model.variances.nu;
+    Eigen::MatrixXd information = all.transpose() * all / noise;
+    information.diagonal() += precision;
+    const Eigen::LLT<Eigen::MatrixXd> llt(information);
+    s.mean = llt.solve(all.transpose() * design.data() / noise);
+    s.factor = llt.matrixL();
+    return s;
+}
+
+Eigen::MatrixXd fitted_mm(const Prepared& prepared, const Design& design, const Model& model) {
+    Eigen::MatrixXd all = prepared.base.columns;
+    for (const std::size_t m : model.members) {
+        if (!is_cause(design.group(m).kind)) continue;
+        const Eigen::MatrixXd own =
+            columns_on(prepared.replay, prepared.base.gradient, design.group(m));
+        all.conservativeResize(Eigen::NoChange, all.cols() + own.cols());
+        all.rightCols(own.cols()) = own;
+    }
+    return all;
+}
+
+Eigen::VectorXd left_mm(const Prepared& prepared, const Design& design, const Model& model,
+                        const Solution& solution) {
+    Eigen::VectorXd left =
+        prepared.base.residual_mm - prepared.base.columns * solution.mean.head(solution.known);
+    for (std::size_t k = 0; k < model.members.size(); ++k)
+        if (const ColumnGroup& group = design.group(model.members[k]); is_cause(group.kind))
+            left -= columns_on(prepared.replay, prepared.base.gradient, group) *
+                    solution.mean.segment(solution.first[k], solution.size[k]);
+    return left;
+}
+
+std::vector<double> values_in(const ColumnGroup& group, const Eigen::VectorXd& coefficients) {
+    std::vector<double> values = group.keys;
+    for (std::size_t k = 0; k < group.parameters.size(); ++k)
+        values[group.parameters[k]] = coefficients(static_cast<Eigen::Index>(k)) *
+                                      group.effect->parameters[group.parameters[k]].typical;
+    return values;
+}
+
+Eigen::VectorXd table_values(const ColumnGroup& group, const Eigen::VectorXd& coefficients) {
+    Eigen::VectorXd value = group.shape * coefficients;
+    const Eigen::Index each = group.table.per_direction();
+    for (std::size_t k = 0; k < group.table.directions.size(); ++k)
+        value.segment(static_cast<Eigen::Index>(k) * each, each) *=
+            table_unit(group.table.directions[k]);
+    return value;
+}
+
+Setup setup_with(const Prepared& prepared, const Design& design, const Model& model,
+                 const Solution& solution) {
+    Setup setup = prepared.base.setup;
+    shift_base(setup, prepared.base, prepared.catalogue, solution.mean.head(solution.known));
+    for (std::size_t k = 0; k < model.members.size(); ++k) {
+        const ColumnGroup& group = design.group(model.members[k]);
+        const Eigen::VectorXd own = solution.mean.segment(solution.first[k], solution.size[k]);
+        if (group.kind == GroupKind::table)
+            add_free_form(setup, group, own);
+        else if (group.effect)
+            add_effect(setup, *group.effect, values_in(group, own));
+    }
+    return setup;
+}
+
+}  // namespace trunnion

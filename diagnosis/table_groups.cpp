@@ -1,0 +1,137 @@
+// Errors of any shape: free forms of the error motions of every axis.
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "diagnosis/candidate_groups.h"
+#include "diagnosis/rules.h"
+#include "estimation/free_form.h"
+
+namespace trunnion {
+namespace {
+
+/// One family of error motions of an axis, and what the textbook's form of it owns.
+struct Family {
+    const char* name;
+    bool rotary, along, angular;  ///< along: the axis's own direction, else across it
+    bool all_angles;              ///< all three directions
+    std::size_t knots;            ///< at most
+    Eigen::Index shapes;          ///< of one direction, at most
+    int owned;                    ///< polynomials, or harmonics of a turn
+};
+constexpr Family families[] = {{".positioning", false, true, false, false, 40, 24, 2},
+                               {".straightness", false, false, false, false, 24, 12, 3},
+                               {".angular", false, false, true, true, 16, 8, 2},
+                               {".positioning", true, true, true, false, 40, 24, 2},
+                               {".radial", true, false, false, false, 24, 12, 3},
+                               {".axial", true, true, false, false, 24, 12, 2},
+                               {".tilt", true, false, true, false, 24, 12, 2}};
+constexpr double whole_turn_rad = 5.0;  ///< a wider range counts as a whole turn
+constexpr double least_range_mm = 1.0, least_range_rad = 0.05;
+constexpr int last_order = 24;
+constexpr double soft_orders[] = {4.0, 12.0};  ///< harmonics fall off beyond these
+
+std::vector<double> places_of(const Prepared& p, Axis axis) {
+    std::vector<double> places;
+    for (std::size_t i = 0; i < p.replay.size(); ++i)
+        places.push_back(p.replay.sample(i).position[axis]);
+    return places;
+}
+
+std::vector<int> directions_of(const Family& family, const AxisGeometry& axis) {
+    std::vector<int> directions;
+    for (int d = 0; d < 3; ++d)
+        if (family.all_angles || (d == main_direction(axis)) == family.along)
+            directions.push_back(d + (family.angular ? 3 : 0));
+    return directions;
+}
+
+/// The same shapes for each direction.
+Eigen::MatrixXd for_each_direction(const Eigen::MatrixXd& shape, std::size_t directions) {
+    const auto count = static_cast<Eigen::Index>(directions);
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(count * shape.rows(), count * shape.cols());
+    for (Eigen::Index k = 0; k < count; ++k)
+        all.block(k * shape.rows(), k * shape.cols(), shape.rows(), shape.cols()) = shape;
+    return all;
+}
+
+/// What the textbook's form can be at the knots: polynomials, or harmonics of part of a turn.
+Eigen::MatrixXd owned_at(const Family& family, const std::vector<double>& knots) {
+    if (!family.rotary) return polynomials_at(knots, family.owned);
+    Eigen::MatrixXd owned(static_cast<Eigen::Index>(knots.size()), 2 + 2 * family.owned);
+    owned.leftCols(2) = polynomials_at(knots, 2);
+    for (std::size_t k = 0; k < knots.size(); ++k)
+        for (int n = 1; n <= family.owned; ++n) {
+            owned(static_cast<Eigen::Index>(k), 2 * n) = std::cos(n * knots[k]);
+            owned(static_cast<Eigen::Index>(k), 2 * n + 1) = std::sin(n * knots[k]);
+        }
+    return owned;
+}
+
+std::vector<Eigen::MatrixXd> shapes_of(const Family& family, const TableForm& table) {
+    std::vector<Eigen::MatrixXd> shapes;
+    if (!table.knots.empty()) {
+        for (const double length : correlation_lengths(table.knots))
+            shapes.push_back(
+                smooth_shapes(table.knots, length, owned_at(family, table.knots), family.shapes));
+    } else {
+        for (const double soft : soft_orders) {
+            Eigen::VectorXd size(2 * table.orders);
+            for (int n = 0; n < table.orders; ++n)
+                size.segment(2 * n, 2).setConstant(
+                    1.0 / (1.0 + std::pow((table.first_order + n) / soft, 2)));
+            shapes.push_back(Eigen::MatrixXd((size * std::sqrt(2.0) / size.norm()).asDiagonal()));
+        }
+    }
+    std::erase_if(shapes, [](const Eigen::MatrixXd& s) { return s.cols() == 0; });
+    return shapes;
+}
+
+TableForm form_of(const Family& family, const AxisGeometry& axis,
+                  const std::vector<double>& places) {
+    TableForm table{axis.axis, directions_of(family, axis), {}, 0, 0};
+    const auto [low, high] = std::minmax_element(places.begin(), places.end());
+    if (axis.rotary && *high - *low > whole_turn_rad) {
+        table.first_order = family.owned + 1;
+        table.orders = (family.shapes >= 24 ? last_order : last_order / 2) - family.owned;
+    } else {
+        table.knots = knots_of(places, family.knots);
+    }
+    return table;
+}
+
+void add_family(Design& design, const Prepared& p, const Whitener& whitener, const Family& family,
+                const AxisGeometry& axis, const std::vector<double>& places) {
+    const TableForm table = form_of(family, axis, places);
+    if (table.orders == 0 && table.knots.size() < 4) return;
+    const std::vector<Eigen::MatrixXd> shapes = shapes_of(family, table);
+    if (shapes.empty()) return;
+    Eigen::MatrixXd white = table_features(p.replay, p.base.gradient, table);
+    whitener.apply(white);
+    const Eigen::Index first = design.add_features(white);
+    for (const Eigen::MatrixXd& shape : shapes) {
+        ColumnGroup group;
+        group.kind = GroupKind::table;
+        group.name = effect_name(axis.axis, family.name);
+        group.table = table;
+        group.shape = for_each_direction(shape, table.directions.size());
+        for (Eigen::Index k = 0; k < white.cols(); ++k) group.features.push_back(first + k);
+        group.log_prior = rules::table_prior - std::log(static_cast<double>(shapes.size()));
+        design.add(std::move(group));
+    }
+}
+
+}  // namespace
+
+void add_table_groups(Design& design, const Prepared& prepared, const Whitener& whitener) {
+    for (const AxisGeometry& axis : prepared.base.setup.machine.chain.axes()) {
+        const std::vector<double> places = places_of(prepared, axis.axis);
+        const auto [low, high] = std::minmax_element(places.begin(), places.end());
+        if (*high - *low < (axis.rotary ? least_range_rad : least_range_mm)) continue;
+        for (const Family& family : families)
+            if (family.rotary == axis.rotary)
+                add_family(design, prepared, whitener, family, axis, places);
+    }
+}
+
+}  // namespace trunnion

@@ -1,0 +1,138 @@
+// Catalogue effects as groups of columns.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "diagnosis/candidate_groups.h"
+#include "diagnosis/key_search.h"
+#include "diagnosis/rules.h"
+
+namespace trunnion {
+namespace {
+
+/// A column that moves no reading by this many sigma when its parameter changes as usual is left
+/// out.
+constexpr double dead_column = 1e-6;
+
+using Takes = std::function<bool(const EffectParameter&)>;
+
+struct Material {
+    std::vector<std::size_t> parameters;
+    Eigen::MatrixXd columns;  ///< mm
+};
+
+/// Columns of the linear parameters in the textbook's form that move any reading.
+Material material_of(const Prepared& p, const Effect& effect, const std::vector<double>& keys) {
+    Material m;
+    std::vector<Eigen::VectorXd> list;
+    for (std::size_t j = 0; j < effect.parameters.size(); ++j) {
+        if (effect.parameters[j].is_key() || !effect.parameters[j].usual) continue;
+        list.push_back(effect_column(p.replay, p.base.gradient, effect, keys, j));
+        if (list.back().cwiseQuotient(p.base.sigma_mm).norm() < dead_column)
+            list.pop_back();
+        else
+            m.parameters.push_back(j);
+    }
+    m.columns.resize(p.base.residual_mm.size(), static_cast<Eigen::Index>(list.size()));
+    for (std::size_t c = 0; c < list.size(); ++c)
+        m.columns.col(static_cast<Eigen::Index>(c)) = list[c];
+    return m;
+}
+
+ColumnGroup group_of(const Effect& effect, std::vector<double> keys, const Material& material,
+                     Eigen::Index first, const Takes& takes) {
+    ColumnGroup group;
+    group.kind = has_keys(effect) ? GroupKind::periodic : GroupKind::textbook;
+    group.name = effect.name;
+    group.effect = &effect;
+    group.keys = std::move(keys);
+    for (std::size_t c = 0; c < material.parameters.size(); ++c) {
+        if (takes && !takes(effect.parameters[material.parameters[c]])) continue;
+        group.parameters.push_back(material.parameters[c]);
+        group.features.push_back(first + static_cast<Eigen::Index>(c));
+    }
+    return group;
+}
+
+/// Prior of key settings: even over their grids, but even in the logarithm where the grid counts
+/// periods: a period and its alias fit alike, and the coarse one is what machines have.
+double log_prior_of_keys(const Effect& effect, const std::vector<double>& keys) {
+    double sum = 0.0;
+    for (std::size_t j = 0; j < keys.size(); ++j) {
+        const EffectParameter& p = effect.parameters[j];
+        if (!p.is_key()) continue;
+        double all = 0.0;
+        const bool counts = p.name == periods_key;
+        for (const double g : p.grid) all += counts ? 1.0 / g : 1.0;
+        sum += std::log((counts ? 1.0 / keys[j] : 1.0) / all);
+    }
+    return sum;
+}
+
+}  // namespace
+
+std::vector<std::function<bool(const EffectParameter&)>> simpler_forms(const Effect& effect) {
+    std::vector<Takes> forms;
+    std::set<std::string> vectors;
+    for (const EffectParameter& p : effect.parameters) {
+        if (p.component >= 0 && !p.is_key()) vectors.insert(p.name);
+    }
+    // ISO 230-1: straightness is what departs from the mean line; the line is squareness.
+    if (effect.name.ends_with(".straightness"))
+        forms.push_back(
+            [](const EffectParameter& p) { return p.name.find("_p1_") == std::string::npos; });
+    if (vectors.size() > 1)
+        for (const std::string& name : vectors)
+            forms.push_back([name](const EffectParameter& p) { return p.name == name; });
+    return forms;
+}
+
+Eigen::Index add_textbook_groups(Design& design, const Prepared& prepared,
+                                 const Whitener& whitener) {
+    struct Ready {
+        const Effect* effect;
+        Material material;
+        Eigen::Index first;
+    };
+    std::vector<Ready> list;
+    Eigen::Index all = 0;
+    for (const Effect& effect : prepared.catalogue) {
+        if (modelled(prepared, effect) || effect.parameters.empty() || has_keys(effect)) continue;
+        list.push_back({&effect, material_of(prepared, effect, effect.zeros()), all});
+        all += list.back().material.columns.cols();
+    }
+    Eigen::MatrixXd white(prepared.base.residual_mm.size(), all);
+    for (const Ready& r : list)
+        white.middleCols(r.first, r.material.columns.cols()) = r.material.columns;
+    whitener.apply(white);
+    design.add_features(white);
+    for (const Ready& r : list) {
+        const auto forms = simpler_forms(*r.effect);
+        const double prior =
+            rules::effect_prior - std::log(1.0 + static_cast<double>(forms.size()));
+        const auto add = [&](const Takes& takes) {
+            ColumnGroup group = group_of(*r.effect, r.effect->zeros(), r.material, r.first, takes);
+            group.log_prior = prior;
+            if (!group.features.empty()) design.add(std::move(group));
+        };
+        add({});
+        for (const Takes& takes : forms) add(takes);
+    }
+    return all;
+}
+
+std::optional<std::size_t> add_keyed_group(Design& design, const Prepared& prepared,
+                                           const Whitener& whitener, const Effect& effect,
+                                           std::vector<double> keys) {
+    Material material = material_of(prepared, effect, keys);
+    if (material.parameters.empty()) return std::nullopt;
+    whitener.apply(material.columns);
+    const double prior = rules::effect_prior + log_prior_of_keys(effect, keys);
+    ColumnGroup group =
+        group_of(effect, std::move(keys), material, design.add_features(material.columns), {});
+    group.log_prior = prior;
+    return design.add(std::move(group));
+}
+
+}  // namespace trunnion
