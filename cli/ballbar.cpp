@@ -6,6 +6,7 @@
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/options.h"
+#include "cli/readings_command.h"
 #include "cli/setups.h"
 #include "effects/settings.h"
 #include "report/ballbar_report.h"
@@ -15,6 +16,7 @@ namespace trunnion {
 namespace {
 
 struct BallbarOptions {
+    std::vector<std::string> measured;
     std::string setup, svg_folder, csv, readings, readings_after, program, kinematic_program;
     std::vector<std::string> injections;
     std::vector<double> pivot_offset_mm;
@@ -37,12 +39,7 @@ int write_programs(const Setup& setup, const BallbarOptions& o) {
     return exit_done;
 }
 
-int run_command(const BallbarOptions& o) {
-    Setup setup = open_setup(o.setup);
-    const Catalogue catalogue = make_catalogue(setup);
-    for (const std::string& text : o.injections)
-        setup.effects.push_back(parse_injection(text, catalogue));
-    if (!o.program.empty() || !o.kinematic_program.empty()) return write_programs(setup, o);
+BallbarResult simulate(const BallbarOptions& o, const Setup& setup) {
     BallbarProcedureOptions options;
     options.seed = o.seed;
     options.effects = active_models(setup);
@@ -51,7 +48,38 @@ int run_command(const BallbarOptions& o) {
     if (!o.pivot_offset_mm.empty())
         options.pivot_offset_mm = {o.pivot_offset_mm[0], o.pivot_offset_mm[1],
                                    o.pivot_offset_mm[2]};
-    const BallbarResult result = run_ballbar(setup, options);
+    return run_ballbar(setup, options);
+}
+
+BallbarResult evaluate(const BallbarOptions& o, const Setup& setup) {
+    const ReadingTable before = load_readings(o.measured[0]);
+    std::optional<ReadingTable> after;
+    if (o.measured.size() > 1) after = load_readings(o.measured[1]);
+    return evaluate_ballbar(setup, before, after);
+}
+
+/// Real passes know nothing of what a simulator would be told.
+void refuse_simulation_options(const BallbarOptions& o) {
+    if (o.measured.size() > 2)
+        throw InputError("ballbar takes one table of readings, or one before and one after");
+    if (o.setup.empty())
+        throw InputError("readings need the machine they come from: --setup", {o.measured[0]});
+    if (!o.readings.empty() || !o.readings_after.empty() || !o.injections.empty() ||
+        !o.pivot_offset_mm.empty() || !o.program.empty() || !o.kinematic_program.empty())
+        throw InputError(
+            "--write-readings, --inject, --pivot-offset and --program belong to a simulated test, "
+            "not to readings",
+            {o.measured[0]});
+}
+
+int run_command(const BallbarOptions& o) {
+    if (!o.measured.empty()) refuse_simulation_options(o);
+    Setup setup = open_setup(o.setup);
+    const Catalogue catalogue = make_catalogue(setup);
+    for (const std::string& text : o.injections)
+        setup.effects.push_back(parse_injection(text, catalogue));
+    if (!o.program.empty() || !o.kinematic_program.empty()) return write_programs(setup, o);
+    const BallbarResult result = o.measured.empty() ? simulate(o, setup) : evaluate(o, setup);
     print_notes(result.notes);
     OutputFiles files;
     files.add("-", o.json ? ballbar_json(result) : ballbar_table(result));
@@ -73,7 +101,10 @@ int run_command(const BallbarOptions& o) {
 void add_ballbar(CLI::App& app, Run& run) {
     const auto o = std::make_shared<BallbarOptions>();
     CLI::App* command = app.add_subcommand(
-        "ballbar", "the single-set-up ballbar test: run, identify, compensate, run again");
+        "ballbar",
+        "the single-set-up ballbar test: run, identify, compensate, run again; or real passes");
+    reads_file(command->add_option("READINGS", o->measured,
+                                   "table of real passes, or two: before and after"));
     reads_file(
         command->add_option("--setup", o->setup, "setup file (default machines/bc_table.toml)"));
     command->add_option("--seed", o->seed, "of the noise (second run: the next one)");
@@ -81,8 +112,8 @@ void add_ballbar(CLI::App& app, Run& run) {
     writes_file(command->add_option("--svg", o->svg_folder, "folder for the polar plots"));
     writes_file(command->add_option("--csv", o->csv, "write the table of errors (CSV)"));
     writes_file(
-        command->add_option("--readings", o->readings, "write the first run's readings (CSV)"));
-    writes_file(command->add_option("--readings-after", o->readings_after,
+        command->add_option("--write-readings", o->readings, "the simulated first run (CSV)"));
+    writes_file(command->add_option("--write-readings-after", o->readings_after,
                                     "write the readings of the run after compensation (CSV)"));
     writes_file(command->add_option("--program", o->program,
                                     "only write the NC program of the test for this machine"));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -17,6 +18,7 @@
 #include "cli/options.h"
 #include "cli/readings_command.h"
 #include "identification/monte_carlo.h"
+#include "report/stores_text.h"
 
 namespace trunnion {
 namespace {
@@ -56,6 +58,19 @@ void print_table(const Identification& result, bool monte_carlo) {
               result.rms_before_um, result.rms_after_um, result.dof);
 }
 
+/// What to type for the axes' places, where they were fitted and the control has a place for them.
+void print_stores(const Setup& identified, const Identification& result) {
+    const bool located = std::any_of(result.parameters.begin(), result.parameters.end(),
+                                     [](const FitParameter& p) { return p.effect == "location"; });
+    if (!located || identified.artefacts.empty()) return;
+    const Vector3 tip_S_mm = identified.probe     ? identified.probe->tip_S_mm
+                             : identified.ballbar ? identified.ballbar->cup_S_mm
+                                                  : Vector3(0, 0, -150);
+    const auto stores = stores_to_type(identified, identified.machine,
+                                       identified.artefacts.front().center_W_mm, tip_S_mm);
+    if (stores) print_out("{}", stores_text(*stores, identified.dialect.family));
+}
+
 /// Shows how far it is; Ctrl-C leaves what the repetitions done so far say.
 int repeat(const Setup& setup, const ReadingTable& table, const std::vector<std::string>& effects,
            const Options& options, Identification& result) {
@@ -84,7 +99,10 @@ int identify_command(const Options& options) {
     if (!options.out.empty()) files.add(options.out, format_setup(result.setup));
     if (options.json) files.add("-", to_json(result).dump(1) + "\n");
     files.write();
-    if (!options.json) print_table(result, repetitions > 1);
+    if (!options.json) {
+        print_table(result, repetitions > 1);
+        print_stores(result.setup, result);
+    }
     if (repetitions == options.runs) return exit_done;
     print_error("trunnion: interrupted: {} of {} repetitions are done\n", repetitions,
                 options.runs);

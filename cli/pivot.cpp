@@ -1,36 +1,219 @@
-// trunnion pivot: the mismatched-pivot demonstration.
+// trunnion pivot: which pivot store is stale, and what to type; simulated or from readings.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 
+#include "backup/control_files.h"
 #include "base/console.h"
 #include "base/output_files.h"
+#include "base/read_file.h"
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/options.h"
+#include "cli/readings_command.h"
 #include "cli/setups.h"
+#include "pivot/pivot_program.h"
+#include "pivot/pivot_readings.h"
+#include "pivot/pivot_run.h"
 #include "report/pivot_report.h"
+#include "setup/control_machine.h"
 
 namespace trunnion {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 struct PivotOptions {
-    std::string setup, svg_folder;
+    std::vector<std::string> readings;
+    std::string setup, control, svg_folder, html, programs_folder, print, shop_programs, command;
     unsigned long long seed = 1;
-    bool json = false;
+    double limit_um = 3.0;
+    bool json = false, stores_alone = false;
 };
 
-int run_pivot(const PivotOptions& o) {
-    const Setup setup = open_setup(o.setup);
-    const std::string programs = shipped("programs");
-    const PivotDemonstration demo =
-        demonstrate_pivot(setup, {programs, programs + "/pivot"}, o.seed);
+/// A setup, a backup over it, or a machine made from a backup alone.
+Setup setup_of(const PivotOptions& o) {
+    if (!o.setup.empty() || o.control.empty()) {
+        Setup setup = open_setup(o.setup);
+        if (!o.control.empty()) apply_backup(read_backup(o.control), setup.stores);
+        return setup;
+    }
+    Stores stores;
+    apply_backup(read_backup(o.control), stores);
+    return setup_of_control(stores, o.control);
+}
+
+bool is_table(const std::string& text) {
+    return text.starts_with("#") || text.starts_with("index,");
+}
+
+/// Prints and tables of readings as error maps.
+PivotPrints read_maps(const PivotOptions& o, const Setup& setup, const RotaryStores& stores) {
+    const Axis first = stores.pivot.first.axis, second = stores.pivot.second.axis;
+    std::vector<PrintedFile> printed;
+    std::vector<ReadingTable> tables;
+    for (const std::string& path : o.readings) {
+        std::string text = read_file(path);
+        if (is_table(text))
+            tables.push_back(load_readings(path));
+        else
+            printed.push_back({path, std::move(text)});
+    }
+    if (tables.empty()) return parse_pivot_prints(printed, first, second);
+    if (!printed.empty())
+        throw InputError("prints and tables of readings in one call: give either",
+                         {printed[0].path});
+    const auto sphere =
+        std::find_if(setup.artefacts.begin(), setup.artefacts.end(),
+                     [](const Artefact& a) { return a.kind == Artefact::Kind::sphere; });
+    if (sphere == setup.artefacts.end() || !setup.probe)
+        throw InputError("readings need the setup's [probe] and a sphere", {setup.path});
+    return pivot_readings(join_readings(std::move(tables)), first, second,
+                          0.5 * (sphere->diameter_mm + setup.probe->ball_diameter_mm),
+                          setup.probe->tip_S_mm);
+}
+
+Machine without_rotary_errors(Machine machine) {
+    for (const AxisGeometry& axis : machine.chain.axes())
+        if (axis.rotary) machine.errors.axis[index_of(axis.axis)].location = {};
+    return machine;
+}
+
+Vector3 stylus_of(const Setup& setup) {
+    return setup.probe ? setup.probe->tip_S_mm : Vector3(0, 0, -150);
+}
+
+/// Paths under a folder, each with the functions that it uses.
+std::vector<std::pair<std::string, std::vector<std::string>>> shop_programs(
+    const std::string& folder, Axis first, Axis second) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> found;
+    if (folder.empty()) return found;
+    if (!fs::is_directory(folder)) throw InputError("no such folder", {folder});
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (!entry.is_regular_file() || entry.file_size() > 100'000'000) continue;
+        const std::string path = entry.path().string();
+        auto used = functions_used(read_file(path), first, second);
+        if (!used.empty()) found.emplace_back(path, std::move(used));
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+PivotResult result_of(const PivotOptions& o, const Setup& setup, PivotVerdict verdict,
+                      std::vector<PivotMap> maps) {
+    PivotResult result;
+    result.machine = setup.name;
+    result.first = verdict.in_force.pivot.first.axis;
+    result.second = verdict.in_force.pivot.second.axis;
+    result.hurco = setup.dialect.family == DialectFamily::hurco;
+    std::vector<PivotFunction> functions;
+    for (const PivotFunction& f : pivot_functions())
+        for (const PivotMap& map : maps)
+            if (std::any_of(map.arcs.begin(), map.arcs.end(),
+                            [&](const PivotArc& arc) { return arc.function == f.name; })) {
+                functions.push_back(f);
+                break;
+            }
+    result.affected = affected_parts(verdict, functions,
+                                     shop_programs(o.shop_programs, result.first, result.second));
+    result.maps = std::move(maps);
+    result.verdict = std::move(verdict);
+    return result;
+}
+
+PivotResult judge_readings(const PivotOptions& o, const Setup& setup) {
+    const auto declared = rotary_stores(setup.machine.chain, setup.stores);
+    if (!declared)
+        throw InputError("the control knows no two rotary axes (19680-19690)", {setup.path});
+    PivotPrints prints = read_maps(o, setup, *declared);
+    std::vector<std::string> notes;
+    PivotEvidence evidence;
+    evidence.in_force = stores_in_force(prints, *declared, notes);
+    print_notes(notes);
+    evidence.known = without_rotary_errors(setup.machine);
+    evidence.sphere_mm = prints.sphere_mm();
+    evidence.tip_S_mm = stylus_of(setup);
+    evidence.increment_mm = least_increment_mm(setup.stores.parameters);
+    evidence.limit_um = o.limit_um;
+    PivotVerdict verdict = judge_pivot(evidence, prints.maps);
+    add_expected({verdict.fit.machine, evidence.in_force, evidence.sphere_mm, evidence.tip_S_mm},
+                 evidence.in_force.pivot, prints.maps);
+    PivotResult result = result_of(o, setup, std::move(verdict), std::move(prints.maps));
+    result.source =
+        "measured: " + o.readings.front() +
+        (o.readings.size() > 1 ? fmt::format(" and {} more", o.readings.size() - 1) : "");
+    return result;
+}
+
+/// No program runs: the maps are worked out for the setup's machine, measured or identified.
+PivotResult from_known_machine(const PivotOptions& o, const Setup& setup) {
+    const PivotPlan plan = plan_pivot_test(setup);
+    std::vector<PivotMap> maps = modelled_maps(plan, setup.machine, setup.probe->tip_S_mm);
+    PivotEvidence evidence;
+    evidence.in_force = plan.stores;
+    evidence.known = without_rotary_errors(setup.machine);
+    evidence.sphere_mm = plan.sphere_mm;
+    evidence.tip_S_mm = setup.probe->tip_S_mm;
+    evidence.increment_mm = least_increment_mm(setup.stores.parameters);
+    evidence.limit_um = o.limit_um;
+    PivotVerdict verdict = judge_pivot(evidence, maps);
+    add_expected({setup.machine, plan.stores, plan.sphere_mm, evidence.tip_S_mm}, plan.stores.pivot,
+                 maps);
+    PivotResult result = result_of(o, setup, std::move(verdict), std::move(maps));
+    result.source = "worked out from the machine in the setup";
+    return result;
+}
+
+PivotResult simulate(const PivotOptions& o, const Setup& setup, OutputFiles& files) {
+    PivotDemonstration demo = demonstrate_pivot(setup, pivot_programs(plan_pivot_test(setup)),
+                                                {shipped("programs")}, o.seed);
+    if (!o.print.empty()) files.add(o.print, demo.printed);
+    PivotResult result = result_of(o, setup, std::move(demo.verdict), std::move(demo.maps));
+    result.true_right = demo.true_right;
+    result.source = "simulated";
+    return result;
+}
+
+int write_programs(const PivotOptions& o, const Setup& setup) {
+    make_folder(o.programs_folder);
     OutputFiles files;
-    files.add("-", o.json ? pivot_json(demo) : pivot_table(demo));
+    for (const auto& [name, text] : pivot_programs(plan_pivot_test(setup)))
+        files.add((fs::path(o.programs_folder) / name).string(), text);
+    files.add((fs::path(o.programs_folder) / "sphere9.nc").string(),
+              read_file(shipped("programs") + "/sphere9.nc"));
+    files.write();
+    return exit_done;
+}
+
+PageOrigin origin_of(const PivotOptions& o) {
+    PageOrigin origin;
+    origin.command = "trunnion pivot";
+    for (const std::string& path : o.readings) origin.command += " " + path;
+    if (!o.setup.empty()) origin.command += " --setup " + o.setup;
+    if (!o.control.empty()) origin.command += " --control " + o.control;
+    if (o.readings.empty()) origin.seed = o.seed;
+    return origin;
+}
+
+int run_pivot(const PivotOptions& o) {
+    if (!o.readings.empty() && o.setup.empty() && o.control.empty())
+        throw InputError(
+            "readings and prints need the machine they come from: --setup or --control");
+    const Setup setup = setup_of(o);
+    if (!o.programs_folder.empty()) return write_programs(o, setup);
+    OutputFiles files;
+    const PivotResult result = !o.readings.empty() ? judge_readings(o, setup)
+                               : o.stores_alone    ? from_known_machine(o, setup)
+                                                   : simulate(o, setup, files);
+    files.add("-", o.json ? pivot_json(result) : pivot_table(result));
+    if (!o.html.empty()) files.add(o.html, pivot_page(result, origin_of(o)));
     if (!o.svg_folder.empty()) {
         make_folder(o.svg_folder);
-        for (const auto& [name, text] : pivot_pictures(demo))
-            files.add((std::filesystem::path(o.svg_folder) / name).string(), text);
+        for (const auto& [name, text] : pivot_pictures(result))
+            files.add((fs::path(o.svg_folder) / name).string(), text);
     }
     files.write();
     if (!o.svg_folder.empty())
@@ -43,12 +226,26 @@ int run_pivot(const PivotOptions& o) {
 void add_pivot(CLI::App& app, Run& run) {
     const auto o = std::make_shared<PivotOptions>();
     CLI::App* command = app.add_subcommand(
-        "pivot",
-        "what mismatched pivot parameters do: four positioning functions, four error maps");
+        "pivot", "which pivot store is stale and what to type: simulated, or from readings");
+    reads_file(command->add_option("READINGS", o->readings,
+                                   "what the test's programs printed, or tables of readings; "
+                                   "none: the test is simulated"));
     reads_file(
         command->add_option("--setup", o->setup, "setup file (default machines/bc_table.toml)"));
+    reads_file(command->add_option("--control", o->control,
+                                   "a real control's backup folder: the stores in force"));
+    reads_file(command->add_option("--programs", o->shop_programs,
+                                   "folder with your programs: which are affected"));
+    writes_file(command->add_option("--write-programs", o->programs_folder,
+                                    "only write the NC programs of the test for this machine"));
+    writes_file(command->add_option("--print", o->print, "file for what the programs print"));
     command->add_option("--seed", o->seed, "of the probe's repeatability");
+    not_negative(command->add_option("--limit-um", o->limit_um,
+                                     "a store that causes less error is not stale (3)"));
     writes_file(command->add_option("--svg", o->svg_folder, "folder for the pictures"));
+    writes_file(command->add_option("--html", o->html, "the result as a page"));
+    command->add_flag("--stores", o->stores_alone,
+                      "run nothing: judge the stores by the machine that the setup knows");
     command->add_flag("--json", o->json, "one JSON object on stdout");
     command->callback([o, &run] { run = [o] { return run_pivot(*o); }; });
 }

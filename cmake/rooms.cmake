@@ -25,12 +25,12 @@ set(TRUNNION_ROOMS
   "identification: estimation effects emulator base"
   "regression: emulator setup controller motion positioning interpreter geometry base"
   "diagnosis: identification estimation effects emulator setup records kinematics base"
-  "pivot: effects emulator setup interpreter geometry base"
+  "pivot: estimation effects emulator setup positioning records interpreter kinematics geometry base"
   "compensation: emulator setup motion positioning kinematics offsets base"
   "volumetric: emulator setup kinematics base"
   "ballbar/test: emulator setup records kinematics interpreter geometry base"
   "report: ballbar/test volumetric pivot diagnosis regression emulator setup check geometry base"
-  "cli: report imports compensation diagnosis regression identification effects emulator setup backup check controller records interpreter base"
+  "cli: report imports pivot compensation diagnosis regression identification effects emulator setup backup check controller records interpreter base"
 )
 
 # What stands behind the colon of one line of the list.

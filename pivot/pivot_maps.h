@@ -1,86 +1,85 @@
-// Error maps of the four positioning functions: what pivot 2021 measures, from printed results.
+// Error maps of the positioning functions: what pivot 2021 measures, and what a machine leads to.
 #pragma once
 
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "setup/setup.h"
-#include "geometry/axes.h"
 #include "geometry/pose.h"
+#include "kinematics/machine.h"
+#include "pivot/pivot_plan.h"
+#include "positioning/rotary_transform.h"
 
 namespace trunnion {
 
-/// The positioning functions in the paper's order, and the store each takes the pivot from.
-struct PivotFunction {
-    std::string name;   ///< DPP, RTDFO, RTCP, TW
-    std::string store;  ///< "G54" or "P1970x"
-    int program = 0;    ///< O number in programs/pivot
-};
-extern const std::vector<PivotFunction> pivot_functions;
-
-/// One indexation: found minus expected sphere centre along X Y Z of M, the sphere zeroed at B0 C0.
+/// One indexation: found minus expected sphere centre along X Y Z of M, the sphere zeroed with both
+/// rotary axes at 0. First and second axis as 19681, 19686.
 struct PivotPoint {
-    double b_deg = 0.0, c_deg = 0.0;
+    double first_deg = 0.0, second_deg = 0.0;
     Vector3 error_mm = Vector3::Zero();
+};
+
+/// The least-squares circle on which the error turns with the moving axis: e = centre +
+/// Rot(angle) turning, in the plane across the axis. Zero where the arc is too short to say.
+struct ErrorCircle {
+    Vector3 centre_mm = Vector3::Zero(), turning_mm = Vector3::Zero();
+    double radius_mm() const { return turning_mm.norm(); }
 };
 
 /// One arc measured with one function.
 struct PivotArc {
-    std::string function, store;
+    std::string function;
+    PivotGroup group = PivotGroup::g54;
     std::vector<PivotPoint> points;
-    double radius_mm = 0.0;           ///< of the least-squares circle, see fit_arc_radius_mm
-    double expected_radius_mm = 0.0;  ///< the same from the closed form
+    ErrorCircle circle;
+    std::vector<Vector3>
+        expected_mm;  ///< of each point, by the machine that is known or was fitted
+    ErrorCircle expected;
 };
 
 /// One error map: an arc of one axis, the other standing.
 struct PivotMap {
     int number = 0;
-    std::string name;
-    Axis moving = Axis::B;
-    Axis fixed = Axis::C;
+    std::string name;  ///< "B arc at C90"
+    bool first_moves = true;
     double fixed_deg = 0.0;
-    std::vector<PivotArc> arcs;  ///< one for each function, in the order of pivot_functions
+    std::vector<PivotArc> arcs;  ///< in the order of pivot_functions()
+
+    double moving_deg(const PivotPoint& p) const {
+        return first_moves ? p.first_deg : p.second_deg;
+    }
 };
 
-/// What the stores say and what is true, mm in M.
-struct PivotStores {
-    Vector3 g54 = Vector3::Zero();     ///< G54 + external
-    Vector3 p = Vector3::Zero();       ///< 19700-19702
-    Vector3 d = Vector3::Zero();       ///< 19703-19705
-    Vector3 p_true = Vector3::Zero();  ///< point of the first rotary axis, location errors included
-    Vector3 d_true = Vector3::Zero();  ///< from there to the point of the second
+/// Which axis moves, and the name, from the points.
+void name_map(PivotMap& map, Axis first, Axis second);
+
+/// `axis_M`: direction of the moving axis (what a + command does) in this map.
+ErrorCircle fit_circle(const PivotMap& map, const std::vector<PivotPoint>& points,
+                       const Vector3& axis_M);
+/// Direction of the map's moving axis in M, the other standing where the map has it.
+Vector3 moving_axis_M(const PivotParameters& pivot, const PivotMap& map);
+
+/// What the four functions lead to on a physical machine: axis positions that the control's stores
+/// command for the centre of a sphere, against those that really reach it.
+class PivotModel {
+  public:
+    /// `sphere_mm`: machine coordinates of the tip on the sphere with the rotaries at zero;
+    /// `tip_S_mm`: the stylus ball, as the control's tool length has it.
+    PivotModel(const Machine& machine, const RotaryStores& in_force, const Vector3& sphere_mm,
+               const Vector3& tip_S_mm);
+
+    /// Found minus expected centre. Tilts and all other errors of the machine included; the axes
+    /// need not meet. `zero_mm`: error with which the sphere was zeroed (believed minus true).
+    Vector3 error_mm(PivotGroup group, double first_deg, double second_deg,
+                     const Vector3& zero_mm = Vector3::Zero()) const;
+
+  private:
+    Vector3 reached_mm(const AxisPositions& turned) const;
+    Vector3 commanded_mm(PivotGroup group, const AxisPositions& turned,
+                         const Vector3& sphere_mm) const;
+
+    Machine machine_;
+    RotaryTransform by_parameters_, by_g54_;
+    Vector3 sphere_mm_, tip_S_mm_, sphere_W_mm_;
 };
-
-struct PivotDemonstration {
-    PivotStores stores;
-    std::vector<PivotMap> maps;
-    std::string verdict;  ///< one plain sentence
-};
-
-/// Reads the stores of a setup whose table carries B, then C. Throws InputError for any other
-/// machine.
-PivotStores pivot_stores(const Setup& setup);
-
-/// Found minus expected centre of a sphere that stands at `sphere_W_mm` and was zeroed at home;
-/// `g54` picks the closed form e_G (DPP, RTDFO) or e_P (RTCP, TW) of docs/notation.md. Axes need
-/// not intersect. Angles as commanded, table axes turning against the tool as in
-/// machines/bc_table.toml.
-Vector3 expected_error_mm(const PivotStores& stores, bool g54, const Vector3& sphere_W_mm,
-                          double b_rad, double c_rad);
-
-/// Radius of the least-squares circle on which an error turns with the moving axis: the errors in
-/// the plane normal to it are fitted by centre + R(theta) * vector with theta known.
-double fit_arc_radius_mm(const std::vector<PivotPoint>& points, Axis moving);
-
-/// Maps from what the four programs printed (lines "DPP MAP1 B.. C.. X.. Y.. Z.."), in any order.
-std::vector<PivotMap> parse_pivot_prints(std::string_view printed);
-
-/// Runs the four programs of programs/pivot on the setup's control and machine.
-/// Throws Alarm with its place when a program alarms, InputError when the machine does not suit.
-PivotDemonstration demonstrate_pivot(const Setup& setup,
-                                     const std::vector<std::string>& program_folders,
-                                     unsigned long long seed);
 
 }  // namespace trunnion

@@ -1,100 +1,80 @@
-// Runs the four programs of programs/pivot and turns what they print into maps.
-#include <fmt/format.h>
+#include "pivot/pivot_run.h"
 
-#include <algorithm>
-#include <cmath>
+#include <memory>
 
-#include "pivot/pivot_maps.h"
 #include "effects/settings.h"
-#include "interpreter/program_folders.h"
 #include "emulator/run.h"
-#include "base/alarm.h"
-#include "base/units.h"
+#include "interpreter/program_folders.h"
 
 namespace trunnion {
 
 namespace {
 
-const Artefact& sphere_of(const Setup& setup) {
-    for (const Artefact& artefact : setup.artefacts)
-        if (artefact.kind == Artefact::Kind::sphere) return artefact;
-    throw InputError("no [[artefact]] of kind \"sphere\" to probe", {setup.path});
-}
-
-/// What an operator would enter before the programs: #500-#506 of programs/pivot/common.nc.
-std::map<int, double> operator_data(const Setup& setup) {
-    if (!setup.probe) throw InputError("no [probe] to measure with", {setup.path});
-    const Artefact& sphere = sphere_of(setup);
-    const AxisGeometry* z = setup.machine.chain.find(Axis::Z);
-    std::map<int, double> data{
-        {500, sphere.center_W_mm.x()},        {501, sphere.center_W_mm.y()},
-        {502, sphere.center_W_mm.z()},        {503, sphere.diameter_mm},
-        {504, setup.probe->ball_diameter_mm}, {506, setup.probe->tool > 0 ? setup.probe->tool : 1}};
-    if (z && z->max) data[505] = *z->max - 20.0;
-    return data;
-}
-
-std::string print_of(const Setup& setup, ProgramFolders& programs, int program,
+std::string print_of(const Setup& setup, const std::map<std::string, std::string>& programs,
+                     const std::vector<std::string>& folders, int number,
                      const RunOptions& options) {
-    const RunLog log = run_program(setup, programs, program, options);
+    ProgramFolders source(folders);
+    for (const auto& [name, text] : programs) {
+        const auto owner = std::make_shared<std::string>(text);
+        source.add_file({name, *owner, owner});
+    }
+    const RunLog log = run_program(setup, source, number, options);
     if (log.result.alarm) throw *log.result.alarm;
     return log.printed;
 }
 
-void add_expected(const PivotStores& stores, const Vector3& sphere_W_mm, PivotMap& map) {
-    for (PivotArc& arc : map.arcs) {
-        std::vector<PivotPoint> expected = arc.points;
-        for (PivotPoint& p : expected)
-            p.error_mm = expected_error_mm(stores, arc.store == "G54", sphere_W_mm,
-                                           rad_from_deg(p.b_deg), rad_from_deg(p.c_deg));
-        arc.expected_radius_mm = fit_arc_radius_mm(expected, map.moving);
-    }
-}
-
-double worst_um(const std::vector<PivotMap>& maps, const std::string& store) {
-    double worst = 0.0;
-    for (const PivotMap& map : maps)
-        for (const PivotArc& arc : map.arcs)
-            for (const PivotPoint& p : arc.points)
-                if (arc.store == store) worst = std::max(worst, um_from_mm(p.error_mm.norm()));
-    return worst;
-}
-
-std::string sentence(const PivotStores& s, const std::vector<PivotMap>& maps) {
-    const Vector3 apart_um = 1e3 * (s.g54 - s.p - s.d);
-    const std::string off = fmt::format(
-        "G54.2 and DPP parts are off by up to {:.1f} µm, G43.4 and tilted-plane parts by up to "
-        "{:.1f} µm.",
-        worst_um(maps, "G54"), worst_um(maps, "P1970x"));
-    // The step from B to C is seen by 1970x alone; G54 takes the axes to meet in one point.
-    const Vector3 step_um = 1e3 * (s.d - s.d_true);
-    if (apart_um.norm() < 0.05 && step_um.norm() < 0.05) return "G54 and P1970x agree; " + off;
-    return fmt::format(
-        "G54 and P1970x disagree by ({:.1f}, {:.1f}, {:.1f}) µm in sum, and the step from B to C "
-        "in P1970x is "
-        "off by ({:.1f}, {:.1f}, {:.1f}) µm; {}",
-        apart_um.x(), apart_um.y(), apart_um.z(), step_um.x(), step_um.y(), step_um.z(), off);
+Machine nominal_of(const Setup& setup) {
+    Machine machine = setup.machine;
+    machine.errors = {};
+    return machine;
 }
 
 }  // namespace
 
+std::vector<PivotMap> modelled_maps(const PivotPlan& plan, const Machine& machine,
+                                    const Vector3& tip_S_mm) {
+    const PivotModel model(machine, plan.stores, plan.sphere_mm, tip_S_mm);
+    std::vector<PivotMap> maps;
+    for (std::size_t m = 0; m < plan.maps.size(); ++m) {
+        PivotMap map;
+        map.number = static_cast<int>(m) + 1;
+        for (const PivotFunction& f : plan.functions) {
+            if (f.group == PivotGroup::g54 && !plan.maps[m].turns_table_only) continue;
+            map.arcs.push_back({f.name, f.group, {}, {}, {}, {}});
+            for (int k = 0; k < plan.maps[m].count; ++k) {
+                const double first = plan.maps[m].first_deg(k), second = plan.maps[m].second_deg(k);
+                map.arcs.back().points.push_back(
+                    {first, second, model.error_mm(f.group, first, second)});
+            }
+        }
+        name_map(map, plan.first(), plan.second());
+        maps.push_back(std::move(map));
+    }
+    return maps;
+}
+
 PivotDemonstration demonstrate_pivot(const Setup& setup,
-                                     const std::vector<std::string>& program_folders,
+                                     const std::map<std::string, std::string>& programs,
+                                     const std::vector<std::string>& folders,
                                      unsigned long long seed) {
     PivotDemonstration demo;
-    demo.stores = pivot_stores(setup);
-    ProgramFolders programs(program_folders);
+    demo.plan = plan_pivot_test(setup);
     RunOptions options;
-    options.variables = operator_data(setup);
     options.effects = active_models(setup);
-    std::string printed;
-    for (std::size_t k = 0; k < pivot_functions.size(); ++k) {
+    for (std::size_t k = 0; k < demo.plan.functions.size(); ++k) {
         options.seed = 4 * seed + k;  // each program gets its own repeatability
-        printed += print_of(setup, programs, pivot_functions[k].program, options);
+        demo.printed += print_of(setup, programs, folders, demo.plan.functions[k].program, options);
     }
-    demo.maps = parse_pivot_prints(printed);
-    for (PivotMap& map : demo.maps) add_expected(demo.stores, sphere_of(setup).center_W_mm, map);
-    demo.verdict = sentence(demo.stores, demo.maps);
+    const PivotPrints prints =
+        parse_pivot_prints({{"print", demo.printed}}, demo.plan.first(), demo.plan.second());
+    demo.maps = prints.maps;
+    const PivotEvidence evidence{nominal_of(setup), demo.plan.stores, prints.sphere_mm(),
+                                 setup.probe->tip_S_mm,
+                                 least_increment_mm(setup.stores.parameters)};
+    demo.verdict = judge_pivot(evidence, demo.maps);
+    demo.true_right = right_stores(setup.machine, demo.plan.stores);
+    add_expected({setup.machine, demo.plan.stores, evidence.sphere_mm, evidence.tip_S_mm},
+                 demo.plan.stores.pivot, demo.maps);
     return demo;
 }
 

@@ -23,16 +23,16 @@ const char* unit_of(const ErrorName& name) {
     return name.angular() ? "rad" : "mm";
 }
 
-Json rows_json(const std::vector<BallbarErrorRow>& rows) {
+Json rows_json(const std::vector<BallbarErrorRow>& rows, bool after) {
     Json list = Json::array();
     for (const BallbarErrorRow& row : rows) {
         Json entry = {{"name", to_string(row.name)},
                       {"before", row.before},
-                      {"after", row.after},
+                      {"after", after ? Json(row.after) : Json()},
                       {"sigma", row.sigma},
                       {"sigma_before", row.sigma_before},
                       {"unit", unit_of(row.name)},
-                      {"change_percent", row.change_percent()}};
+                      {"change_percent", after ? Json(row.change_percent()) : Json()}};
         entry["published_before"] = row.published_before ? Json(*row.published_before) : Json();
         list.push_back(entry);
     }
@@ -101,8 +101,8 @@ std::string ballbar_json(const BallbarResult& r) {
     Json out;
     out["schema"] = "trunnion.ballbar/1";
     out["machine"] = r.machine;
-    out["errors"] = rows_json(r.errors);
-    out["errors_at_intersection"] = rows_json(r.at_intersection);
+    out["errors"] = rows_json(r.errors, r.has_after);
+    out["errors_at_intersection"] = rows_json(r.at_intersection, r.has_after);
     out["time_s"] = r.before.time_s;
     out["time"] = time_json(r);
     out["circularity"] = Json::array();
@@ -121,6 +121,12 @@ std::string ballbar_json(const BallbarResult& r) {
         {"reference_mm", r.reference_mm}, {"error_mm", bar.error_mm}, {"sigma_mm", bar.sigma_mm}};
     const Vector3 pivot = pivot_found_mm(r);
     out["pivot_found_mm"] = {pivot.x(), pivot.y(), pivot.z()};
+    out["true_tip_um"] = r.true_tip_um ? Json(*r.true_tip_um) : Json();
+    out["sphere_check"] = r.sphere_check ? Json{{"poses", r.sphere_check->poses},
+                                                {"before_um", r.sphere_check->before_um},
+                                                {"after_um", r.sphere_check->after_um}}
+                                         : Json();
+    out["simulated"] = r.simulated;
     out["stores"] = r.stores ? stores_json(*r.stores) : Json::array();
     out["notes"] = r.notes;
     return out.dump(2) + "\n";

@@ -18,12 +18,22 @@ double small(const ErrorName& name, double value) {
     return std::abs(out) < 5e-4 ? 0.0 : out;
 }
 
-std::string error_table(const std::vector<BallbarErrorRow>& rows) {
+std::string error_table(const std::vector<BallbarErrorRow>& rows, bool after) {
     std::string text =
-        fmt::format("{:6} {:>11} {:>10} {:>9} {:>11} {:>9}  {:>9}  {}\n", "error", "before",
-                    "u(before)", "after", "change", "u(after)", "published", "unit");
+        after ? fmt::format("{:6} {:>11} {:>10} {:>9} {:>11} {:>9}  {:>9}  {}\n", "error", "before",
+                            "u(before)", "after", "change", "u(after)", "published", "unit")
+              : fmt::format("{:6} {:>11} {:>10}  {:>9}  {}\n", "error", "found", "u(found)",
+                            "published", "unit");
     for (const BallbarErrorRow& row : rows) {
         const auto n = [&](double v) { return small(row.name, v); };
+        if (!after) {
+            text += fmt::format(
+                "{:6} {:11.3f} {:10.3f}  {:>9}  {}\n", to_string(row.name), n(row.before),
+                n(row.sigma_before),
+                row.published_before ? fmt::format("{:.3f}", n(*row.published_before)) : "-",
+                row.name.angular() ? "urad" : "um");
+            continue;
+        }
         text += fmt::format(
             "{:6} {:11.3f} {:10.3f} {:9.3f} {:9.2f} % {:9.3f}  {:>9}  {}\n", to_string(row.name),
             n(row.before), n(row.sigma_before), n(row.after), row.change_percent(), n(row.sigma),
@@ -65,7 +75,7 @@ std::string residual_text(const BallbarResult& r) {
     return text + fmt::format(
                       ": {:.3f} um are structure that location errors do not explain (worst in "
                       "{}).\nThe values above carry it. Diagnose it:\n"
-                      "  trunnion ballbar --setup {} --readings R.csv\n"
+                      "  trunnion ballbar --setup {} --write-readings R.csv\n"
                       "  trunnion diagnose R.csv --setup {}\n",
                       r.verdict.excess_um, r.verdict.worst_test, r.setup_path, r.setup_path);
 }
@@ -141,19 +151,53 @@ std::string ballbar_csv(const BallbarResult& r) {
            csv_rows("point_mm", r.errors) + csv_rows("intersection", r.at_intersection);
 }
 
+namespace {
+
+std::string proof_text(const BallbarResult& r) {
+    std::string text;
+    if (r.true_tip_um)
+        text += fmt::format(
+            "true error of the tip after compensation (the simulator knows it): {:.2f} um\n",
+            *r.true_tip_um);
+    if (r.sphere_check)
+        text += fmt::format(
+            "second check, sphere and probe, no part of the fit: {} poses off by up to {:.2f} um "
+            "before, {:.2f} um after\n",
+            r.sphere_check->poses, r.sphere_check->before_um, r.sphere_check->after_um);
+    if (r.sphere_check || r.true_tip_um)
+        text +=
+            "the ballbar's own \"after\" cannot show a cup that is not where its offset says: the "
+            "two lines above do\n";
+    return text;
+}
+
+std::string location_text(const BallbarResult& r) {
+    if (r.errors.empty())
+        return "no passes of the rotary axes: location errors are not evaluated\n\n";
+    std::string text =
+        "location errors at point_mm, second axis relative to the first that carries it\n" +
+        error_table(r.errors, r.has_after);
+    if (!r.at_intersection.empty())
+        text += "\nthe same axis lines in M at the nominal intersection (as in the 2015 paper)\n" +
+                error_table(r.at_intersection, r.has_after);
+    text +=
+        "\npublished: circles, planes and transport of 2015; its bias against the exact fit is the "
+        "cosine error of the bar\n";
+    text += "\n" + setup_text(r) + residual_text(r) + "\n" + rank_text(r) + "\n";
+    if (r.stores) text += stores_text(*r.stores, r.dialect) + "\n";
+    return text;
+}
+
+}  // namespace
+
 std::string ballbar_table(const BallbarResult& r) {
     std::string text = fmt::format(
-        "{}: single-set-up ballbar test, L0 {:g} mm, {} tests both ways, {} readings\n\n",
-        r.machine, r.data.layout.length_mm, r.tests(), r.fit.residual_mm.size());
-    text += "location errors at point_mm, second axis relative to the first that carries it\n";
-    text += error_table(r.errors);
-    text += "\nthe same axis lines in M at the nominal intersection (as in the 2015 paper)\n";
-    text += error_table(r.at_intersection);
-    text +=
-        "\npublished: circles, planes and transport of 2015; its bias against `before` is the "
-        "cosine error of the bar\n";
-    text += "\n" + setup_text(r) + residual_text(r) + "\n" + rank_text(r) + "\n" +
-            (r.stores ? stores_text(*r.stores, r.dialect) + "\n" : "") + time_text(r) + "\n";
+        "{}: {}, L0 {:g} mm, {} tests, {} readings\n\n", r.machine,
+        r.simulated ? "single-set-up ballbar test, simulated" : "measured ballbar passes",
+        r.data.layout.length_mm, r.tests(), r.before.readings.rows.size());
+    text += location_text(r) + proof_text(r);
+    if (r.simulated) text += time_text(r);
+    text += "\n";
     for (const PlanarResult& planar : r.planar) text += planar_text(planar);
     return text;
 }

@@ -7,17 +7,19 @@
 #include <nlohmann/json.hpp>
 
 #include "base/units.h"
-#include "report/svg.h"
 
 namespace trunnion {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
+double plain(double value, double least) {
+    return std::abs(value) < least ? 0.0 : value;
+}
+
 std::string um_vector(const Vector3& v_mm) {
-    const auto number = [](double mm) {
-        const double um = um_from_mm(mm);
-        return std::abs(um) < 0.005 ? 0.0 : um;
-    };
+    const auto number = [](double mm) { return plain(um_from_mm(mm), 0.005); };
     return fmt::format("({:9.2f} {:9.2f} {:9.2f})", number(v_mm.x()), number(v_mm.y()),
                        number(v_mm.z()));
 }
@@ -30,154 +32,231 @@ const PivotPoint* worst_point(const PivotArc& arc) {
     return worst == arc.points.end() ? nullptr : &*worst;
 }
 
-Vector3 mean_error(const PivotArc& arc) {
+std::string map_text(const PivotResult& r, const PivotMap& map) {
+    std::string out = fmt::format("Map {}: {}, {} indexations\n", map.number, map.name,
+                                  map.arcs.empty() ? 0 : map.arcs[0].points.size());
+    out +=
+        "  function  store    circle radius    expected   largest error at                X    "
+        "     Y         Z / µm\n";
+    for (const PivotArc& arc : map.arcs)
+        if (const PivotPoint* worst = worst_point(arc))
+            out += fmt::format("  {:<9} {:<7} {:10.2f} µm {:8.2f} µm   {}{:<7g} {}{:<7g} {}\n",
+                               arc.function, name_of(arc.group), um_from_mm(arc.circle.radius_mm()),
+                               um_from_mm(arc.expected.radius_mm()), letter_of(r.first),
+                               worst->first_deg, letter_of(r.second), worst->second_deg,
+                               um_vector(worst->error_mm));
+    return out + "\n";
+}
+
+/// Name of a number in the words of the dialect.
+std::string number_name(const PivotResult& r, const StoreNumber& n) {
+    if (n.parameter == 0) return n.name;
+    if (!r.hurco) return fmt::format("No.{} ({})", n.name, "XYZ"[n.component]);
+    const char axis = letter_of(n.place == 1 ? r.first : r.second);
+    return fmt::format("{} centreline {}{}", axis, "XYZ"[n.component],
+                       n.place == 2 ? " - first" : "");
+}
+
+std::string stores_table(const PivotResult& r) {
+    const PivotVerdict& v = r.verdict;
+    std::string out =
+        fmt::format("{:<20} {:>12} {:>12} {:>11} {:>8}{}\n", "Pivot stores", "in force/mm",
+                    "to type/mm", "error/µm", "u/µm", r.true_right ? "   true error/µm" : "");
+    std::vector<StoreNumber> right;
+    if (r.true_right) right = store_numbers(*r.true_right);
+    for (const StoreVerdict& s : v.stores) {
+        out += fmt::format("  {:<18} {:12.4f} {:12.4f} {:11.2f} {:8.2f}",
+                           number_name(r, s.in_force), s.in_force.value_mm + 0.0, s.type_mm + 0.0,
+                           plain(um_from_mm(s.error_mm), 0.005), um_from_mm(s.sigma_mm));
+        for (const StoreNumber& n : right)
+            if (n.name == s.in_force.name)
+                out += fmt::format("   {:13.2f}",
+                                   plain(um_from_mm(s.in_force.value_mm - n.value_mm), 0.005));
+        out += s.stale ? "  stale\n" : "\n";
+    }
+    if (r.hurco) out += "  (names of the part set-up's fields are assumed)\n";
+    return out + "\n";
+}
+
+std::string quality_text(const PivotVerdict& v) {
+    std::string out = fmt::format(
+        "found from these readings: one centre scatters by {:.2f} µm an axis, {} "
+        "zeroings of the sphere by {:.2f} µm\n",
+        v.fit.noise_um, v.fit.zeroings, v.fit.zero_scatter_um);
+    for (const GroupVerdict& g : v.groups)
+        out += fmt::format("after typing ({:g} mm steps) {} functions are off by up to {:.2f} µm\n",
+                           v.increment_mm, name_of(g.group), g.left_um);
+    const double apart_um = um_from_mm(step_between_axes_mm(v.right).norm());
+    if (v.groups.size() > 1 && apart_um > 0.05)
+        out += fmt::format(
+            "the rotary axes pass each other by {:.1f} µm: G54 holds one point, so DPP and G54.2 "
+            "keep an error\n",
+            apart_um);
+    if (v.groups.size() > 1)
+        out += fmt::format("and agree with each other within {:.2f} µm\n", v.agree_um);
+    out += "not seen by these readings:\n";
+    for (const std::string& line : v.unobservable) out += "  " + line + "\n";
+    return out;
+}
+
+std::string affected_text(const PivotResult& r) {
+    std::string out;
+    for (const AffectedPart& part : r.affected)
+        if (part.stale)
+            out += fmt::format("  {:<28} {:<6} {:<32} {:8.1f} µm\n",
+                               part.path.empty() ? "parts made with" : part.path, part.function,
+                               codes_of(part.function, r.hurco), part.error_um);
+    return out.empty() ? out : "affected:\n" + out;
+}
+
+Json vector_json(const Vector3& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+Vector3 mean_of(const std::vector<PivotPoint>& points) {
     Vector3 sum = Vector3::Zero();
-    for (const PivotPoint& p : arc.points) sum += p.error_mm;
-    return arc.points.empty() ? sum : Vector3(sum / static_cast<double>(arc.points.size()));
+    for (const PivotPoint& p : points) sum += p.error_mm;
+    return points.empty() ? sum : Vector3(sum / static_cast<double>(points.size()));
 }
 
-double moving_deg(const PivotMap& map, const PivotPoint& p) {
-    return map.moving == Axis::C ? p.c_deg : p.b_deg;
+Vector3 mean_of(const std::vector<Vector3>& points) {
+    Vector3 sum = Vector3::Zero();
+    for (const Vector3& p : points) sum += p;
+    return points.empty() ? sum : Vector3(sum / static_cast<double>(points.size()));
 }
 
-std::string legend_name(const PivotArc& arc) {
-    return fmt::format("{} ({})", arc.function, arc.store);
-}
-
-void draw_legend(Svg& svg, Point2 at, const PivotMap& map) {
-    for (std::size_t k = 0; k < map.arcs.size(); ++k) {
-        const double x = at.x + 150.0 * static_cast<double>(k);
-        svg.mark({x, at.y - 4}, static_cast<int>(k), plot_colours[k], 4.0);
-        svg.text({x + 10, at.y}, legend_name(map.arcs[k]), 12);
+Json arc_json(const PivotResult& r, const PivotArc& arc) {
+    Json points = Json::array();
+    const Vector3 mean = mean_of(arc.points), expected_mean = mean_of(arc.expected_mm);
+    for (std::size_t i = 0; i < arc.points.size(); ++i) {
+        const PivotPoint& p = arc.points[i];
+        points.push_back({{std::string(1, letter_of(r.first)), p.first_deg},
+                          {std::string(1, letter_of(r.second)), p.second_deg},
+                          {"error_mm", vector_json(p.error_mm)},
+                          {"distance_mm", (p.error_mm - mean).norm()},
+                          {"expected_mm", vector_json(arc.expected_mm[i])},
+                          {"expected_distance_mm", (arc.expected_mm[i] - expected_mean).norm()}});
     }
+    return {{"store", name_of(arc.group)},
+            {"radius_mm", arc.circle.radius_mm()},
+            {"expected_radius_mm", arc.expected.radius_mm()},
+            {"centre_mm", vector_json(arc.circle.centre_mm)},
+            {"points", points}};
 }
 
-struct Panels {
-    Svg svg{940, 800};
-    Point2 corner(std::size_t k) const {
-        return {80.0 + 450.0 * static_cast<double>(k % 2),
-                90.0 + 360.0 * static_cast<double>(k / 2)};
-    }
-};
-
-std::string distances_picture(const PivotDemonstration& demo) {
-    Panels page;
-    page.svg.text({470, 28}, "Distance from each map's mean error", 16, "middle");
-    if (!demo.maps.empty()) draw_legend(page.svg, {170, 54}, demo.maps.front());
-    double highest = 0.0;
-    for (const PivotMap& map : demo.maps)
-        for (const PivotArc& arc : map.arcs)
-            for (const PivotPoint& p : arc.points)
-                highest = std::max(highest, um_from_mm((p.error_mm - mean_error(arc)).norm()));
-    for (std::size_t m = 0; m < demo.maps.size() && m < 4; ++m) {
-        const PivotMap& map = demo.maps[m];
-        const bool full = map.moving == Axis::C;
-        Plot plot(page.svg, page.corner(m), 370, 260,
-                  full ? PlotRange{0, 360, 60} : PlotRange{-90, 90, 30},
-                  round_range(0.0, std::max(highest, 0.1)));
-        plot.frame(fmt::format("Map {}: {}", map.number, map.name),
-                   fmt::format("{} / deg", letter_of(map.moving)), "distance / µm");
-        for (std::size_t k = 0; k < map.arcs.size(); ++k) {
-            std::vector<Point2> line;
-            for (const PivotPoint& p : map.arcs[k].points)
-                line.push_back(plot.at(moving_deg(map, p),
-                                       um_from_mm((p.error_mm - mean_error(map.arcs[k])).norm())));
-            page.svg.polyline(line, {plot_colours[k], 1.2, "none", k % 2 ? "5 4" : ""});
-            // The two functions of a store lie on each other: the second gets smaller marks on top.
-            for (const Point2& at : line)
-                page.svg.mark(at, static_cast<int>(k), plot_colours[k], k % 2 ? 2.4 : 4.2);
-        }
-    }
-    return page.svg.str();
+Json map_json(const PivotResult& r, const PivotMap& map) {
+    Json functions = Json::object();
+    for (const PivotArc& arc : map.arcs) functions[arc.function] = arc_json(r, arc);
+    const char moving = letter_of(map.first_moves ? r.first : r.second);
+    const char fixed = letter_of(map.first_moves ? r.second : r.first);
+    return {{"name", map.name},
+            {"moving", std::string(1, moving)},
+            {"fixed", {{std::string(1, fixed), map.fixed_deg}}},
+            {"functions", functions}};
 }
 
-std::string circles_picture(const PivotDemonstration& demo) {
-    Panels page;
-    page.svg.text({470, 28},
-                  "Eccentric circle of each map: error in the plane normal to the moving axis", 16,
-                  "middle");
-    if (!demo.maps.empty()) draw_legend(page.svg, {170, 54}, demo.maps.front());
-    double reach = 0.05;
-    for (const PivotMap& map : demo.maps)
-        for (const PivotArc& arc : map.arcs)
-            reach = std::max(reach, um_from_mm(arc.radius_mm) * 1.12);
-    for (std::size_t m = 0; m < demo.maps.size() && m < 4; ++m) {
-        const PivotMap& map = demo.maps[m];
-        const PlotRange range = round_range(-reach, reach, 4);
-        Point2 corner = page.corner(m);
-        corner.x += 55;
-        Plot plot(page.svg, corner, 260, 260, range, range);
-        plot.frame(fmt::format("Map {}: {}", map.number, map.name), "X / µm",
-                   map.moving == Axis::C ? "Y / µm" : "Z / µm");
-        for (std::size_t k = 0; k < map.arcs.size(); ++k) {
-            const PivotArc& arc = map.arcs[k];
-            const double radius = um_from_mm(arc.radius_mm);
-            page.svg.circle(plot.at(0, 0), radius * plot.scale_x(),
-                            {plot_colours[k], k % 2 ? 1.6 : 3.0, "none", k % 2 ? "6 5" : ""});
-            const double y = corner.y + 90 + 40.0 * static_cast<double>(k);
-            page.svg.text({corner.x + 268, y}, arc.function, 11, "start", plot_colours[k]);
-            page.svg.text({corner.x + 268, y + 13}, fmt::format("r {:.1f} µm", radius), 11);
-        }
-    }
-    return page.svg.str();
+Json stores_json(const PivotResult& r) {
+    Json list = Json::array();
+    for (const StoreVerdict& s : r.verdict.stores)
+        list.push_back({{"name", s.in_force.parameter == 0 ? "G54" : s.in_force.name},
+                        {"axis", std::string(1, "XYZ"[s.in_force.component])},
+                        {"in_force_mm", s.in_force.value_mm},
+                        {"type_mm", s.type_mm},
+                        {"exact_mm", s.exact_mm},
+                        {"error_mm", s.error_mm},
+                        {"sigma_mm", s.sigma_mm},
+                        {"stale", s.stale},
+                        {"words", number_name(r, s.in_force)}});
+    return list;
+}
+
+Json affected_json(const PivotResult& r) {
+    Json list = Json::array();
+    for (const AffectedPart& part : r.affected)
+        list.push_back({{"program", part.path.empty() ? Json() : Json(part.path)},
+                        {"function", part.function},
+                        {"codes", codes_of(part.function, r.hurco)},
+                        {"store", name_of(part.group)},
+                        {"error_um", part.error_um},
+                        {"stale", part.stale}});
+    return list;
 }
 
 }  // namespace
 
-std::string pivot_table(const PivotDemonstration& demo) {
-    const PivotStores& s = demo.stores;
-    std::string out = "Pivot stores, µm against the true machine (X Y Z)\n";
-    out += "  G54                       " + um_vector(s.g54 - s.p_true) + "\n";
-    out += "  P1970x 19700-19702        " + um_vector(s.p - s.p_true) + "\n";
-    out += "  P1970x 19703-19705        " + um_vector(s.d - s.d_true) + "\n\n";
-    for (const PivotMap& map : demo.maps) {
-        out += fmt::format("Map {}: {}, {} indexations\n", map.number, map.name,
-                           map.arcs.empty() ? 0 : map.arcs[0].points.size());
-        out +=
-            "  function  store    circle radius    expected   largest error at                X    "
-            "     Y  "
-            "       Z / µm\n";
-        for (const PivotArc& arc : map.arcs) {
-            const PivotPoint* worst = worst_point(arc);
-            if (worst == nullptr) continue;
-            out += fmt::format("  {:<9} {:<7} {:10.2f} µm {:8.2f} µm   B{:<7g} C{:<7g} {}\n",
-                               arc.function, arc.store, um_from_mm(arc.radius_mm),
-                               um_from_mm(arc.expected_radius_mm), worst->b_deg, worst->c_deg,
-                               um_vector(worst->error_mm));
-        }
-        out += "\n";
-    }
-    return out + demo.verdict + "\n";
+std::string pivot_table(const PivotResult& r) {
+    std::string out = fmt::format("{} ({})\n\n", r.machine, r.source) + stores_table(r);
+    for (const PivotMap& map : r.maps) out += map_text(r, map);
+    return out + quality_text(r.verdict) + affected_text(r) + "\n" + sentence(r.verdict, r.hurco) +
+           "\n";
 }
 
-std::string pivot_json(const PivotDemonstration& demo) {
-    using Json = nlohmann::ordered_json;
+std::string pivot_json(const PivotResult& r) {
     Json maps = Json::array();
-    for (const PivotMap& map : demo.maps) {
-        Json functions = Json::object();
-        for (const PivotArc& arc : map.arcs) {
-            Json points = Json::array();
-            for (const PivotPoint& p : arc.points)
-                points.push_back({{"B", p.b_deg},
-                                  {"C", p.c_deg},
-                                  {"error_mm", {p.error_mm.x(), p.error_mm.y(), p.error_mm.z()}}});
-            functions[arc.function] = {{"store", arc.store},
-                                       {"radius_mm", arc.radius_mm},
-                                       {"expected_radius_mm", arc.expected_radius_mm},
-                                       {"points", points}};
-        }
-        maps.push_back({{"name", map.name},
-                        {"moving", std::string(1, letter_of(map.moving))},
-                        {"fixed", {{std::string(1, letter_of(map.fixed)), map.fixed_deg}}},
-                        {"functions", functions}});
-    }
-    return Json({{"schema", "trunnion.pivot/1"}, {"verdict", demo.verdict}, {"maps", maps}})
+    for (const PivotMap& map : r.maps) maps.push_back(map_json(r, map));
+    Json groups = Json::array();
+    for (const GroupVerdict& g : r.verdict.groups)
+        groups.push_back({{"store", name_of(g.group)},
+                          {"measured", g.measured},
+                          {"stale", g.stale},
+                          {"visible_um", g.visible_um},
+                          {"sigma_um", g.sigma_um},
+                          {"left_after_typing_um", g.left_um}});
+    return Json({{"schema", "trunnion.pivot/1"},
+                 {"verdict", sentence(r.verdict, r.hurco)},
+                 {"machine", r.machine},
+                 {"source", r.source},
+                 {"maps", maps},
+                 {"stores", stores_json(r)},
+                 {"groups", groups},
+                 {"unobservable", r.verdict.unobservable},
+                 {"affected", affected_json(r)},
+                 {"noise_um", r.verdict.fit.noise_um},
+                 {"zero_scatter_um", r.verdict.fit.zero_scatter_um},
+                 {"zeroings", r.verdict.fit.zeroings},
+                 {"agree_after_typing_um", r.verdict.agree_um}})
                .dump(1) +
            "\n";
 }
 
-std::map<std::string, std::string> pivot_pictures(const PivotDemonstration& demo) {
-    return {{"distances.svg", distances_picture(demo)}, {"circles.svg", circles_picture(demo)}};
+std::string pivot_page(const PivotResult& r, const PageOrigin& origin) {
+    Page page;
+    page.title = "Pivot stores";
+    page.subject = r.machine + ", " + r.source;
+    const bool stale = std::any_of(r.verdict.groups.begin(), r.verdict.groups.end(),
+                                   [](const GroupVerdict& g) { return g.stale; });
+    page.tone = stale ? Tone::bad : Tone::good;
+    page.verdict = sentence(r.verdict, r.hurco);
+    PageTable stores{"What to type",
+                     {"number", "in force / mm", "to type / mm", "error / µm", "u / µm", ""},
+                     "lrrrrl",
+                     {}};
+    for (const StoreVerdict& s : r.verdict.stores)
+        stores.rows.push_back(
+            {number_name(r, s.in_force), fmt::format("{:.4f}", s.in_force.value_mm + 0.0),
+             fmt::format("{:.4f}", s.type_mm + 0.0),
+             fmt::format("{:.1f}", plain(um_from_mm(s.error_mm), 0.05)),
+             fmt::format("{:.1f}", um_from_mm(s.sigma_mm)), s.stale ? "stale" : ""});
+    page.body_html = section_html("Stores", table_html(stores));
+    std::string figures;
+    for (const auto& [name, svg] : pivot_pictures(r))
+        figures += figure_html(svg, name == "circles.svg"
+                                        ? "Measured points with circle and centre; dashed: expected"
+                                        : "Distance from each map's mean; lines: expected");
+    page.body_html += section_html("Maps", figures);
+    PageTable affected{
+        "Who is affected", {"what", "function", "codes", "off by up to / µm"}, "lllr", {}};
+    for (const AffectedPart& part : r.affected)
+        affected.rows.push_back(
+            {part.path.empty() ? "all parts" : part.path, part.function,
+             codes_of(part.function, r.hurco),
+             fmt::format("{:.1f}{}", part.error_um, part.stale ? "" : " (right)")});
+    page.body_html += section_html("Programs", table_html(affected));
+    std::string unseen;
+    for (const std::string& line : r.verdict.unobservable) unseen += paragraph_html(line);
+    page.body_html += section_html("What these readings cannot tell", unseen);
+    page.origin = origin;
+    return page_html(page);
 }
 
 }  // namespace trunnion

@@ -1,19 +1,35 @@
-// The pivot demonstration as table, JSON and pictures.
+// The four-function test as table, JSON, pictures and page.
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
-#include "pivot/pivot_maps.h"
+#include "pivot/affected_programs.h"
+#include "report/page.h"
 
 namespace trunnion {
 
-/// Table of error vectors (largest of each arc) and circle radii, the stores, the verdict.
-std::string pivot_table(const PivotDemonstration& demonstration);
+/// All that is said of one test.
+struct PivotResult {
+    std::string machine;
+    Axis first = Axis::B, second = Axis::C;
+    bool hurco = false;
+    std::vector<PivotMap> maps;
+    PivotVerdict verdict;
+    std::optional<RotaryStores> true_right;  ///< a simulator knows what the stores had to hold
+    std::vector<AffectedPart> affected;
+    std::string source;  ///< "simulated", or where the readings come from
+};
+
+/// Stores with what to type, circles and largest errors of each map, who is affected, the verdict.
+std::string pivot_table(const PivotResult& result);
 /// `{"schema":"trunnion.pivot/1",...}` of formats.md.
-std::string pivot_json(const PivotDemonstration& demonstration);
-/// Pictures by file name: distances.svg (distance from the map's mean, as figure 4 of pivot 2021),
-/// circles.svg (the eccentric circles of each map, as its figure 5).
-std::map<std::string, std::string> pivot_pictures(const PivotDemonstration& demonstration);
+std::string pivot_json(const PivotResult& result);
+/// Pictures by file name: distances.svg (distance from the map's mean, measured and expected, as
+/// figure 4 of pivot 2021), circles.svg (measured points, circle and its centre, as its figure 5).
+std::map<std::string, std::string> pivot_pictures(const PivotResult& result);
+/// The page for a shop.
+std::string pivot_page(const PivotResult& result, const PageOrigin& origin);
 
 }  // namespace trunnion

@@ -87,6 +87,7 @@ std::optional<RotaryStores> rotary_stores(const Chain& chain, const Stores& stor
 Vector3 known_point_mm(const Machine& machine, Axis axis) {
     const Vector3 gauge = machine.poses({}).pose_MS.translation_mm;
     Machine carriers = machine;
+    carriers.errors.spindle = {};
     for (auto* side : {&carriers.chain.work, &carriers.chain.tool}) {
         const auto at =
             std::find_if(side->begin(), side->end(), [&](auto& a) { return a.axis == axis; });

@@ -23,7 +23,7 @@ std::optional<RotaryStores> rotary_stores(const Chain& chain, const Stores& stor
 
 /// Where a point of a rotary axis's line lies with all axes at zero, location errors of the axis
 /// and of its carriers included, counted from where the spindle's gauge point then really is (a
-/// control knows positions by its tool only). mm along M.
+/// control knows positions by its tool only; EX0S EY0S EZ0S of the spindle shift it). mm along M.
 Vector3 known_point_mm(const Machine& machine, Axis axis);
 
 /// The stores that put the tip right on this machine, in the gauge of `in_force`: what no function

@@ -7,6 +7,8 @@
 #include <memory>
 #include <set>
 
+#include "ballbar/test/ballbar_evaluation.h"
+#include "ballbar/test/ballbar_proof.h"
 #include "ballbar/test/ballbar_result.h"
 #include "base/units.h"
 #include "interpreter/program_folders.h"
@@ -14,15 +16,6 @@
 namespace trunnion {
 
 namespace {
-
-constexpr std::size_t points_per_pass = 720;  ///< of circular figures: half a degree of a circle
-
-/// Geometry without any error: what the operator knows before the test.
-Machine nominal_of(const Setup& setup) {
-    Machine machine = setup.machine;
-    machine.errors = {};
-    return machine;
-}
 
 BallbarRun run_once(const Setup& setup, const BallbarResult& result,
                     const BallbarProcedureOptions& options, std::uint64_t seed,
@@ -42,12 +35,6 @@ BallbarRun run_once(const Setup& setup, const BallbarResult& result,
     return {std::move(log.readings), log.result.time_s};
 }
 
-std::vector<double> readings_of(const BallbarModel& model, const ReadingTable& table) {
-    std::vector<double> values;
-    for (const std::size_t row : model.rows_used()) values.push_back(*table.rows[row].value_mm);
-    return values;
-}
-
 /// All seven tests both ways and in range all the way, or a message that names what is missing.
 void check_complete(const BallbarModel& model, const std::vector<std::string>& notes) {
     std::vector<std::string> left;
@@ -63,55 +50,12 @@ void check_complete(const BallbarModel& model, const std::vector<std::string>& n
         throw InputError(fmt::format("the ballbar read {} of 14 passes", model.passes().size()));
 }
 
-std::vector<BallbarErrorRow> rows_of(const std::vector<ErrorEstimate>& before,
-                                     const std::vector<ErrorEstimate>& after,
-                                     const std::vector<NamedError>& published) {
-    std::vector<BallbarErrorRow> rows;
-    for (std::size_t i = 0; i < before.size(); ++i) {
-        BallbarErrorRow row{before[i].name,
-                            before[i].value,
-                            after[i].value,
-                            before[i].sigma,
-                            std::hypot(before[i].sigma, after[i].sigma),
-                            std::nullopt};
-        for (const NamedError& p : published)
-            if (p.name == row.name) row.published_before = p.value;
-        rows.push_back(row);
-    }
-    return rows;
-}
-
 /// Differences of two lists of the same names: what the compensated control leaves at the
 /// intersection.
 std::vector<ErrorEstimate> left_over(std::vector<ErrorEstimate> now,
                                      const std::vector<ErrorEstimate>& known) {
     for (std::size_t i = 0; i < now.size(); ++i) now[i].value -= known[i].value;
     return now;
-}
-
-/// Planar passes as means of neighbouring readings: figures of a range must not grow with the
-/// sampling rate. Values count from the nominal length of the bar.
-ReadingTable thinned(const ReadingTable& table, double warm_mm) {
-    ReadingTable out = table;
-    out.rows.clear();
-    for (const BallbarPass& pass : ballbar_passes(table.rows)) {
-        const std::size_t count = pass.end - pass.begin, blocks = std::min(count, points_per_pass);
-        for (std::size_t b = 0; b < blocks; ++b) {
-            const std::size_t begin = pass.begin + count * b / blocks;
-            const std::size_t end = pass.begin + count * (b + 1) / blocks;
-            // Place and time of the mean: halfway between the middle two of an even number.
-            Reading row = table.rows[(begin + end - 1) / 2];
-            const Reading& other = table.rows[(begin + end) / 2];
-            row.time_s = 0.5 * (row.time_s + other.time_s);
-            for (const Axis axis : all_axes)
-                row.commanded[axis] = 0.5 * (row.commanded[axis] + other.commanded[axis]);
-            double sum = 0.0;
-            for (std::size_t i = begin; i < end; ++i) sum += *table.rows[i].value_mm;
-            row.value_mm = sum / static_cast<double>(end - begin) + warm_mm;
-            out.rows.push_back(std::move(row));
-        }
-    }
-    return out;
 }
 
 }  // namespace
@@ -205,31 +149,20 @@ BallbarResult run_ballbar(const Setup& stated, const BallbarProcedureOptions& op
     result.program = ballbar_program(nominal, result.data);
 
     result.before = run_once(setup, result, options, options.seed, {}, result.notes);
-    const ReadingTable& first = result.before.readings;
-    const BallbarModel model(nominal, layout, first.rows, {});
-    check_complete(model, result.notes);
-    const std::vector<double> values = readings_of(model, first);
-    result.fit = model.fit(values);
-    result.open_fit =
-        BallbarModel(nominal, layout, first.rows, {true, PivotPlace::unknown, BarConstant::length})
-            .fit(values);
-    result.verdict = judge_residuals(model, result.fit);
-    result.published = evaluate_as_published(nominal, layout, first.rows);
+    check_complete(BallbarModel(nominal, layout, result.before.readings.rows, {}), result.notes);
+    const double declared_mm = mm_from_um(setup.ballbar->noise_um);
+    fit_first_run(result, nominal, declared_mm);
 
     const Machine known = machine_of(nominal, result.fit);
-    result.after = run_once(
-        setup, result, options, options.seed + 1,
-        [&](const AxisPositions& q) { return compensated(q, nominal, known, layout.cup_S_mm); },
-        result.notes);
+    const Compensation compensate = [&](const AxisPositions& q) {
+        return compensated(q, nominal, known, layout.cup_S_mm);
+    };
+    result.after = run_once(setup, result, options, options.seed + 1, compensate, result.notes);
     const ReadingTable& second = result.after.readings;
     const BallbarModel again(known, layout, second.rows, {});
     check_complete(again, result.notes);
     const BallbarFit rest = again.fit(readings_of(again, second));
-
-    const double declared_mm = mm_from_um(setup.ballbar->noise_um);
-    const double sigma_1 = reading_sigma_mm(result.fit, declared_mm);
-    result.reading_sigma_mm = sigma_1;
-    const double sigma_2 = reading_sigma_mm(rest, declared_mm);
+    const double sigma_1 = result.reading_sigma_mm, sigma_2 = reading_sigma_mm(rest, declared_mm);
     result.errors = rows_of(chain_estimates(result.fit, sigma_1), chain_estimates(rest, sigma_2),
                             result.published.chain);
     // `rest` counts from the known machine: lines of that, minus lines of the known one.
@@ -237,14 +170,14 @@ BallbarResult run_ballbar(const Setup& stated, const BallbarProcedureOptions& op
     result.at_intersection =
         rows_of(lines, left_over(intersection_estimates(known, rest, sigma_2), lines),
                 result.published.intersection);
-    const double radius_mm = result.data.layout.length_mm;
-    // Figures and plots of means, the diagnosis of every reading: a mean across a reversal is
-    // neither side's.
-    const auto every = circular_tests(first, radius_mm);
-    const auto means = circular_tests(thinned(first, result.reference_mm - radius_mm), radius_mm);
-    for (std::size_t i = 0; i < means.size(); ++i)
-        result.planar.push_back({means[i], circular_figures(means[i]), diagnose_circle(every[i])});
+    add_circles(result);
     result.stores = stores_to_type(stated, known, layout.pivot_W_mm, layout.cup_S_mm);
+    result.true_tip_um = true_tip_um(setup, layout, compensate);
+    // The stylus has its own length: its place is compensated, not the cup's.
+    const Compensation for_stylus = [&](const AxisPositions& q) {
+        return compensated(q, nominal, known, setup.probe->tip_S_mm);
+    };
+    result.sphere_check = check_by_sphere(setup, layout, options.effects, for_stylus);
     return result;
 }
 

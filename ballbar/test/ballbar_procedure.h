@@ -44,6 +44,15 @@ struct BallbarRun {
     double time_s = 0.0;
 };
 
+/// What a check says that took no part in the fit: a sphere found by the probe in poses of the
+/// compensated control. Cup and bar have no say in it, so it shows what the bar cannot: a tool
+/// length that is not what the offset says.
+struct SphereCheck {
+    int poses = 0;
+    double before_um = 0.0,
+           after_um = 0.0;  ///< largest found minus expected centre, zeroed at home
+};
+
 struct BallbarResult {
     std::string machine;
     std::string setup_path;
@@ -63,6 +72,10 @@ struct BallbarResult {
     std::vector<PlanarResult> planar;
     std::optional<StoresToType> stores;  ///< what to type for the positions found
     SetupTimes times;
+    bool simulated = true;              ///< false: the passes are of a real machine
+    bool has_after = true;              ///< `after` was run or given
+    std::optional<double> true_tip_um;  ///< largest true error of the tip after compensation
+    std::optional<SphereCheck> sphere_check;
     std::vector<std::string> notes;
 
     std::size_t tests() const;  ///< number of different tests
@@ -94,6 +107,12 @@ BallbarLayout stated_layout(const Setup& setup, int& tool_offset);
 
 /// What the NC programs of this setup start from: stated layout, dialect of the control.
 BallbarProgramData stated_program_data(const Setup& setup, bool inside);
+
+/// Evaluates passes of a real machine, `after` measured once more when the numbers were typed: each
+/// against the nominal machine. Circles alone give their ISO 230-4 figures and no location errors.
+/// Throws InputError when no row belongs to a pass.
+BallbarResult evaluate_ballbar(const Setup& stated, const ReadingTable& before,
+                               const std::optional<ReadingTable>& after);
 
 /// Throws Alarm when the program stops, InputError when the setup cannot carry the test or a pass
 /// has no readings (out of range).

@@ -38,8 +38,8 @@ TEST_CASE("ballbar writes table, JSON, CSV, readings and one plot a test") {
     const Bench bench;
     const std::string setup = "--setup " + bench.setup();
     REQUIRE(bench.trunnion("ballbar " + setup + " --svg " + bench.file("svg/new") + " --csv " +
-                           bench.file("t.csv") + " --readings " + bench.file("r.csv") +
-                           " --readings-after " + bench.file("a.csv") + " --json") == 0);
+                           bench.file("t.csv") + " --write-readings " + bench.file("r.csv") +
+                           " --write-readings-after " + bench.file("a.csv") + " --json") == 0);
     const Json json = Json::parse(bench.read("out.txt"));
     CHECK(json["schema"] == "trunnion.ballbar/1");
     CHECK(json["errors"].size() == 8);
@@ -119,7 +119,7 @@ TEST_CASE("what location errors do not explain goes to diagnose - which names it
     const std::string setup = bench.setup();
     const std::string readings = bench.file("r.csv");
     const auto diagnose = [&](const std::string& injection, const std::string& seed) {
-        REQUIRE(bench.trunnion("ballbar --setup " + setup + " --seed " + seed + " --readings " +
+        REQUIRE(bench.trunnion("ballbar --setup " + setup + " --seed " + seed + " --write-readings " +
                                readings +
                                (injection.empty() ? "" : " --inject '" + injection + "'")) == 0);
         const std::string table = bench.read("out.txt");

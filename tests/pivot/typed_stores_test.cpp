@@ -288,8 +288,8 @@ TEST_CASE("a G54.2 set is counted from G54, so it changes with it") {
     const auto list = stores_to_type(setup, setup.machine, {75, 0, 110}, {0, 0, -120});
     REQUIRE(list);
     REQUIRE(list->fixture.size() == 3);
-    CHECK(list->fixture[0].type_mm == Approx(120.150).margin(1e-12));
-    CHECK(list->fixture[1].type_mm == Approx(-0.120).margin(1e-12));
+    CHECK(list->fixture[0].exact_mm == Approx(120.1443).margin(1e-12));
+    CHECK(list->fixture[1].exact_mm == Approx(0.1443).margin(1e-12));
     CHECK(list->g54_left_um < 1e-6);
 }
 

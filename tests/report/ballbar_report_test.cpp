@@ -62,6 +62,9 @@ TEST_CASE("noise-free the procedure is exact and the tilts are compensated too")
     for (const BallbarErrorRow& r : result.at_intersection)
         CHECK(std::abs(r.after) < (r.name.angular() ? 1e-9 : 1e-6));
     // 19700-19702 hold a point of the A axis, 19703-19705 lead from there to the C axis.
+    CHECK(*result.true_tip_um < 1e-3);
+    CHECK(result.sphere_check->after_um < 1e-3);
+    CHECK(result.sphere_check->before_um > 50.0);
     REQUIRE(result.stores);
     const PivotParameters& p = result.stores->exact.pivot;
     CHECK(p.table_point_mm.y() == Approx(0.0726).margin(1e-6));
@@ -75,6 +78,12 @@ TEST_CASE("a wrong tool length reads as EZ0A and is named as what cannot be told
     setup.ballbar->cup_S_mm.z() -= 0.01;  // the tool is 10 um longer than its offset says
     const BallbarResult result = run_ballbar(setup, {});
     CHECK(row(result.errors, "EZ0A").before - (-0.0202) == Approx(0.01).margin(1e-5));
+    CHECK(std::abs(row(result.errors, "EZ0A").after) < 1e-6);
+    // What the bar's own re-test misses, another instrument shows.
+    REQUIRE(result.sphere_check);
+    CHECK(result.sphere_check->after_um > 9.0);
+    REQUIRE(result.true_tip_um);
+    CHECK(*result.true_tip_um > 9.0);
     bool named = false;
     for (const InseparableGroup& group : result.open_fit.inseparable)
         named |= std::count(group.names.begin(), group.names.end(), "EZ0A") == 1 &&

@@ -1,0 +1,18 @@
+// What a ballbar's own second run cannot show: the true tip, and a check by another instrument.
+#pragma once
+
+#include "ballbar/test/ballbar_procedure.h"
+#include "emulator/compensating_sink.h"
+
+namespace trunnion {
+
+/// A simulator knows where the tip of a tool really is that is as long as its offset says: its
+/// largest way from its place at home, over poses every 30 degrees of the tested ranges, um.
+double true_tip_um(const Setup& setup, const BallbarLayout& layout, const Compensation& compensate);
+
+/// The setup's sphere found by its probe in the same poses; nothing without probe or sphere.
+std::optional<SphereCheck> check_by_sphere(const Setup& setup, const BallbarLayout& layout,
+                                           const EffectModels& effects,
+                                           const Compensation& compensate);
+
+}  // namespace trunnion

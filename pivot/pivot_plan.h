@@ -1,0 +1,60 @@
+// Which positions of the rotary axes the four-function test measures on a machine.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "setup/right_stores.h"
+#include "setup/setup.h"
+
+namespace trunnion {
+
+/// The two groups of stores from which a positioning function takes the rotary axes.
+enum class PivotGroup : unsigned char { g54, p1970x };
+std::string name_of(PivotGroup group);  ///< "G54", "P1970x"
+
+/// A positioning function in the paper's order.
+struct PivotFunction {
+    std::string name;  ///< DPP, RTDFO, RTCP, TW
+    PivotGroup group = PivotGroup::g54;
+    int program = 0;  ///< O number
+};
+const std::vector<PivotFunction>& pivot_functions();
+/// Nothing for a name that is none of them.
+const PivotFunction* find_pivot_function(std::string_view name);
+
+/// One error map: an arc of one rotary axis, the other standing. First and second as 19681, 19686.
+struct PlannedMap {
+    bool first_moves = true;
+    double fixed_deg = 0.0, start_deg = 0.0, step_deg = 15.0;
+    int count = 0;
+    bool turns_table_only = false;  ///< G54's functions take part: the head stands at zero
+
+    double first_deg(int k) const { return first_moves ? start_deg + step_deg * k : fixed_deg; }
+    double second_deg(int k) const { return first_moves ? fixed_deg : start_deg + step_deg * k; }
+};
+
+/// All that the programs of one machine start from.
+struct PivotPlan {
+    RotaryStores stores;  ///< in force
+    std::vector<PivotFunction> functions;
+    std::vector<PlannedMap> maps;  ///< those of G54's functions last
+    bool hurco = false;
+    Vector3 sphere_mm = Vector3::Zero();  ///< roughly, rotaries at zero, machine coordinates of the
+                                          ///< stylus ball
+    double sphere_diameter_mm = 25.4, ball_diameter_mm = 6.0;
+    double safe_z_mm = 450.0;
+    int tool_offset = 1;
+
+    Axis first() const { return stores.pivot.first.axis; }
+    Axis second() const { return stores.pivot.second.axis; }
+    /// Number (from 1) of the first map of a function; 0 when it has none.
+    int first_map(const PivotFunction& function) const;
+};
+
+/// Arcs of the tilting axis with the turning one at 0, 90 and 180 degrees, and one of the turning
+/// axis, cut to the travel of all axes. Throws InputError: not two real rotary axes in 19680-19690,
+/// no probe or sphere in the setup, or a sphere that no arc reaches.
+PivotPlan plan_pivot_test(const Setup& setup);
+
+}  // namespace trunnion

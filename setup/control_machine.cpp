@@ -1,0 +1,64 @@
+#include "setup/control_machine.h"
+
+#include "base/alarm.h"
+#include "offsets/pivot_parameters.h"
+
+namespace trunnion {
+
+namespace {
+
+AxisGeometry rotary(const PivotAxis& axis, const Vector3& point_mm) {
+    AxisGeometry geometry;
+    geometry.axis = axis.axis;
+    geometry.rotary = true;
+    geometry.direction = axis.direction();
+    geometry.point_mm = point_mm;
+    geometry.min = axis.min_rad;
+    geometry.max = axis.max_rad;
+    return geometry;
+}
+
+AxisGeometry slide(Axis axis) {
+    AxisGeometry geometry;
+    geometry.axis = axis;
+    geometry.direction = Vector3::Unit(static_cast<int>(index_of(axis)));
+    return geometry;
+}
+
+std::string text_of(const Chain& chain) {
+    std::string text = "w";
+    for (auto axis = chain.work.rbegin(); axis != chain.work.rend(); ++axis)
+        text += std::string(" ") + letter_of(axis->axis);
+    text += " b";
+    for (const AxisGeometry& axis : chain.tool) text += std::string(" ") + letter_of(axis.axis);
+    return text + " t";
+}
+
+}  // namespace
+
+Setup setup_of_control(const Stores& stores, const std::string& path) {
+    const auto pivot = decode_pivot(stores.parameters);
+    if (!pivot || pivot->first.hypothetical || pivot->second.hypothetical)
+        throw InputError("these files name no two real rotary axes (19680-19690): give --setup",
+                         {path});
+    Setup setup;
+    setup.name = path;
+    setup.path = path;
+    setup.stores = stores;
+    Chain& chain = setup.machine.chain;
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) chain.tool.push_back(slide(axis));
+    const Vector3 head = pivot->holder_offset_mm * pivot->tool_direction + pivot->tool_offset_mm;
+    if (pivot->unit == MechanicalUnit::table_table)
+        chain.work = {rotary(pivot->first, pivot->table_point_mm),
+                      rotary(pivot->second, pivot->table_point_mm + pivot->table_offset_mm)};
+    else
+        chain.tool.push_back(rotary(pivot->first, head));
+    if (pivot->unit == MechanicalUnit::mixed)
+        chain.work = {rotary(pivot->second, pivot->table_point_mm)};
+    if (pivot->unit == MechanicalUnit::tool_tool)
+        chain.tool.push_back(rotary(pivot->second, head - pivot->tool_second_offset_mm));
+    setup.chain_text = text_of(chain);
+    return setup;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,15 @@
+// The machine that a control's own stores describe, where nobody wrote a setup file.
+#pragma once
+
+#include <string>
+
+#include "setup/setup.h"
+
+namespace trunnion {
+
+/// Rotary axes by 19680-19714, X Y Z as slides of the tool, no errors, no devices. `path` is for
+/// messages. Throws InputError when 19680 names no two real rotary axes, Alarm 5459 for numbers
+/// that cannot be.
+Setup setup_of_control(const Stores& stores, const std::string& path);
+
+}  // namespace trunnion
