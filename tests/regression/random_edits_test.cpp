@@ -179,11 +179,12 @@ double far_apart(const PlainMove& p, const PlainMove& q) {
     return worst;
 }
 
-bool same_values(const PlainMove& p, const PlainMove& q) {
+/// Feed and speed within `allowed` of each other, the rest alike.
+bool same_values(const PlainMove& p, const PlainMove& q, double allowed = 0.006) {
     if (p.rapid != q.rapid) return false;
     if (p.rapid) return true;
-    return std::abs(p.feed - q.feed) <= 0.006 * p.feed &&
-           std::abs(p.spindle - q.spindle) <= 0.006 * std::abs(p.spindle) && p.tool == q.tool &&
+    return std::abs(p.feed - q.feed) <= allowed * p.feed &&
+           std::abs(p.spindle - q.spindle) <= allowed * std::abs(p.spindle) && p.tool == q.tool &&
            p.coolant == q.coolant;
 }
 
@@ -218,13 +219,14 @@ bool off_path(const std::vector<PlainMove>& moves, const std::vector<PlainMove>&
 
 enum class Opinion { same, changed, no_opinion };
 
-/// The same codes in the same order; dwells within 1.1 percent (the tolerance is 1).
-bool same_functions(const std::vector<PlainFunction>& a, const std::vector<PlainFunction>& b) {
+/// The same codes in the same order; dwells within `allowed` of each other.
+bool same_functions(const std::vector<PlainFunction>& a, const std::vector<PlainFunction>& b,
+                    double allowed) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const PlainFunction& p, const PlainFunction& q) {
-                          const double allowed = p.kind == 'D' ? 0.011 * p.value : 0.0;
+                      [allowed](const PlainFunction& p, const PlainFunction& q) {
+                          const double least = p.kind == 'D' ? allowed * p.value : 0.0;
                           return p.kind == q.kind && p.moves_before == q.moves_before &&
-                                 std::abs(p.value - q.value) <= allowed;
+                                 std::abs(p.value - q.value) <= least;
                       });
 }
 
@@ -237,21 +239,23 @@ std::vector<PlainFunction> grave(const std::vector<PlainFunction>& all) {
     return left;
 }
 
+/// What lies next to a tolerance (feed and speed 0.5 percent, dwells 1) is not judged.
 Opinion opinion(const Judged& a, const Judged& b) {
     if (!b.sure) return Opinion::no_opinion;
     if (b.stopped) return Opinion::changed;
     // Only the same moves one by one are the same for sure; moves may also be cut otherwise.
-    bool alike = a.moves.size() == b.moves.size();
-    for (std::size_t k = 0; alike && k < a.moves.size(); ++k) {
-        const double far = far_apart(a.moves[k], b.moves[k]);
-        if (far > 0.01 || !same_values(a.moves[k], b.moves[k])) return Opinion::changed;
-        if (far > 0.001) return Opinion::no_opinion;
-    }
-    if (!alike)
+    if (a.moves.size() != b.moves.size())
         return off_path(a.moves, b.moves) || off_path(b.moves, a.moves) ? Opinion::changed
                                                                         : Opinion::no_opinion;
-    if (!same_functions(grave(a.functions), grave(b.functions))) return Opinion::changed;
-    return same_functions(a.functions, b.functions) ? Opinion::same : Opinion::no_opinion;
+    bool alike = true;
+    for (std::size_t k = 0; k < a.moves.size(); ++k) {
+        const double far = far_apart(a.moves[k], b.moves[k]);
+        if (far > 0.01 || !same_values(a.moves[k], b.moves[k])) return Opinion::changed;
+        alike = alike && far <= 0.001 && same_values(a.moves[k], b.moves[k], 0.004);
+    }
+    if (!same_functions(grave(a.functions), grave(b.functions), 0.011)) return Opinion::changed;
+    return alike && same_functions(a.functions, b.functions, 0.009) ? Opinion::same
+                                                                    : Opinion::no_opinion;
 }
 
 struct Counts {
