@@ -23,8 +23,8 @@ Eigen::MatrixXd table_features(const Replay& replay, const std::vector<Perturbat
         Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(replay.size()),
                               each * static_cast<Eigen::Index>(table.directions.size()));
     for (std::size_t i = 0; i < replay.size(); ++i) {
-        const double q = replay.sample(i).position[table.axis];
-        const SmallMotion& motion = gradient[i].motion[index_of(table.axis)];
+        const double q = replay.sample(i).position[table.axis.axis];
+        const SmallMotion& motion = gradient[i].motion[index_of(table.axis.axis)];
         const auto row = static_cast<Eigen::Index>(i);
         for (std::size_t k = 0; k < table.directions.size(); ++k) {
             const int d = table.directions[k];

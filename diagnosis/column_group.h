@@ -23,7 +23,7 @@ inline bool is_cause(GroupKind kind) {
 
 /// Error motions of one axis in free form: values at knots, or harmonics of a whole turn.
 struct TableForm {
-    Axis axis = Axis::X;
+    AxisGeometry axis;            ///< as the chain has it
     std::vector<int> directions;  ///< 0..5 = X Y Z (mm), A B C (rad), along and about + axes of M
     std::vector<double> knots;    ///< mm or rad, rising; empty: harmonics
     int first_order = 0, orders = 0;  ///< cos, sin of each order

@@ -147,7 +147,7 @@ std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorX
             const Eigen::Index at = static_cast<Eigen::Index>(k) * each + j;
             points.push_back({motion_name(d, table.axis), table.knots[static_cast<std::size_t>(j)],
                               value(at), sigma(at) * table_unit(d),
-                              is_rotary(table.axis) ? "rad" : "mm", d < 3 ? "mm" : "rad"});
+                              table.axis.rotary ? "rad" : "mm", d < 3 ? "mm" : "rad"});
         }
     constexpr int places = 36;  // of a whole turn, from its harmonics
     for (std::size_t k = 0; k < table.directions.size() && table.knots.empty(); ++k)
@@ -282,14 +282,14 @@ void merge_free_forms(const Outcome& f, std::vector<Claim>& claims) {
         double sum = 0.0, most = 0.0;
         for (std::size_t k = 0; k < claims.size(); ++k) {
             const ColumnGroup& group = f.design.group(f.model.members[claims[k].position]);
-            if (group.kind != GroupKind::table || group.table.axis != axis) continue;
+            if (group.kind != GroupKind::table || group.table.axis.axis != axis) continue;
             forms.push_back(k);
             sum += claims[k].share;
             most = std::max(most, claims[k].share);
         }
         if (forms.size() < 2 || most >= rules::main_family * sum) continue;
         for (const std::size_t k : forms)
-            claims[k].name = std::string("free form of ") + letter_of(axis);
+            claims[k].name = "free form of " + f.prepared.table.names[axis];
     }
 }
 

@@ -127,7 +127,7 @@ Folds place_folds(const Replay& replay, const TableForm& table) {
     for (std::size_t k = 0; k < places.size(); ++k)
         folds.fold.push_back(static_cast<int>(k % Folds::count));
     for (std::size_t i = 0; i < replay.size(); ++i) {
-        const double at = replay.sample(i).position[table.axis];
+        const double at = replay.sample(i).position[table.axis.axis];
         const double q = table.knots.empty() ? std::remainder(at, 2.0 * pi) : at;
         const auto [before, weight] = place_between(places, q);
         const auto place = static_cast<int>(before) + (weight > 0.5 ? 1 : 0);

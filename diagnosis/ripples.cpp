@@ -33,9 +33,11 @@ struct Ripple {
     Axis axis;
     double period;
 };
-std::optional<Ripple> ripple_of(const Effect& effect, const std::vector<double>& keys) {
-    if (!effect.name.ends_with(".cyclic")) return std::nullopt;
-    const auto axis = axis_of(effect.name.front());
+std::optional<Ripple> ripple_of(const AxisNames& names, const Effect& effect,
+                                const std::vector<double>& keys) {
+    constexpr std::string_view ending = ".cyclic";
+    if (!effect.name.ends_with(ending)) return std::nullopt;
+    const auto axis = names.find(effect.name.substr(0, effect.name.size() - ending.size()));
     if (!axis) return std::nullopt;
     for (std::size_t j = 0; j < keys.size(); ++j) {
         if (!effect.parameters[j].is_key()) continue;
@@ -78,7 +80,7 @@ bool shows_period(std::vector<double> places, double period) {
 std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& prepared,
                                                const Whitener& whitener, const Effect& effect,
                                                std::vector<double> keys) {
-    const auto ripple = ripple_of(effect, keys);
+    const auto ripple = ripple_of(prepared.table.names, effect, keys);
     if (ripple) {
         std::vector<double> places;
         for (std::size_t i = 0; i < prepared.replay.size(); ++i)

@@ -34,7 +34,7 @@ void add_table(ErrorCurve& curve, const std::vector<double>& at, const Eigen::Ve
 void add_free_form(Setup& setup, const ColumnGroup& group, const Eigen::VectorXd& coefficients) {
     const Eigen::VectorXd value = table_values(group, coefficients);
     const Eigen::Index each = group.table.per_direction();
-    auto& motion = setup.machine.errors.axis[index_of(group.table.axis)].motion;
+    auto& motion = setup.machine.errors.axis[index_of(group.table.axis.axis)].motion;
     for (std::size_t k = 0; k < group.table.directions.size(); ++k) {
         ErrorCurve& curve = motion[static_cast<std::size_t>(group.table.directions[k])];
         const Eigen::VectorXd own = value.segment(static_cast<Eigen::Index>(k) * each, each);

@@ -89,7 +89,7 @@ std::vector<Eigen::MatrixXd> shapes_of(const Family& family, const TableForm& ta
 
 TableForm form_of(const Family& family, const AxisGeometry& axis,
                   const std::vector<double>& places) {
-    TableForm table{axis.axis, directions_of(family, axis), {}, 0, 0};
+    TableForm table{axis, directions_of(family, axis), {}, 0, 0};
     const auto [low, high] = std::minmax_element(places.begin(), places.end());
     if (axis.rotary && *high - *low > whole_turn_rad) {
         table.first_order = family.owned + 1;
@@ -112,7 +112,7 @@ void add_family(Design& design, const Prepared& p, const Whitener& whitener, con
     for (const Eigen::MatrixXd& shape : shapes) {
         ColumnGroup group;
         group.kind = GroupKind::table;
-        group.name = effect_name(axis.axis, family.name);
+        group.name = effect_name(axis, family.name);
         group.table = table;
         group.shape = for_each_direction(shape, table.directions.size());
         for (Eigen::Index k = 0; k < white.cols(); ++k) group.features.push_back(first + k);
