@@ -17,20 +17,25 @@ struct WrittenWord {
     char letter = 0;
     std::string number;
     double value = 0.0;
+    bool computed() const { return number.find_first_of("#[") != std::string::npos; }
     bool point() const { return number.find('.') != std::string::npos; }
     std::string text() const { return letter + number; }
 };
 
-/// Words with plain numbers, N aside; nothing where the block computes.
+/// The words, N aside; nothing for macro statements.
 std::vector<WrittenWord> words_of(const std::string& block) {
     std::vector<WrittenWord> words;
     bool comment = false;
+    int depth = 0;
     for (const char raw : block) {
         const char c = upper(raw);
         if (c == '(' || c == ')') comment = c == '(';
-        if (comment || c == ')' || is_blank(c) || c == '/') continue;
-        if (c == '#' || c == '[' || c == '=') return {};
-        if (is_letter(c))
+        if (comment || c == ')' || is_blank(c) || (c == '/' && words.empty())) continue;
+        if (c == '=' || (c == '#' && words.empty())) return {};
+        depth += c == '[' ? 1 : c == ']' ? -1 : 0;
+        const bool begins_word = is_letter(c) && depth == 0;
+        if (begins_word && !words.empty() && words.back().number.empty()) return {};  // IF, GOTO
+        if (begins_word)
             words.push_back({c, "", 0.0});
         else if (!words.empty())
             words.back().number += c;
@@ -44,6 +49,8 @@ std::vector<WrittenWord> words_of(const std::string& block) {
 void cancel(std::vector<WrittenWord>& a, std::vector<WrittenWord>& b) {
     for (std::size_t i = 0; i < a.size();) {
         const auto same = std::find_if(b.begin(), b.end(), [&](const WrittenWord& q) {
+            if (q.computed() || a[i].computed())
+                return q.letter == a[i].letter && q.number == a[i].number;
             return q.letter == a[i].letter && q.value == a[i].value &&
                    (q.point() == a[i].point() || q.value == 0.0 || q.letter == 'F');
         });
@@ -132,7 +139,10 @@ std::string block_difference(const std::string& block_a, const std::string& bloc
     const auto by_letter = [](const auto& p, const auto& q) { return p.letter < q.letter; };
     std::stable_sort(a.begin(), a.end(), by_letter);
     std::stable_sort(b.begin(), b.end(), by_letter);
-    if (same_letters(a, b)) {
+    const auto computed = [](const WrittenWord& w) { return w.computed(); };
+    const bool plain =
+        std::none_of(a.begin(), a.end(), computed) && std::none_of(b.begin(), b.end(), computed);
+    if (plain && same_letters(a, b)) {
         name = value_cause(a, b);
         if (name.empty()) name = centre_cause(a, b, start);
     }
@@ -143,7 +153,7 @@ std::string block_difference(const std::string& block_a, const std::string& bloc
 std::array<std::optional<double>, 3> position_words(const std::string& block) {
     std::array<std::optional<double>, 3> found;
     for (const WrittenWord& word : words_of(block))
-        if (word.letter >= 'X' && word.letter <= 'Z')
+        if (word.letter >= 'X' && word.letter <= 'Z' && !word.computed())
             found[static_cast<std::size_t>(word.letter - 'X')] = word.value;
     return found;
 }

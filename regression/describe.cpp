@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "interpreter/lexical.h"
 #include "interpreter/program_folders.h"
+#include "regression/block_difference.h"
 #include "regression/compare_picture.h"
 
 namespace trunnion {
@@ -226,6 +227,9 @@ void describe_gaps(const KeyedLines& a, const KeyedLines& b, SourceLines& lines_
                                 : fmt::format("{} of A became {} of B", counted(in_a, noun), in_b);
         d.a = place_in(keyed_a, gap.a_first, gap.a_last, lines_a);
         d.b = place_in(keyed_b, gap.b_first, gap.b_last, lines_b);
+        if (in_a == 1 && in_b == 1 && result.by != Layer::blocks)
+            d.cause = block_difference(d.a.block, d.b.block, {});
+        if (!d.cause.empty()) d.what += ": " + d.cause;
         result.differences.push_back(std::move(d));
     });
     result.compared = std::max(a.size(), b.size());
