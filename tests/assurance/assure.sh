@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# assure.sh [--seconds 60] [--mutants 20] [--out docs/assurance.md] [--only faults,soak,fuzz,coverage,mutation]
+# assure.sh [--seconds 60] [--mutants 20] [--out docs/assurance.md] [--only faults,soak,edits,fuzz,coverage,mutation]
 # Long checks one after the other; what they found is printed and written as a page. Run by ./dev assure,
 # which builds what is needed.
 set -eu
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-seconds=60 mutants=20 page=docs/assurance.md only=faults,soak,fuzz,coverage,mutation
+seconds=60 mutants=20 page=docs/assurance.md only=faults,soak,edits,fuzz,coverage,mutation
 while [ $# -gt 0 ]; do
   [ $# -ge 2 ] || { echo "assure: $1 needs a value" >&2; exit 2; }
   case $1 in
@@ -46,6 +46,16 @@ soak() {
   TRUNNION_SOAK_SECONDS=$seconds TRUNNION_SOAK_SEED=$(date +%s) build/release/bin/test_soak \
     > "$work/soak.log" 2>&1 && state=hold || state=FAIL
   echo "The laws **$state**: $(grep -oE '[0-9]+ programs from seed [0-9]+ in [0-9.]+ s' "$work/soak.log" | tail -1)."
+}
+
+edits() {
+  echo "## Edited and rewritten programs, compared"
+  echo
+  build/release/bin/test_regression "[assure]" > "$work/edits.log" 2>&1 && state=hold || state=FAIL
+  echo "The figures of compare **$state**:"
+  echo
+  tr '\n' ' ' < "$work/edits.log" | tr -s ' ' |
+    grep -oE '[0-9]+ (edits judged:|rewrites,)[^/=]*' | sed 's/^/- /'
 }
 
 fuzz() {
@@ -97,12 +107,14 @@ for r in json.load(open(sys.argv[1])): print("| %s | %d of %d | %d |" % (r["room
   echo
   echo "    ./dev assure --only faults          # a library fails single calls of the system"
   echo "    ./dev soak SECONDS [SEED]           # laws on random programs and machines"
+  echo "    ./dev assure --only edits           # random edits and harmless rewrites, compared"
   echo "    ./dev fuzz SECONDS"
   echo "    ./dev assure --only coverage"
   echo "    ./dev assure --only mutation --mutants N"
   echo
   section faults "failing calls"
   section soak "random programs"
+  section edits "edits and rewrites"
   section fuzz "fuzzing"
   section coverage "branches"
   section mutation "mutants"
