@@ -24,6 +24,10 @@ const std::vector<CheckRule>& check_rules() {
         {"skip-compensation", "G31 while cutter compensation is on"},
         {"unreachable", "Blocks that never run"},
         {"left-on", "A five-axis function is still on at the end"},
+        {"word", "A word holds what the control does not take"},
+        {"variable", "A variable that does not exist or cannot be written"},
+        {"tcp-frame", "G43.4 behind an indexing: its frame depends on tcp_frame"},
+        {"family", "The program is written for another kind of control"},
         {"alarm", "Running the program stops with an alarm"}};
     return table;
 }
@@ -38,11 +42,40 @@ void Findings::add(const char* rule, Severity severity, const Block& block, int 
                       std::move(text), std::move(remedy)});
 }
 
+bool Findings::has_error(int line) const {
+    return std::any_of(found_.begin(), found_.end(), [&](const Finding& f) {
+        return f.line == line && f.severity == Severity::error;
+    });
+}
+
+namespace {
+
+/// The first of equal findings stays, with how many there are, when there are more than a few.
+std::vector<Finding> one_for_each_cause(std::vector<Finding> found) {
+    constexpr std::size_t few = 3;
+    std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> same;
+    for (std::size_t i = 0; i < found.size(); ++i)
+        same[{found[i].rule, found[i].text}].push_back(i);
+    std::set<std::size_t> dropped;
+    for (const auto& [cause, places] : same) {
+        if (places.size() <= few) continue;
+        found[places.front()].text +=
+            fmt::format(" ({} times, last in line {})", places.size(), found[places.back()].line);
+        dropped.insert(places.begin() + 1, places.end());
+    }
+    std::vector<Finding> kept;
+    for (std::size_t i = 0; i < found.size(); ++i)
+        if (!dropped.contains(i)) kept.push_back(std::move(found[i]));
+    return kept;
+}
+
+}  // namespace
+
 std::vector<Finding> Findings::take() {
     std::stable_sort(found_.begin(), found_.end(), [](const Finding& a, const Finding& b) {
         return a.line != b.line ? a.line < b.line : a.column < b.column;
     });
-    return std::move(found_);
+    return one_for_each_cause(std::move(found_));
 }
 
 std::optional<double> word_value(const ParsedProgram& program, const Block& block, char letter) {
@@ -52,7 +85,18 @@ std::optional<double> word_value(const ParsedProgram& program, const Block& bloc
     return std::nullopt;
 }
 
+namespace {
+
+/// M30 and M99 in a block with G65 or G66 are arguments.
+bool passes_arguments(const ParsedProgram& program, const Block& block) {
+    return has_code(program, block, 'G', 650) || has_code(program, block, 'G', 660) ||
+           has_code(program, block, 'G', 661);
+}
+
+}  // namespace
+
 bool has_code(const ParsedProgram& program, const Block& block, char letter, int code10) {
+    if (letter == 'M' && passes_arguments(program, block)) return false;
     for (const Item& item : program.items(block)) {
         if (item.kind != ItemKind::word || item.letter != letter) continue;
         const auto value = constant_value(program, item);
@@ -124,10 +168,13 @@ std::vector<Finding> check_program(const ProgramText& text, const CheckOptions& 
     Findings findings(program);
     add_faults(program, findings);
     const std::vector<CheckSection> sections = sections_of(program);
+    if (check_family(sections, options, findings)) return findings.take();
     for (const CheckSection& section : sections) {
         check_flow(section, findings);
         check_codes(section, options, findings);
         check_arcs(section, options, findings);
+        check_words(section, options, findings);
+        check_trial(section, options, findings);
     }
     check_calls(program, sections, options, findings);
     return findings.take();

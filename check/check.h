@@ -2,9 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/alarm.h"
+#include "interpreter/block_words.h"
 #include "interpreter/dialect.h"
 #include "interpreter/program_source.h"
 
@@ -27,6 +31,18 @@ struct CheckRule {
 };
 const std::vector<CheckRule>& check_rules();
 
+/// Carries out the words of blocks in order, as a run does.
+class Trial {
+  public:
+    virtual ~Trial() = default;
+    /// The alarm that stops the run here, or nothing.
+    virtual std::optional<Alarm> run(const BlockWords& block) = 0;
+    /// The alarm of the words alone, whatever the program did before, or nothing.
+    virtual std::optional<Alarm> read(const BlockWords& block) = 0;
+    /// The end of the program: what still waits goes out.
+    virtual std::optional<Alarm> end() = 0;
+};
+
 struct CheckOptions {
     Dialect dialect;
     /// Does the control have this G code (434 is G43.4)? Not checked when empty.
@@ -35,6 +51,15 @@ struct CheckOptions {
     std::function<bool(int o_number)> finds_program;
     /// Is the program `<name>` known outside the file? Not known when empty.
     std::function<bool(const std::string& name)> finds_named;
+    /// Does this G or M code (434 is G43.4), or T with 0, call a program? Nothing does when empty.
+    std::function<bool(char letter, int code10)> calls_program;
+    /// "PS0007 ILLEGAL USE OF DECIMAL POINT". Only the number when empty.
+    std::function<std::string(int alarm)> alarm_text;
+    /// The alarm of reading or writing variable #number from #1000 on, 0: none. Not checked when
+    /// empty.
+    std::function<int(int number, bool writes)> variable_alarm;
+    /// A control that carries out blocks one after another. Not checked when empty.
+    std::function<std::unique_ptr<Trial>()> start_trial;
     double arc_tolerance_mm = 0.02;  ///< radius at the arc's end against its start (parameter 3410)
 };
 

@@ -150,7 +150,7 @@ std::optional<int> called_program(const ParsedProgram& program, const Block& blo
     for (const Item& item : program.items(block)) {
         if (item.kind != ItemKind::word || item.letter != 'P') continue;
         const auto value = constant_value(program, item);
-        if (!value) return std::nullopt;
+        if (!value || *value != std::floor(*value)) return std::nullopt;
         column = item.column;
         return whole_of(*value);
     }

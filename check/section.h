@@ -44,6 +44,9 @@ class Findings {
     void add(const char* rule, Severity severity, const Block& block, int column, std::string text,
              std::string remedy);
     void add(Finding finding) { found_.push_back(std::move(finding)); }
+    /// Is there an error at this line already?
+    bool has_error(int line) const;
+    /// By place; what is said more often than a few times is said once, with how often.
     std::vector<Finding> take();
 
   private:
@@ -55,6 +58,26 @@ void check_flow(const CheckSection& section, Findings& findings);
 void check_calls(const ParsedProgram& program, const std::vector<CheckSection>& sections,
                  const CheckOptions& options, Findings& findings);
 void check_codes(const CheckSection& section, const CheckOptions& options, Findings& findings);
+/// Values of words by the table of interpreter/word_rules.h, and variables that do not exist or
+/// cannot be written.
+void check_words(const CheckSection& section, const CheckOptions& options, Findings& findings);
+/// Carries out a main program as far as it runs straight on with constant words.
+void check_trial(const CheckSection& section, const CheckOptions& options, Findings& findings);
+/// One finding when the program is written for a lathe or for a Haas: their own codes are no errors
+/// of it then. Returns true in this case.
+bool check_family(const std::vector<CheckSection>& sections, const CheckOptions& options,
+                  Findings& findings);
+
+/// The constant words of a block; `all`: none is computed. Throws nothing; more words than a
+/// control reads give nothing.
+struct ConstantWords {
+    BlockWords words;
+    bool all = true;
+};
+std::optional<ConstantWords> constant_words(const ParsedProgram& program, const Block& block);
+/// Does the block call a program, by its own words or by a code that a parameter maps?
+bool calls_program(const ParsedProgram& program, const Block& block, const CheckOptions& options);
+
 void check_arcs(const CheckSection& section, const CheckOptions& options, Findings& findings);
 
 }  // namespace trunnion

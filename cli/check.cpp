@@ -5,14 +5,19 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include "base/alarm.h"
 #include "base/output_files.h"
 #include "cli/command.h"
+#include "cli/files.h"
 #include "cli/options.h"
+#include "cli/program_choice.h"
 #include "cli/setups.h"
 #include "controller/alarms.h"
+#include "controller/block_trial.h"
+#include "controller/code_calls.h"
 #include "controller/g_codes.h"
 #include "emulator/run.h"
 #include "interpreter/program_folders.h"
@@ -45,22 +50,68 @@ std::vector<std::string> files_of(const std::vector<std::string>& paths) {
     return files;
 }
 
-ProgramFolders folders_for(const ProgramText& program, const CheckCommand& c) {
-    std::vector<std::string> folders = c.folders;
-    const auto own = std::filesystem::path(program.name).parent_path();
-    folders.push_back(own.empty() ? "." : own.string());
-    ProgramFolders programs(std::move(folders));
-    programs.add_file(program);
-    return programs;
+/// Codes that call programs by parameters 6050-6089 and 6001#5.
+bool calls_program(const CodeCalls& calls, char letter, int code10) {
+    if (letter == 'T') return calls.t_calls_9000;
+    return letter == 'G' ? calls.g.contains(code10)
+                         : code10 % 10 == 0 && calls.m.contains(code10 / 10);
 }
 
-/// G codes that parameters 6050-6059 make call a program.
-bool is_mapped(const Stores& stores, int code10) {
-    for (int number = 6050; number <= 6059; ++number)
-        if (const auto code = stores.parameters.find(number); code && *code * 10.0 == code10)
-            return true;
-    return false;
+bool knows_g(const Setup& setup, int code10) {
+    const GCode* code = find_g_code(code10 / 10.0);
+    if (code) return code->action != Action::thread || setup.threading;
+    for (const GCode& own : setup.builder.g_codes)
+        if (own.code10 == code10) return true;
+    return code10 == 650 || code10 == 660 || code10 == 661 || code10 == 670;  // of the language
 }
+
+/// The control of a setup, block by block.
+class SetupTrial : public Trial {
+  public:
+    explicit SetupTrial(const Setup& setup) : trial_(control_config(setup), setup.stores) {}
+    std::optional<Alarm> run(const BlockWords& block) override { return trial_.run(block); }
+    std::optional<Alarm> read(const BlockWords& block) override { return trial_.read(block); }
+    std::optional<Alarm> end() override { return trial_.end(); }
+
+  private:
+    BlockTrial trial_;
+};
+
+/// What one setup's control says about programs; variables are asked once.
+class SetupRules {
+  public:
+    explicit SetupRules(const Setup& setup)
+        : setup_(setup), calls_(decode_code_calls(setup.stores.parameters)) {}
+
+    CheckOptions options() {
+        CheckOptions out;
+        out.dialect = setup_.dialect;
+        out.knows_g = [this](int code10) {
+            return knows_g(setup_, code10) || trunnion::calls_program(calls_, 'G', code10);
+        };
+        out.calls_program = [this](char letter, int code10) {
+            return trunnion::calls_program(calls_, letter, code10);
+        };
+        out.alarm_text = [](int number) {
+            const AlarmRow* row = find_alarm(number);
+            return alarm_title(number, row ? row->text : "");
+        };
+        out.variable_alarm = [this](int number, bool writes) {
+            const auto [known, fresh] = variables_.try_emplace({number, writes}, 0);
+            if (fresh)
+                known->second =
+                    trunnion::variable_alarm(number, writes, control_config(setup_), setup_.stores);
+            return known->second;
+        };
+        out.start_trial = [this] { return std::make_unique<SetupTrial>(setup_); };
+        return out;
+    }
+
+  private:
+    const Setup& setup_;
+    CodeCalls calls_;
+    std::map<std::pair<int, bool>, int> variables_;
+};
 
 class NoDevices : public MotionSink {
   public:
@@ -71,7 +122,7 @@ void run_without_devices(const Setup& setup, const ProgramText& program, const C
                          std::vector<Finding>& findings) {
     Stores stores = setup.stores;
     NoDevices sink;
-    ProgramFolders programs = folders_for(program, c);
+    ProgramFolders programs = folders_of_file(program, c.folders);
     ControlConfig config = control_config(setup);
     config.max_blocks = c.max_blocks;
     Controller controller(std::move(config), stores, programs, sink, [](std::string_view) {});
@@ -82,6 +133,10 @@ void run_without_devices(const Setup& setup, const ProgramText& program, const C
                             "Look for an endless loop, or give --max-blocks."});
     if (!result.alarm) return;
     const Alarm& alarm = *result.alarm;
+    for (const Finding& known : findings)  // one finding for one cause
+        if (known.path == program.name && known.line == alarm.where.line &&
+            known.severity == Severity::error)
+            return;
     const AlarmRow* row = find_alarm(alarm.number);
     findings.push_back({"alarm", Severity::error,
                         alarm.where.program.empty() ? program.name : alarm.where.program,
@@ -93,16 +148,12 @@ void run_without_devices(const Setup& setup, const ProgramText& program, const C
 int check(const CheckCommand& c) {
     const Setup setup = open_setup(c.setup);
     const std::vector<std::string> files = files_of(c.paths);
+    SetupRules rules(setup);
     std::vector<Finding> findings;
     for (const std::string& file : files) {
         const ProgramText program = read_main_program(file);
-        ProgramFolders programs = folders_for(program, c);
-        CheckOptions options;
-        options.dialect = setup.dialect;
-        options.knows_g = [&](int code10) {
-            return find_g_code(code10 / 10.0) != nullptr || is_mapped(setup.stores, code10) ||
-                   (code10 >= 650 && code10 <= 670);  // G65 to G67 belong to the language
-        };
+        ProgramFolders programs = folders_of_file(program, c.folders);
+        CheckOptions options = rules.options();
         options.finds_program = [&](int number) { return programs.find(number).has_value(); };
         options.finds_named = [&](const std::string& name) {
             return programs.find(std::string_view(name)).has_value();
@@ -110,6 +161,7 @@ int check(const CheckCommand& c) {
         const auto found = check_program(program, options);
         findings.insert(findings.end(), found.begin(), found.end());
         if (c.run) run_without_devices(setup, program, c, findings);
+        print_notes(programs.announcements());
     }
     OutputFiles out;
     out.add(c.out, format_findings(findings, files, c.format));

@@ -12,14 +12,22 @@ namespace fs = std::filesystem;
 namespace {
 
 /// programs/ and the folders in it; none when nothing is installed.
-void add_shipped(std::vector<std::string>& folders) try {
+std::vector<std::string> shipped_folders() try {
     const std::string root = shipped("programs");
-    std::vector<std::string> inner{root};
+    std::vector<std::string> folders{root};
     for (const auto& entry : fs::directory_iterator(root))
-        if (entry.is_directory()) inner.push_back(entry.path().string());
-    std::sort(inner.begin(), inner.end());
-    folders.insert(folders.end(), inner.begin(), inner.end());
+        if (entry.is_directory()) folders.push_back(entry.path().string());
+    std::sort(folders.begin(), folders.end());
+    return folders;
 } catch (const InputError&) {
+    return {};
+}
+
+bool is_one_of(const std::string& folder, const std::vector<std::string>& folders) {
+    std::error_code unknown;
+    return std::any_of(folders.begin(), folders.end(), [&](const std::string& other) {
+        return fs::equivalent(folder, other, unknown);
+    });
 }
 
 std::optional<int> o_number(const std::string& name) {
@@ -33,24 +41,36 @@ std::optional<int> o_number(const std::string& name) {
 
 }  // namespace
 
+ProgramFolders folders_of_file(const ProgramText& program, std::vector<std::string> folders) {
+    const std::string own = fs::path(program.name).parent_path().string();
+    folders.push_back(own.empty() ? "." : own);
+    std::vector<std::string> ours = shipped_folders();
+    if (is_one_of(folders.back(), ours)) {  // a shipped program asks for its fellows
+        folders.insert(folders.end(), ours.begin(), ours.end());
+        ours.clear();
+    }
+    ProgramFolders source(std::move(folders), std::move(ours));
+    source.add_file(program);
+    return source;
+}
+
 ProgramAndFolders open_program(const std::string& name, std::vector<std::string> folders) {
     std::error_code unknown;
     const fs::file_status found = fs::status(name, unknown);
     const bool is_file = name == "-" || (fs::exists(found) && !fs::is_directory(found));
     if (is_file) {
-        const std::string own = fs::path(name).parent_path().string();
-        folders.push_back(own.empty() ? "." : own);
-    }
-    add_shipped(folders);
-    ProgramFolders source(folders);
-    if (is_file) {
         const ProgramText text = read_main_program(name);
-        source.add_file(text);
-        return {text, std::move(source)};
+        return {text, folders_of_file(text, std::move(folders))};
     }
+    std::vector<std::string> ours = shipped_folders();
     const auto number = o_number(name);
     if (!number) throw InputError("no such program, or it cannot be read", {name, 0, 0});
-    if (!source.find(*number))
+    if (!ProgramFolders(folders).holds(*number)) {  // asked for by its number: ours may serve
+        folders.insert(folders.end(), ours.begin(), ours.end());
+        ours.clear();
+    }
+    ProgramFolders source(std::move(folders), std::move(ours));
+    if (!source.holds(*number))
         throw InputError("O number not found in the program folders", {name, 0, 0});
     return {*number, std::move(source)};
 }

@@ -15,6 +15,9 @@ struct ProgramAndFolders {
     ProgramFolders folders;
 };
 
+/// `folders`, then the file's own, then what ships; the file itself before all of them.
+ProgramFolders folders_of_file(const ProgramText& program, std::vector<std::string> folders);
+
 /// Throws InputError when there is no such file and no such O number.
 ProgramAndFolders open_program(const std::string& name, std::vector<std::string> folders);
 

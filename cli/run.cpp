@@ -172,6 +172,7 @@ int run_command(const Options& o) {
     if (!o.page.html.empty()) follow_path(options, path);
     const RunLog log = run_watched(setup, program, options);
     print_notes(log.notes);
+    print_notes(program.folders.announcements());
     if (o.json)
         print_out("{}", run_json(log, setup.machine.chain, program.folders.used()));
     else if (o.print.empty())

@@ -2,9 +2,10 @@
 # own. tests/layering.cmake reads this list.
 set(TRUNNION_CONTROLLER_ORDER
   # what is configured, what can go wrong
-  clamp control_alarms alarms control_config run_result code_calls
+  modal_groups g_codes builder_profile clamp control_alarms alarms control_config run_result
+  code_calls
   # the words of a block, what is in force
-  modal_groups g_codes sorted_words settings modal run_record surface_speed word_sorting
+  sorted_words settings modal run_record surface_speed word_sorting
   # where the control stands
   coordinates frames commanded
   # what takes a path to the axes
@@ -15,4 +16,4 @@ set(TRUNNION_CONTROLLER_ORDER
   # system variables
   offset_variables position_variables modal_variables signal_variables
   # put together
-  control system_variables g_actions block_execution controller)
+  control system_variables g_actions block_execution block_trial controller)

@@ -15,7 +15,7 @@ set(TRUNNION_ROOMS
   "controller: cutter motion positioning offsets interpreter geometry base"
   "probe: kinematics geometry"
   "ballbar: kinematics geometry"
-  "check: interpreter"
+  "check: interpreter base"
   "backup: offsets base"
   "setup: controller positioning kinematics offsets interpreter geometry base"
   "imports: setup records geometry base"

@@ -110,7 +110,8 @@ void AxisMover::take_marks() {
 }
 
 /// Everything is in `move_` but the marks. `way`: what F divides, mm.
-MoveResult AxisMover::send(MotionKind kind, const MoveTarget& target, double way) {
+MoveResult AxisMover::send(MotionKind kind, const ControlPosition& program,
+                           const ControlPosition& machine, double way) {
     AxisMove& m = move_;
     m.kind = kind;
     check_stroke(m.to);
@@ -132,9 +133,10 @@ MoveResult AxisMover::send(MotionKind kind, const MoveTarget& target, double way
         return result;
     }
     frames_.axes = m.to;
-    frames_.machine = target.machine;
-    frames_.program = target.program;
+    frames_.machine = machine;
+    frames_.program = program;
     frames_.length_parked = false;
+    frames_.tip.keeps_program = false;
     return result;
 }
 
@@ -152,7 +154,7 @@ MoveResult AxisMover::straight(MotionKind kind, const ControlPosition& target) {
     if (modal_.spindle.by_surface) follow_surface_speed(modal_, frames_.program, target);
     const double way = std::sqrt(feed_square(frames_.machine, machine, modal_.units.unit_mm));
     m.duration_s = duration(kind, way);
-    return send(kind, {target, machine, m.to}, way);
+    return send(kind, target, machine, way);
 }
 
 void AxisMover::to_machine(MotionKind kind, const ControlPosition& target) {
@@ -168,7 +170,7 @@ void AxisMover::to_machine(MotionKind kind, const ControlPosition& target) {
     m.length_mm = linear_length(m);
     const double way = std::sqrt(feed_square(frames_.machine, target, modal_.units.unit_mm));
     m.duration_s = duration(kind, way);
-    send(kind, {program, target, m.to}, way);
+    send(kind, program, target, way);
 }
 
 void AxisMover::arc(MotionKind kind, const ControlPosition& target, const ProgramArc& arc) {
@@ -183,7 +185,7 @@ void AxisMover::arc(MotionKind kind, const ControlPosition& target, const Progra
                                  feed_square(frames_.machine, machine, modal_.units.unit_mm, 3));
     m.duration_s = duration(kind, way);
     m.arc = path;
-    send(kind, {target, machine, m.to}, way);
+    send(kind, target, machine, way);
     m.arc.reset();
 }
 
@@ -206,7 +208,7 @@ MoveResult AxisMover::along(MotionKind kind, const MoveTarget& target, const Cur
         for (int k = 1; k < parts; ++k) check_stroke(way.curve->at(static_cast<double>(k) / parts));
     }
     if (way.arc) m.arc = *way.arc;
-    const MoveResult result = send(kind, target, way.feed_length_mm);
+    const MoveResult result = send(kind, target.program, target.machine, way.feed_length_mm);
     m.curve = nullptr;
     m.arc.reset();
     return result;

@@ -69,7 +69,8 @@ class AxisMover {
     AxisLimits limits;  ///< of the configuration and 1783
 
   private:
-    MoveResult send(MotionKind kind, const MoveTarget& target, double way);
+    MoveResult send(MotionKind kind, const ControlPosition& program, const ControlPosition& machine,
+                    double way);
     double duration(MotionKind kind, double way) const;
     void take_marks();
     void check_stroke(const AxisPositions& to) const;

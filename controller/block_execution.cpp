@@ -1,5 +1,8 @@
 #include "controller/block_execution.h"
 
+#include <cmath>
+#include <utility>
+
 #include "controller/alarms.h"
 #include "controller/arcs.h"
 #include "controller/commanded.h"
@@ -53,6 +56,20 @@ void note_bare_words(const SortedWords& w, Modal& modal, Mover& mover) {
     }
 }
 
+/// G33: F is the lead, whatever the feed mode. PS0011 without F or while the spindle stands.
+void cut_thread(const SortedWords& w, Modal& modal, const Frames& frames, Mover& mover) {
+    const double lead_mm = modal.block.feed.programmed * modal.units.unit_mm;
+    const double mm_min = lead_mm * std::abs(modal.spindle.signed_rpm());
+    if (mm_min <= 0.0) raise_alarm(11, w.column_of('F'));
+    FeedState thread = modal.block.feed;
+    thread.inverse_time = false;
+    thread.mm_min = mm_min;
+    thread.seconds_per_mm = 60.0 / mm_min;
+    const FeedState feed = std::exchange(modal.block.feed, thread);
+    mover.line(MotionKind::linear, commanded_position(w, modal, frames));
+    modal.block.feed = feed;
+}
+
 void run_motion(Control& c) {
     SortedWords& w = c.words;
     if (c.modal.in_cycle()) return run_cycle(c.cycle, w, c.modal, c.frames, c.mover);
@@ -60,6 +77,7 @@ void run_motion(Control& c) {
     if (c.wrapped.polar()) return c.wrapped.move_polar(w, c.modal, c.frames, c.mover);
     if (uses_cutter_path(w, c.mover)) return queue_motion(w, c.modal, c.frames, c.mover);
     const int code = c.modal.codes[ModalGroup::motion];
+    if (code == 330) return cut_thread(w, c.modal, c.frames, c.mover);
     const bool round = code == 20 || code == 30;
     if (c.wrapped.cylinder() && round)
         return c.wrapped.move_cylinder_arc(w, c.modal, c.frames, c.mover);
@@ -126,7 +144,7 @@ void act(Control& c) {
 
 /// TCP takes over, frames follow the rotaries.
 void follow_rotaries(const SortedWords& w, const Modal& modal, Frames& frames, Mover& mover) {
-    take_over_tool_centre(w, frames, mover);
+    take_over_tool_centre(w, modal, frames, mover);
     bool changed = frames.turn_fixture(modal.settings, frames.machine);
     if (frames.plane && !same_rotaries(frames.plane->latched, frames.axes)) {
         frames.place_plane();

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "controller/builder_profile.h"
 #include "controller/clamp.h"
 #include "geometry/axes.h"
 #include "interpreter/dialect.h"
@@ -32,6 +33,8 @@ struct ControlConfig {
     /// feeds to R and rapids on like G85 (Fanuc's drawing, from memory).
     bool g89_feeds_to_initial = true;
     std::vector<bool> skip_switches = std::vector<bool>(10, false);
+    bool threading = false;  ///< the control has G33
+    BuilderProfile builder;
     bool optional_stop = false;    ///< M01 stops
     std::uint64_t max_blocks = 0;  ///< 0: none
     /// Asked every few thousand blocks with their number; false: the run ends with `limit`.

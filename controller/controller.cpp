@@ -5,6 +5,7 @@
 #include "controller/system_variables.h"
 #include "interpreter/lexical.h"
 #include "interpreter/line_scan.h"
+#include "interpreter/memory.h"
 
 namespace trunnion {
 
@@ -156,15 +157,24 @@ RunResult Controller::run(int o_number) {
     return state_->run(o_number);
 }
 
+namespace {
+
+bool is_common(int number, const Dialect& dialect) {
+    return number < 1000 || common_slot(number, dialect.has_98000) >= 0;
+}
+
+}  // namespace
+
 void Controller::set_variable(int number, double value) {
-    if (number < 1000)
+    if (is_common(number, state_->control.config.dialect))
         state_->language.set_variable(number, value);
     else
         state_->variables.set(number, value, "");
 }
 
 double Controller::variable(int number) const {
-    return number < 1000 ? state_->language.variable(number) : state_->variables.get(number);
+    return is_common(number, state_->control.config.dialect) ? state_->language.variable(number)
+                                                             : state_->variables.get(number);
 }
 
 std::vector<int> Controller::used_common_variables() const {

@@ -58,9 +58,7 @@ PositioningMode Frames::mode(const ControlSettings& settings) const {
     if (tip.in_force || tip.starting) return PositioningMode::rtcp;
     if (plane) return PositioningMode::tw;
     if (fixture_number != 0) return PositioningMode::rtdfo;
-    const bool rotary = std::any_of(settings.axes.begin(), settings.axes.end(),
-                                    [](const ControlAxis& axis) { return axis.rotary; });
-    return rotary ? PositioningMode::dpp : PositioningMode::none;
+    return settings.has_rotary_axis ? PositioningMode::dpp : PositioningMode::none;
 }
 
 void Frames::recompute() {

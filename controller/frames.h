@@ -40,6 +40,9 @@ struct TipControl {
     std::optional<ToolCentrePoint> starting;  ///< takes over at the end of the start-up block
     bool by_vector = false;                   ///< G43.5: I J K instead of rotary words
     double lean_rad = 0.0;                    ///< Q of G43.5
+    /// G43.4 had a block of its own in a frame that differs from the one before: the programmed
+    /// position stands, and the next move goes there from where the tip is.
+    bool keeps_program = false;
 };
 
 bool same_rotaries(const AxisPositions& a, const AxisPositions& b);

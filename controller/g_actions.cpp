@@ -29,7 +29,7 @@ void set_group(Control& c, const GCode& code) {
 }
 
 void accept(Control& c, const GCode& code) {
-    c.mover.note(fmt::format("{} ({}) is accepted: it smooths a real path, positions stay",
+    c.mover.note(fmt::format("{} ({}) is accepted without effect on positions",
                              g_code_text(code.code10), code.text));
 }
 
@@ -111,6 +111,7 @@ constexpr ActionRow rows[] = {
      [](Control& c, const GCode& g) {
          set_speed_mode(c.words, c.modal, g.code10, c.frames.program);
      }},
+    {Action::thread, set_group},  // a motion code: the block's motion carries it out
     {Action::tilted_plane,
      [](Control& c, const GCode& g) {
          c.plane_codes.define(c.words, c.modal, c.frames, c.mover, g.code10);

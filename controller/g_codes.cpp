@@ -15,6 +15,7 @@ constexpr GCode table[] = {
     {20, motion, Phase::motion, Action::sets_group, "circular interpolation clockwise"},
     {30, motion, Phase::motion, Action::sets_group, "circular interpolation counter-clockwise"},
     {40, one_shot, Phase::shot, Action::dwell, "dwell"},
+    {41, one_shot, Phase::reading, Action::accepted, "stop of the reading ahead"},
     {50, one_shot, Phase::shot, Action::accepted, "high-speed machining, G5 P10000 / P0"},
     {51, one_shot, Phase::shot, Action::accepted, "AI contour control"},
     {71, one_shot, Phase::shot, Action::cylinder, "cylindrical interpolation"},
@@ -38,6 +39,7 @@ constexpr GCode table[] = {
     {290, one_shot, Phase::shot, Action::from_reference, "from the reference position"},
     {300, one_shot, Phase::shot, Action::reference, "to the 2nd to 4th reference position"},
     {310, one_shot, Phase::shot, Action::skip, "skip function"},
+    {330, motion, Phase::motion, Action::thread, "thread cutting"},
     {390, one_shot, Phase::shot, Action::corner_arc, "corner arc of cutter compensation"},
     {400, cutter, Phase::offsets, Action::cutter, "cutter compensation off"},
     {410, cutter, Phase::offsets, Action::cutter, "cutter compensation, tool left"},
@@ -100,6 +102,7 @@ constexpr GCode table[] = {
     {800, cycle, Phase::reading, Action::sets_group, "canned cycle off"},
     {900, distance, Phase::reading, Action::sets_group, "absolute words"},
     {910, distance, Phase::reading, Action::sets_group, "incremental words"},
+    {911, one_shot, Phase::reading, Action::accepted, "incremental arc centres"},
     {920, one_shot, Phase::shot, Action::preset, "setting of the work coordinates"},
     {921, one_shot, Phase::shot, Action::preset_cancel, "preset of the work coordinates"},
     {930, feed_mode, Phase::feed, Action::feed_mode, "inverse time feed"},
@@ -113,12 +116,21 @@ constexpr GCode table[] = {
 
 constexpr int highest_code10 = 10000;
 
+/// Other spellings of the same code.
+struct Alias {
+    int code10, means10;
+};
+constexpr Alias aliases[] = {{1070, 71}, {1120, 121}, {1130, 131}};
+
 /// Row of each code * 10, or -1.
 std::array<std::int16_t, highest_code10> make_index() {
     std::array<std::int16_t, highest_code10> index;
     index.fill(-1);
     for (std::size_t i = 0; i < std::size(table); ++i)
         index[static_cast<std::size_t>(table[i].code10)] = static_cast<std::int16_t>(i);
+    for (const Alias& alias : aliases)
+        index[static_cast<std::size_t>(alias.code10)] =
+            index[static_cast<std::size_t>(alias.means10)];
     return index;
 }
 const std::array<std::int16_t, highest_code10> row_of = make_index();

@@ -40,6 +40,7 @@ enum class Action : std::uint8_t {
     scaling_off,
     skip,
     speed_mode,
+    thread,  ///< G33, an option
     tilted_plane,
     tilted_plane_by_tool,
     tool_axis,

@@ -34,6 +34,10 @@ const MCode* find_row(int code) {
     return it == std::end(rows) ? nullptr : &*it;
 }
 
+bool holds(const std::vector<int>& codes, int code) {
+    return std::find(codes.begin(), codes.end(), code) != codes.end();
+}
+
 /// These stop the reading ahead: a compensated path ends square before them.
 bool stops_reading(int code) {
     return code == 0 || code == 1 || code == 2 || code == 30;
@@ -47,7 +51,7 @@ void set_spindle(Modal& modal, int direction) {
 }  // namespace
 
 MCodes::MCodes(const ControlConfig& config)
-    : clamps_(config.clamps), optional_stop_(config.optional_stop) {}
+    : clamps_(config.clamps), builder_(config.builder), optional_stop_(config.optional_stop) {}
 
 const ClampCode* MCodes::clamp_of(int code) const {
     for (const ClampCode& clamp : clamps_)
@@ -58,14 +62,15 @@ const ClampCode* MCodes::clamp_of(int code) const {
 bool MCodes::acts_after(int code) const {
     if (const ClampCode* clamp = clamp_of(code)) return code == clamp->m_clamp;
     const MCode* row = find_row(code);
-    return row && row->after_motion;
+    return row ? row->after_motion : holds(builder_.m_codes_after, code);
 }
 
 void MCodes::change_state(int code, Modal& modal, Mover& mover) {
     const ClampCode* clamp = clamp_of(code);
     if (clamp)
         mover.axes.clamp(clamp->axis, code == clamp->m_clamp);
-    else if (!find_row(code))
+    else if (!find_row(code) && !holds(builder_.m_codes, code) &&
+             !holds(builder_.m_codes_after, code))
         mover.note(
             fmt::format("M{:02} is not known to the control: passed on without effect", code));
     if (code == 2 || code == 30) ended_ = true;

@@ -31,6 +31,7 @@ class MCodes {
     void change_state(int code, Modal& modal, Mover& mover);
 
     std::vector<ClampCode> clamps_;
+    BuilderProfile builder_;
     bool optional_stop_;
     bool ended_ = false;
 };

@@ -61,6 +61,10 @@ ControlSettings decode_settings(const Parameters& parameters, const ControlConfi
     for (const ControlAxis& axis : config.axes)
         s.axis_letters |= 1U << (letter_of(axis.axis) - 'A');
     s.family = config.dialect.family;
+    s.threading = config.threading;
+    s.builder = config.builder;
+    s.has_rotary_axis = std::any_of(s.axes.begin(), s.axes.end(),
+                                    [](const ControlAxis& axis) { return axis.rotary; });
     s.g89_feeds_to_initial = config.g89_feeds_to_initial;
     s.tcp_frame = config.tcp_frame;
     if (config.dialect.generation == ControlGeneration::fanuc_16i) s.largest_position = 99999999.0;

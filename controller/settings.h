@@ -16,6 +16,9 @@ struct ControlSettings {
     std::vector<ControlAxis> axes;          ///< number 1 is [0]
     std::uint32_t axis_letters = 0;         ///< letters of the axes, bits as in SortedWords
     double largest_position = 999999999.0;  ///< of a position word, in least increments
+    bool has_rotary_axis = false;
+    bool threading = false;  ///< G33
+    BuilderProfile builder;
     DialectFamily family = DialectFamily::fanuc;
     bool g89_feeds_to_initial = true;      ///< own option, see ControlConfig
     TcpFrame tcp_frame = TcpFrame::start;  ///< G43.4 with the table turned

@@ -52,6 +52,7 @@ std::optional<double> ClockVariables::get(int number, double run_time_s) const {
     if (number == 3002) return (static_cast<double>(clock_s_) + run_time_s) / 3600.0;
     if (number == 3003 || number == 3004 || number == 3007)
         return controls_[static_cast<std::size_t>(number - 3000)];
+    if (number == 3901 || number == 3902) return parts_[static_cast<std::size_t>(number - 3901)];
     if (number != 3011 && number != 3012) return std::nullopt;
     const std::tm t =
         fmt::gmtime(static_cast<std::time_t>(clock_s_) + static_cast<std::time_t>(run_time_s));
@@ -70,6 +71,10 @@ bool ClockVariables::set(int number, double value, std::string_view comment, Mov
         case 3003:
         case 3004:
             controls_[static_cast<std::size_t>(number - 3000)] = not_vacant(value);
+            return true;
+        case 3901:
+        case 3902:
+            parts_[static_cast<std::size_t>(number - 3901)] = not_vacant(value);
             return true;
         case 3006:
             mover.note(

@@ -19,7 +19,7 @@ std::optional<double> signal_variable(int number, const Signals& signals);
 bool set_signal_variable(int number, double value, Signals& signals);
 
 /// #3000 alarm, #3001 timer (ms), #3002 hours, #3003, #3004, #3007 controls, #3006 stop with a
-/// message, #3011 date, #3012 time.
+/// message, #3011 date, #3012 time, #3901 and #3902 parts made and required (kept, not counted).
 class ClockVariables {
   public:
     /// `clock_s`: when the run begins, seconds since 1970.
@@ -33,6 +33,7 @@ class ClockVariables {
     std::int64_t clock_s_;
     double offset_ms_ = 0.0;            ///< #3001 = value
     std::array<double, 8> controls_{};  ///< [n] = #3000+n
+    std::array<double, 2> parts_{};     ///< #3901, #3902
 };
 
 }  // namespace trunnion

@@ -6,7 +6,18 @@
 
 namespace trunnion {
 
+/// Variables without a meaning of the control's own: the extended P-CODE variables (six digits,
+/// from memory) and the ranges of the machine builder.
+bool ControlVariables::is_free(int number) const {
+    if (number >= 900000 && number <= 999999) return true;
+    for (const auto& [first, last] : c_.config.builder.variables)
+        if (number >= first && number <= last) return true;
+    return false;
+}
+
 std::optional<double> ControlVariables::find(int number) const {
+    if (const auto own = free_.find(number); own != free_.end()) return own->second;
+    if (is_free(number)) return vacant;
     if (const auto value = offset_variable(number, c_.modal, c_.frames)) return value;
     if (const auto value = signal_variable(number, c_.stores.signals)) return value;
     if (const auto value = c_.clock.get(number, c_.mover.record().time_s)) return value;
@@ -24,6 +35,7 @@ double ControlVariables::get(int number) {
 void ControlVariables::set(int number, double value, const char* comment) {
     if (c_.clock.set(number, value, comment ? comment : "", c_.mover)) return;
     if (set_signal_variable(number, value, c_.stores.signals)) return;
+    if (is_free(number)) return void(free_[number] = value);
     const double written = is_vacant(value) ? 0.0 : value;
     if (set_offset_variable(number, written, c_.modal, c_.frames, c_.mover)) return;
     raise_alarm(find(number) ? 116 : 115);

@@ -2,6 +2,8 @@
 // state.
 #pragma once
 
+#include <map>
+
 #include "controller/control.h"
 #include "interpreter/variables.h"
 
@@ -21,9 +23,11 @@ class ControlVariables : public SystemVariables {
 
   private:
     std::optional<double> find(int number) const;
+    bool is_free(int number) const;
 
     Control& c_;
     bool reads_skip_ = false;
+    std::map<int, double> free_;  ///< #900000.. and those of the machine builder, vacant at first
 };
 
 }  // namespace trunnion

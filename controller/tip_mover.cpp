@@ -61,12 +61,20 @@ void TipMover::orient_tool(const Vector3& travel_W, AxisPositions& rotaries) con
     rotaries = transform.with_rotaries(rotaries, *choice.chosen);
 }
 
+/// Where the tip is, mm in W: as the program position says, so that a way that does not move is
+/// none.
+Vector3 TipMover::start_of_way() const {
+    if (frames_.tip.keeps_program)
+        return tcp().transform->tip_W(frames_.axes, tcp().tool_vector_mm);
+    return tcp().tip_W(staged_tip(frames_.stages.machine_from_program(frames_.program)),
+                       frames_.axes);
+}
+
 TipMover::TipWay TipMover::way_to(const ControlPosition& target) const {
     const Coordinates& stages = frames_.stages;
     TipWay out;
     ControlPosition machine = stages.machine_from_program(target);
-    out.start_W =
-        tcp().tip_W(staged_tip(stages.machine_from_program(frames_.program)), frames_.axes);
+    out.start_W = start_of_way();
     AxisPositions rotaries = axis_positions_of(machine);
     const Vector3 staged = staged_tip(machine);
     if (frames_.tip.by_vector && (words_.present & tool_vector_letters)) {

@@ -29,6 +29,7 @@ class TipMover {
     const ToolCentrePoint& tcp() const { return *frames_.tip.in_force; }
     void check_words() const;
     Vector3 staged_tip(const ControlPosition& machine) const;
+    Vector3 start_of_way() const;
     TipWay way_to(const ControlPosition& target) const;
     void orient_tool(const Vector3& travel_W, AxisPositions& rotaries) const;
     double feed_length(double tip_mm, const ControlPosition& machine) const;

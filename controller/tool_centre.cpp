@@ -1,5 +1,7 @@
 #include "controller/tool_centre.h"
 
+#include <fmt/format.h>
+
 #include "controller/alarms.h"
 #include "controller/tool_length.h"
 
@@ -11,6 +13,30 @@ ToolVector along_tool(const SortedWords& words, const Modal& modal, const Frames
                       const RotaryTransform& transform) {
     const double length_mm = tool_length_mm(words, frames.stores().tools, modal.number.length);
     return {length_mm * transform.pivot().tool_direction, modal.number.length};
+}
+
+std::string point_text(const Vector3& p) {
+    return fmt::format("X{:.3f} Y{:.3f} Z{:.3f}", p.x() + 0.0, p.y() + 0.0, p.z() + 0.0);
+}
+
+/// The programmed point on the table by either frame, from the zero of the work; returns how far
+/// both are apart, mm, 0 within rounding.
+double note_frames(const Modal& modal, const Frames& frames, Mover& mover) {
+    const RotaryTransform& transform = *frames.tip.starting->transform;
+    const Vector3 tip_M =
+        xyz_of(frames.stages.machine_from_program(frames.program)) - xyz_of(frames.stages.length);
+    const Vector3 origin = frames.origin_of_work();
+    const Vector3 start = transform.pose_MW(frames.axes).inverse() * tip_M - origin;
+    const Vector3 rotary_zero = tip_M - origin;
+    const double apart_mm = (start - rotary_zero).norm();
+    if (apart_mm < 1e-6) return 0.0;
+    if (mover.record().notes.size() < 200)
+        mover.note(fmt::format(
+            "G43.4 line {} starts with the table off zero: on the table the programmed point is {} "
+            "with tcp_frame = \"start\" and {} with \"rotary_zero\"; in force is \"{}\"",
+            modal.block.line, point_text(start), point_text(rotary_zero),
+            modal.settings.tcp_frame == TcpFrame::start ? "start" : "rotary_zero"));
+    return apart_mm;
 }
 
 }  // namespace
@@ -34,11 +60,19 @@ void start_tool_centre(const SortedWords& words, Modal& modal, Frames& frames, M
         ToolCentrePoint::start(transform, frames.axes, modal.settings.tcp_frame, tool.vector_mm);
 }
 
-void take_over_tool_centre(const SortedWords& words, Frames& frames, Mover& mover) {
+void take_over_tool_centre(const SortedWords& words, const Modal& modal, Frames& frames,
+                           Mover& mover) {
     if (!frames.tip.starting) return;
+    const ControlPosition programmed = frames.program;
+    const double apart_mm = note_frames(modal, frames, mover);
     frames.tip.in_force = frames.tip.starting;
     frames.tip.starting.reset();
     mover.frames_changed();
+    const bool other_frame = modal.settings.tcp_frame == TcpFrame::rotary_zero && apart_mm > 0.0;
+    if (other_frame && !words.has_axis() && !frames.tip.in_force->follows_work) {
+        set_xyz(frames.program, xyz_of(programmed));
+        frames.tip.keeps_program = true;
+    }
     if (frames.tip.by_vector && (words.present & tool_vector_letters))
         mover.line(MotionKind::rapid, frames.program);
 }

@@ -10,8 +10,11 @@ namespace trunnion {
 /// PS5421 under G54.2 or cutter compensation, PS5459 for G43.5 with WKP.
 void start_tool_centre(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover,
                        const GCode& code);
-/// At the end of the start-up block.
-void take_over_tool_centre(const SortedWords& words, Frames& frames, Mover& mover);
+/// At the end of the start-up block. With the table off zero a note tells where the programmed
+/// point lies on the table by either `tcp_frame`. A start-up block without axis words keeps the
+/// programmed position: the next move goes there.
+void take_over_tool_centre(const SortedWords& words, const Modal& modal, Frames& frames,
+                           Mover& mover);
 /// H without a code of its own in the block: the other offset in the present way (assumed), under
 /// G43.4 along the tool; the frame stays.
 void change_length_number(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover);

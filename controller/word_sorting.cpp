@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "controller/alarms.h"
+#include "interpreter/word_rules.h"
 
 namespace trunnion {
 
@@ -31,6 +32,16 @@ void add_code(SortedWords& w, const ControlSettings& settings, const GCode* code
     w.phases |= phase_bit(code->phase);
 }
 
+/// The control's own code, or one of the machine builder.
+const GCode* g_code_of(double value, const ControlSettings& settings) {
+    const GCode* code = find_g_code(value);
+    if (code && code->action == Action::thread && !settings.threading) return nullptr;
+    if (code) return code;
+    for (const GCode& own : settings.builder.g_codes)
+        if (std::abs(own.code10 - value * 10.0) < 1e-6) return &own;
+    return nullptr;
+}
+
 void drop_cycle(SortedWords& w) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < w.code_count; ++i) {
@@ -42,7 +53,7 @@ void drop_cycle(SortedWords& w) {
 }
 
 void add_g(SortedWords& w, const ControlSettings& settings, const WordValue& word) {
-    const GCode* code = find_g_code(word.value);
+    const GCode* code = g_code_of(word.value, settings);
     if (!code) raise_alarm(10, word.column);
     if (code->phase != Phase::motion) return add_code(w, settings, code, word.column);
     if (w.motion && settings.duplicates_alarm) raise_alarm(5074, word.column);
@@ -53,6 +64,7 @@ void add_g(SortedWords& w, const ControlSettings& settings, const WordValue& wor
 
 void add_m(SortedWords& w, const WordValue& word) {
     if (w.m_count == SortedWords::max_codes) raise_alarm(9, word.column);
+    if (const auto fault = find_m_fault(word)) raise_alarm(fault->alarm, fault->column);
     w.m_column[w.m_count] = word.column;
     w.m[w.m_count++] = static_cast<int>(word.value + 0.5);
 }
@@ -100,6 +112,13 @@ void sort_words(const BlockWords& block, const Modal& modal, SortedWords& words)
         (known_letters & ~SortedWords::axis_letters) | modal.settings.axis_letters;
     if (const std::uint32_t strange = words.present & ~allowed)
         raise_alarm(9, words.column[static_cast<std::size_t>(std::countr_zero(strange))]);
+    constexpr std::uint32_t ruled = SortedWords::bit('T') | SortedWords::bit('H') |
+                                    SortedWords::bit('D') | SortedWords::bit('S');
+    if (words.code_count == 0 && !(words.present & ruled)) return;
+    const auto fault = find_word_fault(block);
+    if (!fault) return;
+    if (fault->detail.empty()) raise_alarm(fault->alarm, fault->column);
+    raise_alarm(fault->alarm, fault->detail, fault->column);
 }
 
 }  // namespace trunnion

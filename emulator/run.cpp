@@ -52,6 +52,8 @@ ControlConfig control_config(const Setup& setup) {
     config.g89_feeds_to_initial = setup.g89_feeds_to_initial;
     config.clamps = setup.clamps;
     config.optional_stop = setup.optional_stop;
+    config.threading = setup.threading;
+    config.builder = setup.builder;
     for (const int n : setup.block_skip) config.skip_switches[static_cast<std::size_t>(n)] = true;
     return config;
 }

@@ -30,10 +30,14 @@ std::optional<int> leading_number(std::string_view text, std::size_t* length = n
     return number;
 }
 
+bool has_program_ending(const fs::path& path) {
+    const std::string ending = lower(path.extension().string());
+    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
 /// 1234 for O1234.nc, 1234, o01234.TXT; nothing for other names.
 std::optional<int> number_of_file(const fs::path& path) {
-    const std::string ending = lower(path.extension().string());
-    if (std::find(endings.begin(), endings.end(), ending) == endings.end()) return std::nullopt;
+    if (!has_program_ending(path)) return std::nullopt;
     std::string stem = lower(path.stem().string());
     if (!stem.empty() && stem[0] == 'o') stem.erase(0, 1);
     std::size_t length = 0;
@@ -67,10 +71,13 @@ ProgramText read_main_program(const std::string& path) {
     return program;
 }
 
-ProgramFolders::ProgramFolders(std::vector<std::string> folders) : folders_(std::move(folders)) {
-    for (const std::string& folder : folders_)
-        if (std::error_code unknown; !fs::is_directory(folder, unknown))
-            throw InputError("no such program folder", {folder, 0, 0});
+ProgramFolders::ProgramFolders(std::vector<std::string> folders, std::vector<std::string> shipped) {
+    own_shelf_.folders = std::move(folders);
+    shipped_.folders = std::move(shipped);
+    for (const Shelf* shelf : {&own_shelf_, &shipped_})
+        for (const std::string& folder : shelf->folders)
+            if (std::error_code unknown; !fs::is_directory(folder, unknown))
+                throw InputError("no such program folder", {folder, 0, 0});
 }
 
 void ProgramFolders::add_file(const ProgramText& file) {
@@ -89,9 +96,9 @@ void ProgramFolders::scan_own_files() {
         programs_in(file.text, [&](int number) { own_.emplace(number, file); });
 }
 
-void ProgramFolders::list_folders() {
-    if (std::exchange(listed_, true)) return;
-    for (const std::string& folder : folders_) {
+void ProgramFolders::list(Shelf& shelf) {
+    if (std::exchange(shelf.listed, true)) return;
+    for (const std::string& folder : shelf.folders) {
         std::vector<std::string> names;
         for (const auto& entry : fs::directory_iterator(folder)) {
             std::error_code unknown;  // a link that leads round in a circle is no program
@@ -99,19 +106,35 @@ void ProgramFolders::list_folders() {
         }
         std::sort(names.begin(), names.end());
         for (std::string& name : names) {
-            if (const auto number = number_of_file(name)) by_name_.emplace(*number, name);
-            files_.push_back(std::move(name));
+            if (const auto number = number_of_file(name)) shelf.by_name.emplace(*number, name);
+            shelf.files.push_back(std::move(name));
         }
     }
 }
 
-void ProgramFolders::scan_contents() {
-    if (std::exchange(scanned_, true)) return;
-    for (const std::string& path : files_) {
-        const std::string ending = lower(fs::path(path).extension().string());
-        if (std::find(endings.begin(), endings.end(), ending) == endings.end()) continue;
-        programs_in(read_program(path).text, [&](int n) { by_content_.emplace(n, path); });
+/// By the names of the files, then by what they hold; nullptr: in none of them.
+const std::string* ProgramFolders::path_of(Shelf& shelf, int o_number) {
+    list(shelf);
+    if (const auto named = shelf.by_name.find(o_number); named != shelf.by_name.end())
+        return &named->second;
+    if (!std::exchange(shelf.scanned, true))
+        for (const std::string& path : shelf.files)
+            if (has_program_ending(path))
+                programs_in(read_program(path).text,
+                            [&](int n) { shelf.by_content.emplace(n, path); });
+    const auto held = shelf.by_content.find(o_number);
+    return held != shelf.by_content.end() ? &held->second : nullptr;
+}
+
+/// `wanted`: in lower case.
+const std::string* ProgramFolders::path_of(Shelf& shelf, const std::string& wanted) {
+    list(shelf);
+    for (const std::string& path : shelf.files) {
+        const fs::path file(path);
+        if (lower(file.filename().string()) == wanted || lower(file.stem().string()) == wanted)
+            return &path;
     }
+    return nullptr;
 }
 
 const ProgramText& ProgramFolders::read_once(const std::string& path) {
@@ -120,27 +143,36 @@ const ProgramText& ProgramFolders::read_once(const std::string& path) {
                                 : read_.emplace(path, read_program(path)).first->second;
 }
 
-std::optional<ProgramText> ProgramFolders::find(int o_number) {
+void ProgramFolders::announce(const std::string& program, const ProgramText& text) {
+    const std::string line =
+        program + " is a shipped program (" + text.name + "): no folder of yours holds it";
+    if (std::find(announcements_.begin(), announcements_.end(), line) == announcements_.end())
+        announcements_.push_back(line);
+}
+
+std::optional<ProgramText> ProgramFolders::look_up(int o_number) {
     scan_own_files();
     if (const auto own = own_.find(o_number); own != own_.end()) return own->second;
-    list_folders();
-    if (const auto named = by_name_.find(o_number); named != by_name_.end())
-        return read_once(named->second);
-    scan_contents();
-    if (const auto held = by_content_.find(o_number); held != by_content_.end())
-        return read_once(held->second);
+    for (Shelf* shelf : {&own_shelf_, &shipped_})
+        if (const std::string* path = path_of(*shelf, o_number)) return read_once(*path);
     return std::nullopt;
 }
 
+std::optional<ProgramText> ProgramFolders::find(int o_number) {
+    const auto text = look_up(o_number);
+    if (text && !own_.contains(o_number) && !path_of(own_shelf_, o_number))
+        announce("O" + std::to_string(o_number), *text);
+    return text;
+}
+
 std::optional<ProgramText> ProgramFolders::find(std::string_view name) {
-    list_folders();
     const std::string wanted = lower(std::string(name));
-    for (const std::string& path : files_) {
-        const fs::path file(path);
-        if (lower(file.filename().string()) == wanted || lower(file.stem().string()) == wanted)
-            return read_once(path);
-    }
-    return std::nullopt;
+    if (const std::string* path = path_of(own_shelf_, wanted)) return read_once(*path);
+    const std::string* path = path_of(shipped_, wanted);
+    if (!path) return std::nullopt;
+    const ProgramText& text = read_once(*path);
+    announce("<" + std::string(name) + ">", text);
+    return text;
 }
 
 }  // namespace trunnion

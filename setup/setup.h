@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "controller/builder_profile.h"
 #include "controller/clamp.h"
 #include "geometry/axes.h"
 #include "geometry/pose.h"
@@ -123,6 +124,8 @@ struct Setup {
     std::vector<ClampCode> clamps;           ///< [control.clamps]
     std::vector<int> block_skip;             ///< [control] block_skip: switches 1-9 that are on
     bool optional_stop = false;              ///< [control] optional_stop: M01 stops
+    bool threading = false;                  ///< [control] threading: the control has G33
+    BuilderProfile builder;                  ///< [control.builder]
     Stores stores;
     std::optional<ProbeSettings> probe;
     std::optional<BallbarSettings> ballbar;

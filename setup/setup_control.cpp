@@ -1,4 +1,5 @@
 // [control]: dialect and stores of a setup file.
+#include <cmath>
 #include <filesystem>
 
 #include "base/numbers.h"
@@ -170,6 +171,44 @@ void read_block_skip(const TomlFile& file, const TomlValue& value, std::vector<i
     }
 }
 
+void read_m_codes(const TomlFile& file, const TomlValue& value, std::vector<int>& codes) {
+    for (const double m : file.numbers(value)) {
+        if (!(m >= 0 && m <= 99999999) || m != std::floor(m))
+            file.fail(value, "an M code is a whole number, 0 to 99999999");
+        codes.push_back(static_cast<int>(m));
+    }
+}
+
+/// [[first, last], ...] of variables from #1000 on.
+void read_ranges(const TomlFile& file, const TomlValue& value,
+                 std::vector<std::pair<int, int>>& ranges) {
+    if (value.kind != TomlValue::Kind::array) file.fail(value, "variables lists pairs");
+    for (const TomlValue& entry : value.items) {
+        const std::vector<double> ends = file.numbers(entry);
+        const bool right = ends.size() == 2 && ends[0] >= 1000 && ends[0] <= ends[1] &&
+                           ends[1] <= 999999999 && ends[0] == std::floor(ends[0]) &&
+                           ends[1] == std::floor(ends[1]);
+        if (!right) file.fail(entry, "variables lists pairs [first, last] from 1000 on");
+        ranges.emplace_back(static_cast<int>(ends[0]), static_cast<int>(ends[1]));
+    }
+}
+
+void read_builder(const TomlFile& file, const TomlValue& table, BuilderProfile& builder) {
+    if (const TomlValue* codes = table.find("g_codes"))
+        for (const double g : file.numbers(*codes)) {
+            const double tenfold = std::round(g * 10.0);
+            if (!(g >= 0 && g < 1000) || std::abs(g * 10.0 - tenfold) > 1e-6)
+                file.fail(*codes, "a G code is 0 to 999.9 with one decimal");
+            if (find_g_code(g)) file.fail(*codes, "the control has one of these G codes itself");
+            builder.add_g_code(static_cast<int>(tenfold));
+        }
+    if (const TomlValue* codes = table.find("m_codes")) read_m_codes(file, *codes, builder.m_codes);
+    if (const TomlValue* codes = table.find("m_codes_after"))
+        read_m_codes(file, *codes, builder.m_codes_after);
+    if (const TomlValue* ranges = table.find("variables"))
+        read_ranges(file, *ranges, builder.variables);
+}
+
 /// Generations whose nesting limits and M98 forms differ (docs/control.md).
 Dialect read_dialect(const TomlFile& file, const TomlValue& control) {
     const TomlValue* name = control.find("dialect");
@@ -198,6 +237,9 @@ void read_control(const TomlFile& file, const TomlValue& control, const BackupRe
     read_switch(file, control, "work_positions_with_length", setup.work_positions_with_length);
     read_switch(file, control, "g89_feeds_to_initial", setup.g89_feeds_to_initial);
     read_switch(file, control, "optional_stop", setup.optional_stop);
+    read_switch(file, control, "threading", setup.threading);
+    if (const TomlValue* table = control.find("builder"))
+        read_builder(file, file.table(*table), setup.builder);
     if (const TomlValue* table = control.find("clamps")) read_clamps(file, *table, setup);
     if (const TomlValue* on = control.find("block_skip"))
         read_block_skip(file, *on, setup.block_skip);

@@ -201,6 +201,27 @@ std::string clamps_text(const std::vector<ClampCode>& clamps) {
     return out;
 }
 
+std::string list_text(const char* key, const std::vector<int>& numbers) {
+    std::string out;
+    for (const int n : numbers) out += (out.empty() ? "" : ", ") + std::to_string(n);
+    return out.empty() ? out : std::string(key) + " = [" + out + "]\n";
+}
+
+std::string builder_text(const BuilderProfile& builder) {
+    std::string codes, ranges;
+    for (const GCode& code : builder.g_codes)
+        codes += (codes.empty() ? "" : ", ") + shortest(code.code10 / 10.0);
+    for (const auto& [first, last] : builder.variables)
+        ranges += (ranges.empty() ? "[" : ", [") + std::to_string(first) + ", " +
+                  std::to_string(last) + "]";
+    std::string out;
+    if (!codes.empty()) out += "g_codes = [" + codes + "]\n";
+    out += list_text("m_codes", builder.m_codes);
+    out += list_text("m_codes_after", builder.m_codes_after);
+    if (!ranges.empty()) out += "variables = [" + ranges + "]\n";
+    return out.empty() ? out : "\n[control.builder]\n" + out;
+}
+
 std::string generation_text(ControlGeneration generation) {
     if (generation == ControlGeneration::fanuc_16i) return "generation = \"16i\"\n";
     return generation == ControlGeneration::fanuc_0i_f ? "generation = \"0i-F\"\n" : "";
@@ -214,13 +235,14 @@ std::string control_text(const Setup& setup) {
     if (!setup.work_positions_with_length) out += "work_positions_with_length = false\n";
     if (!setup.g89_feeds_to_initial) out += "g89_feeds_to_initial = false\n";
     if (setup.optional_stop) out += "optional_stop = true\n";
+    if (setup.threading) out += "threading = true\n";
     if (!setup.block_skip.empty()) {
         out += "block_skip = [";
         for (const int n : setup.block_skip) out += std::to_string(n) + ", ";
         out.replace(out.size() - 2, 2, "]\n");
     }
     if (setup.tcp_frame == TcpFrame::rotary_zero) out += "tcp_frame = \"rotary_zero\"\n";
-    out += clamps_text(setup.clamps);
+    out += clamps_text(setup.clamps) + builder_text(setup.builder);
     out += work_text(setup.stores.work) + fixture_text(setup.stores.fixture);
     if (!setup.stores.parameters.entry.empty()) out += "\n[control.parameters]\n";
     for (const auto& [number, parameter] : setup.stores.parameters.entry)

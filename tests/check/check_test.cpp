@@ -67,6 +67,14 @@ TEST_CASE("each rule finds its fault at its line, once, and not in the mended pr
         {"unreachable", "O1\nGOTO7\nX1.\nN7M30\n", "O1\nIF[#1EQ1]GOTO7\nX1.\nN7M30\n", 3},
         {"left-on", "O1\nG43.4H1\nM30\n", "O1\nG43.4H1\nG49\nM30\n", 3},
         {"left-on", "O1\nG68.2X0Y0Z0I0J0K0\nM30\n", "O1\nG68.2X0Y0Z0I0J0K0\nG69\nM30\n", 3},
+        {"unreachable", "O1\nM30\nX1.\n", "O1\nG65P5M30\nX1.\nM30\n", 3},
+        {"word", "O1\nM29.7\nM30\n", "O1\nM29\nM30\n", 2},
+        {"word", "O1\nM98P2.5\nM30\n", "O1\nM98P5\nM30\n", 2},
+        {"variable", "O1\n#99=1\nM30\n", "O1\n#100=1\nM30\n", 2},
+        {"tcp-frame", "O1\nG68.2X0Y0Z0I0J0K0\nG53.1\nG69\nG43.4H1\nG49\nM30\n",
+         "O1\nG68.2X0Y0Z0I0J0K0\nG53.1\nG69\nB0C0\nG43.4H1\nG49\nM30\n", 5},
+        {"family", "O1\nG71P10Q20U.4W.1F.2\nG777\nM30\n", "O1\nG73Z-1.\nM30\n", 2},
+        {"family", "O1\nM97P100\nM30\nN100M99\n", "O1\nM98P5\nM30\n", 2},
         {"merge-marker", "O1\n<<<<<<< HEAD\nM30\n", "O1\n(<<<<<<< HEAD)\nM30\n", 2},
     }));
     INFO(row.rule << "\n" << row.bad);
@@ -165,4 +173,13 @@ TEST_CASE("numbers beyond all N, O and codes are findings like others", "[check]
             return finding.rule == "jump-target" && finding.line == 3;
         }));
     }
+}
+
+TEST_CASE("one cause is one finding, with how often", "[check]") {
+    std::string text = "O1\n";
+    for (int i = 0; i < 50; ++i) text += "G777\n";
+    const auto findings = check_text(text + "M30\n");
+    REQUIRE(findings.size() == 1);
+    CHECK(findings[0].line == 2);
+    CHECK(findings[0].text.find("(50 times, last in line 51)") != std::string::npos);
 }

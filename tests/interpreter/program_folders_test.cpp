@@ -33,6 +33,19 @@ struct Folder {
 
 }  // namespace
 
+TEST_CASE("the user's folders are searched whole before the shipped ones") {
+    const Folder folder;
+    folder.write("b/O100.nc", "O100 (OURS)\nM99\n");
+    folder.write("b/O777.nc", "O777\nM99\n");
+    ProgramFolders programs({folder.path.string()}, {(folder.path / "b").string()});
+    CHECK_THAT(programs.find(100)->name, Catch::EndsWith("many.txt"));  // by content before names
+    CHECK(programs.announcements().empty());
+    CHECK(programs.find(777));
+    CHECK(programs.find(777));
+    REQUIRE(programs.announcements().size() == 1);
+    CHECK_THAT(programs.announcements()[0], Catch::StartsWith("O777 is a shipped program ("));
+}
+
 TEST_CASE("programs are found by file name, then by what the files hold") {
     const Folder folder;
     ProgramFolders programs({folder.path.string(), (folder.path / "b").string()});

@@ -77,6 +77,26 @@ TEST_CASE("control keys survive a formatted setup") {
     CHECK_FALSE(again.clamps[0].alarm);
 }
 
+TEST_CASE("a builder's codes and variables, and G33 where the control has it") {
+    const std::string keys =
+        "threading = true\nbuilder = { g_codes = [313.5], m_codes = [60], m_codes_after = [62], "
+        "variables = [[150000, 150010]] }\n";
+    std::vector<std::string> notes;
+    const Setup setup = parse_setup(format_setup(setup_with(keys)), "t.toml", notes);
+    const std::string program =
+        "G21G90S600M3\nG33Z-10.F1.5\nG313.5\nM60\nM62\n#150003=#150004\nIF[#150004EQ#0]THEN"
+        "#100=1\n#150003=4.5\n#101=#150003\nM30\n";
+    const RunLog log = run_text(setup, program);
+    REQUIRE_FALSE(log.result.alarm);
+    CHECK(log.variables.at(100) == 1.0);
+    CHECK(log.variables.at(101) == 4.5);
+    CHECK(log.result.time_s == Approx(10.0 / 1.5 * 60 / 600).epsilon(0.05));
+    for (const std::string& note : log.notes) CHECK(note.find("M6") == std::string::npos);
+    CHECK(run_text(setup_with(""), program).result.alarm->number == 10);
+    CHECK_THROWS_AS(setup_with("builder = { g_codes = [1] }\n"), InputError);
+    CHECK_THROWS_AS(setup_with("builder = { variables = [[5, 2000]] }\n"), InputError);
+}
+
 TEST_CASE("running a backup's G10 files gives the stores that loading them gives") {
     ControlBackup backup{"stick", {}};
     backup.files["EXT_WKZ.TXT"] =

@@ -1,0 +1,66 @@
+// Programs written for a lathe or for a Haas: recognised by codes that mean something else there.
+#include <fmt/format.h>
+
+#include "check/section.h"
+
+namespace trunnion {
+
+namespace {
+
+/// A block with this code and all of these letters is written for that family.
+struct Mark {
+    const char* family;
+    char letter;
+    int code10;
+    const char* with;  ///< letters that stand in the block
+    const char* text;
+};
+constexpr Mark marks[] = {
+    {"lathe", 'G', 710, "PQ", "G71 P Q"}, {"lathe", 'G', 720, "PQ", "G72 P Q"},
+    {"lathe", 'G', 700, "PQ", "G70 P Q"}, {"lathe", 'G', 500, "S", "G50 S"},
+    {"lathe", 'G', 710, "UR", "G71 U R"}, {"Haas", 'M', 970, "P", "M97 P"},
+    {"Haas", 'G', 1870, "", "G187"},      {"Haas", 'G', 1540, "P", "G154 P"},
+    {"Haas", 'G', 1030, "P", "G103 P"},   {"Haas", 'G', 1500, "P", "G150 P"},
+    {"Haas", 'M', 1300, "", "M130"},
+};
+
+bool has_letters(const ParsedProgram& program, const Block& block, const char* letters) {
+    for (; *letters; ++letters) {
+        bool found = false;
+        for (const Item& item : program.items(block))
+            found = found || (item.kind == ItemKind::word && item.letter == *letters);
+        if (!found) return false;
+    }
+    return true;
+}
+
+const Mark* find_mark(const ParsedProgram& program, const Block& block,
+                      const CheckOptions& options) {
+    if (block.kind == BlockKind::statements) return nullptr;
+    for (const Mark& mark : marks) {
+        if (options.calls_program && options.calls_program(mark.letter, mark.code10)) continue;
+        if (has_code(program, block, mark.letter, mark.code10) &&
+            has_letters(program, block, mark.with))
+            return &mark;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+bool check_family(const std::vector<CheckSection>& sections, const CheckOptions& options,
+                  Findings& findings) {
+    for (const CheckSection& section : sections)
+        for (const Block* block : section.blocks) {
+            const Mark* mark = find_mark(*section.program, *block, options);
+            if (!mark) continue;
+            findings.add("family", Severity::error, *block, 1,
+                         fmt::format("this is a program for a {} ({}): it is not checked further",
+                                     mark->family, mark->text),
+                         "Run it on its own control; this one is a Fanuc or Hurco mill.");
+            return true;
+        }
+    return false;
+}
+
+}  // namespace trunnion

@@ -1,0 +1,67 @@
+#include "controller/block_trial.h"
+
+#include "controller/block_execution.h"
+#include "controller/system_variables.h"
+#include "controller/word_sorting.h"
+
+namespace trunnion {
+
+namespace {
+
+class NoAxes : public MotionSink {
+  public:
+    MoveResult move(const AxisMove&) override { return {}; }
+};
+
+template <typename Work>
+std::optional<Alarm> alarm_of(Work work) {
+    try {
+        work();
+    } catch (const Alarm& alarm) {
+        return alarm;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+struct BlockTrial::State {
+    State(ControlConfig config, Stores stores_)
+        : stores(std::move(stores_)), control(std::move(config), stores, sink) {}
+    Stores stores;
+    NoAxes sink;
+    Control control;
+};
+
+BlockTrial::BlockTrial(ControlConfig config, Stores stores)
+    : state_(std::make_unique<State>(std::move(config), std::move(stores))) {}
+BlockTrial::~BlockTrial() = default;
+
+std::optional<Alarm> BlockTrial::run(const BlockWords& block) {
+    return alarm_of([&] { execute_block(state_->control, block); });
+}
+
+std::optional<Alarm> BlockTrial::read(const BlockWords& block) {
+    return alarm_of([&] { sort_words(block, state_->control.modal, state_->control.words); });
+}
+
+std::optional<Alarm> BlockTrial::end() {
+    return alarm_of([&] { state_->control.mover.cutter.flush(); });
+}
+
+int variable_alarm(int number, bool writes, const ControlConfig& config, const Stores& stores) {
+    if (number == 3000 || number == 3006) return writes ? 0 : 115;
+    Stores own = stores;
+    NoAxes sink;
+    Control control(config, own, sink);
+    ControlVariables variables(control);
+    const auto alarm = alarm_of([&] {
+        if (writes)
+            variables.set(number, 0.0, "");
+        else
+            variables.get(number);
+    });
+    return alarm ? alarm->number : 0;
+}
+
+}  // namespace trunnion

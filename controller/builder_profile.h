@@ -1,0 +1,26 @@
+// What a machine builder added to the control: G and M codes, variables.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "controller/g_codes.h"
+
+namespace trunnion {
+
+/// Codes are accepted without effect on positions. A G or M code that moves something needs a
+/// program behind it (parameters 6050-6089).
+struct BuilderProfile {
+    std::vector<GCode> g_codes;
+    std::vector<int> m_codes;                    ///< act before the motion of their block
+    std::vector<int> m_codes_after;              ///< act after it
+    std::vector<std::pair<int, int>> variables;  ///< first and last number: read and written freely
+
+    void add_g_code(int code10) {
+        g_codes.push_back({code10, ModalGroup::one_shot, Phase::reading, Action::accepted,
+                           "a code of the machine builder"});
+    }
+};
+
+}  // namespace trunnion

@@ -1,0 +1,130 @@
+// The law: what run refuses when it reaches a block, check refuses.
+#include <fmt/format.h>
+
+#include <array>
+#include <catch2/catch.hpp>
+
+#include "base/random.h"
+#include "check/check.h"
+#include "controller/alarms.h"
+#include "controller/block_trial.h"
+#include "controller/controller.h"
+#include "controller/g_codes.h"
+
+using namespace trunnion;
+
+namespace {
+
+class NoAxes : public MotionSink {
+  public:
+    MoveResult move(const AxisMove&) override { return {}; }
+};
+
+class OneTrial : public Trial {
+  public:
+    OneTrial(const ControlConfig& config, const Stores& stores) : trial_(config, stores) {}
+    std::optional<Alarm> run(const BlockWords& block) override { return trial_.run(block); }
+    std::optional<Alarm> read(const BlockWords& block) override { return trial_.read(block); }
+    std::optional<Alarm> end() override { return trial_.end(); }
+
+  private:
+    BlockTrial trial_;
+};
+
+ControlConfig five_axes() {
+    ControlConfig config;
+    config.dialect = fanuc_dialect();
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z, Axis::B, Axis::C})
+        config.axes.push_back({axis, is_rotary(axis), {}, {}, {}, {}});
+    return config;
+}
+
+CheckOptions options_for(const ControlConfig& config, const Stores& stores) {
+    CheckOptions options;
+    options.dialect = config.dialect;
+    options.knows_g = [](int code10) {
+        return find_g_code(code10 / 10.0) || (code10 >= 650 && code10 <= 670);
+    };
+    options.finds_program = [](int) { return false; };
+    options.alarm_text = [](int number) { return alarm_title(number, ""); };
+    options.variable_alarm = [&config, &stores](int number, bool writes) {
+        return variable_alarm(number, writes, config, stores);
+    };
+    options.start_trial = [&config, &stores] { return std::make_unique<OneTrial>(config, stores); };
+    return options;
+}
+
+std::string pick(SeededNoise& noise, const std::vector<std::string>& from) {
+    return from[static_cast<std::size_t>(noise.uniform() * static_cast<double>(from.size()))];
+}
+
+std::string random_block(SeededNoise& noise) {
+    static const std::vector<std::string> values = {
+        "0",  "1",   "-1", "2",    "2.5",  "29.7", "3.",   "10.", "-7.5", "100",
+        "17", "300", "81", "1000", "0.25", "98",   "6000", "30",  "8",    "12345678901"};
+    static const std::vector<std::string> codes = {
+        "G0",   "G1",    "G2",   "G3",    "G4",    "G10", "G17",   "G18",   "G20",   "G21",
+        "G28",  "G30",   "G40",  "G41",   "G42",   "G43", "G44",   "G49",   "G43.4", "G51",
+        "G52",  "G53",   "G54",  "G54.1", "G54.2", "G68", "G68.2", "G53.1", "G69",   "G73",
+        "G76",  "G81",   "G83",  "G84",   "G80",   "G90", "G91",   "G92",   "G96",   "G33",
+        "G7.1", "G12.1", "G777", "M98",   "M99",   "M6",  "M29.7", "M-1",   "G31",   "G61"};
+    static const std::vector<std::string> letters = {"X", "Y", "Z", "B", "C", "A", "I",
+                                                     "J", "K", "R", "P", "Q", "L", "H",
+                                                     "D", "T", "F", "S", "M", "E"};
+    static const std::vector<std::string> statements = {
+        "#5001=3",     "#99=1",       "#100=#3099", "#100=#5201", "#100=#3000", "#0=1",
+        "#4001=1",     "#100=#40",    "#2001=5.",   "#5121=1",    "#3901=2",    "#900001=1",
+        "#100=#20000", "X#5199",      "#250=1",     "#100=#1136", "#1000=1",    "G0X#6000",
+        "#13999=1.",   "#100=#13000", "#5320=1",    "#5306=1"};
+    if (noise.uniform() < 0.15) return pick(noise, statements);
+    std::string block;
+    if (noise.uniform() < 0.8) block += pick(noise, codes);
+    const int words = static_cast<int>(noise.uniform() * 5.0);
+    for (int i = 0; i < words; ++i) block += pick(noise, letters) + pick(noise, values);
+    if (noise.uniform() < 0.01)
+        for (int i = 0; i < 50; ++i) block += "X1.";
+    return block;
+}
+
+bool refuses(const std::vector<Finding>& findings, int line) {
+    for (const Finding& f : findings)
+        if (f.severity == Severity::error && f.line == line) return true;
+    return false;
+}
+
+}  // namespace
+
+TEST_CASE("what run refuses when it reaches a block, check refuses", "[check]") {
+    const ControlConfig config = five_axes();
+    Stores stores;
+    stores.parameters.set(3401, 1);
+    const CheckOptions options = options_for(config, stores);
+    SeededNoise noise(1905);
+    std::array<int, 4> count{};  // [refused by run][refused by check]
+    for (int i = 0; i < 6000; ++i) {
+        const std::string block = random_block(noise);
+        const auto text = std::make_shared<const std::string>("O1\nG21G90G17G94G54F200.S500M3\n" +
+                                                              block + "\nM30\n");
+        const ProgramText program{"p.nc", *text, text};
+        Stores own = stores;
+        NoAxes sink;
+        ProgramsInMemory none;
+        Controller control(config, own, none, sink, [](std::string_view) {});
+        const RunResult result = control.run(program);
+        if (block.find("M98") != block.npos && block.find("M99") != block.npos) continue;
+        // Nesting and the caller's numbers (77, 78) are known to a run only.
+        const bool dynamic =
+            result.alarm && (result.alarm->number == 77 || result.alarm->number == 78);
+        const bool by_run = result.alarm && !dynamic && result.alarm->where.line == 3 &&
+                            (result.alarm->number < 3000 || result.alarm->number >= 5000);
+        const bool by_check = refuses(check_program(program, options), 3);
+        INFO(block << (result.alarm
+                           ? fmt::format(" run: {} {}", result.alarm->number, result.alarm->text)
+                           : " runs"));
+        if (by_run) CHECK(by_check);
+        if (!result.alarm) CHECK_FALSE(by_check);
+        ++count[(by_run ? 2U : 0U) + (by_check ? 1U : 0U)];
+    }
+    CHECK(count[3] > 1000);  // the blocks are not all right
+    CHECK(count[0] > 500);   // nor all wrong
+}
