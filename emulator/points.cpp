@@ -1,6 +1,7 @@
 #include "emulator/points.h"
 
 #include "base/alarm.h"
+#include "geometry/pose.h"
 
 namespace trunnion {
 namespace {
