@@ -4,6 +4,7 @@
 
 #include "base/numbers.h"
 #include "base/output_files.h"
+#include "base/random.h"
 #include "cli/command.h"
 #include "cli/json_output.h"
 #include "cli/options.h"
@@ -18,7 +19,21 @@ namespace {
 struct Options {
     std::string readings, setup, jacobian, effects;
     std::vector<std::string> inject;
+    bool noise = false;
+    std::uint64_t seed = 1;
 };
+
+/// The readings as a device would take them: with one draw of its noise each.
+void add_noise(const Setup& setup, std::uint64_t seed, ReadingTable& table) {
+    const Replay replay(setup, table);
+    const RowNoise noise = row_noise(setup, table, replay);
+    SeededNoise source(seed);
+    for (std::size_t i = 0; i < replay.size(); ++i)
+        *table.rows[replay.table_row(i)].value_mm +=
+            noise.sigma_mm(static_cast<Eigen::Index>(i)) * source.normal();
+    table.comment["source"] = "simulated";
+    table.comment["seed"] = std::to_string(seed);
+}
 
 /// One row for each device row: its index, then d value / d parameter in mm (rad) for each unit.
 std::string jacobian_text(const Setup& setup, const ReadingTable& table,
@@ -53,7 +68,9 @@ int predict(const Options& options) {
         files.add(options.jacobian,
                   jacobian_text(setup, table, named.empty() ? setup.model.modelled : named));
     }
-    files.add("-", format_readings(predicted(setup, table, active_models(setup))));
+    ReadingTable read = predicted(setup, table, active_models(setup));
+    if (options.noise) add_noise(setup, options.seed, read);
+    files.add("-", format_readings(read));
     files.write();
     return exit_done;
 }
@@ -70,6 +87,9 @@ void add_predict(CLI::App& app, Run& run) {
                                     "also CSV: derivatives of each reading by each parameter"));
     command->add_option("--effects", options->effects,
                         "of --jacobian; without it those of [model].modelled");
+    command->add_flag("--noise", options->noise,
+                      "as a device would read: with the noise of the rows or of [model]");
+    command->add_option("--seed", options->seed, "of the noise (1)");
     command->add_option("--inject", options->inject, "switch an effect on: 'C.backlash=60urad'");
     command->callback([options, &run] { run = [options] { return predict(*options); }; });
 }

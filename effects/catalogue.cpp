@@ -55,6 +55,22 @@ std::string parameter_text(const Effect& effect) {
 
 }  // namespace
 
+namespace {
+
+/// A servo log shows what the drive does up to the encoder, not where the machine is.
+void hide_from_encoders(Effect& effect) {
+    effect.add = [add = std::move(effect.add), seen = effect.seen_by](
+                     const AxisSample& sample, const Contact& contact,
+                     std::span<const double> value, Perturbation& out) {
+        const bool hidden =
+            contact.device == Device::axis &&
+            (seen == SeenBy::no_encoder || (seen == SeenBy::scale && !contact.scale_encoder));
+        if (!hidden) add(sample, contact, value, out);
+    };
+}
+
+}  // namespace
+
 Catalogue make_catalogue(const Setup& setup, const DataExtent& extent) {
     const Chain& chain = setup.machine.chain;
     const bool basic = has_basic_axes(chain);
@@ -81,6 +97,7 @@ Catalogue make_catalogue(const Setup& setup, const DataExtent& extent) {
     list.push_back(control_rounding(chain));
     if (basic) list.push_back(control_chord(chain));
     list.push_back(clamp_shift(chain));
+    for (Effect& effect : list) hide_from_encoders(effect);
     return list;
 }
 

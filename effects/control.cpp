@@ -90,7 +90,8 @@ Effect control_rounding(const Chain& chain) {
                     out.axis[axis.axis] +=
                         value[0] * rounding_error(sample.position[axis.axis], step);
                 }
-            }};
+            },
+            SeenBy::any_encoder};
 }
 
 Effect control_chord(const Chain&) {

@@ -31,6 +31,9 @@ struct EffectParameter {
 using EffectFunction = std::function<void(const AxisSample& sample, const Contact& contact,
                                           std::span<const double> value, Perturbation& out)>;
 
+/// Which encoder of the axis itself sees an effect (rows of device `axis`).
+enum class SeenBy : unsigned char { no_encoder, scale, any_encoder };
+
 struct Effect {
     std::string name;    ///< as in formats.md: "C.backlash"
     std::string what;    ///< one sentence for the shop: what it is
@@ -39,6 +42,7 @@ struct Effect {
     std::string formula;
     std::vector<EffectParameter> parameters;
     EffectFunction add;
+    SeenBy seen_by = SeenBy::no_encoder;
 
     std::vector<double> zeros() const;  ///< every linear parameter 0, keys at their usual value
 };

@@ -35,7 +35,8 @@ Effect linear_backlash(const AxisGeometry& axis) {
             [k = axis.axis](const AxisSample& sample, const Contact&, std::span<const double> value,
                             Perturbation& out) {
                 out.axis[k] += 0.5 * value[0] * sample.travel[index_of(k)];
-            }};
+            },
+            SeenBy::scale};
 }
 
 namespace {
@@ -82,7 +83,8 @@ Effect linear_reversal_spike(const AxisGeometry& axis) {
             const double way = value[2] == 0.0 ? law_radius_mm * angle_since_quadrant(k, sample)
                                                : sample.since_reversal[i];
             out.axis[k] -= value[0] * sample.travel[i] * std::exp(-way / value[1]);
-        }};
+        },
+        SeenBy::any_encoder};
 }
 
 Effect linear_lateral_play(const AxisGeometry& axis) {

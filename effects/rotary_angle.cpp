@@ -73,7 +73,8 @@ Effect rotary_backlash(const AxisGeometry& axis) {
             [k = axis.axis](const AxisSample& sample, const Contact&, std::span<const double> value,
                             Perturbation& out) {
                 out.axis[k] += 0.5 * value[0] * sample.travel[index_of(k)];
-            }};
+            },
+            SeenBy::scale};
 }
 
 }  // namespace trunnion

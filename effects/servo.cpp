@@ -10,7 +10,8 @@ Effect servo_mismatch(const Chain& chain) {
                   "set the loop gains of all interpolating axes alike",
                   "position - tau_s * velocity, each axis its own tau_s",
                   {},
-                  {}};
+                  {},
+                  SeenBy::any_encoder};
     std::vector<Axis> axes;
     for (const AxisGeometry& axis : chain.axes()) {
         axes.push_back(axis.axis);
@@ -37,9 +38,9 @@ Effect servo_contour(const Chain& chain) {
             {{"lag2_s2", "s^2", 1.0e-4, -1, {}, true}},
             [axes](const AxisSample& sample, const Contact&, std::span<const double> value,
                    Perturbation& out) {
-                for (const Axis axis : axes)
-                    out.axis[axis] += value[0] * sample.acceleration[axis];
-            }};
+                for (const Axis axis : axes) out.axis[axis] += value[0] * sample.acceleration[axis];
+            },
+            SeenBy::any_encoder};
 }
 
 }  // namespace trunnion

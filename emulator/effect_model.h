@@ -18,11 +18,15 @@ struct Contact {
     Vector3 direction_W = Vector3::Zero();  ///< the same seen from the table
     int instrument = -1;  ///< of a point row: index in Setup::instruments, -1 without one
     Vector3 direction_I = Vector3::Zero(), commanded_I_mm = Vector3::Zero();  ///< of a point row
-    double along_mm = 0.0;      ///< touch: from the commanded end to the sample, along direction_M
-    int touches = 0;            ///< of the pattern behind a sphere row, 0 = unknown
-    double extension_mm = 0.0;  ///< of stylus or cup, beyond the setup's
-    bool tip = false;           ///< no device reads: where the tip of the tool in the spindle is
-    bool stylus = false;        ///< that tool is the probe
+    Pose believed_WS;            ///< of a linear or angle row: the tool by the declared control
+    int zero = -1;               ///< of such a row: its test, index in Replay::zeros
+    Axis axis = Axis::X;         ///< of an axis row
+    bool scale_encoder = false;  ///< its encoder sits behind the drive
+    double along_mm = 0.0;       ///< touch: from the commanded end to the sample, along direction_M
+    int touches = 0;             ///< of the pattern behind a sphere row, 0 = unknown
+    double extension_mm = 0.0;   ///< of stylus or cup, beyond the setup's
+    bool tip = false;            ///< no device reads: where the tip of the tool in the spindle is
+    bool stylus = false;         ///< that tool is the probe
 };
 
 /// The physical model of one effect that is switched on: what it adds at one sample. Written in the

@@ -1,6 +1,7 @@
 #include "emulator/instruments.h"
 
 #include "ballbar/ballbar.h"
+#include "emulator/displacement.h"
 #include "emulator/points.h"
 
 namespace trunnion {
@@ -56,6 +57,10 @@ struct DeviceEntry {
     const char* missing;
 };
 
+bool always(const Setup&) {
+    return true;
+}
+
 constexpr DeviceEntry devices[] = {
     {Device::sphere, sphere_mm, Artefact::Kind::sphere,
      [](const Setup& s) { return s.probe.has_value(); }, "a probe row, but no [probe]"},
@@ -63,7 +68,10 @@ constexpr DeviceEntry devices[] = {
      [](const Setup& s) { return s.probe.has_value(); }, "a probe row, but no [probe]"},
     {Device::ballbar, ballbar_mm, Artefact::Kind::center_pivot,
      [](const Setup& s) { return s.ballbar.has_value(); }, "a ballbar row, but no [ballbar]"},
-    {Device::point, point_mm, Artefact::Kind::target, [](const Setup&) { return true; }, ""},
+    {Device::point, point_mm, Artefact::Kind::target, always, ""},
+    {Device::linear, linear_mm, Artefact::Kind::target, always, ""},
+    {Device::angle, angle_rad, Artefact::Kind::target, always, ""},
+    {Device::axis, encoder_mm, Artefact::Kind::target, always, ""},
 };
 
 const DeviceEntry& entry_of(Device device) {
@@ -98,6 +106,10 @@ Contact contact_of(const Setup& setup, const MachinePose& nominal, const Reading
     if (!entry.mounted(setup)) throw InputError(std::string(entry.missing) + " in the setup");
     Contact contact;
     contact.device = row.device;
+    if (row.device == Device::axis) {
+        aim_at_encoder(setup, row, contact);
+        return contact;
+    }
     contact.artefact = artefact_index(setup, row.feature);
     contact.extension_mm = row.extension_mm;
     contact.direction_M = row.direction_M;
@@ -105,8 +117,11 @@ Contact contact_of(const Setup& setup, const MachinePose& nominal, const Reading
     if (artefact.kind != entry.target && entry.target == Artefact::Kind::sphere)
         throw InputError("a probe row on '" + artefact.name + "', which is no sphere");
     if (artefact.kind != entry.target && entry.target == Artefact::Kind::target)
-        throw InputError("a point row on '" + artefact.name + "', which is no target");
+        throw InputError(std::string(name_of(row.device)) + " row on '" + artefact.name +
+                         "', which is no target");
     if (row.device == Device::point) aim_at_point(setup, row, contact);
+    if (row.device == Device::linear || row.device == Device::angle)
+        aim_at_displacement(setup, row, contact);
     if (row.device == Device::ballbar)
         contact.direction_M = cup_to_pivot_M(nominal, {setup.ballbar->cup_with(row.extension_mm),
                                                        artefact.center_W_mm})

@@ -21,6 +21,7 @@ struct ReplayOffsets {
         double scale = 0.0;
     };
     std::vector<InstrumentError> instruments;
+    std::vector<double> zeros;  ///< of the tests of linear and angle rows, mm or rad
     Vector3 cup_S = Vector3::Zero();
     double length = 0.0;                   ///< of the ballbar
     ExtensionErrors stylus_S, long_cup_S;  ///< by extension

@@ -78,6 +78,20 @@ Replay::Replay(const Setup& setup, const ReadingTable& table) : setup_(setup) {
         }
     }
     list_unknown_sides(table);
+    list_zeros(table);
+}
+
+void Replay::list_zeros(const ReadingTable& table) {
+    std::map<std::tuple<int, std::string, std::string, Device>, std::size_t> known;
+    for (std::size_t i = 0; i < size(); ++i) {
+        const Reading& row = table.rows[rows_[i]];
+        if (row.device != Device::linear && row.device != Device::angle) continue;
+        const auto [at, added] =
+            known.try_emplace({row.part, row.session, row.test, row.device}, zeros_.size());
+        if (added) zeros_.push_back({row.test, row.session, row.angular, {}});
+        zeros_[at->second].rows.push_back(i);
+        contacts_[i].zero = static_cast<int>(at->second);
+    }
 }
 
 void Replay::list_unknown_sides(const ReadingTable& table) {
@@ -115,6 +129,11 @@ std::vector<double> Replay::predict(const Machine& machine, const ReplayOffsets&
         sample.position = commanded_[i];
         contact.along_mm = 0.0;
         value_mm[i] = observer.read(sample, contact);
+    }
+    for (std::size_t k = 0; k < zeros_.size(); ++k) {
+        const double added = k < offsets.zeros.size() ? offsets.zeros[k] : 0.0;
+        const double zero = value_mm[zeros_[k].rows.front()] - added;
+        for (const std::size_t i : zeros_[k].rows) value_mm[i] -= zero;
     }
     return value_mm;
 }

@@ -25,6 +25,13 @@ struct UnknownSide {
     std::vector<std::size_t> rows;  ///< device rows
 };
 
+/// Rows of a laser or autocollimator between two zeroings.
+struct ZeroGroup {
+    std::string test, session;
+    bool angular = false;
+    std::vector<std::size_t> rows;  ///< device rows, the first one defines the zero
+};
+
 /// All device rows of a table, ready to be predicted many times.
 class Replay {
   public:
@@ -44,7 +51,11 @@ class Replay {
     /// From here on the k-th of them is taken as `side`, -1 or +1.
     void assume_side(std::size_t k, signed char side);
 
-    /// Readings of all device rows, mm. `machine` may differ from the setup's (location errors).
+    /// Tests of `linear` and `angle` rows, one entry for each test and session: their zero is free.
+    const std::vector<ZeroGroup>& zeros() const { return zeros_; }
+
+    /// Readings of all device rows, mm; `linear` and `angle` rows count from the first of their
+    /// test. `machine` may differ from the setup's (location errors).
     std::vector<double> predict(const Machine& machine, const ReplayOffsets& offsets,
                                 const EffectModels& models) const;
     std::vector<double> predict(const EffectModels& models) const;
@@ -58,6 +69,7 @@ class Replay {
     double read(std::size_t i, const ForwardModel& model, const ReplayOffsets& offsets,
                 const Perturbation& extra) const;
     void list_unknown_sides(const ReadingTable& table);
+    void list_zeros(const ReadingTable& table);
 
     Setup setup_;
     std::vector<std::size_t> rows_;
@@ -65,6 +77,7 @@ class Replay {
     std::vector<Contact> contacts_;
     std::vector<AxisPositions> commanded_;
     std::vector<UnknownSide> unknown_;
+    std::vector<ZeroGroup> zeros_;
 };
 
 /// Sum of products of all entries: the change of a reading for a small `delta`.

@@ -87,8 +87,9 @@ void take_measured(BaseModel& model, const ReadingTable& table, const Replay& re
 
 /// What no machine has: refused, or noted when it is meant.
 void tell_absurd(BaseModel& model, bool meant, const std::string& what, const SourceRef& where) {
-    const std::string message = what + " after fitting: wrong units (um for mm?), wrong frame, or "
-                                       "the setup of another machine";
+    const std::string message = what +
+                                " after fitting: wrong units (um for mm?), wrong frame, or "
+                                "the setup of another machine";
     if (!meant) throw InputError(message + "; --allow-large takes it as meant", where);
     model.notes.push_back(where.program + ": " + message + "; taken as meant");
 }
@@ -153,18 +154,20 @@ std::string to_string(const Inseparable& group) {
 
 namespace {
 
-/// One sigma of a reading where neither row nor setup says one: um, urad for angles.
+/// One sigma of a device where nothing tells it, um or urad.
 double usual_noise(Device device) {
-    switch (device) {
-        case Device::ballbar:
-        case Device::linear:
-        case Device::axis:
-            return 0.5;
-        case Device::point:
-            return 5.0;
-        default:
-            return 1.0;
-    }
+    static const std::map<Device, double> usual{
+        {Device::sphere, 1.0}, {Device::touch, 1.0}, {Device::ballbar, 0.5}, {Device::point, 10.0},
+        {Device::linear, 0.5}, {Device::angle, 2.0}, {Device::axis, 1.0}};
+    return usual.at(device);
+}
+
+/// The setup's sigma of a device, mm or rad; nothing where it tells none.
+std::optional<double> told_noise(const ModelSettings& model, const Reading& row) {
+    const auto& list = row.angular ? model.noise_urad : model.noise_um;
+    const auto it = list.find(std::string(name_of(row.device)));
+    const double unit = row.angular ? 1e-6 : 1e-3;
+    return it == list.end() ? std::nullopt : std::optional(unit * it->second);
 }
 
 }  // namespace
@@ -174,16 +177,14 @@ RowNoise row_noise(const Setup& setup, const ReadingTable& table, const Replay& 
     noise.sigma_mm.resize(static_cast<Eigen::Index>(replay.size()));
     for (std::size_t i = 0; i < replay.size(); ++i) {
         const Reading& row = table.rows[replay.table_row(i)];
-        const bool angular = row.device == Device::angle;
-        const auto& known = angular ? setup.model.noise_urad : setup.model.noise_um;
-        const auto it = known.find(std::string(name_of(row.device)));
-        double sigma = (angular ? 1e-6 : 1e-3) *
-                       (it == known.end() ? usual_noise(row.device) : it->second);
+        const auto told = told_noise(setup.model, row);
+        const double unit = row.angular ? 1e-6 : 1e-3;
+        double sigma = told.value_or(unit * usual_noise(row.device));
         if (row.sigma_mm && *row.sigma_mm > 0.0)
             sigma = *row.sigma_mm;
-        else if (it == known.end())
+        else if (!told)
             noise.given = false;
-        noise.sigma_mm(static_cast<Eigen::Index>(i)) = std::max(sigma, angular ? 1e-9 : 1e-6);
+        noise.sigma_mm(static_cast<Eigen::Index>(i)) = std::max(sigma, 1e-3 * unit);
     }
     return noise;
 }

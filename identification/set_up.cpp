@@ -82,6 +82,23 @@ double instrument_derivative(const SetUpQuantity& quantity, const Contact& conta
 
 }  // namespace
 
+namespace {
+
+/// "zero.X_mm", "zero.C_rad.tuesday"
+void add_zeros(std::vector<FreeQuantity>& list, const Replay& replay) {
+    for (std::size_t k = 0; k < replay.zeros().size(); ++k) {
+        const ZeroGroup& group = replay.zeros()[k];
+        const std::string name = "zero." + group.test + (group.angular ? "_rad" : "_mm") +
+                                 (group.session.empty() ? "" : '.' + group.session);
+        list.push_back({name,
+                        group.angular ? "rad" : "mm",
+                        group.angular ? 1e-4 : 0.1,
+                        {Kind::zero, static_cast<int>(k)}});
+    }
+}
+
+}  // namespace
+
 std::vector<FreeQuantity> free_quantities(const Setup& setup, const Replay& replay) {
     const Used used = used_by(replay);
     std::vector<FreeQuantity> list;
@@ -104,6 +121,7 @@ std::vector<FreeQuantity> free_quantities(const Setup& setup, const Replay& repl
         if (instrument.free_scale)
             list.push_back({instrument.name + ".scale", "1", 1e-4, {Kind::instrument, k, 6}});
     }
+    add_zeros(list, replay);
     return list;
 }
 
@@ -118,6 +136,9 @@ double& number_of(Setup& setup, const SetUpQuantity& q) {
             return ball_of(setup.ballbar->extension_errors, q.extension_mm)(q.component);
         case Kind::instrument:
             return number_of(setup.instruments[k], q.component);
+        case Kind::zero:
+            if (setup.zeros.size() <= k) setup.zeros.resize(k + 1, 0.0);
+            return setup.zeros[k];
         case Kind::artefact:
         case Kind::target_on_tool:
             return place_of(setup.artefacts[k])(q.component);
@@ -137,6 +158,8 @@ double set_up_derivative(const SetUpQuantity& q, const Contact& contact,
             return artefact_derivative(q, contact, gradient, true);
         case Kind::instrument:
             return instrument_derivative(q, contact);
+        case Kind::zero:
+            return contact.zero == q.index ? 1.0 : 0.0;
         case Kind::cup:
             return bar ? gradient.tip_shift_mm(q.component) : 0.0;
         case Kind::length:
@@ -162,6 +185,8 @@ ReplayOffsets offsets_between(const Setup& from, const Setup& to) {
                                         is.pose_error.tilt_rad - was.pose_error.tilt_rad},
                                        is.scale_error - was.scale_error});
     }
+    for (std::size_t k = 0; k < to.zeros.size(); ++k)
+        offsets.zeros.push_back(to.zeros[k] - (k < from.zeros.size() ? from.zeros[k] : 0.0));
     if (from.probe)
         offsets.stylus_S = difference(from.probe->extension_errors, to.probe->extension_errors);
     if (!from.ballbar) return offsets;

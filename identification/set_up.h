@@ -18,10 +18,11 @@ struct SetUpQuantity {
         length,  ///< of the ballbar
         stylus,  ///< the ball of a longer one beside its place straight below
         long_cup,
-        instrument
+        instrument,
+        zero  ///< of a test of a laser or autocollimator
     };
     Kind kind = Kind::none;
-    int index = 0;      ///< of the artefact or the instrument
+    int index = 0;      ///< of the artefact, the instrument or the test
     int component = 0;  ///< x y z; of an instrument x y z, a b c of its pose, then its scale
     double extension_mm = 0.0;  ///< of a longer stylus or cup
 };

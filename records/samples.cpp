@@ -47,6 +47,7 @@ class Pass {
                 fill_velocity(k, axis, sample);
                 sample.acceleration[axis] = acceleration(k, axis);
             }
+            take_told(row(k), sample);
         }
     }
 
@@ -54,8 +55,16 @@ class Pass {
     const Reading& row(std::size_t k) const { return all_[rows_[k]]; }
     double q(std::size_t k, Axis axis) const { return row(k).commanded[axis]; }
 
+    /// The rows of the moments before and after row k: a servo log has a row for each axis.
+    std::pair<std::size_t, std::size_t> neighbours(std::size_t k) const {
+        std::size_t before = k, after = k;
+        while (before > 0 && row(before).time_s == row(k).time_s) --before;
+        while (after + 1 < rows_.size() && row(after).time_s == row(k).time_s) ++after;
+        return {before, after};
+    }
+
     void fill_velocity(std::size_t k, Axis axis, AxisSample& sample) const {
-        const std::size_t before = k == 0 ? k : k - 1, after = k + 1 == rows_.size() ? k : k + 1;
+        const auto [before, after] = neighbours(k);
         const double time_s = row(after).time_s - row(before).time_s;
         const double moved = q(after, axis) - q(before, axis);
         const double rounding = names_.is_rotary(axis) ? rows_rounding.rad : rows_rounding.mm;
@@ -66,22 +75,47 @@ class Pass {
         if (sign != 0) sample.velocity[axis] = moved / time_s;
     }
 
-    /// Second derivative at row k, from up to five rows around it.
+    /// Up to five rows of different moments around row k, k among them.
+    std::vector<std::size_t> moments(std::size_t k) const {
+        std::vector<std::size_t> list{k};
+        std::size_t first = k, last = k;
+        for (int side = 0; list.size() < 5; ++side) {
+            const std::size_t before = neighbours(first).first, after = neighbours(last).second;
+            if (before == first && after == last) break;
+            const bool back = (side % 2 == 0 && before != first) || after == last;
+            list.push_back(back ? (first = before) : (last = after));
+        }
+        return list;
+    }
+
+    /// Second derivative at row k, from the parabola through the rows around it.
     double acceleration(std::size_t k, Axis axis) const {
-        const std::size_t n = rows_.size();
-        if (n < 5) return 0.0;
-        const std::size_t first = k < 2 ? 0 : std::min(k - 2, n - 5);
+        const std::vector<std::size_t> around = moments(k);
+        if (around.size() < 5) return 0.0;
         Eigen::Matrix<double, 5, 3> a;
         Eigen::Matrix<double, 5, 1> moved;
         for (std::size_t j = 0; j < 5; ++j) {
-            const double t = row(first + j).time_s - row(k).time_s;
+            const double t = row(around[j]).time_s - row(k).time_s;
             a.row(static_cast<Eigen::Index>(j)) << 1.0, t, 0.5 * t * t;
-            moved(static_cast<Eigen::Index>(j)) = q(first + j, axis) - q(k, axis);
+            moved(static_cast<Eigen::Index>(j)) = q(around[j], axis) - q(k, axis);
         }
         if (moved.isZero(0.0)) return 0.0;
         const Eigen::Matrix3d normal = a.transpose() * a;
         const Vector3 fit = normal.ldlt().solve(a.transpose() * moved);
         return std::isfinite(fit(2)) ? fit(2) : 0.0;
+    }
+
+    /// Commanded motion that the row itself tells stands in for differences.
+    void take_told(const Reading& reading, AxisSample& sample) const {
+        if (reading.device != Device::axis) return;
+        const auto axis = names_.find(reading.feature);
+        if (!axis) return;
+        if (reading.velocity_mm_s) {
+            const double v = *reading.velocity_mm_s;
+            sample.velocity[*axis] = v;
+            if (v != 0.0) sample.travel[index_of(*axis)] = v > 0.0 ? 1 : -1;
+        }
+        if (reading.acceleration_mm_s2) sample.acceleration[*axis] = *reading.acceleration_mm_s2;
     }
 
     /// Length of the path from row k - 1 to row k: the arc through three rows, not the chord.
@@ -102,7 +136,7 @@ class Pass {
 };
 
 bool dense(const Reading& a, const Reading& b) {
-    return is_continuous(a.device) && is_continuous(b.device) && a.test == b.test;
+    return a.device == Device::ballbar && b.device == Device::ballbar && a.test == b.test;
 }
 
 /// Where each axis turned when it did so at row k: vertex of the parabola through its neighbours.
@@ -192,7 +226,7 @@ AxisSides sides_before(const ReadingTable& table, std::size_t begin) {
 }  // namespace
 
 bool is_continuous(Device device) {
-    return device == Device::ballbar;
+    return device == Device::ballbar || device == Device::axis;
 }
 
 bool way_unknown(const Reading& from, const Reading& to) {

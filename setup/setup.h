@@ -99,7 +99,8 @@ struct ModelSettings {
     std::map<std::string, double> noise_um;               ///< by device name, of rows in mm
     std::map<std::string, double> noise_urad;             ///< the same of rows in degrees
     std::map<std::string, CalibrationPrior> calibration;  ///< by ISO 230 name
-    bool allow_large = false;  ///< --allow-large: residuals that no machine has are told, not refused
+    bool allow_large =
+        false;  ///< --allow-large: residuals that no machine has are told, not refused
 };
 
 /// +1 for every axis.
@@ -132,6 +133,9 @@ struct Setup {
     std::vector<Artefact> artefacts;
     std::vector<Instrument> instruments;
     ModelSettings model;
+    /// Zero of each test of a laser or autocollimator, mm or rad, as a fit found it (ZeroGroup of
+    /// the replay); it belongs to the readings and is not written.
+    std::vector<double> zeros;
 
     const Artefact* find_artefact(const std::string& name) const;
     const Instrument* find_instrument(const std::string& name) const;

@@ -1,0 +1,63 @@
+#include "emulator/displacement.h"
+
+#include "base/alarm.h"
+
+namespace trunnion {
+namespace {
+
+/// The tool's frame as seen from the table.
+Pose pose_WS(const MachinePose& poses) {
+    return poses.pose_MW.inverse() * poses.pose_MS;
+}
+
+/// Rotation vector of a small rotation.
+Vector3 rotation_vector(const Matrix3& r) {
+    const Eigen::AngleAxisd turn(r);
+    return turn.angle() * turn.axis();
+}
+
+/// The declared place of the target on the tool; of one that stands on the table: where the tool
+/// is when it is there does not matter, only how far it moves.
+Vector3 declared_S_mm(const Setup& setup, const Artefact& target) {
+    return target.tool_S_mm ? setup.target_S_mm(target) : Vector3(Vector3::Zero());
+}
+
+}  // namespace
+
+double linear_mm(const InstrumentView& view) {
+    const auto k = static_cast<std::size_t>(view.contact.artefact);
+    const Artefact& target = view.setup.artefacts[k];
+    const Vector3 declared = declared_S_mm(view.setup, target);
+    Vector3 place = declared + target.found_mm + view.state.extra.tip_shift_mm;
+    if (k < view.offsets.artefact.size()) place += view.offsets.artefact[k];
+    const Vector3 moved_W_mm =
+        pose_WS(view.state.poses) * place - view.contact.believed_WS * declared;
+    return view.contact.direction_W.dot(moved_W_mm - view.state.extra.work_shift_mm) +
+           view.state.extra.reading_mm;
+}
+
+double angle_rad(const InstrumentView& view) {
+    const Matrix3 turned =
+        pose_WS(view.state.poses).rotation * view.contact.believed_WS.rotation.transpose();
+    return view.contact.direction_W.dot(rotation_vector(turned));
+}
+
+double encoder_mm(const InstrumentView& view) {
+    return view.state.extra.axis[view.contact.axis];
+}
+
+void aim_at_displacement(const Setup& setup, const Reading& row, Contact& contact) {
+    contact.believed_WS = pose_WS(Machine{setup.machine.chain, {}}.poses(row.commanded));
+}
+
+void aim_at_encoder(const Setup& setup, const Reading& row, Contact& contact) {
+    for (const AxisGeometry& axis : setup.machine.chain.axes())
+        if (axis.name == row.feature) {
+            contact.axis = axis.axis;
+            contact.scale_encoder = setup.scale_encoder[index_of(axis.axis)];
+            return;
+        }
+    throw InputError("the machine has no axis '" + row.feature + "'");
+}
+
+}  // namespace trunnion
