@@ -52,9 +52,9 @@ BallbarResult simulate(const BallbarOptions& o, const Setup& setup) {
 }
 
 BallbarResult evaluate(const BallbarOptions& o, const Setup& setup) {
-    const ReadingTable before = load_readings(o.measured[0]);
+    const ReadingTable before = load_readings(o.measured[0], setup);
     std::optional<ReadingTable> after;
-    if (o.measured.size() > 1) after = load_readings(o.measured[1]);
+    if (o.measured.size() > 1) after = load_readings(o.measured[1], setup);
     return evaluate_ballbar(setup, before, after);
 }
 

@@ -58,7 +58,7 @@ PivotPrints read_maps(const PivotOptions& o, const Setup& setup, const RotarySto
     for (const std::string& path : o.readings) {
         std::string text = read_file(path);
         if (is_table(text))
-            tables.push_back(load_readings(path));
+            tables.push_back(load_readings(path, setup));
         else
             printed.push_back({path, std::move(text)});
     }
