@@ -1,4 +1,5 @@
 #include "compensation/compensation.h"
+#include "effects/settings.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -40,15 +41,17 @@ Setup setup_with_errors() {
 CompensatedProgram compensate(const Setup& setup, const std::string& text,
                               const CompensationOptions& options = {}) {
     ProgramsInMemory programs;
-    return compensate_program(setup, programs, ProgramText{"p.nc", text, nullptr}, {}, options);
+    return compensate_program(setup, programs, ProgramText{"p.nc", text, nullptr},
+                              active_models(setup), options);
 }
 
 Setup setup_with_backlash(double linear_mm, double rotary_rad, bool other_errors) {
     Setup setup = setup_with_errors();
     if (!other_errors) setup.machine.errors = {};
     for (const AxisGeometry& axis : setup.machine.chain.axes())
-        setup.machine.errors.axis[index_of(axis.axis)].backlash =
-            axis.rotary ? rotary_rad : linear_mm;
+        setup.effects.push_back(
+            axis.rotary ? EffectSetting{axis.name + ".backlash", {{"gap_rad", {rotary_rad}}}}
+                        : EffectSetting{axis.name + ".backlash", {{"gap_mm", {linear_mm}}}});
     return setup;
 }
 
@@ -73,6 +76,7 @@ CirclePath circle_path(const Setup& setup, const std::string& program) {
     RunOptions options;
     options.trace = options.truth = true;
     options.trace_step_mm = 0.5;
+    options.effects = active_models(setup);
     const RunLog log = run_program(setup, none, ProgramText{"c.nc", program, nullptr}, options);
     CirclePath path;
     std::istringstream lines(log.trace_csv);

@@ -43,8 +43,8 @@ std::optional<Setup> truthful(const std::string& path) {
 }
 
 /// Looks at the physical tip at seven places of each move.
-struct Observer : MotionSink {
-    explicit Observer(const Machine& machine) : machine(machine) {}
+struct TipWatcher : MotionSink {
+    explicit TipWatcher(const Machine& machine) : machine(machine) {}
     MoveResult move(const AxisMove& m) override {
         seen.clear();
         for (int k = 0; k <= 6; ++k) seen.push_back(machine.tip_W(m.at(k / 6.0), {0, 0, -137.5}));
@@ -94,7 +94,7 @@ TEST_CASE("G43.4 on every machine: the physical tip runs straight to the program
                                    target.x(), target.y(), target.z(), letter_of(turn[0]),
                                    140 * (noise.uniform() - 0.5), letter_of(turn[1]),
                                    300 * (noise.uniform() - 0.5));
-            Observer observer(setup->machine);
+            TipWatcher observer(setup->machine);
             Stores stores = setup->stores;
             const RunResult result = run_text(*setup, stores, observer, program);
             REQUIRE(result.status == RunStatus::ok);
@@ -124,7 +124,7 @@ TEST_CASE("G68.2 and G53.1 on every machine: the physical tool stands square on 
             const Matrix3 frame = rotation_about(Vector3::UnitZ(), rad_from_deg(i)) *
                                   rotation_about(Vector3::UnitX(), rad_from_deg(j)) *
                                   rotation_about(Vector3::UnitZ(), rad_from_deg(turn));
-            Observer observer(setup->machine);
+            TipWatcher observer(setup->machine);
             Stores stores = setup->stores;
             const RunResult result = run_text(
                 *setup, stores, observer,
