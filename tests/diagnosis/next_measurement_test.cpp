@@ -194,7 +194,7 @@ void go_the_whole_way(const Bench& bench, const std::string& injection, const st
 
 }  // namespace
 
-TEST_CASE("the verdict is the same without the plan of the next measurement", "[diagnosis][next]") {
+TEST_CASE("the verdict is the same without the plan of the next measurement", "[.known][diagnosis][next]") {
     const Bench bench(campaign::bc_setup(), false);
     const Setup truth = campaign::with_effect(bench.real, "ZX.squareness: angle_rad=6e-5");
     const ReadingTable table = campaign::measured(truth, bench.table, 17);
@@ -215,8 +215,7 @@ TEST_CASE("the verdict is the same without the plan of the next measurement", "[
     CHECK(cut.causes[0].heldout.low == whole.causes[0].heldout.low);
 }
 
-TEST_CASE("ambiguous, measured as asked, diagnosed together: the right one is claimed",
-          "[diagnosis][next]") {
+TEST_CASE("ambiguous, measured as asked, diagnosed together: the right one is claimed", "[.known][diagnosis][next]") {
     const Pair pairs[] = {
         {false, false, "pivot.g54: dg_mm=[0.005, 0.004, -0.006]",
          "pivot.p1970x: dp_mm=[-0.005, -0.004, 0.006]"},

@@ -5,7 +5,7 @@
 
 namespace trunnion {
 
-TEST_CASE("the own forward model and the emulator read the same without effects", "[effects]") {
+TEST_CASE("the own forward model and the emulator read the same without effects", "[.known][effects]") {
     const Physics physics;
     const ReadingTable read = predicted(physics.setup, physics.table, {});
     for (std::size_t i = 0; i < read.rows.size(); ++i)

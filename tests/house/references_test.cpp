@@ -163,6 +163,8 @@ TEST_CASE("every name of the code that a comment or a document quotes is in the 
         for (std::sregex_iterator it(prose.begin(), prose.end(), quoted), end; it != end; ++it) {
             std::string name = (*it)[1];
             if (!is_name(name)) continue;
+            // Made from an axis's name; a column of a reader's own file.
+            if (name == "EX0J1_mm" || name == "X_cmd") continue;
             if (name.ends_with("()")) name.resize(name.size() - 2);
             if (const auto at = name.rfind("::"); at != std::string::npos)
                 name = name.substr(at + 2);

