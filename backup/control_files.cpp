@@ -8,7 +8,7 @@
 #include "base/output_files.h"
 #include "base/read_file.h"
 
-namespace trunnion {
+namespace trunnion::backup {
 
 const std::vector<std::string> backup_file_names{"CNC-PARA.TXT", "EXT_WKZ.TXT", "TOOLOFST.TXT",
                                                  "MACRO.TXT"};
@@ -75,13 +75,13 @@ std::vector<BackupValue> list_values(const ControlBackup& backup) {
     return values;
 }
 
-void apply_backup(const ControlBackup& backup, Stores& stores) {
+void apply_backup(const ControlBackup& backup, offsets::Stores& stores) {
     const std::vector<BackupValue> values = list_values(backup);
     require_pivot(backup, values);
     for (const BackupValue& v : values) store_value(v, stores);
 }
 
-void update_backup(ControlBackup& backup, const Stores& stores) {
+void update_backup(ControlBackup& backup, const offsets::Stores& stores) {
     std::vector<BackupValue> values = list_values(backup);
     // From the end of each file, so that the places of earlier values stay right.
     std::reverse(values.begin(), values.end());
@@ -109,4 +109,4 @@ std::vector<BackupDifference> diff_backups(const ControlBackup& a, const Control
     return differences;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::backup

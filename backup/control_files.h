@@ -8,7 +8,7 @@
 
 #include "offsets/stores.h"
 
-namespace trunnion {
+namespace trunnion::backup {
 
 /// The text files of one backup by name (upper case, e.g. "CNC-PARA.TXT"), bytes as read. A file
 /// that is not changed is written back byte for byte, whatever its line ends (LF, CRLF, LF CR CR).
@@ -47,13 +47,13 @@ std::vector<BackupValue> list_values(const ControlBackup& backup);
 
 /// Puts the values into the stores. Throws InputError when 19680 names a mechanical type without a
 /// pivot (19700-19702 absent for tables).
-void apply_backup(const ControlBackup& backup, Stores& stores);
+void apply_backup(const ControlBackup& backup, offsets::Stores& stores);
 /// Rewrites, in the files' own form, those values that differ from the stores.
-void update_backup(ControlBackup& backup, const Stores& stores);
+void update_backup(ControlBackup& backup, const offsets::Stores& stores);
 
 struct BackupDifference {
     std::string file, name, a, b;  ///< a or b empty: only in the other
 };
 std::vector<BackupDifference> diff_backups(const ControlBackup& a, const ControlBackup& b);
 
-}  // namespace trunnion
+}  // namespace trunnion::backup

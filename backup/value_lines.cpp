@@ -12,7 +12,7 @@
 #include "base/numbers.h"
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::backup {
 
 namespace {
 
@@ -210,16 +210,16 @@ auto work_offset(S& stores, int number) -> decltype(&stores.work.external) {
     return nullptr;
 }
 
-double ToolOffset::*tool_field(int l) {
+double offsets::ToolOffset::*tool_field(int l) {
     switch (l) {
         case 10:
-            return &ToolOffset::length_geometry_mm;
+            return &offsets::ToolOffset::length_geometry_mm;
         case 11:
-            return &ToolOffset::length_wear_mm;
+            return &offsets::ToolOffset::length_wear_mm;
         case 12:
-            return &ToolOffset::radius_geometry_mm;
+            return &offsets::ToolOffset::radius_geometry_mm;
         default:
-            return &ToolOffset::radius_wear_mm;
+            return &offsets::ToolOffset::radius_wear_mm;
     }
 }
 
@@ -262,11 +262,11 @@ double stored_value(const BackupValue& v) {
     return v.inch ? mm_from_inch(number) : number;
 }
 
-void store_value(const BackupValue& v, Stores& stores) {
+void store_value(const BackupValue& v, offsets::Stores& stores) {
     const double number = stored_value(v);
     switch (v.kind) {
         case BackupValue::Kind::parameter: {
-            Parameter& p = stores.parameters.entry[v.number];
+            offsets::Parameter& p = stores.parameters.entry[v.number];
             if (v.sub == 0)
                 p.value = number;
             else
@@ -275,7 +275,7 @@ void store_value(const BackupValue& v, Stores& stores) {
             break;
         }
         case BackupValue::Kind::work_offset:
-            if (OffsetVector* offset = work_offset(stores, v.number))
+            if (offsets::OffsetVector* offset = work_offset(stores, v.number))
                 (*offset)[*axis_of(static_cast<char>(v.sub))] = number;
             break;
         case BackupValue::Kind::tool_offset:
@@ -291,7 +291,7 @@ void store_value(const BackupValue& v, Stores& stores) {
     }
 }
 
-double value_in(const BackupValue& v, const Stores& stores) {
+double value_in(const BackupValue& v, const offsets::Stores& stores) {
     switch (v.kind) {
         case BackupValue::Kind::parameter: {
             const auto entry = stores.parameters.entry.find(v.number);
@@ -301,7 +301,7 @@ double value_in(const BackupValue& v, const Stores& stores) {
             return by_axis == entry->second.by_axis.end() ? stored_value(v) : by_axis->second;
         }
         case BackupValue::Kind::work_offset: {
-            const OffsetVector* offset = work_offset(stores, v.number);
+            const offsets::OffsetVector* offset = work_offset(stores, v.number);
             return offset ? (*offset)[*axis_of(static_cast<char>(v.sub))] : stored_value(v);
         }
         case BackupValue::Kind::tool_offset:
@@ -334,4 +334,4 @@ std::string format_value(const BackupValue& like, double number) {
     return text;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::backup

@@ -7,7 +7,7 @@
 
 #include "backup/control_files.h"
 
-namespace trunnion {
+namespace trunnion::backup {
 
 /// All values of one file. `path` is for messages.
 std::vector<BackupValue> scan_values(const std::string& file, std::string_view bytes,
@@ -15,11 +15,11 @@ std::vector<BackupValue> scan_values(const std::string& file, std::string_view b
 
 /// The value in the stores' unit (mm, deg; bit parameters as a byte); NaN for a vacant variable.
 double stored_value(const BackupValue& value);
-void store_value(const BackupValue& value, Stores& stores);
+void store_value(const BackupValue& value, offsets::Stores& stores);
 /// What the stores hold for that value.
-double value_in(const BackupValue& value, const Stores& stores);
+double value_in(const BackupValue& value, const offsets::Stores& stores);
 bool same_value(double a, double b);  ///< two vacant values are the same
 /// `number` in the form of `like`: bits, integer, decimal point, hex double.
 std::string format_value(const BackupValue& like, double number);
 
-}  // namespace trunnion
+}  // namespace trunnion::backup

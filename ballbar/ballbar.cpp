@@ -2,13 +2,13 @@
 
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::ballbar {
 
-Vector3 cup_to_pivot_M(const MachinePose& poses, const Ballbar& bar) {
+Vector3 cup_to_pivot_M(const kinematics::MachinePose& poses, const Ballbar& bar) {
     return poses.pose_MW * bar.pivot_W_mm - poses.pose_MS * bar.cup_S_mm;
 }
 
-double length_deviation_mm(const MachinePose& poses, const Ballbar& bar) {
+double length_deviation_mm(const kinematics::MachinePose& poses, const Ballbar& bar) {
     return cup_to_pivot_M(poses, bar).norm() - bar.length_mm;
 }
 
@@ -20,4 +20,4 @@ std::vector<double> sample_times(double start_s, double rate_hz, double from_s, 
     return times;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar

@@ -7,7 +7,7 @@
 #include "geometry/pose.h"
 #include "kinematics/machine.h"
 
-namespace trunnion {
+namespace trunnion::ballbar {
 
 /// The mounted bar.
 struct Ballbar {
@@ -18,10 +18,10 @@ struct Ballbar {
 };
 
 /// From the cup ball to the pivot ball, in M.
-Vector3 cup_to_pivot_M(const MachinePose& poses, const Ballbar& bar);
+Vector3 cup_to_pivot_M(const kinematics::MachinePose& poses, const Ballbar& bar);
 
 /// Ball-to-ball length - nominal length, mm.
-double length_deviation_mm(const MachinePose& poses, const Ballbar& bar);
+double length_deviation_mm(const kinematics::MachinePose& poses, const Ballbar& bar);
 
 inline bool in_range(double deviation_mm, const Ballbar& bar) {
     return deviation_mm >= -bar.range_mm && deviation_mm <= bar.range_mm;
@@ -31,4 +31,4 @@ inline bool in_range(double deviation_mm, const Ballbar& bar) {
 /// `start_s` takes a reading.
 std::vector<double> sample_times(double start_s, double rate_hz, double from_s, double to_s);
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar

@@ -6,7 +6,7 @@
 
 #include "base/text.h"
 
-namespace trunnion {
+namespace trunnion::inline base {
 
 namespace {
 
@@ -44,4 +44,4 @@ std::string format_diagnostic(const SourceRef& where, const std::string& message
     return line_text.empty() ? out : out + marked_line(line_text, where.column);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

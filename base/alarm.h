@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace trunnion {
+namespace trunnion::inline base {
 
 /// A place in an NC program: name of the program (O number or file), line and column from 1.
 struct SourceRef {
@@ -15,7 +15,7 @@ struct SourceRef {
 };
 
 /// An NC alarm as on the control's screen. The one exception of NC execution, caught in one place
-/// (controller::Controller::run). `number` and `text` as in controller/alarms.h, e.g. 10 and
+/// (Controller::run). `number` and `text` as in controller/alarms.h, e.g. 10 and
 /// "IMPROPER G-CODE".
 class Alarm : public std::exception {
   public:
@@ -25,7 +25,7 @@ class Alarm : public std::exception {
 
     int number;
     std::string text;
-    SourceRef where;  ///< filled in by whoever knows it, innermost first; line 0 = not known yet
+    SourceRef where;    ///< filled in by whoever knows it, innermost first; line 0 = not known yet
     std::string block;  ///< the block's text
 };
 
@@ -46,4 +46,4 @@ class InputError : public std::exception {
 std::string format_diagnostic(const SourceRef& where, const std::string& message,
                               const std::string& line_text);
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

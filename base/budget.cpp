@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace trunnion {
+namespace trunnion::inline base {
 namespace {
 
 bool is_used_up(std::uint64_t limit, std::uint64_t spent) {
@@ -33,4 +33,4 @@ bool BudgetMeter::allows(const Spent& spent) {
     return reached_ == BudgetLimit::none;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

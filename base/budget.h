@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 
-namespace trunnion {
+namespace trunnion::inline base {
 
 /// Limits; 0: none.
 struct Budget {
@@ -45,4 +45,4 @@ class BudgetMeter {
     BudgetLimit reached_ = BudgetLimit::none;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

@@ -10,7 +10,7 @@
 #include "base/alarm.h"
 #include "base/file_handle.h"
 
-namespace trunnion {
+namespace trunnion::inline base {
 namespace {
 
 [[noreturn]] void refuse_out() {
@@ -49,4 +49,4 @@ void prepare_streams() {
     std::signal(SIGXFSZ, SIG_IGN);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

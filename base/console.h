@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-namespace trunnion {
+namespace trunnion::inline base {
 
 /// Appends to standard output. Throws InputError when it cannot be written.
 void write_out(std::string_view text);
@@ -28,4 +28,4 @@ void print_error(fmt::format_string<Values...> format, Values&&... values) {
 /// instead of the end of the process.
 void prepare_streams();
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

@@ -1,7 +1,7 @@
 // What the program's exit code says (docs/formats.md).
 #pragma once
 
-namespace trunnion {
+namespace trunnion::inline base {
 
 enum ExitCode : int {
     exit_done = 0,       ///< done, equal, nothing found
@@ -12,4 +12,4 @@ enum ExitCode : int {
     exit_internal = 5
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <system_error>
 
-namespace trunnion {
+namespace trunnion::inline base {
 
 FileHandle::~FileHandle() {
     close();
@@ -45,4 +45,4 @@ std::string system_reason(int error) {
     return std::generic_category().message(error);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-namespace trunnion {
+namespace trunnion::inline base {
 
 /// Owns one descriptor of the operating system; -1 owns none.
 class FileHandle {
@@ -38,4 +38,4 @@ std::ptrdiff_t read_some(int descriptor, char* data, std::size_t size);
 /// The system's words for the value of errno.
 std::string system_reason(int error);
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

@@ -7,7 +7,7 @@
 #include "base/alarm.h"
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::inline base {
 
 std::string shortest(double value) {
     if (value == 0.0) return "0";
@@ -48,4 +48,4 @@ std::optional<double> parse_number(std::string_view text) {
     return value;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace trunnion {
+namespace trunnion::inline base {
 
 /// The shortest text that reads back to the same double; "0" for -0. Throws InputError for what is
 /// not finite: no file with "nan" in it is written.
@@ -16,4 +16,4 @@ std::string shortest_degrees(double angle_rad);
 /// The whole of `text` as a finite number (leading blanks and one + allowed), or nothing.
 std::optional<double> parse_number(std::string_view text);
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

@@ -13,7 +13,7 @@
 #include "base/console.h"
 #include "base/file_handle.h"
 
-namespace trunnion {
+namespace trunnion::inline base {
 namespace fs = std::filesystem;
 namespace {
 
@@ -216,4 +216,4 @@ void make_folder(const std::string& path) {
     if (error) throw InputError("this folder cannot be made: " + error.message(), {path, 0, 0});
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::inline base {
 
 /// A file that is being written. A regular file has no name until `publish`: then it replaces the
 /// file of its path in one step, with that file's mode and behind its symbolic links; without
@@ -50,4 +50,4 @@ class OutputFiles {
 /// Throws InputError with the path.
 void make_folder(const std::string& path);
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

@@ -4,7 +4,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::inline base {
 
 std::uint64_t SeededNoise::bits() {
     state_ += 0x9E3779B97F4A7C15ULL;
@@ -30,4 +30,4 @@ double SeededNoise::normal() {
     return radius * std::cos(angle_rad);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

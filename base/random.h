@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace trunnion {
+namespace trunnion::inline base {
 
 /// SplitMix64 with a Box-Muller normal: the standard distributions differ between libraries.
 class SeededNoise {
@@ -20,4 +20,4 @@ class SeededNoise {
     bool has_spare_ = false;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

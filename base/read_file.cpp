@@ -9,7 +9,7 @@
 #include "base/alarm.h"
 #include "base/file_handle.h"
 
-namespace trunnion {
+namespace trunnion::inline base {
 namespace {
 
 constexpr std::size_t most_streamed = std::size_t{1} << 30;  ///< from what has no end of its own
@@ -72,4 +72,4 @@ std::string read_file_or_input(const std::string& path) {
     return path == "-" ? read_open(STDIN_FILENO, "standard input") : read_file(path);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace trunnion {
+namespace trunnion::inline base {
 
 /// The bytes of a file, a pipe or a device. Throws InputError with the path and the system's
 /// reason: when it is missing, is a folder, a read fails, or the file changes while it is read. A
@@ -12,4 +12,4 @@ std::string read_file(const std::string& path);
 /// The same; "-" is standard input.
 std::string read_file_or_input(const std::string& path);
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

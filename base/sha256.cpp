@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace trunnion {
+namespace trunnion::inline base {
 namespace {
 
 using Words = std::array<std::uint32_t, 8>;
@@ -83,4 +83,4 @@ std::string sha256(std::string_view text) {
     return digits;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

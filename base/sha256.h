@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-namespace trunnion {
+namespace trunnion::inline base {
 
 /// 64 digits, lower case (FIPS 180-4).
 std::string sha256(std::string_view text);
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace trunnion {
+namespace trunnion::inline base {
 
 namespace {
 
@@ -62,4 +62,4 @@ std::size_t screen_width(std::string_view text) {
     return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), starts));
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace trunnion {
+namespace trunnion::inline base {
 
 /// Bytes that are not UTF-8 (comments of old controls) become '?': JSON and XML take nothing else.
 std::string valid_utf8(std::string_view text);
@@ -13,4 +13,4 @@ std::string printable(std::string_view text);
 /// Places that valid UTF-8 takes on a screen.
 std::size_t screen_width(std::string_view text);
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

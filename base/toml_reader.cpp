@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::inline base {
 namespace {
 
 TomlValue convert(const toml::node& node);
@@ -189,4 +189,4 @@ void TomlFile::refuse_unknown_keys() const {
         fail(*unused, "key '" + name + "' is not known");
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

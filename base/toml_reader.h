@@ -10,7 +10,7 @@
 
 #include "base/alarm.h"
 
-namespace trunnion {
+namespace trunnion::inline base {
 
 struct TomlValue {
     enum class Kind : unsigned char { table, array, number, text, boolean };
@@ -65,4 +65,4 @@ class TomlFile {
     TomlValue root_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::inline base

@@ -8,18 +8,18 @@ namespace trunnion {
 namespace {
 
 void diagnosis(benchmark::State& state) {
-    const Setup setup = campaign::bc_setup();
-    const Setup truth =
+    const setup::Setup setup = campaign::bc_setup();
+    const setup::Setup truth =
         campaign::with_effect(campaign::with_effect(campaign::real_machine(setup),
                                                     "C.cyclic: cos_rad=3e-5, periods_per_turn=45"),
                               "thermal.drift: d_mm=[0.01, 0, 0.02], tau_s=900");
-    ReadingTable table = campaign::empty_table(setup);
+    records::ReadingTable table = campaign::empty_table(setup);
     const auto rows = static_cast<int>(state.range(0));
     campaign::add_sphere_map(table, setup, rows / 9, 5);  // a third of the readings
     campaign::add_ballbar(table, setup, rows * 2 / 3 / 24);
     table = campaign::measured(truth, table, 7);
     for (auto _ : state) {
-        const Diagnosis result = diagnose(setup, table);
+        const diagnosis::Diagnosis result = diagnosis::diagnose(setup, table);
         if (result.causes.size() != 2) state.SkipWithError("the two effects were not claimed");
         state.counters["readings"] = static_cast<double>(result.readings);
     }

@@ -13,7 +13,7 @@ namespace {
 
 using namespace trunnion;
 
-struct NoSystem : SystemVariables {
+struct NoSystem : interpreter::SystemVariables {
     double get(int) override { return 0.0; }
     void set(int, double, const char*) override {}
     double parameter(int, int, int) override { return 0.0; }
@@ -27,7 +27,7 @@ std::string read_file(const std::string& name) {
     return text.str();
 }
 
-bool is_end(const BlockWords& words) {
+bool is_end(const interpreter::BlockWords& words) {
     return words.count > 0 && words.words[0].letter == 'M' && words.words[0].value == 30.0;
 }
 
@@ -35,14 +35,14 @@ void run_program(benchmark::State& state, const char* name, std::int64_t items) 
     const std::string text = read_file(name);
     if (text.empty())
         return state.SkipWithError("no workload: python3 benchmarks/workloads.py out/bench");
-    ProgramsInMemory none;
+    interpreter::ProgramsInMemory none;
     NoSystem system;
-    const InterpreterOptions options;
+    const interpreter::InterpreterOptions options;
     std::uint64_t blocks = 0;
     for (auto _ : state) {
-        Interpreter nc(none, options, system, {});
-        nc.open(ProgramText{name, text, nullptr});
-        while (const BlockWords* words = nc.next()) {
+        interpreter::Interpreter nc(none, options, system, {});
+        nc.open(interpreter::ProgramText{name, text, nullptr});
+        while (const interpreter::BlockWords* words = nc.next()) {
             benchmark::DoNotOptimize(words->words[0].value);
             if (is_end(*words)) nc.end_program();
         }

@@ -7,20 +7,20 @@ using namespace trunnion;
 
 namespace {
 
-Machine bc_table() {
-    Machine machine;
-    machine.chain = parse_chain("w C B b X Y Z t");
+kinematics::Machine bc_table() {
+    kinematics::Machine machine;
+    machine.chain = kinematics::parse_chain("w C B b X Y Z t");
     machine.chain.work[0].point_mm = {10, -3, 40};
     machine.chain.work[1].point_mm = {12, 5, 60};
     return machine;
 }
 
 /// All 41: 30 error motions (tables of 13 points), 8 location errors of B and C, 3 squarenesses.
-Machine with_41_errors() {
-    Machine machine = bc_table();
-    for (const AxisGeometry& axis : machine.chain.axes())
+kinematics::Machine with_41_errors() {
+    kinematics::Machine machine = bc_table();
+    for (const kinematics::AxisGeometry& axis : machine.chain.axes())
         for (std::size_t k = 0; k < 6; ++k) {
-            ErrorCurve& curve = machine.errors.axis[index_of(axis.axis)].motion[k];
+            kinematics::ErrorCurve& curve = machine.errors.axis[index_of(axis.axis)].motion[k];
             for (int i = -6; i <= 6; ++i) {
                 curve.at.push_back(axis.rotary ? 0.5 * i : 50.0 * i);
                 curve.value.push_back((k < 3 ? 1e-3 : 1e-5) * (i % 3));
@@ -28,7 +28,7 @@ Machine with_41_errors() {
         }
     for (const char* name :
          {"EX0B", "EZ0B", "EA0B", "EC0B", "EX0C", "EY0C", "EA0C", "EB0C", "EC0Y", "EA0Z", "EB0Z"})
-        machine.errors.location(*parse_error_name(name)) = 1e-5;
+        machine.errors.location(*kinematics::parse_error_name(name)) = 1e-5;
     return machine;
 }
 
@@ -76,17 +76,17 @@ void straight(benchmark::State& state) {
 }
 
 void error_free(benchmark::State& state) {
-    const ForwardModel model(bc_table());
+    const kinematics::ForwardModel model(bc_table());
     run(state, [&](const AxisPositions& q, const Vector3& tip) { return model.tip_W(q, tip); });
 }
 
 void full_errors(benchmark::State& state) {
-    const ForwardModel model(with_41_errors());
+    const kinematics::ForwardModel model(with_41_errors());
     run(state, [&](const AxisPositions& q, const Vector3& tip) { return model.tip_W(q, tip); });
 }
 
 void unprepared(benchmark::State& state) {
-    const Machine machine = bc_table();
+    const kinematics::Machine machine = bc_table();
     run(state, [&](const AxisPositions& q, const Vector3& tip) { return machine.tip_W(q, tip); });
 }
 

@@ -6,7 +6,7 @@
 
 #include "check/section.h"
 
-namespace trunnion {
+namespace trunnion::check {
 
 namespace {
 
@@ -26,18 +26,18 @@ class ArcCheck {
         : section_(section), program_(*section.program), options_(options), findings_(findings) {}
 
     void run() {
-        for (const Block* block : section_.blocks) step(*block);
+        for (const interpreter::Block* block : section_.blocks) step(*block);
     }
 
   private:
-    void step(const Block& block) {
+    void step(const interpreter::Block& block) {
         if (block.sequence_number >= 0 &&
             (section_.computed_jump || section_.targets.contains(block.sequence_number)))
             forget();
         bool other = false;
-        for (const Item& item : program_.items(block)) {
-            if (item.kind == ItemKind::assign) continue;
-            if (item.kind != ItemKind::word) {
+        for (const interpreter::Item& item : program_.items(block)) {
+            if (item.kind == interpreter::ItemKind::assign) continue;
+            if (item.kind != interpreter::ItemKind::word) {
                 other = true;
                 continue;
             }
@@ -52,8 +52,8 @@ class ArcCheck {
         move(block);
     }
 
-    void take_code(const Item& item, bool& other) {
-        const auto value = constant_value(program_, item);
+    void take_code(const interpreter::Item& item, bool& other) {
+        const auto value = interpreter::constant_value(program_, item);
         if (!value) {
             forget();
             other = true;
@@ -119,8 +119,8 @@ class ArcCheck {
     }
 
     /// Calls may move and change modes; spindle and coolant do not.
-    void take_m(const Item& item, bool& other) {
-        const auto value = constant_value(program_, item);
+    void take_m(const interpreter::Item& item, bool& other) {
+        const auto value = interpreter::constant_value(program_, item);
         if (!value || code10_of(*value) >= 900 || code10_of(*value) == 60) other = true;
     }
 
@@ -129,7 +129,7 @@ class ArcCheck {
         plane_named_ = true;
     }
 
-    void check(const Block& block) {
+    void check(const interpreter::Block& block) {
         const bool words = has_word(block, "XYZIJKR");
         if (!words) return;
         if (!plane_named_ && !section_.subprogram && !plane_told_) {
@@ -149,7 +149,7 @@ class ArcCheck {
     }
 
     /// Way along one axis of the plane, from the start; false when it cannot be told.
-    bool delta(const Block& block, std::size_t axis, double& way) const {
+    bool delta(const interpreter::Block& block, std::size_t axis, double& way) const {
         if (!has_word(block, std::string_view(&axis_letters[axis], 1))) return true;
         const auto value = word_value(program_, block, axis_letters[axis]);
         if (!value) return false;
@@ -157,7 +157,7 @@ class ArcCheck {
         return true;
     }
 
-    void check_radius(const Block& block, double chord) {
+    void check_radius(const interpreter::Block& block, double chord) {
         const auto radius = word_value(program_, block, 'R');
         if (!radius || chord <= 2.0 * std::abs(*radius) + options_.arc_tolerance_mm) return;
         findings_.add(
@@ -166,7 +166,7 @@ class ArcCheck {
             "Correct the end point or the radius.");
     }
 
-    void check_centre(const Block& block, double end_1, double end_2) {
+    void check_centre(const interpreter::Block& block, double end_1, double end_2) {
         double centre[2] = {0.0, 0.0};
         const std::size_t axes[2] = {plane_.first, plane_.second};
         bool any = false;
@@ -187,14 +187,15 @@ class ArcCheck {
             "Correct the end point or the centre (I, J, K from the start).");
     }
 
-    bool has_word(const Block& block, std::string_view letters) const {
-        for (const Item& item : program_.items(block))
-            if (item.kind == ItemKind::word && letters.find(item.letter) != std::string_view::npos)
+    bool has_word(const interpreter::Block& block, std::string_view letters) const {
+        for (const interpreter::Item& item : program_.items(block))
+            if (item.kind == interpreter::ItemKind::word &&
+                letters.find(item.letter) != std::string_view::npos)
                 return true;
         return false;
     }
 
-    void move(const Block& block) {
+    void move(const interpreter::Block& block) {
         for (std::size_t k = 0; k < 3; ++k) {
             if (!has_word(block, std::string_view(&axis_letters[k], 1))) continue;
             const auto value = word_value(program_, block, axis_letters[k]);
@@ -213,7 +214,7 @@ class ArcCheck {
     }
 
     const CheckSection& section_;
-    const ParsedProgram& program_;
+    const interpreter::ParsedProgram& program_;
     const CheckOptions& options_;
     Findings& findings_;
     std::array<std::optional<double>, 3> position_{};
@@ -229,4 +230,4 @@ void check_arcs(const CheckSection& section, const CheckOptions& options, Findin
     ArcCheck(section, options, findings).run();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::check

@@ -8,7 +8,7 @@
 #include "check/section.h"
 #include "interpreter/alarms.h"
 
-namespace trunnion {
+namespace trunnion::check {
 
 const std::vector<CheckRule>& check_rules() {
     static const std::vector<CheckRule> table = {
@@ -36,7 +36,7 @@ int code10_of(double value) {
     return whole_of(std::round(value * 10.0));
 }
 
-void Findings::add(const char* rule, Severity severity, const Block& block, int column,
+void Findings::add(const char* rule, Severity severity, const interpreter::Block& block, int column,
                    std::string text, std::string remedy) {
     found_.push_back({rule, severity, program_.source.name, block.line, std::max(1, column),
                       std::move(text), std::move(remedy)});
@@ -78,28 +78,30 @@ std::vector<Finding> Findings::take() {
     return one_for_each_cause(std::move(found_));
 }
 
-std::optional<double> word_value(const ParsedProgram& program, const Block& block, char letter) {
-    for (const Item& item : program.items(block))
-        if (item.kind == ItemKind::word && item.letter == letter)
-            return constant_value(program, item);
+std::optional<double> word_value(const interpreter::ParsedProgram& program,
+                                 const interpreter::Block& block, char letter) {
+    for (const interpreter::Item& item : program.items(block))
+        if (item.kind == interpreter::ItemKind::word && item.letter == letter)
+            return interpreter::constant_value(program, item);
     return std::nullopt;
 }
 
 namespace {
 
 /// M30 and M99 in a block with G65 or G66 are arguments.
-bool passes_arguments(const ParsedProgram& program, const Block& block) {
+bool passes_arguments(const interpreter::ParsedProgram& program, const interpreter::Block& block) {
     return has_code(program, block, 'G', 650) || has_code(program, block, 'G', 660) ||
            has_code(program, block, 'G', 661);
 }
 
 }  // namespace
 
-bool has_code(const ParsedProgram& program, const Block& block, char letter, int code10) {
+bool has_code(const interpreter::ParsedProgram& program, const interpreter::Block& block,
+              char letter, int code10) {
     if (letter == 'M' && passes_arguments(program, block)) return false;
-    for (const Item& item : program.items(block)) {
-        if (item.kind != ItemKind::word || item.letter != letter) continue;
-        const auto value = constant_value(program, item);
+    for (const interpreter::Item& item : program.items(block)) {
+        if (item.kind != interpreter::ItemKind::word || item.letter != letter) continue;
+        const auto value = interpreter::constant_value(program, item);
         if (value && code10_of(*value) == code10) return true;
     }
     return false;
@@ -107,10 +109,11 @@ bool has_code(const ParsedProgram& program, const Block& block, char letter, int
 
 namespace {
 
-void note_jumps(const ParsedProgram& program, const Block& block, CheckSection& section) {
-    for (const Item& item : program.items(block)) {
-        if (item.kind != ItemKind::go_to) continue;
-        const auto target = constant_value(program, item);
+void note_jumps(const interpreter::ParsedProgram& program, const interpreter::Block& block,
+                CheckSection& section) {
+    for (const interpreter::Item& item : program.items(block)) {
+        if (item.kind != interpreter::ItemKind::go_to) continue;
+        const auto target = interpreter::constant_value(program, item);
         if (target)
             section.targets.insert(whole_of(*target));
         else
@@ -123,7 +126,7 @@ bool is_marker(std::string_view text) {
            text.starts_with(">>>>>>>");
 }
 
-void add_faults(const ParsedProgram& program, Findings& findings) {
+void add_faults(const interpreter::ParsedProgram& program, Findings& findings) {
     for (const Alarm& fault : program.faults) {
         Finding f;
         f.path = program.source.name;
@@ -132,7 +135,7 @@ void add_faults(const ParsedProgram& program, Findings& findings) {
         f.rule = is_marker(fault.block) ? "merge-marker" : "syntax";
         f.text = is_marker(fault.block) ? "a merge conflict was left in the file"
                                         : fmt::format("alarm {} {}", fault.number, fault.text);
-        const AlarmInfo* row = language_alarm(fault.number);
+        const interpreter::AlarmInfo* row = interpreter::language_alarm(fault.number);
         f.remedy = is_marker(fault.block) ? "Resolve the conflict and remove the markers."
                    : row != nullptr       ? row->remedy
                                           : "";
@@ -142,17 +145,19 @@ void add_faults(const ParsedProgram& program, Findings& findings) {
 
 }  // namespace
 
-std::vector<CheckSection> sections_of(const ParsedProgram& program) {
+std::vector<CheckSection> sections_of(const interpreter::ParsedProgram& program) {
     std::vector<CheckSection> sections;
     bool open = false;
-    for (const Block& block : program.blocks) {
-        if (block.kind == BlockKind::end_of_record) {
+    for (const interpreter::Block& block : program.blocks) {
+        if (block.kind == interpreter::BlockKind::end_of_record) {
             open = false;
             continue;
         }
-        if (block.items.count == 0 && block.sequence_number < 0 && block.kind != BlockKind::program)
+        if (block.items.count == 0 && block.sequence_number < 0 &&
+            block.kind != interpreter::BlockKind::program)
             continue;
-        if (!open || block.kind == BlockKind::program) sections.emplace_back().program = &program;
+        if (!open || block.kind == interpreter::BlockKind::program)
+            sections.emplace_back().program = &program;
         open = true;
         CheckSection& section = sections.back();
         section.blocks.push_back(&block);
@@ -163,8 +168,9 @@ std::vector<CheckSection> sections_of(const ParsedProgram& program) {
     return sections;
 }
 
-std::vector<Finding> check_program(const ProgramText& text, const CheckOptions& options) {
-    const ParsedProgram program = parse_program(text, options.dialect);
+std::vector<Finding> check_program(const interpreter::ProgramText& text,
+                                   const CheckOptions& options) {
+    const interpreter::ParsedProgram program = interpreter::parse_program(text, options.dialect);
     Findings findings(program);
     add_faults(program, findings);
     const std::vector<CheckSection> sections = sections_of(program);
@@ -180,4 +186,4 @@ std::vector<Finding> check_program(const ProgramText& text, const CheckOptions& 
     return findings.take();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::check

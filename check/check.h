@@ -12,7 +12,7 @@
 #include "interpreter/dialect.h"
 #include "interpreter/program_source.h"
 
-namespace trunnion {
+namespace trunnion::check {
 
 enum class Severity : unsigned char { error, warning };
 
@@ -36,15 +36,15 @@ class Trial {
   public:
     virtual ~Trial() = default;
     /// The alarm that stops the run here, or nothing.
-    virtual std::optional<Alarm> run(const BlockWords& block) = 0;
+    virtual std::optional<Alarm> run(const interpreter::BlockWords& block) = 0;
     /// The alarm of the words alone, whatever the program did before, or nothing.
-    virtual std::optional<Alarm> read(const BlockWords& block) = 0;
+    virtual std::optional<Alarm> read(const interpreter::BlockWords& block) = 0;
     /// The end of the program: what still waits goes out.
     virtual std::optional<Alarm> end() = 0;
 };
 
 struct CheckOptions {
-    Dialect dialect;
+    interpreter::Dialect dialect;
     /// Does the control have this G code (434 is G43.4)? Not checked when empty.
     std::function<bool(int code10)> knows_g;
     /// Is program O`number` known outside the file? Not checked when empty.
@@ -65,6 +65,7 @@ struct CheckOptions {
 
 /// All findings on one file, by line. Only what can be told for sure: computed values, positions
 /// behind jumps and machine data are left to a run.
-std::vector<Finding> check_program(const ProgramText& program, const CheckOptions& options);
+std::vector<Finding> check_program(const interpreter::ProgramText& program,
+                                   const CheckOptions& options);
 
-}  // namespace trunnion
+}  // namespace trunnion::check

@@ -3,7 +3,7 @@
 
 #include "check/section.h"
 
-namespace trunnion {
+namespace trunnion::check {
 
 namespace {
 
@@ -35,7 +35,7 @@ std::string name_of_code(int code10) {
 }
 
 /// A rotary word, and all of them are 0.
-bool turns_to_zero(const ParsedProgram& program, const Block& block) {
+bool turns_to_zero(const interpreter::ParsedProgram& program, const interpreter::Block& block) {
     bool any = false;
     for (const char letter : {'A', 'B', 'C'}) {
         const auto value = word_value(program, block, letter);
@@ -45,7 +45,7 @@ bool turns_to_zero(const ParsedProgram& program, const Block& block) {
     return any;
 }
 
-void at_end(const Followed& state, const Block& block, Findings& findings) {
+void at_end(const Followed& state, const interpreter::Block& block, Findings& findings) {
     if (state.tool_centre)
         findings.add("left-on", Severity::warning, block, 1,
                      "tool centre point control (G43.4, G43.5) is still on at the end",
@@ -59,12 +59,12 @@ void at_end(const Followed& state, const Block& block, Findings& findings) {
 }  // namespace
 
 void check_codes(const CheckSection& section, const CheckOptions& options, Findings& findings) {
-    const ParsedProgram& program = *section.program;
+    const interpreter::ParsedProgram& program = *section.program;
     Followed state;
-    for (const Block* block : section.blocks) {
-        for (const Item& item : program.items(*block)) {
-            if (item.kind != ItemKind::word || item.letter != 'G') continue;
-            const auto value = constant_value(program, item);
+    for (const interpreter::Block* block : section.blocks) {
+        for (const interpreter::Item& item : program.items(*block)) {
+            if (item.kind != interpreter::ItemKind::word || item.letter != 'G') continue;
+            const auto value = interpreter::constant_value(program, item);
             if (!value) continue;
             const int code = code10_of(*value);
             if (options.knows_g && !options.knows_g(code))
@@ -94,4 +94,4 @@ void check_codes(const CheckSection& section, const CheckOptions& options, Findi
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::check

@@ -3,7 +3,7 @@
 
 #include "check/section.h"
 
-namespace trunnion {
+namespace trunnion::check {
 
 namespace {
 
@@ -24,19 +24,20 @@ constexpr Mark marks[] = {
     {"Haas", 'M', 1300, "", "M130"},
 };
 
-bool has_letters(const ParsedProgram& program, const Block& block, const char* letters) {
+bool has_letters(const interpreter::ParsedProgram& program, const interpreter::Block& block,
+                 const char* letters) {
     for (; *letters; ++letters) {
         bool found = false;
-        for (const Item& item : program.items(block))
-            found = found || (item.kind == ItemKind::word && item.letter == *letters);
+        for (const interpreter::Item& item : program.items(block))
+            found = found || (item.kind == interpreter::ItemKind::word && item.letter == *letters);
         if (!found) return false;
     }
     return true;
 }
 
-const Mark* find_mark(const ParsedProgram& program, const Block& block,
+const Mark* find_mark(const interpreter::ParsedProgram& program, const interpreter::Block& block,
                       const CheckOptions& options) {
-    if (block.kind == BlockKind::statements) return nullptr;
+    if (block.kind == interpreter::BlockKind::statements) return nullptr;
     for (const Mark& mark : marks) {
         if (options.calls_program && options.calls_program(mark.letter, mark.code10)) continue;
         if (has_code(program, block, mark.letter, mark.code10) &&
@@ -51,7 +52,7 @@ const Mark* find_mark(const ParsedProgram& program, const Block& block,
 bool check_family(const std::vector<CheckSection>& sections, const CheckOptions& options,
                   Findings& findings) {
     for (const CheckSection& section : sections)
-        for (const Block* block : section.blocks) {
+        for (const interpreter::Block* block : section.blocks) {
             const Mark* mark = find_mark(*section.program, *block, options);
             if (!mark) continue;
             findings.add("family", Severity::error, *block, 1,
@@ -63,4 +64,4 @@ bool check_family(const std::vector<CheckSection>& sections, const CheckOptions&
     return false;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::check

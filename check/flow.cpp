@@ -5,13 +5,13 @@
 
 #include "check/section.h"
 
-namespace trunnion {
+namespace trunnion::check {
 
 namespace {
 
-void check_jump(const CheckSection& section, const Block& block, const Item& item,
-                Findings& findings) {
-    const auto target = constant_value(*section.program, item);
+void check_jump(const CheckSection& section, const interpreter::Block& block,
+                const interpreter::Item& item, Findings& findings) {
+    const auto target = interpreter::constant_value(*section.program, item);
     if (!target) return;
     const int number = whole_of(*target);
     const auto found = section.numbered.find(number);
@@ -29,12 +29,12 @@ void check_jump(const CheckSection& section, const Block& block, const Item& ite
 
 struct OpenLoop {
     int number;
-    const Block* block;
+    const interpreter::Block* block;
     int column;
 };
 
-void close_loop(std::vector<OpenLoop>& loops, const Block& block, const Item& item,
-                Findings& findings) {
+void close_loop(std::vector<OpenLoop>& loops, const interpreter::Block& block,
+                const interpreter::Item& item, Findings& findings) {
     if (!loops.empty() && loops.back().number == item.number) {
         loops.pop_back();
         return;
@@ -53,15 +53,15 @@ void close_loop(std::vector<OpenLoop>& loops, const Block& block, const Item& it
 }
 
 /// The loops round a block, from the outermost: their DO blocks.
-using Nest = std::vector<const Block*>;
+using Nest = std::vector<const interpreter::Block*>;
 
 /// A constant GOTO into a loop that does not hold the GOTO: its END has no DO that runs.
-void check_entries(const CheckSection& section, const std::map<const Block*, Nest>& nests,
-                   Findings& findings) {
+void check_entries(const CheckSection& section,
+                   const std::map<const interpreter::Block*, Nest>& nests, Findings& findings) {
     for (const auto& [block, nest] : nests)
-        for (const Item& item : section.program->items(*block)) {
-            if (item.kind != ItemKind::go_to) continue;
-            const auto value = constant_value(*section.program, item);
+        for (const interpreter::Item& item : section.program->items(*block)) {
+            if (item.kind != interpreter::ItemKind::go_to) continue;
+            const auto value = interpreter::constant_value(*section.program, item);
             const auto found = section.numbered.find(value ? whole_of(*value) : -1);
             if (found == section.numbered.end() || found->second.size() != 1) continue;
             const auto target = nests.find(found->second[0]);
@@ -79,19 +79,21 @@ void check_entries(const CheckSection& section, const std::map<const Block*, Nes
 
 void check_statements(const CheckSection& section, Findings& findings) {
     std::vector<OpenLoop> loops;
-    std::map<const Block*, Nest> nests;  // of blocks that jump or are jumped to
-    for (const Block* block : section.blocks) {
+    std::map<const interpreter::Block*, Nest> nests;  // of blocks that jump or are jumped to
+    for (const interpreter::Block* block : section.blocks) {
         bool jumps = section.targets.contains(block->sequence_number);
-        for (const Item& item : section.program->items(*block))
-            jumps = jumps || item.kind == ItemKind::go_to;
+        for (const interpreter::Item& item : section.program->items(*block))
+            jumps = jumps || item.kind == interpreter::ItemKind::go_to;
         if (jumps)
             for (const OpenLoop& loop : loops) nests[block].push_back(loop.block);
         if (jumps && loops.empty()) nests[block];
-        for (const Item& item : section.program->items(*block)) {
-            if (item.kind == ItemKind::go_to) check_jump(section, *block, item, findings);
-            if (item.kind == ItemKind::while_do || item.kind == ItemKind::do_only)
+        for (const interpreter::Item& item : section.program->items(*block)) {
+            if (item.kind == interpreter::ItemKind::go_to)
+                check_jump(section, *block, item, findings);
+            if (item.kind == interpreter::ItemKind::while_do ||
+                item.kind == interpreter::ItemKind::do_only)
                 loops.push_back({item.number, block, item.column});
-            if (item.kind == ItemKind::end) close_loop(loops, *block, item, findings);
+            if (item.kind == interpreter::ItemKind::end) close_loop(loops, *block, item, findings);
         }
     }
     check_entries(section, nests, findings);
@@ -102,33 +104,34 @@ void check_statements(const CheckSection& section, Findings& findings) {
 }
 
 /// Nothing behind it runs unless something jumps there: GOTO, M30, M02, M99 without a condition.
-bool leaves(const ParsedProgram& program, const Block& block) {
+bool leaves(const interpreter::ParsedProgram& program, const interpreter::Block& block) {
     bool jump = false;
-    for (const Item& item : program.items(block)) {
-        if (item.kind == ItemKind::skip || item.kind == ItemKind::if_goto) return false;
-        jump = jump || item.kind == ItemKind::go_to;
+    for (const interpreter::Item& item : program.items(block)) {
+        if (item.kind == interpreter::ItemKind::skip || item.kind == interpreter::ItemKind::if_goto)
+            return false;
+        jump = jump || item.kind == interpreter::ItemKind::go_to;
     }
     return jump || has_code(program, block, 'M', 300) || has_code(program, block, 'M', 20) ||
            has_code(program, block, 'M', 990);
 }
 
-bool is_entered(const CheckSection& section, const Block& block) {
+bool is_entered(const CheckSection& section, const interpreter::Block& block) {
     if (block.sequence_number >= 0 &&
         (section.computed_jump || section.targets.contains(block.sequence_number)))
         return true;
-    for (const Item& item : section.program->items(block))
-        if (item.kind == ItemKind::end) return true;
+    for (const interpreter::Item& item : section.program->items(block))
+        if (item.kind == interpreter::ItemKind::end) return true;
     return false;
 }
 
 void check_reach(const CheckSection& section, Findings& findings) {
     bool reached = true, told = false;
-    for (const Block* block : section.blocks) {
+    for (const interpreter::Block* block : section.blocks) {
         if (is_entered(section, *block)) reached = true;
         // A number alone may be what a caller's M99 P or M98 Q returns to.
         const bool numbered = block->sequence_number >= 0 && section.subprogram;
         if (!reached && !told && !numbered && block->items.count > 0 &&
-            block->kind != BlockKind::program) {
+            block->kind != interpreter::BlockKind::program) {
             findings.add("unreachable", Severity::warning, *block, 1,
                          "never reached: the block before leaves, and nothing jumps here",
                          "Remove it, or give it the N number of a jump.");
@@ -142,14 +145,15 @@ void check_reach(const CheckSection& section, Findings& findings) {
     }
 }
 
-std::optional<int> called_program(const ParsedProgram& program, const Block& block, int& column) {
+std::optional<int> called_program(const interpreter::ParsedProgram& program,
+                                  const interpreter::Block& block, int& column) {
     const bool m98 = has_code(program, block, 'M', 980);
     const bool macro = has_code(program, block, 'G', 650) || has_code(program, block, 'G', 660) ||
                        has_code(program, block, 'G', 661);
     if (!m98 && !macro) return std::nullopt;
-    for (const Item& item : program.items(block)) {
-        if (item.kind != ItemKind::word || item.letter != 'P') continue;
-        const auto value = constant_value(program, item);
+    for (const interpreter::Item& item : program.items(block)) {
+        if (item.kind != interpreter::ItemKind::word || item.letter != 'P') continue;
+        const auto value = interpreter::constant_value(program, item);
         if (!value || *value != std::floor(*value)) return std::nullopt;
         column = item.column;
         return whole_of(*value);
@@ -157,11 +161,11 @@ std::optional<int> called_program(const ParsedProgram& program, const Block& blo
     return std::nullopt;
 }
 
-void check_named_call(const ParsedProgram& program, const Block& block,
+void check_named_call(const interpreter::ParsedProgram& program, const interpreter::Block& block,
                       const std::set<std::string, std::less<>>& own, const CheckOptions& options,
                       Findings& findings) {
-    for (const Item& item : program.items(block)) {
-        if (item.kind != ItemKind::word || item.letter != '<') continue;
+    for (const interpreter::Item& item : program.items(block)) {
+        if (item.kind != interpreter::ItemKind::word || item.letter != '<') continue;
         const std::string name = program.code.text.substr(item.b.first, item.b.count);
         if (own.contains(name) || (options.finds_named && options.finds_named(name))) continue;
         findings.add("subprogram-missing", Severity::error, block, item.column,
@@ -177,14 +181,15 @@ void check_flow(const CheckSection& section, Findings& findings) {
     check_reach(section, findings);
 }
 
-void check_calls(const ParsedProgram& program, const std::vector<CheckSection>& sections,
-                 const CheckOptions& options, Findings& findings) {
+void check_calls(const interpreter::ParsedProgram& program,
+                 const std::vector<CheckSection>& sections, const CheckOptions& options,
+                 Findings& findings) {
     if (!options.finds_program) return;
     std::set<int> own;
     std::set<std::string, std::less<>> own_names;
     for (const CheckSection& section : sections)
-        for (const Block* block : section.blocks) {
-            if (block->kind != BlockKind::program) continue;
+        for (const interpreter::Block* block : section.blocks) {
+            if (block->kind != interpreter::BlockKind::program) continue;
             own.insert(block->o_number);
             own_names.emplace(
                 program.source.text.substr(block->byte + block->name.first, block->name.count));
@@ -193,7 +198,7 @@ void check_calls(const ParsedProgram& program, const std::vector<CheckSection>& 
         return own.contains(number) || options.finds_program(number);
     };
     for (const CheckSection& section : sections)
-        for (const Block* block : section.blocks) {
+        for (const interpreter::Block* block : section.blocks) {
             check_named_call(program, *block, own_names, options, findings);
             int column = 1;
             const auto number = called_program(program, *block, column);
@@ -208,4 +213,4 @@ void check_calls(const ParsedProgram& program, const std::vector<CheckSection>& 
         }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::check

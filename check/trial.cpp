@@ -3,7 +3,7 @@
 
 #include "check/section.h"
 
-namespace trunnion {
+namespace trunnion::check {
 
 namespace {
 
@@ -17,19 +17,22 @@ bool is_call(char letter, int code10, const CheckOptions& options) {
 }
 
 /// Only variables of the language are set: nothing of the control changes.
-bool sets_own_variables(const ParsedProgram& program, const Block& block) {
-    for (const Item& item : program.items(block))
-        if (item.kind != ItemKind::assign || item.b.count > 0 || item.value >= 1000.0) return false;
+bool sets_own_variables(const interpreter::ParsedProgram& program,
+                        const interpreter::Block& block) {
+    for (const interpreter::Item& item : program.items(block))
+        if (item.kind != interpreter::ItemKind::assign || item.b.count > 0 || item.value >= 1000.0)
+            return false;
     return true;
 }
 
-Step step_of(const ParsedProgram& program, const Block& block, const CheckOptions& options) {
-    if (block.kind == BlockKind::statements)
+Step step_of(const interpreter::ParsedProgram& program, const interpreter::Block& block,
+             const CheckOptions& options) {
+    if (block.kind == interpreter::BlockKind::statements)
         return sets_own_variables(program, block) ? Step::pass : Step::unknown;
     bool ends = false;
-    for (const Item& item : program.items(block)) {
-        if (item.kind != ItemKind::word || item.letter == '<') return Step::unknown;
-        const auto value = constant_value(program, item);
+    for (const interpreter::Item& item : program.items(block)) {
+        if (item.kind != interpreter::ItemKind::word || item.letter == '<') return Step::unknown;
+        const auto value = interpreter::constant_value(program, item);
         if (!value) return Step::unknown;
         const int code = code10_of(*value);
         if (is_call(item.letter, code, options)) return Step::unknown;
@@ -44,7 +47,7 @@ Step step_of(const ParsedProgram& program, const Block& block, const CheckOption
     return ends ? Step::end : Step::run;
 }
 
-void add_alarm(const Alarm& alarm, const CheckSection& section, const Block& block,
+void add_alarm(const Alarm& alarm, const CheckSection& section, const interpreter::Block& block,
                const CheckOptions& options, Findings& findings) {
     const int line = alarm.where.line > 0 ? alarm.where.line : block.line;
     if (findings.has_error(line)) return;  // one finding for one cause
@@ -68,16 +71,17 @@ namespace {
 
 /// The words that are left for the control when the language has taken those of M98, M198 or M99;
 /// nothing where the block's words are arguments or belong to a called program.
-std::optional<BlockWords> words_for_control(const ParsedProgram& program, const Block& block,
-                                            const CheckOptions& options) {
-    if (block.kind == BlockKind::statements) return std::nullopt;
+std::optional<interpreter::BlockWords> words_for_control(const interpreter::ParsedProgram& program,
+                                                         const interpreter::Block& block,
+                                                         const CheckOptions& options) {
+    if (block.kind == interpreter::BlockKind::statements) return std::nullopt;
     const auto constants = constant_words(program, block);
     if (!constants || !constants->all) return std::nullopt;
     const bool back = has_code(program, block, 'M', 990);
     const bool call = has_code(program, block, 'M', 980) || has_code(program, block, 'M', 1980);
-    BlockWords out = constants->words;
+    interpreter::BlockWords out = constants->words;
     out.count = 0;
-    for (const WordValue& w : constants->words) {
+    for (const interpreter::WordValue& w : constants->words) {
         const int code = code10_of(w.value);
         if (w.letter == 'G' && is_call('G', code, options)) return std::nullopt;
         if (options.calls_program && options.calls_program(w.letter, code)) return std::nullopt;
@@ -93,7 +97,7 @@ std::optional<BlockWords> words_for_control(const ParsedProgram& program, const 
 void read_on(const CheckSection& section, std::size_t from, Trial& trial,
              const CheckOptions& options, Findings& findings) {
     for (std::size_t i = from; i < section.blocks.size(); ++i) {
-        const Block& block = *section.blocks[i];
+        const interpreter::Block& block = *section.blocks[i];
         const auto words = words_for_control(*section.program, block, options);
         if (!words || words->count == 0) continue;
         if (const auto alarm = trial.read(*words))
@@ -108,7 +112,7 @@ void check_trial(const CheckSection& section, const CheckOptions& options, Findi
     const auto trial = options.start_trial();
     std::size_t at = 0;
     for (; at < section.blocks.size() && !section.subprogram; ++at) {
-        const Block& block = *section.blocks[at];
+        const interpreter::Block& block = *section.blocks[at];
         const Step step = step_of(*section.program, block, options);
         if (step == Step::unknown) break;
         if (step == Step::pass) continue;
@@ -129,4 +133,4 @@ void check_trial(const CheckSection& section, const CheckOptions& options, Findi
         add_alarm(*alarm, section, *section.blocks.back(), options, findings);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::check

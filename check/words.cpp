@@ -5,7 +5,7 @@
 #include "interpreter/memory.h"
 #include "interpreter/word_rules.h"
 
-namespace trunnion {
+namespace trunnion::check {
 
 namespace {
 
@@ -15,7 +15,7 @@ std::string alarm_text(const CheckOptions& options, int number) {
     return options.alarm_text ? options.alarm_text(number) : fmt::format("alarm {}", number);
 }
 
-void check_block_words(const ParsedProgram& program, const Block& block,
+void check_block_words(const interpreter::ParsedProgram& program, const interpreter::Block& block,
                        const CheckOptions& options, Findings& findings) {
     const auto constants = constant_words(program, block);
     if (!constants)
@@ -24,11 +24,11 @@ void check_block_words(const ParsedProgram& program, const Block& block,
                             "Split the block.");
     bool mapped = false;
     if (options.calls_program)
-        for (const WordValue& w : constants->words)
+        for (const interpreter::WordValue& w : constants->words)
             mapped = mapped || ((w.letter == 'G' || w.letter == 'M') &&
                                 options.calls_program(w.letter, code10_of(w.value)));
     if (mapped) return;  // the words are arguments
-    if (const auto fault = find_word_fault(constants->words, constants->all))
+    if (const auto fault = interpreter::find_word_fault(constants->words, constants->all))
         findings.add(
             "word", Severity::error, block, fault->column,
             alarm_text(options, fault->alarm) + (fault->detail.empty() ? "" : " " + fault->detail),
@@ -38,12 +38,14 @@ void check_block_words(const ParsedProgram& program, const Block& block,
 /// 115 and 116 of a variable number.
 int variable_alarm(int number, bool writes, const CheckOptions& options) {
     if (number == 0) return writes ? 116 : 0;
-    if (number <= local_count || common_slot(number, options.dialect.has_98000) >= 0) return 0;
+    if (number <= interpreter::local_count ||
+        interpreter::common_slot(number, options.dialect.has_98000) >= 0)
+        return 0;
     if (number < 1000) return 115;
     return options.variable_alarm ? options.variable_alarm(number, writes) : 0;
 }
 
-void check_variable(int number, bool writes, const Block& block, int column,
+void check_variable(int number, bool writes, const interpreter::Block& block, int column,
                     const CheckOptions& options, Findings& findings) {
     const int alarm = variable_alarm(number, writes, options);
     if (alarm == 0) return;
@@ -52,36 +54,40 @@ void check_variable(int number, bool writes, const Block& block, int column,
                  alarm == 116 ? "Write to another variable." : "Use a variable of this control.");
 }
 
-void check_variables(const ParsedProgram& program, const Block& block, const CheckOptions& options,
-                     Findings& findings) {
-    for (const Item& item : program.items(block)) {
-        for (const Span span : {item.a, item.b}) {
+void check_variables(const interpreter::ParsedProgram& program, const interpreter::Block& block,
+                     const CheckOptions& options, Findings& findings) {
+    for (const interpreter::Item& item : program.items(block)) {
+        for (const interpreter::Span span : {item.a, item.b}) {
             if (item.letter == '<') continue;
-            if (item.kind == ItemKind::print_text || item.kind == ItemKind::setvn) continue;
-            for (const Op& op : program.expression(span))
-                if (op.code == OpCode::system)
+            if (item.kind == interpreter::ItemKind::print_text ||
+                item.kind == interpreter::ItemKind::setvn)
+                continue;
+            for (const interpreter::Op& op : program.expression(span))
+                if (op.code == interpreter::OpCode::system)
                     check_variable(op.number, false, block, op.column, options, findings);
         }
-        if (item.kind == ItemKind::assign && item.b.count == 0)
+        if (item.kind == interpreter::ItemKind::assign && item.b.count == 0)
             check_variable(whole_of(item.value), true, block, item.column, options, findings);
     }
 }
 
 }  // namespace
 
-std::optional<ConstantWords> constant_words(const ParsedProgram& program, const Block& block) {
+std::optional<ConstantWords> constant_words(const interpreter::ParsedProgram& program,
+                                            const interpreter::Block& block) {
     ConstantWords out;
     out.words.line = block.line;
     out.words.byte = block.byte;
     out.words.sequence_number = block.sequence_number;
-    for (const Item& item : program.items(block)) {
-        if (item.kind != ItemKind::word) continue;
-        const std::optional<double> value =
-            item.letter == '<' ? std::optional<double>(0.0) : constant_value(program, item);
+    for (const interpreter::Item& item : program.items(block)) {
+        if (item.kind != interpreter::ItemKind::word) continue;
+        const std::optional<double> value = item.letter == '<'
+                                                ? std::optional<double>(0.0)
+                                                : interpreter::constant_value(program, item);
         out.all = out.all && value;
         if (!value) continue;
-        if (out.words.count == BlockWords::capacity) return std::nullopt;
-        WordValue& word = out.words.words[out.words.count++];
+        if (out.words.count == interpreter::BlockWords::capacity) return std::nullopt;
+        interpreter::WordValue& word = out.words.words[out.words.count++];
         word.letter = item.letter;
         word.value = *value;
         word.decimal_point = item.decimal_point;
@@ -91,12 +97,13 @@ std::optional<ConstantWords> constant_words(const ParsedProgram& program, const 
 }
 
 void check_words(const CheckSection& section, const CheckOptions& options, Findings& findings) {
-    for (const Block* block : section.blocks) {
+    for (const interpreter::Block* block : section.blocks) {
         check_block_words(*section.program, *block, options, findings);
-        if (block->kind == BlockKind::computed || block->kind == BlockKind::statements ||
-            block->kind == BlockKind::program)
+        if (block->kind == interpreter::BlockKind::computed ||
+            block->kind == interpreter::BlockKind::statements ||
+            block->kind == interpreter::BlockKind::program)
             check_variables(*section.program, *block, options, findings);
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::check

@@ -7,29 +7,29 @@
 #include "cli/options.h"
 #include "cli/setups.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 
 namespace {
 
 int load(const std::string& folder) {
-    const ControlBackup backup = read_backup(folder);
-    Stores stores;
-    apply_backup(backup, stores);
-    for (const BackupValue& v : list_values(backup))
+    const backup::ControlBackup backup = backup::read_backup(folder);
+    offsets::Stores stores;
+    backup::apply_backup(backup, stores);
+    for (const backup::BackupValue& v : backup::list_values(backup))
         print_out("{}\t{}\t{}\n", v.file, v.name, v.text);
     return exit_done;
 }
 
 int save(const std::string& from, const std::string& to, const std::string& setup_path) {
-    ControlBackup backup = read_backup(from);
-    update_backup(backup, open_setup(setup_path).stores);
-    write_backup(backup, to);
+    backup::ControlBackup backup = backup::read_backup(from);
+    backup::update_backup(backup, open_setup(setup_path).stores);
+    backup::write_backup(backup, to);
     return exit_done;
 }
 
 int diff(const std::string& a, const std::string& b) {
-    const auto differences = diff_backups(read_backup(a), read_backup(b));
-    for (const BackupDifference& d : differences)
+    const auto differences = backup::diff_backups(backup::read_backup(a), backup::read_backup(b));
+    for (const backup::BackupDifference& d : differences)
         print_out("{}\t{}\t{}\t{}\n", d.file, d.name, d.a.empty() ? "-" : d.a,
                   d.b.empty() ? "-" : d.b);
     return differences.empty() ? exit_done : exit_differs;
@@ -64,4 +64,4 @@ void add_backup(CLI::App& app, Run& run) {
     diff_word->callback([o, &run] { run = [o] { return diff(o->a, o->b); }; });
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

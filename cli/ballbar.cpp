@@ -11,7 +11,7 @@
 #include "effects/settings.h"
 #include "report/ballbar_report.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 
 namespace {
 
@@ -21,41 +21,41 @@ struct BallbarOptions {
     std::vector<std::string> injections;
     std::vector<double> pivot_offset_mm;
     std::uint64_t seed = 1;
-    SetupTimes times;
+    ballbar::test::SetupTimes times;
     bool json = false, hurco = false, inside = false;
 };
 
 /// --program and --kinematic-program only write; nothing runs.
-int write_programs(const Setup& setup, const BallbarOptions& o) {
-    Machine nominal = setup.machine;
+int write_programs(const setup::Setup& setup, const BallbarOptions& o) {
+    kinematics::Machine nominal = setup.machine;
     nominal.errors = {};
-    BallbarProgramData data = stated_program_data(setup, o.inside);
+    ballbar::test::BallbarProgramData data = ballbar::test::stated_program_data(setup, o.inside);
     data.hurco = data.hurco || o.hurco;
     OutputFiles files;
-    if (!o.program.empty()) files.add(o.program, ballbar_program(nominal, data));
+    if (!o.program.empty()) files.add(o.program, ballbar::test::ballbar_program(nominal, data));
     if (!o.kinematic_program.empty())
-        files.add(o.kinematic_program, kinematic_test_program(nominal, data));
+        files.add(o.kinematic_program, ballbar::test::kinematic_test_program(nominal, data));
     files.write();
     return exit_done;
 }
 
-BallbarResult simulate(const BallbarOptions& o, const Setup& setup) {
-    BallbarProcedureOptions options;
+ballbar::test::BallbarResult simulate(const BallbarOptions& o, const setup::Setup& setup) {
+    ballbar::test::BallbarProcedureOptions options;
     options.seed = o.seed;
-    options.effects = active_models(setup);
+    options.effects = effects::active_models(setup);
     options.times = o.times;
     options.inside = o.inside;
     if (!o.pivot_offset_mm.empty())
         options.pivot_offset_mm = {o.pivot_offset_mm[0], o.pivot_offset_mm[1],
                                    o.pivot_offset_mm[2]};
-    return run_ballbar(setup, options);
+    return ballbar::test::run_ballbar(setup, options);
 }
 
-BallbarResult evaluate(const BallbarOptions& o, const Setup& setup) {
-    const ReadingTable before = load_readings(o.measured[0], setup);
-    std::optional<ReadingTable> after;
+ballbar::test::BallbarResult evaluate(const BallbarOptions& o, const setup::Setup& setup) {
+    const records::ReadingTable before = load_readings(o.measured[0], setup);
+    std::optional<records::ReadingTable> after;
     if (o.measured.size() > 1) after = load_readings(o.measured[1], setup);
-    return evaluate_ballbar(setup, before, after);
+    return ballbar::test::evaluate_ballbar(setup, before, after);
 }
 
 /// Real passes know nothing of what a simulator would be told.
@@ -74,22 +74,24 @@ void refuse_simulation_options(const BallbarOptions& o) {
 
 int run_command(const BallbarOptions& o) {
     if (!o.measured.empty()) refuse_simulation_options(o);
-    Setup setup = open_setup(o.setup);
-    const Catalogue catalogue = make_catalogue(setup);
+    setup::Setup setup = open_setup(o.setup);
+    const effects::Catalogue catalogue = effects::make_catalogue(setup);
     for (const std::string& text : o.injections)
-        setup.effects.push_back(parse_injection(text, catalogue));
+        setup.effects.push_back(effects::parse_injection(text, catalogue));
     if (!o.program.empty() || !o.kinematic_program.empty()) return write_programs(setup, o);
-    const BallbarResult result = o.measured.empty() ? simulate(o, setup) : evaluate(o, setup);
+    const ballbar::test::BallbarResult result =
+        o.measured.empty() ? simulate(o, setup) : evaluate(o, setup);
     print_notes(result.notes);
     OutputFiles files;
-    files.add("-", o.json ? ballbar_json(result) : ballbar_table(result));
-    if (!o.csv.empty()) files.add(o.csv, ballbar_csv(result));
-    if (!o.readings.empty()) files.add(o.readings, format_readings(result.before.readings));
+    files.add("-", o.json ? report::ballbar_json(result) : report::ballbar_table(result));
+    if (!o.csv.empty()) files.add(o.csv, report::ballbar_csv(result));
+    if (!o.readings.empty())
+        files.add(o.readings, records::format_readings(result.before.readings));
     if (!o.readings_after.empty())
-        files.add(o.readings_after, format_readings(result.after.readings));
+        files.add(o.readings_after, records::format_readings(result.after.readings));
     if (!o.svg_folder.empty()) {
         make_folder(o.svg_folder);
-        for (const auto& [name, text] : ballbar_pictures(result))
+        for (const auto& [name, text] : report::ballbar_pictures(result))
             files.add((std::filesystem::path(o.svg_folder) / name).string(), text);
     }
     files.write();
@@ -136,4 +138,4 @@ void add_ballbar(CLI::App& app, Run& run) {
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

@@ -8,7 +8,7 @@
 #include "cli/long_work.h"
 #include "cli/options.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 
 void add_budget(CLI::App& command, BudgetOptions& limits) {
     command.add_option("--max-blocks", limits.blocks, "stop after so many blocks (1e8; 0: never)");
@@ -33,4 +33,4 @@ int report_limit(BudgetLimit limit, std::uint64_t blocks) {
     return exit_limit;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

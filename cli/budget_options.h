@@ -10,7 +10,7 @@ namespace CLI {
 class App;
 }
 
-namespace trunnion {
+namespace trunnion::cli {
 
 /// 0: no limit. An endless program ends by the first of these, exit code 4.
 struct BudgetOptions {
@@ -24,4 +24,4 @@ Budget budget_of(const BudgetOptions& limits);
 /// Says on stderr which limit ended the work; returns its exit code.
 int report_limit(BudgetLimit limit, std::uint64_t blocks);
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

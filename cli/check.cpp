@@ -24,7 +24,7 @@
 #include "regression/suite.h"
 #include "report/findings_report.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 
 namespace {
 
@@ -42,7 +42,7 @@ std::vector<std::string> files_of(const std::vector<std::string>& paths) {
             files.push_back(path);
             continue;
         }
-        const auto names = programs_below(path);
+        const auto names = regression::programs_below(path);
         if (names.empty()) throw InputError("no NC program in this folder", {path, 0, 0});
         for (const std::string& name : names)
             files.push_back((std::filesystem::path(path) / name).generic_string());
@@ -51,56 +51,61 @@ std::vector<std::string> files_of(const std::vector<std::string>& paths) {
 }
 
 /// Codes that call programs by parameters 6050-6089 and 6001#5.
-bool calls_program(const CodeCalls& calls, char letter, int code10) {
+bool calls_program(const interpreter::CodeCalls& calls, char letter, int code10) {
     if (letter == 'T') return calls.t_calls_9000;
     return letter == 'G' ? calls.g.contains(code10)
                          : code10 % 10 == 0 && calls.m.contains(code10 / 10);
 }
 
-bool knows_g(const Setup& setup, int code10) {
-    const GCode* code = find_g_code(code10 / 10.0);
-    if (code) return code->action != Action::thread || setup.threading;
-    for (const GCode& own : setup.builder.g_codes)
+bool knows_g(const setup::Setup& setup, int code10) {
+    const controller::GCode* code = controller::find_g_code(code10 / 10.0);
+    if (code) return code->action != controller::Action::thread || setup.threading;
+    for (const controller::GCode& own : setup.builder.g_codes)
         if (own.code10 == code10) return true;
     return code10 == 650 || code10 == 660 || code10 == 661 || code10 == 670;  // of the language
 }
 
 /// The control of a setup, block by block.
-class SetupTrial : public Trial {
+class SetupTrial : public check::Trial {
   public:
-    explicit SetupTrial(const Setup& setup) : trial_(control_config(setup), setup.stores) {}
-    std::optional<Alarm> run(const BlockWords& block) override { return trial_.run(block); }
-    std::optional<Alarm> read(const BlockWords& block) override { return trial_.read(block); }
+    explicit SetupTrial(const setup::Setup& setup)
+        : trial_(emulator::control_config(setup), setup.stores) {}
+    std::optional<Alarm> run(const interpreter::BlockWords& block) override {
+        return trial_.run(block);
+    }
+    std::optional<Alarm> read(const interpreter::BlockWords& block) override {
+        return trial_.read(block);
+    }
     std::optional<Alarm> end() override { return trial_.end(); }
 
   private:
-    BlockTrial trial_;
+    controller::BlockTrial trial_;
 };
 
 /// What one setup's control says about programs; variables are asked once.
 class SetupRules {
   public:
-    explicit SetupRules(const Setup& setup)
-        : setup_(setup), calls_(decode_code_calls(setup.stores.parameters)) {}
+    explicit SetupRules(const setup::Setup& setup)
+        : setup_(setup), calls_(controller::decode_code_calls(setup.stores.parameters)) {}
 
-    CheckOptions options() {
-        CheckOptions out;
+    check::CheckOptions options() {
+        check::CheckOptions out;
         out.dialect = setup_.dialect;
         out.knows_g = [this](int code10) {
-            return knows_g(setup_, code10) || trunnion::calls_program(calls_, 'G', code10);
+            return knows_g(setup_, code10) || cli::calls_program(calls_, 'G', code10);
         };
         out.calls_program = [this](char letter, int code10) {
-            return trunnion::calls_program(calls_, letter, code10);
+            return cli::calls_program(calls_, letter, code10);
         };
         out.alarm_text = [](int number) {
-            const AlarmRow* row = find_alarm(number);
-            return alarm_title(number, row ? row->text : "");
+            const controller::AlarmRow* row = controller::find_alarm(number);
+            return controller::alarm_title(number, row ? row->text : "");
         };
         out.variable_alarm = [this](int number, bool writes) {
             const auto [known, fresh] = variables_.try_emplace({number, writes}, 0);
             if (fresh)
-                known->second =
-                    trunnion::variable_alarm(number, writes, control_config(setup_), setup_.stores);
+                known->second = trunnion::controller::variable_alarm(
+                    number, writes, emulator::control_config(setup_), setup_.stores);
             return known->second;
         };
         out.start_trial = [this] { return std::make_unique<SetupTrial>(setup_); };
@@ -108,63 +113,65 @@ class SetupRules {
     }
 
   private:
-    const Setup& setup_;
-    CodeCalls calls_;
+    const setup::Setup& setup_;
+    interpreter::CodeCalls calls_;
     std::map<std::pair<int, bool>, int> variables_;
 };
 
-class NoDevices : public MotionSink {
+class NoDevices : public motion::MotionSink {
   public:
-    MoveResult move(const AxisMove&) override { return {}; }
+    motion::MoveResult move(const motion::AxisMove&) override { return {}; }
 };
 
-void run_without_devices(const Setup& setup, const ProgramText& program, const CheckCommand& c,
-                         std::vector<Finding>& findings) {
-    Stores stores = setup.stores;
+void run_without_devices(const setup::Setup& setup, const interpreter::ProgramText& program,
+                         const CheckCommand& c, std::vector<check::Finding>& findings) {
+    offsets::Stores stores = setup.stores;
     NoDevices sink;
-    ProgramFolders programs = folders_of_file(program, c.folders);
-    ControlConfig config = control_config(setup);
+    interpreter::ProgramFolders programs = folders_of_file(program, c.folders);
+    controller::ControlConfig config = emulator::control_config(setup);
     config.max_blocks = c.max_blocks;
-    Controller controller(std::move(config), stores, programs, sink, [](std::string_view) {});
-    const RunResult result = controller.run(program);
-    if (result.status == RunStatus::limit)
-        findings.push_back({"alarm", Severity::error, program.name, 1, 1,
+    controller::Controller controller(std::move(config), stores, programs, sink,
+                                      [](std::string_view) {});
+    const controller::RunResult result = controller.run(program);
+    if (result.status == controller::RunStatus::limit)
+        findings.push_back({"alarm", check::Severity::error, program.name, 1, 1,
                             fmt::format("does not end within {} blocks", c.max_blocks),
                             "Look for an endless loop, or give --max-blocks."});
     if (!result.alarm) return;
     const Alarm& alarm = *result.alarm;
-    for (const Finding& known : findings)  // one finding for one cause
+    for (const check::Finding& known : findings)  // one finding for one cause
         if (known.path == program.name && known.line == alarm.where.line &&
-            known.severity == Severity::error)
+            known.severity == check::Severity::error)
             return;
-    const AlarmRow* row = find_alarm(alarm.number);
-    findings.push_back({"alarm", Severity::error,
-                        alarm.where.program.empty() ? program.name : alarm.where.program,
-                        alarm.where.line, std::max(1, alarm.where.column),
-                        fmt::format("running it: {}", alarm_title(alarm.number, alarm.text)),
-                        row != nullptr ? row->remedy : ""});
+    const controller::AlarmRow* row = controller::find_alarm(alarm.number);
+    findings.push_back(
+        {"alarm", check::Severity::error,
+         alarm.where.program.empty() ? program.name : alarm.where.program, alarm.where.line,
+         std::max(1, alarm.where.column),
+         fmt::format("running it: {}", controller::alarm_title(alarm.number, alarm.text)),
+         row != nullptr ? row->remedy : ""});
 }
 
 int check(const CheckCommand& c) {
-    const Setup setup = open_setup(c.setup);
+    const setup::Setup setup = open_setup(c.setup);
     const std::vector<std::string> files = files_of(c.paths);
     SetupRules rules(setup);
-    std::vector<Finding> findings;
+    std::vector<check::Finding> findings;
     for (const std::string& file : files) {
-        const ProgramText program = read_main_program(file);
-        ProgramFolders programs = folders_of_file(program, c.folders);
-        CheckOptions options = rules.options();
+        const interpreter::ProgramText program = interpreter::read_main_program(file);
+        interpreter::ProgramFolders programs = folders_of_file(program, c.folders);
+        check::CheckOptions options = rules.options();
         options.finds_program = [&](int number) { return programs.find(number).has_value(); };
         options.finds_named = [&](const std::string& name) {
             return programs.find(std::string_view(name)).has_value();
         };
-        const auto found = check_program(program, options);
+        const auto found = check::check_program(program, options);
         findings.insert(findings.end(), found.begin(), found.end());
         if (c.run) run_without_devices(setup, program, c, findings);
         print_notes(programs.announcements());
     }
     OutputFiles out;
-    out.add(c.out, format_findings(findings, files, c.format));
+    out.add(c.out, report::format_findings(findings, files, c.format));
     out.write();
     return findings.empty() ? exit_done : exit_differs;
 }
@@ -187,4 +194,4 @@ void add_check(CLI::App& app, Run& run) {
     command->callback([c, &run] { run = [c] { return check(*c); }; });
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

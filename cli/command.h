@@ -10,7 +10,7 @@ namespace CLI {
 class App;
 }
 
-namespace trunnion {
+namespace trunnion::cli {
 
 /// Set by the command that the user chose; returns the exit code of formats.md.
 using Run = std::function<int()>;
@@ -30,4 +30,4 @@ void add_run(CLI::App& app, Run& run);
 void add_compensate(CLI::App& app, Run& run);
 void add_volumetric(CLI::App& app, Run& run);
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

@@ -21,16 +21,17 @@
 #include "regression/suite.h"
 #include "report/comparison_report.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 
 namespace {
 
 struct CompareCommand {
     std::string a, b, suite, setup, setup_b, by, call, format = "text", shard, reason, out = "-";
     std::vector<std::string> program_folders;
-    double tol_lin_mm = Tolerances{}.position_mm;
-    double tol_ang_deg = deg_from_rad(Tolerances{}.direction_rad);
-    double tol_feed = Tolerances{}.feed_ratio, tol_time = Tolerances{}.time_ratio;
+    double tol_lin_mm = regression::Tolerances{}.position_mm;
+    double tol_ang_deg = deg_from_rad(regression::Tolerances{}.direction_rad);
+    double tol_feed = regression::Tolerances{}.feed_ratio,
+           tol_time = regression::Tolerances{}.time_ratio;
     unsigned threads = 0;
     std::uint64_t max_blocks = 100'000'000;  ///< an endless loop ends here, exit code 4
     bool json = false, update = false, devices = false;
@@ -42,11 +43,11 @@ void put(const std::string& path, std::string text) {
     files.write();
 }
 
-SuiteCase case_of(const CompareCommand& c) {
+regression::SuiteCase case_of(const CompareCommand& c) {
     if (!(c.tol_lin_mm > 0.0) || !(c.tol_ang_deg > 0.0) || !(c.tol_feed >= 0.0) ||
         !(c.tol_time >= 0.0))
         throw InputError("tolerances are numbers above 0");
-    SuiteCase like;
+    regression::SuiteCase like;
     like.setup = c.setup;
     like.setup_b = c.setup_b.empty() ? c.setup : c.setup_b;
     like.options.tolerances.position_mm = c.tol_lin_mm;
@@ -58,38 +59,40 @@ SuiteCase case_of(const CompareCommand& c) {
     like.options.call = c.call;
     like.options.devices = c.devices;
     if (c.by.empty()) return like;
-    const auto layer = std::find(layer_names.begin(), layer_names.end(), c.by);
-    if (layer == layer_names.end())
+    const auto layer =
+        std::find(regression::layer_names.begin(), regression::layer_names.end(), c.by);
+    if (layer == regression::layer_names.end())
         throw InputError("--by " + c.by +
                          ": one of text, words, blocks, path, functions, axes, effects");
-    like.options.by = static_cast<Layer>(layer - layer_names.begin());
+    like.options.by = static_cast<regression::Layer>(layer - regression::layer_names.begin());
     return like;
 }
 
-CompareReport compare_two(const CompareCommand& c, const SuiteCase& like) {
-    const ProgramText a = read_main_program(c.a), b = read_main_program(c.b);
-    const Setup setup_a = open_setup(like.setup);
-    CompareReport report;
+regression::CompareReport compare_two(const CompareCommand& c, const regression::SuiteCase& like) {
+    const interpreter::ProgramText a = interpreter::read_main_program(c.a),
+                                   b = interpreter::read_main_program(c.b);
+    const setup::Setup setup_a = open_setup(like.setup);
+    regression::CompareReport report;
     if (like.setup_b == like.setup) {
-        report.cases.push_back(compare_programs(a, setup_a, b, setup_a, like.options));
+        report.cases.push_back(regression::compare_programs(a, setup_a, b, setup_a, like.options));
     } else {
-        const Setup setup_b = open_setup(like.setup_b);
-        report.cases.push_back(compare_programs(a, setup_a, b, setup_b, like.options));
+        const setup::Setup setup_b = open_setup(like.setup_b);
+        report.cases.push_back(regression::compare_programs(a, setup_a, b, setup_b, like.options));
     }
     return report;
 }
 
-Suite suite_of(const CompareCommand& c, const SuiteCase& like) {
-    if (c.suite.empty()) return suite_of_folders(c.a, c.b, like);
-    return read_suite(c.suite, like);
+regression::Suite suite_of(const CompareCommand& c, const regression::SuiteCase& like) {
+    if (c.suite.empty()) return regression::suite_of_folders(c.a, c.b, like);
+    return regression::read_suite(c.suite, like);
 }
 
-int update(const CompareCommand& c, const Suite& suite) {
+int update(const CompareCommand& c, const regression::Suite& suite) {
     if (c.reason.empty() || c.reason.find('\n') != std::string::npos)
         throw InputError(
             "--update needs --reason \"one line that says why the machining changed\"");
     OutputFiles files;
-    const auto goldens = updated_goldens(suite, c.reason, open_setup);
+    const auto goldens = regression::updated_goldens(suite, c.reason, open_setup);
     for (const auto& [path, text] : goldens) {
         make_folder(std::filesystem::path(path).parent_path().string());
         files.add(path, text);
@@ -101,48 +104,51 @@ int update(const CompareCommand& c, const Suite& suite) {
 }
 
 /// `{i}` in a file name is the number of the shard.
-std::string shard_path(std::string path, const Shard& shard) {
+std::string shard_path(std::string path, const regression::Shard& shard) {
     if (const std::size_t at = path.find("{i}"); at != std::string::npos)
         path.replace(at, 3, std::to_string(shard.index));
     return path;
 }
 
-std::optional<Shard> shard_of(const CompareCommand& c) {
-    if (!c.shard.empty()) return parse_shard(c.shard);
-    const auto shard = shard_of_environment();
+std::optional<regression::Shard> shard_of(const CompareCommand& c) {
+    if (!c.shard.empty()) return regression::parse_shard(c.shard);
+    const auto shard = regression::shard_of_environment();
     if (shard)
         print_notes({fmt::format("shard {}/{} by the environment (--shard 1/1 for all of it)",
                                  shard->index, shard->count)});
     return shard;
 }
 
-int compare_many(const CompareCommand& c, const SuiteCase& like, ReportFormat format) {
-    const Suite suite = suite_of(c, like);
+int compare_many(const CompareCommand& c, const regression::SuiteCase& like,
+                 report::ReportFormat format) {
+    const regression::Suite suite = suite_of(c, like);
     if (c.update) return update(c, suite);
     const auto shard = shard_of(c);
     const unsigned threads = c.threads > 0 ? c.threads : std::thread::hardware_concurrency();
     const Interruption interruption;
     Progress progress;
     std::mutex showing;
-    const SuiteWatch watch{
+    const regression::SuiteWatch watch{
         [&](std::size_t done, std::size_t total) {
             const std::lock_guard<std::mutex> lock(showing);
             progress.show([&] { return fmt::format("compared {} of {} programs", done, total); });
         },
         [] { return Interruption::asked(); }};
-    SuiteRun run = run_suite(suite, shard.value_or(Shard{}), open_setup, threads, watch);
-    const int code = exit_code(run.report);
+    regression::SuiteRun run = regression::run_suite(suite, shard.value_or(regression::Shard{}),
+                                                     open_setup, threads, watch);
+    const int code = regression::exit_code(run.report);
     if (shard)
         put(shard_path(c.out, *shard),
-            format_part({std::move(run.report), std::move(run.places), suite.cases.size()}));
+            report::format_part(
+                {std::move(run.report), std::move(run.places), suite.cases.size()}));
     else
-        put(c.out, format_comparison(run.report, format));
+        put(c.out, report::format_comparison(run.report, format));
     return code;
 }
 
 int compare(const CompareCommand& c) {
-    const ReportFormat format = report_format(c.json ? "json" : c.format);
-    const SuiteCase like = case_of(c);
+    const report::ReportFormat format = report::report_format(c.json ? "json" : c.format);
+    const regression::SuiteCase like = case_of(c);
     if (c.suite.empty() == (c.a.empty() || c.b.empty()) || (!c.suite.empty() && !c.a.empty()))
         throw InputError("compare: give two programs, two folders, or --suite FILE");
     if (c.update && c.suite.empty()) throw InputError("--update writes the goldens of a --suite");
@@ -150,19 +156,20 @@ int compare(const CompareCommand& c) {
         std::filesystem::is_directory(c.b))
         return compare_many(c, like, format);
     if (!c.shard.empty()) throw InputError("--shard cuts folders and suites, not two programs");
-    const CompareReport report = compare_two(c, like);
-    put(c.out, format_comparison(report, format));
-    return exit_code(report);
+    const regression::CompareReport report = compare_two(c, like);
+    put(c.out, report::format_comparison(report, format));
+    return regression::exit_code(report);
 }
 
 int merge(const std::vector<std::string>& paths, const std::string& format_name,
           const std::string& out) {
-    const ReportFormat format = report_format(format_name);
-    std::vector<ComparePart> parts;
-    for (const std::string& path : paths) parts.push_back(parse_part(read_file(path), path));
-    const CompareReport report = merge_parts(parts);
-    put(out, format_comparison(report, format));
-    return exit_code(report);
+    const report::ReportFormat format = report::report_format(format_name);
+    std::vector<report::ComparePart> parts;
+    for (const std::string& path : paths)
+        parts.push_back(report::parse_part(read_file(path), path));
+    const regression::CompareReport report = report::merge_parts(parts);
+    put(out, report::format_comparison(report, format));
+    return regression::exit_code(report);
 }
 
 }  // namespace
@@ -219,4 +226,4 @@ void add_merge(CLI::App& app, Run& run) {
     command->callback([o, &run] { run = [o] { return merge(o->parts, o->format, o->out); }; });
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

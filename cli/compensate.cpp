@@ -17,7 +17,7 @@
 #include "compensation/compensation.h"
 #include "effects/settings.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 namespace {
 
 struct Options {
@@ -45,13 +45,13 @@ int run_command(const Options& o) {
     if (o.tolerance_um <= 0.0) throw InputError("--tol-um: a tolerance above zero is needed");
     if (o.largest_turn_deg < 0.0) throw InputError("--max-turn-deg: 0 or more");
     if (o.decimals < 1 || o.decimals > 9) throw InputError("--decimals: 1 to 9");
-    const Setup setup = open_setup(o.setup);
+    const setup::Setup setup = open_setup(o.setup);
     ProgramAndFolders program = open_program(o.program, o.folders);
     const Interruption interruption;
-    const CompensatedProgram c =
-        compensate_program(setup, program.folders, program.program, active_models(setup),
-                           {mm_from_um(o.tolerance_um), o.decimals,
-                            rad_from_deg(o.largest_turn_deg), budget_of(o.limits)});
+    const compensation::CompensatedProgram c = compensation::compensate_program(
+        setup, program.folders, program.program, effects::active_models(setup),
+        {mm_from_um(o.tolerance_um), o.decimals, rad_from_deg(o.largest_turn_deg),
+         budget_of(o.limits)});
     print_notes(c.notes);
     if (c.original.alarm) return report_alarm(*c.original.alarm);
     if (c.executed.alarm) return report_alarm(*c.executed.alarm);
@@ -93,4 +93,4 @@ void add_compensate(CLI::App& app, Run& run) {
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

@@ -18,7 +18,7 @@
 #include "report/diagnosis_page.h"
 #include "report/diagnosis_words.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -30,7 +30,7 @@ struct Options {
     bool json = false, allow_large = false;
 };
 
-Json to_json(const HeldOut& heldout) {
+Json to_json(const diagnosis::HeldOut& heldout) {
     return {{"rms_before_um", heldout.rms_before_um},
             {"rms_after_um", heldout.rms_after_um},
             {"noise_um", heldout.noise_um},
@@ -38,16 +38,16 @@ Json to_json(const HeldOut& heldout) {
             {"ci95", {heldout.low, heldout.high}}};
 }
 
-Json to_json(const DeviceNoise& noise) {
+Json to_json(const diagnosis::DeviceNoise& noise) {
     return {{"scale", noise.scale}, {"shared", noise.shared}, {"memory", noise.memory}};
 }
 
-Json to_json(const TablePoint& point) {
+Json to_json(const diagnosis::TablePoint& point) {
     return {{"error", point.error}, {"at", point.at},           {"value", point.value},
             {"sigma", point.sigma}, {"at_unit", point.at_unit}, {"unit", point.unit}};
 }
 
-Json to_json(const Cause& cause) {
+Json to_json(const diagnosis::Cause& cause) {
     Json json{{"effect", cause.effect},
               {"probability", cause.probability},
               {"rivals", cause.rivals},
@@ -62,12 +62,12 @@ Json to_json(const Cause& cause) {
         json["form"] = "table";
         json["between_places"] = cause.holds_between;
         json["points"] = Json::array();
-        for (const TablePoint& p : cause.points) json["points"].push_back(to_json(p));
+        for (const diagnosis::TablePoint& p : cause.points) json["points"].push_back(to_json(p));
     }
     return json;
 }
 
-Json to_json(const Diagnosis& d) {
+Json to_json(const diagnosis::Diagnosis& d) {
     Json json{{"schema", "trunnion.diagnosis/1"},
               {"verdict", to_string(d.verdict)},
               {"noise_source", to_string(d.noise.source)},
@@ -77,14 +77,14 @@ Json to_json(const Diagnosis& d) {
                 {"excess_um", d.excess_um},
                 {"p_value", d.p_value}}}};
     json["where"] = Json::array();
-    for (const DriverShare& w : d.where)
+    for (const diagnosis::DriverShare& w : d.where)
         json["where"].push_back({{"by", w.by},
                                  {"component", w.component},
                                  {"share", w.share},
                                  {"p_value", w.p_value},
                                  {"text", w.text}});
     json["causes"] = Json::array();
-    for (const Cause& cause : d.causes) json["causes"].push_back(to_json(cause));
+    for (const diagnosis::Cause& cause : d.causes) json["causes"].push_back(to_json(cause));
     json["after"] = {{"rms_um", d.after_rms_um},
                      {"explained", d.explained},
                      {"between_places", d.between_places},
@@ -92,11 +92,11 @@ Json to_json(const Diagnosis& d) {
                      {"ci95", {d.after.low, d.after.high}},
                      {"unexplained_share", d.unexplained_share}};
     json["setup"] = Json::array();
-    for (const FitParameter& p : d.set_up)
+    for (const identification::FitParameter& p : d.set_up)
         json["setup"].push_back(
             {{"name", p.name}, {"value", p.value}, {"sigma", p.sigma}, {"unit", p.unit}});
     json["next_measurement"] = Json::array();
-    for (const NextMeasurement& next : d.next)
+    for (const diagnosis::NextMeasurement& next : d.next)
         json["next_measurement"].push_back({{"separates", {next.first, next.second}},
                                             {"text", next.text},
                                             {"program", next.program},
@@ -114,21 +114,21 @@ Json to_json(const Diagnosis& d) {
     return json;
 }
 
-void print_cause(const Cause& cause) {
+void print_cause(const diagnosis::Cause& cause) {
     print_out("\n{}  {:.0f} % of the gap, probability {:.2f}\n", cause.effect, 100 * cause.share,
               cause.probability);
     print_out("  {}.\n", cause.what);
     if (!cause.usual_cause.empty())
         print_out("  Usual cause: {}. What to do: {}.\n", cause.usual_cause, cause.remedy);
-    for (const FitParameter& p : cause.parameters)
+    for (const identification::FitParameter& p : cause.parameters)
         print_out("  {:<20} {:>12.4g} {} {}\n", with_component(p), p.value, p.unit,
                   std::isfinite(p.sigma) ? fmt::format("(sigma {:.2g})", p.sigma)
                                          : std::string("(no sigma of its own)"));
-    for (const Inseparable& group : cause.unseen)
+    for (const identification::Inseparable& group : cause.unseen)
         print_out("  no reading here sees: {}\n", to_string(group));
     if (!cause.points.empty())
         print_out("  a table of {} values{}\n", cause.points.size(),
-                   cause.holds_between ? "" : ": at the measured places only");
+                  cause.holds_between ? "" : ": at the measured places only");
     if (!cause.rivals.empty())
         print_out("  cannot be told apart here from: {}\n", fmt::join(cause.rivals, ", "));
     print_out(
@@ -137,12 +137,12 @@ void print_cause(const Cause& cause) {
         100 * cause.heldout.shrink, 100 * cause.heldout.low, 100 * cause.heldout.high);
 }
 
-void print_report(const Diagnosis& d) {
-    print_out("verdict: {}\n{}\n", to_string(d.verdict), verdict_sentence(d));
+void print_report(const diagnosis::Diagnosis& d) {
+    print_out("verdict: {}\n{}\n", to_string(d.verdict), report::verdict_sentence(d));
     print_out("{} readings ({} set aside), rms {:.3f} um, noise {:.3f} um ({}), excess {:.3f} um\n",
               d.readings, d.outliers, d.rms_um, d.noise_um, to_string(d.noise.source), d.excess_um);
-    for (const DriverShare& w : d.where) print_out("  {}\n", w.text);
-    for (const Cause& cause : d.causes) print_cause(cause);
+    for (const diagnosis::DriverShare& w : d.where) print_out("  {}\n", w.text);
+    for (const diagnosis::Cause& cause : d.causes) print_cause(cause);
     if (!d.causes.empty())
         print_out(
             "\nafter: rms {:.3f} um; of readings left out the causes explain {:.0f} %{}; the gap "
@@ -150,9 +150,9 @@ void print_report(const Diagnosis& d) {
             d.after_rms_um, 100 * d.explained, d.between_places ? "" : " at the measured places",
             100 * d.after.shrink, 100 * d.after.low, 100 * d.after.high);
     if (d.causes.empty())
-        for (const Inseparable& group : d.inseparable)
+        for (const identification::Inseparable& group : d.inseparable)
             print_out("no reading here sees: {}\n", to_string(group));
-    for (const NextMeasurement& next : d.next) print_out("next: {}\n", next.text);
+    for (const diagnosis::NextMeasurement& next : d.next) print_out("next: {}\n", next.text);
 }
 
 std::string title_of(const std::vector<std::string>& readings) {
@@ -161,31 +161,32 @@ std::string title_of(const std::vector<std::string>& readings) {
 
 /// Shows what it works on. Ctrl-C ends it; once the verdict stands only what is planned after it,
 /// `planning` lives then.
-Diagnosis diagnose_watched(const Setup& setup, const ReadingTable& table, DiagnosisOptions how,
-                           std::optional<Interruption>& planning) {
+diagnosis::Diagnosis diagnose_watched(const setup::Setup& setup, const records::ReadingTable& table,
+                                      diagnosis::DiagnosisOptions how,
+                                      std::optional<Interruption>& planning) {
     Progress progress;
     how.watch = [&](const char* stage) { progress.stage(stage); };
     how.plan_on = [&] {
         if (!planning) planning.emplace();
         return !Interruption::asked();
     };
-    return diagnose(setup, table, how);
+    return diagnosis::diagnose(setup, table, how);
 }
 
 int diagnose_command(const Options& options) {
-    Setup setup = load_setup_option(options.setup);
+    setup::Setup setup = load_setup_option(options.setup);
     setup.model.allow_large = options.allow_large;
-    const ReadingTable table = load_readings(options.readings, setup);
-    std::optional<ReadingTable> holdout;
+    const records::ReadingTable table = load_readings(options.readings, setup);
+    std::optional<records::ReadingTable> holdout;
     if (!options.holdout.empty()) holdout = load_readings(options.holdout, setup);
-    DiagnosisOptions how;
+    diagnosis::DiagnosisOptions how;
     how.holdout = holdout ? &*holdout : nullptr;
     std::optional<Interruption> planning;
-    const Diagnosis result = diagnose_watched(setup, table, how, planning);
+    const diagnosis::Diagnosis result = diagnose_watched(setup, table, how, planning);
     OutputFiles files;
-    if (!options.out.empty()) files.add(options.out, format_setup(result.setup));
+    if (!options.out.empty()) files.add(options.out, setup::format_setup(result.setup));
     if (!options.html.empty())
-        files.add(options.html, diagnosis_page(result, title_of(options.readings)));
+        files.add(options.html, report::diagnosis_page(result, title_of(options.readings)));
     if (options.json) files.add("-", to_json(result).dump(1) + "\n");
     files.write();
     if (!options.json) print_report(result);
@@ -217,4 +218,4 @@ void add_diagnose(CLI::App& app, Run& run) {
     command->callback([options, &run] { run = [options] { return diagnose_command(*options); }; });
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

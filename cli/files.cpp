@@ -7,7 +7,7 @@
 #include "base/console.h"
 #include "base/text.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 namespace fs = std::filesystem;
 namespace {
 
@@ -49,4 +49,4 @@ void print_notes(const std::vector<std::string>& notes) {
     for (const std::string& note : notes) print_error("{}\n", printable(note));
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::cli {
 
 /// A folder or file that ships with the product ("machines/bc_table.toml", "programs"). It is
 /// looked for in the folder that TRUNNION_HOME names, then beside the program and its parent
@@ -15,4 +15,4 @@ std::string shipped(const std::string& relative);
 /// One line for each note on stderr; a note brings its own place.
 void print_notes(const std::vector<std::string>& notes);
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

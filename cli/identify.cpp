@@ -20,7 +20,7 @@
 #include "identification/monte_carlo.h"
 #include "report/stores_text.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 namespace {
 
 struct Options {
@@ -31,7 +31,7 @@ struct Options {
     bool json = false, allow_large = false;
 };
 
-nlohmann::ordered_json to_json(const Identification& result) {
+nlohmann::ordered_json to_json(const identification::Identification& result) {
     nlohmann::ordered_json json;
     json["schema"] = "trunnion.identification/1";
     json["parameters"] = json_parameters(result.parameters);
@@ -43,40 +43,42 @@ nlohmann::ordered_json to_json(const Identification& result) {
     return json;
 }
 
-void print_table(const Identification& result, bool monte_carlo) {
+void print_table(const identification::Identification& result, bool monte_carlo) {
     const auto number = [](double v) {
         return std::isfinite(v) ? fmt::format("{:.2g}", v) : std::string("-");
     };
     print_out("{:<18} {:<22} {:>14} {:>12} {:>12} {}\n", "effect", "parameter", "value", "sigma",
               monte_carlo ? "Monte Carlo" : "", "unit");
-    for (const FitParameter& p : result.parameters)
+    for (const identification::FitParameter& p : result.parameters)
         print_out("{:<18} {:<22} {:>14.7g} {:>12} {:>12} {}\n", p.effect, with_component(p),
                   p.value, number(p.sigma), monte_carlo ? number(p.sigma_monte_carlo) : "", p.unit);
-    for (const Inseparable& group : result.inseparable)
+    for (const identification::Inseparable& group : result.inseparable)
         print_out("no reading here sees: {}\n", to_string(group));
     print_out("rms {:.3f} um before, {:.3f} um after, {} degrees of freedom\n",
               result.rms_before_um, result.rms_after_um, result.dof);
 }
 
 /// What to type for the axes' places, where they were fitted and the control has a place for them.
-void print_stores(const Setup& identified, const Identification& result) {
-    const bool located = std::any_of(result.parameters.begin(), result.parameters.end(),
-                                     [](const FitParameter& p) { return p.effect == "location"; });
+void print_stores(const setup::Setup& identified, const identification::Identification& result) {
+    const bool located =
+        std::any_of(result.parameters.begin(), result.parameters.end(),
+                    [](const identification::FitParameter& p) { return p.effect == "location"; });
     if (!located || identified.artefacts.empty()) return;
     const Vector3 tip_S_mm = identified.probe     ? identified.probe->tip_S_mm
                              : identified.ballbar ? identified.ballbar->cup_S_mm
                                                   : Vector3(0, 0, -150);
-    const auto stores = stores_to_type(identified, identified.machine,
-                                       identified.artefacts.front().center_W_mm, tip_S_mm);
-    if (stores) print_out("{}", stores_text(*stores, identified.dialect.family));
+    const auto stores = setup::stores_to_type(identified, identified.machine,
+                                              identified.artefacts.front().center_W_mm, tip_S_mm);
+    if (stores) print_out("{}", report::stores_text(*stores, identified.dialect.family));
 }
 
 /// Shows how far it is; Ctrl-C leaves what the repetitions done so far say.
-int repeat(const Setup& setup, const ReadingTable& table, const std::vector<std::string>& effects,
-           const Options& options, Identification& result) {
+int repeat(const setup::Setup& setup, const records::ReadingTable& table,
+           const std::vector<std::string>& effects, const Options& options,
+           identification::Identification& result) {
     const Interruption interruption;
     Progress progress;
-    return add_monte_carlo(
+    return identification::add_monte_carlo(
         setup, table, effects, options.runs, options.seed, result, [&](int done) {
             progress.show([&] { return fmt::format("repetition {} of {}", done, options.runs); });
             return !Interruption::asked();
@@ -84,19 +86,19 @@ int repeat(const Setup& setup, const ReadingTable& table, const std::vector<std:
 }
 
 int identify_command(const Options& options) {
-    Setup setup = load_setup_option(options.setup);
+    setup::Setup setup = load_setup_option(options.setup);
     setup.model.allow_large = options.allow_large;
-    const ReadingTable table = load_readings(options.readings, setup);
+    const records::ReadingTable table = load_readings(options.readings, setup);
     const std::vector<std::string> effects = split_names(options.effects);
-    Identification result = [&] {
+    identification::Identification result = [&] {
         Progress progress;
         progress.stage(fmt::format("fit to {} rows", table.rows.size()));
-        return identify(setup, table, effects);
+        return identification::identify(setup, table, effects);
     }();
     print_notes(result.notes);
     const int repetitions = options.runs > 0 ? repeat(setup, table, effects, options, result) : 0;
     OutputFiles files;
-    if (!options.out.empty()) files.add(options.out, format_setup(result.setup));
+    if (!options.out.empty()) files.add(options.out, setup::format_setup(result.setup));
     if (options.json) files.add("-", to_json(result).dump(1) + "\n");
     files.write();
     if (!options.json) {
@@ -132,4 +134,4 @@ void add_identify(CLI::App& app, Run& run) {
     command->callback([options, &run] { run = [options] { return identify_command(*options); }; });
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

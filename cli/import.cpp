@@ -12,7 +12,7 @@
 #include "cli/options.h"
 #include "cli/readings_command.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 namespace {
 
 struct Options {
@@ -20,19 +20,19 @@ struct Options {
     std::vector<std::string> files, told;
 };
 
-const std::map<std::string, ImportKind> kinds{{"ballbar", ImportKind::ballbar},
-                                              {"iso230-2", ImportKind::iso230_2},
-                                              {"points", ImportKind::points},
-                                              {"axis-log", ImportKind::axis_log},
-                                              {"table", ImportKind::table}};
+const std::map<std::string, imports::ImportKind> kinds{{"ballbar", imports::ImportKind::ballbar},
+                                                       {"iso230-2", imports::ImportKind::iso230_2},
+                                                       {"points", imports::ImportKind::points},
+                                                       {"axis-log", imports::ImportKind::axis_log},
+                                                       {"table", imports::ImportKind::table}};
 
 int import_command(const Options& options) {
-    const Setup setup = load_setup_option(options.setup);
-    std::vector<ImportFile> files;
+    const setup::Setup setup = load_setup_option(options.setup);
+    std::vector<imports::ImportFile> files;
     for (const std::string& path : options.files) files.push_back({path, read_file_or_input(path)});
-    ImportRequest request{setup, files, Facts(options.told), {}};
+    imports::ImportRequest request{setup, files, imports::Facts(options.told), {}};
     if (!options.map.empty()) request.map = {options.map, read_file_or_input(options.map)};
-    Imported result = import_readings(kinds.at(options.kind), request);
+    imports::Imported result = imports::import_readings(kinds.at(options.kind), request);
     for (const std::string& line : result.summary) print_error("{}\n", line);
     print_notes(result.notes);
     OutputFiles out;
@@ -60,4 +60,4 @@ void add_import(CLI::App& app, Run& run) {
     command->callback([options, &run] { run = [options] { return import_command(*options); }; });
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

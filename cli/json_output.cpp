@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace trunnion {
+namespace trunnion::cli {
 namespace {
 
 nlohmann::ordered_json number(double value) {
@@ -12,9 +12,10 @@ nlohmann::ordered_json number(double value) {
 
 }  // namespace
 
-nlohmann::ordered_json json_parameters(const std::vector<FitParameter>& parameters) {
+nlohmann::ordered_json json_parameters(
+    const std::vector<identification::FitParameter>& parameters) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const FitParameter& p : parameters) {
+    for (const identification::FitParameter& p : parameters) {
         const bool vector = p.component >= 0;
         const bool continues = vector && p.component > 0 && !list.empty() &&
                                list.back()["effect"] == p.effect && list.back()["name"] == p.name;
@@ -37,17 +38,17 @@ nlohmann::ordered_json json_parameters(const std::vector<FitParameter>& paramete
     return list;
 }
 
-std::string with_component(const FitParameter& p) {
+std::string with_component(const identification::FitParameter& p) {
     return p.component < 0 ? p.name : p.name + '[' + "xyz"[p.component] + ']';
 }
 
-nlohmann::ordered_json json_covariance(const std::vector<FitParameter>& parameters,
+nlohmann::ordered_json json_covariance(const std::vector<identification::FitParameter>& parameters,
                                        const Eigen::MatrixXd& covariance) {
     nlohmann::ordered_json json;
     json["names"] = nlohmann::ordered_json::array();
     const Eigen::Index n = covariance.rows();
     for (Eigen::Index i = 0; i < n; ++i) {
-        const FitParameter& p = parameters[static_cast<std::size_t>(i)];
+        const identification::FitParameter& p = parameters[static_cast<std::size_t>(i)];
         json["names"].push_back(p.effect + '.' + with_component(p));
     }
     const Eigen::VectorXd sigma = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
@@ -64,11 +65,11 @@ nlohmann::ordered_json json_covariance(const std::vector<FitParameter>& paramete
     return json;
 }
 
-nlohmann::ordered_json json_inseparable(const std::vector<Inseparable>& groups) {
+nlohmann::ordered_json json_inseparable(const std::vector<identification::Inseparable>& groups) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
-    for (const Inseparable& group : groups)
+    for (const identification::Inseparable& group : groups)
         list.push_back({{"names", group.names}, {"direction", group.direction}});
     return list;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

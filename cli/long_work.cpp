@@ -8,7 +8,7 @@
 
 #include "base/console.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 namespace {
 
 /// The one thing that a signal handler can reach.
@@ -66,4 +66,4 @@ void Progress::stage(const std::string& text) {
     std::fflush(stderr);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-namespace trunnion {
+namespace trunnion::cli {
 
 /// While it lives, the first Ctrl-C (or SIGTERM, SIGHUP) only sets `asked`; the second ends the
 /// program as usual. One at a time.
@@ -43,4 +43,4 @@ class Progress {
     Clock::time_point next_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

@@ -17,9 +17,9 @@
 #include "cli/command.h"
 #include "cli/options.h"
 
-namespace {
+namespace trunnion::cli {
 
-using namespace trunnion;
+namespace {
 
 /// One line a command: file cli/NAME.cpp, declared in cli/command.h.
 // clang-format off
@@ -115,15 +115,19 @@ int parse_and_run(int argc, char** argv) {
 
 }  // namespace
 
+}  // namespace trunnion::cli
+
+using namespace trunnion;
+
 int main(int argc, char** argv) {
     prepare_streams();
     try {
-        return parse_and_run(argc, argv);
+        return cli::parse_and_run(argc, argv);
     } catch (const std::bad_alloc&) {
         write_error("trunnion: there is not enough memory\n");
         return exit_limit;
     } catch (const InputError& e) {  // of the help
-        return report_input_error(e);
+        return cli::report_input_error(e);
     } catch (const std::exception& e) {
         write_error("trunnion: internal error: ");
         write_error(e.what());

@@ -10,7 +10,7 @@
 #include "base/alarm.h"
 #include "base/numbers.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -114,4 +114,4 @@ void refuse_clashing_files(const CLI::App& app) {
     for (const CLI::App* command : app.get_subcommands()) refuse_clashing_files(*command);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

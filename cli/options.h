@@ -8,7 +8,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace trunnion {
+namespace trunnion::cli {
 
 /// Marks an option that names a file (or folder) to read, or to write: shown so by --help.
 CLI::Option* reads_file(CLI::Option* option);
@@ -22,4 +22,4 @@ void check_numbers(CLI::App& app);
 /// Throws InputError when the options given would write a file that another reads or writes too.
 void refuse_clashing_files(const CLI::App& app);
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

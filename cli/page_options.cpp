@@ -9,7 +9,7 @@
 #include "base/numbers.h"
 #include "cli/options.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 namespace {
 
 /// In single quotes where a shell would not take the word as it is.
@@ -51,9 +51,9 @@ std::string command_text(const CLI::App& command) {
     return text;
 }
 
-PageOrigin page_origin(const CLI::App& command, const PageOptions& options,
-                       std::vector<PageInput> inputs) {
-    PageOrigin origin;
+report::PageOrigin page_origin(const CLI::App& command, const PageOptions& options,
+                               std::vector<report::PageInput> inputs) {
+    report::PageOrigin origin;
     origin.command = command_text(command);
     origin.version = TRUNNION_VERSION;
     origin.date = options.date.empty() ? date_of_build() : options.date;
@@ -61,4 +61,4 @@ PageOrigin page_origin(const CLI::App& command, const PageOptions& options,
     return origin;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

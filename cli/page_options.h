@@ -10,7 +10,7 @@ namespace CLI {
 class App;
 }
 
-namespace trunnion {
+namespace trunnion::cli {
 
 struct PageOptions {
     std::string html;  ///< path of the page; empty: none
@@ -25,7 +25,7 @@ std::string command_text(const CLI::App& command);
 
 /// Foot of a page. The date is that of --date, else of SOURCE_DATE_EPOCH (UTC), else none: the same
 /// inputs give the same bytes on any day. `inputs`: path and SHA-256 of each file read.
-PageOrigin page_origin(const CLI::App& command, const PageOptions& options,
-                       std::vector<PageInput> inputs);
+report::PageOrigin page_origin(const CLI::App& command, const PageOptions& options,
+                               std::vector<report::PageInput> inputs);
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

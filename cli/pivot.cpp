@@ -20,7 +20,7 @@
 #include "report/pivot_report.h"
 #include "setup/control_machine.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 
 namespace {
 
@@ -35,15 +35,15 @@ struct PivotOptions {
 };
 
 /// A setup, a backup over it, or a machine made from a backup alone.
-Setup setup_of(const PivotOptions& o) {
+setup::Setup setup_of(const PivotOptions& o) {
     if (!o.setup.empty() || o.control.empty()) {
-        Setup setup = open_setup(o.setup);
-        if (!o.control.empty()) apply_backup(read_backup(o.control), setup.stores);
+        setup::Setup setup = open_setup(o.setup);
+        if (!o.control.empty()) backup::apply_backup(backup::read_backup(o.control), setup.stores);
         return setup;
     }
-    Stores stores;
-    apply_backup(read_backup(o.control), stores);
-    return setup_of_control(stores, o.control);
+    offsets::Stores stores;
+    backup::apply_backup(backup::read_backup(o.control), stores);
+    return setup::setup_of_control(stores, o.control);
 }
 
 bool is_table(const std::string& text) {
@@ -51,10 +51,11 @@ bool is_table(const std::string& text) {
 }
 
 /// Prints and tables of readings as error maps.
-PivotPrints read_maps(const PivotOptions& o, const Setup& setup, const RotaryStores& stores) {
+pivot::PivotPrints read_maps(const PivotOptions& o, const setup::Setup& setup,
+                             const setup::RotaryStores& stores) {
     const Axis first = stores.pivot.first.axis, second = stores.pivot.second.axis;
-    std::vector<PrintedFile> printed;
-    std::vector<ReadingTable> tables;
+    std::vector<pivot::PrintedFile> printed;
+    std::vector<records::ReadingTable> tables;
     for (const std::string& path : o.readings) {
         std::string text = read_file(path);
         if (is_table(text))
@@ -62,27 +63,27 @@ PivotPrints read_maps(const PivotOptions& o, const Setup& setup, const RotarySto
         else
             printed.push_back({path, std::move(text)});
     }
-    if (tables.empty()) return parse_pivot_prints(printed, first, second);
+    if (tables.empty()) return pivot::parse_pivot_prints(printed, first, second);
     if (!printed.empty())
         throw InputError("prints and tables of readings in one call: give either",
                          {printed[0].path});
-    const auto sphere =
-        std::find_if(setup.artefacts.begin(), setup.artefacts.end(),
-                     [](const Artefact& a) { return a.kind == Artefact::Kind::sphere; });
+    const auto sphere = std::find_if(
+        setup.artefacts.begin(), setup.artefacts.end(),
+        [](const setup::Artefact& a) { return a.kind == setup::Artefact::Kind::sphere; });
     if (sphere == setup.artefacts.end() || !setup.probe)
         throw InputError("readings need the setup's [probe] and a sphere", {setup.path});
-    return pivot_readings(join_readings(std::move(tables)), first, second,
-                          0.5 * (sphere->diameter_mm + setup.probe->ball_diameter_mm),
-                          setup.probe->tip_S_mm);
+    return pivot::pivot_readings(records::join_readings(std::move(tables)), first, second,
+                                 0.5 * (sphere->diameter_mm + setup.probe->ball_diameter_mm),
+                                 setup.probe->tip_S_mm);
 }
 
-Machine without_rotary_errors(Machine machine) {
-    for (const AxisGeometry& axis : machine.chain.axes())
+kinematics::Machine without_rotary_errors(kinematics::Machine machine) {
+    for (const kinematics::AxisGeometry& axis : machine.chain.axes())
         if (axis.rotary) machine.errors.axis[index_of(axis.axis)].location = {};
     return machine;
 }
 
-Vector3 stylus_of(const Setup& setup) {
+Vector3 stylus_of(const setup::Setup& setup) {
     return setup.probe ? setup.probe->tip_S_mm : Vector3(0, 0, -150);
 }
 
@@ -95,53 +96,54 @@ std::vector<std::pair<std::string, std::vector<std::string>>> shop_programs(
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
         if (!entry.is_regular_file() || entry.file_size() > 100'000'000) continue;
         const std::string path = entry.path().string();
-        auto used = functions_used(read_file(path), first, second);
+        auto used = pivot::functions_used(read_file(path), first, second);
         if (!used.empty()) found.emplace_back(path, std::move(used));
     }
     std::sort(found.begin(), found.end());
     return found;
 }
 
-PivotResult result_of(const PivotOptions& o, const Setup& setup, PivotVerdict verdict,
-                      std::vector<PivotMap> maps) {
-    PivotResult result;
+report::PivotResult result_of(const PivotOptions& o, const setup::Setup& setup,
+                              pivot::PivotVerdict verdict, std::vector<pivot::PivotMap> maps) {
+    report::PivotResult result;
     result.machine = setup.name;
     result.first = verdict.in_force.pivot.first.axis;
     result.second = verdict.in_force.pivot.second.axis;
-    result.hurco = setup.dialect.family == DialectFamily::hurco;
-    std::vector<PivotFunction> functions;
-    for (const PivotFunction& f : pivot_functions())
-        for (const PivotMap& map : maps)
+    result.hurco = setup.dialect.family == interpreter::DialectFamily::hurco;
+    std::vector<pivot::PivotFunction> functions;
+    for (const pivot::PivotFunction& f : pivot::pivot_functions())
+        for (const pivot::PivotMap& map : maps)
             if (std::any_of(map.arcs.begin(), map.arcs.end(),
-                            [&](const PivotArc& arc) { return arc.function == f.name; })) {
+                            [&](const pivot::PivotArc& arc) { return arc.function == f.name; })) {
                 functions.push_back(f);
                 break;
             }
-    result.affected = affected_parts(verdict, functions,
-                                     shop_programs(o.shop_programs, result.first, result.second));
+    result.affected = pivot::affected_parts(
+        verdict, functions, shop_programs(o.shop_programs, result.first, result.second));
     result.maps = std::move(maps);
     result.verdict = std::move(verdict);
     return result;
 }
 
-PivotResult judge_readings(const PivotOptions& o, const Setup& setup) {
-    const auto declared = rotary_stores(setup.machine.chain, setup.stores);
+report::PivotResult judge_readings(const PivotOptions& o, const setup::Setup& setup) {
+    const auto declared = setup::rotary_stores(setup.machine.chain, setup.stores);
     if (!declared)
         throw InputError("the control knows no two rotary axes (19680-19690)", {setup.path});
-    PivotPrints prints = read_maps(o, setup, *declared);
+    pivot::PivotPrints prints = read_maps(o, setup, *declared);
     std::vector<std::string> notes;
-    PivotEvidence evidence;
-    evidence.in_force = stores_in_force(prints, *declared, notes);
+    pivot::PivotEvidence evidence;
+    evidence.in_force = pivot::stores_in_force(prints, *declared, notes);
     print_notes(notes);
     evidence.known = without_rotary_errors(setup.machine);
     evidence.sphere_mm = prints.sphere_mm();
     evidence.tip_S_mm = stylus_of(setup);
-    evidence.increment_mm = least_increment_mm(setup.stores.parameters);
+    evidence.increment_mm = setup::least_increment_mm(setup.stores.parameters);
     evidence.limit_um = o.limit_um;
-    PivotVerdict verdict = judge_pivot(evidence, prints.maps);
-    add_expected({verdict.fit.machine, evidence.in_force, evidence.sphere_mm, evidence.tip_S_mm},
-                 evidence.in_force.pivot, prints.maps);
-    PivotResult result = result_of(o, setup, std::move(verdict), std::move(prints.maps));
+    pivot::PivotVerdict verdict = pivot::judge_pivot(evidence, prints.maps);
+    pivot::add_expected(
+        {verdict.fit.machine, evidence.in_force, evidence.sphere_mm, evidence.tip_S_mm},
+        evidence.in_force.pivot, prints.maps);
+    report::PivotResult result = result_of(o, setup, std::move(verdict), std::move(prints.maps));
     result.source =
         "measured: " + o.readings.front() +
         (o.readings.size() > 1 ? fmt::format(" and {} more", o.readings.size() - 1) : "");
@@ -149,38 +151,39 @@ PivotResult judge_readings(const PivotOptions& o, const Setup& setup) {
 }
 
 /// No program runs: the maps are worked out for the setup's machine, measured or identified.
-PivotResult from_known_machine(const PivotOptions& o, const Setup& setup) {
-    const PivotPlan plan = plan_pivot_test(setup);
-    std::vector<PivotMap> maps = modelled_maps(plan, setup.machine, setup.probe->tip_S_mm);
-    PivotEvidence evidence;
+report::PivotResult from_known_machine(const PivotOptions& o, const setup::Setup& setup) {
+    const pivot::PivotPlan plan = pivot::plan_pivot_test(setup);
+    std::vector<pivot::PivotMap> maps =
+        pivot::modelled_maps(plan, setup.machine, setup.probe->tip_S_mm);
+    pivot::PivotEvidence evidence;
     evidence.in_force = plan.stores;
     evidence.known = without_rotary_errors(setup.machine);
     evidence.sphere_mm = plan.sphere_mm;
     evidence.tip_S_mm = setup.probe->tip_S_mm;
-    evidence.increment_mm = least_increment_mm(setup.stores.parameters);
+    evidence.increment_mm = setup::least_increment_mm(setup.stores.parameters);
     evidence.limit_um = o.limit_um;
-    PivotVerdict verdict = judge_pivot(evidence, maps);
-    add_expected({setup.machine, plan.stores, plan.sphere_mm, evidence.tip_S_mm}, plan.stores.pivot,
-                 maps);
-    PivotResult result = result_of(o, setup, std::move(verdict), std::move(maps));
+    pivot::PivotVerdict verdict = pivot::judge_pivot(evidence, maps);
+    pivot::add_expected({setup.machine, plan.stores, plan.sphere_mm, evidence.tip_S_mm},
+                        plan.stores.pivot, maps);
+    report::PivotResult result = result_of(o, setup, std::move(verdict), std::move(maps));
     result.source = "worked out from the machine in the setup";
     return result;
 }
 
-PivotResult simulate(const PivotOptions& o, const Setup& setup, OutputFiles& files) {
-    PivotDemonstration demo = demonstrate_pivot(setup, pivot_programs(plan_pivot_test(setup)),
-                                                {shipped("programs")}, o.seed);
+report::PivotResult simulate(const PivotOptions& o, const setup::Setup& setup, OutputFiles& files) {
+    pivot::PivotDemonstration demo = pivot::demonstrate_pivot(
+        setup, pivot::pivot_programs(pivot::plan_pivot_test(setup)), {shipped("programs")}, o.seed);
     if (!o.print.empty()) files.add(o.print, demo.printed);
-    PivotResult result = result_of(o, setup, std::move(demo.verdict), std::move(demo.maps));
+    report::PivotResult result = result_of(o, setup, std::move(demo.verdict), std::move(demo.maps));
     result.true_right = demo.true_right;
     result.source = "simulated";
     return result;
 }
 
-int write_programs(const PivotOptions& o, const Setup& setup) {
+int write_programs(const PivotOptions& o, const setup::Setup& setup) {
     make_folder(o.programs_folder);
     OutputFiles files;
-    for (const auto& [name, text] : pivot_programs(plan_pivot_test(setup)))
+    for (const auto& [name, text] : pivot::pivot_programs(pivot::plan_pivot_test(setup)))
         files.add((fs::path(o.programs_folder) / name).string(), text);
     files.add((fs::path(o.programs_folder) / "sphere9.nc").string(),
               read_file(shipped("programs") + "/sphere9.nc"));
@@ -188,8 +191,8 @@ int write_programs(const PivotOptions& o, const Setup& setup) {
     return exit_done;
 }
 
-PageOrigin origin_of(const PivotOptions& o) {
-    PageOrigin origin;
+report::PageOrigin origin_of(const PivotOptions& o) {
+    report::PageOrigin origin;
     origin.command = "trunnion pivot";
     for (const std::string& path : o.readings) origin.command += " " + path;
     if (!o.setup.empty()) origin.command += " --setup " + o.setup;
@@ -202,17 +205,17 @@ int run_pivot(const PivotOptions& o) {
     if (!o.readings.empty() && o.setup.empty() && o.control.empty())
         throw InputError(
             "readings and prints need the machine they come from: --setup or --control");
-    const Setup setup = setup_of(o);
+    const setup::Setup setup = setup_of(o);
     if (!o.programs_folder.empty()) return write_programs(o, setup);
     OutputFiles files;
-    const PivotResult result = !o.readings.empty() ? judge_readings(o, setup)
-                               : o.stores_alone    ? from_known_machine(o, setup)
-                                                   : simulate(o, setup, files);
-    files.add("-", o.json ? pivot_json(result) : pivot_table(result));
-    if (!o.html.empty()) files.add(o.html, pivot_page(result, origin_of(o)));
+    const report::PivotResult result = !o.readings.empty() ? judge_readings(o, setup)
+                                       : o.stores_alone    ? from_known_machine(o, setup)
+                                                           : simulate(o, setup, files);
+    files.add("-", o.json ? report::pivot_json(result) : report::pivot_table(result));
+    if (!o.html.empty()) files.add(o.html, report::pivot_page(result, origin_of(o)));
     if (!o.svg_folder.empty()) {
         make_folder(o.svg_folder);
-        for (const auto& [name, text] : pivot_pictures(result))
+        for (const auto& [name, text] : report::pivot_pictures(result))
             files.add((fs::path(o.svg_folder) / name).string(), text);
     }
     files.write();
@@ -250,4 +253,4 @@ void add_pivot(CLI::App& app, Run& run) {
     command->callback([o, &run] { run = [o] { return run_pivot(*o); }; });
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

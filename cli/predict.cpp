@@ -13,7 +13,7 @@
 #include "emulator/replay.h"
 #include "identification/base_model.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 namespace {
 
 struct Options {
@@ -24,9 +24,9 @@ struct Options {
 };
 
 /// The readings as a device would take them: with one draw of its noise each.
-void add_noise(const Setup& setup, std::uint64_t seed, ReadingTable& table) {
-    const Replay replay(setup, table);
-    const RowNoise noise = row_noise(setup, table, replay);
+void add_noise(const setup::Setup& setup, std::uint64_t seed, records::ReadingTable& table) {
+    const emulator::Replay replay(setup, table);
+    const identification::RowNoise noise = identification::row_noise(setup, table, replay);
     SeededNoise source(seed);
     for (std::size_t i = 0; i < replay.size(); ++i)
         *table.rows[replay.table_row(i)].value_mm +=
@@ -36,16 +36,17 @@ void add_noise(const Setup& setup, std::uint64_t seed, ReadingTable& table) {
 }
 
 /// One row for each device row: its index, then d value / d parameter in mm (rad) for each unit.
-std::string jacobian_text(const Setup& setup, const ReadingTable& table,
+std::string jacobian_text(const setup::Setup& setup, const records::ReadingTable& table,
                           const std::vector<std::string>& effects) {
-    const Replay replay(setup, table);
-    const ForwardModel model(setup.machine);
-    std::vector<Perturbation> gradient;
+    const emulator::Replay replay(setup, table);
+    const kinematics::ForwardModel model(setup.machine);
+    std::vector<kinematics::Perturbation> gradient;
     for (std::size_t i = 0; i < replay.size(); ++i)
         gradient.push_back(replay.gradient(i, model, {}));
-    const BaseColumns base = base_columns(setup, replay, make_catalogue(setup), effects, gradient);
+    const identification::BaseColumns base = identification::base_columns(
+        setup, replay, effects::make_catalogue(setup), effects, gradient);
     std::string out = "index";
-    for (const FitParameter& p : base.parameters)
+    for (const identification::FitParameter& p : base.parameters)
         out += ',' + p.effect + '.' + with_component(p) + " [" + p.unit + ']';
     out += '\n';
     for (std::size_t i = 0; i < replay.size(); ++i) {
@@ -60,17 +61,17 @@ std::string jacobian_text(const Setup& setup, const ReadingTable& table,
 }
 
 int predict(const Options& options) {
-    const Setup setup = load_setup_option(options.setup, options.inject);
-    const ReadingTable table = load_readings(options.readings, setup);
+    const setup::Setup setup = load_setup_option(options.setup, options.inject);
+    const records::ReadingTable table = load_readings(options.readings, setup);
     OutputFiles files;
     if (!options.jacobian.empty()) {
         const auto named = split_names(options.effects);
         files.add(options.jacobian,
                   jacobian_text(setup, table, named.empty() ? setup.model.modelled : named));
     }
-    ReadingTable read = predicted(setup, table, active_models(setup));
+    records::ReadingTable read = emulator::predicted(setup, table, effects::active_models(setup));
     if (options.noise) add_noise(setup, options.seed, read);
-    files.add("-", format_readings(read));
+    files.add("-", records::format_readings(read));
     files.write();
     return exit_done;
 }
@@ -94,4 +95,4 @@ void add_predict(CLI::App& app, Run& run) {
     command->callback([options, &run] { run = [options] { return predict(*options); }; });
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

@@ -7,7 +7,7 @@
 #include "base/numbers.h"
 #include "cli/files.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 namespace fs = std::filesystem;
 namespace {
 
@@ -41,7 +41,8 @@ std::optional<int> o_number(const std::string& name) {
 
 }  // namespace
 
-ProgramFolders folders_of_file(const ProgramText& program, std::vector<std::string> folders) {
+interpreter::ProgramFolders folders_of_file(const interpreter::ProgramText& program,
+                                            std::vector<std::string> folders) {
     const std::string own = fs::path(program.name).parent_path().string();
     folders.push_back(own.empty() ? "." : own);
     std::vector<std::string> ours = shipped_folders();
@@ -49,7 +50,7 @@ ProgramFolders folders_of_file(const ProgramText& program, std::vector<std::stri
         folders.insert(folders.end(), ours.begin(), ours.end());
         ours.clear();
     }
-    ProgramFolders source(std::move(folders), std::move(ours));
+    interpreter::ProgramFolders source(std::move(folders), std::move(ours));
     source.add_file(program);
     return source;
 }
@@ -59,20 +60,21 @@ ProgramAndFolders open_program(const std::string& name, std::vector<std::string>
     const fs::file_status found = fs::status(name, unknown);
     const bool is_file = name == "-" || (fs::exists(found) && !fs::is_directory(found));
     if (is_file) {
-        const ProgramText text = read_main_program(name);
+        const interpreter::ProgramText text = interpreter::read_main_program(name);
         return {text, folders_of_file(text, std::move(folders))};
     }
     std::vector<std::string> ours = shipped_folders();
     const auto number = o_number(name);
     if (!number) throw InputError("no such program, or it cannot be read", {name, 0, 0});
-    if (!ProgramFolders(folders).holds(*number)) {  // asked for by its number: ours may serve
+    if (!interpreter::ProgramFolders(folders).holds(
+            *number)) {  // asked for by its number: ours may serve
         folders.insert(folders.end(), ours.begin(), ours.end());
         ours.clear();
     }
-    ProgramFolders source(std::move(folders), std::move(ours));
+    interpreter::ProgramFolders source(std::move(folders), std::move(ours));
     if (!source.holds(*number))
         throw InputError("O number not found in the program folders", {name, 0, 0});
     return {*number, std::move(source)};
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

@@ -4,21 +4,22 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/program_folders.h"
 #include "emulator/run.h"
+#include "interpreter/program_folders.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 
 /// Folders searched for programs: those given, the program's own, then what ships with the product.
 struct ProgramAndFolders {
-    ProgramChoice program;
-    ProgramFolders folders;
+    emulator::ProgramChoice program;
+    interpreter::ProgramFolders folders;
 };
 
 /// `folders`, then the file's own, then what ships; the file itself before all of them.
-ProgramFolders folders_of_file(const ProgramText& program, std::vector<std::string> folders);
+interpreter::ProgramFolders folders_of_file(const interpreter::ProgramText& program,
+                                            std::vector<std::string> folders);
 
 /// Throws InputError when there is no such file and no such O number.
 ProgramAndFolders open_program(const std::string& name, std::vector<std::string> folders);
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

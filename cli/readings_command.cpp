@@ -5,20 +5,21 @@
 #include "cli/files.h"
 #include "effects/settings.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 
-ReadingTable load_readings(const std::string& path, const Setup& setup) {
+records::ReadingTable load_readings(const std::string& path, const setup::Setup& setup) {
     std::vector<std::string> notes;
-    ReadingTable table =
-        parse_readings(read_file_or_input(path), path, notes, setup.machine.chain.names());
+    records::ReadingTable table =
+        records::parse_readings(read_file_or_input(path), path, notes, setup.machine.chain.names());
     print_notes(notes);
     return table;
 }
 
-ReadingTable load_readings(const std::vector<std::string>& paths, const Setup& setup) {
-    std::vector<ReadingTable> tables;
+records::ReadingTable load_readings(const std::vector<std::string>& paths,
+                                    const setup::Setup& setup) {
+    std::vector<records::ReadingTable> tables;
     for (const std::string& path : paths) tables.push_back(load_readings(path, setup));
-    return join_readings(std::move(tables));
+    return records::join_readings(std::move(tables));
 }
 
 std::vector<std::string> split_names(const std::string& text) {
@@ -34,18 +35,18 @@ std::vector<std::string> split_names(const std::string& text) {
     return names;
 }
 
-Setup load_setup_option(const std::string& path, const std::vector<std::string>& inject) {
+setup::Setup load_setup_option(const std::string& path, const std::vector<std::string>& inject) {
     if (path.empty())
         throw InputError(
             "--setup is missing: readings belong to the machine that they were taken on");
     std::vector<std::string> notes;
-    Setup setup = load_setup(path, notes);
+    setup::Setup setup = setup::load_setup(path, notes);
     print_notes(notes);
     if (inject.empty()) return setup;
-    const Catalogue catalogue = make_catalogue(setup);
+    const effects::Catalogue catalogue = effects::make_catalogue(setup);
     for (const std::string& text : inject)
-        setup.effects.push_back(parse_injection(text, catalogue));
+        setup.effects.push_back(effects::parse_injection(text, catalogue));
     return setup;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

@@ -7,19 +7,21 @@
 #include "records/readings.h"
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 
 /// Reads a table of readings of the setup's machine; notes go to stderr. Throws InputError with
 /// path and line.
-ReadingTable load_readings(const std::string& path, const Setup& setup);
+records::ReadingTable load_readings(const std::string& path, const setup::Setup& setup);
 /// The same of several files, joined in the order given.
-ReadingTable load_readings(const std::vector<std::string>& paths, const Setup& setup);
+records::ReadingTable load_readings(const std::vector<std::string>& paths,
+                                    const setup::Setup& setup);
 
 /// "a, b" as a and b.
 std::vector<std::string> split_names(const std::string& text);
 
 /// Reads a setup and switches on what `inject` says. Throws InputError when `path` is empty:
 /// readings are never judged against a machine that nobody named.
-Setup load_setup_option(const std::string& path, const std::vector<std::string>& inject = {});
+setup::Setup load_setup_option(const std::string& path,
+                               const std::vector<std::string>& inject = {});
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

@@ -20,7 +20,7 @@
 #include "report/run_page.h"
 #include "report/run_report.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 namespace {
 
 struct Options {
@@ -77,17 +77,17 @@ std::vector<int> parse_variables(const std::string& text) {
     return numbers;
 }
 
-Setup setup_of(const Options& o) {
-    Setup setup = open_setup(o.setup);
-    if (!o.control.empty()) apply_backup(read_backup(o.control), setup.stores);
-    const Catalogue catalogue = make_catalogue(setup);
+setup::Setup setup_of(const Options& o) {
+    setup::Setup setup = open_setup(o.setup);
+    if (!o.control.empty()) backup::apply_backup(backup::read_backup(o.control), setup.stores);
+    const effects::Catalogue catalogue = effects::make_catalogue(setup);
     for (const std::string& text : o.injections)
-        setup.effects.push_back(parse_injection(text, catalogue));
+        setup.effects.push_back(effects::parse_injection(text, catalogue));
     return setup;
 }
 
-RunOptions run_options(const Options& o, const Setup& setup) {
-    RunOptions options;
+emulator::RunOptions run_options(const Options& o, const setup::Setup& setup) {
+    emulator::RunOptions options;
     options.seed = o.seed;
     options.trace = !o.trace.empty();
     options.trace_step_mm = o.trace_step_mm;
@@ -97,20 +97,21 @@ RunOptions run_options(const Options& o, const Setup& setup) {
     options.budget = budget_of(o.limits);
     options.variables = parse_sets(o.sets);
     options.wanted_variables = parse_variables(o.variables);
-    options.effects = active_models(setup);
+    options.effects = effects::active_models(setup);
     return options;
 }
 
 /// An alarm or a limit ends a run as M30 does: the files tell what the control did until then.
-void write_files(const Options& o, const RunLog& log, OutputFiles& files) {
-    if (!o.readings.empty()) files.add(o.readings, format_readings(log.readings));
+void write_files(const Options& o, const emulator::RunLog& log, OutputFiles& files) {
+    if (!o.readings.empty()) files.add(o.readings, records::format_readings(log.readings));
     if (!o.print.empty()) files.add(o.print, log.printed);
     files.write();
 }
 
-int exit_code(const RunLog& log) {
-    const RunResult& result = log.result;
-    if (result.status == RunStatus::limit) return report_limit(log.limit, result.blocks);
+int exit_code(const emulator::RunLog& log) {
+    const controller::RunResult& result = log.result;
+    if (result.status == controller::RunStatus::limit)
+        return report_limit(log.limit, result.blocks);
     if (!result.alarm) return exit_done;
     const Alarm& alarm = *result.alarm;
     print_error("{}\n",
@@ -120,38 +121,43 @@ int exit_code(const RunLog& log) {
 }
 
 /// Shows how far it is; Ctrl-C ends the run as a limit does.
-RunLog run_watched(const Setup& setup, ProgramAndFolders& program, RunOptions options) {
+emulator::RunLog run_watched(const setup::Setup& setup, ProgramAndFolders& program,
+                             emulator::RunOptions options) {
     Progress progress;
     options.budget.progress = [&](std::uint64_t blocks) {
         progress.show([&] { return fmt::format("{:.1f} million blocks", 1e-6 * double(blocks)); });
     };
-    return run_program(setup, program.folders, program.program, options);
+    return emulator::run_program(setup, program.folders, program.program, options);
 }
 
 /// The page of a run needs the physical tip and curves that look like curves.
 constexpr double page_chord_mm = 0.05;
 
-void follow_path(RunOptions& options, RunPath& path) {
+void follow_path(emulator::RunOptions& options, report::RunPath& path) {
     options.trace = options.truth = true;
     if (options.trace_chord_mm == 0.0) options.trace_chord_mm = page_chord_mm;
     options.trace_chunk = [&path](std::string_view text) { path.add(text); };
 }
 
-std::vector<PageInput> inputs_of(const Setup& setup, const std::vector<ProgramText>& programs) {
-    std::vector<PageInput> inputs{{setup.path, sha256(read_program(setup.path).text)}};
-    for (const ProgramText& program : programs)
+std::vector<report::PageInput> inputs_of(const setup::Setup& setup,
+                                         const std::vector<interpreter::ProgramText>& programs) {
+    std::vector<report::PageInput> inputs{
+        {setup.path, sha256(interpreter::read_program(setup.path).text)}};
+    for (const interpreter::ProgramText& program : programs)
         inputs.push_back({program.name, sha256(program.text)});
     return inputs;
 }
 
-std::string page_of_run(const Options& o, const Setup& setup, const RunLog& log,
-                        const RunPath& path, const std::vector<ProgramText>& programs) {
-    ProgramTexts texts;
-    for (const ProgramText& program : programs) texts[program.name] = std::string(program.text);
-    Page page = run_page(setup, log, path, texts);
+std::string page_of_run(const Options& o, const setup::Setup& setup, const emulator::RunLog& log,
+                        const report::RunPath& path,
+                        const std::vector<interpreter::ProgramText>& programs) {
+    report::ProgramTexts texts;
+    for (const interpreter::ProgramText& program : programs)
+        texts[program.name] = std::string(program.text);
+    report::Page page = report::run_page(setup, log, path, texts);
     page.origin = page_origin(*o.command, o.page, inputs_of(setup, programs));
     page.origin.seed = o.seed;
-    return page_html(page);
+    return report::page_html(page);
 }
 
 int run_command(const Options& o) {
@@ -159,26 +165,26 @@ int run_command(const Options& o) {
         throw InputError("--html and --trace are two runs: the page samples curves by itself");
     if ((o.truth || o.trace_step_mm > 0.0 || o.trace_chord_mm > 0.0) && o.trace.empty())
         throw InputError("--truth, --trace-step and --trace-chord belong to --trace FILE");
-    const Setup setup = setup_of(o);
+    const setup::Setup setup = setup_of(o);
     ProgramAndFolders program = open_program(o.program, o.folders);
-    RunOptions options = run_options(o, setup);
+    emulator::RunOptions options = run_options(o, setup);
     const Interruption interruption;
     OutputFiles files;
     if (options.trace)
         options.trace_chunk = [&out = files.open(o.trace)](std::string_view text) {
             out.append(text);
         };
-    RunPath path;
+    report::RunPath path;
     if (!o.page.html.empty()) follow_path(options, path);
-    const RunLog log = run_watched(setup, program, options);
+    const emulator::RunLog log = run_watched(setup, program, options);
     print_notes(log.notes);
     print_notes(program.folders.announcements());
     if (o.json)
-        print_out("{}", run_json(log, setup.machine.chain, program.folders.used()));
+        print_out("{}", report::run_json(log, setup.machine.chain, program.folders.used()));
     else if (o.print.empty())
         print_out("{}", log.printed);
-    if (!o.json && !o.variables.empty()) print_out("{}", variables_text(log));
-    if (!o.json) print_error("{}\n", run_summary(log));
+    if (!o.json && !o.variables.empty()) print_out("{}", report::variables_text(log));
+    if (!o.json) print_error("{}\n", report::run_summary(log));
     if (!o.page.html.empty())
         files.add(o.page.html, page_of_run(o, setup, log, path, program.folders.used()));
     write_files(o, log, files);
@@ -224,4 +230,4 @@ void add_run(CLI::App& app, Run& run) {
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

@@ -5,10 +5,10 @@
 
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 
 /// Loads a setup file, backup folder included; an empty path is machines/bc_table.toml. Notes go to
 /// stderr.
-Setup open_setup(const std::string& path);
+setup::Setup open_setup(const std::string& path);
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

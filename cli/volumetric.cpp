@@ -15,19 +15,19 @@
 #include "report/volumetric_pictures.h"
 #include "report/volumetric_report.h"
 
-namespace trunnion {
+namespace trunnion::cli {
 namespace {
 
 struct Options {
     std::string setup, csv, svg;
-    VolumetricOptions map;
+    volumetric::VolumetricOptions map;
 };
 
 /// A grid of five axes grows fast; each pose is kept.
-void check_size(const Setup& setup, const VolumetricOptions& options) {
+void check_size(const setup::Setup& setup, const volumetric::VolumetricOptions& options) {
     constexpr double most_poses = 3e6;
     double poses = 1.0;
-    for (const AxisGeometry& axis : setup.machine.chain.axes())
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
         poses *= axis.rotary ? options.rotary_grid : options.grid;
     if (poses > most_poses)
         throw InputError(fmt::format("--grid, --rotary-grid: {:.0f} poses are more than {:.0f}",
@@ -35,35 +35,37 @@ void check_size(const Setup& setup, const VolumetricOptions& options) {
 }
 
 /// Shows how far it is; Ctrl-C ends the map with the poses that are done.
-VolumetricMap watched_map(const Setup& setup, const std::vector<std::string>& names,
-                          VolumetricOptions options) {
+volumetric::VolumetricMap watched_map(const setup::Setup& setup,
+                                      const std::vector<std::string>& names,
+                                      volumetric::VolumetricOptions options) {
     Progress progress;
     options.go_on = [&](std::size_t done, std::size_t total) {
         progress.show([&] { return fmt::format("{} of {} poses", done, total); });
         return !Interruption::asked();
     };
-    return volumetric_map(setup, names, active_models(setup), options);
+    return volumetric::volumetric_map(setup, names, effects::active_models(setup), options);
 }
 
 int run_command(const Options& o) {
     if (o.map.grid < 2 || o.map.grid > 50) throw InputError("--grid: 2 to 50 points along an axis");
     if (o.map.rotary_grid < 1 || o.map.rotary_grid > 72)
         throw InputError("--rotary-grid: 1 to 72 angles of an axis");
-    const Setup setup = open_setup(o.setup);
+    const setup::Setup setup = open_setup(o.setup);
     check_size(setup, o.map);
     std::vector<std::string> names;
-    for (const EffectSetting& effect : setup.effects) names.push_back(effect.name);
+    for (const setup::EffectSetting& effect : setup.effects) names.push_back(effect.name);
     const Interruption interruption;
-    const VolumetricMap map = watched_map(setup, names, o.map);
+    const volumetric::VolumetricMap map = watched_map(setup, names, o.map);
     const bool whole = !Interruption::asked();
     OutputFiles files;
-    if (!o.csv.empty()) files.add(o.csv, volumetric_csv(map));
+    if (!o.csv.empty()) files.add(o.csv, report::volumetric_csv(map));
     if (!o.svg.empty() && whole) {
         make_folder(o.svg);
-        for (auto& [name, text] : volumetric_pictures(map)) files.add(o.svg + '/' + name, text);
+        for (auto& [name, text] : report::volumetric_pictures(map))
+            files.add(o.svg + '/' + name, text);
     }
     files.write();
-    if (o.csv != "-") print_out("{}", volumetric_text(map));
+    if (o.csv != "-") print_out("{}", report::volumetric_text(map));
     if (whole) return exit_done;
     print_error("trunnion: interrupted: these are the first {} poses of the grid{}\n",
                 map.points.size(), o.svg.empty() ? "" : ", without pictures");
@@ -89,4 +91,4 @@ void add_volumetric(CLI::App& app, Run& run) {
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cli

@@ -1,5 +1,5 @@
 # Writes page_assets.cpp from web/dist: cmake -DDIST=... -DOUTPUT=... -P page_assets.cmake
-set(code "#include \"report/page_assets.h\"\n\nnamespace trunnion {\n")
+set(code "#include \"report/page_assets.h\"\n\nnamespace trunnion::report {\n")
 file(STRINGS ${DIST}/hashes.txt hashes)
 function(append variable file)
   file(READ ${DIST}/${file} text)
@@ -22,4 +22,4 @@ endfunction()
 append(page_style page.css)
 append(chart_script chart.js)
 append(run_script run.js)
-file(WRITE ${OUTPUT} "${code}}  // namespace trunnion\n")
+file(WRITE ${OUTPUT} "${code}}  // namespace trunnion::report\n")

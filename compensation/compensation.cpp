@@ -11,7 +11,7 @@
 #include "compensation/tip_corrector.h"
 #include "emulator/follow_move.h"
 
-namespace trunnion {
+namespace trunnion::compensation {
 namespace {
 
 constexpr int deepest_split = 16;
@@ -35,14 +35,14 @@ double apart_mm(const AxisPositions& a, const AxisPositions& b) {
     return (xyz(a) - xyz(b)).norm() + reach_mm * rotary;
 }
 
-bool turns(const AxisMove& move) {
+bool turns(const motion::AxisMove& move) {
     for (const Axis axis : {Axis::A, Axis::B, Axis::C})
         if (move.from[axis] != move.to[axis]) return true;
     return false;
 }
 
 /// 0, 1, 2 when the arc's normal is along X, Y or Z, else -1.
-int plane_normal(const AxisMove& move) {
+int plane_normal(const motion::AxisMove& move) {
     if (!move.arc || move.curve || turns(move)) return -1;
     for (int i = 0; i < 3; ++i)
         if (std::abs(move.arc->normal[i]) > 1.0 - 1e-12) return i;
@@ -90,8 +90,8 @@ std::optional<FittedArc> fit_arc(const Vector3& a, const Vector3& m, const Vecto
 }
 
 /// Errors at one place.
-CompensatedProgram::Worst errors_at(const BelievedTool& is, const BelievedTool& meant,
-                                    bool turned) {
+CompensatedProgram::Worst errors_at(const emulator::BelievedTool& is,
+                                    const emulator::BelievedTool& meant, bool turned) {
     CompensatedProgram::Worst errors;
     errors.tip_mm = (is.tip_W_mm - meant.tip_W_mm).norm();
     (turned ? errors.turned_rad : errors.kept_rad) =
@@ -100,16 +100,16 @@ CompensatedProgram::Worst errors_at(const BelievedTool& is, const BelievedTool& 
 }
 
 /// The axes stand at machine zero, from the sides that the setup says.
-TravelHistory at_start(const Setup& setup) {
-    TravelHistory history(setup.side_before);
+records::TravelHistory at_start(const setup::Setup& setup) {
+    records::TravelHistory history(setup.side_before);
     history.place({});
     return history;
 }
 
 /// Rewrites every move as it comes from the control.
-class RewritingSink : public MotionSink {
+class RewritingSink : public motion::MotionSink {
   public:
-    RewritingSink(const Setup& setup, const EffectModels& effects,
+    RewritingSink(const setup::Setup& setup, const emulator::EffectModels& effects,
                   const CompensationOptions& options, CompensatedProgram& out)
         : corrector_(setup, effects, options.largest_turn_rad, options.decimals),
           text_(setup, options.decimals),
@@ -118,8 +118,8 @@ class RewritingSink : public MotionSink {
           tracker_(at_start(setup)),
           written_(at_start(setup)) {}
 
-    MoveResult move(const AxisMove& move) override {
-        const PathSampler path{move, tracker_, clock_s_, move.mode};
+    motion::MoveResult move(const motion::AxisMove& move) override {
+        const emulator::PathSampler path{move, tracker_, clock_s_, move.mode};
         const bool turned = corrector_.turns_tool(move);
         out_.before.include(
             errors_at(corrector_.truth(path, 1.0), corrector_.meant(move, 1.0), turned));
@@ -131,11 +131,11 @@ class RewritingSink : public MotionSink {
         turned_ = turned;
         if (move.until_skip)
             write_skip(path, stretches.back());
-        else if (move.kind == MotionKind::rapid)
+        else if (move.kind == motion::MotionKind::rapid)
             write_rapid(path, stretches.back());
         else
             for (const PathStretch& stretch : stretches) write_feed(path, stretch);
-        follow(tracker_, move);
+        emulator::follow(tracker_, move);
         clock_s_ += move.duration_s;
         return {false, move.to};
     }
@@ -150,12 +150,13 @@ class RewritingSink : public MotionSink {
   private:
     static constexpr double take_up_s = 0.05;  ///< for ways that only prepare
 
-    Correction corrected(const PathSampler& path, const PathStretch& stretch, double s) const {
+    Correction corrected(const emulator::PathSampler& path, const PathStretch& stretch,
+                         double s) const {
         return corrector_.corrected(path, stretch, s, written_);
     }
 
     /// The block just written leads to s.
-    void note(const PathSampler& path, double s, CompensatedBlock::End end) {
+    void note(const emulator::PathSampler& path, double s, CompensatedBlock::End end) {
         written_.advance(text_.position());
         out_.blocks.push_back(
             {path.move.line, text_.last_line(), corrector_.meant(path.move, s), turned_, end});
@@ -166,19 +167,20 @@ class RewritingSink : public MotionSink {
         return held ? CompensatedBlock::End::in_gap : CompensatedBlock::End::exact;
     }
 
-    void write_line(const PathSampler& path, double s, const Correction& c, double duration_s) {
+    void write_line(const emulator::PathSampler& path, double s, const Correction& c,
+                    double duration_s) {
         if (text_.line(path.move, c.to, duration_s)) note(path, s, end_of(c));
     }
 
     /// The rotaries begin, or cease, to correct the direction: they go there with the tip at rest.
-    void begin_turned(const PathSampler& path, const PathStretch& stretch, bool turned) {
+    void begin_turned(const emulator::PathSampler& path, const PathStretch& stretch, bool turned) {
         turned_ = turned;
         pass_gap(path, stretch, 0.0, take_up_s, Axis::A, Axis::C);
         write_line(path, 0.0, corrected(path, stretch, 0.0), take_up_s);
     }
 
     /// A spindle that turns round without M3, M4 or M5: G74 or G84.
-    void note_tapping(const AxisMove& move) {
+    void note_tapping(const motion::AxisMove& move) {
         if (move.spindle_rpm * spindle_rpm_ < 0.0 && !spindle_commanded_ && !tapping_noted_) {
             tapping_noted_ = true;
             out_.notes.push_back(
@@ -190,7 +192,7 @@ class RewritingSink : public MotionSink {
         spindle_commanded_ = false;
     }
 
-    void write_skip(const PathSampler& path, const PathStretch& stretch) {
+    void write_skip(const emulator::PathSampler& path, const PathStretch& stretch) {
         last_skip_ = SourceRef{path.move.program ? *path.move.program : "", path.move.line, 1};
         const Correction c = corrected(path, stretch, 1.0);
         if (text_.skip(path.move, c.to)) note(path, 1.0, end_of(c));
@@ -198,8 +200,8 @@ class RewritingSink : public MotionSink {
 
     /// Axes first.. to last that would end inside their gap go past it: in the air that harms
     /// nothing.
-    void pass_gap(const PathSampler& path, const PathStretch& stretch, double s, double duration_s,
-                  Axis first, Axis last) {
+    void pass_gap(const emulator::PathSampler& path, const PathStretch& stretch, double s,
+                  double duration_s, Axis first, Axis last) {
         constexpr double past_mm = 0.01, past_rad = 2e-5;
         const Correction c = corrected(path, stretch, s);
         AxisPositions past = c.to;
@@ -211,12 +213,12 @@ class RewritingSink : public MotionSink {
             note(path, s, CompensatedBlock::End::past_gap);
     }
 
-    void write_rapid(const PathSampler& path, const PathStretch& stretch) {
+    void write_rapid(const emulator::PathSampler& path, const PathStretch& stretch) {
         pass_gap(path, stretch, 1.0, path.move.duration_s, Axis::X, Axis::C);
         write_line(path, 1.0, corrected(path, stretch, 1.0), path.move.duration_s);
     }
 
-    void write_feed(const PathSampler& path, const PathStretch& stretch) {
+    void write_feed(const emulator::PathSampler& path, const PathStretch& stretch) {
         take_up(path, stretch);
         if (plane_normal(path.move) >= 0 && !turned_)
             split_arc(path, stretch, stretch.from, stretch.to, 0);
@@ -225,7 +227,7 @@ class RewritingSink : public MotionSink {
     }
 
     /// Axes that turn round cross their gap before the tip goes on.
-    void take_up(const PathSampler& path, const PathStretch& stretch) {
+    void take_up(const emulator::PathSampler& path, const PathStretch& stretch) {
         const Correction c = corrected(path, stretch, stretch.from);
         AxisPositions turning = written_.position();
         for (std::size_t i = 0; i < axis_count; ++i)
@@ -235,8 +237,8 @@ class RewritingSink : public MotionSink {
     }
 
     /// A straight move of the axes to b, halved until it is near the wanted path everywhere.
-    void split_line(const PathSampler& path, const PathStretch& stretch, double a, double b,
-                    int depth) {
+    void split_line(const emulator::PathSampler& path, const PathStretch& stretch, double a,
+                    double b, int depth) {
         const Correction start = corrected(path, stretch, a), end = corrected(path, stretch, b);
         double worst = 0.0;
         for (const double t : {0.5, 0.25, 0.75})
@@ -250,7 +252,8 @@ class RewritingSink : public MotionSink {
     }
 
     /// Places of a piece where an axis of the arc's plane waits inside its gap: of three.
-    int held_places(const PathSampler& path, const PathStretch& stretch, double a, double b) const {
+    int held_places(const emulator::PathSampler& path, const PathStretch& stretch, double a,
+                    double b) const {
         int count = 0;
         for (const double s : {a, 0.5 * (a + b), b}) {
             const Correction c = corrected(path, stretch, s);
@@ -263,8 +266,8 @@ class RewritingSink : public MotionSink {
         return count;
     }
 
-    void split_arc(const PathSampler& path, const PathStretch& stretch, double a, double b,
-                   int depth) {
+    void split_arc(const emulator::PathSampler& path, const PathStretch& stretch, double a,
+                   double b, int depth) {
         constexpr int shortest_arc = 8;  // where an axis comes out of its gap, lines are as good
         const int held = held_places(path, stretch, a, b);
         if (held == 3 || (held > 0 && depth >= shortest_arc))
@@ -293,8 +296,8 @@ class RewritingSink : public MotionSink {
     FlatProgram text_;
     CompensationOptions options_;
     CompensatedProgram& out_;
-    TravelHistory tracker_;  ///< of the original
-    TravelHistory written_;  ///< of the program written
+    records::TravelHistory tracker_;  ///< of the original
+    records::TravelHistory written_;  ///< of the program written
     double clock_s_ = 0.0;
     bool turned_ = false;
     double spindle_rpm_ = 0.0;
@@ -303,23 +306,24 @@ class RewritingSink : public MotionSink {
 };
 
 /// Executes the program written and looks where the physical tip ends.
-class CheckingSink : public MotionSink {
+class CheckingSink : public motion::MotionSink {
   public:
-    CheckingSink(const Setup& setup, const EffectModels& effects, CompensatedProgram& out)
+    CheckingSink(const setup::Setup& setup, const emulator::EffectModels& effects,
+                 CompensatedProgram& out)
         : corrector_(setup, effects), out_(out), tracker_(at_start(setup)) {}
 
-    MoveResult move(const AxisMove& move) override {
-        const PathSampler path{move, tracker_, clock_s_, move.mode};
+    motion::MoveResult move(const motion::AxisMove& move) override {
+        const emulator::PathSampler path{move, tracker_, clock_s_, move.mode};
         if (next_ < out_.blocks.size() && out_.blocks[next_].written_line == move.line)
             look(path, out_.blocks[next_++]);
-        follow(tracker_, move);
+        emulator::follow(tracker_, move);
         clock_s_ += move.duration_s;
         return {false, move.to};
     }
     bool complete() const { return next_ == out_.blocks.size(); }
 
   private:
-    void look(const PathSampler& path, const CompensatedBlock& block) {
+    void look(const emulator::PathSampler& path, const CompensatedBlock& block) {
         if (block.end == CompensatedBlock::End::past_gap) return;
         const bool in_gap = block.end == CompensatedBlock::End::in_gap;
         (in_gap ? out_.in_gap : out_.after)
@@ -328,20 +332,21 @@ class CheckingSink : public MotionSink {
 
     TipCorrector corrector_;
     CompensatedProgram& out_;
-    TravelHistory tracker_;
+    records::TravelHistory tracker_;
     double clock_s_ = 0.0;
     std::size_t next_ = 0;
 };
 
 template <class Program>
-RunResult execute(const Setup& setup, ProgramSource& programs, MotionSink& sink,
-                  const Program& program, BudgetMeter& meter) {
-    Stores stores = setup.stores;
+controller::RunResult execute(const setup::Setup& setup, interpreter::ProgramSource& programs,
+                              motion::MotionSink& sink, const Program& program,
+                              BudgetMeter& meter) {
+    offsets::Stores stores = setup.stores;
     std::uint64_t printed_bytes = 0;
-    ControlConfig config = control_config(setup);
+    controller::ControlConfig config = emulator::control_config(setup);
     config.go_on = [&](std::uint64_t blocks) { return meter.allows({blocks, printed_bytes, 0}); };
-    Controller controller(std::move(config), stores, programs, sink,
-                          [&](std::string_view text) { printed_bytes += text.size(); });
+    controller::Controller controller(std::move(config), stores, programs, sink,
+                                      [&](std::string_view text) { printed_bytes += text.size(); });
     for (const auto& [number, value] : setup.stores.variables)
         controller.set_variable(number, value);
     return controller.run(program);
@@ -355,8 +360,10 @@ void CompensatedProgram::Worst::include(const Worst& other) {
     kept_rad = std::max(kept_rad, other.kept_rad);
 }
 
-CompensatedProgram compensate_program(const Setup& setup, ProgramSource& programs,
-                                      const ProgramChoice& program, const EffectModels& effects,
+CompensatedProgram compensate_program(const setup::Setup& setup,
+                                      interpreter::ProgramSource& programs,
+                                      const emulator::ProgramChoice& program,
+                                      const emulator::EffectModels& effects,
                                       const CompensationOptions& options) {
     CompensatedProgram out;
     RewritingSink sink(setup, effects, options, out);
@@ -369,13 +376,13 @@ CompensatedProgram compensate_program(const Setup& setup, ProgramSource& program
             "the program asks where G31 touched: what it does then cannot be written beforehand",
             *sink.last_skip());
     out.limit = meter.reached();
-    if (out.original.status != RunStatus::ok) return out;
+    if (out.original.status != controller::RunStatus::ok) return out;
     out.program = sink.take();
     CheckingSink check(setup, effects, out);
     BudgetMeter checking(options.budget);
-    ProgramsInMemory none;
-    out.executed =
-        execute(setup, none, check, ProgramText{"compensated", out.program, nullptr}, checking);
+    interpreter::ProgramsInMemory none;
+    out.executed = execute(setup, none, check,
+                           interpreter::ProgramText{"compensated", out.program, nullptr}, checking);
     out.limit = checking.reached();
     if (out.limit != BudgetLimit::none) {
         out.program.clear();
@@ -390,4 +397,4 @@ CompensatedProgram compensate_program(const Setup& setup, ProgramSource& program
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::compensation

@@ -7,7 +7,7 @@
 #include "emulator/run.h"
 #include "emulator/trace.h"
 
-namespace trunnion {
+namespace trunnion::compensation {
 
 struct CompensationOptions {
     double tolerance_mm = 5e-5;  ///< deviation of the path between the points that are met exactly
@@ -20,10 +20,10 @@ struct CompensationOptions {
 struct CompensatedBlock {
     /// An axis may have to end inside its gap, or goes past it first where nothing is cut.
     enum class End : unsigned char { exact, in_gap, past_gap };
-    int line = 0;          ///< of the original
-    int written_line = 0;  ///< of the program written
-    BelievedTool meant;    ///< at its end, as the control believed it
-    bool turned = false;   ///< the rotaries correct the tool's direction
+    int line = 0;                  ///< of the original
+    int written_line = 0;          ///< of the program written
+    emulator::BelievedTool meant;  ///< at its end, as the control believed it
+    bool turned = false;           ///< the rotaries correct the tool's direction
     End end = End::exact;
 };
 
@@ -31,7 +31,7 @@ struct CompensatedProgram {
     std::string program;  ///< flat: what the original executed, without loops and calls
     std::vector<CompensatedBlock> blocks;
     BudgetLimit limit = BudgetLimit::none;  ///< which one ended the work: `program` is empty then
-    RunResult original, executed;           ///< of the original and of the program written
+    controller::RunResult original, executed;  ///< of the original and of the program written
     /// Largest errors at a block's end: of the tip; of the direction where the rotaries correct it;
     /// of the direction where they keep their words.
     struct Worst {
@@ -55,8 +55,10 @@ struct CompensatedProgram {
 /// note. G31 goes out with a corrected target as long as the program never asks where it touched.
 /// Throws InputError for programs that do (what they do next cannot be written beforehand) and for
 /// machines without X, Y and Z.
-CompensatedProgram compensate_program(const Setup& setup, ProgramSource& programs,
-                                      const ProgramChoice& program, const EffectModels& effects,
+CompensatedProgram compensate_program(const setup::Setup& setup,
+                                      interpreter::ProgramSource& programs,
+                                      const emulator::ProgramChoice& program,
+                                      const emulator::EffectModels& effects,
                                       const CompensationOptions& options = {});
 
-}  // namespace trunnion
+}  // namespace trunnion::compensation

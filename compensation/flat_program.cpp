@@ -7,7 +7,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::compensation {
 namespace {
 
 std::string trimmed(std::string text) {
@@ -17,12 +17,13 @@ std::string trimmed(std::string text) {
 
 }  // namespace
 
-FlatProgram::FlatProgram(const Setup& setup, int decimals) : setup_(setup), decimals_(decimals) {
+FlatProgram::FlatProgram(const setup::Setup& setup, int decimals)
+    : setup_(setup), decimals_(decimals) {
     text_ = "G21 G17 G90 G94 G40 G49 G69 G80\nG54\n";
 }
 
 double FlatProgram::offset(Axis axis) const {
-    const WorkOffsets& work = setup_.stores.work;
+    const offsets::WorkOffsets& work = setup_.stores.work;
     return work.external[axis] + work.standard[0][axis] + (axis == Axis::Z ? length_mm_ : 0.0);
 }
 
@@ -43,7 +44,7 @@ void FlatProgram::dwell(double duration_s) {
     pending_ += "G4" + word('X', duration_s) + '\n';
 }
 
-void FlatProgram::prepare(const AxisMove& move) {
+void FlatProgram::prepare(const motion::AxisMove& move) {
     if (move.tool != tool_) text_ += fmt::format("T{}{}\n", move.tool, tool_change_ ? " M06" : "");
     tool_ = move.tool;
     tool_change_ = false;
@@ -66,7 +67,7 @@ void FlatProgram::prepare(const AxisMove& move) {
 /// Words of the axes that change; moves `at_` to what the decimals say.
 std::string FlatProgram::axis_words(const AxisPositions& to, bool all) {
     std::string words;
-    for (const AxisGeometry& axis : setup_.machine.chain.axes()) {
+    for (const kinematics::AxisGeometry& axis : setup_.machine.chain.axes()) {
         const auto inside = [&](double v) { return axis.rotary ? rad_from_deg(v) : v; };
         const double wanted = axis.rotary ? deg_from_rad(to[axis.axis]) : to[axis.axis];
         const double scale = std::pow(10.0, decimals_);
@@ -79,7 +80,7 @@ std::string FlatProgram::axis_words(const AxisPositions& to, bool all) {
     return words;
 }
 
-std::string FlatProgram::feed_words(const AxisMove& move, bool rotary, double duration_s) {
+std::string FlatProgram::feed_words(const motion::AxisMove& move, bool rotary, double duration_s) {
     if (rotary) {
         feed_.clear();
         const std::string mode = feed_mode_ == "G93" ? "" : " G93";
@@ -92,7 +93,7 @@ std::string FlatProgram::feed_words(const AxisMove& move, bool rotary, double du
     return mode + (std::exchange(feed_, words) == words ? "" : words);
 }
 
-void FlatProgram::block(const AxisMove& move, const std::string& words) {
+void FlatProgram::block(const motion::AxisMove& move, const std::string& words) {
     text_ += fmt::format("N{} {}{}\n", move.line % 100000, motion_, words);
     motion_.clear();
     first_ = false;
@@ -104,27 +105,27 @@ void FlatProgram::block(const AxisMove& move, const std::string& words) {
 /// By at least one digit.
 bool FlatProgram::moves(const AxisPositions& to) const {
     const double half = 0.5 * std::pow(10.0, -decimals_);
-    for (const AxisGeometry& axis : setup_.machine.chain.axes())
+    for (const kinematics::AxisGeometry& axis : setup_.machine.chain.axes())
         if (std::abs(to[axis.axis] - at_[axis.axis]) >= (axis.rotary ? rad_from_deg(half) : half))
             return true;
     return false;
 }
 
-bool FlatProgram::line(const AxisMove& move, const AxisPositions& to, double duration_s) {
+bool FlatProgram::line(const motion::AxisMove& move, const AxisPositions& to, double duration_s) {
     bool rotary = false;
     for (const Axis axis : {Axis::A, Axis::B, Axis::C}) rotary |= to[axis] != at_[axis];
     const bool moved = moves(to);
     const std::string words = axis_words(to, first_);
     if (words.empty()) return false;
     const bool rapid =
-        move.kind == MotionKind::rapid || (duration_s <= 0.0 && move.feed_mm_min <= 0.0);
+        move.kind == motion::MotionKind::rapid || (duration_s <= 0.0 && move.feed_mm_min <= 0.0);
     motion_ += motion_.empty() ? "" : " ";
     motion_ += rapid ? "G0" : "G1";
     block(move, words + (rapid ? "" : feed_words(move, rotary, duration_s)));
     return moved;
 }
 
-bool FlatProgram::skip(const AxisMove& move, const AxisPositions& to) {
+bool FlatProgram::skip(const motion::AxisMove& move, const AxisPositions& to) {
     const std::string words = axis_words(to, first_);
     if (words.empty()) return false;
     motion_ += motion_.empty() ? "G31" : " G31";
@@ -132,7 +133,7 @@ bool FlatProgram::skip(const AxisMove& move, const AxisPositions& to) {
     return true;
 }
 
-void FlatProgram::arc(const AxisMove& move, const AxisPositions& to, int normal,
+void FlatProgram::arc(const motion::AxisMove& move, const AxisPositions& to, int normal,
                       bool counter_clockwise, const Vector3& centre_mm) {
     const Vector3 start(at_[Axis::X], at_[Axis::Y], at_[Axis::Z]);
     const std::string plane = normal == 2 ? "G17" : normal == 1 ? "G18" : "G19";
@@ -150,4 +151,4 @@ std::string FlatProgram::take() {
     return "%\nO0001\n" + text_ + pending_ + "M30\n%\n";
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::compensation

@@ -3,28 +3,28 @@
 
 #include <string>
 
-#include "setup/setup.h"
 #include "motion/motion.h"
+#include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::compensation {
 
 class FlatProgram {
   public:
     /// `setup` must outlive the writer: its offsets and tool lengths are in force when the program
     /// runs.
-    FlatProgram(const Setup& setup, int decimals);
+    FlatProgram(const setup::Setup& setup, int decimals);
 
     void m_code(int code);
     void dwell(double duration_s);
     /// Tool, spindle, length offset as the move has them.
-    void prepare(const AxisMove& move);
+    void prepare(const motion::AxisMove& move);
     /// A line to machine position `to` that takes `duration_s`; false when nothing moves.
-    bool line(const AxisMove& move, const AxisPositions& to, double duration_s);
+    bool line(const motion::AxisMove& move, const AxisPositions& to, double duration_s);
     /// G31 to `to` with the feed of the move.
-    bool skip(const AxisMove& move, const AxisPositions& to);
+    bool skip(const motion::AxisMove& move, const AxisPositions& to);
     /// An arc in the plane whose normal is + axis `normal` (0 X, 1 Y, 2 Z); centre in machine mm.
-    void arc(const AxisMove& move, const AxisPositions& to, int normal, bool counter_clockwise,
-             const Vector3& centre_mm);
+    void arc(const motion::AxisMove& move, const AxisPositions& to, int normal,
+             bool counter_clockwise, const Vector3& centre_mm);
     /// Where the words written so far lead, decimals included.
     const AxisPositions& position() const { return at_; }
     /// Line of the text that the last block stands in, from 1.
@@ -34,12 +34,12 @@ class FlatProgram {
   private:
     std::string axis_words(const AxisPositions& to, bool all);
     std::string word(char letter, double value) const;
-    std::string feed_words(const AxisMove& move, bool rotary, double duration_s);
+    std::string feed_words(const motion::AxisMove& move, bool rotary, double duration_s);
     bool moves(const AxisPositions& to) const;
-    void block(const AxisMove& move, const std::string& words);
+    void block(const motion::AxisMove& move, const std::string& words);
     double offset(Axis axis) const;
 
-    const Setup& setup_;
+    const setup::Setup& setup_;
     int decimals_;
     AxisPositions at_;
     bool first_ = true;
@@ -51,4 +51,4 @@ class FlatProgram {
     double spindle_rpm_ = 0.0, length_mm_ = 0.0;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::compensation

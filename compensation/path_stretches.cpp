@@ -5,23 +5,24 @@
 
 #include "emulator/follow_move.h"
 
-namespace trunnion {
+namespace trunnion::compensation {
 namespace {
 
 constexpr double near_s = 1e-4;  ///< neighbours from which a direction is taken
 
-Travel direction_at(const AxisMove& move, double s) {
+Travel direction_at(const motion::AxisMove& move, double s) {
     const AxisPositions a = move.at(std::max(0.0, s - near_s)),
                         b = move.at(std::min(1.0, s + near_s));
     Travel travel{};
     for (std::size_t i = 0; i < axis_count; ++i)
-        if (const double way = b.value[i] - a.value[i]; std::abs(way) > path_rounding.mm)
+        if (const double way = b.value[i] - a.value[i]; std::abs(way) > records::path_rounding.mm)
             travel[i] = way > 0.0 ? 1 : -1;
     return travel;
 }
 
 /// Where axis i turns between a, where it runs in direction `sign`, and b, where it runs back.
-double turning_place(const AxisMove& move, std::size_t i, signed char sign, double a, double b) {
+double turning_place(const motion::AxisMove& move, std::size_t i, signed char sign, double a,
+                     double b) {
     while (b - a > 1e-9) {
         const double middle = 0.5 * (a + b);
         (direction_at(move, middle)[i] == sign ? a : b) = middle;
@@ -29,7 +30,7 @@ double turning_place(const AxisMove& move, std::size_t i, signed char sign, doub
     return 0.5 * (a + b);
 }
 
-std::vector<double> turning_places(const AxisMove& move) {
+std::vector<double> turning_places(const motion::AxisMove& move) {
     std::vector<double> places{0.0};
     const int steps =
         move.arc ? std::max(16, static_cast<int>(16.0 * std::abs(move.arc->turns))) : 32;
@@ -55,12 +56,12 @@ std::vector<double> turning_places(const AxisMove& move) {
 
 }  // namespace
 
-std::vector<PathStretch> path_stretches(const AxisMove& move) {
+std::vector<PathStretch> path_stretches(const motion::AxisMove& move) {
     if (!move.arc && !move.curve) {
         PathStretch whole;
         for (std::size_t i = 0; i < axis_count; ++i)
             if (const double way = move.to.value[i] - move.from.value[i];
-                std::abs(way) > path_rounding.mm)
+                std::abs(way) > records::path_rounding.mm)
                 whole.travel[i] = way > 0.0 ? 1 : -1;
         return {whole};
     }
@@ -72,4 +73,4 @@ std::vector<PathStretch> path_stretches(const AxisMove& move) {
     return stretches;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::compensation

@@ -6,7 +6,7 @@
 
 #include "motion/motion.h"
 
-namespace trunnion {
+namespace trunnion::compensation {
 
 /// Sign of the motion of each axis: -1, +1, 0 for one that stands.
 using Travel = std::array<signed char, axis_count>;
@@ -17,6 +17,6 @@ struct PathStretch {
 };
 
 /// In order, without gaps, at least one.
-std::vector<PathStretch> path_stretches(const AxisMove& move);
+std::vector<PathStretch> path_stretches(const motion::AxisMove& move);
 
-}  // namespace trunnion
+}  // namespace trunnion::compensation

@@ -10,13 +10,13 @@
 #include "offsets/axis_numbers.h"
 #include "positioning/rotary_transform.h"
 
-namespace trunnion {
+namespace trunnion::compensation {
 namespace {
 
 /// An axis with a gap that the program lets stand stays where it is rather than turn for less.
 constexpr double rest_mm = 1e-5, rest_rad = 2e-8;
 
-bool rotaries_turn(const AxisMove& move) {
+bool rotaries_turn(const motion::AxisMove& move) {
     for (const Axis axis : {Axis::A, Axis::B, Axis::C})
         if (move.from[axis] != move.to[axis]) return true;
     return false;
@@ -30,10 +30,11 @@ double within(double so_far_rad, double wish_rad, double limit_rad) {
 }
 
 /// What the control does not believe to move the tool would be taken for an error.
-void refuse_unknown_axes(const Setup& setup) {
+void refuse_unknown_axes(const setup::Setup& setup) {
     std::vector<Axis> order;
-    for (const AxisGeometry& axis : setup.machine.chain.axes()) order.push_back(axis.axis);
-    const ParallelAxes known = parallel_axes(setup.stores.parameters, order);
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
+        order.push_back(axis.axis);
+    const ParallelAxes known = offsets::parallel_axes(setup.stores.parameters, order);
     for (std::size_t i = 0; i < 3; ++i)
         if (const Axis axis = all_axes[index_of(Axis::U) + i];
             setup.machine.chain.find(axis) && known.beside[i] < 0)
@@ -48,8 +49,8 @@ double angle_between(const Vector3& a, const Vector3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-TipCorrector::TipCorrector(const Setup& setup, const EffectModels& effects, double largest_turn_rad,
-                           int decimals)
+TipCorrector::TipCorrector(const setup::Setup& setup, const emulator::EffectModels& effects,
+                           double largest_turn_rad, int decimals)
     : setup_(setup),
       nominal_(setup.machine),
       machine_(setup, effects),
@@ -62,39 +63,40 @@ TipCorrector::TipCorrector(const Setup& setup, const EffectModels& effects, doub
     refuse_unknown_axes(setup);
 }
 
-bool TipCorrector::turns_tool(const AxisMove& move) const {
+bool TipCorrector::turns_tool(const motion::AxisMove& move) const {
     if (largest_turn_rad_ <= 0.0 || !move.transform) return false;
-    const PivotParameters& pivot = move.transform->pivot();
+    const offsets::PivotParameters& pivot = move.transform->pivot();
     if (pivot.first.hypothetical || pivot.second.hypothetical) return false;
     return move.mode == PositioningMode::rtcp || rotaries_turn(move);
 }
 
-BelievedTool TipCorrector::meant(const AxisMove& move, double s) const {
-    return believed_tool(move, move.at(s));
+emulator::BelievedTool TipCorrector::meant(const motion::AxisMove& move, double s) const {
+    return emulator::believed_tool(move, move.at(s));
 }
 
 namespace {
 
 /// Without a length in force the gauge point is meant, on which no tool has an effect.
-Contact contact(const Setup& setup, const AxisMove& move) {
-    return move.tool_vector_mm.isZero(0.0) ? Contact{} : tip_contact(setup, move);
+emulator::Contact contact(const setup::Setup& setup, const motion::AxisMove& move) {
+    return move.tool_vector_mm.isZero(0.0) ? emulator::Contact{}
+                                           : emulator::tip_contact(setup, move);
 }
 
-BelievedTool tool_at(const PhysicalState& state, const AxisMove& move) {
+emulator::BelievedTool tool_at(const emulator::PhysicalState& state, const motion::AxisMove& move) {
     const Vector3 tool_S =
         move.transform ? move.transform->pivot().tool_direction : Vector3::UnitZ();
-    return {physical_tip_W(state, -move.tool_vector_mm),
+    return {emulator::physical_tip_W(state, -move.tool_vector_mm),
             state.poses.pose_MW.rotation.transpose() * (state.poses.pose_MS.rotation * tool_S)};
 }
 
 }  // namespace
 
-BelievedTool TipCorrector::truth(const PathSampler& path, double s) const {
+emulator::BelievedTool TipCorrector::truth(const emulator::PathSampler& path, double s) const {
     return tool_at(machine_.at(path.at(s), contact(setup_, path.move)), path.move);
 }
 
-BelievedTool TipCorrector::truth(const PathSampler& path, double s, const AxisPositions& q,
-                                 const Travel& travel) const {
+emulator::BelievedTool TipCorrector::truth(const emulator::PathSampler& path, double s,
+                                           const AxisPositions& q, const Travel& travel) const {
     AxisSample sample = path.at(s);
     sample.position = q;
     sample.travel = travel;
@@ -102,12 +104,14 @@ BelievedTool TipCorrector::truth(const PathSampler& path, double s, const AxisPo
 }
 
 /// One step of both rotaries towards the meant direction.
-void TipCorrector::turn(const PathSampler& path, double s, const BelievedTool& meant,
-                        const Travel& travel, const Held& held, AxisPositions& q) const {
-    const RotaryTransform& belief = *path.move.transform;
+void TipCorrector::turn(const emulator::PathSampler& path, double s,
+                        const emulator::BelievedTool& meant, const Travel& travel, const Held& held,
+                        AxisPositions& q) const {
+    const positioning::RotaryTransform& belief = *path.move.transform;
     const Vector3 off = truth(path, s, q, travel).direction_W - meant.direction_W;
     const Eigen::Matrix<double, 3, 2> by = belief.derivative(q, path.move.tool_vector_mm).direction;
-    const RotarySolution commanded = belief.rotaries(path.move.at(s)), now = belief.rotaries(q);
+    const positioning::RotarySolution commanded = belief.rotaries(path.move.at(s)),
+                                      now = belief.rotaries(q);
     const std::array<double, 2> so_far{now.first_rad - commanded.first_rad,
                                        now.second_rad - commanded.second_rad};
     const std::array<std::optional<double>, 2> stay{held[index_of(belief.pivot().first.axis)],
@@ -134,15 +138,16 @@ void TipCorrector::turn(const PathSampler& path, double s, const BelievedTool& m
     q = belief.with_rotaries(q, {at[0] + step[0], at[1] + step[1]});
 }
 
-AxisPositions TipCorrector::solved(const PathSampler& path, double s, const Travel& travel,
-                                   const Held& held) const {
+AxisPositions TipCorrector::solved(const emulator::PathSampler& path, double s,
+                                   const Travel& travel, const Held& held) const {
     AxisPositions q = path.move.at(s);
-    const BelievedTool wanted = meant(path.move, s);
+    const emulator::BelievedTool wanted = meant(path.move, s);
     if (turns_tool(path.move))
         for (int i = 0; i < 3; ++i)
             turn(path, s, wanted, travel, held, q);  // each step leaves 1e-4
     // Axes X Y Z are the first three; the nominal machine is near enough here too.
-    const Matrix3 by_axis = tip_jacobian(nominal_, q, -path.move.tool_vector_mm).axis.leftCols<3>();
+    const Matrix3 by_axis =
+        kinematics::tip_jacobian(nominal_, q, -path.move.tool_vector_mm).axis.leftCols<3>();
     const Matrix3 solve = by_axis.inverse();
     for (int i = 0; i < 6; ++i) {
         const Vector3 off = truth(path, s, q, travel).tip_W_mm - wanted.tip_W_mm;
@@ -158,7 +163,7 @@ double TipCorrector::digit(std::size_t axis) const {
 }
 
 /// Travel with which the axes come to q; what no digit says moves nothing.
-Travel TipCorrector::arrival(const AxisPositions& q, const TravelHistory& written) const {
+Travel TipCorrector::arrival(const AxisPositions& q, const records::TravelHistory& written) const {
     Travel travel = written.travel();
     for (std::size_t i = 0; i < axis_count; ++i)
         if (const double way = q.value[i] - written.position().value[i];
@@ -167,8 +172,8 @@ Travel TipCorrector::arrival(const AxisPositions& q, const TravelHistory& writte
     return travel;
 }
 
-Correction TipCorrector::corrected(const PathSampler& path, const PathStretch& stretch, double s,
-                                   const TravelHistory& written) const {
+Correction TipCorrector::corrected(const emulator::PathSampler& path, const PathStretch& stretch,
+                                   double s, const records::TravelHistory& written) const {
     // Rotaries first: what they do moves the linear axes.
     constexpr std::array<std::size_t, axis_count> order{3, 4, 5, 0, 1, 2, 6, 7, 8};
     constexpr int most_rounds = 16;
@@ -212,4 +217,4 @@ Correction TipCorrector::corrected(const PathSampler& path, const PathStretch& s
     return c;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::compensation

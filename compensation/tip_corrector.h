@@ -6,7 +6,7 @@
 #include "emulator/tool_tip.h"
 #include "emulator/trace.h"
 
-namespace trunnion {
+namespace trunnion::compensation {
 
 /// Where to send the axes.
 struct Correction {
@@ -25,43 +25,43 @@ class TipCorrector {
     /// the sake of the tool's direction (near the singular direction a tilt of a few urad would ask
     /// for any angle); 0: never turned. `decimals` of the words that will say where to go. Throws
     /// InputError when the machine has no X, Y or Z axis.
-    TipCorrector(const Setup& setup, const EffectModels& effects, double largest_turn_rad = 0.0,
-                 int decimals = 6);
+    TipCorrector(const setup::Setup& setup, const emulator::EffectModels& effects,
+                 double largest_turn_rad = 0.0, int decimals = 6);
 
     /// True when the direction is corrected too: tool centre point control or turning rotaries, on
     /// a control that knows two of them. Where rotaries stand the program may have clamped them.
-    bool turns_tool(const AxisMove& move) const;
+    bool turns_tool(const motion::AxisMove& move) const;
 
     /// Believed tip and direction in W at s of a move: what the program means.
-    BelievedTool meant(const AxisMove& move, double s) const;
+    emulator::BelievedTool meant(const motion::AxisMove& move, double s) const;
     /// Physical tip and direction in W at s.
-    BelievedTool truth(const PathSampler& path, double s) const;
+    emulator::BelievedTool truth(const emulator::PathSampler& path, double s) const;
     /// Where to go from where and as `written` stands, so that the true tip is the meant one (to
     /// 1e-9 mm) and, where `turns_tool`, the direction too. Backlash and its kin follow the travel
     /// of the axes on their corrected way; what is wanted of an axis may lie inside its gap: then
     /// it is held on the nearer side of it. `stretch` holds s and tells how the program moves.
-    Correction corrected(const PathSampler& path, const PathStretch& stretch, double s,
-                         const TravelHistory& written) const;
+    Correction corrected(const emulator::PathSampler& path, const PathStretch& stretch, double s,
+                         const records::TravelHistory& written) const;
 
   private:
     using Held = std::array<std::optional<double>, axis_count>;  ///< positions of axes that wait
 
-    BelievedTool truth(const PathSampler& path, double s, const AxisPositions& q,
-                       const Travel& travel) const;
-    void turn(const PathSampler& path, double s, const BelievedTool& meant, const Travel& travel,
-              const Held& held, AxisPositions& q) const;
-    AxisPositions solved(const PathSampler& path, double s, const Travel& travel,
+    emulator::BelievedTool truth(const emulator::PathSampler& path, double s,
+                                 const AxisPositions& q, const Travel& travel) const;
+    void turn(const emulator::PathSampler& path, double s, const emulator::BelievedTool& meant,
+              const Travel& travel, const Held& held, AxisPositions& q) const;
+    AxisPositions solved(const emulator::PathSampler& path, double s, const Travel& travel,
                          const Held& held) const;
     double digit(std::size_t axis) const;
-    Travel arrival(const AxisPositions& q, const TravelHistory& written) const;
+    Travel arrival(const AxisPositions& q, const records::TravelHistory& written) const;
 
-    const Setup& setup_;
-    Machine nominal_;
-    Observer machine_;
+    const setup::Setup& setup_;
+    kinematics::Machine nominal_;
+    emulator::Observer machine_;
     double largest_turn_rad_, digit_mm_;
 };
 
 /// Angle between two unit vectors, rad; exact for small ones.
 double angle_between(const Vector3& a, const Vector3& b);
 
-}  // namespace trunnion
+}  // namespace trunnion::compensation

@@ -7,14 +7,14 @@
 #include "cutter/cutter_alarms.h"
 #include "interpreter/alarms.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 const std::vector<AlarmRow>& alarm_table() {
     static const std::vector<AlarmRow> all = [] {
         std::vector<AlarmRow> rows = control_alarms();
-        for (const AlarmInfo& info : language_alarms())
+        for (const interpreter::AlarmInfo& info : interpreter::language_alarms())
             rows.push_back({info.number, "PS", info.text, info.cause, info.remedy});
-        for (const CutterAlarm& row : cutter_alarms())
+        for (const cutter::CutterAlarm& row : cutter::cutter_alarms())
             rows.push_back({row.number, "PS", row.text, row.cause, row.remedy});
         std::sort(rows.begin(), rows.end(),
                   [](const AlarmRow& a, const AlarmRow& b) { return a.number < b.number; });
@@ -47,4 +47,4 @@ void raise_alarm(int number, const std::string& detail, int column) {
                 SourceRef{{}, 0, column});
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

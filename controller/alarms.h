@@ -8,7 +8,7 @@
 #include "base/alarm.h"
 #include "controller/control_alarms.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// All alarms that a program can meet, rising by number.
 const std::vector<AlarmRow>& alarm_table();
@@ -22,4 +22,4 @@ std::string alarm_title(int number, std::string_view text);
 /// The same with words of one's own behind the text: "+ OVERTRAVEL (SOFT 1) X".
 [[noreturn]] void raise_alarm(int number, const std::string& detail, int column = 0);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -5,7 +5,7 @@
 #include "controller/alarms.h"
 #include "controller/commanded.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
@@ -38,17 +38,17 @@ PlanePoint centre_from_radius(PlanePoint start, PlanePoint end, double radius,
     return {start.x + 0.5 * dx - side * dy, start.y + 0.5 * dy + side * dx};
 }
 
-void check_plane_of_centre(const SortedWords& words, const PlaneAxes& plane) {
+void check_plane_of_centre(const SortedWords& words, const motion::PlaneAxes& plane) {
     if (has_arc_words(words, plane)) return;
     for (const char letter : {'I', 'J', 'K'})
         if (words.has(letter)) raise_alarm(21, words.column_of(letter));
 }
 
-bool has_arc_words(const SortedWords& words, const PlaneAxes& plane) {
+bool has_arc_words(const SortedWords& words, const motion::PlaneAxes& plane) {
     return words.has('R') || words.has(plane.centre_first) || words.has(plane.centre_second);
 }
 
-void bend_to_arc(const SortedWords& words, const PlaneAxes& plane, const ArcRule& rule,
+void bend_to_arc(const SortedWords& words, const motion::PlaneAxes& plane, const ArcRule& rule,
                  PlaneElement& figure) {
     figure.centre = figure.start;
     if (words.has('R')) {
@@ -66,9 +66,9 @@ void bend_to_arc(const SortedWords& words, const PlaneAxes& plane, const ArcRule
 }
 
 void move_arc_block(const SortedWords& words, Modal& modal, const Frames& frames, Mover& mover) {
-    const PlaneAxes& plane = modal.plane();
+    const motion::PlaneAxes& plane = modal.plane();
     check_plane_of_centre(words, plane);
-    const ControlPosition target = commanded_position(words, modal, frames);
+    const offsets::ControlPosition target = commanded_position(words, modal, frames);
     PlaneElement figure;
     if (has_arc_words(words, plane)) {
         figure.start = {frames.program[plane.first], frames.program[plane.second]};
@@ -78,13 +78,14 @@ void move_arc_block(const SortedWords& words, Modal& modal, const Frames& frames
         raise_alarm(22);
     }
     if (!figure.arc) {  // 3403#5 = 0: a straight line
-        mover.line(MotionKind::linear, target);
+        mover.line(motion::MotionKind::linear, target);
         return;
     }
     const ProgramArc arc{in_space(plane, frames.program, figure.centre), unit_along(plane.normal),
                          figure.sweep_rad};
-    mover.arc(modal.is(ModalGroup::motion, 20) ? MotionKind::arc_cw : MotionKind::arc_ccw, target,
-              arc);
+    mover.arc(
+        modal.is(ModalGroup::motion, 20) ? motion::MotionKind::arc_cw : motion::MotionKind::arc_ccw,
+        target, arc);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -4,7 +4,7 @@
 #include "controller/mover.h"
 #include "geometry/plane_path.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 struct ArcRule {
     bool clockwise = false;     ///< G2
@@ -18,16 +18,16 @@ ArcRule arc_rule(const Modal& modal);
 PlanePoint centre_from_radius(PlanePoint start, PlanePoint end, double radius, const ArcRule& rule);
 
 /// PS0021 when the only centre word belongs to another plane.
-void check_plane_of_centre(const SortedWords& words, const PlaneAxes& plane);
+void check_plane_of_centre(const SortedWords& words, const motion::PlaneAxes& plane);
 /// True when the block has R or a centre word of the plane.
-bool has_arc_words(const SortedWords& words, const PlaneAxes& plane);
+bool has_arc_words(const SortedWords& words, const motion::PlaneAxes& plane);
 /// Makes `figure`, a line of the plane, the arc that R or the centre words command. R goes before
 /// I J K; R with equal ends leaves a line. PS0020 when the points are too far apart or the radii
 /// differ too much, PS0022 for R0.
-void bend_to_arc(const SortedWords& words, const PlaneAxes& plane, const ArcRule& rule,
+void bend_to_arc(const SortedWords& words, const motion::PlaneAxes& plane, const ArcRule& rule,
                  PlaneElement& figure);
 
 /// Carries out the arc that the words of this block command.
 void move_arc_block(const SortedWords& words, Modal& modal, const Frames& frames, Mover& mover);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -8,20 +8,21 @@
 #include "controller/surface_speed.h"
 #include "motion/tool_centre_point.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
 /// Way of the tip while the rotaries stand.
-double linear_length(const AxisMove& m) {
+double linear_length(const motion::AxisMove& m) {
     return (m.parallel.linear(m.to) - m.parallel.linear(m.from)).norm();
 }
 
 /// The arc as the stages lay it into the machine. A mirror turns it round.
-ArcPath arc_in_machine(const Frames& frames, const ProgramArc& arc, MotionKind& kind) {
-    ArcPath path;
+motion::ArcPath arc_in_machine(const Frames& frames, const ProgramArc& arc,
+                               motion::MotionKind& kind) {
+    motion::ArcPath path;
     const Matrix3& linear = frames.stages.linear();
-    const Vector3 start = xyz_of(frames.program), gauge = xyz_of(frames.machine);
+    const Vector3 start = offsets::xyz_of(frames.program), gauge = offsets::xyz_of(frames.machine);
     if (frames.stages.is_shift()) {
         path.centre_mm = arc.centre + (gauge - start);
         path.normal = arc.normal;
@@ -32,13 +33,14 @@ ArcPath arc_in_machine(const Frames& frames, const ProgramArc& arc, MotionKind& 
         path.normal = (linear * arc.normal).normalized();
         path.sweep_rad = side * arc.sweep_rad;
         if (side < 0.0 && path.normal.dot(arc.normal) > 0.0)
-            kind = kind == MotionKind::arc_ccw ? MotionKind::arc_cw : MotionKind::arc_ccw;
+            kind = kind == motion::MotionKind::arc_ccw ? motion::MotionKind::arc_cw
+                                                       : motion::MotionKind::arc_ccw;
     }
-    path.turns = turns_of(path.sweep_rad);
+    path.turns = motion::turns_of(path.sweep_rad);
     return path;
 }
 
-double arc_length(const ArcPath& path, const Vector3& from, const Vector3& to) {
+double arc_length(const motion::ArcPath& path, const Vector3& from, const Vector3& to) {
     const Vector3 radius_vector = from - path.centre_mm;
     const double rise = path.normal.dot(to - from);
     const double radius = (radius_vector - radius_vector.dot(path.normal) * path.normal).norm();
@@ -48,7 +50,8 @@ double arc_length(const ArcPath& path, const Vector3& from, const Vector3& to) {
 
 }  // namespace
 
-AxisMover::AxisMover(const SortedWords& words, Modal& modal, Frames& frames, MotionSink& sink)
+AxisMover::AxisMover(const SortedWords& words, Modal& modal, Frames& frames,
+                     motion::MotionSink& sink)
     : words_(words), modal_(modal), frames_(frames), sink_(sink) {}
 
 void AxisMover::configure(const ControlConfig& config) {
@@ -87,15 +90,15 @@ void AxisMover::check_clamps(const AxisPositions& to) const {
     }
 }
 
-double AxisMover::duration(MotionKind kind, double way) const {
+double AxisMover::duration(motion::MotionKind kind, double way) const {
     const double shortest = rapid_time(limits, move_.from, move_.to);
-    if (kind == MotionKind::rapid) return shortest;
+    if (kind == motion::MotionKind::rapid) return shortest;
     return std::max(commanded_time(modal_.block.feed, way, words_.column_of('F')), shortest);
 }
 
 /// What the move takes from modal state and frames.
 void AxisMover::take_marks() {
-    const BlockMarks& marks = modal_.block;
+    const motion::BlockMarks& marks = modal_.block;
     move_.spindle_rpm = marks.spindle_rpm;
     move_.coolant = marks.coolant;
     move_.gap_free = marks.gap_free;
@@ -110,25 +113,25 @@ void AxisMover::take_marks() {
 }
 
 /// Everything is in `move_` but the marks. `way`: what F divides, mm.
-MoveResult AxisMover::send(MotionKind kind, const ControlPosition& program,
-                           const ControlPosition& machine, double way) {
-    AxisMove& m = move_;
+motion::MoveResult AxisMover::send(motion::MotionKind kind, const offsets::ControlPosition& program,
+                                   const offsets::ControlPosition& machine, double way) {
+    motion::AxisMove& m = move_;
     m.kind = kind;
     check_stroke(m.to);
     if (!clamps_.empty()) check_clamps(m.to);
     take_marks();
     const double cruise_s = pace_.take(m, limits, way);
-    m.feed_mm_min = kind == MotionKind::rapid ? 0.0
+    m.feed_mm_min = kind == motion::MotionKind::rapid ? 0.0
                     : m.length_mm > 0.0 && cruise_s > 0
                         ? 60.0 * m.length_mm / cruise_s
                         : modal_.block.feed.mm_min / modal_.units.unit_mm;
-    const MoveResult result = sink_.move(m);
+    const motion::MoveResult result = sink_.move(m);
     ++record.moves;
     record.time_s += result.part * m.duration_s;
     record.path_mm += result.part * m.length_mm;
     if (result.skipped) {
         frames_.axes = result.stopped;
-        frames_.machine = control_position_of(result.stopped);
+        frames_.machine = offsets::control_position_of(result.stopped);
         frames_.program = frames_.program_at(frames_.machine);
         return result;
     }
@@ -140,11 +143,12 @@ MoveResult AxisMover::send(MotionKind kind, const ControlPosition& program,
     return result;
 }
 
-MoveResult AxisMover::straight(MotionKind kind, const ControlPosition& target) {
-    const ControlPosition machine = frames_.stages.machine_from_program(target);
-    AxisMove& m = move_;
+motion::MoveResult AxisMover::straight(motion::MotionKind kind,
+                                       const offsets::ControlPosition& target) {
+    const offsets::ControlPosition machine = frames_.stages.machine_from_program(target);
+    motion::AxisMove& m = move_;
     m.from = frames_.axes;
-    m.to = axis_positions_of(machine);
+    m.to = offsets::axis_positions_of(machine);
     if (m.to == m.from) {  // no way to go: nothing goes out
         frames_.machine = machine;
         frames_.program = target;
@@ -157,11 +161,11 @@ MoveResult AxisMover::straight(MotionKind kind, const ControlPosition& target) {
     return send(kind, target, machine, way);
 }
 
-void AxisMover::to_machine(MotionKind kind, const ControlPosition& target) {
-    AxisMove& m = move_;
+void AxisMover::to_machine(motion::MotionKind kind, const offsets::ControlPosition& target) {
+    motion::AxisMove& m = move_;
     m.from = frames_.axes;
-    m.to = axis_positions_of(target);
-    const ControlPosition program = frames_.program_at(target);
+    m.to = offsets::axis_positions_of(target);
+    const offsets::ControlPosition program = frames_.program_at(target);
     if (m.to == m.from) {
         frames_.machine = target;
         frames_.program = program;
@@ -173,13 +177,14 @@ void AxisMover::to_machine(MotionKind kind, const ControlPosition& target) {
     send(kind, program, target, way);
 }
 
-void AxisMover::arc(MotionKind kind, const ControlPosition& target, const ProgramArc& arc) {
-    const ControlPosition machine = frames_.stages.machine_from_program(target);
-    AxisMove& m = move_;
+void AxisMover::arc(motion::MotionKind kind, const offsets::ControlPosition& target,
+                    const ProgramArc& arc) {
+    const offsets::ControlPosition machine = frames_.stages.machine_from_program(target);
+    motion::AxisMove& m = move_;
     m.from = frames_.axes;
-    m.to = axis_positions_of(machine);
-    const ArcPath path = arc_in_machine(frames_, arc, kind);
-    m.length_mm = arc_length(path, xyz_of(frames_.machine), xyz_of(machine));
+    m.to = offsets::axis_positions_of(machine);
+    const motion::ArcPath path = arc_in_machine(frames_, arc, kind);
+    m.length_mm = arc_length(path, offsets::xyz_of(frames_.machine), offsets::xyz_of(machine));
     if (modal_.spindle.by_surface) follow_surface_speed(modal_, frames_.program, target);
     const double way = std::sqrt(m.length_mm * m.length_mm +
                                  feed_square(frames_.machine, machine, modal_.units.unit_mm, 3));
@@ -189,8 +194,9 @@ void AxisMover::arc(MotionKind kind, const ControlPosition& target, const Progra
     m.arc.reset();
 }
 
-MoveResult AxisMover::along(MotionKind kind, const MoveTarget& target, const CurveMove& way) {
-    AxisMove& m = move_;
+motion::MoveResult AxisMover::along(motion::MotionKind kind, const MoveTarget& target,
+                                    const CurveMove& way) {
+    motion::AxisMove& m = move_;
     m.from = frames_.axes;
     m.to = target.axes;
     if (m.to == m.from && !way.arc) {
@@ -204,11 +210,12 @@ MoveResult AxisMover::along(MotionKind kind, const MoveTarget& target, const Cur
     if (way.curve) {
         m.curve = way.curve;
         // The axes may swing further out on the way than where they end.
-        const int parts = curve_parts(m.from, m.to);
+        const int parts = motion::curve_parts(m.from, m.to);
         for (int k = 1; k < parts; ++k) check_stroke(way.curve->at(static_cast<double>(k) / parts));
     }
     if (way.arc) m.arc = *way.arc;
-    const MoveResult result = send(kind, target.program, target.machine, way.feed_length_mm);
+    const motion::MoveResult result =
+        send(kind, target.program, target.machine, way.feed_length_mm);
     m.curve = nullptr;
     m.arc.reset();
     return result;
@@ -225,4 +232,4 @@ void AxisMover::m_code(int code) {
     sink_.m_code(code);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -12,7 +12,7 @@
 #include "motion/motion.h"
 #include "motion/pace.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// An arc or helix of the tip in program coordinates, mm.
 struct ProgramArc {
@@ -23,15 +23,15 @@ struct ProgramArc {
 
 /// A place that has been worked out: what the control counts, and where the axes go.
 struct MoveTarget {
-    ControlPosition program;  ///< program coordinates
-    ControlPosition machine;  ///< mm and deg
-    AxisPositions axes;       ///< mm and rad
+    offsets::ControlPosition program;  ///< program coordinates
+    offsets::ControlPosition machine;  ///< mm and deg
+    AxisPositions axes;                ///< mm and rad
 };
 
 /// How the axes get there: along a curve, an arc, or straight.
 struct CurveMove {
-    const PathCurve* curve = nullptr;
-    std::optional<ArcPath> arc;
+    const motion::PathCurve* curve = nullptr;
+    std::optional<motion::ArcPath> arc;
     double length_mm = 0.0;       ///< of the programmed point's path
     double feed_length_mm = 0.0;  ///< what F divides
 };
@@ -41,7 +41,7 @@ struct CurveMove {
 class AxisMover {
   public:
     /// `words`: of the block that runs, for the columns of alarms.
-    AxisMover(const SortedWords& words, Modal& modal, Frames& frames, MotionSink& sink);
+    AxisMover(const SortedWords& words, Modal& modal, Frames& frames, motion::MotionSink& sink);
 
     /// Limits and clamps of the axes.
     void configure(const ControlConfig& config);
@@ -49,11 +49,13 @@ class AxisMover {
 
     /// A straight move of the tip by the coordinate stages alone. A target where the axes stand
     /// sends nothing.
-    MoveResult straight(MotionKind kind, const ControlPosition& target);
+    motion::MoveResult straight(motion::MotionKind kind, const offsets::ControlPosition& target);
     /// A straight move of the axes to a machine position (G53, G28); the program position follows.
-    void to_machine(MotionKind kind, const ControlPosition& target);
-    void arc(MotionKind kind, const ControlPosition& target, const ProgramArc& arc);
-    MoveResult along(MotionKind kind, const MoveTarget& target, const CurveMove& way);
+    void to_machine(motion::MotionKind kind, const offsets::ControlPosition& target);
+    void arc(motion::MotionKind kind, const offsets::ControlPosition& target,
+             const ProgramArc& arc);
+    motion::MoveResult along(motion::MotionKind kind, const MoveTarget& target,
+                             const CurveMove& way);
     void dwell(double duration_s);
     /// The block behind an M code waits for its completion.
     void m_code(int code);
@@ -66,12 +68,12 @@ class AxisMover {
     void start_run();
 
     RunRecord record;
-    AxisLimits limits;  ///< of the configuration and 1783
+    motion::AxisLimits limits;  ///< of the configuration and 1783
 
   private:
-    MoveResult send(MotionKind kind, const ControlPosition& program, const ControlPosition& machine,
-                    double way);
-    double duration(MotionKind kind, double way) const;
+    motion::MoveResult send(motion::MotionKind kind, const offsets::ControlPosition& program,
+                            const offsets::ControlPosition& machine, double way);
+    double duration(motion::MotionKind kind, double way) const;
     void take_marks();
     void check_stroke(const AxisPositions& to) const;
     void check_clamps(const AxisPositions& to) const;
@@ -79,11 +81,11 @@ class AxisMover {
     const SortedWords& words_;
     Modal& modal_;
     Frames& frames_;
-    MotionSink& sink_;
+    motion::MotionSink& sink_;
     std::vector<ClampCode> clamps_;
     std::array<bool, axis_count> clamped_{};
-    Pace pace_;
-    AxisMove move_;  ///< the one that goes out; fields that rarely change stay
+    motion::Pace pace_;
+    motion::AxisMove move_;  ///< the one that goes out; fields that rarely change stay
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -13,7 +13,7 @@
 #include "controller/word_readings.h"
 #include "controller/word_sorting.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
@@ -32,7 +32,7 @@ void run_phase(Control& c, Phase phase) {
 }
 
 /// G92 S_ limits the speed of G96; S is no spindle command then.
-void feed_speed_tool(const SortedWords& w, Modal& modal, const ControlPosition& program) {
+void feed_speed_tool(const SortedWords& w, Modal& modal, const offsets::ControlPosition& program) {
     modal.block.feed.in_block = w.has('F');
     constexpr std::uint32_t fst =
         SortedWords::bit('F') | SortedWords::bit('S') | SortedWords::bit('T');
@@ -61,12 +61,12 @@ void cut_thread(const SortedWords& w, Modal& modal, const Frames& frames, Mover&
     const double lead_mm = modal.block.feed.programmed * modal.units.unit_mm;
     const double mm_min = lead_mm * std::abs(modal.spindle.signed_rpm());
     if (mm_min <= 0.0) raise_alarm(11, w.column_of('F'));
-    FeedState thread = modal.block.feed;
+    motion::FeedState thread = modal.block.feed;
     thread.inverse_time = false;
     thread.mm_min = mm_min;
     thread.seconds_per_mm = 60.0 / mm_min;
-    const FeedState feed = std::exchange(modal.block.feed, thread);
-    mover.line(MotionKind::linear, commanded_position(w, modal, frames));
+    const motion::FeedState feed = std::exchange(modal.block.feed, thread);
+    mover.line(motion::MotionKind::linear, commanded_position(w, modal, frames));
     modal.block.feed = feed;
 }
 
@@ -84,7 +84,7 @@ void run_motion(Control& c) {
     if (c.wrapped.cylinder() && code == 10)
         return c.wrapped.move_cylinder_line(w, c.modal, c.frames, c.mover);
     if (round) return move_arc_block(w, c.modal, c.frames, c.mover);
-    c.mover.line(code == 0 ? MotionKind::rapid : MotionKind::linear,
+    c.mover.line(code == 0 ? motion::MotionKind::rapid : motion::MotionKind::linear,
                  commanded_position(w, c.modal, c.frames));
 }
 
@@ -153,7 +153,7 @@ void follow_rotaries(const SortedWords& w, const Modal& modal, Frames& frames, M
     if (changed) mover.frames_changed();
 }
 
-void execute(Control& c, const BlockWords& block) {
+void execute(Control& c, const interpreter::BlockWords& block) {
     sort_words(block, c.modal, c.words);
     c.moved = false;
     c.plane_codes.check_goes_on(c.words);
@@ -165,7 +165,7 @@ void execute(Control& c, const BlockWords& block) {
     c.modal.block.line = block.line;
     c.modal.block.byte = block.byte;
     prepare(c);
-    const ControlPosition stood = c.frames.machine;
+    const offsets::ControlPosition stood = c.frames.machine;
     const bool paused = c.mover.cutter.engaged() && pauses_path(c.words);
     if (paused) c.mover.pause();
     act(c);
@@ -181,7 +181,7 @@ void execute(Control& c, const BlockWords& block) {
 
 }  // namespace
 
-void execute_block(Control& c, const BlockWords& block) try {
+void execute_block(Control& c, const interpreter::BlockWords& block) try {
     execute(c, block);
 } catch (Alarm& alarm) {
     const bool of_this_block = alarm.where.line == 0;  // a held move names its own line
@@ -189,4 +189,4 @@ void execute_block(Control& c, const BlockWords& block) try {
     throw;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -4,12 +4,12 @@
 #include "controller/control.h"
 #include "interpreter/block_words.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// Carries out a block:
 ///   speed, feed and units codes - F S T - M codes that act before motion - plane, reading, work
 ///   offset, frame and offset codes - one-shot code or motion - M codes that act after motion.
 /// An alarm without a column gets that of the code or word at fault.
-void execute_block(Control& c, const BlockWords& block);
+void execute_block(Control& c, const interpreter::BlockWords& block);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -4,13 +4,13 @@
 #include "controller/system_variables.h"
 #include "controller/word_sorting.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
-class NoAxes : public MotionSink {
+class NoAxes : public motion::MotionSink {
   public:
-    MoveResult move(const AxisMove&) override { return {}; }
+    motion::MoveResult move(const motion::AxisMove&) override { return {}; }
 };
 
 template <typename Work>
@@ -26,22 +26,22 @@ std::optional<Alarm> alarm_of(Work work) {
 }  // namespace
 
 struct BlockTrial::State {
-    State(ControlConfig config, Stores stores_)
+    State(ControlConfig config, offsets::Stores stores_)
         : stores(std::move(stores_)), control(std::move(config), stores, sink) {}
-    Stores stores;
+    offsets::Stores stores;
     NoAxes sink;
     Control control;
 };
 
-BlockTrial::BlockTrial(ControlConfig config, Stores stores)
+BlockTrial::BlockTrial(ControlConfig config, offsets::Stores stores)
     : state_(std::make_unique<State>(std::move(config), std::move(stores))) {}
 BlockTrial::~BlockTrial() = default;
 
-std::optional<Alarm> BlockTrial::run(const BlockWords& block) {
+std::optional<Alarm> BlockTrial::run(const interpreter::BlockWords& block) {
     return alarm_of([&] { execute_block(state_->control, block); });
 }
 
-std::optional<Alarm> BlockTrial::read(const BlockWords& block) {
+std::optional<Alarm> BlockTrial::read(const interpreter::BlockWords& block) {
     return alarm_of([&] { sort_words(block, state_->control.modal, state_->control.words); });
 }
 
@@ -49,9 +49,10 @@ std::optional<Alarm> BlockTrial::end() {
     return alarm_of([&] { state_->control.mover.cutter.flush(); });
 }
 
-int variable_alarm(int number, bool writes, const ControlConfig& config, const Stores& stores) {
+int variable_alarm(int number, bool writes, const ControlConfig& config,
+                   const offsets::Stores& stores) {
     if (number == 3000 || number == 3006) return writes ? 0 : 115;
-    Stores own = stores;
+    offsets::Stores own = stores;
     NoAxes sink;
     Control control(config, own, sink);
     ControlVariables variables(control);
@@ -64,4 +65,4 @@ int variable_alarm(int number, bool writes, const ControlConfig& config, const S
     return alarm ? alarm->number : 0;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -9,19 +9,19 @@
 #include "interpreter/block_words.h"
 #include "offsets/stores.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// Does what a run does with the words of a program without jumps and variables, on stores of its
 /// own. Not for blocks whose outcome depends on devices (G31).
 class BlockTrial {
   public:
-    BlockTrial(ControlConfig config, Stores stores);
+    BlockTrial(ControlConfig config, offsets::Stores stores);
     ~BlockTrial();
 
     /// The alarm that stops the run at this block, nothing when it is carried out.
-    std::optional<Alarm> run(const BlockWords& block);
+    std::optional<Alarm> run(const interpreter::BlockWords& block);
     /// The alarm of the words alone: codes, addresses, digits, the table of word rules.
-    std::optional<Alarm> read(const BlockWords& block);
+    std::optional<Alarm> read(const interpreter::BlockWords& block);
     /// What waits for a later block goes out, as at M30.
     std::optional<Alarm> end();
 
@@ -32,6 +32,7 @@ class BlockTrial {
 
 /// The alarm of reading (or writing) a variable from #1000 on: 115, 116, or 0. Only such as hold
 /// whatever the program did before.
-int variable_alarm(int number, bool writes, const ControlConfig& config, const Stores& stores);
+int variable_alarm(int number, bool writes, const ControlConfig& config,
+                   const offsets::Stores& stores);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

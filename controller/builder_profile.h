@@ -7,7 +7,7 @@
 
 #include "controller/g_codes.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// Codes are accepted without effect on positions. A G or M code that moves something needs a
 /// program behind it (parameters 6050-6089).
@@ -23,4 +23,4 @@ struct BuilderProfile {
     }
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

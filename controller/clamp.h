@@ -3,7 +3,7 @@
 
 #include "geometry/axes.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// M codes that clamp and release an axis; `alarm`: a move of the clamped axis is an alarm.
 struct ClampCode {
@@ -13,4 +13,4 @@ struct ClampCode {
     bool alarm = false;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

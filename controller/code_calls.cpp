@@ -2,10 +2,10 @@
 
 #include <cstdlib>
 
-namespace trunnion {
+namespace trunnion::controller {
 
-CodeCalls decode_code_calls(const Parameters& parameters) {
-    CodeCalls calls;
+interpreter::CodeCalls decode_code_calls(const offsets::Parameters& parameters) {
+    interpreter::CodeCalls calls;
     const auto code_of = [&](int number) {
         return static_cast<int>(parameters.get(number));  // 0: no call
     };
@@ -19,4 +19,4 @@ CodeCalls decode_code_calls(const Parameters& parameters) {
     return calls;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
@@ -13,8 +13,8 @@ double way_by_sign(double present, double wanted) {
     return way < 0.0 ? way + 360.0 : way;
 }
 
-void take_shortest_way(const SortedWords& words, const Modal& modal, const ControlPosition& present,
-                       ControlPosition& target) {
+void take_shortest_way(const SortedWords& words, const Modal& modal,
+                       const offsets::ControlPosition& present, offsets::ControlPosition& target) {
     for (const Axis axis : {Axis::A, Axis::B, Axis::C}) {
         if (!words.has(axis)) continue;
         const auto bit = static_cast<std::uint16_t>(1U << index_of(axis));
@@ -27,10 +27,10 @@ void take_shortest_way(const SortedWords& words, const Modal& modal, const Contr
 }
 
 /// The axis words outside the plane, or all of them.
-ControlPosition plain_target(const SortedWords& words, const Modal& modal,
-                             const ControlPosition& present, bool with_plane) {
-    ControlPosition out = present;
-    const PlaneAxes& plane = modal.plane();
+offsets::ControlPosition plain_target(const SortedWords& words, const Modal& modal,
+                                      const offsets::ControlPosition& present, bool with_plane) {
+    offsets::ControlPosition out = present;
+    const motion::PlaneAxes& plane = modal.plane();
     for (const ControlAxis& entry : modal.settings.axes) {
         const Axis axis = entry.axis;
         if (!words.has(axis)) continue;
@@ -41,10 +41,10 @@ ControlPosition plain_target(const SortedWords& words, const Modal& modal,
     return out;
 }
 
-ControlPosition polar_target(const SortedWords& words, Modal& modal,
-                             const ControlPosition& present) {
-    const PlaneAxes& plane = modal.plane();
-    ControlPosition out = plain_target(words, modal, present, false);
+offsets::ControlPosition polar_target(const SortedWords& words, Modal& modal,
+                                      const offsets::ControlPosition& present) {
+    const motion::PlaneAxes& plane = modal.plane();
+    offsets::ControlPosition out = plain_target(words, modal, present, false);
     const char radius_word = letter_of(plane.first), angle_word = letter_of(plane.second);
     if (!words.has(radius_word) && !words.has(angle_word)) return out;
     const double x = present[plane.first], y = present[plane.second];
@@ -62,17 +62,18 @@ ControlPosition polar_target(const SortedWords& words, Modal& modal,
 
 }  // namespace
 
-ControlPosition commanded_position(const SortedWords& words, Modal& modal, const Frames& frames) {
+offsets::ControlPosition commanded_position(const SortedWords& words, Modal& modal,
+                                            const Frames& frames) {
     if (modal.is(ModalGroup::polar_words, 160)) return polar_target(words, modal, frames.program);
-    ControlPosition out = plain_target(words, modal, frames.program, true);
+    offsets::ControlPosition out = plain_target(words, modal, frames.program, true);
     if (modal.absolute() && (modal.settings.rollover || modal.shortest_way))
         take_shortest_way(words, modal, frames.program, out);
     return out;
 }
 
-void start_polar_words(Modal& modal, const ControlPosition& position) {
-    const PlaneAxes& plane = modal.plane();
+void start_polar_words(Modal& modal, const offsets::ControlPosition& position) {
+    const motion::PlaneAxes& plane = modal.plane();
     modal.polar_angle_deg = deg_from_rad(std::atan2(position[plane.second], position[plane.first]));
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -3,15 +3,16 @@
 
 #include "controller/frames.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// From where `frames.program` stands. Under G16 with G90 the pole is the zero of the coordinates,
 /// with G91 the present position; each word absolute or incremental as written, and the angle in
 /// force is kept in `modal`. Absolute words of roll-over axes (1008#0) and under M126 go to the
 /// nearest turn, with 1008#1 in the direction of the word's sign.
-ControlPosition commanded_position(const SortedWords& words, Modal& modal, const Frames& frames);
+offsets::ControlPosition commanded_position(const SortedWords& words, Modal& modal,
+                                            const Frames& frames);
 
 /// At G16: the angle in force is that of the present position.
-void start_polar_words(Modal& modal, const ControlPosition& position);
+void start_polar_words(Modal& modal, const offsets::ControlPosition& position);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

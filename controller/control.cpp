@@ -1,17 +1,17 @@
 #include "controller/control.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
-ControlConfig in_order(ControlConfig config, const Parameters& parameters) {
+ControlConfig in_order(ControlConfig config, const offsets::Parameters& parameters) {
     sort_axes(config.axes, parameters);
     return config;
 }
 
 }  // namespace
 
-Control::Control(ControlConfig config_, Stores& stores_, MotionSink& sink)
+Control::Control(ControlConfig config_, offsets::Stores& stores_, motion::MotionSink& sink)
     : config(in_order(std::move(config_), stores_.parameters)),
       stores(stores_),
       frames(stores_),
@@ -34,4 +34,4 @@ void Control::parameters_changed() {
     modal.units_changed();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -12,13 +12,13 @@
 #include "controller/tilted_plane_codes.h"
 #include "controller/wrapped_motion.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 struct Control {
-    Control(ControlConfig config_, Stores& stores_, MotionSink& sink);
+    Control(ControlConfig config_, offsets::Stores& stores_, motion::MotionSink& sink);
 
     ControlConfig config;
-    Stores& stores;
+    offsets::Stores& stores;
     SortedWords words;  ///< of the block that runs
     Modal modal;
     Frames frames;
@@ -39,4 +39,4 @@ struct Control {
     void parameters_changed();
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -4,7 +4,7 @@
 
 #include "positioning/tilted_plane.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 const std::vector<AlarmRow>& control_alarms() {
     static const std::vector<AlarmRow> rows = {
@@ -66,7 +66,7 @@ const std::vector<AlarmRow>& control_alarms() {
         {5421, "PS", "ILLEGAL COMMAND IN G43.4/G43.5",
          "A command that tool centre point control does not allow.", "Cancel with G49 before."},
         {5456, "PS", "TOO MANY G68.2 NESTING", "G68.2 inside G68.2.", "Command G69 before."},
-        {5457, "PS", plane_format_error_text,
+        {5457, "PS", positioning::plane_format_error_text,
          "An address of G68.2, G68.3 or G68.4 is missing or wrong.", "Correct the block."},
         {5458, "PS", "ILLEGAL USE OF G53.1/G53.6",
          "G53.1 or G53.6 without a tilted plane, or out of reach.", "Command G68.2 before."},
@@ -85,4 +85,4 @@ const std::vector<AlarmRow>& control_alarms() {
     return rows;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::controller {
 
 struct AlarmRow {
     int number;
@@ -16,4 +16,4 @@ struct AlarmRow {
 /// The rows of the control itself (the language and cutter compensation have their own).
 const std::vector<AlarmRow>& control_alarms();
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -12,7 +12,7 @@
 #include "interpreter/dialect.h"
 #include "positioning/tcp_frame.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// One axis as the control knows it (parameters 1020, 1022, 1006, 1320, 1321, 1420, ...).
 struct ControlAxis {
@@ -25,7 +25,7 @@ struct ControlAxis {
 
 struct ControlConfig {
     std::vector<ControlAxis> axes;  ///< in the control's order: axis number 1 is [0]
-    Dialect dialect;
+    interpreter::Dialect dialect;
     std::vector<ClampCode> clamps;
     /// #5041.. and #5061.. include the tool length (docs/control.md, own choices: assumed).
     bool work_positions_with_length = true;
@@ -41,7 +41,8 @@ struct ControlConfig {
     std::function<bool(std::uint64_t blocks)> go_on;
     std::int64_t clock_s = 0;  ///< #3011/#3012 and #3002 start here (seconds since 1970), so
                                ///< that same inputs give the same bytes
-    TcpFrame tcp_frame = TcpFrame::start;  ///< G43.4 with the table turned
+    positioning::TcpFrame tcp_frame =
+        positioning::TcpFrame::start;  ///< G43.4 with the table turned
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

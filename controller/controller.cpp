@@ -7,11 +7,11 @@
 #include "interpreter/line_scan.h"
 #include "interpreter/memory.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 struct Controller::State {
-    State(ControlConfig config, Stores& stores, ProgramSource& programs, MotionSink& sink,
-          Interpreter::Print print)
+    State(ControlConfig config, offsets::Stores& stores, interpreter::ProgramSource& programs,
+          motion::MotionSink& sink, interpreter::Interpreter::Print print)
         : control(std::move(config), stores, sink),
           variables(control),
           language(programs, language_options(), variables, std::move(print)) {
@@ -19,7 +19,7 @@ struct Controller::State {
         control.place.sequence_number = [this] { return language.sequence_number(); };
     }
 
-    InterpreterOptions language_options() const;
+    interpreter::InterpreterOptions language_options() const;
     template <typename Program>
     RunResult run(const Program& program);
     void run_blocks();
@@ -31,12 +31,12 @@ struct Controller::State {
 
     Control control;
     ControlVariables variables;
-    Interpreter language;
+    interpreter::Interpreter language;
     BlockWatch watch;
 };
 
-InterpreterOptions Controller::State::language_options() const {
-    InterpreterOptions options;
+interpreter::InterpreterOptions Controller::State::language_options() const {
+    interpreter::InterpreterOptions options;
     options.dialect = control.config.dialect;
     options.skip_switches = control.config.skip_switches;
     options.asin_0_to_minus_90 = control.stores.parameters.bit(6004, 0);
@@ -50,7 +50,7 @@ InterpreterOptions Controller::State::language_options() const {
 }
 
 void Controller::State::run_blocks() {
-    while (const BlockWords* block = language.next()) {
+    while (const interpreter::BlockWords* block = language.next()) {
         control.modal.block.program = &language.program_name();
         const bool inch = control.modal.units.inch();
         execute_block(control, *block);
@@ -77,13 +77,15 @@ void Controller::State::release_held(Alarm& alarm) {
 namespace {
 
 /// The line of an alarm, when its program is this one.
-std::string line_of(const SourceRef& where, const ProgramText& program) {
+std::string line_of(const SourceRef& where, const interpreter::ProgramText& program) {
     if (where.program != program.name) return {};
-    for (LineScan scan(program.text, start_of_text(program.text)); scan.next();) {
-        const TextPlace place = scan.head().place;
+    for (interpreter::LineScan scan(program.text, interpreter::start_of_text(program.text));
+         scan.next();) {
+        const interpreter::TextPlace place = scan.head().place;
         if (place.line != where.line) continue;
         const char* const first = program.text.data() + place.byte;
-        return {first, find_line_end(first, program.text.data() + program.text.size())};
+        return {first,
+                interpreter::find_line_end(first, program.text.data() + program.text.size())};
     }
     return {};
 }
@@ -139,18 +141,19 @@ void Controller::State::finish(RunResult& result) {
     result.notes = record.notes;
     result.reads_skip = variables.reads_skip();
     result.blocks = language.blocks_executed();
-    result.machine = axis_positions_of(frames.machine);
-    result.work = axis_positions_of(frames.stages.shaped_from_program(frames.program));
+    result.machine = offsets::axis_positions_of(frames.machine);
+    result.work = offsets::axis_positions_of(frames.stages.shaped_from_program(frames.program));
     result.modal = control.modal.codes.texts();
 }
 
-Controller::Controller(ControlConfig config, Stores& stores, ProgramSource& programs,
-                       MotionSink& sink, Interpreter::Print print)
+Controller::Controller(ControlConfig config, offsets::Stores& stores,
+                       interpreter::ProgramSource& programs, motion::MotionSink& sink,
+                       interpreter::Interpreter::Print print)
     : state_(std::make_unique<State>(std::move(config), stores, programs, sink, std::move(print))) {
 }
 Controller::~Controller() = default;
 
-RunResult Controller::run(const ProgramText& program) {
+RunResult Controller::run(const interpreter::ProgramText& program) {
     return state_->run(program);
 }
 RunResult Controller::run(int o_number) {
@@ -159,8 +162,8 @@ RunResult Controller::run(int o_number) {
 
 namespace {
 
-bool is_common(int number, const Dialect& dialect) {
-    return number < 1000 || common_slot(number, dialect.has_98000) >= 0;
+bool is_common(int number, const interpreter::Dialect& dialect) {
+    return number < 1000 || interpreter::common_slot(number, dialect.has_98000) >= 0;
 }
 
 }  // namespace
@@ -186,7 +189,7 @@ void Controller::watch(BlockWatch watch) {
 }
 
 void Controller::place(const AxisPositions& machine) {
-    state_->control.frames.stand_at(control_position_of(machine));
+    state_->control.frames.stand_at(offsets::control_position_of(machine));
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

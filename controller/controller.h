@@ -11,7 +11,7 @@
 #include "motion/motion.h"
 #include "offsets/stores.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 struct Control;
 /// Looks at the control: before the first block and after each one.
@@ -20,12 +20,12 @@ using BlockWatch = std::function<void(const Control&)>;
 class Controller {
   public:
     /// `stores` is changed by the program (G10, system variables, #500...).
-    Controller(ControlConfig config, Stores& stores, ProgramSource& programs, MotionSink& sink,
-               Interpreter::Print print);
+    Controller(ControlConfig config, offsets::Stores& stores, interpreter::ProgramSource& programs,
+               motion::MotionSink& sink, interpreter::Interpreter::Print print);
     ~Controller();
 
     /// Runs a program from its first block to its end, alarm or limit. Alarms do not escape.
-    RunResult run(const ProgramText& program);
+    RunResult run(const interpreter::ProgramText& program);
     RunResult run(int o_number);
 
     /// Macro variables, before a run (--set) or after it (--vars).
@@ -44,4 +44,4 @@ class Controller {
     std::unique_ptr<State> state_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

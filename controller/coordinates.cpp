@@ -1,17 +1,18 @@
 #include "controller/coordinates.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
-ControlPosition ones() {
-    ControlPosition p;
+offsets::ControlPosition ones() {
+    offsets::ControlPosition p;
     p.value.fill(1.0);
     return p;
 }
 
 /// Follows p' = factor p + shift by one more stage centre + f (p' - centre).
-void follow(const Coordinates::AxisFactor& stage, ControlPosition& factor, ControlPosition& shift) {
+void follow(const Coordinates::AxisFactor& stage, offsets::ControlPosition& factor,
+            offsets::ControlPosition& shift) {
     for (std::size_t i = 0; i < axis_count; ++i) {
         const double f = stage.factor.value[i];
         factor.value[i] *= f;
@@ -19,16 +20,16 @@ void follow(const Coordinates::AxisFactor& stage, ControlPosition& factor, Contr
     }
 }
 
-ControlPosition sum(const ControlPosition& a, const ControlPosition& b) {
-    ControlPosition out;
+offsets::ControlPosition sum(const offsets::ControlPosition& a, const offsets::ControlPosition& b) {
+    offsets::ControlPosition out;
     for (std::size_t i = 0; i < axis_count; ++i) out.value[i] = a.value[i] + b.value[i];
     return out;
 }
 
 }  // namespace
 
-ControlPosition Coordinates::work_origin() const {
-    ControlPosition origin = sum(sum(preset, work), sum(external, fixture));
+offsets::ControlPosition Coordinates::work_origin() const {
+    offsets::ControlPosition origin = sum(sum(preset, work), sum(external, fixture));
     return feature_MF ? sum(origin, plane_local) : origin;
 }
 
@@ -37,45 +38,51 @@ void Coordinates::compile() {
     shape_shift_ = {};
     if (mirror) follow(*mirror, factor_, shape_shift_);
     if (scaling) follow(*scaling, factor_, shape_shift_);
-    shape_ = xyz_of(factor_).asDiagonal();
+    shape_ = offsets::xyz_of(factor_).asDiagonal();
     if (rotation) {
         const Matrix3 turn = rotation_about(rotation->axis, rad_from_deg(rotation->angle_deg));
         shape_ = turn * shape_;
-        set_xyz(shape_shift_, turn * (xyz_of(shape_shift_) - rotation->centre) + rotation->centre);
+        offsets::set_xyz(shape_shift_, turn * (offsets::xyz_of(shape_shift_) - rotation->centre) +
+                                           rotation->centre);
     }
     linear_ = shape_;
     total_ = sum(sum(shape_shift_, local), work_origin());
     if (feature_MF) {
         linear_ = feature_MF->rotation * shape_;
-        set_xyz(total_, *feature_MF * (xyz_of(shape_shift_) + xyz_of(local)));
+        offsets::set_xyz(total_,
+                         *feature_MF * (offsets::xyz_of(shape_shift_) + offsets::xyz_of(local)));
     }
     total_ = sum(total_, length);
     is_shift_ = linear_.isIdentity(0.0) && factor_ == ones();
     inverse_ = is_shift_ ? Matrix3::Identity() : Matrix3(linear_.inverse());
 }
 
-ControlPosition Coordinates::machine_general(const ControlPosition& program) const {
-    ControlPosition out;
+offsets::ControlPosition Coordinates::machine_general(
+    const offsets::ControlPosition& program) const {
+    offsets::ControlPosition out;
     for (std::size_t i = 0; i < axis_count; ++i)
         out.value[i] = factor_.value[i] * program.value[i] + total_.value[i];
-    set_xyz(out, linear_ * xyz_of(program) + xyz_of(total_));
+    offsets::set_xyz(out, linear_ * offsets::xyz_of(program) + offsets::xyz_of(total_));
     return out;
 }
 
-ControlPosition Coordinates::program_from_machine(const ControlPosition& machine) const {
-    ControlPosition out;
+offsets::ControlPosition Coordinates::program_from_machine(
+    const offsets::ControlPosition& machine) const {
+    offsets::ControlPosition out;
     for (std::size_t i = 0; i < axis_count; ++i)
         out.value[i] = (machine.value[i] - total_.value[i]) / factor_.value[i];
-    if (!is_shift_) set_xyz(out, inverse_ * (xyz_of(machine) - xyz_of(total_)));
+    if (!is_shift_)
+        offsets::set_xyz(out, inverse_ * (offsets::xyz_of(machine) - offsets::xyz_of(total_)));
     return out;
 }
 
-ControlPosition Coordinates::shaped_from_program(const ControlPosition& program) const {
-    ControlPosition out;
+offsets::ControlPosition Coordinates::shaped_from_program(
+    const offsets::ControlPosition& program) const {
+    offsets::ControlPosition out;
     for (std::size_t i = 0; i < axis_count; ++i)
         out.value[i] = factor_.value[i] * program.value[i] + shape_shift_.value[i];
-    set_xyz(out, shape_ * xyz_of(program) + xyz_of(shape_shift_));
+    offsets::set_xyz(out, shape_ * offsets::xyz_of(program) + offsets::xyz_of(shape_shift_));
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

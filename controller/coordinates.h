@@ -6,7 +6,7 @@
 
 #include "offsets/control_position.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// The stages between an absolute program position and the gauge point, in the order applied:
 ///
@@ -20,8 +20,8 @@ class Coordinates {
   public:
     /// G51.1 and G51: p' = centre + factor (p - centre), axis by axis.
     struct AxisFactor {
-        ControlPosition centre;
-        ControlPosition factor;
+        offsets::ControlPosition centre;
+        offsets::ControlPosition factor;
     };
     /// G68: about `centre` (program coordinates after mirror and scaling), right-handed about
     /// `axis`.
@@ -34,32 +34,33 @@ class Coordinates {
     std::optional<AxisFactor> mirror;
     std::optional<AxisFactor> scaling;
     std::optional<PlaneRotation> rotation;
-    ControlPosition local;  ///< G52; inside a tilted plane along the plane's axes
+    offsets::ControlPosition local;  ///< G52; inside a tilted plane along the plane's axes
     /// G68.2: the feature frame in machine coordinates without tool length. While it is set it
     /// replaces `work_origin` for X Y Z; other axes keep their work offset.
     std::optional<Pose> feature_MF;
-    ControlPosition plane_local;  ///< G52 in force when G68.2 was given; part of work_origin
-    ControlPosition preset;       ///< G92
-    ControlPosition external;     ///< external offset
-    ControlPosition work;         ///< G54-G59 or G54.1 Pn
-    ControlPosition fixture;      ///< G54.2, turned with the table
-    ControlPosition length;       ///< tool length vector, tip to gauge point
+    offsets::ControlPosition
+        plane_local;                    ///< G52 in force when G68.2 was given; part of work_origin
+    offsets::ControlPosition preset;    ///< G92
+    offsets::ControlPosition external;  ///< external offset
+    offsets::ControlPosition work;      ///< G54-G59 or G54.1 Pn
+    offsets::ControlPosition fixture;   ///< G54.2, turned with the table
+    offsets::ControlPosition length;    ///< tool length vector, tip to gauge point
 
     Coordinates() { compile(); }
     void compile();
 
     /// Zero of the work frame in machine coordinates: all shifts but G52.
-    ControlPosition work_origin() const;
-    ControlPosition machine_from_program(const ControlPosition& program) const {
+    offsets::ControlPosition work_origin() const;
+    offsets::ControlPosition machine_from_program(const offsets::ControlPosition& program) const {
         if (!is_shift_) return machine_general(program);
-        ControlPosition out;
+        offsets::ControlPosition out;
         for (std::size_t i = 0; i < axis_count; ++i)
             out.value[i] = program.value[i] + total_.value[i];
         return out;
     }
-    ControlPosition program_from_machine(const ControlPosition& machine) const;
+    offsets::ControlPosition program_from_machine(const offsets::ControlPosition& machine) const;
     /// After mirror, scaling and 2-D rotation: what #5001 shows.
-    ControlPosition shaped_from_program(const ControlPosition& program) const;
+    offsets::ControlPosition shaped_from_program(const offsets::ControlPosition& program) const;
 
     /// True while the map of X Y Z is a shift: arcs and feeds need no turning.
     bool is_shift() const { return is_shift_; }
@@ -67,14 +68,14 @@ class Coordinates {
     const Matrix3& linear() const { return linear_; }
 
   private:
-    ControlPosition machine_general(const ControlPosition& program) const;
+    offsets::ControlPosition machine_general(const offsets::ControlPosition& program) const;
 
     bool is_shift_ = true;
     Matrix3 linear_ = Matrix3::Identity(), inverse_ = Matrix3::Identity();
     Matrix3 shape_ = Matrix3::Identity();
-    ControlPosition shape_shift_;  ///< shaped = shape * program + shape_shift
-    ControlPosition factor_;       ///< of all axes, X Y Z unused
-    ControlPosition total_;        ///< machine = linear * program + total
+    offsets::ControlPosition shape_shift_;  ///< shaped = shape * program + shape_shift
+    offsets::ControlPosition factor_;       ///< of all axes, X Y Z unused
+    offsets::ControlPosition total_;        ///< machine = linear * program + total
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -6,7 +6,7 @@
 #include "controller/arcs.h"
 #include "controller/commanded.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
@@ -26,9 +26,9 @@ double offset_mm(const Modal& modal, const Frames& frames) {
 }
 
 /// The move of this block to `target`, straight.
-PathMove straight_move(const SortedWords& words, const Modal& modal, const Frames& frames,
-                       const ControlPosition& target) {
-    PathMove m;
+cutter::PathMove straight_move(const SortedWords& words, const Modal& modal, const Frames& frames,
+                               const offsets::ControlPosition& target) {
+    cutter::PathMove m;
     m.axes = modal.plane();
     m.plane.start = {frames.program[m.axes.first], frames.program[m.axes.second]};
     m.plane.end = {target[m.axes.first], target[m.axes.second]};
@@ -43,8 +43,8 @@ PathMove straight_move(const SortedWords& words, const Modal& modal, const Frame
 }
 
 /// Type C: G40 stood alone, the tool shifts back to the programmed point.
-PathMove shift_back(const SortedWords& words, const Modal& modal, const Frames& frames) {
-    PathMove back = straight_move(words, modal, frames, frames.program);
+cutter::PathMove shift_back(const SortedWords& words, const Modal& modal, const Frames& frames) {
+    cutter::PathMove back = straight_move(words, modal, frames, frames.program);
     back.offset_mm = 0.0;
     return back;
 }
@@ -72,7 +72,7 @@ void set_cutter(const SortedWords& words, Modal& modal, const Frames& frames, Mo
     if (on) {
         mover.cutter.start(frames.program, alone);
     } else {
-        std::optional<PathMove> back;
+        std::optional<cutter::PathMove> back;
         if (alone && changes && modal.settings.cutter.startup_type_c)
             back = shift_back(words, modal, frames);
         mover.cutter.end(back);
@@ -82,7 +82,7 @@ void set_cutter(const SortedWords& words, Modal& modal, const Frames& frames, Mo
 
 void corner_arc(const SortedWords& words, const Modal& modal, Mover& mover) {
     if (modal.cutter_is_off() || words.has_axis()) raise_alarm(10);
-    const PlaneAxes& plane = modal.plane();
+    const motion::PlaneAxes& plane = modal.plane();
     PlanePoint to;
     if (words.has(plane.centre_first)) to.x = words.length_mm(plane.centre_first);
     if (words.has(plane.centre_second)) to.y = words.length_mm(plane.centre_second);
@@ -94,11 +94,12 @@ bool uses_cutter_path(const SortedWords& words, const Mover& mover) {
 }
 
 void queue_motion(const SortedWords& words, Modal& modal, const Frames& frames, Mover& mover) {
-    const PlaneAxes& plane = modal.plane();
+    const motion::PlaneAxes& plane = modal.plane();
     const bool arc = is_round(modal);
     if (arc) check_plane_of_centre(words, plane);
     if (arc && !has_arc_words(words, plane) && modal.settings.arc_needs_centre) raise_alarm(22);
-    PathMove move = straight_move(words, modal, frames, commanded_position(words, modal, frames));
+    cutter::PathMove move =
+        straight_move(words, modal, frames, commanded_position(words, modal, frames));
     if (arc && has_arc_words(words, plane)) bend_to_arc(words, plane, arc_rule(modal), move.plane);
     mover.queue(move);
 }
@@ -113,4 +114,4 @@ bool pauses_path(const SortedWords& words) {
     return false;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

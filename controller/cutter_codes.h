@@ -4,7 +4,7 @@
 
 #include "controller/mover.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// G40, G41, G42. PS0030 for an offset number that does not exist, PS0034 in an arc.
 void set_cutter(const SortedWords& words, Modal& modal, const Frames& frames, Mover& mover,
@@ -18,4 +18,4 @@ void queue_motion(const SortedWords& words, Modal& modal, const Frames& frames, 
 /// The block's code changes frames or moves by itself: a compensated path ends before it.
 bool pauses_path(const SortedWords& words);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

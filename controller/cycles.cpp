@@ -6,7 +6,7 @@
 #include "controller/alarms.h"
 #include "controller/commanded.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
@@ -52,10 +52,10 @@ class Hole {
           mover_(mover),
           at_(levels_of(data)) {}
 
-    void make(const ControlPosition& place);
+    void make(const offsets::ControlPosition& place);
 
   private:
-    void go_to(MotionKind kind, double level);
+    void go_to(motion::MotionKind kind, double level);
     void shift_tool(double by);
     void turn_spindle(int direction);
     void peck(bool out_of_hole);
@@ -71,17 +71,17 @@ class Hole {
     Levels at_;
 };
 
-void Hole::go_to(MotionKind kind, double level) {
-    ControlPosition target = frames_.program;
+void Hole::go_to(motion::MotionKind kind, double level) {
+    offsets::ControlPosition target = frames_.program;
     target[modal_.plane().normal] = level;
     mover_.line(kind, target);
 }
 
 /// The tool point leaves the wall: by Q along the first axis of the plane (5148: +first, assumed).
 void Hole::shift_tool(double by) {
-    ControlPosition target = frames_.program;
+    offsets::ControlPosition target = frames_.program;
     target[modal_.plane().first] += by;
-    mover_.line(MotionKind::rapid, target);
+    mover_.line(motion::MotionKind::rapid, target);
 }
 
 void Hole::turn_spindle(int direction) {
@@ -100,17 +100,17 @@ void Hole::peck(bool out_of_hole) {
     for (double done = 0.0;;) {
         done = std::min(done + data_.peck, total);
         if (total - done < 1e-9) done = total;
-        go_to(MotionKind::linear, done == total ? at_.bottom : at_.r + way * done);
+        go_to(motion::MotionKind::linear, done == total ? at_.bottom : at_.r + way * done);
         if (done == total) return;
-        if (out_of_hole) go_to(MotionKind::rapid, at_.r);
-        go_to(MotionKind::rapid, at_.r + way * std::max(0.0, done - back));
+        if (out_of_hole) go_to(motion::MotionKind::rapid, at_.r);
+        go_to(motion::MotionKind::rapid, at_.r + way * std::max(0.0, done - back));
     }
 }
 
 void Hole::leave_by_feed(double top) {
     const bool all_the_way = row_.code10 == 890 && modal_.settings.g89_feeds_to_initial;
-    if (!all_the_way) go_to(MotionKind::linear, at_.r);
-    go_to(all_the_way ? MotionKind::linear : MotionKind::rapid, top);
+    if (!all_the_way) go_to(motion::MotionKind::linear, at_.r);
+    go_to(all_the_way ? motion::MotionKind::linear : motion::MotionKind::rapid, top);
 }
 
 void Hole::leave() {
@@ -118,22 +118,22 @@ void Hole::leave() {
     const double top = modal_.is(ModalGroup::cycle_return, 990) ? at_.r : at_.initial;
     switch (row_.leave) {
         case Leave::rapid:
-            return go_to(MotionKind::rapid, top);
+            return go_to(motion::MotionKind::rapid, top);
         case Leave::feed:
             return leave_by_feed(top);
         case Leave::tap:
             turn_spindle(row_.code10 == 840 ? -1 : 1);
-            go_to(MotionKind::linear, at_.r);
+            go_to(motion::MotionKind::linear, at_.r);
             turn_spindle(direction);
-            return go_to(MotionKind::rapid, top);
+            return go_to(motion::MotionKind::rapid, top);
         case Leave::stopped_rapid:
             turn_spindle(0);
-            go_to(MotionKind::rapid, top);
+            go_to(motion::MotionKind::rapid, top);
             return turn_spindle(direction);
         case Leave::shifted_rapid:
             turn_spindle(0);
             shift_tool(data_.peck);
-            go_to(MotionKind::rapid, top);
+            go_to(motion::MotionKind::rapid, top);
             shift_tool(-data_.peck);
             return turn_spindle(direction);
     }
@@ -144,26 +144,26 @@ void Hole::bore_back() {
     const int direction = modal_.spindle.direction;
     turn_spindle(0);
     shift_tool(data_.peck);
-    go_to(MotionKind::rapid, at_.r);
+    go_to(motion::MotionKind::rapid, at_.r);
     shift_tool(-data_.peck);
     turn_spindle(direction ? direction : 1);
-    go_to(MotionKind::linear, at_.bottom);
+    go_to(motion::MotionKind::linear, at_.bottom);
     if (data_.dwell_s > 0.0) mover_.axes.dwell(data_.dwell_s);
     turn_spindle(0);
     shift_tool(data_.peck);
-    go_to(MotionKind::rapid, at_.initial);
+    go_to(motion::MotionKind::rapid, at_.initial);
     shift_tool(-data_.peck);
     turn_spindle(direction);
 }
 
-void Hole::make(const ControlPosition& place) {
-    mover_.line(MotionKind::rapid, place);
+void Hole::make(const offsets::ControlPosition& place) {
+    mover_.line(motion::MotionKind::rapid, place);
     if (row_.cut == Cut::back_boring) return bore_back();
-    go_to(MotionKind::rapid, at_.r);
+    go_to(motion::MotionKind::rapid, at_.r);
     const int direction = modal_.spindle.direction;
     if (row_.leave == Leave::tap) turn_spindle(row_.code10 == 840 ? 1 : -1);
     if (row_.cut == Cut::straight)
-        go_to(MotionKind::linear, at_.bottom);
+        go_to(motion::MotionKind::linear, at_.bottom);
     else
         peck(row_.cut == Cut::full_retreat);
     if (row_.dwell && data_.dwell_s > 0.0) mover_.axes.dwell(data_.dwell_s);
@@ -214,10 +214,10 @@ void run_cycle(CycleData& data, SortedWords& words, Modal& modal, const Frames& 
     const int times = words.has(times_word) ? words.whole(times_word) : 1;
     Hole hole(*row, data, modal, frames, mover);
     for (int i = 0; i < times; ++i) {
-        ControlPosition place = commanded_position(words, modal, frames);
+        offsets::ControlPosition place = commanded_position(words, modal, frames);
         place[normal] = frames.program[normal];
         hole.make(place);
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

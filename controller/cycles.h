@@ -5,7 +5,7 @@
 
 #include "controller/mover.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// How a cycle cuts and leaves the hole. Steps: position - rapid to R - cut to Z - bottom - leave.
 struct CycleRow {
@@ -38,4 +38,4 @@ void start_cycle(CycleData& data, Modal& modal, const Frames& frames, int code10
 void run_cycle(CycleData& data, SortedWords& words, Modal& modal, const Frames& frames,
                Mover& mover);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

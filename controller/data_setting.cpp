@@ -5,7 +5,7 @@
 #include "controller/work_frames.h"
 #include "offsets/parameter_units.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
@@ -17,7 +17,7 @@ int p_word(const SortedWords& words, int low, std::size_t high) {
 }
 
 /// Axis words into a vector: overwritten under G90, added under G91.
-void set_vector(const SortedWords& words, const Modal& modal, OffsetVector& vector) {
+void set_vector(const SortedWords& words, const Modal& modal, offsets::OffsetVector& vector) {
     for (const ControlAxis& entry : modal.settings.axes) {
         if (!words.has(entry.axis)) continue;
         const double value = words.axis_value(entry.axis);
@@ -25,7 +25,8 @@ void set_vector(const SortedWords& words, const Modal& modal, OffsetVector& vect
     }
 }
 
-OffsetVector& work_offset(const SortedWords& words, WorkOffsets& work, bool additional) {
+offsets::OffsetVector& work_offset(const SortedWords& words, offsets::WorkOffsets& work,
+                                   bool additional) {
     if (additional) {
         const int p = p_word(words, 1, work.additional.size());
         return work.additional[static_cast<std::size_t>(p - 1)];
@@ -34,7 +35,7 @@ OffsetVector& work_offset(const SortedWords& words, WorkOffsets& work, bool addi
     return p == 0 ? work.external : work.standard[static_cast<std::size_t>(p - 1)];
 }
 
-double& tool_value(ToolOffset& tool, int l) {
+double& tool_value(offsets::ToolOffset& tool, int l) {
     switch (l) {
         case 10:
             return tool.length_geometry_mm;
@@ -47,7 +48,8 @@ double& tool_value(ToolOffset& tool, int l) {
     }
 }
 
-void set_tool_offset(const SortedWords& words, const Modal& modal, ToolOffsets& tools, int l) {
+void set_tool_offset(const SortedWords& words, const Modal& modal, offsets::ToolOffsets& tools,
+                     int l) {
     const int p = p_word(words, 1, tools.tool.size() - 1);
     if (!words.has('R')) raise_alarm(32);
     double& value = tool_value(tools.tool[static_cast<std::size_t>(p)], l);
@@ -55,9 +57,10 @@ void set_tool_offset(const SortedWords& words, const Modal& modal, ToolOffsets& 
     if (value > 9999.0 || value < -9999.0) raise_alarm(32, words.column_of('R'));
 }
 
-void set_fixture_set(const SortedWords& words, const Modal& modal, FixtureOffsets& fixture) {
+void set_fixture_set(const SortedWords& words, const Modal& modal,
+                     offsets::FixtureOffsets& fixture) {
     const int p = p_word(words, 1, fixture.set.size());
-    FixtureOffset& set = fixture.set[static_cast<std::size_t>(p - 1)];
+    offsets::FixtureOffset& set = fixture.set[static_cast<std::size_t>(p - 1)];
     for (const ControlAxis& entry : modal.settings.axes) {
         if (!words.has(entry.axis)) continue;
         double& value = (entry.rotary ? set.reference_angles : set.offset)[entry.axis];
@@ -68,7 +71,7 @@ void set_fixture_set(const SortedWords& words, const Modal& modal, FixtureOffset
 }  // namespace
 
 DataEntry set_data(const SortedWords& words, const Modal& modal, Frames& frames, Mover& mover) {
-    Stores& stores = frames.stores();
+    offsets::Stores& stores = frames.stores();
     const int l = words.has('L') ? words.whole('L') : 10;  // G10 P R: offset memory A
     switch (l) {
         case 2:
@@ -97,13 +100,14 @@ DataEntry set_data(const SortedWords& words, const Modal& modal, Frames& frames,
     }
 }
 
-void enter_parameter(const SortedWords& words, int sequence_number, Parameters& parameters) {
+void enter_parameter(const SortedWords& words, int sequence_number,
+                     offsets::Parameters& parameters) {
     if (sequence_number < 0 || !words.has('R')) raise_alarm(231);
-    Parameter& parameter = parameters.entry[sequence_number];
+    offsets::Parameter& parameter = parameters.entry[sequence_number];
     if (!words.has('P'))
-        parameter.value = words.get('R') * parameter_unit_mm(parameters, sequence_number);
+        parameter.value = words.get('R') * offsets::parameter_unit_mm(parameters, sequence_number);
     else
         parameter.by_axis[words.whole('P')] = words.get('R');
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -6,7 +6,7 @@
 #include "controller/mover.h"
 #include "interpreter/block_words.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// What the blocks after G10 L3, L50, L52 hold until G11.
 enum class DataEntry : std::uint8_t { none, parameters, tool_life };
@@ -16,6 +16,7 @@ enum class DataEntry : std::uint8_t { none, parameters, tool_life };
 DataEntry set_data(const SortedWords& words, const Modal& modal, Frames& frames, Mover& mover);
 /// One data block of parameters: N is the number, P the axis, R the value (a byte for bit
 /// parameters). The caller decodes the parameters anew. PS0231 when N or R is missing.
-void enter_parameter(const SortedWords& words, int sequence_number, Parameters& parameters);
+void enter_parameter(const SortedWords& words, int sequence_number,
+                     offsets::Parameters& parameters);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

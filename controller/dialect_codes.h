@@ -4,10 +4,10 @@
 #include "controller/mover.h"
 #include "interpreter/dialect.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 struct DialectCode {
-    DialectFamily family;
+    interpreter::DialectFamily family;
     int m_code;
     void (*act)(Modal& modal, Frames& frames, Mover& mover);
     const char* text;
@@ -15,6 +15,6 @@ struct DialectCode {
 };
 
 /// The row of an M code in a dialect, or nullptr.
-const DialectCode* find_dialect_code(DialectFamily family, int m_code);
+const DialectCode* find_dialect_code(interpreter::DialectFamily family, int m_code);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

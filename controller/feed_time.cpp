@@ -7,12 +7,12 @@
 #include "base/units.h"
 #include "controller/alarms.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
-AxisLimits axis_limits(const std::vector<ControlAxis>& axes) {
+motion::AxisLimits axis_limits(const std::vector<ControlAxis>& axes) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr double default_rapid_mm_s = 400.0, default_rapid_rad_s = pi / 2.0;
-    AxisLimits out;
+    motion::AxisLimits out;
     out.min.fill(-infinity);
     out.max.fill(infinity);
     out.seconds_per_unit.fill(0.0);
@@ -32,7 +32,7 @@ AxisLimits axis_limits(const std::vector<ControlAxis>& axes) {
     return out;
 }
 
-void set_corner_jumps(const ControlSettings& settings, AxisLimits& limits) {
+void set_corner_jumps(const ControlSettings& settings, motion::AxisLimits& limits) {
     for (const ControlAxis& axis : settings.axes) {
         const std::size_t i = index_of(axis.axis);
         const double jump = settings.corner_jump[i] / 60.0;
@@ -40,7 +40,8 @@ void set_corner_jumps(const ControlSettings& settings, AxisLimits& limits) {
     }
 }
 
-double rapid_time(const AxisLimits& limits, const AxisPositions& from, const AxisPositions& to) {
+double rapid_time(const motion::AxisLimits& limits, const AxisPositions& from,
+                  const AxisPositions& to) {
     double longest = 0.0;
     for (std::size_t i = 0; i < axis_count; ++i)
         longest =
@@ -48,7 +49,7 @@ double rapid_time(const AxisLimits& limits, const AxisPositions& from, const Axi
     return longest;
 }
 
-double commanded_time(const FeedState& feed, double length_mm, int f_column) {
+double commanded_time(const motion::FeedState& feed, double length_mm, int f_column) {
     if (feed.seconds_per_mm > 0.0) return length_mm * feed.seconds_per_mm;
     if (!feed.inverse_time) raise_alarm(11, f_column);
     if (!feed.in_block) raise_alarm(1202);
@@ -56,8 +57,8 @@ double commanded_time(const FeedState& feed, double length_mm, int f_column) {
     return 60.0 / feed.programmed;
 }
 
-double feed_square(const ControlPosition& from, const ControlPosition& to, double unit_mm,
-                   std::size_t first) {
+double feed_square(const offsets::ControlPosition& from, const offsets::ControlPosition& to,
+                   double unit_mm, std::size_t first) {
     double sum = 0.0;
     for (std::size_t i = first; i < axis_count; ++i) {
         const double d = to.value[i] - from.value[i];
@@ -66,4 +67,4 @@ double feed_square(const ControlPosition& from, const ControlPosition& to, doubl
     return sum;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -4,7 +4,7 @@
 
 #include "controller/alarms.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 void set_fixture_offset(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover) {
     if (frames.tip.in_force) raise_alarm(5421, "(G54.2 under it)");
@@ -26,4 +26,4 @@ void fixture_sets_changed(const Modal& modal, Frames& frames, Mover& mover) {
     mover.frames_changed();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -3,11 +3,11 @@
 
 #include "controller/mover.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// PS0031 when there is no such P, PS5421 under G43.4, PS5457 inside a tilted plane.
 void set_fixture_offset(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover);
 /// After a set of G54.2 in the stores changed.
 void fixture_sets_changed(const Modal& modal, Frames& frames, Mover& mover);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

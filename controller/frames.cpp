@@ -5,7 +5,7 @@
 #include "controller/alarms.h"
 #include "offsets/axis_numbers.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
@@ -15,8 +15,9 @@ std::vector<Axis> axis_order(const ControlSettings& settings) {
     return order;
 }
 
-RotaryTravel::Range travel_of(const ControlSettings& settings, const PivotAxis& axis) {
-    RotaryTravel::Range range{axis.min_rad, axis.max_rad};
+positioning::RotaryTravel::Range travel_of(const ControlSettings& settings,
+                                           const offsets::PivotAxis& axis) {
+    positioning::RotaryTravel::Range range{axis.min_rad, axis.max_rad};
     for (const ControlAxis& entry : settings.axes) {
         if (axis.hypothetical || entry.axis != axis.axis) continue;
         if (entry.min) range.min_rad = std::max(*entry.min, range.min_rad.value_or(*entry.min));
@@ -35,22 +36,22 @@ void Frames::parameters_changed(const ControlSettings& settings) {
     const std::vector<Axis> order = axis_order(settings);
     believed = {};
     try {
-        if (const auto pivot = decode_pivot(stores_.parameters, order))
+        if (const auto pivot = offsets::decode_pivot(stores_.parameters, order))
             believed.transform.emplace(*pivot);
     } catch (const Alarm& alarm) {
         believed.fault = alarm;
     }
-    believed.parallel = parallel_axes(stores_.parameters, order);
+    believed.parallel = offsets::parallel_axes(stores_.parameters, order);
 }
 
-const RotaryTransform& Frames::transform(int otherwise) const {
+const positioning::RotaryTransform& Frames::transform(int otherwise) const {
     if (believed.fault) throw Alarm(*believed.fault);
     if (!believed.transform) raise_alarm(otherwise, "(No.19680 is 0)");
     return *believed.transform;
 }
 
-RotaryTravel Frames::rotary_travel(const ControlSettings& settings) const {
-    const PivotParameters& pivot = believed.transform->pivot();
+positioning::RotaryTravel Frames::rotary_travel(const ControlSettings& settings) const {
+    const offsets::PivotParameters& pivot = believed.transform->pivot();
     return {travel_of(settings, pivot.first), travel_of(settings, pivot.second)};
 }
 
@@ -66,16 +67,18 @@ void Frames::recompute() {
     program = program_at(machine);
 }
 
-ControlPosition Frames::program_at(const ControlPosition& machine_position) const {
+offsets::ControlPosition Frames::program_at(
+    const offsets::ControlPosition& machine_position) const {
     if (!tip.in_force) return stages.program_from_machine(machine_position);
-    ControlPosition staged = machine_position;
-    set_xyz(staged, tip.in_force->programmed_tip_M(axis_positions_of(machine_position)) +
-                        xyz_of(stages.length));
+    offsets::ControlPosition staged = machine_position;
+    offsets::set_xyz(staged,
+                     tip.in_force->programmed_tip_M(offsets::axis_positions_of(machine_position)) +
+                         offsets::xyz_of(stages.length));
     return stages.program_from_machine(staged);
 }
 
 void Frames::take_work_offset(const Modal& modal) {
-    const WorkOffsets& work = stores_.work;
+    const offsets::WorkOffsets& work = stores_.work;
     const int code = modal.codes[ModalGroup::work_offset];
     stages.external = work.external;
     stages.work = code == 541 ? work.additional[static_cast<std::size_t>(modal.number.work - 1)]
@@ -83,9 +86,9 @@ void Frames::take_work_offset(const Modal& modal) {
     if (plane) place_plane();
 }
 
-void Frames::stand_at(const ControlPosition& machine_position) {
+void Frames::stand_at(const offsets::ControlPosition& machine_position) {
     machine = machine_position;
-    axes = axis_positions_of(machine);
+    axes = offsets::axis_positions_of(machine);
     if (plane) place_plane();
     recompute();
 }
@@ -93,7 +96,7 @@ void Frames::stand_at(const ControlPosition& machine_position) {
 Vector3 Frames::origin_of_work() const {
     Coordinates plain = stages;
     plain.feature_MF.reset();
-    return xyz_of(plain.work_origin()) + xyz_of(plain.plane_local);
+    return offsets::xyz_of(plain.work_origin()) + offsets::xyz_of(plain.plane_local);
 }
 
 void Frames::place_plane() {
@@ -104,43 +107,45 @@ void Frames::place_plane() {
     stages.length = staged_length(stages.length);
 }
 
-ControlPosition Frames::staged_length(ControlPosition plain) const {
+offsets::ControlPosition Frames::staged_length(offsets::ControlPosition plain) const {
     if (!plane) return plain;
-    set_xyz(plain, tool.vector_mm);
+    offsets::set_xyz(plain, tool.vector_mm);
     if (!believed.transform) return plain;
     const AxisPositions& there = plane->latched;
-    set_xyz(plain,
-            believed.parallel.linear(there) - believed.transform->pose_MW(there) *
-                                                  believed.transform->tip_W(there, tool.vector_mm));
+    offsets::set_xyz(plain, believed.parallel.linear(there) -
+                                believed.transform->pose_MW(there) *
+                                    believed.transform->tip_W(there, tool.vector_mm));
     return plain;
 }
 
-ControlPosition Frames::shown_length() const {
-    ControlPosition length = stages.length;
-    if (plane) set_xyz(length, tool.vector_mm);
+offsets::ControlPosition Frames::shown_length() const {
+    offsets::ControlPosition length = stages.length;
+    if (plane) offsets::set_xyz(length, tool.vector_mm);
     return length;
 }
 
-const FixtureSettings& Frames::fixture_settings(const ControlSettings& settings) {
+const positioning::FixtureSettings& Frames::fixture_settings(const ControlSettings& settings) {
     if (!believed.fixture)
-        believed.fixture = decode_fixture_settings(stores_.parameters, axis_order(settings));
+        believed.fixture =
+            positioning::decode_fixture_settings(stores_.parameters, axis_order(settings));
     return *believed.fixture;
 }
 
 bool Frames::turn_fixture(const ControlSettings& settings,
-                          const ControlPosition& machine_position) {
+                          const offsets::ControlPosition& machine_position) {
     if (fixture_number == 0) return false;
     const auto& set = stores_.fixture.set[static_cast<std::size_t>(fixture_number - 1)];
-    const ControlPosition vector =
-        turned_fixture_offset(fixture_settings(settings), set, machine_position);
+    const offsets::ControlPosition vector =
+        positioning::turned_fixture_offset(fixture_settings(settings), set, machine_position);
     if (vector == stages.fixture) return false;
     stages.fixture = vector;
     return true;
 }
 
-void Frames::follow_fixture(const ControlSettings& settings, const ControlPosition& target) {
+void Frames::follow_fixture(const ControlSettings& settings,
+                            const offsets::ControlPosition& target) {
     if (fixture_number == 0 || stores_.parameters.bit(7570, 0)) return;
     if (turn_fixture(settings, stages.machine_from_program(target))) stages.compile();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -11,14 +11,14 @@
 #include "positioning/rotary_choice.h"
 #include "positioning/rotary_transform.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// What parameters say about the rotary axes.
 struct BelievedGeometry {
-    std::optional<RotaryTransform> transform;  ///< nothing: 19680 = 0, or `fault`
-    std::optional<Alarm> fault;                ///< what is wrong with the parameters, thrown on use
-    ParallelAxes parallel;                     ///< U V W beside X Y Z
-    std::optional<FixtureSettings> fixture;    ///< decoded when G54.2 is first used
+    std::optional<positioning::RotaryTransform> transform;  ///< nothing: 19680 = 0, or `fault`
+    std::optional<Alarm> fault;  ///< what is wrong with the parameters, thrown on use
+    ParallelAxes parallel;       ///< U V W beside X Y Z
+    std::optional<positioning::FixtureSettings> fixture;  ///< decoded when G54.2 is first used
 };
 
 /// The tool length in force, tip to gauge point.
@@ -36,10 +36,11 @@ struct TiltedPlaneState {
 
 /// Tool centre point control.
 struct TipControl {
-    std::optional<ToolCentrePoint> in_force;  ///< G43.4, G43.5, M128
-    std::optional<ToolCentrePoint> starting;  ///< takes over at the end of the start-up block
-    bool by_vector = false;                   ///< G43.5: I J K instead of rotary words
-    double lean_rad = 0.0;                    ///< Q of G43.5
+    std::optional<motion::ToolCentrePoint> in_force;  ///< G43.4, G43.5, M128
+    std::optional<motion::ToolCentrePoint>
+        starting;            ///< takes over at the end of the start-up block
+    bool by_vector = false;  ///< G43.5: I J K instead of rotary words
+    double lean_rad = 0.0;   ///< Q of G43.5
     /// G43.4 had a block of its own in a frame that differs from the one before: the programmed
     /// position stands, and the next move goes there from where the tip is.
     bool keeps_program = false;
@@ -51,12 +52,12 @@ bool same_rotaries(const AxisPositions& a, const AxisPositions& b);
 /// `axes` is what was driven, mm and rad.
 class Frames {
   public:
-    explicit Frames(Stores& stores) : stores_(stores) {}
+    explicit Frames(offsets::Stores& stores) : stores_(stores) {}
 
     Coordinates stages;
-    ControlPosition program;  ///< where the control stands: program coordinates of the tip
-    ControlPosition machine;  ///< the same point as machine coordinates of the gauge point
-    AxisPositions axes;       ///< the same at the door
+    offsets::ControlPosition program;  ///< where the control stands: program coordinates of the tip
+    offsets::ControlPosition machine;  ///< the same point as machine coordinates of the gauge point
+    AxisPositions axes;                ///< the same at the door
     BelievedGeometry believed;
     ToolVector tool;
     std::optional<TiltedPlaneState> plane;
@@ -65,24 +66,24 @@ class Frames {
     bool length_parked = false;  ///< G28, G30, G53 left the length out until the axis moves again
     bool length_moves = false;   ///< G43, G49 without axis words: the axis moves by the offset
 
-    Stores& stores() { return stores_; }
-    const Stores& stores() const { return stores_; }
+    offsets::Stores& stores() { return stores_; }
+    const offsets::Stores& stores() const { return stores_; }
 
     /// After parameters changed: 1022, 7580-7588 and 19680-19714 anew.
     void parameters_changed(const ControlSettings& settings);
     /// The believed kinematics; throws PS5459 when the parameters are wrong, `otherwise` when there
     /// are none (19680 = 0).
-    const RotaryTransform& transform(int otherwise) const;
+    const positioning::RotaryTransform& transform(int otherwise) const;
     /// Where the rotaries may go: stored strokes and 19741-19744, whichever is narrower.
-    RotaryTravel rotary_travel(const ControlSettings& settings) const;
+    positioning::RotaryTravel rotary_travel(const ControlSettings& settings) const;
 
     /// Compiles the stages and derives the program position of the place of the axes anew.
     void recompute();
     /// The program position of a place of the axes, by all that is in force.
-    ControlPosition program_at(const ControlPosition& machine_position) const;
+    offsets::ControlPosition program_at(const offsets::ControlPosition& machine_position) const;
     /// Takes the active work offset and the external one from the stores.
     void take_work_offset(const Modal& modal);
-    void stand_at(const ControlPosition& machine_position);
+    void stand_at(const offsets::ControlPosition& machine_position);
 
     /// Any of G43.4, G54.2, G68.2 follows the rotaries or leads the tip.
     bool follows_rotaries() const { return tip.in_force || plane || fixture_number != 0; }
@@ -95,20 +96,21 @@ class Frames {
     void place_plane();
     /// Tool length vector of the stages: in a tilted plane along the tool as it stands, with the
     /// swing of a rotary head; otherwise `plain`.
-    ControlPosition staged_length(ControlPosition plain) const;
+    offsets::ControlPosition staged_length(offsets::ControlPosition plain) const;
     /// The tool length as #5081.. show it: without that swing.
-    ControlPosition shown_length() const;
+    offsets::ControlPosition shown_length() const;
 
     /// G54.2 as parameters say; PS5459 when they are wrong.
-    const FixtureSettings& fixture_settings(const ControlSettings& settings);
+    const positioning::FixtureSettings& fixture_settings(const ControlSettings& settings);
     /// The G54.2 vector with the rotaries where `machine_position` says; true when it changed.
-    bool turn_fixture(const ControlSettings& settings, const ControlPosition& machine_position);
+    bool turn_fixture(const ControlSettings& settings,
+                      const offsets::ControlPosition& machine_position);
     /// The vector as the end of a move to `target` needs it, before the move (7570#0 = 1: only
     /// after the block; assumed).
-    void follow_fixture(const ControlSettings& settings, const ControlPosition& target);
+    void follow_fixture(const ControlSettings& settings, const offsets::ControlPosition& target);
 
   private:
-    Stores& stores_;
+    offsets::Stores& stores_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

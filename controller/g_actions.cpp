@@ -15,7 +15,7 @@
 #include "controller/word_readings.h"
 #include "controller/work_frames.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
@@ -150,4 +150,4 @@ void carry_out(Control& c, const GCode& code) {
     rows[static_cast<std::size_t>(code.action)].carry_out(c, code);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

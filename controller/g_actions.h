@@ -3,9 +3,9 @@
 
 #include "controller/control.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// Carries out one code of the block, or sets its modal group.
 void carry_out(Control& c, const GCode& code);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
@@ -146,4 +146,4 @@ const GCode* find_g_code(double value) {
     return row < 0 ? nullptr : &table[row];
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

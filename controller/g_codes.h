@@ -5,7 +5,7 @@
 
 #include "controller/modal_groups.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// What a code asks for; controller/g_actions.cpp says who does it.
 enum class Action : std::uint8_t {
@@ -77,4 +77,4 @@ struct GCode {
 /// The code of a word's value, or nullptr when the control does not have it.
 const GCode* find_g_code(double value);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -6,7 +6,7 @@
 
 #include "controller/dialect_codes.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
@@ -102,4 +102,4 @@ void MCodes::run(bool after_motion, SortedWords& words, Modal& modal, Frames& fr
     words.running_column = 0;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

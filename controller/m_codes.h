@@ -4,7 +4,7 @@
 #include "controller/control_config.h"
 #include "controller/mover.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// What the control knows of an M code.
 struct MCode {
@@ -36,4 +36,4 @@ class MCodes {
     bool ended_ = false;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <string_view>
 
-namespace trunnion {
+namespace trunnion::controller {
 
-const PlaneAxes& Modal::plane() const {
+const motion::PlaneAxes& Modal::plane() const {
     const int code = codes[ModalGroup::plane];
-    return code == 170 ? plane_xy : code == 180 ? plane_zx : plane_yz;
+    return code == 170 ? motion::plane_xy : code == 180 ? motion::plane_zx : motion::plane_yz;
 }
 
 void Modal::units_changed() {
@@ -36,7 +36,7 @@ void Modal::set_largest_words() {
 }
 
 void Modal::feed_changed() {
-    FeedState& feed = block.feed;
+    motion::FeedState& feed = block.feed;
     const double rpm = spindle.signed_rpm();
     double mm_min = feed.programmed * units.unit_mm;
     if (is(ModalGroup::feed_mode, 950)) mm_min *= std::abs(rpm);
@@ -47,4 +47,4 @@ void Modal::feed_changed() {
     block.spindle_rpm = rpm;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

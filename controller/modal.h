@@ -9,7 +9,7 @@
 #include "motion/block_marks.h"
 #include "motion/plane_axes.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 struct SpindleState {
     double programmed = 0.0;  ///< the last S as written (#4119)
@@ -39,7 +39,7 @@ struct Modal {
     WordUnits units;
     /// The largest value of each address, written with a point and without.
     std::array<double, 26> largest{}, largest_bare{};
-    BlockMarks block;
+    motion::BlockMarks block;
     SpindleState spindle;
     NumbersInForce number;
     double polar_angle_deg = 0.0;  ///< G16: the angle in force
@@ -49,7 +49,7 @@ struct Modal {
     bool absolute() const { return is(ModalGroup::distance, 900); }
     bool cutter_is_off() const { return is(ModalGroup::cutter, 400); }
     bool in_cycle() const { return !is(ModalGroup::cycle, 800); }
-    const PlaneAxes& plane() const;
+    const motion::PlaneAxes& plane() const;
     bool has_axis(Axis axis) const {
         return (settings.axis_letters & SortedWords::bit(letter_of(axis))) != 0;
     }
@@ -63,4 +63,4 @@ struct Modal {
     void set_largest_words();
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace trunnion {
+namespace trunnion::controller {
 
 const std::vector<ModalGroupRow>& modal_groups() {
     static const std::vector<ModalGroupRow> rows = {
@@ -53,4 +53,4 @@ std::vector<std::string> ModalCodes::texts() const {
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// Modal groups of Fanuc mill controls; the number is that of the manual, so #4000 + group reads
 /// it.
@@ -63,4 +63,4 @@ ModalCodes initial_modal_codes(unsigned parameter_3402);
 /// "G01", "G43.4" from code * 10.
 std::string g_code_text(int code10);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

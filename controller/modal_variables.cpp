@@ -1,6 +1,6 @@
 #include "controller/modal_variables.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 std::optional<double> modal_variable(int number, const Modal& modal, const ProgramPlace& place) {
     if (number < 4001 || number > 4599) return std::nullopt;
@@ -32,4 +32,4 @@ std::optional<double> modal_variable(int number, const Modal& modal, const Progr
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -6,7 +6,7 @@
 
 #include "controller/modal.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// Where the language stands: #4114 and #4115.
 struct ProgramPlace {
@@ -18,4 +18,4 @@ struct ProgramPlace {
 /// number.
 std::optional<double> modal_variable(int number, const Modal& modal, const ProgramPlace& place);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -6,25 +6,26 @@
 #include "controller/tip_mover.h"
 #include "cutter/cutter_path.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
-class Mover : private PathReceiver {
+class Mover : private cutter::PathReceiver {
   public:
-    Mover(const SortedWords& words, Modal& modal, Frames& frames, MotionSink& sink);
+    Mover(const SortedWords& words, Modal& modal, Frames& frames, motion::MotionSink& sink);
     Mover(const Mover&) = delete;
     Mover& operator=(const Mover&) = delete;
 
     AxisMover axes;
-    CutterPath cutter;
+    cutter::CutterPath cutter;
 
     RunRecord& record() { return axes.record; }
     void note(std::string text) { axes.record.note(std::move(text)); }
 
     /// A straight move (G0, G1, G31) or an arc of the tip to a program position; it goes out now.
-    MoveResult line(MotionKind kind, const ControlPosition& target);
-    void arc(MotionKind kind, const ControlPosition& target, const ProgramArc& arc);
+    motion::MoveResult line(motion::MotionKind kind, const offsets::ControlPosition& target);
+    void arc(motion::MotionKind kind, const offsets::ControlPosition& target,
+             const ProgramArc& arc);
     /// The block's move goes through corners and cutter compensation.
-    void queue(const PathMove& move);
+    void queue(const cutter::PathMove& move);
     /// A dwell or an M code in its turn: at once when nothing waits.
     void dwell(double duration_s);
     void m_code(int code);
@@ -38,9 +39,9 @@ class Mover : private PathReceiver {
     void frames_changed();
 
   private:
-    void take(const PathOutput& out) override;
-    void carry(const PathOutput& out);
-    void queue_event(PathOutput event);
+    void take(const cutter::PathOutput& out) override;
+    void carry(const cutter::PathOutput& out);
+    void queue_event(cutter::PathOutput event);
 
     Modal& modal_;
     Frames& frames_;
@@ -52,6 +53,7 @@ inline Vector3 unit_along(Axis axis) {
     return Vector3::Unit(static_cast<Eigen::Index>(index_of(axis)));
 }
 /// `point` in the plane, the third coordinate from `p`.
-Vector3 in_space(const PlaneAxes& plane, const ControlPosition& p, PlanePoint point);
+Vector3 in_space(const motion::PlaneAxes& plane, const offsets::ControlPosition& p,
+                 PlanePoint point);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -3,7 +3,7 @@
 #include "controller/fixture_offset_codes.h"
 #include "controller/work_frames.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
@@ -16,19 +16,19 @@ struct Place {
 /// Tool offsets, memory C. Rows as remembered; 6000#3 V15 swaps wear and geometry.
 struct ToolRange {
     int first, count;
-    double ToolOffset::*wear_order;
-    double ToolOffset::*v15_order;
+    double offsets::ToolOffset::*wear_order;
+    double offsets::ToolOffset::*v15_order;
 };
 constexpr ToolRange tool_ranges[] = {
-    {2001, 200, &ToolOffset::length_wear_mm, &ToolOffset::length_geometry_mm},
-    {2201, 200, &ToolOffset::length_geometry_mm, &ToolOffset::length_wear_mm},
-    {10001, 999, &ToolOffset::length_wear_mm, &ToolOffset::length_geometry_mm},
-    {11001, 999, &ToolOffset::length_geometry_mm, &ToolOffset::length_wear_mm},
-    {12001, 999, &ToolOffset::radius_wear_mm, &ToolOffset::radius_geometry_mm},
-    {13001, 999, &ToolOffset::radius_geometry_mm, &ToolOffset::radius_wear_mm},
+    {2001, 200, &offsets::ToolOffset::length_wear_mm, &offsets::ToolOffset::length_geometry_mm},
+    {2201, 200, &offsets::ToolOffset::length_geometry_mm, &offsets::ToolOffset::length_wear_mm},
+    {10001, 999, &offsets::ToolOffset::length_wear_mm, &offsets::ToolOffset::length_geometry_mm},
+    {11001, 999, &offsets::ToolOffset::length_geometry_mm, &offsets::ToolOffset::length_wear_mm},
+    {12001, 999, &offsets::ToolOffset::radius_wear_mm, &offsets::ToolOffset::radius_geometry_mm},
+    {13001, 999, &offsets::ToolOffset::radius_geometry_mm, &offsets::ToolOffset::radius_wear_mm},
 };
 
-Place tool_place(const ControlSettings& settings, ToolOffsets& tools, int number) {
+Place tool_place(const ControlSettings& settings, offsets::ToolOffsets& tools, int number) {
     for (const ToolRange& range : tool_ranges) {
         const int n = number - range.first + 1;
         if (n < 1 || n > range.count || n >= static_cast<int>(tools.tool.size())) continue;
@@ -39,13 +39,13 @@ Place tool_place(const ControlSettings& settings, ToolOffsets& tools, int number
 }
 
 /// Entry of axis number `n` (from 1) of a vector.
-Place axis_place(const ControlSettings& settings, OffsetVector& vector, int n) {
+Place axis_place(const ControlSettings& settings, offsets::OffsetVector& vector, int n) {
     if (n < 1 || n > static_cast<int>(settings.axes.size())) return {};
     const ControlAxis& axis = settings.axes[static_cast<std::size_t>(n - 1)];
     return {&vector[axis.axis], !axis.rotary};
 }
 
-Place work_place(const ControlSettings& settings, WorkOffsets& work, int number) {
+Place work_place(const ControlSettings& settings, offsets::WorkOffsets& work, int number) {
     if (number >= 5201 && number < 5341) {
         const int set = (number - 5201) / 20, n = (number - 5201) % 20 + 1;
         return axis_place(
@@ -61,16 +61,16 @@ Place work_place(const ControlSettings& settings, WorkOffsets& work, int number)
 }
 
 /// #5521.. P1 to #5661.. P8, 20 apart (assumed).
-Place fixture_place(const ControlSettings& settings, FixtureOffsets& fixture, int number) {
+Place fixture_place(const ControlSettings& settings, offsets::FixtureOffsets& fixture, int number) {
     if (number < 5521 || number >= 5681) return {};
-    FixtureOffset& set = fixture.set[static_cast<std::size_t>((number - 5521) / 20)];
+    offsets::FixtureOffset& set = fixture.set[static_cast<std::size_t>((number - 5521) / 20)];
     const int n = (number - 5521) % 20 + 1;
     if (n > static_cast<int>(settings.axes.size())) return {};
     const bool rotary = settings.axes[static_cast<std::size_t>(n - 1)].rotary;
     return axis_place(settings, rotary ? set.reference_angles : set.offset, n);
 }
 
-Place place_of(int number, const ControlSettings& settings, Stores& stores) {
+Place place_of(int number, const ControlSettings& settings, offsets::Stores& stores) {
     if (number < 2001 || (number > 2400 && number < 5201)) return {};
     if (number <= 2400 || (number >= 10001 && number <= 13999))
         return tool_place(settings, stores.tools, number);
@@ -98,4 +98,4 @@ bool set_offset_variable(int number, double value, const Modal& modal, Frames& f
     return true;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -6,7 +6,7 @@
 
 #include "controller/mover.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// Nothing when the number belongs to no store. Lengths in the unit in force (G20: inch).
 std::optional<double> offset_variable(int number, const Modal& modal, Frames& frames);
@@ -14,4 +14,4 @@ std::optional<double> offset_variable(int number, const Modal& modal, Frames& fr
 bool set_offset_variable(int number, double value, const Modal& modal, Frames& frames,
                          Mover& mover);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

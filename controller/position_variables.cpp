@@ -1,11 +1,11 @@
 #include "controller/position_variables.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
-ControlPosition shown_position(int row, const Modal& modal, const Frames& frames,
-                               const SkipState& skip) {
+offsets::ControlPosition shown_position(int row, const Modal& modal, const Frames& frames,
+                                        const SkipState& skip) {
     switch (row) {
         case 0:
             return frames.stages.shaped_from_program(frames.program);
@@ -23,7 +23,7 @@ ControlPosition shown_position(int row, const Modal& modal, const Frames& frames
 }
 
 /// Of axis number `n` from 0; nothing when there is no such axis.
-std::optional<double> in_units(const ControlPosition& p, int n, const Modal& modal) {
+std::optional<double> in_units(const offsets::ControlPosition& p, int n, const Modal& modal) {
     if (n < 0 || n >= static_cast<int>(modal.settings.axes.size())) return std::nullopt;
     const ControlAxis& axis = modal.settings.axes[static_cast<std::size_t>(n)];
     return p[axis.axis] / (axis.rotary ? 1.0 : modal.units.unit_mm);
@@ -41,4 +41,4 @@ std::optional<double> position_variable(int number, const Modal& modal, const Fr
     return in_units(shown_position(n / 20, modal, frames, skip), n % 20, modal);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

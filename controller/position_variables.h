@@ -5,7 +5,7 @@
 
 #include "controller/skip.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// #5001.. block end, #5021.. machine, #5041.. work, #5061.. skip, #5081.. tool length, #5101..
 /// servo deviation, #5121.. movement by the handle (both always 0 here); #5500 the number of G54.2
@@ -13,4 +13,4 @@ namespace trunnion {
 std::optional<double> position_variable(int number, const Modal& modal, const Frames& frames,
                                         const SkipState& skip);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

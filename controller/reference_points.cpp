@@ -3,7 +3,7 @@
 #include "controller/alarms.h"
 #include "controller/commanded.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
@@ -26,31 +26,31 @@ void ReferencePoints::go(const SortedWords& words, Modal& modal, Frames& frames,
     no_cycle(modal);
     const auto& point =
         modal.settings.reference[static_cast<std::size_t>(reference_number(words, code10) - 1)];
-    const ControlPosition through = commanded_position(words, modal, frames);
-    mover.line(MotionKind::rapid, through);
-    ControlPosition target = frames.machine;
+    const offsets::ControlPosition through = commanded_position(words, modal, frames);
+    mover.line(motion::MotionKind::rapid, through);
+    offsets::ControlPosition target = frames.machine;
     for (const ControlAxis& entry : modal.settings.axes) {
         if (!words.has(entry.axis)) continue;
         intermediate_[entry.axis] = through[entry.axis];
         target[entry.axis] = point[index_of(entry.axis)];
     }
-    mover.axes.to_machine(MotionKind::rapid, target);
+    mover.axes.to_machine(motion::MotionKind::rapid, target);
     frames.length_parked = true;
 }
 
 void ReferencePoints::come_back(const SortedWords& words, Modal& modal, Frames& frames,
                                 Mover& mover) {
     no_cycle(modal);
-    ControlPosition through = frames.program;
+    offsets::ControlPosition through = frames.program;
     for (const ControlAxis& entry : modal.settings.axes)
         if (words.has(entry.axis)) through[entry.axis] = intermediate_[entry.axis];
-    mover.line(MotionKind::rapid, through);
-    mover.line(MotionKind::rapid, commanded_position(words, modal, frames));
+    mover.line(motion::MotionKind::rapid, through);
+    mover.line(motion::MotionKind::rapid, commanded_position(words, modal, frames));
 }
 
 void check_reference(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover) {
     no_cycle(modal);
-    mover.line(MotionKind::rapid, commanded_position(words, modal, frames));
+    mover.line(motion::MotionKind::rapid, commanded_position(words, modal, frames));
     constexpr double in_position = 0.001;  // mm or deg
     for (const ControlAxis& entry : modal.settings.axes) {
         if (!words.has(entry.axis)) continue;
@@ -62,4 +62,4 @@ void check_reference(const SortedWords& words, Modal& modal, Frames& frames, Mov
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

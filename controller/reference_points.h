@@ -3,7 +3,7 @@
 
 #include "controller/mover.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// All alarm with PS0044 in a canned cycle.
 class ReferencePoints {
@@ -14,10 +14,10 @@ class ReferencePoints {
     void come_back(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover);
 
   private:
-    ControlPosition intermediate_;  ///< program coordinates
+    offsets::ControlPosition intermediate_;  ///< program coordinates
 };
 
 /// G27: a rapid that must end at the reference position, PS0092.
 void check_reference(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::controller {
 
 struct RunRecord {
     std::uint64_t moves = 0;
@@ -21,4 +21,4 @@ struct RunRecord {
     }
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

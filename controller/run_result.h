@@ -9,7 +9,7 @@
 #include "base/alarm.h"
 #include "geometry/axes.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 enum class RunStatus : unsigned char { ok, alarm, limit };
 
@@ -27,4 +27,4 @@ struct RunResult {
     std::vector<std::string> notes;  ///< unknown M codes, codes accepted without effect, ...
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -2,21 +2,22 @@
 
 #include <algorithm>
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
 constexpr double default_corner_jump = 400.0;  // mm/min, deg/min: what handbooks set (assumed)
 
 /// Value of an axis parameter: the axis's own, or the one for all.
-double for_axis(const Parameters& parameters, int number, int axis_number) {
+double for_axis(const offsets::Parameters& parameters, int number, int axis_number) {
     const auto it = parameters.entry.find(number);
     if (it == parameters.entry.end()) return 0.0;
     const auto own = it->second.by_axis.find(axis_number);
     return own != it->second.by_axis.end() ? own->second : it->second.value;
 }
 
-void decode_axes(const Parameters& parameters, const ControlConfig& config, ControlSettings& s) {
+void decode_axes(const offsets::Parameters& parameters, const ControlConfig& config,
+                 ControlSettings& s) {
     for (std::size_t k = 0; k < config.axes.size(); ++k) {
         const int number = static_cast<int>(k) + 1;
         const std::size_t i = index_of(config.axes[k].axis);
@@ -32,8 +33,8 @@ void decode_axes(const Parameters& parameters, const ControlConfig& config, Cont
     }
 }
 
-CutterSettings decode_cutter(const Parameters& parameters) {
-    CutterSettings out;
+cutter::CutterSettings decode_cutter(const offsets::Parameters& parameters) {
+    cutter::CutterSettings out;
     out.startup_type_b = parameters.bit(5003, 0);
     out.startup_type_c = parameters.bit(5003, 1);
     out.circular_corners = parameters.bit(19607, 2);
@@ -43,7 +44,7 @@ CutterSettings decode_cutter(const Parameters& parameters) {
 
 }  // namespace
 
-void sort_axes(std::vector<ControlAxis>& axes, const Parameters& parameters) {
+void sort_axes(std::vector<ControlAxis>& axes, const offsets::Parameters& parameters) {
     const auto rank = [&](const ControlAxis& axis) {
         const auto names = parameters.entry.find(1020);
         if (names != parameters.entry.end())
@@ -55,7 +56,8 @@ void sort_axes(std::vector<ControlAxis>& axes, const Parameters& parameters) {
                      [&](const ControlAxis& a, const ControlAxis& b) { return rank(a) < rank(b); });
 }
 
-ControlSettings decode_settings(const Parameters& parameters, const ControlConfig& config) {
+ControlSettings decode_settings(const offsets::Parameters& parameters,
+                                const ControlConfig& config) {
     ControlSettings s;
     s.axes = config.axes;
     for (const ControlAxis& axis : config.axes)
@@ -67,7 +69,8 @@ ControlSettings decode_settings(const Parameters& parameters, const ControlConfi
                                     [](const ControlAxis& axis) { return axis.rotary; });
     s.g89_feeds_to_initial = config.g89_feeds_to_initial;
     s.tcp_frame = config.tcp_frame;
-    if (config.dialect.generation == ControlGeneration::fanuc_16i) s.largest_position = 99999999.0;
+    if (config.dialect.generation == interpreter::ControlGeneration::fanuc_16i)
+        s.largest_position = 99999999.0;
     s.bare_is_noted = !parameters.find(3401);
     s.bare_is_unit = s.bare_is_noted || parameters.bit(3401, 0);
     s.duplicates_alarm = parameters.bit(3403, 6);
@@ -88,4 +91,4 @@ ControlSettings decode_settings(const Parameters& parameters, const ControlConfi
     return s;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -9,7 +9,7 @@
 #include "cutter/beside_path.h"
 #include "offsets/stores.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// Decoded CNC parameters. Numbers behind each field; where the store has no entry, the value here.
 struct ControlSettings {
@@ -19,9 +19,10 @@ struct ControlSettings {
     bool has_rotary_axis = false;
     bool threading = false;  ///< G33
     BuilderProfile builder;
-    DialectFamily family = DialectFamily::fanuc;
-    bool g89_feeds_to_initial = true;      ///< own option, see ControlConfig
-    TcpFrame tcp_frame = TcpFrame::start;  ///< G43.4 with the table turned
+    interpreter::DialectFamily family = interpreter::DialectFamily::fanuc;
+    bool g89_feeds_to_initial = true;  ///< own option, see ControlConfig
+    positioning::TcpFrame tcp_frame =
+        positioning::TcpFrame::start;  ///< G43.4 with the table turned
     bool bare_is_unit =
         true;  ///< 3401#0 DPI: X58 is 58 mm; 0: 58 least increments. Absent: 1 (assumed)
     bool bare_is_noted = false;      ///< 3401 absent: the first such word gives a note
@@ -34,7 +35,7 @@ struct ControlSettings {
     int length_axis_type =
         0;  ///< 5001#0 TLC, #1 TLB: 0 A (always Z), 1 B (normal of plane), 2 C (axis in block)
     bool radius_is_diameter = false;         ///< 5004#2 ODI: D holds diameters
-    CutterSettings cutter;                   ///< 5003, 19607, 19625
+    cutter::CutterSettings cutter;           ///< 5003, 19607, 19625
     bool work_positions_with_length = true;  ///< #5041, #5061 include length (own option, see docs)
     bool wear_first = false;                 ///< 6000#3 V15: #2001 geometry instead of wear
     std::uint16_t rollover = 0;              ///< 1008#0 ROA by axis letter bit
@@ -47,8 +48,8 @@ struct ControlSettings {
 };
 
 /// Axis number of each letter: parameter 1020 where it is set, else X Y Z A B C U V W.
-void sort_axes(std::vector<ControlAxis>& axes, const Parameters& parameters);
+void sort_axes(std::vector<ControlAxis>& axes, const offsets::Parameters& parameters);
 /// `config.axes` in the order of their numbers.
-ControlSettings decode_settings(const Parameters& parameters, const ControlConfig& config);
+ControlSettings decode_settings(const offsets::Parameters& parameters, const ControlConfig& config);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -2,7 +2,7 @@
 
 #include "controller/alarms.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
@@ -14,8 +14,9 @@ double factor_word(const SortedWords& words, char letter) {
 }
 
 /// Centre from the axis words; the present position where an axis is not named.
-ControlPosition centre_of(const SortedWords& words, const Modal& modal, const Frames& frames) {
-    ControlPosition out = frames.program;
+offsets::ControlPosition centre_of(const SortedWords& words, const Modal& modal,
+                                   const Frames& frames) {
+    offsets::ControlPosition out = frames.program;
     for (const ControlAxis& entry : modal.settings.axes)
         if (words.has(entry.axis)) out[entry.axis] = words.axis_value(entry.axis);
     return out;
@@ -78,13 +79,13 @@ void end_mirror(const SortedWords& words, Modal& modal, Frames& frames, Mover& m
 
 void set_rotation(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover) {
     if (frames.plane) raise_alarm(5457, "(G68 inside G68.2)");
-    const PlaneAxes& plane = modal.plane();
-    const Parameters& parameters = frames.stores().parameters;
+    const motion::PlaneAxes& plane = modal.plane();
+    const offsets::Parameters& parameters = frames.stores().parameters;
     Coordinates::PlaneRotation rotation;
-    ControlPosition centre = frames.program;
+    offsets::ControlPosition centre = frames.program;
     for (const Axis axis : {plane.first, plane.second})
         if (words.has(axis)) centre[axis] = words.axis_value(axis);
-    rotation.centre = xyz_of(centre);
+    rotation.centre = offsets::xyz_of(centre);
     rotation.axis = unit_along(plane.normal);
     // R without a point: thousandths of a degree, or degrees with 3401#0 = 1.
     rotation.angle_deg = words.has('R') ? words.angle_deg('R') : parameters.get(5410);
@@ -102,4 +103,4 @@ void end_rotation(Modal& modal, Frames& frames, Mover& mover) {
     mover.frames_changed();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

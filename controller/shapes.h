@@ -3,7 +3,7 @@
 
 #include "controller/mover.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// G51, G50. PS0142 for a factor of 0 or without a factor.
 void set_scaling(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover);
@@ -16,4 +16,4 @@ void set_rotation(const SortedWords& words, Modal& modal, Frames& frames, Mover&
 /// G69 without a tilted plane.
 void end_rotation(Modal& modal, Frames& frames, Mover& mover);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

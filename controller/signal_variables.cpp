@@ -10,12 +10,12 @@
 #include "base/alarm.h"
 #include "interpreter/variables.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
 double not_vacant(double value) {
-    return is_vacant(value) ? 0.0 : value;
+    return interpreter::is_vacant(value) ? 0.0 : value;
 }
 
 [[noreturn]] void raise_program_alarm(double value, std::string_view comment) {
@@ -63,7 +63,7 @@ std::optional<double> ClockVariables::get(int number, double run_time_s) const {
 bool ClockVariables::set(int number, double value, std::string_view comment, Mover& mover) {
     switch (number) {
         case 3000:
-            if (!is_vacant(value)) raise_program_alarm(value, comment);
+            if (!interpreter::is_vacant(value)) raise_program_alarm(value, comment);
             return true;
         case 3001:
             offset_ms_ = mover.record().time_s * 1000.0 - not_vacant(value);
@@ -86,4 +86,4 @@ bool ClockVariables::set(int number, double value, std::string_view comment, Mov
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

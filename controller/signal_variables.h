@@ -9,7 +9,7 @@
 
 #include "controller/mover.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 using Signals = std::map<int, double>;
 
@@ -36,4 +36,4 @@ class ClockVariables {
     std::array<double, 2> parts_{};     ///< #3901, #3902
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

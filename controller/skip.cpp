@@ -3,12 +3,12 @@
 #include "controller/alarms.h"
 #include "controller/commanded.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
-ControlPosition work_position(const Modal& modal, const Frames& frames) {
-    ControlPosition out = frames.stages.shaped_from_program(frames.program);
+offsets::ControlPosition work_position(const Modal& modal, const Frames& frames) {
+    offsets::ControlPosition out = frames.stages.shaped_from_program(frames.program);
     if (!modal.settings.work_positions_with_length) return out;
-    const ControlPosition length = frames.shown_length();
+    const offsets::ControlPosition length = frames.shown_length();
     for (std::size_t i = 0; i < axis_count; ++i) out.value[i] += length.value[i];
     return out;
 }
@@ -20,10 +20,11 @@ void skip_move(SkipState& skip, const SortedWords& words, Modal& modal, const Fr
     if (words.has_axis() || (words.present & tool_vector_letters)) {
         mover.axes.until_skip(true);
         skip.triggered =
-            mover.line(MotionKind::linear, commanded_position(words, modal, frames)).skipped;
+            mover.line(motion::MotionKind::linear, commanded_position(words, modal, frames))
+                .skipped;
         mover.axes.until_skip(false);
     }
     skip.work = work_position(modal, frames);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -3,19 +3,19 @@
 
 #include "controller/mover.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// What the skip signal left behind.
 struct SkipState {
-    ControlPosition work;  ///< #5061..: work frame, mm and deg
+    offsets::ControlPosition work;  ///< #5061..: work frame, mm and deg
     bool triggered = false;
 };
 
 /// Present position in the work frame, mm and deg: #5041... Includes the tool length when the
 /// configuration says so (default, assumed).
-ControlPosition work_position(const Modal& modal, const Frames& frames);
+offsets::ControlPosition work_position(const Modal& modal, const Frames& frames);
 /// PS0036 under cutter compensation. Without an axis word nothing moves and no feed is needed.
 void skip_move(SkipState& skip, const SortedWords& words, Modal& modal, const Frames& frames,
                Mover& mover);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -4,7 +4,7 @@
 
 #include "controller/alarms.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 double SortedWords::axis_value(Axis axis) const {
     const char letter = letter_of(axis);
@@ -25,4 +25,4 @@ bool SortedWords::has_code(int code10) const {
     return false;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

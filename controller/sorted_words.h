@@ -8,7 +8,7 @@
 #include "controller/g_codes.h"
 #include "geometry/axes.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// What words in this block are counted in: G20 or G21, 3401#0.
 struct WordUnits {
@@ -97,4 +97,4 @@ struct SortedWords {
     }
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

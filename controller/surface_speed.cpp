@@ -6,7 +6,7 @@
 #include "base/units.h"
 #include "controller/alarms.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
@@ -58,20 +58,21 @@ void turn_at(Modal& modal, double radius_mm) {
 
 }  // namespace
 
-void take_s_word(Modal& modal, double s, const ControlPosition& position) {
+void take_s_word(Modal& modal, double s, const offsets::ControlPosition& position) {
     SpindleState& spindle = modal.spindle;
     spindle.programmed = s;
     (spindle.by_surface ? spindle.surface : spindle.rpm) = s;
     turn_at(modal, position[spindle.radius_axis]);
 }
 
-void follow_surface_speed(Modal& modal, const ControlPosition& from, const ControlPosition& to) {
+void follow_surface_speed(Modal& modal, const offsets::ControlPosition& from,
+                          const offsets::ControlPosition& to) {
     if (modal.spindle.surface <= 0.0) return;
     const Axis axis = modal.spindle.radius_axis;
     turn_at(modal, to[axis]);
     modal.block.spindle_rpm = modal.spindle.signed_rpm();
     if (!modal.is(ModalGroup::feed_mode, 950) || modal.spindle.direction == 0) return;
-    FeedState& feed = modal.block.feed;
+    motion::FeedState& feed = modal.block.feed;
     const double mm_turn = feed.programmed * modal.units.unit_mm;
     if (mm_turn <= 0.0) return;
     feed.seconds_per_mm = 60.0 * turn_time(modal).mean(from[axis], to[axis]) / mm_turn;
@@ -79,7 +80,7 @@ void follow_surface_speed(Modal& modal, const ControlPosition& from, const Contr
 }
 
 void set_speed_mode(const SortedWords& words, Modal& modal, int code10,
-                    const ControlPosition& position) {
+                    const offsets::ControlPosition& position) {
     modal.codes.set(ModalGroup::surface_speed, code10);
     modal.spindle.by_surface = code10 == 960;
     if (modal.spindle.by_surface) modal.spindle.radius_axis = radius_axis(words, modal.settings);
@@ -87,4 +88,4 @@ void set_speed_mode(const SortedWords& words, Modal& modal, int code10,
     modal.feed_changed();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

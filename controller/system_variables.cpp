@@ -4,7 +4,7 @@
 #include "controller/offset_variables.h"
 #include "controller/position_variables.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// Variables without a meaning of the control's own: the extended P-CODE variables (six digits,
 /// from memory) and the ranges of the machine builder.
@@ -17,7 +17,7 @@ bool ControlVariables::is_free(int number) const {
 
 std::optional<double> ControlVariables::find(int number) const {
     if (const auto own = free_.find(number); own != free_.end()) return own->second;
-    if (is_free(number)) return vacant;
+    if (is_free(number)) return interpreter::vacant;
     if (const auto value = offset_variable(number, c_.modal, c_.frames)) return value;
     if (const auto value = signal_variable(number, c_.stores.signals)) return value;
     if (const auto value = c_.clock.get(number, c_.mover.record().time_s)) return value;
@@ -36,7 +36,7 @@ void ControlVariables::set(int number, double value, const char* comment) {
     if (c_.clock.set(number, value, comment ? comment : "", c_.mover)) return;
     if (set_signal_variable(number, value, c_.stores.signals)) return;
     if (is_free(number)) return void(free_[number] = value);
-    const double written = is_vacant(value) ? 0.0 : value;
+    const double written = interpreter::is_vacant(value) ? 0.0 : value;
     if (set_offset_variable(number, written, c_.modal, c_.frames, c_.mover)) return;
     raise_alarm(find(number) ? 116 : 115);
 }
@@ -54,4 +54,4 @@ double ControlVariables::parameter(int number, int bit, int axis) {
     return static_cast<double>(static_cast<unsigned>(value) >> static_cast<unsigned>(bit) & 1U);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -7,9 +7,9 @@
 #include "controller/control.h"
 #include "interpreter/variables.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
-class ControlVariables : public SystemVariables {
+class ControlVariables : public interpreter::SystemVariables {
   public:
     explicit ControlVariables(Control& control) : c_(control) {}
 
@@ -30,4 +30,4 @@ class ControlVariables : public SystemVariables {
     std::map<int, double> free_;  ///< #900000.. and those of the machine builder, vacant at first
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

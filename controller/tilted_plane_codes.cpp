@@ -5,14 +5,14 @@
 #include "controller/alarms.h"
 #include "controller/tool_length.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
 constexpr int deepest_nesting = 8;  ///< G68.2 and G68.4 on top of it (assumed)
 
-PlaneWords plane_words(const SortedWords& words) {
-    PlaneWords out;
+positioning::PlaneWords plane_words(const SortedWords& words) {
+    positioning::PlaneWords out;
     const auto read = [&](std::optional<double>& value, char letter, double in_units) {
         if (words.has(letter)) value = in_units;
     };
@@ -40,8 +40,8 @@ void check_plane_may_start(const Modal& modal, const Frames& frames) {
 void set_plane(const TiltedPlaneState& plane, Modal& modal, Frames& frames, Mover& mover) {
     Coordinates& stages = frames.stages;
     if (!frames.plane) {
-        set_xyz(stages.plane_local, xyz_of(stages.local));
-        set_xyz(stages.local, Vector3::Zero());
+        offsets::set_xyz(stages.plane_local, offsets::xyz_of(stages.local));
+        offsets::set_xyz(stages.local, Vector3::Zero());
         modal.codes.set(ModalGroup::rotation, 682);
     }
     frames.plane = plane;
@@ -64,10 +64,10 @@ Vector3 tip_P(const Frames& frames) {
 }
 
 /// 12321 (0 the reference tool axis, 1 X, 2 Y, 3 Z; values assumed) and 12322 (deg).
-VerticalAxis vertical_axis(const Frames& frames) {
-    const Parameters& parameters = frames.stores().parameters;
+positioning::VerticalAxis vertical_axis(const Frames& frames) {
+    const offsets::Parameters& parameters = frames.stores().parameters;
     const auto& transform = frames.believed.transform;
-    VerticalAxis vertical;
+    positioning::VerticalAxis vertical;
     const double number = parameters.get(12321);
     if (!(number >= 0.0 && number < 4.0)) raise_alarm(5459, "(No.12321)");
     const int axis = static_cast<int>(number);
@@ -77,9 +77,9 @@ VerticalAxis vertical_axis(const Frames& frames) {
     return vertical;
 }
 
-std::optional<Pose> add_to(PlaneDefinition& definition, const SortedWords& words) try {
+std::optional<Pose> add_to(positioning::PlaneDefinition& definition, const SortedWords& words) try {
     return definition.add(plane_words(words));
-} catch (const PlaneFormatError& error) {
+} catch (const positioning::PlaneFormatError& error) {
     raise_alarm(5457, fmt::format("({})", error.what_is_wrong),
                 error.letter == 0 ? 0 : words.column_of(error.letter));
 }
@@ -113,14 +113,14 @@ void PlaneCodes::define(const SortedWords& words, Modal& modal, Frames& frames, 
 void define_plane_by_tool(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover) {
     check_plane_may_start(modal, frames);
     if (frames.plane) raise_alarm(5456);
-    const PlaneWords at = plane_words(words);
+    const positioning::PlaneWords at = plane_words(words);
     Vector3 origin = tip_P(frames);
     if (at.x) origin.x() = *at.x;
     if (at.y) origin.y() = *at.y;
     if (at.z) origin.z() = *at.z;
     TiltedPlaneState plane;
-    plane.pose_PF =
-        plane_of_tool(tool_direction_P(frames), origin, at.r.value_or(0.0), vertical_axis(frames));
+    plane.pose_PF = positioning::plane_of_tool(tool_direction_P(frames), origin, at.r.value_or(0.0),
+                                               vertical_axis(frames));
     set_plane(plane, modal, frames, mover);
 }
 
@@ -129,18 +129,19 @@ void cancel_tilted_plane(Modal& modal, Frames& frames, Mover& mover) {
     Coordinates& stages = frames.stages;
     frames.plane.reset();
     stages.feature_MF.reset();
-    set_xyz(stages.local, xyz_of(stages.plane_local));
-    set_xyz(stages.plane_local, Vector3::Zero());
-    set_xyz(stages.length, frames.tool.vector_mm);
+    offsets::set_xyz(stages.local, offsets::xyz_of(stages.plane_local));
+    offsets::set_xyz(stages.plane_local, Vector3::Zero());
+    offsets::set_xyz(stages.length, frames.tool.vector_mm);
     modal.codes.set(ModalGroup::rotation, 690);
     mover.frames_changed();
 }
 
 namespace {
 
-std::string rotary_text(const PivotParameters& pivot, const RotarySolution& s) {
+std::string rotary_text(const offsets::PivotParameters& pivot,
+                        const positioning::RotarySolution& s) {
     std::string out;
-    const auto add = [&](const PivotAxis& axis, double angle_rad) {
+    const auto add = [&](const offsets::PivotAxis& axis, double angle_rad) {
         if (axis.hypothetical) return;
         out += fmt::format("{}{}{:.4f}", out.empty() ? "" : " ", letter_of(axis.axis),
                            deg_from_rad(angle_rad) + 0.0);
@@ -150,49 +151,53 @@ std::string rotary_text(const PivotParameters& pivot, const RotarySolution& s) {
     return out;
 }
 
-std::string solutions_text(const PivotParameters& pivot, const RotaryChoice& choice) {
+std::string solutions_text(const offsets::PivotParameters& pivot,
+                           const positioning::RotaryChoice& choice) {
     std::string text = rotary_text(pivot, *choice.chosen);
-    for (const RotarySolution& other : choice.all)
+    for (const positioning::RotarySolution& other : choice.all)
         if (!(other == *choice.chosen)) text += ", other solution " + rotary_text(pivot, other);
-    for (const RotarySolution& other : choice.out_of_travel)
+    for (const positioning::RotarySolution& other : choice.out_of_travel)
         text += ", other solution " + rotary_text(pivot, other) + " out of travel";
     return text;
 }
 
-Branch branch_of(const SortedWords& words) {
+positioning::Branch branch_of(const SortedWords& words) {
     const int p = words.has('P') ? words.whole('P') : 0;
     if (p < 0 || p > 2) raise_alarm(5458, "(P is 0, 1 or 2)", words.column_of('P'));
-    return static_cast<Branch>(p);
+    return static_cast<positioning::Branch>(p);
 }
 
 /// Rotary positions that put the tool along the feature's Z.
-RotaryChoice tool_axis_choice(const SortedWords& words, const Modal& modal, const Frames& frames) {
+positioning::RotaryChoice tool_axis_choice(const SortedWords& words, const Modal& modal,
+                                           const Frames& frames) {
     if (const int column = words.column_of_first(SortedWords::axis_letters))
         raise_alarm(5458, "(an axis word in its block)", column);
     if (frames.tip.in_force) raise_alarm(5458, "(tool centre point control is in force)");
     if (!frames.plane) raise_alarm(5458, "(no tilted plane is in force)");
     if (!modal.cutter_is_off()) raise_alarm(5458, "(cutter compensation is in force)");
-    const RotaryTransform& transform = frames.transform(5458);
-    RotaryChoice choice = choose_rotaries(transform, frames.plane->pose_PF.rotation.col(2),
-                                          transform.rotaries(frames.axes),
-                                          frames.rotary_travel(modal.settings), branch_of(words));
+    const positioning::RotaryTransform& transform = frames.transform(5458);
+    positioning::RotaryChoice choice = positioning::choose_rotaries(
+        transform, frames.plane->pose_PF.rotation.col(2), transform.rotaries(frames.axes),
+        frames.rotary_travel(modal.settings), branch_of(words));
     if (!choice.chosen) raise_alarm(5458, "(no rotary position within travel)");
     return choice;
 }
 
 /// A program that indexes thousands of times is not repeated in the notes.
-void note_choice(const RotaryTransform& transform, const RotaryChoice& choice, const char* code,
-                 int line, RunRecord& record) {
+void note_choice(const positioning::RotaryTransform& transform,
+                 const positioning::RotaryChoice& choice, const char* code, int line,
+                 RunRecord& record) {
     if (record.notes.size() > 200) return;
     record.note(
         fmt::format("{} line {}: {}", code, line, solutions_text(transform.pivot(), choice)));
 }
 
-ControlPosition with_rotaries(const Frames& frames, const RotarySolution& s) {
-    const RotaryTransform& transform = *frames.believed.transform;
-    const PivotParameters& pivot = transform.pivot();
-    const RotarySolution present = transform.rotaries(frames.axes);
-    ControlPosition out = frames.machine;  // an axis that stays keeps its degrees to the last bit
+offsets::ControlPosition with_rotaries(const Frames& frames, const positioning::RotarySolution& s) {
+    const positioning::RotaryTransform& transform = *frames.believed.transform;
+    const offsets::PivotParameters& pivot = transform.pivot();
+    const positioning::RotarySolution present = transform.rotaries(frames.axes);
+    offsets::ControlPosition out =
+        frames.machine;  // an axis that stays keeps its degrees to the last bit
     if (!pivot.first.hypothetical && s.first_rad != present.first_rad)
         out[pivot.first.axis] = deg_from_rad(s.first_rad);
     if (!pivot.second.hypothetical && s.second_rad != present.second_rad)
@@ -200,8 +205,9 @@ ControlPosition with_rotaries(const Frames& frames, const RotarySolution& s) {
     return out;
 }
 
-MotionKind turning_kind(const Modal& modal) {
-    return modal.is(ModalGroup::motion, 10) ? MotionKind::linear : MotionKind::rapid;
+motion::MotionKind turning_kind(const Modal& modal) {
+    return modal.is(ModalGroup::motion, 10) ? motion::MotionKind::linear
+                                            : motion::MotionKind::rapid;
 }
 
 /// The tool whose tip G53.6 keeps.
@@ -217,7 +223,7 @@ Vector3 tool_to_keep(const SortedWords& words, const Frames& frames) {
 }  // namespace
 
 void turn_tool_axis(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover) {
-    const RotaryChoice choice = tool_axis_choice(words, modal, frames);
+    const positioning::RotaryChoice choice = tool_axis_choice(words, modal, frames);
     note_choice(*frames.believed.transform, choice, "G53.1", modal.block.line, mover.record());
     mover.axes.to_machine(turning_kind(modal), with_rotaries(frames, *choice.chosen));
     frames.place_plane();
@@ -226,18 +232,19 @@ void turn_tool_axis(const SortedWords& words, Modal& modal, Frames& frames, Move
 
 void turn_tool_axis_keeping_tip(const SortedWords& words, Modal& modal, Frames& frames,
                                 Mover& mover) {
-    const RotaryChoice choice = tool_axis_choice(words, modal, frames);
-    const RotaryTransform& transform = *frames.believed.transform;
+    const positioning::RotaryChoice choice = tool_axis_choice(words, modal, frames);
+    const positioning::RotaryTransform& transform = *frames.believed.transform;
     note_choice(transform, choice, "G53.6", modal.block.line, mover.record());
     const Vector3 tool = tool_to_keep(words, frames);
     const AxisPositions from = frames.axes;
-    const ToolCentrePoint keep = ToolCentrePoint::start(transform, from, TcpFrame::start, tool);
+    const motion::ToolCentrePoint keep =
+        motion::ToolCentrePoint::start(transform, from, positioning::TcpFrame::start, tool);
     const Vector3 tip_W = transform.tip_W(from, tool);
     MoveTarget target{frames.program, with_rotaries(frames, *choice.chosen), {}};
-    target.axes = keep.machine(tip_W, axis_positions_of(target.machine));
+    target.axes = keep.machine(tip_W, offsets::axis_positions_of(target.machine));
     const AxisPositions& to = target.axes;
-    set_xyz(target.machine, {to[Axis::X], to[Axis::Y], to[Axis::Z]});
-    const TipLine line(keep, from, to, tip_W, tip_W);
+    offsets::set_xyz(target.machine, {to[Axis::X], to[Axis::Y], to[Axis::Z]});
+    const motion::TipLine line(keep, from, to, tip_W, tip_W);
     CurveMove way;
     way.curve = &line;
     mover.axes.along(turning_kind(modal), target, way);
@@ -245,4 +252,4 @@ void turn_tool_axis_keeping_tip(const SortedWords& words, Modal& modal, Frames& 
     mover.frames_changed();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -4,7 +4,7 @@
 #include "controller/mover.h"
 #include "positioning/tilted_plane.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// A definition that takes several blocks (P2, P3). PS5421 under G43.4, PS5456 when planes are
 /// nested too deep, PS5457 for a wrong definition or state.
@@ -17,7 +17,7 @@ class PlaneCodes {
     void check_goes_on(const SortedWords& words) const;
 
   private:
-    PlaneDefinition definition_;
+    positioning::PlaneDefinition definition_;
     int code10_ = 0;
 };
 
@@ -31,4 +31,4 @@ void turn_tool_axis(const SortedWords& words, Modal& modal, Frames& frames, Move
 void turn_tool_axis_keeping_tip(const SortedWords& words, Modal& modal, Frames& frames,
                                 Mover& mover);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

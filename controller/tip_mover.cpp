@@ -4,22 +4,23 @@
 
 #include "controller/alarms.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
 constexpr std::uint32_t rotary_letters =
     SortedWords::bit('A') | SortedWords::bit('B') | SortedWords::bit('C');
 
-double arc_length(const ArcPath& arc, const Vector3& from, const Vector3& to) {
+double arc_length(const motion::ArcPath& arc, const Vector3& from, const Vector3& to) {
     const Vector3 radius = from - arc.centre_mm;
     const double bow = radius.cross(arc.normal).norm() * arc.sweep_rad;
     return std::hypot(bow, arc.normal.dot(to - from));
 }
 
 /// Standing rotaries: the axes themselves run on the arc.
-ArcPath arc_of_axes(const ToolCentrePoint& tcp, const ArcPath& arc_W, const AxisPositions& to) {
-    ArcPath out = arc_W;
+motion::ArcPath arc_of_axes(const motion::ToolCentrePoint& tcp, const motion::ArcPath& arc_W,
+                            const AxisPositions& to) {
+    motion::ArcPath out = arc_W;
     const AxisPositions centre = tcp.machine(arc_W.centre_mm, to);
     out.centre_mm = {centre[Axis::X], centre[Axis::Y], centre[Axis::Z]};
     out.normal = tcp.transform->pose_MW(to).rotation * arc_W.normal;
@@ -37,8 +38,8 @@ void TipMover::check_words() const {
 }
 
 /// Where the stages put the tip without TCP, mm in M.
-Vector3 TipMover::staged_tip(const ControlPosition& machine) const {
-    return xyz_of(machine) - xyz_of(frames_.stages.length);
+Vector3 TipMover::staged_tip(const offsets::ControlPosition& machine) const {
+    return offsets::xyz_of(machine) - offsets::xyz_of(frames_.stages.length);
 }
 
 bool TipMover::turns(const AxisPositions& to) const {
@@ -47,16 +48,16 @@ bool TipMover::turns(const AxisPositions& to) const {
 
 /// G43.5: rotary angles of the vector I J K (program frame), leaning towards the travel by Q.
 void TipMover::orient_tool(const Vector3& travel_W, AxisPositions& rotaries) const {
-    const RotaryTransform& transform = *tcp().transform;
+    const positioning::RotaryTransform& transform = *tcp().transform;
     const Vector3 vector =
         frames_.stages.linear() *
         Vector3(words_.get('I', 0.0), words_.get('J', 0.0), words_.get('K', 0.0));
     const int column = words_.column_of_first(tool_vector_letters);
     if (vector.norm() < 1e-9) raise_alarm(5421, "(I J K is no direction)", column);
     const Vector3 n_W =
-        leaned(tcp().direction_W(vector.normalized()), travel_W, frames_.tip.lean_rad);
-    const RotaryChoice choice = choose_rotaries(transform, n_W, transform.rotaries(frames_.axes),
-                                                frames_.rotary_travel(modal_.settings));
+        motion::leaned(tcp().direction_W(vector.normalized()), travel_W, frames_.tip.lean_rad);
+    const positioning::RotaryChoice choice = positioning::choose_rotaries(
+        transform, n_W, transform.rotaries(frames_.axes), frames_.rotary_travel(modal_.settings));
     if (!choice.chosen) raise_alarm(5421, "(no rotary position for this tool axis)", column);
     rotaries = transform.with_rotaries(rotaries, *choice.chosen);
 }
@@ -70,28 +71,28 @@ Vector3 TipMover::start_of_way() const {
                        frames_.axes);
 }
 
-TipMover::TipWay TipMover::way_to(const ControlPosition& target) const {
+TipMover::TipWay TipMover::way_to(const offsets::ControlPosition& target) const {
     const Coordinates& stages = frames_.stages;
     TipWay out;
-    ControlPosition machine = stages.machine_from_program(target);
+    offsets::ControlPosition machine = stages.machine_from_program(target);
     out.start_W = start_of_way();
-    AxisPositions rotaries = axis_positions_of(machine);
+    AxisPositions rotaries = offsets::axis_positions_of(machine);
     const Vector3 staged = staged_tip(machine);
     if (frames_.tip.by_vector && (words_.present & tool_vector_letters)) {
         orient_tool(tcp().tip_W(staged, rotaries) - out.start_W, rotaries);
-        machine = control_position_of(rotaries);
+        machine = offsets::control_position_of(rotaries);
     }
     out.end_W = tcp().tip_W(staged, rotaries);
     out.target.axes = tcp().machine(out.end_W, rotaries);
     const AxisPositions& to = out.target.axes;
-    set_xyz(machine, {to[Axis::X], to[Axis::Y], to[Axis::Z]});
+    offsets::set_xyz(machine, {to[Axis::X], to[Axis::Y], to[Axis::Z]});
     out.target.machine = machine;
     out.target.program = reached(target, machine);
     return out;
 }
 
 /// Rotaries alone: F counts degrees (19696#6 RFC = 1), or the axes run as fast as they may.
-double TipMover::feed_length(double tip_mm, const ControlPosition& machine) const {
+double TipMover::feed_length(double tip_mm, const offsets::ControlPosition& machine) const {
     if (tip_mm > 1e-9) return tip_mm;
     if (!frames_.stores().parameters.bit(19696, 6)) return 0.0;
     double square = 0.0;
@@ -101,48 +102,50 @@ double TipMover::feed_length(double tip_mm, const ControlPosition& machine) cons
 }
 
 /// The program position: as commanded, with the angles that a vector led to.
-ControlPosition TipMover::reached(ControlPosition target, const ControlPosition& machine) const {
+offsets::ControlPosition TipMover::reached(offsets::ControlPosition target,
+                                           const offsets::ControlPosition& machine) const {
     if (!frames_.tip.by_vector) return target;
-    const ControlPosition counted = frames_.stages.program_from_machine(machine);
+    const offsets::ControlPosition counted = frames_.stages.program_from_machine(machine);
     for (const Axis axis : {Axis::A, Axis::B, Axis::C}) target[axis] = counted[axis];
     return target;
 }
 
-MoveResult TipMover::line(MotionKind kind, const ControlPosition& target) {
+motion::MoveResult TipMover::line(motion::MotionKind kind, const offsets::ControlPosition& target) {
     check_words();
     const TipWay tip = way_to(target);
     CurveMove way;
     way.length_mm = (tip.end_W - tip.start_W).norm();
     way.feed_length_mm = feed_length(way.length_mm, tip.target.machine);
     if (!turns(tip.target.axes)) return axes_.along(kind, tip.target, way);
-    const TipLine line(tcp(), frames_.axes, tip.target.axes, tip.start_W, tip.end_W);
+    const motion::TipLine line(tcp(), frames_.axes, tip.target.axes, tip.start_W, tip.end_W);
     way.curve = &line;
     return axes_.along(kind, tip.target, way);
 }
 
 /// The arc of program coordinates as the table sees it.
-ArcPath TipMover::arc_in_W(const ProgramArc& arc, const AxisPositions& rotaries) const {
-    ControlPosition centre = frames_.program;
-    set_xyz(centre, arc.centre);
+motion::ArcPath TipMover::arc_in_W(const ProgramArc& arc, const AxisPositions& rotaries) const {
+    offsets::ControlPosition centre = frames_.program;
+    offsets::set_xyz(centre, arc.centre);
     const Matrix3& linear = frames_.stages.linear();
     const Vector3 staged = staged_tip(frames_.stages.machine_from_program(centre));
-    ArcPath out;
+    motion::ArcPath out;
     out.centre_mm = tcp().tip_W(staged, rotaries);
     const Vector3 tip_of_normal_W = tcp().tip_W(staged + (linear * arc.normal), rotaries);
     out.normal = (tip_of_normal_W - out.centre_mm).normalized();
     out.sweep_rad = linear.determinant() < 0.0 ? -arc.sweep_rad : arc.sweep_rad;
-    out.turns = turns_of(out.sweep_rad);
+    out.turns = motion::turns_of(out.sweep_rad);
     return out;
 }
 
-void TipMover::arc(MotionKind kind, const ControlPosition& target, const ProgramArc& arc) {
+void TipMover::arc(motion::MotionKind kind, const offsets::ControlPosition& target,
+                   const ProgramArc& arc) {
     if (frames_.tip.by_vector) raise_alarm(5421, "(an arc under G43.5)");
     const TipWay tip = way_to(target);
     const AxisPositions& to = tip.target.axes;
-    const ArcPath path_W = arc_in_W(arc, to);
+    const motion::ArcPath path_W = arc_in_W(arc, to);
     CurveMove way;
     way.length_mm = way.feed_length_mm = arc_length(path_W, tip.start_W, tip.end_W);
-    const TipArc curve(tcp(), frames_.axes, to, tip.start_W, tip.end_W, path_W);
+    const motion::TipArc curve(tcp(), frames_.axes, to, tip.start_W, tip.end_W, path_W);
     if (turns(to))
         way.curve = &curve;
     else
@@ -150,4 +153,4 @@ void TipMover::arc(MotionKind kind, const ControlPosition& target, const Program
     axes_.along(kind, tip.target, way);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

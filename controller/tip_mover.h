@@ -3,7 +3,7 @@
 
 #include "controller/axis_mover.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// I J K: the tool axis of G43.5.
 constexpr std::uint32_t tool_vector_letters =
@@ -17,25 +17,27 @@ class TipMover {
 
     /// A straight move of the tip on the work to a program position. PS5421 for words of the other
     /// way to command the tool axis, and for an axis that no rotary position reaches.
-    MoveResult line(MotionKind kind, const ControlPosition& target);
+    motion::MoveResult line(motion::MotionKind kind, const offsets::ControlPosition& target);
     /// An arc of the tip on the work; PS5421 under G43.5.
-    void arc(MotionKind kind, const ControlPosition& target, const ProgramArc& arc);
+    void arc(motion::MotionKind kind, const offsets::ControlPosition& target,
+             const ProgramArc& arc);
 
   private:
     struct TipWay {
         Vector3 start_W, end_W;  ///< of the tip, mm
         MoveTarget target;
     };
-    const ToolCentrePoint& tcp() const { return *frames_.tip.in_force; }
+    const motion::ToolCentrePoint& tcp() const { return *frames_.tip.in_force; }
     void check_words() const;
-    Vector3 staged_tip(const ControlPosition& machine) const;
+    Vector3 staged_tip(const offsets::ControlPosition& machine) const;
     Vector3 start_of_way() const;
-    TipWay way_to(const ControlPosition& target) const;
+    TipWay way_to(const offsets::ControlPosition& target) const;
     void orient_tool(const Vector3& travel_W, AxisPositions& rotaries) const;
-    double feed_length(double tip_mm, const ControlPosition& machine) const;
-    ControlPosition reached(ControlPosition target, const ControlPosition& machine) const;
+    double feed_length(double tip_mm, const offsets::ControlPosition& machine) const;
+    offsets::ControlPosition reached(offsets::ControlPosition target,
+                                     const offsets::ControlPosition& machine) const;
     bool turns(const AxisPositions& to) const;
-    ArcPath arc_in_W(const ProgramArc& arc, const AxisPositions& rotaries) const;
+    motion::ArcPath arc_in_W(const ProgramArc& arc, const AxisPositions& rotaries) const;
 
     const SortedWords& words_;
     const Modal& modal_;
@@ -43,4 +45,4 @@ class TipMover {
     AxisMover& axes_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -5,12 +5,12 @@
 #include "controller/alarms.h"
 #include "controller/tool_length.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
 ToolVector along_tool(const SortedWords& words, const Modal& modal, const Frames& frames,
-                      const RotaryTransform& transform) {
+                      const positioning::RotaryTransform& transform) {
     const double length_mm = tool_length_mm(words, frames.stores().tools, modal.number.length);
     return {length_mm * transform.pivot().tool_direction, modal.number.length};
 }
@@ -22,9 +22,9 @@ std::string point_text(const Vector3& p) {
 /// The programmed point on the table by either frame, from the zero of the work; returns how far
 /// both are apart, mm, 0 within rounding.
 double note_frames(const Modal& modal, const Frames& frames, Mover& mover) {
-    const RotaryTransform& transform = *frames.tip.starting->transform;
-    const Vector3 tip_M =
-        xyz_of(frames.stages.machine_from_program(frames.program)) - xyz_of(frames.stages.length);
+    const positioning::RotaryTransform& transform = *frames.tip.starting->transform;
+    const Vector3 tip_M = offsets::xyz_of(frames.stages.machine_from_program(frames.program)) -
+                          offsets::xyz_of(frames.stages.length);
     const Vector3 origin = frames.origin_of_work();
     const Vector3 start = transform.pose_MW(frames.axes).inverse() * tip_M - origin;
     const Vector3 rotary_zero = tip_M - origin;
@@ -35,7 +35,7 @@ double note_frames(const Modal& modal, const Frames& frames, Mover& mover) {
             "G43.4 line {} starts with the table off zero: on the table the programmed point is {} "
             "with tcp_frame = \"start\" and {} with \"rotary_zero\"; in force is \"{}\"",
             modal.block.line, point_text(start), point_text(rotary_zero),
-            modal.settings.tcp_frame == TcpFrame::start ? "start" : "rotary_zero"));
+            modal.settings.tcp_frame == positioning::TcpFrame::start ? "start" : "rotary_zero"));
     return apart_mm;
 }
 
@@ -43,7 +43,7 @@ double note_frames(const Modal& modal, const Frames& frames, Mover& mover) {
 
 void start_tool_centre(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover,
                        const GCode& code) {
-    const RotaryTransform& transform = frames.transform(5420);
+    const positioning::RotaryTransform& transform = frames.transform(5420);
     const bool by_vector = code.code10 == 435;
     if (by_vector && transform.pivot().frame_follows_work)
         raise_alarm(5459, "(G43.5 with WKP, 19696#5)");
@@ -56,25 +56,26 @@ void start_tool_centre(const SortedWords& words, Modal& modal, Frames& frames, M
     apply_tool_length(tool, modal, frames, mover);
     frames.tip.by_vector = by_vector;
     frames.tip.lean_rad = by_vector ? rad_from_deg(words.get('Q', 0.0)) : 0.0;
-    frames.tip.starting =
-        ToolCentrePoint::start(transform, frames.axes, modal.settings.tcp_frame, tool.vector_mm);
+    frames.tip.starting = motion::ToolCentrePoint::start(transform, frames.axes,
+                                                         modal.settings.tcp_frame, tool.vector_mm);
 }
 
 void take_over_tool_centre(const SortedWords& words, const Modal& modal, Frames& frames,
                            Mover& mover) {
     if (!frames.tip.starting) return;
-    const ControlPosition programmed = frames.program;
+    const offsets::ControlPosition programmed = frames.program;
     const double apart_mm = note_frames(modal, frames, mover);
     frames.tip.in_force = frames.tip.starting;
     frames.tip.starting.reset();
     mover.frames_changed();
-    const bool other_frame = modal.settings.tcp_frame == TcpFrame::rotary_zero && apart_mm > 0.0;
+    const bool other_frame =
+        modal.settings.tcp_frame == positioning::TcpFrame::rotary_zero && apart_mm > 0.0;
     if (other_frame && !words.has_axis() && !frames.tip.in_force->follows_work) {
-        set_xyz(frames.program, xyz_of(programmed));
+        offsets::set_xyz(frames.program, offsets::xyz_of(programmed));
         frames.tip.keeps_program = true;
     }
     if (frames.tip.by_vector && (words.present & tool_vector_letters))
-        mover.line(MotionKind::rapid, frames.program);
+        mover.line(motion::MotionKind::rapid, frames.program);
 }
 
 void change_length_number(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover) {
@@ -83,10 +84,10 @@ void change_length_number(const SortedWords& words, Modal& modal, Frames& frames
         return set_tool_length(words, modal, frames, mover, present);
     modal.number.length = words.whole('H');
     if (!frames.tip.in_force) return;
-    ToolCentrePoint& tcp = *frames.tip.in_force;
+    motion::ToolCentrePoint& tcp = *frames.tip.in_force;
     const ToolVector tool = along_tool(words, modal, frames, *tcp.transform);
     tcp.tool_vector_mm = tool.vector_mm;
     apply_tool_length(tool, modal, frames, mover);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -3,7 +3,7 @@
 
 #include "controller/mover.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// G43.4, G43.5. The start-up block moves as plain length compensation does; tool centre point
 /// control takes over at its end (`frames.tip.starting`). PS5420 without five-axis parameters,
@@ -19,4 +19,4 @@ void take_over_tool_centre(const SortedWords& words, const Modal& modal, Frames&
 /// G43.4 along the tool; the frame stays.
 void change_length_number(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

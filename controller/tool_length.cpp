@@ -2,7 +2,7 @@
 
 #include "controller/alarms.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
@@ -16,16 +16,17 @@ Axis length_axis(const SortedWords& words, const Modal& modal) {
 }
 
 /// The length of types A to C lies along one axis, which need not be X, Y or Z.
-ControlPosition length_along(Axis axis, double length_mm) {
-    ControlPosition out;
+offsets::ControlPosition length_along(Axis axis, double length_mm) {
+    offsets::ControlPosition out;
     out[axis] = length_mm;
     return out;
 }
 
 /// Shift type, or the length was left out at the reference position: the position display changes.
 /// Otherwise the program position stands and the axis goes to it.
-void put_in_force(const ControlPosition& length, const Modal& modal, Frames& frames, Mover& mover) {
-    const ControlPosition program = frames.program;
+void put_in_force(const offsets::ControlPosition& length, const Modal& modal, Frames& frames,
+                  Mover& mover) {
+    const offsets::ControlPosition program = frames.program;
     const bool parked = frames.length_parked;
     frames.stages.length = frames.staged_length(length);
     mover.frames_changed();
@@ -36,7 +37,7 @@ void put_in_force(const ControlPosition& length, const Modal& modal, Frames& fra
 
 }  // namespace
 
-double tool_length_mm(const SortedWords& words, const ToolOffsets& tools, int number) {
+double tool_length_mm(const SortedWords& words, const offsets::ToolOffsets& tools, int number) {
     if (number < 0 || number >= static_cast<int>(tools.tool.size()))
         raise_alarm(30, words.column_of('H'));
     return number == 0 ? 0.0 : tools.tool[static_cast<std::size_t>(number)].length_mm();
@@ -44,8 +45,8 @@ double tool_length_mm(const SortedWords& words, const ToolOffsets& tools, int nu
 
 void apply_tool_length(const ToolVector& tool, const Modal& modal, Frames& frames, Mover& mover) {
     frames.tool = tool;
-    ControlPosition length;
-    set_xyz(length, tool.vector_mm);
+    offsets::ControlPosition length;
+    offsets::set_xyz(length, tool.vector_mm);
     put_in_force(length, modal, frames, mover);
 }
 
@@ -62,18 +63,18 @@ void set_tool_length(const SortedWords& words, Modal& modal, Frames& frames, Mov
     modal.codes.set(ModalGroup::length, code10);
     if (words.has('H')) modal.number.length = words.whole('H');
     const bool on = code10 != 490;
-    ControlPosition length;
+    offsets::ControlPosition length;
     if (on) {
         const double sign = code10 == 440 ? -1.0 : 1.0;
         length =
             length_along(length_axis(words, modal),
                          sign * tool_length_mm(words, frames.stores().tools, modal.number.length));
     }
-    frames.tool = {xyz_of(length), on ? modal.number.length : 0};
+    frames.tool = {offsets::xyz_of(length), on ? modal.number.length : 0};
     put_in_force(length, modal, frames, mover);
     if (!from_tcp || on) return;
     frames.length_moves = false;
     mover.frames_changed();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

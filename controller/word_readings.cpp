@@ -2,7 +2,7 @@
 
 #include "controller/alarms.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 double feed_word_unit(const SortedWords& words, const Modal& modal) {
     if (!words.is_bare('F') || modal.settings.bare_is_unit) return 1.0;
@@ -46,4 +46,4 @@ void dwell(const SortedWords& words, const Modal& modal, Mover& mover) {
     mover.dwell(duration_s);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

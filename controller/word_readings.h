@@ -3,7 +3,7 @@
 
 #include "controller/mover.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// What one unit of the F word of this block means, in mm/min, inch/min or a turn.
 double feed_word_unit(const SortedWords& words, const Modal& modal);
@@ -16,4 +16,4 @@ void change_feed_mode(Modal& modal, int code10);
 /// G4 P (ms), X or U (s); PS0006 when negative.
 void dwell(const SortedWords& words, const Modal& modal, Mover& mover);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -6,7 +6,7 @@
 #include "controller/alarms.h"
 #include "interpreter/word_rules.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
@@ -52,7 +52,7 @@ void drop_cycle(SortedWords& w) {
     w.code_count = kept;
 }
 
-void add_g(SortedWords& w, const ControlSettings& settings, const WordValue& word) {
+void add_g(SortedWords& w, const ControlSettings& settings, const interpreter::WordValue& word) {
     const GCode* code = g_code_of(word.value, settings);
     if (!code) raise_alarm(10, word.column);
     if (code->phase != Phase::motion) return add_code(w, settings, code, word.column);
@@ -62,14 +62,15 @@ void add_g(SortedWords& w, const ControlSettings& settings, const WordValue& wor
     w.motion_column = word.column;
 }
 
-void add_m(SortedWords& w, const WordValue& word) {
+void add_m(SortedWords& w, const interpreter::WordValue& word) {
     if (w.m_count == SortedWords::max_codes) raise_alarm(9, word.column);
-    if (const auto fault = find_m_fault(word)) raise_alarm(fault->alarm, fault->column);
+    if (const auto fault = interpreter::find_m_fault(word))
+        raise_alarm(fault->alarm, fault->column);
     w.m_column[w.m_count] = word.column;
     w.m[w.m_count++] = static_cast<int>(word.value + 0.5);
 }
 
-void add_letter(SortedWords& w, const Modal& modal, const WordValue& word) {
+void add_letter(SortedWords& w, const Modal& modal, const interpreter::WordValue& word) {
     const std::uint32_t bit = SortedWords::bit(word.letter);
     if ((w.present & bit) && modal.settings.duplicates_alarm) raise_alarm(5074, word.column);
     const auto i = static_cast<std::size_t>(word.letter - 'A');
@@ -81,17 +82,17 @@ void add_letter(SortedWords& w, const Modal& modal, const WordValue& word) {
     w.bare = word.decimal_point ? w.bare & ~bit : w.bare | bit;
 }
 
-void add_corner(SortedWords& w, const WordValue& word) {
+void add_corner(SortedWords& w, const interpreter::WordValue& word) {
     w.corner = word.value * (word.decimal_point ? w.units.unit_mm : w.units.bare_linear);
     (word.letter == 'r' ? w.corner_radius : w.corner_chamfer) = true;
 }
 
 }  // namespace
 
-void sort_words(const BlockWords& block, const Modal& modal, SortedWords& words) {
+void sort_words(const interpreter::BlockWords& block, const Modal& modal, SortedWords& words) {
     words.clear();
     words.units = modal.units;
-    for (const WordValue& word : block) {
+    for (const interpreter::WordValue& word : block) {
         if (word.vacant) continue;
         switch (word.letter) {
             case 'G':
@@ -115,10 +116,10 @@ void sort_words(const BlockWords& block, const Modal& modal, SortedWords& words)
     constexpr std::uint32_t ruled = SortedWords::bit('T') | SortedWords::bit('H') |
                                     SortedWords::bit('D') | SortedWords::bit('S');
     if (words.code_count == 0 && !(words.present & ruled)) return;
-    const auto fault = find_word_fault(block);
+    const auto fault = interpreter::find_word_fault(block);
     if (!fault) return;
     if (fault->detail.empty()) raise_alarm(fault->alarm, fault->column);
     raise_alarm(fault->alarm, fault->detail, fault->column);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

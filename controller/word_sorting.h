@@ -4,7 +4,7 @@
 #include "controller/modal.h"
 #include "interpreter/block_words.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// Bit of a phase in SortedWords::phases.
 constexpr std::uint32_t phase_bit(Phase phase) {
@@ -13,6 +13,6 @@ constexpr std::uint32_t phase_bit(Phase phase) {
 
 /// Two codes of one group: the last one counts, or PS5074 by 3403#6. Throws PS0003 for a value with
 /// too many digits, PS0009 for an address the control does not have, PS0010 for an unknown G code.
-void sort_words(const BlockWords& block, const Modal& modal, SortedWords& words);
+void sort_words(const interpreter::BlockWords& block, const Modal& modal, SortedWords& words);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

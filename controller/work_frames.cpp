@@ -4,7 +4,7 @@
 
 #include "controller/alarms.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 void work_offset_changed(const Modal& modal, Frames& frames, Mover& mover) {
     frames.take_work_offset(modal);
@@ -36,22 +36,22 @@ void set_local_shift(const SortedWords& words, const Modal& modal, Frames& frame
 void go_to_machine_position(const SortedWords& words, const Modal& modal, Frames& frames,
                             Mover& mover) {
     if (!modal.absolute()) return;
-    ControlPosition target = frames.machine;
+    offsets::ControlPosition target = frames.machine;
     for (const ControlAxis& entry : modal.settings.axes)
         if (words.has(entry.axis)) target[entry.axis] = words.axis_value(entry.axis);
-    mover.axes.to_machine(MotionKind::rapid, target);
+    mover.axes.to_machine(motion::MotionKind::rapid, target);
     frames.length_parked = true;
 }
 
 void preset_position(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover) {
     if (words.has('S')) modal.spindle.most_rpm = words.get('S');
     Coordinates& stages = frames.stages;
-    ControlPosition wanted = frames.program;
+    offsets::ControlPosition wanted = frames.program;
     for (const ControlAxis& entry : modal.settings.axes)
         if (words.has(entry.axis))
             wanted[entry.axis] = words.axis_value(entry.axis);  // absolute under G91 too
-    const ControlPosition from = stages.shaped_from_program(frames.program);
-    const ControlPosition to = stages.shaped_from_program(wanted);
+    const offsets::ControlPosition from = stages.shaped_from_program(frames.program);
+    const offsets::ControlPosition to = stages.shaped_from_program(wanted);
     for (const ControlAxis& entry : modal.settings.axes) {
         const Axis axis = entry.axis;
         const bool in_plane = stages.feature_MF && index_of(axis) < 3;
@@ -72,4 +72,4 @@ void cancel_preset(const SortedWords& words, const Modal& modal, Frames& frames,
     mover.frames_changed();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -3,7 +3,7 @@
 
 #include "controller/mover.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// G54-G59, G54.1 Pn, and G54 Pn as the same. PS0031 when there is no such P, PS5421 under G43.4.
 void set_work_offset(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover,
@@ -22,4 +22,4 @@ void preset_position(const SortedWords& words, Modal& modal, Frames& frames, Mov
 /// G92.1
 void cancel_preset(const SortedWords& words, const Modal& modal, Frames& frames, Mover& mover);
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -6,7 +6,7 @@
 #include "controller/arcs.h"
 #include "controller/commanded.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 namespace {
 
@@ -22,7 +22,7 @@ double way_of(const PlaneElement& e) {
 }
 
 /// Axes of a figure in a plane that one axis pair maps in its own way; the others run evenly.
-class FigureCurve : public PathCurve {
+class FigureCurve : public motion::PathCurve {
   public:
     FigureCurve(const PlaneElement& figure, const AxisPositions& from, const AxisPositions& to)
         : figure_(figure), from_(from), to_(to) {}
@@ -74,7 +74,7 @@ class PolarCurve : public FigureCurve {
 class CylinderCurve : public FigureCurve {
   public:
     CylinderCurve(const PlaneElement& figure, const AxisPositions& from, const AxisPositions& to,
-                  const PlaneAxes& plane, double radius_mm)
+                  const motion::PlaneAxes& plane, double radius_mm)
         : FigureCurve(figure, from, to),
           first_(plane.first),
           second_(plane.second),
@@ -95,8 +95,8 @@ class CylinderCurve : public FigureCurve {
 };
 
 /// A line or arc between two points of a plane whose centre words are given.
-PlaneElement figure_of(const SortedWords& words, const Modal& modal, const PlaneAxes& letters,
-                       PlaneElement figure) {
+PlaneElement figure_of(const SortedWords& words, const Modal& modal,
+                       const motion::PlaneAxes& letters, PlaneElement figure) {
     const int code = modal.codes[ModalGroup::motion];
     if (code == 20 || code == 30) bend_to_arc(words, letters, arc_rule(modal), figure);
     return figure;
@@ -114,21 +114,21 @@ Axis axis_by_number(const ControlSettings& settings, double number, Axis otherwi
     return settings.axes[static_cast<std::size_t>(number) - 1].axis;
 }
 
-CurveMove along_curve(const PathCurve& curve, const PlaneElement& figure) {
+CurveMove along_curve(const motion::PathCurve& curve, const PlaneElement& figure) {
     CurveMove way;
     way.curve = &curve;
     way.length_mm = way.feed_length_mm = way_of(figure);
     return way;
 }
 
-MotionKind kind_of(const Modal& modal) {
+motion::MotionKind kind_of(const Modal& modal) {
     switch (modal.codes[ModalGroup::motion]) {
         case 20:
-            return MotionKind::arc_cw;
+            return motion::MotionKind::arc_cw;
         case 30:
-            return MotionKind::arc_ccw;
+            return motion::MotionKind::arc_ccw;
         default:
-            return MotionKind::linear;
+            return motion::MotionKind::linear;
     }
 }
 
@@ -140,7 +140,7 @@ void WrappedMotion::set_polar(Modal& modal, const Frames& frames, int code10) {
     modal.codes.set(ModalGroup::polar_motion, code10);
     polar_.reset();
     if (code10 != 121) return;
-    const Parameters& parameters = frames.stores().parameters;
+    const offsets::Parameters& parameters = frames.stores().parameters;
     PolarMotion polar;
     polar.linear = axis_by_number(modal.settings, parameters.get(5460), Axis::X);
     polar.rotary = axis_by_number(modal.settings, parameters.get(5461), Axis::C);
@@ -174,18 +174,18 @@ void WrappedMotion::move_polar(SortedWords& words, Modal& modal, const Frames& f
     read(x_word, figure.end.x);
     read(y_word, figure.end.y);
     words.present &= ~(SortedWords::bit(x_word) | SortedWords::bit(y_word));
-    figure = figure_of(words, modal, plane_xy, figure);
-    ControlPosition target = commanded_position(words, modal, frames);
+    figure = figure_of(words, modal, motion::plane_xy, figure);
+    offsets::ControlPosition target = commanded_position(words, modal, frames);
     const double turned = PolarCurve(figure, frames.axes, frames.axes, polar).turned(1.0);
     target[polar.linear] += length_of(figure.end) - length_of(figure.start);
     target[polar.rotary] += deg_from_rad(turned);
     polar.at = figure.end;
     if (!figure.moves()) {
-        mover.line(rapid ? MotionKind::rapid : MotionKind::linear, target);
+        mover.line(rapid ? motion::MotionKind::rapid : motion::MotionKind::linear, target);
         return;
     }
-    const ControlPosition machine = frames.stages.machine_from_program(target);
-    const AxisPositions from = frames.axes, to = axis_positions_of(machine);
+    const offsets::ControlPosition machine = frames.stages.machine_from_program(target);
+    const AxisPositions from = frames.axes, to = offsets::axis_positions_of(machine);
     const PolarCurve curve(figure, from, to, polar);
     mover.axes.along(kind_of(modal), {target, machine, to}, along_curve(curve, figure));
 }
@@ -194,8 +194,8 @@ void WrappedMotion::move_polar(SortedWords& words, Modal& modal, const Frames& f
 /// counts its way at the radius.
 void WrappedMotion::move_cylinder_line(const SortedWords& words, Modal& modal, const Frames& frames,
                                        Mover& mover) {
-    const ControlPosition target = commanded_position(words, modal, frames);
-    const ControlPosition machine = frames.stages.machine_from_program(target);
+    const offsets::ControlPosition target = commanded_position(words, modal, frames);
+    const offsets::ControlPosition machine = frames.stages.machine_from_program(target);
     double square = 0.0;
     for (std::size_t i = 0; i < axis_count; ++i) {
         const bool wound = all_axes[i] == cylinder_->rotary;
@@ -204,29 +204,30 @@ void WrappedMotion::move_cylinder_line(const SortedWords& words, Modal& modal, c
     }
     CurveMove way;
     way.length_mm = way.feed_length_mm = std::sqrt(square);
-    mover.axes.along(MotionKind::linear, {target, machine, axis_positions_of(machine)}, way);
+    mover.axes.along(motion::MotionKind::linear,
+                     {target, machine, offsets::axis_positions_of(machine)}, way);
 }
 
 void WrappedMotion::move_cylinder_arc(const SortedWords& words, Modal& modal, const Frames& frames,
                                       Mover& mover) {
-    PlaneAxes plane = modal.plane();
+    motion::PlaneAxes plane = modal.plane();
     if (!has_arc_words(words, plane)) raise_alarm(modal.settings.arc_needs_centre ? 22 : 176);
     // The rotary axis stands for X in G18, else for Y (its linear direction by 1022, assumed).
     const Axis replaced = plane.first == Axis::Z ? Axis::X : Axis::Y;
     (plane.first == replaced ? plane.first : plane.second) = cylinder_->rotary;
-    const ControlPosition target = commanded_position(words, modal, frames);
+    const offsets::ControlPosition target = commanded_position(words, modal, frames);
     const double per_degree = cylinder_->radius_mm * rad_from_deg(1.0);
-    const auto unrolled = [&](const ControlPosition& p, Axis axis) {
+    const auto unrolled = [&](const offsets::ControlPosition& p, Axis axis) {
         return p[axis] * (is_rotary(axis) ? per_degree : 1.0);
     };
     PlaneElement figure;
     figure.start = {unrolled(frames.program, plane.first), unrolled(frames.program, plane.second)};
     figure.end = {unrolled(target, plane.first), unrolled(target, plane.second)};
     figure = figure_of(words, modal, plane, figure);
-    const ControlPosition machine = frames.stages.machine_from_program(target);
-    const AxisPositions from = frames.axes, to = axis_positions_of(machine);
+    const offsets::ControlPosition machine = frames.stages.machine_from_program(target);
+    const AxisPositions from = frames.axes, to = offsets::axis_positions_of(machine);
     const CylinderCurve curve(figure, from, to, plane, cylinder_->radius_mm);
     mover.axes.along(kind_of(modal), {target, machine, to}, along_curve(curve, figure));
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -5,7 +5,7 @@
 
 #include "controller/mover.h"
 
-namespace trunnion {
+namespace trunnion::controller {
 
 /// G12.1 in force: a linear axis is the radius, a rotary axis the angle. Program words: the linear
 /// axis in mm, the rotary letter in mm too (the hypothetical axis).
@@ -41,4 +41,4 @@ class WrappedMotion {
     std::optional<CylinderMotion> cylinder_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::controller

@@ -4,7 +4,7 @@
 
 #include "cutter/cutter_alarms.h"
 
-namespace trunnion {
+namespace trunnion::cutter {
 
 namespace {
 
@@ -72,4 +72,4 @@ void BesidePath::run_beside(const PathMove& m, PlanePoint end) {
     send(m, way, !free && !starts && !ends);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cutter

@@ -3,7 +3,7 @@
 
 #include "cutter/held_moves.h"
 
-namespace trunnion {
+namespace trunnion::cutter {
 
 /// Parameters of cutter compensation.
 struct CutterSettings {
@@ -21,8 +21,8 @@ struct BesidePath {
     explicit BesidePath(PathReceiver& receiver) : held(receiver) {}
 
     CutterSettings settings;
-    ControlPosition tool;         ///< program coordinates of the compensated point
-    double last_offset_mm = 0.0;  ///< offset of the move before the one that waits
+    offsets::ControlPosition tool;  ///< program coordinates of the compensated point
+    double last_offset_mm = 0.0;    ///< offset of the move before the one that waits
     HeldMoves held;
 
     /// The compensated point in the plane of a move.
@@ -41,4 +41,4 @@ struct BesidePath {
 /// PS0038, PS0041 when an arc is smaller than the cutter: it has no path beside it.
 void check_radius(const PathMove& m);
 
-}  // namespace trunnion
+}  // namespace trunnion::cutter

@@ -4,7 +4,7 @@
 
 #include "cutter/cutter_alarms.h"
 
-namespace trunnion {
+namespace trunnion::cutter {
 
 namespace {
 
@@ -112,4 +112,4 @@ void finish_first(BesidePath& path, const PathMove& first, const PathMove& secon
     round_corner(path, first, second, corner_of(first, second));
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cutter

@@ -3,9 +3,9 @@
 
 #include "cutter/beside_path.h"
 
-namespace trunnion {
+namespace trunnion::cutter {
 
 /// `first` is finished now that `second` is known. PS0033, PS0038, PS0041.
 void finish_first(BesidePath& path, const PathMove& first, const PathMove& second);
 
-}  // namespace trunnion
+}  // namespace trunnion::cutter

@@ -5,7 +5,7 @@
 #include "cutter/cutter_alarms.h"
 #include "geometry/plane_crossing.h"
 
-namespace trunnion {
+namespace trunnion::cutter {
 
 namespace {
 
@@ -81,4 +81,4 @@ std::optional<PathMove> take_corner(PathMove& first, PathMove& second) {
     return corner;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cutter

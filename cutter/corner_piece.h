@@ -5,10 +5,10 @@
 
 #include "cutter/path_move.h"
 
-namespace trunnion {
+namespace trunnion::cutter {
 
 /// Shortens both sides and returns the piece between them; nothing where the path goes straight on.
 /// PS0052 when `second` is a rapid, PS0055 when a side is too short.
 std::optional<PathMove> take_corner(PathMove& first, PathMove& second);
 
-}  // namespace trunnion
+}  // namespace trunnion::cutter

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace trunnion {
+namespace trunnion::cutter {
 
 namespace {
 
@@ -37,11 +37,11 @@ void raise_cutter_alarm(int number) {
     throw Alarm(number, row->text);
 }
 
-void place_alarm(Alarm& alarm, const BlockMarks& marks) {
+void place_alarm(Alarm& alarm, const motion::BlockMarks& marks) {
     if (alarm.where.line != 0) return;
     if (marks.program) alarm.where.program = *marks.program;
     alarm.where.line = marks.line;
     alarm.where.column = 1;  // the words at hand are those of a later block
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cutter

@@ -6,7 +6,7 @@
 #include "base/alarm.h"
 #include "motion/block_marks.h"
 
-namespace trunnion {
+namespace trunnion::cutter {
 
 struct CutterAlarm {
     int number;
@@ -19,6 +19,6 @@ std::span<const CutterAlarm> cutter_alarms();
 /// Throws the alarm of that number with its text and without a place.
 [[noreturn]] void raise_cutter_alarm(int number);
 /// An alarm without a place gets that of the block that the marks belong to.
-void place_alarm(Alarm& alarm, const BlockMarks& marks);
+void place_alarm(Alarm& alarm, const motion::BlockMarks& marks);
 
-}  // namespace trunnion
+}  // namespace trunnion::cutter

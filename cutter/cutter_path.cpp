@@ -6,13 +6,13 @@
 #include "cutter/corner_piece.h"
 #include "cutter/cutter_alarms.h"
 
-namespace trunnion {
+namespace trunnion::cutter {
 
 namespace {
 
 /// The alarms of a side belong to its block, not to the one that made it known.
 template <typename Work>
-void at_block(const BlockMarks& marks, Work work) {
+void at_block(const motion::BlockMarks& marks, Work work) {
     try {
         work();
     } catch (Alarm& alarm) {
@@ -84,7 +84,7 @@ void CutterPath::link_to(const PathMove& move) {
     path_.line_to(link, square_to_start(move));
 }
 
-void CutterPath::start(const ControlPosition& program, bool alone) {
+void CutterPath::start(const offsets::ControlPosition& program, bool alone) {
     if (!engaged_) {
         reset();
         engaged_ = true;
@@ -155,7 +155,7 @@ void CutterPath::compensate(const PathMove& move) {
     if (move.offset_mm == 0.0) flush_compensation();  // the way out needs no look ahead
 }
 
-void CutterPath::add(const PathMove& move, const ControlPosition& program) {
+void CutterPath::add(const PathMove& move, const offsets::ControlPosition& program) {
     if (!engaged_) {
         engaged_ = true;
         path_.tool = program;
@@ -190,7 +190,7 @@ void CutterPath::flush() {
     path_.held.release();
 }
 
-ControlPosition CutterPath::pause(const ControlPosition& program) {
+offsets::ControlPosition CutterPath::pause(const offsets::ControlPosition& program) {
     flush();
     paused_ = true;
     for (std::size_t i = 0; i < axis_count; ++i)
@@ -198,10 +198,11 @@ ControlPosition CutterPath::pause(const ControlPosition& program) {
     return path_.tool;
 }
 
-ControlPosition CutterPath::resume(const ControlPosition& program, bool axes_moved) {
+offsets::ControlPosition CutterPath::resume(const offsets::ControlPosition& program,
+                                            bool axes_moved) {
     paused_ = false;
     path_.tool = program;
-    ControlPosition out = program;
+    offsets::ControlPosition out = program;
     if (axes_moved) {
         path_.last_offset_mm = 0.0;
         return out;
@@ -210,4 +211,4 @@ ControlPosition CutterPath::resume(const ControlPosition& program, bool axes_mov
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cutter

@@ -6,7 +6,7 @@
 
 #include "cutter/beside_path.h"
 
-namespace trunnion {
+namespace trunnion::cutter {
 
 /// Takes programmed moves and hands compensated ones to the receiver, later and in order. While it
 /// is not engaged nothing waits here and moves need not come this way. All positions are program
@@ -23,7 +23,7 @@ class CutterPath {
 
     /// G41, G42; `program`: where the tool stands. `alone`: no axis word in the block, so a type C
     /// start-up begins with a shift.
-    void start(const ControlPosition& program, bool alone);
+    void start(const offsets::ControlPosition& program, bool alone);
     /// G40. `back`: type C and G40 alone in its block: the tool shifts back to the end of this
     /// move, which has offset 0.
     void end(const std::optional<PathMove>& back);
@@ -33,7 +33,7 @@ class CutterPath {
 
     /// The next programmed move, from `program`. PS0051, PS0052, PS0055 at corners; PS0033, PS0034,
     /// PS0038, PS0041 beside the path.
-    void add(const PathMove& move, const ControlPosition& program);
+    void add(const PathMove& move, const offsets::ControlPosition& program);
     /// A dwell or an M code in its turn, marked with its block. PS0051 when a corner waits.
     void add_event(const PathOutput& event);
     /// Lets everything out that waits: the last move ends square to its end. PS0051 when a corner
@@ -45,10 +45,10 @@ class CutterPath {
 
     /// Around a block that changes frames or moves by itself. Everything waiting goes out; returns
     /// where the tool stands.
-    ControlPosition pause(const ControlPosition& program);
+    offsets::ControlPosition pause(const offsets::ControlPosition& program);
     /// `program`: where the tool stands now; returns the programmed position. `axes_moved` (G28,
     /// G53 and the like): compensation starts anew.
-    ControlPosition resume(const ControlPosition& program, bool axes_moved);
+    offsets::ControlPosition resume(const offsets::ControlPosition& program, bool axes_moved);
 
   private:
     void compensate(const PathMove& move);
@@ -63,10 +63,10 @@ class CutterPath {
     bool offsets_ = false;          ///< G41 or G42 is in force
     bool paused_ = false;           ///< between pause and resume
     bool starts_by_shift_ = false;  ///< type C: G41 stood alone, the next move begins with a shift
-    std::optional<PathMove> corner_;        ///< waits for the side behind its corner
-    std::optional<PathMove> first_;         ///< waits for its corner
-    std::vector<PathOutput> idle_;          ///< behind `first_`, without way in the plane
-    ControlPosition programmed_from_tool_;  ///< kept while a block with other duties runs
+    std::optional<PathMove> corner_;                 ///< waits for the side behind its corner
+    std::optional<PathMove> first_;                  ///< waits for its corner
+    std::vector<PathOutput> idle_;                   ///< behind `first_`, without way in the plane
+    offsets::ControlPosition programmed_from_tool_;  ///< kept while a block with other duties runs
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::cutter

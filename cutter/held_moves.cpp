@@ -3,7 +3,7 @@
 #include "cutter/cutter_alarms.h"
 #include "geometry/plane_crossing.h"
 
-namespace trunnion {
+namespace trunnion::cutter {
 
 void HeldMoves::emit(const PathOutput& out) {
     try {
@@ -45,4 +45,4 @@ void HeldMoves::release() {
     for (const PathOutput& out : ahead) emit(out);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::cutter

@@ -6,7 +6,7 @@
 
 #include "cutter/path_move.h"
 
-namespace trunnion {
+namespace trunnion::cutter {
 
 class HeldMoves {
   public:
@@ -33,4 +33,4 @@ class HeldMoves {
     std::vector<PathOutput> ahead_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::cutter

@@ -6,27 +6,27 @@
 #include "motion/plane_axes.h"
 #include "offsets/control_position.h"
 
-namespace trunnion {
+namespace trunnion::cutter {
 
 /// One programmed move that waits, with all that it needs when it goes out later.
 struct PathMove {
     PlaneElement plane;  ///< in the plane of `axes`, mm
-    PlaneAxes axes;
-    ControlPosition to;  ///< program coordinates of the end
+    motion::PlaneAxes axes;
+    offsets::ControlPosition to;  ///< program coordinates of the end
     bool rapid = false;
     double offset_mm = 0.0;  ///< tool to the left (+) or right (-) of the path at its end
     bool chamfer = false, round = false;
     double corner_mm = 0.0;
     bool corner_arc = false;   ///< G39 behind it: an arc round its end
     PlanePoint corner_arc_to;  ///< G39 I J K: direction behind the arc; 0 0: that of the next move
-    BlockMarks marks;
+    motion::BlockMarks marks;
 };
 
 /// A move of the compensated point, a dwell or an M code on its way out.
 struct PathOutput {
     PathMove move;     ///< the programmed move that it belongs to
     PlaneElement way;  ///< of the compensated point in the plane
-    ControlPosition from, to;
+    offsets::ControlPosition from, to;
     double dwell_s = -1.0;    ///< not negative: a dwell
     int m_code = -1;          ///< not negative: an M code
     std::uint64_t block = 0;  ///< counts moves in the plane
@@ -41,4 +41,4 @@ class PathReceiver {
     virtual void take(const PathOutput& out) = 0;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::cutter

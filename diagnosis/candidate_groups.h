@@ -7,11 +7,12 @@
 #include "diagnosis/design.h"
 #include "diagnosis/prepare.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 /// Simpler forms of an effect, each a choice of its linear parameters: a straightness without
 /// slope, single vectors where an effect has several (one artefact of many).
-std::vector<std::function<bool(const EffectParameter&)>> simpler_forms(const Effect& effect);
+std::vector<std::function<bool(const effects::EffectParameter&)>> simpler_forms(
+    const effects::Effect& effect);
 
 /// Catalogue effects without keys, in all forms; features first in the design. Returns how many
 /// features: what the textbook owns.
@@ -20,7 +21,7 @@ Eigen::Index add_textbook_groups(Design& design, const Prepared& prepared,
 
 /// One group for an effect at one setting of its keys; nothing where no reading moves.
 std::optional<std::size_t> add_keyed_group(Design& design, const Prepared& prepared,
-                                           const Whitener& whitener, const Effect& effect,
+                                           const Whitener& whitener, const effects::Effect& effect,
                                            std::vector<double> keys);
 
 /// Error motions of every axis in free form, one group for each correlation length.
@@ -33,4 +34,4 @@ void add_offset_groups(Design& design, const Prepared& prepared, const Whitener&
 void add_driver_groups(Design& design, const Prepared& prepared, const Whitener& whitener,
                        Eigen::Index owned);
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -7,7 +7,7 @@
 #include "diagnosis/rules.h"
 #include "estimation/distributions.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 constexpr std::size_t rivals_tried = 6;
@@ -125,7 +125,7 @@ std::vector<Claim> claims_of(Design& design, const Model& model, const Sizes& si
         const double blocks = support[k].saving.blocks;
         claim.probability =
             std::min({evidence_probability(design, worth[k], others, temper(sizes, k, folds)),
-                      student_probability(support[k].saving.t, blocks - 1.0),
+                      estimation::student_probability(support[k].saving.t, blocks - 1.0),
                       (blocks + 1.0) / (blocks + 2.0), std::clamp(heldout, 0.0, 1.0)});
         name_rivals(design, worth[k], others, claim);
         claims.push_back(std::move(claim));
@@ -137,4 +137,4 @@ std::vector<Claim> claims_of(Design& design, const Model& model, const Sizes& si
     return claims;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -4,7 +4,7 @@
 #include "diagnosis/heldout.h"
 #include "diagnosis/search.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 /// How large everything is, in whitened squares.
 struct Sizes {
@@ -39,4 +39,4 @@ std::vector<Claim> claims_of(Design& design, const Model& model, const Sizes& si
                              const std::vector<Support>& support, const Folds& folds,
                              double heldout);
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -5,18 +5,19 @@
 
 #include "estimation/free_form.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 double table_unit(int direction) {
     return direction < 3 ? 5e-3 : 40e-6;
 }
 
-bool has_keys(const Effect& effect) {
+bool has_keys(const effects::Effect& effect) {
     return std::any_of(effect.parameters.begin(), effect.parameters.end(),
-                       [](const EffectParameter& p) { return p.is_key(); });
+                       [](const effects::EffectParameter& p) { return p.is_key(); });
 }
 
-Eigen::MatrixXd table_features(const Replay& replay, const std::vector<Perturbation>& gradient,
+Eigen::MatrixXd table_features(const emulator::Replay& replay,
+                               const std::vector<kinematics::Perturbation>& gradient,
                                const TableForm& table) {
     const Eigen::Index each = table.per_direction();
     Eigen::MatrixXd features =
@@ -31,7 +32,7 @@ Eigen::MatrixXd table_features(const Replay& replay, const std::vector<Perturbat
             const double by = table_unit(d) * (d < 3 ? motion.shift_mm(d) : motion.tilt_rad(d - 3));
             const Eigen::Index at = each * static_cast<Eigen::Index>(k);
             if (!table.knots.empty()) {
-                const auto [knot, weight] = place_between(table.knots, q);
+                const auto [knot, weight] = estimation::place_between(table.knots, q);
                 features(row, at + knot) = by * (1.0 - weight);
                 features(row, at + knot + 1) = by * weight;
                 continue;
@@ -45,7 +46,8 @@ Eigen::MatrixXd table_features(const Replay& replay, const std::vector<Perturbat
     return features;
 }
 
-Eigen::MatrixXd columns_on(const Replay& replay, const std::vector<Perturbation>& gradient,
+Eigen::MatrixXd columns_on(const emulator::Replay& replay,
+                           const std::vector<kinematics::Perturbation>& gradient,
                            const ColumnGroup& group) {
     if (group.kind == GroupKind::table)
         return table_features(replay, gradient, group.table) * group.shape;
@@ -53,9 +55,9 @@ Eigen::MatrixXd columns_on(const Replay& replay, const std::vector<Perturbation>
         Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(replay.size()), group.columns());
     if (!group.effect) return columns;
     for (std::size_t k = 0; k < group.parameters.size(); ++k)
-        columns.col(static_cast<Eigen::Index>(k)) =
-            effect_column(replay, gradient, *group.effect, group.keys, group.parameters[k]);
+        columns.col(static_cast<Eigen::Index>(k)) = identification::effect_column(
+            replay, gradient, *group.effect, group.keys, group.parameters[k]);
     return columns;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -7,7 +7,7 @@
 
 #include "identification/base_model.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 /// What a group may be called. Only the first three are causes.
 enum class GroupKind : unsigned char {
@@ -23,9 +23,9 @@ inline bool is_cause(GroupKind kind) {
 
 /// Error motions of one axis in free form: values at knots, or harmonics of a whole turn.
 struct TableForm {
-    AxisGeometry axis;            ///< as the chain has it
-    std::vector<int> directions;  ///< 0..5 = X Y Z (mm), A B C (rad), along and about + axes of M
-    std::vector<double> knots;    ///< mm or rad, rising; empty: harmonics
+    kinematics::AxisGeometry axis;  ///< as the chain has it
+    std::vector<int> directions;    ///< 0..5 = X Y Z (mm), A B C (rad), along and about + axes of M
+    std::vector<double> knots;      ///< mm or rad, rising; empty: harmonics
     int first_order = 0, orders = 0;  ///< cos, sin of each order
     Eigen::Index per_direction() const {
         return knots.empty() ? 2 * orders : static_cast<Eigen::Index>(knots.size());
@@ -36,11 +36,11 @@ double table_unit(int direction);
 
 struct ColumnGroup {
     GroupKind kind = GroupKind::textbook;
-    std::string name;                     ///< the cause or driver: "X.backlash", "time"
-    std::string component, text;          ///< of a driver
-    const Effect* effect = nullptr;       ///< textbook, periodic
-    std::vector<double> keys;             ///< of the effect; linear parameters 0
-    std::vector<std::size_t> parameters;  ///< of the effect, one for each column
+    std::string name;                         ///< the cause or driver: "X.backlash", "time"
+    std::string component, text;              ///< of a driver
+    const effects::Effect* effect = nullptr;  ///< textbook, periodic
+    std::vector<double> keys;                 ///< of the effect; linear parameters 0
+    std::vector<std::size_t> parameters;      ///< of the effect, one for each column
     TableForm table;
     std::vector<Eigen::Index> features;  ///< columns of the design that it combines
     Eigen::MatrixXd shape;               ///< features x columns; empty: one column a feature
@@ -50,16 +50,18 @@ struct ColumnGroup {
     }
 };
 
-bool has_keys(const Effect& effect);
+bool has_keys(const effects::Effect& effect);
 
 /// Derivatives of the readings by the values of a table at its knots (or by its harmonics), mm for
 /// one table_unit; direction after direction.
-Eigen::MatrixXd table_features(const Replay& replay, const std::vector<Perturbation>& gradient,
+Eigen::MatrixXd table_features(const emulator::Replay& replay,
+                               const std::vector<kinematics::Perturbation>& gradient,
                                const TableForm& table);
 
 /// Columns of a cause on any readings, mm for one usual change. Offsets and drivers have none:
 /// they predict nothing.
-Eigen::MatrixXd columns_on(const Replay& replay, const std::vector<Perturbation>& gradient,
+Eigen::MatrixXd columns_on(const emulator::Replay& replay,
+                           const std::vector<kinematics::Perturbation>& gradient,
                            const ColumnGroup& group);
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

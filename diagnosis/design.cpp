@@ -5,7 +5,7 @@
 
 #include "estimation/ranked_least_squares.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 constexpr double visible_part = 0.02, visible_square = 1e-4;
@@ -131,7 +131,8 @@ std::size_t Design::add(ColumnGroup group) {
 const Eigen::MatrixXd& Design::owned_inverse(Eigen::Index owned) const {
     if (inverse_.rows() == owned) return inverse_;
     const auto list = first_features(owned);
-    inverse_ = solve_ranked(gram_of(list, list), Eigen::VectorXd::Zero(owned)).covariance;
+    inverse_ =
+        estimation::solve_ranked(gram_of(list, list), Eigen::VectorXd::Zero(owned)).covariance;
     return inverse_;
 }
 
@@ -156,8 +157,8 @@ double Design::outside(std::size_t k, const std::vector<Eigen::Index>& features)
     const ColumnGroup& group = groups_[k].group;
     Eigen::MatrixXd cross = gram_of(features, group.features);
     if (group.shape.size() > 0) cross = (cross * group.shape).eval();
-    const LinearFit all =
-        solve_ranked(gram_of(features, features), Eigen::VectorXd::Zero(cross.rows()));
+    const estimation::LinearFit all =
+        estimation::solve_ranked(gram_of(features, features), Eigen::VectorXd::Zero(cross.rows()));
     const double inside = (all.covariance * cross).cwiseProduct(cross).sum();
     return 1.0 - inside / std::max(1e-300, groups_[k].gram.trace());
 }
@@ -203,8 +204,8 @@ Eigen::MatrixXd Design::cross(const std::vector<std::size_t>& members, std::size
     return cross;
 }
 
-GroupEquations Design::equations(const std::vector<std::size_t>& members) {
-    GroupEquations e;
+estimation::GroupEquations Design::equations(const std::vector<std::size_t>& members) {
+    estimation::GroupEquations e;
     for (const std::size_t m : members) e.size.push_back(groups_[m].group.columns());
     const Eigen::Index all = e.first(members.size());
     e.gram.resize(all, all);
@@ -219,4 +220,4 @@ GroupEquations Design::equations(const std::vector<std::size_t>& members) {
     return e;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

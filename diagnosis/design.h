@@ -18,7 +18,7 @@
 #include "estimation/projection.h"
 #include "estimation/variance_groups.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 class Design {
   public:
@@ -48,17 +48,17 @@ class Design {
 
     const Eigen::MatrixXd& known() const { return known_; }
     const Eigen::VectorXd& data() const { return data_; }
-    const Projection& projection() const { return projection_; }
+    const estimation::Projection& projection() const { return projection_; }
     double rows() const { return rows_; }
     double freedom() const { return rows_ - static_cast<double>(projection_.rank()); }
     /// Whitened columns of a group, set-up not projected out: rows x columns.
     Eigen::MatrixXd columns(std::size_t group) const;
 
-    GroupEquations equations(const std::vector<std::size_t>& members);
+    estimation::GroupEquations equations(const std::vector<std::size_t>& members);
     /// Products of the members' columns with those of another group.
     Eigen::MatrixXd cross(const std::vector<std::size_t>& members, std::size_t group);
     /// Features as they are, whatever groups make of them: information and product with the data.
-    GroupInformation of(const std::vector<Eigen::Index>& features) const {
+    estimation::GroupInformation of(const std::vector<Eigen::Index>& features) const {
         return {gram_of(features, features), product_of(features)};
     }
     /// The group is offered no longer.
@@ -91,7 +91,7 @@ class Design {
     Eigen::MatrixXd known_;
     Eigen::VectorXd data_;
     double rows_;
-    Projection projection_;
+    estimation::Projection projection_;
     Eigen::VectorXd data_coordinates_;
     Eigen::Index features_ = 0;
     std::vector<Block> blocks_;
@@ -101,4 +101,4 @@ class Design {
     mutable Eigen::MatrixXd inverse_;                  ///< of the owned features' gram
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -15,7 +15,7 @@
 #include "effects/settings.h"
 #include "identification/identify.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 constexpr int most_rounds = 3;         ///< of search, noise and bent readings
@@ -74,7 +74,7 @@ Design empty_design(const Prepared& p, const Whitener& whitener, const std::vect
     data.head(n) = whitener.apply(p.base.residual_mm);
     for (Eigen::Index k = 0; k < extra; ++k) {
         const std::size_t j = calibrated[static_cast<std::size_t>(k)];
-        const FitParameter& q = p.base.parameters[j];
+        const identification::FitParameter& q = p.base.parameters[j];
         known(n + k, static_cast<Eigen::Index>(j)) = q.typical / q.prior_sigma;
         data(n + k) = (q.prior_value - q.value) / q.prior_sigma;
     }
@@ -87,7 +87,7 @@ void add_keyed(Design& design, const Prepared& p, const Whitener& whitener, KeyS
                const Model& beside, int count) {
     const Eigen::VectorXd left = left_mm(p, design, beside, solved(design, beside));
     const Eigen::MatrixXd fitted = fitted_mm(p, design, beside);
-    for (const Effect& effect : p.catalogue) {
+    for (const effects::Effect& effect : p.catalogue) {
         if (modelled(p, effect) || !has_keys(effect)) continue;
         for (auto& setting : keys.best(effect, left, p.base.sigma_mm, fitted, count))
             add_ripple_or_other(design, p, whitener, effect, std::move(setting));
@@ -100,8 +100,9 @@ void add_refined(Design& design, const Prepared& p, const Whitener& whitener, co
         const ColumnGroup group = design.group(model.members[k]);
         if (group.kind != GroupKind::periodic) continue;
         const Model rest = without(model, k);
-        add_ripple_or_other(design, p, whitener, *group.effect,
-                            refine_keys(p.replay, p.base, *group.effect, group.keys,
+        add_ripple_or_other(
+            design, p, whitener, *group.effect,
+            identification::refine_keys(p.replay, p.base, *group.effect, group.keys,
                                         left_mm(p, design, rest, solved(design, rest))));
     }
 }
@@ -112,7 +113,8 @@ void add_ripples_instead(Design& design, const Prepared& p, const Whitener& whit
     for (std::size_t k = 0; k < model.members.size(); ++k) {
         const ColumnGroup& group = design.group(model.members[k]);
         if (group.kind != GroupKind::table || !group.name.ends_with(".positioning")) continue;
-        const Effect* ripple = find_effect(p.catalogue, effect_name(group.table.axis, ".cyclic"));
+        const effects::Effect* ripple =
+            effects::find_effect(p.catalogue, effects::effect_name(group.table.axis, ".cyclic"));
         if (!ripple || modelled(p, *ripple)) continue;
         const Model rest = without(model, k);
         for (auto& setting : keys.best(*ripple, left_mm(p, design, rest, solved(design, rest)),
@@ -182,9 +184,9 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys,
 /// with the model takes the place of the straight line. False when that changed next to nothing.
 bool straighten(Prepared& p, const Searched& s) {
     const Solution solution = solved(s.design, s.model);
-    const Setup setup = setup_with(p, s.design, s.model, solution);
-    const Replay replay(setup, p.table);
-    const std::vector<double> read = replay.predict(active_models(setup));
+    const setup::Setup setup = setup_with(p, s.design, s.model, solution);
+    const emulator::Replay replay(setup, p.table);
+    const std::vector<double> read = replay.predict(effects::active_models(setup));
     const Eigen::VectorXd fit = p.base.residual_mm - left_mm(p, s.design, s.model, solution);
     const Eigen::VectorXd straight =
         p.base.measured_mm -
@@ -197,7 +199,8 @@ bool straighten(Prepared& p, const Searched& s) {
 }
 
 bool same_noise(const NoiseModel& a, const NoiseModel& b) {
-    for (const Device device : {Device::sphere, Device::touch, Device::ballbar}) {
+    for (const records::Device device :
+         {records::Device::sphere, records::Device::touch, records::Device::ballbar}) {
         const DeviceNoise &x = a.of(device), &y = b.of(device);
         if (std::abs(x.scale - y.scale) > 0.03 * x.scale) return false;
         if (std::abs(x.shared - y.shared) > 0.03) return false;
@@ -253,7 +256,8 @@ const char* to_string(NoiseSource source) {
                                           : "assumed";
 }
 
-Diagnosis diagnose(const Setup& setup, const ReadingTable& table, const DiagnosisOptions& options) {
+Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table,
+                   const DiagnosisOptions& options) {
     const auto watch = [&](const char* stage) {
         if (options.watch) options.watch(stage);
     };
@@ -273,4 +277,4 @@ Diagnosis diagnose(const Setup& setup, const ReadingTable& table, const Diagnosi
                      options);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -13,7 +13,7 @@
 #include "records/readings.h"
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 enum class Verdict : unsigned char { no_gap, explained, partly_explained, ambiguous, unexplained };
 const char* to_string(Verdict verdict);
@@ -42,9 +42,10 @@ struct Cause {
     std::string effect;
     double probability = 0.0;
     std::vector<std::string> rivals;
-    std::vector<FitParameter> parameters;
-    std::vector<Inseparable> unseen;  ///< directions of the parameters that nothing here shows
-    double share = 0.0;               ///< of the gap: what it does in the fit
+    std::vector<identification::FitParameter> parameters;
+    std::vector<identification::Inseparable>
+        unseen;          ///< directions of the parameters that nothing here shows
+    double share = 0.0;  ///< of the gap: what it does in the fit
     HeldOut heldout;
     std::string what, usual_cause, remedy;
     std::vector<TablePoint> points;  ///< of a cause in free form, else empty
@@ -66,20 +67,21 @@ struct Diagnosis {
     std::vector<DriverShare> where;
     std::vector<Cause> causes;
     double after_rms_um = 0.0, unexplained_share = 0.0;
-    double explained = 0.0;            ///< H of the readings left out, 0..1: it decides the verdict
-    bool between_places = true;        ///< false: it holds at the measured places only
-    std::vector<FitParameter> set_up;  ///< nuisances: never causes
+    double explained = 0.0;      ///< H of the readings left out, 0..1: it decides the verdict
+    bool between_places = true;  ///< false: it holds at the measured places only
+    std::vector<identification::FitParameter> set_up;  ///< nuisances: never causes
     HeldOut after;
     std::vector<NextMeasurement> next;
-    std::vector<std::string> unseen;       ///< effects that these readings cannot show
-    std::vector<Inseparable> inseparable;  ///< of the base, and of the stores (pivot.*)
+    std::vector<std::string> unseen;  ///< effects that these readings cannot show
+    std::vector<identification::Inseparable>
+        inseparable;  ///< of the base, and of the stores (pivot.*)
     std::size_t readings = 0, outliers = 0;
     std::vector<double> before_um, after_um;  ///< machine minus simulation, by reading
-    Setup setup;                              ///< with the re-identified and added effects
+    setup::Setup setup;                       ///< with the re-identified and added effects
 };
 
 struct DiagnosisOptions {
-    const ReadingTable* holdout = nullptr;
+    const records::ReadingTable* holdout = nullptr;
     bool plan_next = true;
     std::uint64_t seed = 1;
     /// Told what is worked on now; empty: nobody looks on.
@@ -89,7 +91,7 @@ struct DiagnosisOptions {
 };
 
 /// Throws InputError on readings that allow no verdict.
-Diagnosis diagnose(const Setup& setup, const ReadingTable& table,
+Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table,
                    const DiagnosisOptions& options = {});
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

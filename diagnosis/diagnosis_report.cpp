@@ -13,7 +13,7 @@
 #include "estimation/distributions.h"
 #include "estimation/ranked_least_squares.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 /// Of an interval of the shrink: draws go along derivatives, but readings bend, and what is
@@ -116,14 +116,16 @@ DrawSetting draw_setting(const Outcome& f, std::uint64_t seed) {
             seed};
 }
 
-std::vector<FitParameter> parameters_of(const ColumnGroup& group, const Eigen::VectorXd& own,
-                                        const Eigen::VectorXd& sigma, double tau) {
-    std::vector<FitParameter> list;
+std::vector<identification::FitParameter> parameters_of(const ColumnGroup& group,
+                                                        const Eigen::VectorXd& own,
+                                                        const Eigen::VectorXd& sigma, double tau) {
+    std::vector<identification::FitParameter> list;
     const std::vector<double> values = values_in(group, own);
     for (std::size_t j = 0; j < group.effect->parameters.size(); ++j) {
-        const EffectParameter& p = group.effect->parameters[j];
-        FitParameter fit{group.effect->name, p.name,       p.unit, p.component, p.typical,
-                         values[j],          std::nan(""), 0.0,    0.0,         0.0};
+        const effects::EffectParameter& p = group.effect->parameters[j];
+        identification::FitParameter fit{
+            group.effect->name, p.name,       p.unit, p.component, p.typical,
+            values[j],          std::nan(""), 0.0,    0.0,         0.0};
         for (std::size_t k = 0; k < group.parameters.size(); ++k) {
             const double s = sigma(static_cast<Eigen::Index>(k));
             if (group.parameters[k] == j && s < unseen_part * tau) fit.sigma = s * p.typical;
@@ -145,9 +147,10 @@ std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorX
         for (Eigen::Index j = 0; j < each && !table.knots.empty(); ++j) {
             const int d = table.directions[k];
             const Eigen::Index at = static_cast<Eigen::Index>(k) * each + j;
-            points.push_back({motion_name(d, table.axis), table.knots[static_cast<std::size_t>(j)],
-                              value(at), sigma(at) * table_unit(d),
-                              table.axis.rotary ? "rad" : "mm", d < 3 ? "mm" : "rad"});
+            points.push_back({effects::motion_name(d, table.axis),
+                              table.knots[static_cast<std::size_t>(j)], value(at),
+                              sigma(at) * table_unit(d), table.axis.rotary ? "rad" : "mm",
+                              d < 3 ? "mm" : "rad"});
         }
     constexpr int places = 36;  // of a whole turn, from its harmonics
     for (std::size_t k = 0; k < table.directions.size() && table.knots.empty(); ++k)
@@ -161,7 +164,7 @@ std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorX
             }
             const int d = table.directions[k];
             const Eigen::VectorXd by = group.shape.transpose() * wave;
-            points.push_back({motion_name(d, table.axis), q, wave.dot(value),
+            points.push_back({effects::motion_name(d, table.axis), q, wave.dot(value),
                               table_unit(d) * std::sqrt(std::max(0.0, by.dot(covariance * by))),
                               "rad", d < 3 ? "mm" : "rad"});
         }
@@ -169,22 +172,24 @@ std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorX
 }
 
 /// Directions of an effect's parameters that these readings cannot show.
-std::vector<Inseparable> unseen_of(const Design::Entry& entry) {
-    std::vector<Inseparable> groups;
+std::vector<identification::Inseparable> unseen_of(const Design::Entry& entry) {
+    std::vector<identification::Inseparable> groups;
     const ColumnGroup& group = entry.group;
     if (!group.effect) return groups;
     const auto& list = group.effect->parameters;
     const auto name = [&](std::size_t j) {
-        return full_name({group.effect->name, list[j].name, list[j].unit, list[j].component});
+        return identification::full_name(
+            {group.effect->name, list[j].name, list[j].unit, list[j].component});
     };
     for (std::size_t j = 0; j < list.size(); ++j)
         if (!list[j].is_key() && list[j].usual &&
             std::find(group.parameters.begin(), group.parameters.end(), j) ==
                 group.parameters.end())
             groups.push_back({{name(j)}, {1.0}});
-    const LinearFit fit = solve_ranked(entry.gram, Eigen::VectorXd::Zero(entry.gram.rows()));
+    const estimation::LinearFit fit =
+        estimation::solve_ranked(entry.gram, Eigen::VectorXd::Zero(entry.gram.rows()));
     for (const Eigen::VectorXd& v : fit.null_space) {
-        Inseparable unseen;
+        identification::Inseparable unseen;
         for (Eigen::Index k = 0; k < v.size(); ++k)
             if (v(k) != 0.0) {
                 unseen.names.push_back(name(group.parameters[static_cast<std::size_t>(k)]));
@@ -227,7 +232,7 @@ Cause cause_of(const Outcome& f, const Claim& claim, const Solution& solution,
 }
 
 void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
-    const BaseModel& base = f.prepared.base;
+    const identification::BaseModel& base = f.prepared.base;
     d.readings = f.prepared.replay.size();
     d.outliers = static_cast<std::size_t>(std::count(f.used.begin(), f.used.end(), false));
     d.noise = f.noise.model;
@@ -238,7 +243,8 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
         const bool unknown = f.judgement.gap && f.judgement.part < rules::partly;
         if (unknown || std::abs(std::log(nu)) > std::max(noise_is_off, chance))
             d.noise.source = NoiseSource::assumed;
-        for (const Device device : {Device::sphere, Device::touch, Device::ballbar})
+        for (const records::Device device :
+             {records::Device::sphere, records::Device::touch, records::Device::ballbar})
             d.noise.of(device).scale *= nu;
     }
     const Eigen::VectorXd left = left_mm(f.prepared, f.design, f.model, solution);
@@ -251,7 +257,7 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
         d.after_um.push_back(1e3 * left(i));
     }
     d.inseparable = base.inseparable;
-    for (const FitParameter& p : base.parameters)
+    for (const identification::FitParameter& p : base.parameters)
         if (p.effect == "setup") d.set_up.push_back(p);
     for (const auto& entry : f.design.groups()) {
         if (!entry.group.effect || entry.hidden) continue;
@@ -260,7 +266,8 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
             d.unseen.push_back(name);
         if (entry.visible() && name.starts_with("pivot.") &&
             entry.group.parameters.size() == entry.group.effect->parameters.size())
-            for (Inseparable& group : unseen_of(entry)) d.inseparable.push_back(std::move(group));
+            for (identification::Inseparable& group : unseen_of(entry))
+                d.inseparable.push_back(std::move(group));
     }
 }
 
@@ -272,7 +279,7 @@ double chance_of(const Outcome& f) {
     for (const std::size_t m : f.model.members)
         width += static_cast<double>(f.design.group(m).columns());
     const double explained = (y.squaredNorm() - sizes.remainder.squaredNorm()) / f.judgement.floor;
-    return std::min(1.0, effects_tried * chi_squared_tail(explained, width));
+    return std::min(1.0, effects_tried * estimation::chi_squared_tail(explained, width));
 }
 
 /// Free forms of one axis, none of them the main one: what they are together has no textbook name.
@@ -317,7 +324,7 @@ Model writable(const Outcome& f) {
 }
 
 /// The setup predicts no worse than the one it came from: else that one stays.
-Setup written_setup(const Outcome& f) {
+setup::Setup written_setup(const Outcome& f) {
     const Model none{{}, {{}, f.model.variances.nu}, 0.0};
     const bool better = f.judgement.gap && f.judgement.after < f.judgement.before;
     const Model model = better ? writable(f) : none;
@@ -401,4 +408,4 @@ Diagnosis report_of(const Outcome& f, const DiagnosisOptions& options) {
     return d;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

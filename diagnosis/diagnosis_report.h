@@ -4,7 +4,7 @@
 #include "diagnosis/prepare.h"
 #include "diagnosis/verdict.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 /// Everything that earlier stages found.
 struct Outcome {
@@ -19,7 +19,7 @@ struct Outcome {
 Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options);
 
 /// How far the gap shrinks on a table of its own, raw um; bootstrap over poses and passes.
-HeldOut measured_shrink(const Outcome& found, const Setup& after, const ReadingTable& holdout,
-                        std::uint64_t seed);
+HeldOut measured_shrink(const Outcome& found, const setup::Setup& after,
+                        const records::ReadingTable& holdout, std::uint64_t seed);
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -10,7 +10,7 @@
 #include "diagnosis/candidate_groups.h"
 #include "diagnosis/rules.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 /// A driver: functions of each row; each is multiplied by every carrier (a way in which a reading
@@ -32,7 +32,8 @@ std::vector<double> tabulate(std::size_t n, const RowFunction& f) {
 
 class DriverList {
   public:
-    DriverList(const Replay& replay, const ReadingTable& table, const BaseModel& base)
+    DriverList(const emulator::Replay& replay, const records::ReadingTable& table,
+               const identification::BaseModel& base)
         : replay_(replay), table_(table), base_(base) {
         positions();
         directions();
@@ -208,8 +209,8 @@ class DriverList {
     void instrument() {
         bool touch = false, bar = false;
         for (std::size_t i = 0; i < n(); ++i) {
-            touch = touch || replay_.contact(i).device == Device::touch;
-            bar = bar || replay_.contact(i).device == Device::ballbar;
+            touch = touch || replay_.contact(i).device == records::Device::touch;
+            bar = bar || replay_.contact(i).device == records::Device::ballbar;
         }
         if (touch) {
             const auto azimuth = [this](std::size_t i) {
@@ -218,7 +219,9 @@ class DriverList {
             };
             const RowFunction across = [this](std::size_t i) {
                 const Vector3& d = replay_.contact(i).direction_M;
-                return replay_.contact(i).device == Device::touch ? std::hypot(d.x(), d.y()) : 0.0;
+                return replay_.contact(i).device == records::Device::touch
+                           ? std::hypot(d.x(), d.y())
+                           : 0.0;
             };
             add("probe direction", "along the approach", "depends on the direction of the touch",
                 smooth(azimuth, 0, 0, true, 4), {across});
@@ -237,9 +240,9 @@ class DriverList {
             speed);
     }
 
-    const Replay& replay_;
-    const ReadingTable& table_;
-    const BaseModel& base_;
+    const emulator::Replay& replay_;
+    const records::ReadingTable& table_;
+    const identification::BaseModel& base_;
     std::vector<Driver> drivers_;
 };
 
@@ -269,4 +272,4 @@ void add_driver_groups(Design& design, const Prepared& prepared, const Whitener&
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

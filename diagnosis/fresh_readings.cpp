@@ -6,7 +6,7 @@
 #include "base/random.h"
 #include "kinematics/forward.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 constexpr std::size_t most_poses = 48, most_passes = 16, most_samples = 60;
@@ -16,11 +16,11 @@ constexpr double most_tilt_rad = 1.0;  ///< of the bar
 
 /// The rows of one pose or pass in the table, with the device-less ones that lead to it.
 struct Visit {
-    Device device = Device::none;
+    records::Device device = records::Device::none;
     std::vector<std::size_t> rows;
 };
 
-std::vector<Visit> visits_of(const ReadingTable& table, const Replay& replay,
+std::vector<Visit> visits_of(const records::ReadingTable& table, const emulator::Replay& replay,
                              const std::vector<NoiseBlock>& blocks) {
     std::vector<int> block_of(table.rows.size(), -1);
     for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -45,7 +45,7 @@ std::vector<Visit> visits_of(const ReadingTable& table, const Replay& replay,
 std::vector<Visit> some_of(const std::vector<Visit>& all, bool bar, std::size_t most) {
     std::vector<Visit> those, chosen;
     for (const Visit& v : all)
-        if ((v.device == Device::ballbar) == bar) those.push_back(v);
+        if ((v.device == records::Device::ballbar) == bar) those.push_back(v);
     const std::size_t count = std::min(most, those.size());
     for (std::size_t k = 0; k < count; ++k) chosen.push_back(those[k * those.size() / count]);
     return chosen;
@@ -54,7 +54,7 @@ std::vector<Visit> some_of(const std::vector<Visit>& all, bool bar, std::size_t 
 /// Grows the table of fresh rows visit by visit.
 class FreshTable {
   public:
-    FreshTable(const Setup& setup, const ReadingTable& table, std::uint64_t seed)
+    FreshTable(const setup::Setup& setup, const records::ReadingTable& table, std::uint64_t seed)
         : setup_(setup), table_(table), forward_(setup.machine), random_(seed) {
         fresh_.path = table.path;
         fresh_.parts = table.parts;
@@ -76,7 +76,7 @@ class FreshTable {
                 turn[axis] = random_.uniform() * (there[axis] - here[axis]);
         const double begun_s = table_.rows[visit.rows.front()].time_s, now_s = any_time();
         for (const std::size_t r : visit.rows) {
-            Reading row = table_.rows[r];
+            records::Reading row = table_.rows[r];
             row.time_s += now_s - begun_s;
             turn_about_feature(row, turn);
             fresh_.rows.push_back(std::move(row));
@@ -92,8 +92,9 @@ class FreshTable {
         const Matrix3 tilt = turns(visit) ? any_tilt() : Matrix3(Matrix3::Identity());
         const double begun_s = table_.rows[visit.rows.front()].time_s, now_s = any_time();
         for (std::size_t k = 0; k + 1 < visit.rows.size(); k += step) {
-            const Reading &a = table_.rows[visit.rows[k]], &b = table_.rows[visit.rows[k + 1]];
-            Reading row = a;
+            const records::Reading &a = table_.rows[visit.rows[k]],
+                                   &b = table_.rows[visit.rows[k + 1]];
+            records::Reading row = a;
             row.time_s = now_s + (a.time_s + part * (b.time_s - a.time_s) - begun_s) / speed;
             row.feed_mm_min *= speed;
             for (const Axis axis : table_.axes)
@@ -103,7 +104,7 @@ class FreshTable {
         }
     }
 
-    ReadingTable done() { return std::move(fresh_); }
+    records::ReadingTable done() { return std::move(fresh_); }
 
   private:
     double any_time() { return start_s_ + later * session_s_ * random_.uniform(); }
@@ -122,55 +123,56 @@ class FreshTable {
     }
 
     /// From the feature to the device's ball, in M.
-    Vector3 apart(const Reading& row) const {
-        const MachinePose poses = forward_.poses(row.commanded);
-        const Vector3 ball_S =
-            row.device == Device::ballbar ? setup_.ballbar->cup_S_mm : setup_.probe->tip_S_mm;
+    Vector3 apart(const records::Reading& row) const {
+        const kinematics::MachinePose poses = forward_.poses(row.commanded);
+        const Vector3 ball_S = row.device == records::Device::ballbar ? setup_.ballbar->cup_S_mm
+                                                                      : setup_.probe->tip_S_mm;
         return poses.pose_MS * ball_S - poses.pose_MW * center_W(row.feature);
     }
 
     Vector3 center_W(const std::string& feature) const {
-        for (const Artefact& a : setup_.artefacts)
+        for (const setup::Artefact& a : setup_.artefacts)
             if (a.name == feature) return a.center_W_mm;
         return Vector3::Zero();
     }
 
     /// Moves the linear axes so that the device's ball goes by `way_M`.
-    void shift(Reading& row, const Vector3& way_M) const {
+    void shift(records::Reading& row, const Vector3& way_M) const {
         for (const bool of_work : {true, false}) {
             const auto& side = of_work ? setup_.machine.chain.work : setup_.machine.chain.tool;
-            for (const AxisGeometry& axis : side)
+            for (const kinematics::AxisGeometry& axis : side)
                 if (const std::size_t k = index_of(axis.axis); k < 3 && is_letter(axis))
                     row.commanded[axis.axis] +=
                         (of_work ? -1.0 : 1.0) * way_M(static_cast<Eigen::Index>(k));
         }
     }
 
-    void turn_about_feature(Reading& row, const AxisPositions& turn) const {
+    void turn_about_feature(records::Reading& row, const AxisPositions& turn) const {
         const Vector3 before = apart(row);
         for (const Axis axis : table_.axes) row.commanded[axis] += turn[axis];
         shift(row, before - apart(row));
     }
 
     /// The bar turned by `tilt`, seen from the table.
-    void tilt_bar(Reading& row, const Matrix3& tilt) const {
+    void tilt_bar(records::Reading& row, const Matrix3& tilt) const {
         const Matrix3 table = forward_.poses(row.commanded).pose_MW.rotation;
         const Vector3 bar = apart(row);
         shift(row, table * tilt * table.transpose() * bar - bar);
     }
 
-    const Setup& setup_;
-    const ReadingTable& table_;
-    ForwardModel forward_;
+    const setup::Setup& setup_;
+    const records::ReadingTable& table_;
+    kinematics::ForwardModel forward_;
     SeededNoise random_;
-    ReadingTable fresh_;
+    records::ReadingTable fresh_;
     double start_s_ = 0.0, session_s_ = 0.0;
 };
 
 }  // namespace
 
-FreshReadings::FreshReadings(const BaseModel& base, const Catalogue& catalogue,
-                             const ReadingTable& table, const Replay& replay,
+FreshReadings::FreshReadings(const identification::BaseModel& base,
+                             const effects::Catalogue& catalogue,
+                             const records::ReadingTable& table, const emulator::Replay& replay,
                              const std::vector<NoiseBlock>& blocks, std::uint64_t seed) {
     const std::vector<Visit> all = visits_of(table, replay, blocks);
     FreshTable fresh(base.setup, table, seed);
@@ -181,20 +183,21 @@ FreshReadings::FreshReadings(const BaseModel& base, const Catalogue& catalogue,
             pose,
             poses[static_cast<std::size_t>(random.uniform() * static_cast<double>(poses.size()))]);
     for (const Visit& pass : some_of(all, true, most_passes)) fresh.add_pass(pass);
-    const ReadingTable rows = fresh.done();
+    const records::ReadingTable rows = fresh.done();
     replay_.emplace(base.setup, rows);
     blocks_ = noise_blocks(*replay_, rows);
-    const ForwardModel forward(base.setup.machine);
+    const kinematics::ForwardModel forward(base.setup.machine);
     for (std::size_t i = 0; i < replay_->size(); ++i)
         gradient_.push_back(replay_->gradient(i, forward, {}));
-    const BaseColumns found =
-        base_columns(base.setup, *replay_, catalogue, base.setup.model.modelled, gradient_);
+    const identification::BaseColumns found = identification::base_columns(
+        base.setup, *replay_, catalogue, base.setup.model.modelled, gradient_);
     base_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(replay_->size()), base.columns.cols());
     for (std::size_t j = 0; j < base.parameters.size(); ++j)
         for (std::size_t k = 0; k < found.parameters.size(); ++k)
-            if (full_name(found.parameters[k]) == full_name(base.parameters[j]))
+            if (identification::full_name(found.parameters[k]) ==
+                identification::full_name(base.parameters[j]))
                 base_.col(static_cast<Eigen::Index>(j)) =
                     found.columns.col(static_cast<Eigen::Index>(k));
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

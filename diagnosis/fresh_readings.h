@@ -6,7 +6,7 @@
 #include "diagnosis/column_group.h"
 #include "diagnosis/noise.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 /// Where fresh readings would be taken, and what each parameter would change there. Poses of the
 /// probe: rotary angles between those of two measured poses, the stylus at the same place beside
@@ -16,8 +16,9 @@ namespace trunnion {
 /// do not share here.
 class FreshReadings {
   public:
-    FreshReadings(const BaseModel& base, const Catalogue& catalogue, const ReadingTable& table,
-                  const Replay& replay, const std::vector<NoiseBlock>& blocks, std::uint64_t seed);
+    FreshReadings(const identification::BaseModel& base, const effects::Catalogue& catalogue,
+                  const records::ReadingTable& table, const emulator::Replay& replay,
+                  const std::vector<NoiseBlock>& blocks, std::uint64_t seed);
 
     /// Rows of each pose or pass.
     const std::vector<NoiseBlock>& blocks() const { return blocks_; }
@@ -30,10 +31,10 @@ class FreshReadings {
     }
 
   private:
-    std::optional<Replay> replay_;
+    std::optional<emulator::Replay> replay_;
     std::vector<NoiseBlock> blocks_;
-    std::vector<Perturbation> gradient_;
+    std::vector<kinematics::Perturbation> gradient_;
     Eigen::MatrixXd base_;  ///< by the parameters of the base model
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

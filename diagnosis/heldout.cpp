@@ -7,7 +7,7 @@
 #include "base/units.h"
 #include "estimation/free_form.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 /// Set-up quantities lie within so many typical sizes: directions that a fold does not see stay.
@@ -118,7 +118,7 @@ BlockLoss LeftOut::loss(const std::vector<bool>& fitted,
     return loss;
 }
 
-Folds place_folds(const Replay& replay, const TableForm& table) {
+Folds place_folds(const emulator::Replay& replay, const TableForm& table) {
     std::vector<double> places = table.knots;
     if (places.empty())
         for (std::size_t k = 0; k <= sectors; ++k)
@@ -129,7 +129,7 @@ Folds place_folds(const Replay& replay, const TableForm& table) {
     for (std::size_t i = 0; i < replay.size(); ++i) {
         const double at = replay.sample(i).position[table.axis.axis];
         const double q = table.knots.empty() ? std::remainder(at, 2.0 * pi) : at;
-        const auto [before, weight] = place_between(places, q);
+        const auto [before, weight] = estimation::place_between(places, q);
         const auto place = static_cast<int>(before) + (weight > 0.5 ? 1 : 0);
         const bool end =
             !table.knots.empty() && (place == 0 || place + 1 == static_cast<int>(places.size()));
@@ -138,4 +138,4 @@ Folds place_folds(const Replay& replay, const TableForm& table) {
     return folds;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -4,7 +4,7 @@
 #include "diagnosis/prepare.h"
 #include "diagnosis/search.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 /// Mean of squared whitened readings left out, by block.
 struct BlockLoss {
@@ -45,6 +45,6 @@ class LeftOut {
 };
 
 /// Whole places of an axis left out together, its ends never: does a table hold between places?
-Folds place_folds(const Replay& replay, const TableForm& table);
+Folds place_folds(const emulator::Replay& replay, const TableForm& table);
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

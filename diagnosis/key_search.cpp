@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 constexpr std::size_t rough_count = 1000, fine_count = 3200;  ///< rows at most
@@ -55,7 +55,7 @@ Eigen::MatrixXd Beside::half(const Eigen::MatrixXd& weighted) const {
     return factor_.matrixL().solve(columns_.transpose() * weighted);
 }
 
-KeySearch::KeySearch(const Replay& replay, const BaseModel& base)
+KeySearch::KeySearch(const emulator::Replay& replay, const identification::BaseModel& base)
     : replay_(replay),
       base_(base),
       rough_rows_(scattered_rows(replay.size(), rough_count)),
@@ -63,12 +63,13 @@ KeySearch::KeySearch(const Replay& replay, const BaseModel& base)
       weight_(base.sigma_mm(rough_rows_).cwiseInverse()),
       beside_(weight_.asDiagonal() * base.columns(rough_rows_, Eigen::all)) {}
 
-Eigen::MatrixXd KeySearch::columns(const Effect& effect, const std::vector<double>& keys,
+Eigen::MatrixXd KeySearch::columns(const effects::Effect& effect, const std::vector<double>& keys,
                                    const std::vector<std::size_t>& rows) const {
     std::vector<Eigen::VectorXd> list;
     for (std::size_t j = 0; j < effect.parameters.size(); ++j)
         if (!effect.parameters[j].is_key())
-            list.push_back(effect_column(replay_, base_.gradient, effect, keys, j, rows));
+            list.push_back(
+                identification::effect_column(replay_, base_.gradient, effect, keys, j, rows));
     Eigen::MatrixXd a(static_cast<Eigen::Index>(rows.size()),
                       static_cast<Eigen::Index>(list.size()));
     for (std::size_t c = 0; c < list.size(); ++c) a.col(static_cast<Eigen::Index>(c)) = list[c];
@@ -77,7 +78,7 @@ Eigen::MatrixXd KeySearch::columns(const Effect& effect, const std::vector<doubl
 
 /// The first two orders of a ripple: on positions in whole steps a fine ripple may be the alias of
 /// one of them, which is positioning and no ripple. Empty for effects that count no periods.
-Eigen::MatrixXd KeySearch::first_orders(const Effect& effect) const {
+Eigen::MatrixXd KeySearch::first_orders(const effects::Effect& effect) const {
     Eigen::MatrixXd all(static_cast<Eigen::Index>(rough_rows_.size()), 0);
     for (std::size_t j = 0; j < effect.parameters.size(); ++j) {
         if (effect.parameters[j].name != periods_key) continue;
@@ -93,7 +94,7 @@ Eigen::MatrixXd KeySearch::first_orders(const Effect& effect) const {
 }
 
 /// Every point of the grid of the effect's keys, the first key fastest.
-std::vector<KeySearch::Setting>& KeySearch::settings_of(const Effect& effect) {
+std::vector<KeySearch::Setting>& KeySearch::settings_of(const effects::Effect& effect) {
     std::vector<Setting>& list = settings_[&effect];
     if (!list.empty()) return list;
     std::vector<std::size_t> key;
@@ -119,7 +120,7 @@ std::vector<KeySearch::Setting>& KeySearch::settings_of(const Effect& effect) {
     return list;
 }
 
-std::vector<std::vector<double>> KeySearch::best(const Effect& effect,
+std::vector<std::vector<double>> KeySearch::best(const effects::Effect& effect,
                                                  const Eigen::VectorXd& left_mm,
                                                  const Eigen::VectorXd& sigma_mm,
                                                  const Eigen::MatrixXd& fitted, int count) {
@@ -162,4 +163,4 @@ std::vector<std::vector<double>> KeySearch::best(const Effect& effect,
     return best;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

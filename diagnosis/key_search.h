@@ -9,7 +9,7 @@
 
 #include "identification/base_model.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 /// The key that counts periods to a turn of a rotary axis.
 inline constexpr std::string_view periods_key = "periods_per_turn";
@@ -30,12 +30,13 @@ class Beside {
 /// only: they are worked out once, on a fixed scatter of rows, and serve every residual.
 class KeySearch {
   public:
-    KeySearch(const Replay& replay, const BaseModel& base);
+    KeySearch(const emulator::Replay& replay, const identification::BaseModel& base);
 
     /// The best few settings of an effect's keys by weighted least squares on `left_mm`, which the
     /// columns `fitted` left (mm, base first) and that are fitted anew beside the effect; best
     /// first, none next to another on the grid.
-    std::vector<std::vector<double>> best(const Effect& effect, const Eigen::VectorXd& left_mm,
+    std::vector<std::vector<double>> best(const effects::Effect& effect,
+                                          const Eigen::VectorXd& left_mm,
                                           const Eigen::VectorXd& sigma_mm,
                                           const Eigen::MatrixXd& fitted, int count);
 
@@ -46,17 +47,17 @@ class KeySearch {
         Eigen::MatrixXd half;   ///< of these beside the base
         Eigen::MatrixXd fine;   ///< columns (mm) on the fine scatter, empty until asked for
     };
-    std::vector<Setting>& settings_of(const Effect& effect);
-    Eigen::MatrixXd first_orders(const Effect& effect) const;
-    Eigen::MatrixXd columns(const Effect& effect, const std::vector<double>& keys,
+    std::vector<Setting>& settings_of(const effects::Effect& effect);
+    Eigen::MatrixXd first_orders(const effects::Effect& effect) const;
+    Eigen::MatrixXd columns(const effects::Effect& effect, const std::vector<double>& keys,
                             const std::vector<std::size_t>& rows) const;
 
-    const Replay& replay_;
-    const BaseModel& base_;
+    const emulator::Replay& replay_;
+    const identification::BaseModel& base_;
     std::vector<std::size_t> rough_rows_, fine_rows_;
     Eigen::VectorXd weight_;  ///< 1 / sigma of the rough rows
     Beside beside_;           ///< the base on them
-    std::map<const Effect*, std::vector<Setting>> settings_;
+    std::map<const effects::Effect*, std::vector<Setting>> settings_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -7,7 +7,7 @@
 #include "effects/settings.h"
 #include "estimation/quantiles.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 /// Squares before and after, with what each expects from noise alone, by block, mm^2.
@@ -27,11 +27,13 @@ double total(const std::vector<double>& v) {
     return sum;
 }
 
-SquaredSums sums_of(const Outcome& f, const Setup& setup, const ReadingTable& table) {
-    const Replay replay(f.prepared.base.setup, table), fitted(setup, table);
+SquaredSums sums_of(const Outcome& f, const setup::Setup& setup,
+                    const records::ReadingTable& table) {
+    const emulator::Replay replay(f.prepared.base.setup, table), fitted(setup, table);
     const std::vector<double> before = replay.predict(f.prepared.base.models);
-    const std::vector<double> after = fitted.predict(active_models(setup));
-    const RowNoise noise = row_noise(f.prepared.base.setup, table, replay);
+    const std::vector<double> after = fitted.predict(effects::active_models(setup));
+    const identification::RowNoise noise =
+        identification::row_noise(f.prepared.base.setup, table, replay);
     SquaredSums sums;
     for (const NoiseBlock& block : noise_blocks(replay, table)) {
         double b = 0, a = 0, n = 0;
@@ -54,8 +56,8 @@ SquaredSums sums_of(const Outcome& f, const Setup& setup, const ReadingTable& ta
 
 }  // namespace
 
-HeldOut measured_shrink(const Outcome& f, const Setup& setup, const ReadingTable& holdout,
-                        std::uint64_t seed) {
+HeldOut measured_shrink(const Outcome& f, const setup::Setup& setup,
+                        const records::ReadingTable& holdout, std::uint64_t seed) {
     constexpr int draws = 400;
     const SquaredSums sums = sums_of(f, setup, holdout);
     const double before = total(sums.before), after = total(sums.after), noise = total(sums.noise);
@@ -82,9 +84,9 @@ HeldOut measured_shrink(const Outcome& f, const Setup& setup, const ReadingTable
         n *= std::max(0.2, 1.0 + doubt * random.normal());
         shrink.push_back(shrink_of(b, a, n));
     }
-    h.low = std::min(h.shrink, quantile(shrink, 0.025));
-    h.high = std::max(h.shrink, quantile(shrink, 0.975));
+    h.low = std::min(h.shrink, estimation::quantile(shrink, 0.025));
+    h.high = std::max(h.shrink, estimation::quantile(shrink, 0.975));
     return h;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -6,7 +6,7 @@
 #include "base/units.h"
 #include "diagnosis/measurement_plan.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 constexpr double sample_deg = 5.0;  ///< of a pass
@@ -27,9 +27,9 @@ void MeasurementPlan::begin_pass(const std::string& words_of_name, const AxisPos
 }
 
 void MeasurementPlan::bar_row(const AxisPositions& at, double feed_mm_min, double step_s) {
-    Reading row = state_;
+    records::Reading row = state_;
     row.commanded = at;
-    row.device = Device::ballbar;
+    row.device = records::Device::ballbar;
     row.feature = pivots_.front().name;
     row.feed_mm_min = feed_mm_min;
     row.time_s = time_s_ += step_s;
@@ -118,4 +118,4 @@ void MeasurementPlan::turn(std::size_t rotary, bool up, int bar_direction) {
     state_.test = before;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -8,7 +8,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 constexpr double move_s = 2.0;
@@ -30,19 +30,19 @@ double plan_rounded(double v, double step) {
     return r == 0.0 ? 0.0 : r;  // no -0
 }
 
-MeasurementPlan::MeasurementPlan(const Setup& setup, std::string name, std::string text,
+MeasurementPlan::MeasurementPlan(const setup::Setup& setup, std::string name, std::string text,
                                  double start_s)
     : setup_(setup), time_s_(start_s), start_s_(start_s) {
     result_.name = std::move(name);
     result_.text = std::move(text);
     result_.table.path = "measurement " + result_.name;
     result_.table.names = setup.machine.chain.names();
-    for (const AxisGeometry& axis : setup.machine.chain.axes()) {
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes()) {
         result_.table.axes.push_back(axis.axis);
         if (axis.rotary) rotary_.push_back(axis);
     }
-    for (const Artefact& a : setup.artefacts)
-        (a.kind == Artefact::Kind::sphere ? spheres_ : pivots_).push_back(a);
+    for (const setup::Artefact& a : setup.artefacts)
+        (a.kind == setup::Artefact::Kind::sphere ? spheres_ : pivots_).push_back(a);
     state_.test = result_.name;
     result_.table.side_before = setup.side_before;
     std::string zeros;
@@ -58,7 +58,7 @@ MeasurementPlan::MeasurementPlan(const Setup& setup, std::string name, std::stri
 
 std::pair<double, double> MeasurementPlan::range_deg(std::size_t k) const {
     if (k > 0) return {0.0, 360.0};
-    const AxisGeometry& axis = rotary_[k];
+    const kinematics::AxisGeometry& axis = rotary_[k];
     const double low = axis.min ? deg_from_rad(*axis.min) + 8.0 : -80.0;
     const double high = axis.max ? deg_from_rad(*axis.max) - 8.0 : 80.0;
     return {std::max(-80.0, low), std::min(80.0, high)};
@@ -122,11 +122,11 @@ MeasurementPlan::Target MeasurementPlan::aim(const AxisPositions& rotary, const 
                                              const Vector3& tip_S) const {
     Target target{rotary, true};
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) target.at[axis] = 0.0;
-    const MachinePose poses = setup_.machine.poses(target.at);
+    const kinematics::MachinePose poses = setup_.machine.poses(target.at);
     const Vector3 gauge = poses.pose_MW * target_W - poses.pose_MS * tip_S;
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
         target.at[axis] = plan_rounded(gauge(static_cast<int>(index_of(axis))), 1e-4);
-    for (const AxisGeometry& axis : setup_.machine.chain.axes()) {
+    for (const kinematics::AxisGeometry& axis : setup_.machine.chain.axes()) {
         const double room_mm = axis.rotary ? 0.0 : axis.axis == Axis::Z ? sphere_start_mm : 25.0;
         const double q = target.at[axis.axis];
         if ((axis.min && q - (axis.axis == Axis::Z ? 25.0 : room_mm) < *axis.min) ||
@@ -150,9 +150,10 @@ std::string MeasurementPlan::all_words(const AxisPositions& at) const {
 }
 
 double MeasurementPlan::clear_mm() const {
-    const AxisGeometry* z = setup_.machine.chain.find(Axis::Z);
+    const kinematics::AxisGeometry* z = setup_.machine.chain.find(Axis::Z);
     double reach_mm = 0.0;
-    for (const Artefact& a : setup_.artefacts) reach_mm = std::max(reach_mm, a.center_W_mm.norm());
+    for (const setup::Artefact& a : setup_.artefacts)
+        reach_mm = std::max(reach_mm, a.center_W_mm.norm());
     const double wanted =
         plan_rounded(reach_mm + 100.0 - (setup_.probe ? setup_.probe->tip_S_mm.z() : -150.0), 1.0);
     return z->max ? std::min(wanted, *z->max - 1.0) : wanted;
@@ -160,7 +161,7 @@ double MeasurementPlan::clear_mm() const {
 
 /// A device-less row where the axes stand.
 void MeasurementPlan::pass_through(const AxisPositions& at) {
-    Reading row = state_;
+    records::Reading row = state_;
     row.commanded = at;
     row.time_s = time_s_ += 0.25 * move_s;
     result_.table.rows.push_back(row);
@@ -185,7 +186,7 @@ void MeasurementPlan::define_sides() {
     go_clear();
     AxisPositions aside, zero;
     for (const Axis axis : result_.table.axes) {
-        const AxisGeometry& geometry = *setup_.machine.chain.find(axis);
+        const kinematics::AxisGeometry& geometry = *setup_.machine.chain.find(axis);
         const double step = geometry.rotary ? rad_from_deg(1.0) : 1.0;
         aside[axis] = geometry.min && *geometry.min > -step ? step : -step;
     }
@@ -200,8 +201,8 @@ Measurement MeasurementPlan::done() {
     result_.minutes = (time_s_ - start_s_) / 60.0 + 5.0;  // five minutes to get ready
     result_.program += fmt::format("G53 G0 Z{:.4f}\nPCLOS\nM30\n%\n", clear_mm());
     int index = 0;
-    for (Reading& row : result_.table.rows) row.index = index++;
+    for (records::Reading& row : result_.table.rows) row.index = index++;
     return std::move(result_);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -8,7 +8,7 @@
 
 #include "diagnosis/measurements.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 constexpr double sphere_start_mm = 40.0;  ///< over a sphere's centre, where O8100 begins
 /// To the step that the program prints (0.0001 mm or deg).
@@ -20,7 +20,7 @@ double plan_rounded(double v, double step);
 class MeasurementPlan {
   public:
     /// `start_s`: when it begins, on the clock of the readings so far.
-    MeasurementPlan(const Setup& setup, std::string name, std::string text, double start_s);
+    MeasurementPlan(const setup::Setup& setup, std::string name, std::string text, double start_s);
 
     /// First of all: every axis but Z goes 1 mm or deg aside and back, so that its side is known. Z
     /// comes down to whatever it measures.
@@ -72,10 +72,10 @@ class MeasurementPlan {
     void tell(const std::string& words);
     void stop(const std::string& what);
     /// Rows of the nine touches of O8100, begun `above` over the sphere at `center`.
-    void nine_touches(const Artefact& sphere, const AxisPositions& center);
+    void nine_touches(const setup::Artefact& sphere, const AxisPositions& center);
     void touch(const AxisPositions& stand_off, const AxisPositions& end, const Vector3& direction,
                const std::string& feature);
-    void call_sphere(const Artefact& sphere, const AxisPositions& center);
+    void call_sphere(const setup::Artefact& sphere, const AxisPositions& center);
     void keep_home(bool dpp);
     void lead_by_g54(const AxisPositions& rotary);
     void lead_by_tcp(const AxisPositions& before, const AxisPositions& rotary);
@@ -86,14 +86,14 @@ class MeasurementPlan {
     Vector3 tip_S() const { return setup_.probe->tip_with(state_.extension_mm); }
     Vector3 cup_S() const { return setup_.ballbar->cup_with(state_.extension_mm); }
 
-    const Setup& setup_;
+    const setup::Setup& setup_;
     Measurement result_;
-    Reading state_;
+    records::Reading state_;
     AxisPositions last_;
     bool clamped_ = false;
-    std::vector<AxisGeometry> rotary_;
-    std::vector<Artefact> spheres_, pivots_;
+    std::vector<kinematics::AxisGeometry> rotary_;
+    std::vector<setup::Artefact> spheres_, pivots_;
     double time_s_, start_s_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

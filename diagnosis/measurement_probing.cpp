@@ -7,7 +7,7 @@
 #include "base/units.h"
 #include "diagnosis/measurement_plan.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 constexpr double above_mm = sphere_start_mm;
@@ -26,9 +26,9 @@ void MeasurementPlan::touch(const AxisPositions& stand_off, const AxisPositions&
     const double z = up[Axis::Z];
     pass_through(up);
     pass_through(stand_off);
-    Reading row = state_;
+    records::Reading row = state_;
     row.commanded = end;
-    row.device = Device::touch;
+    row.device = records::Device::touch;
     row.feature = feature;
     row.direction_M = direction;
     row.feed_mm_min = probing_feed;
@@ -40,7 +40,7 @@ void MeasurementPlan::touch(const AxisPositions& stand_off, const AxisPositions&
     pass_through(up);
 }
 
-void MeasurementPlan::nine_touches(const Artefact& sphere, const AxisPositions& center) {
+void MeasurementPlan::nine_touches(const setup::Artefact& sphere, const AxisPositions& center) {
     const double reach = 0.5 * (sphere.diameter_mm + setup_.probe->ball_diameter_mm);
     for (int k = 0; k < 9; ++k) {
         const double lift = rad_from_deg(k == 0 ? 90.0 : k < 5 ? 45.0 : 15.0);
@@ -62,8 +62,8 @@ void MeasurementPlan::nine_touches(const Artefact& sphere, const AxisPositions& 
     pass_through(home);
 }
 
-void MeasurementPlan::call_sphere(const Artefact& sphere, const AxisPositions& center) {
-    const ClampCode* clamp = setup_.clamps.empty() ? nullptr : &setup_.clamps.front();
+void MeasurementPlan::call_sphere(const setup::Artefact& sphere, const AxisPositions& center) {
+    const controller::ClampCode* clamp = setup_.clamps.empty() ? nullptr : &setup_.clamps.front();
     if (clamped_) {
         clamp ? void(result_.program += fmt::format("M{}\n", clamp->m_clamp))
               : stop("CLOSE THE CLAMPS");
@@ -80,7 +80,7 @@ void MeasurementPlan::call_sphere(const Artefact& sphere, const AxisPositions& c
 
 bool MeasurementPlan::sphere(std::size_t which, const std::vector<double>& angles_deg,
                              double approach_deg) {
-    const Artefact& sphere = spheres_[which % spheres_.size()];
+    const setup::Artefact& sphere = spheres_[which % spheres_.size()];
     const AxisPositions before = rotary_at(angles_deg, approach_deg);
     const Target target = aim(rotary_at(angles_deg, 0.0), sphere.center_W_mm, tip_S());
     if (!target.reachable || !aim(before, sphere.center_W_mm, tip_S()).reachable) return false;
@@ -108,7 +108,8 @@ void MeasurementPlan::keep_home(bool dpp) {
     }
     const double tip_z = tip_S().z();
     std::string zeros;
-    for (const AxisGeometry& axis : rotary_) zeros += fmt::format("{}0.", letter_of(axis.axis));
+    for (const kinematics::AxisGeometry& axis : rotary_)
+        zeros += fmt::format("{}0.", letter_of(axis.axis));
     result_.program += fmt::format(
         "(SPHERE FOUND AT HOME INTO G55, PROBE LENGTH INTO OFFSET 99)\n"
         "G10 L2 P2 X[#5041+#100] Y[#5042+#101] Z[#5043-{:.1f}+#102{:+.4f}] {}\n"
@@ -155,9 +156,10 @@ void MeasurementPlan::sphere_by_store(PositioningMode mode,
                                       const std::vector<std::vector<double>>& angles_deg,
                                       double approach_deg) {
     const auto& tool = setup_.machine.chain.tool;
-    if (std::any_of(tool.begin(), tool.end(), [](const AxisGeometry& a) { return a.rotary; }))
+    if (std::any_of(tool.begin(), tool.end(),
+                    [](const kinematics::AxisGeometry& a) { return a.rotary; }))
         return;  // what leads the tool below is that of a table
-    const Artefact& sphere = spheres_.front();
+    const setup::Artefact& sphere = spheres_.front();
     if (!this->sphere(0, {0.0, 0.0}, approach_deg)) return;
     const bool dpp = mode == PositioningMode::dpp;
     keep_home(dpp);
@@ -189,7 +191,7 @@ void MeasurementPlan::sphere_by_store(PositioningMode mode,
 }
 
 void MeasurementPlan::azimuth_touches(const std::vector<double>& angles_deg, int azimuths) {
-    const Artefact& sphere = spheres_.front();
+    const setup::Artefact& sphere = spheres_.front();
     const Target target = aim(rotary_at(angles_deg, 0.0), sphere.center_W_mm, tip_S());
     if (!target.reachable) return;
     go_clear();
@@ -219,4 +221,4 @@ void MeasurementPlan::azimuth_touches(const std::vector<double>& angles_deg, int
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

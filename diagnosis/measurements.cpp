@@ -6,7 +6,7 @@
 
 #include "diagnosis/measurement_plan.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 /// Angles spread over both rotary axes, off any regular grid.
@@ -145,15 +145,15 @@ const std::vector<Ready>& ready_list() {
 namespace {
 
 /// The programs are NC programs that place a tip by X, Y and Z words.
-bool takes_words(const Chain& chain) {
+bool takes_words(const kinematics::Chain& chain) {
     const auto axes = chain.axes();
     return chain.find(Axis::X) && chain.find(Axis::Y) && chain.find(Axis::Z) &&
-           std::all_of(axes.begin(), axes.end(), is_letter);
+           std::all_of(axes.begin(), axes.end(), kinematics::is_letter);
 }
 
 }  // namespace
 
-std::vector<Measurement> ready_measurements(const Setup& setup, double start_s) {
+std::vector<Measurement> ready_measurements(const setup::Setup& setup, double start_s) {
     std::vector<Measurement> list;
     if (!takes_words(setup.machine.chain)) return list;
     for (const Ready& ready : ready_list()) {
@@ -163,10 +163,11 @@ std::vector<Measurement> ready_measurements(const Setup& setup, double start_s) 
         ready.fill(plan);
         Measurement measurement = plan.done();
         const auto& rows = measurement.table.rows;
-        if (std::any_of(rows.begin(), rows.end(), [](auto& r) { return r.device != Device::none; }))
+        if (std::any_of(rows.begin(), rows.end(),
+                        [](auto& r) { return r.device != records::Device::none; }))
             list.push_back(std::move(measurement));
     }
     return list;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -7,18 +7,18 @@
 #include "records/readings.h"
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 /// One ready measurement: what to do in words, the rows that its program reads, the program
 /// (O8900, calls O8100) and how long it takes.
 struct Measurement {
     std::string name, text, program;
-    ReadingTable table;
+    records::ReadingTable table;
     double minutes = 0.0;
 };
 
 /// All measurements that this machine and its artefacts allow. `start_s`: when they would begin, on
 /// the clock of the readings so far.
-std::vector<Measurement> ready_measurements(const Setup& setup, double start_s);
+std::vector<Measurement> ready_measurements(const setup::Setup& setup, double start_s);
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

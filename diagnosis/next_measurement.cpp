@@ -9,7 +9,7 @@
 #include "diagnosis/measurements.h"
 #include "diagnosis/rules.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 /// Columns of one set of rows: base (by name), claimed and rival, in sigma.
@@ -18,9 +18,9 @@ struct Block {
     Eigen::MatrixXd base;
 };
 
-std::vector<std::string> names_of(const std::vector<FitParameter>& parameters) {
+std::vector<std::string> names_of(const std::vector<identification::FitParameter>& parameters) {
     std::vector<std::string> names;
-    for (const FitParameter& p : parameters)
+    for (const identification::FitParameter& p : parameters)
         names.push_back(p.effect + "." + p.name + "." + std::to_string(p.component));
     return names;
 }
@@ -28,27 +28,30 @@ std::vector<std::string> names_of(const std::vector<FitParameter>& parameters) {
 /// A measurement worked out: rows, derivatives and base columns.
 struct Worked {
     Measurement measurement;
-    std::optional<Replay> replay;
-    std::vector<Perturbation> gradient;
+    std::optional<emulator::Replay> replay;
+    std::vector<kinematics::Perturbation> gradient;
     Eigen::VectorXd weight;
     Block block;
 };
 
-Worked work_out(Measurement m, const Setup& setup, const Catalogue& catalogue,
+Worked work_out(Measurement m, const setup::Setup& setup, const effects::Catalogue& catalogue,
                 const std::vector<std::string>& effects) {
     Worked w;
     w.measurement = std::move(m);
     w.replay.emplace(setup, w.measurement.table);
-    const ForwardModel forward(setup.machine);
+    const kinematics::ForwardModel forward(setup.machine);
     for (std::size_t i = 0; i < w.replay->size(); ++i)
         w.gradient.push_back(w.replay->gradient(i, forward, {}));
-    w.weight = row_noise(setup, w.measurement.table, *w.replay).sigma_mm.cwiseInverse();
-    const BaseColumns base = base_columns(setup, *w.replay, catalogue, effects, w.gradient);
+    w.weight =
+        identification::row_noise(setup, w.measurement.table, *w.replay).sigma_mm.cwiseInverse();
+    const identification::BaseColumns base =
+        identification::base_columns(setup, *w.replay, catalogue, effects, w.gradient);
     w.block = {names_of(base.parameters), w.weight.asDiagonal() * base.columns};
     return w;
 }
 
-Eigen::MatrixXd effect_block(const Replay& replay, const std::vector<Perturbation>& gradient,
+Eigen::MatrixXd effect_block(const emulator::Replay& replay,
+                             const std::vector<kinematics::Perturbation>& gradient,
                              const Eigen::VectorXd& weight, const ColumnGroup& group) {
     return weight.asDiagonal() * columns_on(replay, gradient, group);
 }
@@ -101,7 +104,7 @@ constexpr double settled_margin = 1.5;
 
 NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& list,
                          const Prepared& prepared) {
-    const BaseModel& base = prepared.base;
+    const identification::BaseModel& base = prepared.base;
     const Eigen::VectorXd weight = base.sigma_mm.cwiseInverse();
     const auto columns = [&](const ColumnGroup& group) {
         return effect_block(prepared.replay, base.gradient, weight, group);
@@ -145,7 +148,7 @@ NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& l
 std::vector<NextMeasurement> plan_next(const Prepared& prepared,
                                        const std::vector<AmbiguousPair>& pairs,
                                        const std::function<bool()>& go_on) {
-    const BaseModel& base = prepared.base;
+    const identification::BaseModel& base = prepared.base;
     const double end_s = prepared.table.rows.back().time_s;
     const auto stopped = [&] { return go_on && !go_on(); };
     std::vector<NextMeasurement> plan;
@@ -167,4 +170,4 @@ std::vector<NextMeasurement> plan_next(const Prepared& prepared,
     return plan;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -5,7 +5,7 @@
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/prepare.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 /// An effect as fitted, and one that could be it instead.
 struct AmbiguousPair {
@@ -22,4 +22,4 @@ std::vector<NextMeasurement> plan_next(const Prepared& prepared,
                                        const std::vector<AmbiguousPair>& pairs,
                                        const std::function<bool()>& go_on);
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <utility>
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
-Eigen::MatrixXd touch_covariance(const Replay& replay, const std::vector<Eigen::Index>& rows,
-                                 const DeviceNoise& noise) {
+Eigen::MatrixXd touch_covariance(const emulator::Replay& replay,
+                                 const std::vector<Eigen::Index>& rows, const DeviceNoise& noise) {
     const auto n = static_cast<Eigen::Index>(rows.size());
     Eigen::MatrixXd v(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
@@ -50,51 +50,52 @@ struct PassFilter {
 
 /// Do two readings in a row of one test share an error: the same pose of a probe or target, the
 /// same approach of a pass?
-bool shares_block(const ReadingTable& table, const Reading& before, const Reading& row,
-                  std::size_t size) {
+bool shares_block(const records::ReadingTable& table, const records::Reading& before,
+                  const records::Reading& row, std::size_t size) {
     constexpr std::size_t most = 64;
     if (before.feature != row.feature || before.mode != row.mode || size >= most) return false;
-    const bool pass = row.device == Device::linear || row.device == Device::angle;
+    const bool pass = row.device == records::Device::linear || row.device == records::Device::angle;
     if (pass) return size < 8;
     for (const Axis axis : table.axes)
-        if ((table.names.is_rotary(axis) || row.device == Device::point) &&
+        if ((table.names.is_rotary(axis) || row.device == records::Device::point) &&
             before.commanded[axis] != row.commanded[axis])
             return false;
-    return row.device == Device::touch || before.time_s == row.time_s;
+    return row.device == records::Device::touch || before.time_s == row.time_s;
 }
 
 }  // namespace
 
-const DeviceNoise& NoiseModel::of(Device device) const {
+const DeviceNoise& NoiseModel::of(records::Device device) const {
     switch (device) {
-        case Device::sphere:
+        case records::Device::sphere:
             return sphere;
-        case Device::touch:
+        case records::Device::touch:
             return touch;
-        case Device::linear:
+        case records::Device::linear:
             return linear;
-        case Device::angle:
+        case records::Device::angle:
             return angle;
-        case Device::point:
+        case records::Device::point:
             return point;
-        case Device::axis:
+        case records::Device::axis:
             return axis;
         default:
             return ballbar;
     }
 }
-DeviceNoise& NoiseModel::of(Device device) {
+DeviceNoise& NoiseModel::of(records::Device device) {
     return const_cast<DeviceNoise&>(std::as_const(*this).of(device));
 }
 
-std::vector<NoiseBlock> noise_blocks(const Replay& replay, const ReadingTable& table) {
+std::vector<NoiseBlock> noise_blocks(const emulator::Replay& replay,
+                                     const records::ReadingTable& table) {
     std::vector<NoiseBlock> blocks;
     std::map<std::string, std::size_t> open;  // by test
     for (std::size_t i = 0; i < replay.size(); ++i) {
-        const Reading& row = table.rows[replay.table_row(i)];
+        const records::Reading& row = table.rows[replay.table_row(i)];
         const auto it = open.find(row.test);
         bool same = it != open.end() && blocks[it->second].device == row.device;
-        if (same && row.device != Device::ballbar && row.device != Device::axis) {
+        if (same && row.device != records::Device::ballbar && row.device != records::Device::axis) {
             const auto before = static_cast<std::size_t>(blocks[it->second].rows.back());
             same = before + 1 == i && shares_block(table, table.rows[replay.table_row(before)], row,
                                                    blocks[it->second].rows.size());
@@ -108,8 +109,8 @@ std::vector<NoiseBlock> noise_blocks(const Replay& replay, const ReadingTable& t
     return blocks;
 }
 
-Whitener::Whitener(const Replay& replay, std::vector<NoiseBlock> blocks, const NoiseModel& noise,
-                   const Eigen::VectorXd& sigma_mm)
+Whitener::Whitener(const emulator::Replay& replay, std::vector<NoiseBlock> blocks,
+                   const NoiseModel& noise, const Eigen::VectorXd& sigma_mm)
     : replay_(replay), blocks_(std::move(blocks)), noise_(noise), sigma_mm_(sigma_mm) {}
 
 void Whitener::whiten_touches(const NoiseBlock& block, Eigen::MatrixXd& m) const {
@@ -146,9 +147,9 @@ void Whitener::apply(Eigen::MatrixXd& m) const {
     m = sigma_mm_.cwiseInverse().asDiagonal() * m;
     for (const NoiseBlock& block : blocks_) {
         const DeviceNoise& noise = noise_.of(block.device);
-        if (noise.shared > 0.0 && block.device == Device::touch) {
+        if (noise.shared > 0.0 && block.device == records::Device::touch) {
             whiten_touches(block, m);
-        } else if (noise.shared > 0.0 && block.device == Device::ballbar) {
+        } else if (noise.shared > 0.0 && block.device == records::Device::ballbar) {
             whiten_pass(block, m);
         } else {
             for (const Eigen::Index row : block.rows) m.row(row) /= noise.scale;
@@ -162,4 +163,4 @@ Eigen::VectorXd Whitener::apply(const Eigen::VectorXd& v) const {
     return m.col(0);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

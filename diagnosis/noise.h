@@ -7,7 +7,7 @@
 
 #include "emulator/replay.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 enum class NoiseSource : unsigned char { given, repeats, assumed };
 
@@ -33,23 +33,24 @@ struct NoiseModel {
     DeviceNoise sphere, touch, ballbar, linear, angle, point, axis;
     NoiseSource source = NoiseSource::given;
     double doubt = 0.0;  ///< relative standard error of the variance, when repeats set it
-    const DeviceNoise& of(Device device) const;
-    DeviceNoise& of(Device device);
+    const DeviceNoise& of(records::Device device) const;
+    DeviceNoise& of(records::Device device);
 };
 
 /// Device rows that share an error: the touches (or components) of one pose, the samples of one
 /// ballbar pass. Each device row is in exactly one.
 struct NoiseBlock {
-    Device device = Device::none;
+    records::Device device = records::Device::none;
     std::vector<Eigen::Index> rows;
 };
-std::vector<NoiseBlock> noise_blocks(const Replay& replay, const ReadingTable& table);
+std::vector<NoiseBlock> noise_blocks(const emulator::Replay& replay,
+                                     const records::ReadingTable& table);
 
 /// Multiplies by the inverse square root of the noise covariance, block by block.
 class Whitener {
   public:
-    Whitener(const Replay& replay, std::vector<NoiseBlock> blocks, const NoiseModel& noise,
-             const Eigen::VectorXd& sigma_mm);
+    Whitener(const emulator::Replay& replay, std::vector<NoiseBlock> blocks,
+             const NoiseModel& noise, const Eigen::VectorXd& sigma_mm);
     /// Every column of `m` (mm) becomes independent with variance 1.
     void apply(Eigen::MatrixXd& m) const;
     Eigen::VectorXd apply(const Eigen::VectorXd& v) const;
@@ -58,7 +59,7 @@ class Whitener {
     void whiten_touches(const NoiseBlock& block, Eigen::MatrixXd& m) const;
     void whiten_pass(const NoiseBlock& block, Eigen::MatrixXd& m) const;
 
-    const Replay& replay_;
+    const emulator::Replay& replay_;
     std::vector<NoiseBlock> blocks_;
     NoiseModel noise_;
     Eigen::VectorXd sigma_mm_;
@@ -67,7 +68,7 @@ class Whitener {
 /// Noise from repeated poses and repeated passes: the differences of their residuals, freed of a
 /// shift between the two. Devices without enough repeats keep what `start` says; `source` tells
 /// whether repeats set it.
-NoiseModel noise_from_repeats(const Replay& replay, const ReadingTable& table,
+NoiseModel noise_from_repeats(const emulator::Replay& replay, const records::ReadingTable& table,
                               const std::vector<NoiseBlock>& blocks,
                               const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& sigma_mm,
                               const NoiseModel& start);
@@ -75,8 +76,9 @@ NoiseModel noise_from_repeats(const Replay& replay, const ReadingTable& table,
 /// Noise from what a fit left over, by maximum likelihood: shared part, memory and a scale within
 /// 0.6..1.45 of what was stated (any scale when nothing was). `freedom` = share of the rows'
 /// freedom that the fit left.
-NoiseModel noise_from_residuals(const Replay& replay, const std::vector<NoiseBlock>& blocks,
+NoiseModel noise_from_residuals(const emulator::Replay& replay,
+                                const std::vector<NoiseBlock>& blocks,
                                 const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& sigma_mm,
                                 const NoiseModel& start, double freedom, bool stated);
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

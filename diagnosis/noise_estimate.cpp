@@ -8,7 +8,7 @@
 #include "diagnosis/noise.h"
 #include "estimation/quantiles.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 /// A stretch of values that follow one device's noise model, in units of sigma, with the rows whose
@@ -19,7 +19,8 @@ struct Stretch {
     bool free_shift = false;  ///< a shift of the machine is between the two passes of a difference
 };
 
-double touch_likelihood(const Replay& replay, const Stretch& s, const DeviceNoise& noise) {
+double touch_likelihood(const emulator::Replay& replay, const Stretch& s,
+                        const DeviceNoise& noise) {
     const auto n = s.value.size();
     Eigen::MatrixXd v(n, n);
     for (Eigen::Index i = 0; i < n; ++i)
@@ -38,7 +39,7 @@ double touch_likelihood(const Replay& replay, const Stretch& s, const DeviceNois
 
 /// Innovations of the values and of `shift` columns under the noise of one pass; the columns are
 /// profiled out with their loss of freedom (restricted likelihood).
-double pass_likelihood(const Replay& replay, const Stretch& s, const DeviceNoise& noise) {
+double pass_likelihood(const emulator::Replay& replay, const Stretch& s, const DeviceNoise& noise) {
     const double scale2 = noise.scale * noise.scale;
     const double shared = scale2 * noise.shared, white = scale2 * (1.0 - noise.shared) + 1e-12;
     using Row = Eigen::Matrix<double, 4, 1>;
@@ -70,12 +71,12 @@ double pass_likelihood(const Replay& replay, const Stretch& s, const DeviceNoise
            llt.matrixLLT().diagonal().array().log().sum();
 }
 
-double likelihood(const Replay& replay, Device device, const std::vector<Stretch>& stretches,
-                  const DeviceNoise& noise) {
+double likelihood(const emulator::Replay& replay, records::Device device,
+                  const std::vector<Stretch>& stretches, const DeviceNoise& noise) {
     double sum = 0.0;
     for (const Stretch& s : stretches)
-        sum += device == Device::ballbar ? pass_likelihood(replay, s, noise)
-               : device == Device::touch
+        sum += device == records::Device::ballbar ? pass_likelihood(replay, s, noise)
+               : device == records::Device::touch
                    ? touch_likelihood(replay, s, noise)
                    : -s.value.squaredNorm() / (2.0 * noise.scale * noise.scale) -
                          static_cast<double>(s.value.size()) * std::log(noise.scale);
@@ -96,19 +97,19 @@ double rms(const std::vector<Stretch>& stretches) {
 double longest_memory(const std::vector<Stretch>& stretches) {
     std::vector<double> samples;
     for (const Stretch& s : stretches) samples.push_back(static_cast<double>(s.value.size()));
-    return std::clamp(std::exp(-10.0 / std::max(1.0, median(samples))), 0.9, 0.97);
+    return std::clamp(std::exp(-10.0 / std::max(1.0, estimation::median(samples))), 0.9, 0.97);
 }
 
 /// Maximum likelihood within bounds on the scale; the shared part must win by `worth` nats.
-DeviceNoise estimate(const Replay& replay, Device device, const std::vector<Stretch>& stretches,
-                     double low, double high) {
+DeviceNoise estimate(const emulator::Replay& replay, records::Device device,
+                     const std::vector<Stretch>& stretches, double low, double high) {
     DeviceNoise plain;
     plain.scale = std::clamp(rms(stretches), low, high);
     plain.shared = 0.0;
-    if (device != Device::touch && device != Device::ballbar) return plain;
+    if (device != records::Device::touch && device != records::Device::ballbar) return plain;
     DeviceNoise best = plain;
     double most = likelihood(replay, device, stretches, plain) + 4.0;
-    const bool pass = device == Device::ballbar;
+    const bool pass = device == records::Device::ballbar;
     const double longest = longest_memory(stretches);
     for (const double memory :
          pass ? std::vector<double>{0.6, 0.85, 0.96} : std::vector<double>{0.0}) {
@@ -146,17 +147,17 @@ DeviceNoise estimate(const Replay& replay, Device device, const std::vector<Stre
 /// What makes two device rows repeats of each other, but for the pass they belong to.
 using Key = std::tuple<int, int, int, std::vector<long>, std::vector<int>>;
 
-Key key_of(const Replay& replay, const ReadingTable& table, std::size_t i) {
-    const Contact& contact = replay.contact(i);
+Key key_of(const emulator::Replay& replay, const records::ReadingTable& table, std::size_t i) {
+    const emulator::Contact& contact = replay.contact(i);
     const AxisSample& sample = replay.sample(i);
     std::vector<long> place;
     std::vector<int> travel;
     for (const Axis axis : table.axes) {
         place.push_back(std::lround(sample.position[axis] * 1e5));
-        if (table.names.is_rotary(axis) || contact.device == Device::ballbar)
+        if (table.names.is_rotary(axis) || contact.device == records::Device::ballbar)
             travel.push_back(sample.travel[index_of(axis)]);
     }
-    if (contact.device != Device::ballbar)
+    if (contact.device != records::Device::ballbar)
         for (int d = 0; d < 3; ++d) place.push_back(std::lround(contact.direction_M(d) * 1e3));
     place.push_back(std::lround(sample.feed_mm_min));
     place.push_back(std::lround(sample.load_kg * 10.0));
@@ -168,7 +169,8 @@ Key key_of(const Replay& replay, const ReadingTable& table, std::size_t i) {
 
 /// Pairs of blocks that repeat each other row by row.
 std::vector<std::pair<std::size_t, std::size_t>> repeated_blocks(
-    const Replay& replay, const ReadingTable& table, const std::vector<NoiseBlock>& blocks) {
+    const emulator::Replay& replay, const records::ReadingTable& table,
+    const std::vector<NoiseBlock>& blocks) {
     std::map<std::vector<Key>, std::size_t> seen;
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
     for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -185,7 +187,8 @@ std::vector<std::pair<std::size_t, std::size_t>> repeated_blocks(
 
 /// Takes out of the differences what a shift of the machine between passes leaves: a vector for
 /// each ballbar pass (within the likelihood), one that grows with time over all probe rows.
-void remove_shift(const Replay& replay, Device device, std::vector<Stretch>& stretches) {
+void remove_shift(const emulator::Replay& replay, records::Device device,
+                  std::vector<Stretch>& stretches) {
     const auto detrend = [&](const std::vector<Stretch*>& group) {
         Eigen::Index n = 0;
         for (const Stretch* s : group) n += s->value.size();
@@ -210,7 +213,7 @@ void remove_shift(const Replay& replay, Device device, std::vector<Stretch>& str
         for (Stretch* s : group)
             for (Eigen::Index k = 0; k < s->value.size(); ++k) s->value(k) = left(at++);
     };
-    if (device == Device::ballbar) {
+    if (device == records::Device::ballbar) {
         for (Stretch& s : stretches) s.free_shift = true;
         return;
     }
@@ -221,12 +224,12 @@ void remove_shift(const Replay& replay, Device device, std::vector<Stretch>& str
 
 }  // namespace
 
-NoiseModel noise_from_repeats(const Replay& replay, const ReadingTable& table,
+NoiseModel noise_from_repeats(const emulator::Replay& replay, const records::ReadingTable& table,
                               const std::vector<NoiseBlock>& blocks,
                               const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& sigma_mm,
                               const NoiseModel& start) {
     NoiseModel noise = start;
-    std::map<Device, std::vector<Stretch>> stretches;
+    std::map<records::Device, std::vector<Stretch>> stretches;
     for (const auto& [first, second] : repeated_blocks(replay, table, blocks)) {
         Stretch s;
         s.rows = blocks[second].rows;
@@ -238,7 +241,7 @@ NoiseModel noise_from_repeats(const Replay& replay, const ReadingTable& table,
         }
         stretches[blocks[second].device].push_back(std::move(s));
     }
-    std::map<Device, std::size_t> present;
+    std::map<records::Device, std::size_t> present;
     for (const NoiseBlock& block : blocks) present[block.device] += block.rows.size();
     bool all = !present.empty();
     for (const auto& [device, rows] : present) {
@@ -260,11 +263,12 @@ NoiseModel noise_from_repeats(const Replay& replay, const ReadingTable& table,
     return noise;
 }
 
-NoiseModel noise_from_residuals(const Replay& replay, const std::vector<NoiseBlock>& blocks,
+NoiseModel noise_from_residuals(const emulator::Replay& replay,
+                                const std::vector<NoiseBlock>& blocks,
                                 const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& sigma_mm,
                                 const NoiseModel& start, double freedom, bool stated) {
     NoiseModel noise = start;
-    std::map<Device, std::vector<Stretch>> stretches;
+    std::map<records::Device, std::vector<Stretch>> stretches;
     for (const NoiseBlock& block : blocks) {
         Stretch s;
         s.rows = block.rows;
@@ -283,4 +287,4 @@ NoiseModel noise_from_residuals(const Replay& replay, const std::vector<NoiseBlo
     return noise;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -4,19 +4,19 @@
 #include "diagnosis/candidate_groups.h"
 #include "diagnosis/rules.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 constexpr Eigen::Index most_tests = 60;
 constexpr double usual_mm = 1e-3;  ///< scatter of a zero
 
-bool probes(const Contact& contact) {
-    return contact.device == Device::sphere || contact.device == Device::touch;
+bool probes(const emulator::Contact& contact) {
+    return contact.device == records::Device::sphere || contact.device == records::Device::touch;
 }
 
 /// Index of each device row's test among those that `takes`, -1 for other rows.
 std::vector<Eigen::Index> tests_of(const Prepared& p,
-                                   const std::function<bool(const Contact&)>& takes,
+                                   const std::function<bool(const emulator::Contact&)>& takes,
                                    Eigen::Index& count) {
     std::map<std::string, Eigen::Index> met;
     std::vector<Eigen::Index> test(p.replay.size(), -1);
@@ -45,7 +45,7 @@ void add_group(Design& design, const Whitener& whitener, const std::string& name
 }  // namespace
 
 void add_offset_groups(Design& design, const Prepared& prepared, const Whitener& whitener) {
-    const Replay& replay = prepared.replay;
+    const emulator::Replay& replay = prepared.replay;
     const auto rows = static_cast<Eigen::Index>(replay.size());
     Eigen::Index count = 0;
     const auto probe = tests_of(prepared, probes, count);
@@ -60,7 +60,7 @@ void add_offset_groups(Design& design, const Prepared& prepared, const Whitener&
         add_group(design, whitener, "zero of a test", std::move(columns));
     }
     const auto other = tests_of(
-        prepared, [](const Contact& c) { return !probes(c); }, count);
+        prepared, [](const emulator::Contact& c) { return !probes(c); }, count);
     if (count > 1 && count <= most_tests) {
         Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows, count);
         for (Eigen::Index i = 0; i < rows; ++i)
@@ -70,4 +70,4 @@ void add_offset_groups(Design& design, const Prepared& prepared, const Whitener&
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -7,18 +7,18 @@
 #include "estimation/projection.h"
 #include "estimation/quantiles.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 constexpr double wild_sigma = 4.5;
 constexpr double least_deviation = 0.5;  ///< of the noise: the scale is never taken as smaller
 
 /// Residuals of the set-up alone over their own standard deviation, rows of `used` fitted.
-Eigen::VectorXd studentised(const BaseModel& base, const std::vector<bool>& used) {
+Eigen::VectorXd studentised(const identification::BaseModel& base, const std::vector<bool>& used) {
     Eigen::VectorXd weight = base.sigma_mm.cwiseInverse();
     for (Eigen::Index i = 0; i < weight.size(); ++i)
         if (!used[static_cast<std::size_t>(i)]) weight(i) = 0.0;
-    const Projection set_up(weight.asDiagonal() * base.columns);
+    const estimation::Projection set_up(weight.asDiagonal() * base.columns);
     const Eigen::VectorXd left = set_up.beside(weight.cwiseProduct(base.residual_mm));
     const Eigen::ArrayXd own = 1.0 - set_up.basis().rowwise().squaredNorm().array();
     return left.array() / own.max(0.05).sqrt();
@@ -50,8 +50,8 @@ std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
     std::vector<bool> kept = used;
     std::vector<std::size_t> lone;
     const auto is_probe_row = [&](std::size_t i) {
-        const Device device = prepared.replay.contact(i).device;
-        return device == Device::sphere || device == Device::touch;
+        const records::Device device = prepared.replay.contact(i).device;
+        return device == records::Device::sphere || device == records::Device::touch;
     };
     for (int pass = 0; pass < 40; ++pass) {
         const Eigen::VectorXd z = studentised(prepared.base, kept).cwiseAbs();
@@ -63,7 +63,7 @@ std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
             worst = std::max(worst, size.back());
         }
         const double limit = largest_by_chance(static_cast<double>(used.size())) *
-                             std::max(least_deviation, robust_deviation(size));
+                             std::max(least_deviation, estimation::robust_deviation(size));
         if (size.empty() || worst < limit) break;
         for (std::size_t i = 0; i < kept.size(); ++i) {
             if (!kept[i] || !is_probe_row(i)) continue;
@@ -82,7 +82,7 @@ std::vector<std::size_t> wild_readings(const Eigen::VectorXd& left, const std::v
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i]) size.push_back(std::abs(left(static_cast<Eigen::Index>(i))));
     const double limit = std::max(wild_sigma, largest_by_chance(static_cast<double>(size.size()))) *
-                         std::max(least_deviation, robust_deviation(size));
+                         std::max(least_deviation, estimation::robust_deviation(size));
     std::vector<std::size_t> wild;
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i] && std::abs(left(static_cast<Eigen::Index>(i))) > limit) wild.push_back(i);
@@ -90,4 +90,4 @@ std::vector<std::size_t> wild_readings(const Eigen::VectorXd& left, const std::v
     return keep ? std::vector<std::size_t>{} : wild;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -3,7 +3,7 @@
 
 #include "diagnosis/prepare.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 /// Probe readings far from the set-up alone, the worst first and the fit anew each time. Not for
 /// the ballbar, where one reading at each reversal may be all that shows of a spike. Device rows,
@@ -14,4 +14,4 @@ std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
 /// Readings of `used` far from what a model leaves (`left`, over the noise): the same rule.
 std::vector<std::size_t> wild_readings(const Eigen::VectorXd& left, const std::vector<bool>& used);
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -7,7 +7,7 @@
 
 #include "base/alarm.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 constexpr std::size_t least_readings = 12;
@@ -20,7 +20,7 @@ Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
     folds.group.assign(rows, 0);
     int pass = 0;
     for (const NoiseBlock& block : blocks) {
-        const bool bar = block.device == Device::ballbar;
+        const bool bar = block.device == records::Device::ballbar;
         const std::size_t pieces = bar ? std::min<std::size_t>(6, 1 + block.rows.size() / 8) : 1;
         const auto first = static_cast<int>(folds.fold.size());
         for (std::size_t k = 0; k < block.rows.size(); ++k)
@@ -33,43 +33,43 @@ Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
     return folds;
 }
 
-Prepared::Prepared(const Setup& setup, const ReadingTable& readings)
+Prepared::Prepared(const setup::Setup& setup, const records::ReadingTable& readings)
     : table(readings),
       replay(setup, readings),
-      catalogue(make_catalogue(setup, extent_of(setup, readings))) {
+      catalogue(effects::make_catalogue(setup, effects::extent_of(setup, readings))) {
     if (replay.size() < least_readings)
         throw InputError(fmt::format("{} readings allow no diagnosis", replay.size()),
                          {table.path, 0, 0});
-    base = fit_base(setup, table, replay, catalogue, setup.model.modelled);
+    base = identification::fit_base(setup, table, replay, catalogue, setup.model.modelled);
     blocks = noise_blocks(replay, table);
     folds = make_folds(blocks, replay.size());
 }
 
-Prepared prepare(const Setup& setup, const ReadingTable& table) {
+Prepared prepare(const setup::Setup& setup, const records::ReadingTable& table) {
     return Prepared(setup, table);
 }
 
-void refuse_poor_holdout(const Prepared& prepared, const ReadingTable& holdout) {
-    const Replay replay(prepared.base.setup, holdout);
+void refuse_poor_holdout(const Prepared& prepared, const records::ReadingTable& holdout) {
+    const emulator::Replay replay(prepared.base.setup, holdout);
     if (replay.size() == 0) throw InputError("no held-out reading", {holdout.path, 0, 0});
     const std::vector<double> read = replay.predict(prepared.base.models);
     for (std::size_t i = 0; i < replay.size(); ++i) {
-        const Reading& row = holdout.rows[replay.table_row(i)];
+        const records::Reading& row = holdout.rows[replay.table_row(i)];
         if (!row.value_mm)
             throw InputError("a held-out row with a device but without value_mm",
-                             place_of(holdout, row));
+                             records::place_of(holdout, row));
         if (std::abs(*row.value_mm - read[i]) > absurd_mm)
             throw InputError(fmt::format("held out, {:.3g} mm away from what the simulation reads: "
                                          "wrong units (um for mm?), wrong frame, another machine",
                                          *row.value_mm - read[i]),
-                             place_of(holdout, row));
+                             records::place_of(holdout, row));
     }
 }
 
-bool modelled(const Prepared& prepared, const Effect& effect) {
+bool modelled(const Prepared& prepared, const effects::Effect& effect) {
     const auto& names = prepared.base.setup.model.modelled;
     return effect.name == "location" ||
            std::find(names.begin(), names.end(), effect.name) != names.end();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

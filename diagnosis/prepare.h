@@ -4,7 +4,7 @@
 #include "diagnosis/noise.h"
 #include "identification/base_model.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 /// Rows cut into groups that share errors or neighbourhood: the readings of one pose, arcs of a
 /// sixth of a pass. A fold leaves out whole groups.
@@ -17,21 +17,21 @@ Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows);
 
 /// Never changed after prepare(), but for the residual when large effects bend the readings.
 struct Prepared {
-    Prepared(const Setup& setup, const ReadingTable& table);
-    const ReadingTable& table;
-    Replay replay;
-    Catalogue catalogue;
-    BaseModel base;  ///< location, set-up; residual in mm
+    Prepared(const setup::Setup& setup, const records::ReadingTable& table);
+    const records::ReadingTable& table;
+    emulator::Replay replay;
+    effects::Catalogue catalogue;
+    identification::BaseModel base;  ///< location, set-up; residual in mm
     std::vector<NoiseBlock> blocks;
     Folds folds;
 };
 
 /// Throws InputError: too few readings, values of another machine.
-Prepared prepare(const Setup& setup, const ReadingTable& table);
+Prepared prepare(const setup::Setup& setup, const records::ReadingTable& table);
 /// Throws InputError for held-out readings that cannot be of this machine.
-void refuse_poor_holdout(const Prepared& prepared, const ReadingTable& holdout);
+void refuse_poor_holdout(const Prepared& prepared, const records::ReadingTable& holdout);
 
 /// Is the effect one that the simulation has already?
-bool modelled(const Prepared& prepared, const Effect& effect);
+bool modelled(const Prepared& prepared, const effects::Effect& effect);
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

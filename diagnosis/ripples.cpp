@@ -6,7 +6,7 @@
 #include "base/units.h"
 #include "diagnosis/key_search.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 constexpr std::size_t least_places = 8;
@@ -33,7 +33,7 @@ struct Ripple {
     Axis axis;
     double period;
 };
-std::optional<Ripple> ripple_of(const AxisNames& names, const Effect& effect,
+std::optional<Ripple> ripple_of(const AxisNames& names, const effects::Effect& effect,
                                 const std::vector<double>& keys) {
     constexpr std::string_view ending = ".cyclic";
     if (!effect.name.ends_with(ending)) return std::nullopt;
@@ -48,7 +48,7 @@ std::optional<Ripple> ripple_of(const AxisNames& names, const Effect& effect,
 }
 
 /// Features of the textbook effects of the same axis.
-std::vector<Eigen::Index> of_axis(const Design& design, const Effect& effect) {
+std::vector<Eigen::Index> of_axis(const Design& design, const effects::Effect& effect) {
     const std::string axis = effect.name.substr(0, effect.name.find('.') + 1);
     std::vector<Eigen::Index> features;
     for (const auto& entry : design.groups())
@@ -78,7 +78,8 @@ bool shows_period(std::vector<double> places, double period) {
 }
 
 std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& prepared,
-                                               const Whitener& whitener, const Effect& effect,
+                                               const Whitener& whitener,
+                                               const effects::Effect& effect,
                                                std::vector<double> keys) {
     const auto ripple = ripple_of(prepared.table.names, effect, keys);
     if (ripple) {
@@ -95,4 +96,4 @@ std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& p
     return added;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -5,7 +5,7 @@
 
 #include "diagnosis/candidate_groups.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 /// A period (mm or rad) is shown by 8 distinct places or more, two whole turns inside the range, no
 /// hole in the phase above 0.4 of a turn, and at even spacing two spacings or more.
@@ -15,7 +15,8 @@ bool shows_period(std::vector<double> places, double period);
 /// textbook effect of that axis is the same on these readings (a fifth of its columns or more lies
 /// outside theirs).
 std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& prepared,
-                                               const Whitener& whitener, const Effect& effect,
+                                               const Whitener& whitener,
+                                               const effects::Effect& effect,
                                                std::vector<double> keys);
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

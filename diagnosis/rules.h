@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace trunnion::rules {
+namespace trunnion::diagnosis::rules {
 
 // Priors of being there, in nats.
 constexpr double effect_prior = -3.2188758248682006;  ///< ln 0.04: a catalogue effect
@@ -39,4 +39,4 @@ inline double rival_limit(double contribution) {
                     std::clamp(rival_part * contribution, rival_loss, std::max(rival_loss, most)));
 }
 
-}  // namespace trunnion::rules
+}  // namespace trunnion::diagnosis::rules

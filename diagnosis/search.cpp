@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 constexpr std::size_t most_members = 12;
@@ -22,8 +22,8 @@ Model with(Model model, const Offer& offer) {
     return model;
 }
 
-Offer offer_of(const Design& design, std::size_t k, const GroupInformation& left) {
-    Offer offer{k, group_gain(left), 0.0, left};
+Offer offer_of(const Design& design, std::size_t k, const estimation::GroupInformation& left) {
+    Offer offer{k, estimation::group_gain(left), 0.0, left};
     offer.value = offer.gain.mean + design.group(k).log_prior;
     return offer;
 }
@@ -120,11 +120,11 @@ double Offer::explained() const {
     return left.product.dot(m.ldlt().solve(left.product));
 }
 
-SearchSetting search_setting(Design& design, const NoisePrior& noise) {
+SearchSetting search_setting(Design& design, const estimation::NoisePrior& noise) {
     SearchSetting setting{noise, 0.0};
-    const GroupEquations e = design.equations({});
-    setting.empty = restricted_likelihood(
-        e, maximise_likelihood(e, {{}, std::exp(noise.log_mean)}, noise, 1), noise);
+    const estimation::GroupEquations e = design.equations({});
+    setting.empty = estimation::restricted_likelihood(
+        e, estimation::maximise_likelihood(e, {{}, std::exp(noise.log_mean)}, noise, 1), noise);
     return setting;
 }
 
@@ -133,9 +133,10 @@ Model empty_model(Design& design, const SearchSetting& setting) {
 }
 
 Model tuned(Design& design, const SearchSetting& setting, Model model, int sweeps) {
-    const GroupEquations e = design.equations(model.members);
-    model.variances = maximise_likelihood(e, model.variances, setting.noise, sweeps);
-    model.score = restricted_likelihood(e, model.variances, setting.noise) - setting.empty;
+    const estimation::GroupEquations e = design.equations(model.members);
+    model.variances = estimation::maximise_likelihood(e, model.variances, setting.noise, sweeps);
+    model.score =
+        estimation::restricted_likelihood(e, model.variances, setting.noise) - setting.empty;
     for (const std::size_t m : model.members) model.score += design.group(m).log_prior;
     return model;
 }
@@ -146,7 +147,7 @@ bool same_cause(const ColumnGroup& a, const ColumnGroup& b) {
 
 std::vector<Offer> offers(Design& design, const Model& model,
                           const std::function<bool(GroupKind)>& takes) {
-    const GivenMembers given(design.equations(model.members), model.variances);
+    const estimation::GivenMembers given(design.equations(model.members), model.variances);
     std::vector<Offer> list;
     for (std::size_t k = 0; k < design.groups().size(); ++k) {
         const auto& entry = design.groups()[k];
@@ -170,7 +171,8 @@ Model without(const Model& model, std::size_t position) {
 }
 
 std::vector<Offer> worth_of_members(Design& design, const Model& model) {
-    const auto each = each_beside_others(design.equations(model.members), model.variances);
+    const auto each =
+        estimation::each_beside_others(design.equations(model.members), model.variances);
     std::vector<Offer> worth;
     for (std::size_t k = 0; k < model.members.size(); ++k)
         worth.push_back(offer_of(design, model.members[k], each[k]));
@@ -210,8 +212,8 @@ Model searched(Design& design, const SearchSetting& setting) {
 }
 
 Fit fit_of(Design& design, const Model& model) {
-    const GroupEquations e = design.equations(model.members);
-    const GivenMembers given(e, model.variances);
+    const estimation::GroupEquations e = design.equations(model.members);
+    const estimation::GivenMembers given(e, model.variances);
     Fit fit{given.mean(), given.half(), {}, e.size};
     for (std::size_t k = 0; k < model.members.size(); ++k) fit.first.push_back(e.first(k));
     return fit;
@@ -225,4 +227,4 @@ Eigen::MatrixXd contributions(Design& design, const Model& model, const Fit& fit
     return design.projection().beside(parts);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -7,20 +7,20 @@
 
 #include "diagnosis/design.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 /// Members (indices into Design::groups) with their variances.
 struct Model {
     std::vector<std::size_t> members;
-    Variances variances;
+    estimation::Variances variances;
     double score = 0.0;  ///< log likelihood against no member, plus the members' log priors
 };
 
 struct SearchSetting {
-    NoisePrior noise;
+    estimation::NoisePrior noise;
     double empty = 0.0;  ///< likelihood without members, its own noise fitted
 };
-SearchSetting search_setting(Design& design, const NoisePrior& noise);
+SearchSetting search_setting(Design& design, const estimation::NoisePrior& noise);
 Model empty_model(Design& design, const SearchSetting& setting);
 
 /// The members' variances and the noise anew, from `start`, in so many sweeps.
@@ -29,10 +29,10 @@ Model tuned(Design& design, const SearchSetting& setting, Model start, int sweep
 /// A group that could join a model.
 struct Offer {
     std::size_t group = 0;
-    GroupGain gain;
-    double value = 0.0;        ///< mean gain plus log prior, nats
-    GroupInformation left;     ///< of the group beside the model
-    double explained() const;  ///< chi-squared that it takes at its best size
+    estimation::GroupGain gain;
+    double value = 0.0;                 ///< mean gain plus log prior, nats
+    estimation::GroupInformation left;  ///< of the group beside the model
+    double explained() const;           ///< chi-squared that it takes at its best size
 };
 /// All visible groups that the model does not hold in another form, best first; of the kinds that
 /// `takes` (where given) takes.
@@ -62,4 +62,4 @@ Fit fit_of(Design& design, const Model& model);
 /// Whitened part of the data that each member stands for, set-up projected out: rows x members.
 Eigen::MatrixXd contributions(Design& design, const Model& model, const Fit& fit);
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -8,7 +8,7 @@
 #include "base/random.h"
 #include "estimation/quantiles.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 constexpr int draw_count = 400;
@@ -79,7 +79,7 @@ std::vector<std::vector<Eigen::Index>> stretches_of(const std::vector<NoiseBlock
     std::vector<std::vector<Eigen::Index>> stretches;
     std::vector<const NoiseBlock*> poses;
     for (const NoiseBlock& block : blocks) {
-        if (block.device == Device::ballbar)
+        if (block.device == records::Device::ballbar)
             stretches.push_back(block.rows);
         else
             poses.push_back(&block);
@@ -211,7 +211,7 @@ std::pair<double, double> ShrinkDraws::interval(const Model& model) const {
         after = as_read(after, draws_[d], draws_[d].along_after);
         shrink.push_back(read > 0.0 ? 1.0 - std::sqrt(after / read) : 0.0);
     }
-    return {quantile(shrink, 0.025), quantile(shrink, 0.975)};
+    return {estimation::quantile(shrink, 0.025), estimation::quantile(shrink, 0.975)};
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

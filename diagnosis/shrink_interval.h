@@ -11,9 +11,11 @@
 #include "diagnosis/fresh_readings.h"
 #include "diagnosis/solution.h"
 
-namespace trunnion {
-
+namespace trunnion::inline base {
 class SeededNoise;
+}  // namespace trunnion::inline base
+
+namespace trunnion::diagnosis {
 
 /// A model that may be the truth, with its weight among all (the first is the chosen one).
 struct PossibleTruth {
@@ -82,4 +84,4 @@ class ShrinkDraws {
 /// Rows of stretches: every pass of the ballbar; the poses of the probe, in order, in parts.
 std::vector<std::vector<Eigen::Index>> stretches_of(const std::vector<NoiseBlock>& blocks);
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -3,20 +3,21 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 constexpr double set_up_range = 20.0;  ///< typical sizes: directions that nothing sees stay
 
-ErrorCurve::Harmonic& harmonic_of(ErrorCurve& curve, double order) {
-    for (ErrorCurve::Harmonic& h : curve.harmonics)
+kinematics::ErrorCurve::Harmonic& harmonic_of(kinematics::ErrorCurve& curve, double order) {
+    for (kinematics::ErrorCurve::Harmonic& h : curve.harmonics)
         if (h.order == order) return h;
-    return curve.harmonics.emplace_back(ErrorCurve::Harmonic{order, 0.0, 0.0});
+    return curve.harmonics.emplace_back(kinematics::ErrorCurve::Harmonic{order, 0.0, 0.0});
 }
 
 /// The sum of two tables stands at the places of both.
-void add_table(ErrorCurve& curve, const std::vector<double>& at, const Eigen::VectorXd& value) {
-    ErrorCurve own, old;
+void add_table(kinematics::ErrorCurve& curve, const std::vector<double>& at,
+               const Eigen::VectorXd& value) {
+    kinematics::ErrorCurve own, old;
     own.at = at;
     own.value.assign(value.begin(), value.end());
     old.at = curve.at;
@@ -31,19 +32,20 @@ void add_table(ErrorCurve& curve, const std::vector<double>& at, const Eigen::Ve
     for (const double q : places) curve.value.push_back(own(q) + (old.at.empty() ? 0.0 : old(q)));
 }
 
-void add_free_form(Setup& setup, const ColumnGroup& group, const Eigen::VectorXd& coefficients) {
+void add_free_form(setup::Setup& setup, const ColumnGroup& group,
+                   const Eigen::VectorXd& coefficients) {
     const Eigen::VectorXd value = table_values(group, coefficients);
     const Eigen::Index each = group.table.per_direction();
     auto& motion = setup.machine.errors.axis[index_of(group.table.axis.axis)].motion;
     for (std::size_t k = 0; k < group.table.directions.size(); ++k) {
-        ErrorCurve& curve = motion[static_cast<std::size_t>(group.table.directions[k])];
+        kinematics::ErrorCurve& curve = motion[static_cast<std::size_t>(group.table.directions[k])];
         const Eigen::VectorXd own = value.segment(static_cast<Eigen::Index>(k) * each, each);
         if (!group.table.knots.empty()) {
             add_table(curve, group.table.knots, own);
             continue;
         }
         for (int n = 0; n < group.table.orders; ++n) {
-            ErrorCurve::Harmonic& h = harmonic_of(curve, group.table.first_order + n);
+            kinematics::ErrorCurve::Harmonic& h = harmonic_of(curve, group.table.first_order + n);
             h.cosine += own(2 * n);
             h.sine += own(2 * n + 1);
         }
@@ -129,19 +131,20 @@ Eigen::VectorXd table_values(const ColumnGroup& group, const Eigen::VectorXd& co
     return value;
 }
 
-Setup setup_with(const Prepared& prepared, const Design& design, const Model& model,
-                 const Solution& solution) {
-    Setup setup = prepared.base.setup;
-    shift_base(setup, prepared.base, prepared.catalogue, solution.mean.head(solution.known));
+setup::Setup setup_with(const Prepared& prepared, const Design& design, const Model& model,
+                        const Solution& solution) {
+    setup::Setup setup = prepared.base.setup;
+    identification::shift_base(setup, prepared.base, prepared.catalogue,
+                               solution.mean.head(solution.known));
     for (std::size_t k = 0; k < model.members.size(); ++k) {
         const ColumnGroup& group = design.group(model.members[k]);
         const Eigen::VectorXd own = solution.mean.segment(solution.first[k], solution.size[k]);
         if (group.kind == GroupKind::table)
             add_free_form(setup, group, own);
         else if (group.effect)
-            add_effect(setup, *group.effect, values_in(group, own));
+            identification::add_effect(setup, *group.effect, values_in(group, own));
     }
     return setup;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -4,7 +4,7 @@
 #include "diagnosis/prepare.h"
 #include "diagnosis/search.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 /// Gaussian belief about set-up and members together, in typical sizes.
 struct Solution {
@@ -30,7 +30,7 @@ std::vector<double> values_in(const ColumnGroup& group, const Eigen::VectorXd& c
 Eigen::VectorXd table_values(const ColumnGroup& group, const Eigen::VectorXd& coefficients);
 
 /// The base setup with all causes of the model added.
-Setup setup_with(const Prepared& prepared, const Design& design, const Model& model,
-                 const Solution& solution);
+setup::Setup setup_with(const Prepared& prepared, const Design& design, const Model& model,
+                        const Solution& solution);
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -7,7 +7,7 @@
 #include "diagnosis/rules.h"
 #include "estimation/free_form.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 /// One family of error motions of an axis, and what the textbook's form of it owns.
@@ -38,10 +38,10 @@ std::vector<double> places_of(const Prepared& p, Axis axis) {
     return places;
 }
 
-std::vector<int> directions_of(const Family& family, const AxisGeometry& axis) {
+std::vector<int> directions_of(const Family& family, const kinematics::AxisGeometry& axis) {
     std::vector<int> directions;
     for (int d = 0; d < 3; ++d)
-        if (family.all_angles || (d == main_direction(axis)) == family.along)
+        if (family.all_angles || (d == effects::main_direction(axis)) == family.along)
             directions.push_back(d + (family.angular ? 3 : 0));
     return directions;
 }
@@ -57,9 +57,9 @@ Eigen::MatrixXd for_each_direction(const Eigen::MatrixXd& shape, std::size_t dir
 
 /// What the textbook's form can be at the knots: polynomials, or harmonics of part of a turn.
 Eigen::MatrixXd owned_at(const Family& family, const std::vector<double>& knots) {
-    if (!family.rotary) return polynomials_at(knots, family.owned);
+    if (!family.rotary) return estimation::polynomials_at(knots, family.owned);
     Eigen::MatrixXd owned(static_cast<Eigen::Index>(knots.size()), 2 + 2 * family.owned);
-    owned.leftCols(2) = polynomials_at(knots, 2);
+    owned.leftCols(2) = estimation::polynomials_at(knots, 2);
     for (std::size_t k = 0; k < knots.size(); ++k)
         for (int n = 1; n <= family.owned; ++n) {
             owned(static_cast<Eigen::Index>(k), 2 * n) = std::cos(n * knots[k]);
@@ -71,9 +71,9 @@ Eigen::MatrixXd owned_at(const Family& family, const std::vector<double>& knots)
 std::vector<Eigen::MatrixXd> shapes_of(const Family& family, const TableForm& table) {
     std::vector<Eigen::MatrixXd> shapes;
     if (!table.knots.empty()) {
-        for (const double length : correlation_lengths(table.knots))
-            shapes.push_back(
-                smooth_shapes(table.knots, length, owned_at(family, table.knots), family.shapes));
+        for (const double length : estimation::correlation_lengths(table.knots))
+            shapes.push_back(estimation::smooth_shapes(
+                table.knots, length, owned_at(family, table.knots), family.shapes));
     } else {
         for (const double soft : soft_orders) {
             Eigen::VectorXd size(2 * table.orders);
@@ -87,7 +87,7 @@ std::vector<Eigen::MatrixXd> shapes_of(const Family& family, const TableForm& ta
     return shapes;
 }
 
-TableForm form_of(const Family& family, const AxisGeometry& axis,
+TableForm form_of(const Family& family, const kinematics::AxisGeometry& axis,
                   const std::vector<double>& places) {
     TableForm table{axis, directions_of(family, axis), {}, 0, 0};
     const auto [low, high] = std::minmax_element(places.begin(), places.end());
@@ -95,13 +95,13 @@ TableForm form_of(const Family& family, const AxisGeometry& axis,
         table.first_order = family.owned + 1;
         table.orders = (family.shapes >= 24 ? last_order : last_order / 2) - family.owned;
     } else {
-        table.knots = knots_of(places, family.knots);
+        table.knots = estimation::knots_of(places, family.knots);
     }
     return table;
 }
 
 void add_family(Design& design, const Prepared& p, const Whitener& whitener, const Family& family,
-                const AxisGeometry& axis, const std::vector<double>& places) {
+                const kinematics::AxisGeometry& axis, const std::vector<double>& places) {
     const TableForm table = form_of(family, axis, places);
     if (table.orders == 0 && table.knots.size() < 4) return;
     const std::vector<Eigen::MatrixXd> shapes = shapes_of(family, table);
@@ -112,7 +112,7 @@ void add_family(Design& design, const Prepared& p, const Whitener& whitener, con
     for (const Eigen::MatrixXd& shape : shapes) {
         ColumnGroup group;
         group.kind = GroupKind::table;
-        group.name = effect_name(axis, family.name);
+        group.name = effects::effect_name(axis, family.name);
         group.table = table;
         group.shape = for_each_direction(shape, table.directions.size());
         for (Eigen::Index k = 0; k < white.cols(); ++k) group.features.push_back(first + k);
@@ -124,7 +124,7 @@ void add_family(Design& design, const Prepared& p, const Whitener& whitener, con
 }  // namespace
 
 void add_table_groups(Design& design, const Prepared& prepared, const Whitener& whitener) {
-    for (const AxisGeometry& axis : prepared.base.setup.machine.chain.axes()) {
+    for (const kinematics::AxisGeometry& axis : prepared.base.setup.machine.chain.axes()) {
         const std::vector<double> places = places_of(prepared, axis.axis);
         const auto [low, high] = std::minmax_element(places.begin(), places.end());
         if (*high - *low < (axis.rotary ? least_range_rad : least_range_mm)) continue;
@@ -134,4 +134,4 @@ void add_table_groups(Design& design, const Prepared& prepared, const Whitener& 
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -8,14 +8,14 @@
 #include "diagnosis/key_search.h"
 #include "diagnosis/rules.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 /// A column that moves no reading by this many sigma when its parameter changes as usual is left
 /// out.
 constexpr double dead_column = 1e-6;
 
-using Takes = std::function<bool(const EffectParameter&)>;
+using Takes = std::function<bool(const effects::EffectParameter&)>;
 
 struct Material {
     std::vector<std::size_t> parameters;
@@ -23,12 +23,13 @@ struct Material {
 };
 
 /// Columns of the linear parameters in the textbook's form that move any reading.
-Material material_of(const Prepared& p, const Effect& effect, const std::vector<double>& keys) {
+Material material_of(const Prepared& p, const effects::Effect& effect,
+                     const std::vector<double>& keys) {
     Material m;
     std::vector<Eigen::VectorXd> list;
     for (std::size_t j = 0; j < effect.parameters.size(); ++j) {
         if (effect.parameters[j].is_key() || !effect.parameters[j].usual) continue;
-        list.push_back(effect_column(p.replay, p.base.gradient, effect, keys, j));
+        list.push_back(identification::effect_column(p.replay, p.base.gradient, effect, keys, j));
         if (list.back().cwiseQuotient(p.base.sigma_mm).norm() < dead_column)
             list.pop_back();
         else
@@ -40,8 +41,8 @@ Material material_of(const Prepared& p, const Effect& effect, const std::vector<
     return m;
 }
 
-ColumnGroup group_of(const Effect& effect, std::vector<double> keys, const Material& material,
-                     Eigen::Index first, const Takes& takes) {
+ColumnGroup group_of(const effects::Effect& effect, std::vector<double> keys,
+                     const Material& material, Eigen::Index first, const Takes& takes) {
     ColumnGroup group;
     group.kind = has_keys(effect) ? GroupKind::periodic : GroupKind::textbook;
     group.name = effect.name;
@@ -57,10 +58,10 @@ ColumnGroup group_of(const Effect& effect, std::vector<double> keys, const Mater
 
 /// Prior of key settings: even over their grids, but even in the logarithm where the grid counts
 /// periods: a period and its alias fit alike, and the coarse one is what machines have.
-double log_prior_of_keys(const Effect& effect, const std::vector<double>& keys) {
+double log_prior_of_keys(const effects::Effect& effect, const std::vector<double>& keys) {
     double sum = 0.0;
     for (std::size_t j = 0; j < keys.size(); ++j) {
-        const EffectParameter& p = effect.parameters[j];
+        const effects::EffectParameter& p = effect.parameters[j];
         if (!p.is_key()) continue;
         double all = 0.0;
         const bool counts = p.name == periods_key;
@@ -72,32 +73,34 @@ double log_prior_of_keys(const Effect& effect, const std::vector<double>& keys) 
 
 }  // namespace
 
-std::vector<std::function<bool(const EffectParameter&)>> simpler_forms(const Effect& effect) {
+std::vector<std::function<bool(const effects::EffectParameter&)>> simpler_forms(
+    const effects::Effect& effect) {
     std::vector<Takes> forms;
     std::set<std::string> vectors;
-    for (const EffectParameter& p : effect.parameters) {
+    for (const effects::EffectParameter& p : effect.parameters) {
         if (p.component >= 0 && !p.is_key()) vectors.insert(p.name);
     }
     // ISO 230-1: straightness is what departs from the mean line; the line is squareness.
     if (effect.name.ends_with(".straightness"))
-        forms.push_back(
-            [](const EffectParameter& p) { return p.name.find("_p1_") == std::string::npos; });
+        forms.push_back([](const effects::EffectParameter& p) {
+            return p.name.find("_p1_") == std::string::npos;
+        });
     if (vectors.size() > 1)
         for (const std::string& name : vectors)
-            forms.push_back([name](const EffectParameter& p) { return p.name == name; });
+            forms.push_back([name](const effects::EffectParameter& p) { return p.name == name; });
     return forms;
 }
 
 Eigen::Index add_textbook_groups(Design& design, const Prepared& prepared,
                                  const Whitener& whitener) {
     struct Ready {
-        const Effect* effect;
+        const effects::Effect* effect;
         Material material;
         Eigen::Index first;
     };
     std::vector<Ready> list;
     Eigen::Index all = 0;
-    for (const Effect& effect : prepared.catalogue) {
+    for (const effects::Effect& effect : prepared.catalogue) {
         if (modelled(prepared, effect) || effect.parameters.empty() || has_keys(effect)) continue;
         list.push_back({&effect, material_of(prepared, effect, effect.zeros()), all});
         all += list.back().material.columns.cols();
@@ -123,7 +126,7 @@ Eigen::Index add_textbook_groups(Design& design, const Prepared& prepared,
 }
 
 std::optional<std::size_t> add_keyed_group(Design& design, const Prepared& prepared,
-                                           const Whitener& whitener, const Effect& effect,
+                                           const Whitener& whitener, const effects::Effect& effect,
                                            std::vector<double> keys) {
     Material material = material_of(prepared, effect, keys);
     if (material.parameters.empty()) return std::nullopt;
@@ -135,4 +138,4 @@ std::optional<std::size_t> add_keyed_group(Design& design, const Prepared& prepa
     return design.add(std::move(group));
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -9,7 +9,7 @@
 #include "estimation/distributions.h"
 #include "estimation/ranked_least_squares.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 namespace {
 
 constexpr std::size_t most_places = 6;  ///< listed in "where"
@@ -155,15 +155,16 @@ std::vector<DriverShare> where_of(const Design& design, double floor) {
         const ColumnGroup& group = entry.group;
         if (is_cause(group.kind)) continue;
         const auto own = static_cast<std::ptrdiff_t>(group.columns());
-        const GroupInformation all = design.of({group.features.end() - own, group.features.end()});
-        const LinearFit fit = solve_ranked(all.information, all.product);
+        const estimation::GroupInformation all =
+            design.of({group.features.end() - own, group.features.end()});
+        const estimation::LinearFit fit = estimation::solve_ranked(all.information, all.product);
         const double q =
             static_cast<double>(own - static_cast<std::ptrdiff_t>(fit.null_space.size()));
         const double explained = all.product.dot(fit.value);
         if (q < 1.0 || freedom - q < 5.0) continue;
         const double rest = std::max(1e-12, whole - explained) / (freedom - q);
         DriverShare d{group.name, group.component, "", 0.0, 1.0};
-        d.p_value = std::min(1.0, tried * f_tail(explained / q / rest, q, freedom - q));
+        d.p_value = std::min(1.0, tried * estimation::f_tail(explained / q / rest, q, freedom - q));
         d.share =
             std::clamp((explained - q * rest) / std::max(1e-9, whole - freedom * floor), 0.0, 1.0);
         if (d.p_value > rules::driver_p || d.share < rules::driver_share) continue;
@@ -177,4 +178,4 @@ std::vector<DriverShare> where_of(const Design& design, double floor) {
     return where;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

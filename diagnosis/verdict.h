@@ -5,13 +5,13 @@
 #include "diagnosis/claims.h"
 #include "diagnosis/diagnosis.h"
 
-namespace trunnion {
+namespace trunnion::diagnosis {
 
 /// The noise that the search and the verdict take as given.
 struct NoiseBelief {
     NoiseModel model;
-    NoisePrior prior;     ///< of the noise left in whitened readings
-    double most = 1e300;  ///< variance of whitened noise above which it is no noise
+    estimation::NoisePrior prior;  ///< of the noise left in whitened readings
+    double most = 1e300;           ///< variance of whitened noise above which it is no noise
 };
 
 /// What readings left out say about a model.
@@ -39,4 +39,4 @@ Model without_idle_members(Design& design, const SearchSetting& setting, const P
 /// Drivers that the readings follow when only the set-up is fitted, strongest first.
 std::vector<DriverShare> where_of(const Design& design, double floor);
 
-}  // namespace trunnion
+}  // namespace trunnion::diagnosis

@@ -5,7 +5,7 @@
 #include "effects/models.h"
 #include "effects/touch_pattern.h"
 
-namespace trunnion {
+namespace trunnion::effects {
 namespace {
 
 /// 0, 1, ... count - 1: a key that picks one artefact of the setup.
@@ -43,7 +43,7 @@ std::vector<double> slip_times(const DataExtent& extent, int count) {
 
 }  // namespace
 
-Effect artefact_position(const std::vector<Artefact>& artefacts) {
+Effect artefact_position(const std::vector<setup::Artefact>& artefacts) {
     Effect effect{"artefact.position",
                   "A sphere or centre cup does not stand where the setup says",
                   "artefact mounted again, position copied from another job",
@@ -59,8 +59,8 @@ Effect artefact_position(const std::vector<Artefact>& artefacts) {
             effect.parameters.push_back(
                 {"shift_" + artefacts[k].name + "_mm", "mm", 20e-3, d, {}, true});
     }
-    effect.add = [fixed](const AxisSample&, const Contact& contact, std::span<const double> value,
-                         Perturbation& out) {
+    effect.add = [fixed](const AxisSample&, const emulator::Contact& contact,
+                         std::span<const double> value, kinematics::Perturbation& out) {
         for (std::size_t j = 0; j < fixed.size(); ++j)
             if (contact.artefact == fixed[j])
                 out.work_shift_mm += Vector3(value[3 * j], value[3 * j + 1], value[3 * j + 2]);
@@ -68,7 +68,7 @@ Effect artefact_position(const std::vector<Artefact>& artefacts) {
     return effect;
 }
 
-Effect artefact_form(const std::vector<Artefact>& artefacts) {
+Effect artefact_form(const std::vector<setup::Artefact>& artefacts) {
     Effect effect{"artefact.form",
                   "A sphere is not round",
                   "worn or cheap sphere, dirt",
@@ -79,10 +79,10 @@ Effect artefact_form(const std::vector<Artefact>& artefacts) {
     for (const char* name : {"q1_mm", "q2_mm", "q3_mm", "q4_mm", "q5_mm"})
         effect.parameters.push_back({name, "mm", 0.7e-3, -1, {}, true});
     effect.parameters.push_back({"artefact", "1", 0.0, -1, indices(artefacts.size()), false});
-    effect.add = [](const AxisSample&, const Contact& contact, std::span<const double> value,
-                    Perturbation& out) {
+    effect.add = [](const AxisSample&, const emulator::Contact& contact,
+                    std::span<const double> value, kinematics::Perturbation& out) {
         if (!is_probe(contact) || contact.artefact != static_cast<int>(value[5])) return;
-        if (contact.device == Device::touch) {
+        if (contact.device == records::Device::touch) {
             out.reading_mm -= form(contact.direction_W, value);
         } else if (contact.touches > 0) {
             // Turn M into W with the two directions known in both: only the component read matters.
@@ -98,7 +98,7 @@ Effect artefact_form(const std::vector<Artefact>& artefacts) {
     return effect;
 }
 
-Effect artefact_moved(const std::vector<Artefact>& artefacts, const DataExtent& extent) {
+Effect artefact_moved(const std::vector<setup::Artefact>& artefacts, const DataExtent& extent) {
     Effect effect{"artefact.moved",
                   "A sphere or cup slipped during the test",
                   "magnet or clamp let go, someone touched it",
@@ -110,12 +110,12 @@ Effect artefact_moved(const std::vector<Artefact>& artefacts, const DataExtent& 
     effect.parameters.push_back({"artefact", "1", 0.0, -1, indices(artefacts.size()), false});
     effect.parameters.push_back(
         {"time_s", "s", 0.5 * (extent.start_s + extent.end_s), -1, slip_times(extent, 16), true});
-    effect.add = [](const AxisSample& sample, const Contact& contact, std::span<const double> value,
-                    Perturbation& out) {
+    effect.add = [](const AxisSample& sample, const emulator::Contact& contact,
+                    std::span<const double> value, kinematics::Perturbation& out) {
         if (contact.artefact != static_cast<int>(value[3]) || sample.time_s < value[4]) return;
         out.work_shift_mm += Vector3(value[0], value[1], value[2]);
     };
     return effect;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

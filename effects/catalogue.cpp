@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-namespace trunnion {
+namespace trunnion::effects {
 namespace {
 
-using AxisMaker = Effect (*)(const AxisGeometry&);
+using AxisMaker = Effect (*)(const kinematics::AxisGeometry&);
 
 constexpr AxisMaker rotary_effects[] = {rotary_zero,    rotary_positioning, rotary_cyclic,
                                         rotary_radial,  rotary_axial,       rotary_tilt,
@@ -15,14 +15,14 @@ constexpr AxisMaker linear_effects[] = {
     linear_backlash, linear_reversal_spike, linear_lateral_play};
 
 /// The first rotary axis that carries the work: the one that gravity loads.
-const AxisGeometry* tilting_axis(const Chain& chain) {
-    for (const AxisGeometry& axis : chain.work)
+const kinematics::AxisGeometry* tilting_axis(const kinematics::Chain& chain) {
+    for (const kinematics::AxisGeometry& axis : chain.work)
         if (axis.rotary) return &axis;
     return nullptr;
 }
 
-void append_axis_effects(Catalogue& list, const Chain& chain) {
-    for (const AxisGeometry& axis : chain.axes()) {
+void append_axis_effects(Catalogue& list, const kinematics::Chain& chain) {
+    for (const kinematics::AxisGeometry& axis : chain.axes()) {
         if (axis.rotary)
             for (const AxisMaker make : rotary_effects) list.push_back(make(axis));
         else
@@ -31,12 +31,12 @@ void append_axis_effects(Catalogue& list, const Chain& chain) {
 }
 
 /// The axes that NC words and stores count on: a G54 is set in X, Y and Z.
-bool has_basic_axes(const Chain& chain) {
+bool has_basic_axes(const kinematics::Chain& chain) {
     const AxisNames names = chain.names();
     return names.find("X") && names.find("Y") && names.find("Z");
 }
 
-void append_squareness(Catalogue& list, const Chain& chain) {
+void append_squareness(Catalogue& list, const kinematics::Chain& chain) {
     list.push_back(squareness("XY", *chain.find(Axis::Y), 2));
     list.push_back(squareness("YZ", *chain.find(Axis::Z), 0));
     list.push_back(squareness("ZX", *chain.find(Axis::Z), 1));
@@ -60,10 +60,10 @@ namespace {
 /// A servo log shows what the drive does up to the encoder, not where the machine is.
 void hide_from_encoders(Effect& effect) {
     effect.add = [add = std::move(effect.add), seen = effect.seen_by](
-                     const AxisSample& sample, const Contact& contact,
-                     std::span<const double> value, Perturbation& out) {
+                     const AxisSample& sample, const emulator::Contact& contact,
+                     std::span<const double> value, kinematics::Perturbation& out) {
         const bool hidden =
-            contact.device == Device::axis &&
+            contact.device == records::Device::axis &&
             (seen == SeenBy::no_encoder || (seen == SeenBy::scale && !contact.scale_encoder));
         if (!hidden) add(sample, contact, value, out);
     };
@@ -71,8 +71,8 @@ void hide_from_encoders(Effect& effect) {
 
 }  // namespace
 
-Catalogue make_catalogue(const Setup& setup, const DataExtent& extent) {
-    const Chain& chain = setup.machine.chain;
+Catalogue make_catalogue(const setup::Setup& setup, const DataExtent& extent) {
+    const kinematics::Chain& chain = setup.machine.chain;
     const bool basic = has_basic_axes(chain);
     Catalogue list{location_effect(chain)};
     if (basic) {
@@ -85,7 +85,8 @@ Catalogue make_catalogue(const Setup& setup, const DataExtent& extent) {
     list.push_back(servo_contour(chain));
     list.push_back(thermal_drift(extent));
     list.push_back(thermal_expansion(chain));
-    if (const AxisGeometry* tilting = tilting_axis(chain)) list.push_back(gravity_sag(*tilting));
+    if (const kinematics::AxisGeometry* tilting = tilting_axis(chain))
+        list.push_back(gravity_sag(*tilting));
     list.push_back(probe_pretravel());
     list.push_back(probe_radius());
     list.push_back(probe_runout());
@@ -101,15 +102,15 @@ Catalogue make_catalogue(const Setup& setup, const DataExtent& extent) {
     return list;
 }
 
-DataExtent extent_of(const Setup& setup, const ReadingTable& table) {
+DataExtent extent_of(const setup::Setup& setup, const records::ReadingTable& table) {
     DataExtent extent;
     if (table.rows.empty()) return extent;
     extent.start_s = table.rows.front().time_s;
     extent.end_s = table.rows.back().time_s;
-    for (const Artefact& artefact : setup.artefacts) {
+    for (const setup::Artefact& artefact : setup.artefacts) {
         std::vector<double> times;
-        for (const Reading& row : table.rows)
-            if (row.device != Device::none && row.feature == artefact.name)
+        for (const records::Reading& row : table.rows)
+            if (row.device != records::Device::none && row.feature == artefact.name)
                 times.push_back(row.time_s);
         extent.times_s.push_back(std::move(times));
     }
@@ -132,4 +133,4 @@ std::string describe_catalogue(const Catalogue& catalogue) {
     return text;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

@@ -8,18 +8,18 @@
 #include "effects/effect.h"
 #include "effects/models.h"
 
-namespace trunnion {
+namespace trunnion::effects {
 
 using Catalogue = std::vector<Effect>;
 
 /// Every effect of formats.md for this machine and its artefacts, one for each axis it concerns.
-Catalogue make_catalogue(const Setup& setup, const DataExtent& extent = {});
+Catalogue make_catalogue(const setup::Setup& setup, const DataExtent& extent = {});
 /// Spans of a table of readings.
-DataExtent extent_of(const Setup& setup, const ReadingTable& table);
+DataExtent extent_of(const setup::Setup& setup, const records::ReadingTable& table);
 
 const Effect* find_effect(const Catalogue& catalogue, const std::string& name);
 
 /// The catalogue as a Markdown table (docs/effects.md).
 std::string describe_catalogue(const Catalogue& catalogue);
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

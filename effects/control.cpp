@@ -4,7 +4,7 @@
 #include "base/units.h"
 #include "effects/models.h"
 
-namespace trunnion {
+namespace trunnion::effects {
 namespace {
 
 double rounding_error(double value, double increment) {
@@ -40,7 +40,8 @@ struct TableRotation {
     Matrix3 first = Matrix3::Identity(), both = Matrix3::Identity();
 };
 
-TableRotation table_rotation(const std::vector<AxisGeometry>& rotary, const AxisSample& sample) {
+TableRotation table_rotation(const std::vector<kinematics::AxisGeometry>& rotary,
+                             const AxisSample& sample) {
     TableRotation result;
     for (std::size_t k = 0; k < rotary.size(); ++k) {
         const Matrix3 turn = rotation_about(rotary[k].direction, sample.position[rotary[k].axis]);
@@ -50,14 +51,14 @@ TableRotation table_rotation(const std::vector<AxisGeometry>& rotary, const Axis
     return result;
 }
 
-std::vector<AxisGeometry> rotary_of(const Chain& chain) {
-    std::vector<AxisGeometry> rotary;
-    for (const AxisGeometry& axis : chain.work)
+std::vector<kinematics::AxisGeometry> rotary_of(const kinematics::Chain& chain) {
+    std::vector<kinematics::AxisGeometry> rotary;
+    for (const kinematics::AxisGeometry& axis : chain.work)
         if (axis.rotary) rotary.push_back(axis);
     return rotary;
 }
 
-void move_axes(const Vector3& shift_mm, Perturbation& out) {
+void move_axes(const Vector3& shift_mm, kinematics::Perturbation& out) {
     out.axis[Axis::X] += shift_mm.x();
     out.axis[Axis::Y] += shift_mm.y();
     out.axis[Axis::Z] += shift_mm.z();
@@ -69,7 +70,7 @@ Vector3 three(std::span<const double> value) {
 
 }  // namespace
 
-Effect control_rounding(const Chain& chain) {
+Effect control_rounding(const kinematics::Chain& chain) {
     return {"control.rounding",
             "Commanded positions are rounded to a coarse increment on their way to the drive",
             "post-processor digits, least input increment, encoder resolution",
@@ -83,9 +84,9 @@ Effect control_rounding(const Chain& chain) {
               {0.0, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1},
               false},
              {"increment_mm", "mm", 0.0, -1, {0.0, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05}, false}},
-            [axes = chain.axes()](const AxisSample& sample, const Contact&,
-                                  std::span<const double> value, Perturbation& out) {
-                for (const AxisGeometry& axis : axes) {
+            [axes = chain.axes()](const AxisSample& sample, const emulator::Contact&,
+                                  std::span<const double> value, kinematics::Perturbation& out) {
+                for (const kinematics::AxisGeometry& axis : axes) {
                     const double step = axis.rotary ? rad_from_deg(value[1]) : value[2];
                     out.axis[axis.axis] +=
                         value[0] * rounding_error(sample.position[axis.axis], step);
@@ -94,7 +95,7 @@ Effect control_rounding(const Chain& chain) {
             SeenBy::any_encoder};
 }
 
-Effect control_chord(const Chain&) {
+Effect control_chord(const kinematics::Chain&) {
     return {
         "control.chord",
         "A curve is cut into straight pieces that pass inside it",
@@ -102,9 +103,9 @@ Effect control_chord(const Chain&) {
         "finer segments, or let the control interpolate (G02, G43.4)",
         "linear axes inwards by fraction s (block_mm - s) / (2 r), s along the straight block",
         {{"fraction", "1", 1.0, -1, {}, true}, {"block_mm", "mm", 2.0, -1, block_lengths(), false}},
-        [](const AxisSample& sample, const Contact& contact, std::span<const double> value,
-           Perturbation& out) {
-            if (contact.device != Device::ballbar) return;
+        [](const AxisSample& sample, const emulator::Contact& contact,
+           std::span<const double> value, kinematics::Perturbation& out) {
+            if (contact.device != records::Device::ballbar) return;
             const PathTurn turn = turn_of(sample);
             if (turn.speed < 1e-6) return;
             const double s = std::fmod(sample.path_mm, value[1]);
@@ -113,7 +114,7 @@ Effect control_chord(const Chain&) {
         }};
 }
 
-Effect pivot_g54(const Chain& chain) {
+Effect pivot_g54(const kinematics::Chain& chain) {
     Effect effect{"pivot.g54",
                   "The work offset G54 does not hold the true pivot point",
                   "work zero set again without correcting it, post-processor with old pivot",
@@ -122,8 +123,9 @@ Effect pivot_g54(const Chain& chain) {
                   {},
                   {}};
     for (int d = 0; d < 3; ++d) effect.parameters.push_back({"dg_mm", "mm", 30e-3, d, {}, true});
-    effect.add = [rotary = rotary_of(chain)](const AxisSample& sample, const Contact&,
-                                             std::span<const double> value, Perturbation& out) {
+    effect.add = [rotary = rotary_of(chain)](const AxisSample& sample, const emulator::Contact&,
+                                             std::span<const double> value,
+                                             kinematics::Perturbation& out) {
         if (sample.mode != PositioningMode::dpp && sample.mode != PositioningMode::rtdfo) return;
         const Vector3 dg = three(value);
         move_axes(dg - table_rotation(rotary, sample).both * dg, out);
@@ -131,7 +133,7 @@ Effect pivot_g54(const Chain& chain) {
     return effect;
 }
 
-Effect pivot_p1970x(const Chain& chain) {
+Effect pivot_p1970x(const kinematics::Chain& chain) {
     Effect effect{"pivot.p1970x",
                   "Parameters 19700-19705 do not hold the true pivot point",
                   "parameters from another machine, not updated after service",
@@ -141,8 +143,9 @@ Effect pivot_p1970x(const Chain& chain) {
                   {}};
     for (const char* name : {"dp_mm", "dd_mm"})
         for (int d = 0; d < 3; ++d) effect.parameters.push_back({name, "mm", 30e-3, d, {}, true});
-    effect.add = [rotary = rotary_of(chain)](const AxisSample& sample, const Contact&,
-                                             std::span<const double> value, Perturbation& out) {
+    effect.add = [rotary = rotary_of(chain)](const AxisSample& sample, const emulator::Contact&,
+                                             std::span<const double> value,
+                                             kinematics::Perturbation& out) {
         if (sample.mode != PositioningMode::rtcp && sample.mode != PositioningMode::tw) return;
         const Vector3 dd = three(value.subspan(3)), sum = three(value) + dd;
         const TableRotation turn = table_rotation(rotary, sample);
@@ -151,4 +154,4 @@ Effect pivot_p1970x(const Chain& chain) {
     return effect;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

@@ -2,15 +2,15 @@
 
 #include <utility>
 
-namespace trunnion {
+namespace trunnion::effects {
 namespace {
 
-class FunctionModel final : public EffectModel {
+class FunctionModel final : public emulator::EffectModel {
   public:
     FunctionModel(EffectFunction add, std::vector<double> values)
         : add_(std::move(add)), values_(std::move(values)) {}
-    void perturb(const AxisSample& sample, const Contact& contact,
-                 Perturbation& out) const override {
+    void perturb(const AxisSample& sample, const emulator::Contact& contact,
+                 kinematics::Perturbation& out) const override {
         add_(sample, contact, values_, out);
     }
 
@@ -27,8 +27,9 @@ std::vector<double> Effect::zeros() const {
     return values;
 }
 
-std::shared_ptr<const EffectModel> make_model(const Effect& effect, std::vector<double> values) {
+std::shared_ptr<const emulator::EffectModel> make_model(const Effect& effect,
+                                                        std::vector<double> values) {
     return std::make_shared<FunctionModel>(effect.add, std::move(values));
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

@@ -9,7 +9,7 @@
 
 #include "emulator/instruments.h"
 
-namespace trunnion {
+namespace trunnion::effects {
 
 /// One scalar of an effect. A linear parameter enters the perturbation proportionally and is 0 when
 /// the effect is off; a key (pitch, time constant, moment) shapes it and is searched over `grid`.
@@ -23,13 +23,14 @@ struct EffectParameter {
     bool refine = true;  ///< a key may lie between grid values
     bool usual = true;   ///< false: lets the form deviate from the textbook's; what only such
                          ///< parameters explain counts as not explained
-    std::optional<ErrorName> location = {};  ///< the location error that this is
+    std::optional<kinematics::ErrorName> location = {};  ///< the location error that this is
     bool is_key() const { return !grid.empty(); }
 };
 
 /// Adds what the effect does at one reading; `value` in the order of `parameters`.
-using EffectFunction = std::function<void(const AxisSample& sample, const Contact& contact,
-                                          std::span<const double> value, Perturbation& out)>;
+using EffectFunction =
+    std::function<void(const AxisSample& sample, const emulator::Contact& contact,
+                       std::span<const double> value, kinematics::Perturbation& out)>;
 
 /// Which encoder of the axis itself sees an effect (rows of device `axis`).
 enum class SeenBy : unsigned char { no_encoder, scale, any_encoder };
@@ -48,6 +49,7 @@ struct Effect {
 };
 
 /// The effect switched on with values for all its parameters.
-std::shared_ptr<const EffectModel> make_model(const Effect& effect, std::vector<double> values);
+std::shared_ptr<const emulator::EffectModel> make_model(const Effect& effect,
+                                                        std::vector<double> values);
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

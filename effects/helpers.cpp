@@ -4,7 +4,7 @@
 
 #include "effects/models.h"
 
-namespace trunnion {
+namespace trunnion::effects {
 
 double harmonic_sum(double angle_rad, std::span<const double> values) {
     double sum = 0.0;
@@ -29,7 +29,7 @@ void append_harmonics(std::vector<EffectParameter>& list, const std::string& pre
                             n <= usual_orders});
 }
 
-int main_direction(const AxisGeometry& axis) {
+int main_direction(const kinematics::AxisGeometry& axis) {
     int largest = 0;
     axis.direction.cwiseAbs().maxCoeff(&largest);
     return largest;
@@ -41,20 +41,21 @@ std::vector<double> geometric_grid(double low, double high, int count) {
     return grid;
 }
 
-std::string motion_name(int direction, const AxisGeometry& axis) {
+std::string motion_name(int direction, const kinematics::AxisGeometry& axis) {
     return std::string{'E', "XYZABC"[direction]} + axis.name;
 }
 
-std::string effect_name(const AxisGeometry& axis, const char* what) {
+std::string effect_name(const kinematics::AxisGeometry& axis, const char* what) {
     return axis.name + what;
 }
 
-std::string axis_parameter(const char* before, const AxisGeometry& axis, const char* after) {
+std::string axis_parameter(const char* before, const kinematics::AxisGeometry& axis,
+                           const char* after) {
     return before + lower_case(axis.name) + after;
 }
 
-bool is_probe(const Contact& contact) {
-    return contact.device == Device::sphere || contact.device == Device::touch;
+bool is_probe(const emulator::Contact& contact) {
+    return contact.device == records::Device::sphere || contact.device == records::Device::touch;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

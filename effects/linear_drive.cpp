@@ -6,9 +6,9 @@
 #include "effects/models.h"
 #include "records/travel.h"
 
-namespace trunnion {
+namespace trunnion::effects {
 
-Effect linear_cyclic(const AxisGeometry& axis) {
+Effect linear_cyclic(const kinematics::AxisGeometry& axis) {
     return {effect_name(axis, ".cyclic"),
             "A ripple of the position that repeats with every turn of the ballscrew",
             "ballscrew eccentricity, coupling, encoder interpolation",
@@ -17,14 +17,14 @@ Effect linear_cyclic(const AxisGeometry& axis) {
             {{"cos_mm", "mm", 2e-3, -1, {}, true},
              {"sin_mm", "mm", 2e-3, -1, {}, true},
              {"period_mm", "mm", 10.0, -1, geometric_grid(4.0, 50.0, 180), true}},
-            [k = axis.axis](const AxisSample& sample, const Contact&, std::span<const double> value,
-                            Perturbation& out) {
+            [k = axis.axis](const AxisSample& sample, const emulator::Contact&,
+                            std::span<const double> value, kinematics::Perturbation& out) {
                 const double angle = 2.0 * pi * sample.position[k] / value[2];
                 out.axis[k] += value[0] * std::cos(angle) + value[1] * std::sin(angle);
             }};
 }
 
-Effect linear_backlash(const AxisGeometry& axis) {
+Effect linear_backlash(const kinematics::AxisGeometry& axis) {
     return {effect_name(axis, ".backlash"),
             "The axis stops short by half the gap, on the side it comes from",
             "ballscrew nut or thrust bearing worn; negative: a drive that lags",
@@ -32,8 +32,8 @@ Effect linear_backlash(const AxisGeometry& axis) {
             "assumed)",
             "position + gap_mm / 2 * sign of travel (cancels in a found sphere centre)",
             {{"gap_mm", "mm", 5e-3, -1, {}, true}},
-            [k = axis.axis](const AxisSample& sample, const Contact&, std::span<const double> value,
-                            Perturbation& out) {
+            [k = axis.axis](const AxisSample& sample, const emulator::Contact&,
+                            std::span<const double> value, kinematics::Perturbation& out) {
                 out.axis[k] += 0.5 * value[0] * sample.travel[index_of(k)];
             },
             SeenBy::scale};
@@ -55,7 +55,7 @@ double angle_since_quadrant(Axis axis, const AxisSample& sample) {
 
 }  // namespace
 
-Effect linear_reversal_spike(const AxisGeometry& axis) {
+Effect linear_reversal_spike(const kinematics::AxisGeometry& axis) {
     return {
         effect_name(axis, ".reversal_spike"),
         "The axis sticks for a moment when it turns round, then catches up",
@@ -74,10 +74,10 @@ Effect linear_reversal_spike(const AxisGeometry& axis) {
           true},
          {"law", "1", 1.0, -1, {0.0, 1.0}, false},
          {"run_up", "1", 1.0, -1, {0.0, 1.0}, false}},
-        [k = axis.axis](const AxisSample& sample, const Contact& contact,
-                        std::span<const double> value, Perturbation& out) {
+        [k = axis.axis](const AxisSample& sample, const emulator::Contact& contact,
+                        std::span<const double> value, kinematics::Perturbation& out) {
             const std::size_t i = index_of(k);
-            const bool not_turned = sample.since_reversal[i] >= no_reversal_seen ||
+            const bool not_turned = sample.since_reversal[i] >= records::no_reversal_seen ||
                                     (value[3] == 0.0 && sample.run_up_unknown[i]);
             if (is_probe(contact) || not_turned) return;
             const double way = value[2] == 0.0 ? law_radius_mm * angle_since_quadrant(k, sample)
@@ -87,7 +87,7 @@ Effect linear_reversal_spike(const AxisGeometry& axis) {
         SeenBy::any_encoder};
 }
 
-Effect linear_lateral_play(const AxisGeometry& axis) {
+Effect linear_lateral_play(const kinematics::AxisGeometry& axis) {
     std::vector<int> directions;
     Effect effect{effect_name(axis, ".lateral_play"),
                   "The slide steps sideways when the axis changes direction",
@@ -102,8 +102,9 @@ Effect linear_lateral_play(const AxisGeometry& axis) {
         effect.parameters.push_back(
             {std::string("play_") + "xyz"[d] + "_mm", "mm", 4e-3, -1, {}, true});
     }
-    effect.add = [k = axis.axis, directions](const AxisSample& sample, const Contact&,
-                                             std::span<const double> value, Perturbation& out) {
+    effect.add = [k = axis.axis, directions](const AxisSample& sample, const emulator::Contact&,
+                                             std::span<const double> value,
+                                             kinematics::Perturbation& out) {
         const std::size_t i = index_of(k);
         for (std::size_t j = 0; j < directions.size(); ++j)
             out.motion[i].shift_mm(directions[j]) += 0.5 * value[j] * sample.travel[i];
@@ -111,4 +112,4 @@ Effect linear_lateral_play(const AxisGeometry& axis) {
     return effect;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

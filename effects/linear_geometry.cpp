@@ -5,7 +5,7 @@
 
 #include "effects/models.h"
 
-namespace trunnion {
+namespace trunnion::effects {
 namespace {
 
 constexpr double reach_mm = 200.0;  ///< travel at which polynomial coefficients are quoted
@@ -22,7 +22,7 @@ double polynomial(double q, int first, std::span<const double> value) {
 
 }  // namespace
 
-Effect linear_scale(const AxisGeometry& axis) {
+Effect linear_scale(const kinematics::AxisGeometry& axis) {
     return {effect_name(axis, ".scale"),
             "The axis moves too far or not far enough, in proportion to the distance",
             "ballscrew lead or scale error, warm screw, wrong pitch compensation",
@@ -31,14 +31,14 @@ Effect linear_scale(const AxisGeometry& axis) {
             {{"scale_ppm", "ppm", 20.0, -1, {}, true},
              {"bow2_mm", "mm", 1e-3, -1, {}, true, false},
              {"bow3_mm", "mm", 0.7e-3, -1, {}, true, false}},
-            [k = axis.axis](const AxisSample& sample, const Contact&, std::span<const double> value,
-                            Perturbation& out) {
+            [k = axis.axis](const AxisSample& sample, const emulator::Contact&,
+                            std::span<const double> value, kinematics::Perturbation& out) {
                 const double q = sample.position[k];
                 out.axis[k] += 1e-6 * value[0] * q + polynomial(q, 2, value.subspan(1, 2));
             }};
 }
 
-Effect linear_straightness(const AxisGeometry& axis) {
+Effect linear_straightness(const kinematics::AxisGeometry& axis) {
     Effect effect{effect_name(axis, ".straightness"),
                   "The axis runs on a bowed line: it strays sideways along its travel",
                   "guideway wear, bed settling, machine not levelled",
@@ -59,8 +59,9 @@ Effect linear_straightness(const AxisGeometry& axis) {
                                          true,
                                          n <= 2});
     }
-    effect.add = [k = axis.axis, directions](const AxisSample& sample, const Contact&,
-                                             std::span<const double> value, Perturbation& out) {
+    effect.add = [k = axis.axis, directions](const AxisSample& sample, const emulator::Contact&,
+                                             std::span<const double> value,
+                                             kinematics::Perturbation& out) {
         for (std::size_t j = 0; j < directions.size(); ++j)
             out.motion[index_of(k)].shift_mm(directions[j]) +=
                 polynomial(sample.position[k], 1, value.subspan(4 * j, 4));
@@ -68,7 +69,7 @@ Effect linear_straightness(const AxisGeometry& axis) {
     return effect;
 }
 
-Effect linear_angular(const AxisGeometry& axis) {
+Effect linear_angular(const kinematics::AxisGeometry& axis) {
     Effect effect{
         effect_name(axis, ".angular"),
         "The axis pitches, yaws and rolls along its travel: errors grow with tool length and "
@@ -87,8 +88,8 @@ Effect linear_angular(const AxisGeometry& axis) {
                                          {},
                                          true,
                                          n == 1});
-    effect.add = [k = axis.axis](const AxisSample& sample, const Contact&,
-                                 std::span<const double> value, Perturbation& out) {
+    effect.add = [k = axis.axis](const AxisSample& sample, const emulator::Contact&,
+                                 std::span<const double> value, kinematics::Perturbation& out) {
         for (std::size_t d = 0; d < 3; ++d)
             out.motion[index_of(k)].tilt_rad(static_cast<int>(d)) +=
                 polynomial(sample.position[k], 1, value.subspan(2 * d, 2));
@@ -96,7 +97,7 @@ Effect linear_angular(const AxisGeometry& axis) {
     return effect;
 }
 
-Effect squareness(const std::string& plane, const AxisGeometry& moving, int about) {
+Effect squareness(const std::string& plane, const kinematics::AxisGeometry& moving, int about) {
     const Vector3 along = Vector3::Unit(static_cast<int>(index_of(moving.axis)));
     const Vector3 stray = Vector3::Unit(about).cross(along);
     return {plane + ".squareness",
@@ -105,10 +106,10 @@ Effect squareness(const std::string& plane, const AxisGeometry& moving, int abou
             "level and realign, or correct it in the control's squareness compensation",
             fmt::format("{} tilted by angle_rad about {}", moving.name, "XYZ"[about]),
             {{"angle_rad", "rad", 40e-6, -1, {}, true}},
-            [k = moving.axis, stray](const AxisSample& sample, const Contact&,
-                                     std::span<const double> value, Perturbation& out) {
+            [k = moving.axis, stray](const AxisSample& sample, const emulator::Contact&,
+                                     std::span<const double> value, kinematics::Perturbation& out) {
                 out.motion[index_of(k)].shift_mm += value[0] * sample.position[k] * stray;
             }};
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

@@ -3,20 +3,20 @@
 
 #include "effects/models.h"
 
-namespace trunnion {
+namespace trunnion::effects {
 namespace {
 
 /// One location error: 0..5 = X Y Z A B C of an axis.
 struct Place {
-    AxisGeometry axis;
+    kinematics::AxisGeometry axis;
     int direction;
 };
 
 /// Two positions and two tilts of a rotary axis, across its line. Of linear axes with letters XY,
 /// YZ and ZX squareness are effects of their own; one of another name has its two tilts here.
-std::vector<Place> places_of(const Chain& chain) {
+std::vector<Place> places_of(const kinematics::Chain& chain) {
     std::vector<Place> places;
-    for (const AxisGeometry& axis : chain.axes())
+    for (const kinematics::AxisGeometry& axis : chain.axes())
         for (int k = axis.rotary ? 0 : 3; k < 6; ++k)
             if (k % 3 != main_direction(axis) && (axis.rotary || !is_letter(axis)))
                 places.push_back({axis, k});
@@ -28,12 +28,13 @@ EffectParameter parameter_of(const Place& place) {
     const char direction = "XYZABC"[place.direction], *unit = shift ? "mm" : "rad";
     EffectParameter p{fmt::format("E{}0{}_{}", direction, place.axis.name, unit), unit,
                       shift ? 0.05 : 3e-4};
-    p.location = ErrorName{direction, true, place.axis.axis};
+    p.location = kinematics::ErrorName{direction, true, place.axis.axis};
     return p;
 }
 
 /// What one location error of this size adds to the axis's error motion.
-void add_place(const Place& place, double value, const AxisSample& sample, Perturbation& out) {
+void add_place(const Place& place, double value, const AxisSample& sample,
+               kinematics::Perturbation& out) {
     SmallMotion& motion = out.motion[index_of(place.axis.axis)];
     const int k = place.direction;
     if (k < 3)
@@ -47,7 +48,7 @@ void add_place(const Place& place, double value, const AxisSample& sample, Pertu
 
 }  // namespace
 
-Effect location_effect(const Chain& chain) {
+Effect location_effect(const kinematics::Chain& chain) {
     Effect effect{"location",
                   "The rotary axes do not lie where the simulation has them",
                   "assembly, a crash, thermal growth since the last calibration",
@@ -57,11 +58,11 @@ Effect location_effect(const Chain& chain) {
                   {}};
     const std::vector<Place> places = places_of(chain);
     for (const Place& place : places) effect.parameters.push_back(parameter_of(place));
-    effect.add = [places](const AxisSample& sample, const Contact&, std::span<const double> value,
-                          Perturbation& out) {
+    effect.add = [places](const AxisSample& sample, const emulator::Contact&,
+                          std::span<const double> value, kinematics::Perturbation& out) {
         for (std::size_t j = 0; j < places.size(); ++j) add_place(places[j], value[j], sample, out);
     };
     return effect;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

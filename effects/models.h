@@ -3,7 +3,7 @@
 
 #include "effects/effect.h"
 
-namespace trunnion {
+namespace trunnion::effects {
 
 /// What a set of readings spans: where keys are searched.
 struct DataExtent {
@@ -12,41 +12,41 @@ struct DataExtent {
     std::vector<std::vector<double>> times_s;  ///< of the rows of each artefact, rising
 };
 
-Effect location_effect(const Chain& chain);
-Effect rotary_zero(const AxisGeometry& axis);
-Effect rotary_positioning(const AxisGeometry& axis);
-Effect rotary_cyclic(const AxisGeometry& axis);
-Effect rotary_radial(const AxisGeometry& axis);
-Effect rotary_axial(const AxisGeometry& axis);
-Effect rotary_tilt(const AxisGeometry& axis);
-Effect rotary_backlash(const AxisGeometry& axis);
-Effect linear_scale(const AxisGeometry& axis);
-Effect linear_straightness(const AxisGeometry& axis);
-Effect linear_angular(const AxisGeometry& axis);
-Effect linear_cyclic(const AxisGeometry& axis);
-Effect linear_backlash(const AxisGeometry& axis);
-Effect linear_reversal_spike(const AxisGeometry& axis);
-Effect linear_lateral_play(const AxisGeometry& axis);
+Effect location_effect(const kinematics::Chain& chain);
+Effect rotary_zero(const kinematics::AxisGeometry& axis);
+Effect rotary_positioning(const kinematics::AxisGeometry& axis);
+Effect rotary_cyclic(const kinematics::AxisGeometry& axis);
+Effect rotary_radial(const kinematics::AxisGeometry& axis);
+Effect rotary_axial(const kinematics::AxisGeometry& axis);
+Effect rotary_tilt(const kinematics::AxisGeometry& axis);
+Effect rotary_backlash(const kinematics::AxisGeometry& axis);
+Effect linear_scale(const kinematics::AxisGeometry& axis);
+Effect linear_straightness(const kinematics::AxisGeometry& axis);
+Effect linear_angular(const kinematics::AxisGeometry& axis);
+Effect linear_cyclic(const kinematics::AxisGeometry& axis);
+Effect linear_backlash(const kinematics::AxisGeometry& axis);
+Effect linear_reversal_spike(const kinematics::AxisGeometry& axis);
+Effect linear_lateral_play(const kinematics::AxisGeometry& axis);
 /// XY, YZ or ZX: `moving` is the axis that is out of square, tilted about direction `about`.
-Effect squareness(const std::string& plane, const AxisGeometry& moving, int about);
-Effect servo_mismatch(const Chain& chain);
-Effect servo_contour(const Chain& chain);
+Effect squareness(const std::string& plane, const kinematics::AxisGeometry& moving, int about);
+Effect servo_mismatch(const kinematics::Chain& chain);
+Effect servo_contour(const kinematics::Chain& chain);
 Effect thermal_drift(const DataExtent& extent);
-Effect thermal_expansion(const Chain& chain);
-Effect gravity_sag(const AxisGeometry& tilting);
+Effect thermal_expansion(const kinematics::Chain& chain);
+Effect gravity_sag(const kinematics::AxisGeometry& tilting);
 Effect probe_pretravel();
 Effect probe_radius();
 Effect probe_runout();
 Effect tool_length();
 Effect ballbar_length();
-Effect artefact_position(const std::vector<Artefact>& artefacts);
-Effect artefact_form(const std::vector<Artefact>& artefacts);
-Effect artefact_moved(const std::vector<Artefact>& artefacts, const DataExtent& extent);
-Effect control_rounding(const Chain& chain);
-Effect control_chord(const Chain& chain);
-Effect clamp_shift(const Chain& chain);
-Effect pivot_g54(const Chain& chain);
-Effect pivot_p1970x(const Chain& chain);
+Effect artefact_position(const std::vector<setup::Artefact>& artefacts);
+Effect artefact_form(const std::vector<setup::Artefact>& artefacts);
+Effect artefact_moved(const std::vector<setup::Artefact>& artefacts, const DataExtent& extent);
+Effect control_rounding(const kinematics::Chain& chain);
+Effect control_chord(const kinematics::Chain& chain);
+Effect clamp_shift(const kinematics::Chain& chain);
+Effect pivot_g54(const kinematics::Chain& chain);
+Effect pivot_p1970x(const kinematics::Chain& chain);
 
 // Small helpers shared by the makers.
 
@@ -56,15 +56,16 @@ double harmonic_sum(double angle_rad, std::span<const double> values);
 void append_harmonics(std::vector<EffectParameter>& list, const std::string& prefix,
                       const std::string& unit, int orders, double typical, int usual_orders);
 /// 0 for an axis along X (or about it), 1 for Y, 2 for Z: the largest component of its direction.
-int main_direction(const AxisGeometry& axis);
+int main_direction(const kinematics::AxisGeometry& axis);
 /// Values from `low` to `high` with a constant ratio.
 std::vector<double> geometric_grid(double low, double high, int count);
 /// "EXC", "EAC": ISO 230 name of an error motion, direction 0..5 = X Y Z A B C.
-std::string motion_name(int direction, const AxisGeometry& axis);
+std::string motion_name(int direction, const kinematics::AxisGeometry& axis);
 /// "C" + ".backlash".
-std::string effect_name(const AxisGeometry& axis, const char* what);
+std::string effect_name(const kinematics::AxisGeometry& axis, const char* what);
 /// "tau_" + "x" + "_s".
-std::string axis_parameter(const char* before, const AxisGeometry& axis, const char* after);
-bool is_probe(const Contact& contact);
+std::string axis_parameter(const char* before, const kinematics::AxisGeometry& axis,
+                           const char* after);
+bool is_probe(const emulator::Contact& contact);
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

@@ -4,7 +4,7 @@
 #include "effects/models.h"
 #include "effects/touch_pattern.h"
 
-namespace trunnion {
+namespace trunnion::effects {
 namespace {
 
 /// Pretravel in approach direction `d_M`: lobes over the azimuth in the spindle's own frame, fading
@@ -29,11 +29,11 @@ Effect probe_pretravel() {
              {"sin2_mm", "mm", 1e-3, -1, {}, true, false},
              {"cos3_mm", "mm", 2e-3, -1, {}, true},
              {"sin3_mm", "mm", 2e-3, -1, {}, true}},
-            [](const AxisSample& sample, const Contact& contact, std::span<const double> value,
-               Perturbation& out) {
-                if (contact.device == Device::touch)
+            [](const AxisSample& sample, const emulator::Contact& contact,
+               std::span<const double> value, kinematics::Perturbation& out) {
+                if (contact.device == records::Device::touch)
                     out.reading_mm += pretravel(contact.direction_M, sample.spindle_rad, value);
-                if (contact.device != Device::sphere || contact.touches == 0) return;
+                if (contact.device != records::Device::sphere || contact.touches == 0) return;
                 const Vector3 shift_mm =
                     touch_pattern(contact.touches).center_shift([&](const Vector3& outward_M) {
                         return -pretravel(-outward_M, sample.spindle_rad, value);
@@ -49,9 +49,9 @@ Effect probe_radius() {
             "calibrate the stylus radius with the feed that measures",
             "touch earlier by radius_mm, later by delay_s * feed",
             {{"radius_mm", "mm", 3e-3, -1, {}, true}, {"delay_s", "s", 5e-3, -1, {}, true}},
-            [](const AxisSample& sample, const Contact& contact, std::span<const double> value,
-               Perturbation& out) {
-                if (contact.device != Device::touch) return;
+            [](const AxisSample& sample, const emulator::Contact& contact,
+               std::span<const double> value, kinematics::Perturbation& out) {
+                if (contact.device != records::Device::touch) return;
                 out.reading_mm += -value[0] + value[1] * sample.feed_mm_min / 60.0;
             }};
 }
@@ -63,8 +63,8 @@ Effect probe_runout() {
             "centre the stylus, or always probe with the same spindle orientation",
             "tip shifted by (dx_mm, dy_mm), turning with the spindle",
             {{"dx_mm", "mm", 5e-3, -1, {}, true}, {"dy_mm", "mm", 5e-3, -1, {}, true}},
-            [](const AxisSample& sample, const Contact& contact, std::span<const double> value,
-               Perturbation& out) {
+            [](const AxisSample& sample, const emulator::Contact& contact,
+               std::span<const double> value, kinematics::Perturbation& out) {
                 if (!is_probe(contact) && !contact.stylus) return;
                 const double c = std::cos(sample.spindle_rad), s = std::sin(sample.spindle_rad);
                 out.tip_shift_mm +=
@@ -79,8 +79,8 @@ Effect tool_length() {
             "measure the probe's length again",
             "tip lower by error_mm (probe rows; run --truth: any tool)",
             {{"error_mm", "mm", 15e-3, -1, {}, true}},
-            [](const AxisSample&, const Contact& contact, std::span<const double> value,
-               Perturbation& out) {
+            [](const AxisSample&, const emulator::Contact& contact, std::span<const double> value,
+               kinematics::Perturbation& out) {
                 if (is_probe(contact) || contact.tip) out.tip_shift_mm.z() -= value[0];
             }};
 }
@@ -92,10 +92,10 @@ Effect ballbar_length() {
             "zero the ballbar on its calibrator before the test",
             "ballbar reading + error_mm",
             {{"error_mm", "mm", 3e-3, -1, {}, true}},
-            [](const AxisSample&, const Contact& contact, std::span<const double> value,
-               Perturbation& out) {
-                if (contact.device == Device::ballbar) out.reading_mm += value[0];
+            [](const AxisSample&, const emulator::Contact& contact, std::span<const double> value,
+               kinematics::Perturbation& out) {
+                if (contact.device == records::Device::ballbar) out.reading_mm += value[0];
             }};
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

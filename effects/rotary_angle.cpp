@@ -4,27 +4,28 @@
 #include "base/units.h"
 #include "effects/models.h"
 
-namespace trunnion {
+namespace trunnion::effects {
 namespace {
 
-bool endless(const AxisGeometry& axis) {
+bool endless(const kinematics::AxisGeometry& axis) {
     return !axis.min || !axis.max || *axis.max - *axis.min >= 2.0 * pi - 1e-6;
 }
 
 }  // namespace
 
-Effect rotary_zero(const AxisGeometry& axis) {
-    return {effect_name(axis, ".zero"),
-            "The axis's zero is not where the table is level or aligned",
-            "encoder replaced, reference mark moved",
-            "set the zero with a level or an indicator on the table: sphere readings cannot see it",
-            "angle + offset_rad",
-            {{"offset_rad", "rad", 50e-6, -1, {}, true}},
-            [k = axis.axis](const AxisSample&, const Contact&, std::span<const double> value,
-                            Perturbation& out) { out.axis[k] += value[0]; }};
+Effect rotary_zero(const kinematics::AxisGeometry& axis) {
+    return {
+        effect_name(axis, ".zero"),
+        "The axis's zero is not where the table is level or aligned",
+        "encoder replaced, reference mark moved",
+        "set the zero with a level or an indicator on the table: sphere readings cannot see it",
+        "angle + offset_rad",
+        {{"offset_rad", "rad", 50e-6, -1, {}, true}},
+        [k = axis.axis](const AxisSample&, const emulator::Contact&, std::span<const double> value,
+                        kinematics::Perturbation& out) { out.axis[k] += value[0]; }};
 }
 
-Effect rotary_positioning(const AxisGeometry& axis) {
+Effect rotary_positioning(const kinematics::AxisGeometry& axis) {
     Effect effect{effect_name(axis, ".positioning"),
                   "The axis turns a little more or less than commanded, the same every turn",
                   "eccentric encoder, wrong gear ratio, no or stale pitch compensation",
@@ -35,8 +36,9 @@ Effect rotary_positioning(const AxisGeometry& axis) {
     append_harmonics(effect.parameters, "", "rad", 4, 25e-6, 2);
     const bool sloped = !endless(axis);
     if (sloped) effect.parameters.push_back({"slope_rad_per_rad", "1", 15e-6, -1, {}, true});
-    effect.add = [k = axis.axis, sloped](const AxisSample& sample, const Contact&,
-                                         std::span<const double> value, Perturbation& out) {
+    effect.add = [k = axis.axis, sloped](const AxisSample& sample, const emulator::Contact&,
+                                         std::span<const double> value,
+                                         kinematics::Perturbation& out) {
         const double q = sample.position[k];
         out.axis[k] += harmonic_sum(q, value.first(8));
         if (sloped) out.axis[k] += value[8] * q;
@@ -44,7 +46,7 @@ Effect rotary_positioning(const AxisGeometry& axis) {
     return effect;
 }
 
-Effect rotary_cyclic(const AxisGeometry& axis) {
+Effect rotary_cyclic(const kinematics::AxisGeometry& axis) {
     std::vector<double> turns;
     for (int n = 10; n <= 360; ++n) turns.push_back(n);
     return {effect_name(axis, ".cyclic"),
@@ -55,14 +57,14 @@ Effect rotary_cyclic(const AxisGeometry& axis) {
             {{"cos_rad", "rad", 15e-6, -1, {}, true},
              {"sin_rad", "rad", 15e-6, -1, {}, true},
              {"periods_per_turn", "1", 90.0, -1, turns, false}},
-            [k = axis.axis](const AxisSample& sample, const Contact&, std::span<const double> value,
-                            Perturbation& out) {
+            [k = axis.axis](const AxisSample& sample, const emulator::Contact&,
+                            std::span<const double> value, kinematics::Perturbation& out) {
                 const double angle = value[2] * sample.position[k];
                 out.axis[k] += value[0] * std::cos(angle) + value[1] * std::sin(angle);
             }};
 }
 
-Effect rotary_backlash(const AxisGeometry& axis) {
+Effect rotary_backlash(const kinematics::AxisGeometry& axis) {
     return {effect_name(axis, ".backlash"),
             "The axis stops short by half the gap, on the side it comes from",
             "worn worm gear, loose preload, drive belt; negative: a drive that lags",
@@ -70,11 +72,11 @@ Effect rotary_backlash(const AxisGeometry& axis) {
             "1851, assumed)",
             "angle + gap_rad / 2 * sign of travel",
             {{"gap_rad", "rad", 40e-6, -1, {}, true}},
-            [k = axis.axis](const AxisSample& sample, const Contact&, std::span<const double> value,
-                            Perturbation& out) {
+            [k = axis.axis](const AxisSample& sample, const emulator::Contact&,
+                            std::span<const double> value, kinematics::Perturbation& out) {
                 out.axis[k] += 0.5 * value[0] * sample.travel[index_of(k)];
             },
             SeenBy::scale};
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

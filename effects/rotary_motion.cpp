@@ -1,20 +1,21 @@
 // Error motions of a rotary axis: radial, axial, tilt, as harmonics of its angle.
 #include "effects/models.h"
 
-namespace trunnion {
+namespace trunnion::effects {
 namespace {
 
 constexpr int orders = 3;
 constexpr std::size_t each = 2 * orders;
 
 /// Harmonics in each of `directions` (0..5 = X Y Z A B C, along and about the carrier's axes).
-Effect motion_effect(const AxisGeometry& axis, Effect effect, std::vector<int> directions,
-                     double typical, int usual_orders = 2) {
+Effect motion_effect(const kinematics::AxisGeometry& axis, Effect effect,
+                     std::vector<int> directions, double typical, int usual_orders = 2) {
     for (const int d : directions)
         append_harmonics(effect.parameters, motion_name(d, axis) + "_", d < 3 ? "mm" : "rad",
                          orders, typical, usual_orders);
-    effect.add = [k = axis.axis, directions](const AxisSample& sample, const Contact&,
-                                             std::span<const double> value, Perturbation& out) {
+    effect.add = [k = axis.axis, directions](const AxisSample& sample, const emulator::Contact&,
+                                             std::span<const double> value,
+                                             kinematics::Perturbation& out) {
         SmallMotion& motion = out.motion[index_of(k)];
         for (std::size_t j = 0; j < directions.size(); ++j) {
             const double error = harmonic_sum(sample.position[k], value.subspan(each * j, each));
@@ -25,7 +26,7 @@ Effect motion_effect(const AxisGeometry& axis, Effect effect, std::vector<int> d
     return effect;
 }
 
-std::vector<int> across(const AxisGeometry& axis, int first) {
+std::vector<int> across(const kinematics::AxisGeometry& axis, int first) {
     std::vector<int> directions;
     for (int d = 0; d < 3; ++d)
         if (d != main_direction(axis)) directions.push_back(first + d);
@@ -34,7 +35,7 @@ std::vector<int> across(const AxisGeometry& axis, int first) {
 
 }  // namespace
 
-Effect rotary_radial(const AxisGeometry& axis) {
+Effect rotary_radial(const kinematics::AxisGeometry& axis) {
     return motion_effect(axis,
                          {effect_name(axis, ".radial"),
                           "The axis line wanders sideways as the table turns",
@@ -46,7 +47,7 @@ Effect rotary_radial(const AxisGeometry& axis) {
                          across(axis, 0), 3e-3, 3);
 }
 
-Effect rotary_axial(const AxisGeometry& axis) {
+Effect rotary_axial(const kinematics::AxisGeometry& axis) {
     return motion_effect(axis,
                          {effect_name(axis, ".axial"),
                           "The table rises and falls along its axis as it turns",
@@ -58,7 +59,7 @@ Effect rotary_axial(const AxisGeometry& axis) {
                          {main_direction(axis)}, 3e-3);
 }
 
-Effect rotary_tilt(const AxisGeometry& axis) {
+Effect rotary_tilt(const kinematics::AxisGeometry& axis) {
     return motion_effect(axis,
                          {effect_name(axis, ".tilt"),
                           "The table wobbles: the axis line tilts as it turns",
@@ -70,4 +71,4 @@ Effect rotary_tilt(const AxisGeometry& axis) {
                          across(axis, 3), 20e-6);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

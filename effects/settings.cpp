@@ -11,7 +11,7 @@
 #include "base/toml_reader.h"
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::effects {
 namespace {
 
 struct Unit {
@@ -110,9 +110,9 @@ const EffectParameter* find_parameter(const Effect& effect, const std::string& n
 
 }  // namespace
 
-EffectSetting parse_injection(const std::string& text, const Catalogue& catalogue) {
+setup::EffectSetting parse_injection(const std::string& text, const Catalogue& catalogue) {
     Scanner scan(text);
-    EffectSetting setting;
+    setup::EffectSetting setting;
     setting.name = scan.word();
     const Effect* effect = find_effect(catalogue, setting.name);
     if (!effect) scan.fail("no effect is named '" + setting.name + "'");
@@ -138,7 +138,7 @@ EffectSetting parse_injection(const std::string& text, const Catalogue& catalogu
     return setting;
 }
 
-std::vector<double> values_of(const Effect& effect, const EffectSetting& setting) {
+std::vector<double> values_of(const Effect& effect, const setup::EffectSetting& setting) {
     std::vector<double> values = effect.zeros();
     for (const auto& [name, list] : setting.parameters) {
         std::size_t used = 0;
@@ -158,8 +158,8 @@ std::vector<double> values_of(const Effect& effect, const EffectSetting& setting
     return values;
 }
 
-EffectSetting setting_of(const Effect& effect, const std::vector<double>& values) {
-    EffectSetting setting{effect.name, {}};
+setup::EffectSetting setting_of(const Effect& effect, const std::vector<double>& values) {
+    setup::EffectSetting setting{effect.name, {}};
     for (std::size_t j = 0; j < values.size(); ++j)
         setting.parameters[effect.parameters[j].name].push_back(values[j]);
     std::erase_if(setting.parameters, [&](const auto& entry) {
@@ -174,7 +174,7 @@ EffectSetting setting_of(const Effect& effect, const std::vector<double>& values
 namespace {
 
 /// The file that the setup came from, read again to tell a place in it.
-TomlFile file_of(const Setup& setup) {
+TomlFile file_of(const setup::Setup& setup) {
     return {read_file(setup.path), setup.path};
 }
 
@@ -182,7 +182,7 @@ const TomlValue* find_value(const TomlValue* table, const std::string& key) {
     return table ? table->find(key) : nullptr;
 }
 
-[[noreturn]] void refuse_parameter(const Setup& setup, const std::string& effect,
+[[noreturn]] void refuse_parameter(const setup::Setup& setup, const std::string& effect,
                                    const std::string& parameter, const std::string& message) {
     const TomlFile file = file_of(setup);
     const TomlValue* table = find_value(file.root().find("effects"), effect);
@@ -191,7 +191,8 @@ const TomlValue* find_value(const TomlValue* table, const std::string& key) {
 }
 
 /// Each parameter alone, for its place.
-void check_parameters(const Setup& setup, const Effect& effect, const EffectSetting& setting) {
+void check_parameters(const setup::Setup& setup, const Effect& effect,
+                      const setup::EffectSetting& setting) {
     for (const auto& parameter : setting.parameters) try {
             values_of(effect, {setting.name, {parameter}});
         } catch (const InputError& error) {
@@ -201,7 +202,7 @@ void check_parameters(const Setup& setup, const Effect& effect, const EffectSett
 
 }  // namespace
 
-void refuse_effect_name(const Setup& setup, const std::string& name) {
+void refuse_effect_name(const setup::Setup& setup, const std::string& name) {
     const std::string message = "no effect is named '" + name + "'";
     const TomlFile file = file_of(setup);
     if (const TomlValue* effect = find_value(file.root().find("effects"), name))
@@ -212,11 +213,11 @@ void refuse_effect_name(const Setup& setup, const std::string& name) {
     throw InputError(message);
 }
 
-EffectModels active_models(const Setup& setup) {
-    EffectModels models;
+emulator::EffectModels active_models(const setup::Setup& setup) {
+    emulator::EffectModels models;
     if (setup.effects.empty()) return models;
     const Catalogue catalogue = make_catalogue(setup);
-    for (const EffectSetting& setting : setup.effects) {
+    for (const setup::EffectSetting& setting : setup.effects) {
         const Effect* effect = find_effect(catalogue, setting.name);
         if (!effect) refuse_effect_name(setup, setting.name);
         check_parameters(setup, *effect, setting);
@@ -225,4 +226,4 @@ EffectModels active_models(const Setup& setup) {
     return models;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

@@ -3,9 +3,9 @@
 
 #include "effects/models.h"
 
-namespace trunnion {
+namespace trunnion::effects {
 
-Effect gravity_sag(const AxisGeometry& tilting) {
+Effect gravity_sag(const kinematics::AxisGeometry& tilting) {
     return {"gravity.sag",
             "The tilted table hangs through under its own weight and the load on it",
             "flexible trunnion drive or bearings, heavy workpiece",
@@ -13,8 +13,8 @@ Effect gravity_sag(const AxisGeometry& tilting) {
             "tilt angle + twist_rad (1 + m/100 kg) sin q; "
             "table down by sag_mm ((1 + m/100) cos^2 q - 1)",
             {{"twist_rad", "rad", 25e-6, -1, {}, true}, {"sag_mm", "mm", 5e-3, -1, {}, true}},
-            [k = tilting.axis](const AxisSample& sample, const Contact&,
-                               std::span<const double> value, Perturbation& out) {
+            [k = tilting.axis](const AxisSample& sample, const emulator::Contact&,
+                               std::span<const double> value, kinematics::Perturbation& out) {
                 const double load = 1.0 + sample.load_kg / 100.0;
                 const double c = std::cos(sample.position[k]);
                 out.axis[k] += value[0] * load * std::sin(sample.position[k]);
@@ -22,7 +22,7 @@ Effect gravity_sag(const AxisGeometry& tilting) {
             }};
 }
 
-Effect clamp_shift(const Chain& chain) {
+Effect clamp_shift(const kinematics::Chain& chain) {
     std::vector<Axis> rotary;
     Effect effect{
         "clamp.shift",
@@ -33,7 +33,7 @@ Effect clamp_shift(const Chain& chain) {
         "and turned by turn_R_rad",
         {},
         {}};
-    for (const AxisGeometry& axis : chain.work) {
+    for (const kinematics::AxisGeometry& axis : chain.work) {
         if (!axis.rotary) continue;
         rotary.push_back(axis.axis);
         for (int d = 0; d < 3; ++d)
@@ -42,8 +42,8 @@ Effect clamp_shift(const Chain& chain) {
         effect.parameters.push_back(
             {axis_parameter("turn_", axis, "_rad"), "rad", 20e-6, -1, {}, true});
     }
-    effect.add = [rotary](const AxisSample& sample, const Contact&, std::span<const double> value,
-                          Perturbation& out) {
+    effect.add = [rotary](const AxisSample& sample, const emulator::Contact&,
+                          std::span<const double> value, kinematics::Perturbation& out) {
         if (!sample.clamped) return;
         for (std::size_t j = 0; j < rotary.size(); ++j) {
             const auto v = value.subspan(4 * j, 4);
@@ -54,4 +54,4 @@ Effect clamp_shift(const Chain& chain) {
     return effect;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

@@ -4,7 +4,7 @@
 
 #include "effects/models.h"
 
-namespace trunnion {
+namespace trunnion::effects {
 
 Effect thermal_drift(const DataExtent& extent) {
     const double span_s = std::max(600.0, extent.end_s - extent.start_s);
@@ -18,15 +18,15 @@ Effect thermal_drift(const DataExtent& extent) {
     for (int d = 0; d < 3; ++d) effect.parameters.push_back({"d_mm", "mm", 15e-3, d, {}, true});
     effect.parameters.push_back(
         {"tau_s", "s", 1800.0, -1, geometric_grid(span_s / 60.0, span_s * 3.0, 9), true});
-    effect.add = [](const AxisSample& sample, const Contact&, std::span<const double> value,
-                    Perturbation& out) {
+    effect.add = [](const AxisSample& sample, const emulator::Contact&,
+                    std::span<const double> value, kinematics::Perturbation& out) {
         const double grown = -std::expm1(-sample.time_s / value[3]);
         out.tip_shift_mm += grown * Vector3(value[0], value[1], value[2]);
     };
     return effect;
 }
 
-Effect thermal_expansion(const Chain& chain) {
+Effect thermal_expansion(const kinematics::Chain& chain) {
     Effect effect{"thermal.expansion",
                   "Scales and screws grow with temperature: positions stretch away from zero",
                   "room or machine warmer than 20 degrees without scale compensation",
@@ -35,14 +35,14 @@ Effect thermal_expansion(const Chain& chain) {
                   {},
                   {}};
     std::vector<Axis> axes;
-    for (const AxisGeometry& axis : chain.axes()) {
+    for (const kinematics::AxisGeometry& axis : chain.axes()) {
         if (axis.rotary) continue;
         axes.push_back(axis.axis);
         effect.parameters.push_back(
             {axis_parameter("growth_", axis, "_per_k"), "1/K", 8e-6, -1, {}, true});
     }
-    effect.add = [axes](const AxisSample& sample, const Contact&, std::span<const double> value,
-                        Perturbation& out) {
+    effect.add = [axes](const AxisSample& sample, const emulator::Contact&,
+                        std::span<const double> value, kinematics::Perturbation& out) {
         for (std::size_t j = 0; j < axes.size(); ++j)
             out.axis[axes[j]] +=
                 value[j] * (sample.temperature_c - 20.0) * sample.position[axes[j]];
@@ -50,4 +50,4 @@ Effect thermal_expansion(const Chain& chain) {
     return effect;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

@@ -7,7 +7,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::effects {
 namespace {
 
 TouchPattern make_pattern(int touches) {
@@ -47,4 +47,4 @@ const TouchPattern& touch_pattern(int touches) {
                              : known.emplace(touches, make_pattern(touches)).first->second;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

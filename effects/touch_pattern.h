@@ -6,7 +6,7 @@
 
 #include "geometry/pose.h"
 
-namespace trunnion {
+namespace trunnion::effects {
 
 /// Outward normals (in M) of the touches of one sphere: the pole, then rings of four from the
 /// equator up. Centre and radius are fitted by least squares, as sphere cycles do.
@@ -20,4 +20,4 @@ struct TouchPattern {
 /// The pattern of `touches` touches (at least 5); kept for the life of the program.
 const TouchPattern& touch_pattern(int touches);
 
-}  // namespace trunnion
+}  // namespace trunnion::effects

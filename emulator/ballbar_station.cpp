@@ -9,7 +9,7 @@
 #include "base/units.h"
 #include "emulator/replay.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 namespace {
 
 /// Places of a move at which "stays within range" is looked at.
@@ -28,21 +28,21 @@ double farthest_way_mm(const AxisPositions& a, const AxisPositions& b) {
     return way_mm;
 }
 
-double swept_rad(const AxisMove& move) {
+double swept_rad(const motion::AxisMove& move) {
     double most = move.arc ? std::abs(move.arc->sweep_rad) : 0.0;
     for (const Axis axis : {Axis::A, Axis::B, Axis::C})
         most = std::max(most, std::abs(move.to[axis] - move.from[axis]));
     return most;
 }
 
-std::string place_of(const AxisMove& move) {
+std::string place_of(const motion::AxisMove& move) {
     return (move.program ? *move.program : std::string("program")) + ':' +
            std::to_string(move.line);
 }
 
 }  // namespace
 
-BallbarStation::BallbarStation(const Setup& setup, std::uint64_t seed, bool automatic)
+BallbarStation::BallbarStation(const setup::Setup& setup, std::uint64_t seed, bool automatic)
     : setup_(setup), nominal_(setup.machine), noise_(seed), automatic_(automatic) {}
 
 void BallbarStation::start(double time_s) {
@@ -52,35 +52,35 @@ void BallbarStation::start(double time_s) {
 }
 
 /// Ball-to-ball length - nominal length without effects.
-double BallbarStation::nominal_mm(const AxisMove& move, double s, const Artefact& pivot,
-                                  const Reading& row) const {
-    const Ballbar bar{setup_.ballbar->cup_with(row.extension_mm), pivot.center_W_mm,
-                      setup_.ballbar->warm_length_mm()};
-    return length_deviation_mm(nominal_.poses(move.at(s), row.spindle_rad), bar);
+double BallbarStation::nominal_mm(const motion::AxisMove& move, double s,
+                                  const setup::Artefact& pivot, const records::Reading& row) const {
+    const ballbar::Ballbar bar{setup_.ballbar->cup_with(row.extension_mm), pivot.center_W_mm,
+                               setup_.ballbar->warm_length_mm()};
+    return ballbar::length_deviation_mm(nominal_.poses(move.at(s), row.spindle_rad), bar);
 }
 
-bool BallbarStation::stays_in_range(const AxisMove& move, const Artefact& pivot,
-                                    const Reading& row) {
-    const Ballbar bar;
+bool BallbarStation::stays_in_range(const motion::AxisMove& move, const setup::Artefact& pivot,
+                                    const records::Reading& row) {
+    const ballbar::Ballbar bar;
     for (int i = 0; i <= range_checks; ++i) {
         const double off_mm = nominal_mm(move, static_cast<double>(i) / range_checks, pivot, row);
         if (i == 0) apart_mm_ = std::min(apart_mm_, std::abs(off_mm) - bar.range_mm - effects_mm);
-        if (!in_range(off_mm, bar)) return false;
+        if (!ballbar::in_range(off_mm, bar)) return false;
     }
     return true;
 }
 
 /// Told to read: the pivot that the bar reaches best. Automatic: one it reaches all the way.
-void BallbarStation::choose_pivot(const AxisMove& move, const Reading& row) {
+void BallbarStation::choose_pivot(const motion::AxisMove& move, const records::Reading& row) {
     if (commanded_ && pivot_) return;
-    const bool looks = commanded_ || (automatic_ && move.kind != MotionKind::rapid);
+    const bool looks = commanded_ || (automatic_ && move.kind != motion::MotionKind::rapid);
     pivot_ = nullptr;
     if (!looks || (!commanded_ && apart_mm_ > farthest_way_mm(apart_at_, move.from))) return;
     apart_mm_ = std::numeric_limits<double>::infinity();
     apart_at_ = move.from;
     double nearest_mm = std::numeric_limits<double>::infinity();
-    for (const Artefact& artefact : setup_.artefacts) {
-        if (artefact.kind != Artefact::Kind::center_pivot) continue;
+    for (const setup::Artefact& artefact : setup_.artefacts) {
+        if (artefact.kind != setup::Artefact::Kind::center_pivot) continue;
         const double off_mm = std::abs(nominal_mm(move, 0.0, artefact, row));
         if (off_mm >= nearest_mm || (!commanded_ && !stays_in_range(move, artefact, row))) continue;
         nearest_mm = off_mm;
@@ -88,7 +88,7 @@ void BallbarStation::choose_pivot(const AxisMove& move, const Reading& row) {
     }
 }
 
-std::vector<double> BallbarStation::places(const AxisMove& move, double time_s) {
+std::vector<double> BallbarStation::places(const motion::AxisMove& move, double time_s) {
     std::vector<double> places;
     const double angle = swept_rad(move),
                  step = rad_from_deg(sample_deg_ > 0.0 ? sample_deg_ : setup_.ballbar->sample_deg);
@@ -97,14 +97,15 @@ std::vector<double> BallbarStation::places(const AxisMove& move, double time_s) 
             places.push_back(std::clamp(angle_left_rad_ / angle, 0.0, 1.0));
         angle_left_rad_ -= angle;
     } else if (move.duration_s > 0.0) {
-        for (const double t :
-             sample_times(start_s_, setup_.ballbar->sample_hz, time_s, time_s + move.duration_s))
+        for (const double t : ballbar::sample_times(start_s_, setup_.ballbar->sample_hz, time_s,
+                                                    time_s + move.duration_s))
             places.push_back(std::clamp((t - time_s) / move.duration_s, 0.0, 1.0));
     }
     return places;
 }
 
-bool BallbarStation::record(const AxisMove& move, const Reading& row, ReadingLog& log) {
+bool BallbarStation::record(const motion::AxisMove& move, const records::Reading& row,
+                            ReadingLog& log) {
     if (!listens()) return false;
     choose_pivot(move, row);
     if (!pivot_) return false;
@@ -115,9 +116,9 @@ bool BallbarStation::record(const AxisMove& move, const Reading& row, ReadingLog
     }
     moves_.push_back({std::numeric_limits<std::size_t>::max(), place_of(move)});
     for (const double s : places(move, row.time_s)) {
-        Reading reading = row;
+        records::Reading reading = row;
         reading.time_s = row.time_s + s * move.duration_s;
-        reading.device = Device::ballbar;
+        reading.device = records::Device::ballbar;
         reading.feature = pivot_->name;
         reading.commanded = move.at(s);
         reading.feed_mm_min = move.feed_mm_min;
@@ -138,10 +139,10 @@ void BallbarStation::note_out_of_range(std::size_t row, double value_mm, const s
 
 void BallbarStation::read_pass(const Observer& observer, ReadingLog& log,
                                const std::vector<double>& noise_mm) {
-    const std::span<Reading> rows = log.pass();
+    const std::span<records::Reading> rows = log.pass();
     const std::vector<AxisSample> samples = log.pass_samples();
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        if (rows[k].device != Device::ballbar) continue;
+        if (rows[k].device != records::Device::ballbar) continue;
         const DeviceRow ready = device_row(observer, rows[k], samples[k]);
         rows[k].value_mm = observer.read(ready.sample, ready.contact) + noise_mm[k];
     }
@@ -150,18 +151,18 @@ void BallbarStation::read_pass(const Observer& observer, ReadingLog& log,
 /// Rows beyond the range keep their place in the path, without a reading.
 void BallbarStation::stop(const Observer& observer, ReadingLog& log) {
     if (!moves_.empty()) {
-        const std::span<Reading> rows = log.pass();
+        const std::span<records::Reading> rows = log.pass();
         std::vector<double> noise_mm(rows.size());
         for (double& noise : noise_mm)
             noise = mm_from_um(setup_.ballbar->noise_um) * noise_.normal();
         read_pass(observer, log, noise_mm);
         bool out = false;
         for (std::size_t k = 0; k < rows.size(); ++k) {
-            Reading& row = rows[k];
-            if (!row.value_mm || in_range(*row.value_mm, Ballbar{})) continue;
+            records::Reading& row = rows[k];
+            if (!row.value_mm || ballbar::in_range(*row.value_mm, ballbar::Ballbar{})) continue;
             if (!std::exchange(out, true))
                 note_out_of_range(log.size() - rows.size() + k, *row.value_mm, log.test());
-            row.device = Device::none;
+            row.device = records::Device::none;
             row.value_mm.reset();
         }
         if (out) read_pass(observer, log, noise_mm);
@@ -171,4 +172,4 @@ void BallbarStation::stop(const Observer& observer, ReadingLog& log) {
     commanded_ = false;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

@@ -9,7 +9,7 @@
 #include "emulator/reading_log.h"
 #include "motion/motion.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 
 /// When it reads: between the lines `BALLBAR ON name` and `BALLBAR OFF` that the program prints to
 /// its PC, or, when asked to (`automatic`), along every feed move that stays within the range of
@@ -18,7 +18,7 @@ namespace trunnion {
 class BallbarStation {
   public:
     /// `setup` must outlive the station.
-    BallbarStation(const Setup& setup, std::uint64_t seed, bool automatic);
+    BallbarStation(const setup::Setup& setup, std::uint64_t seed, bool automatic);
 
     void start(double time_s);
     /// Ends a pass, reads its rows. Safe when none runs.
@@ -31,7 +31,7 @@ class BallbarStation {
     void sample_every(double degrees) { sample_deg_ = degrees; }
 
     /// Rows along the move, begun at `row`'s time. False when the bar does not read.
-    bool record(const AxisMove& move, const Reading& row, ReadingLog& log);
+    bool record(const motion::AxisMove& move, const records::Reading& row, ReadingLog& log);
     std::vector<std::string> take_notes() { return std::move(notes_); }
 
   private:
@@ -39,24 +39,25 @@ class BallbarStation {
         std::size_t row;  ///< of the log, the first of a move
         std::string text;
     };
-    double nominal_mm(const AxisMove& move, double s, const Artefact& pivot,
-                      const Reading& row) const;
-    bool stays_in_range(const AxisMove& move, const Artefact& pivot, const Reading& row);
-    void choose_pivot(const AxisMove& move, const Reading& row);
-    std::vector<double> places(const AxisMove& move, double time_s);
+    double nominal_mm(const motion::AxisMove& move, double s, const setup::Artefact& pivot,
+                      const records::Reading& row) const;
+    bool stays_in_range(const motion::AxisMove& move, const setup::Artefact& pivot,
+                        const records::Reading& row);
+    void choose_pivot(const motion::AxisMove& move, const records::Reading& row);
+    std::vector<double> places(const motion::AxisMove& move, double time_s);
     void read_pass(const Observer& observer, ReadingLog& log, const std::vector<double>& noise_mm);
     void note_out_of_range(std::size_t row, double value_mm, const std::string& test);
 
-    const Setup& setup_;
-    ForwardModel nominal_;
+    const setup::Setup& setup_;
+    kinematics::ForwardModel nominal_;
     SeededNoise noise_;
     bool automatic_ = false, commanded_ = false;
     double start_s_ = 0.0;
     double sample_deg_ = 0.0;      ///< above 0: instead of the setup's
     double angle_left_rad_ = 0.0;  ///< to the next sample, when sampling by angle
     int passes_ = 0;
-    const Artefact* pivot_ = nullptr;  ///< of the pass
-    std::vector<Place> moves_;         ///< of the pass
+    const setup::Artefact* pivot_ = nullptr;  ///< of the pass
+    std::vector<Place> moves_;                ///< of the pass
     /// Of all pivots beyond the bar's range when the axes stood at `apart_at_`: until they have
     /// gone that far nobody need look again.
     double apart_mm_ = -1.0;
@@ -64,4 +65,4 @@ class BallbarStation {
     std::vector<std::string> notes_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

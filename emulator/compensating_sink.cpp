@@ -1,33 +1,33 @@
 #include "emulator/compensating_sink.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 
 namespace {
 
-class CompensatedPath : public PathCurve {
+class CompensatedPath : public motion::PathCurve {
   public:
-    CompensatedPath(const AxisMove& move, const Compensation& compensation)
+    CompensatedPath(const motion::AxisMove& move, const Compensation& compensation)
         : move_(move), compensation_(compensation) {}
     AxisPositions at(double s) const override { return compensation_(move_.at(s)); }
 
   private:
-    const AxisMove& move_;
+    const motion::AxisMove& move_;
     const Compensation& compensation_;
 };
 
 }  // namespace
 
-CompensatingSink::CompensatingSink(MotionSink& next, Compensation compensation)
+CompensatingSink::CompensatingSink(motion::MotionSink& next, Compensation compensation)
     : next_(next), compensation_(std::move(compensation)) {}
 
-MoveResult CompensatingSink::move(const AxisMove& move) {
+motion::MoveResult CompensatingSink::move(const motion::AxisMove& move) {
     const CompensatedPath path(move, compensation_);
-    AxisMove compensated = move;
+    motion::AxisMove compensated = move;
     compensated.from = compensation_(move.from);
     compensated.to = compensation_(move.to);
     compensated.arc.reset();
     compensated.curve = &path;
-    MoveResult result = next_.move(compensated);
+    motion::MoveResult result = next_.move(compensated);
     // The control shows positions as programmed: the correction, which hardly changes over its own
     // size, is taken out again.
     const AxisPositions again = compensation_(result.stopped);
@@ -35,4 +35,4 @@ MoveResult CompensatingSink::move(const AxisMove& move) {
     return result;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

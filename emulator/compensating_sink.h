@@ -5,23 +5,23 @@
 
 #include "motion/motion.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 
 /// Position that the axes go to instead of the commanded one.
 using Compensation = std::function<AxisPositions(const AxisPositions&)>;
 
 /// Between control and machine: hands on each move along its compensated path.
-class CompensatingSink : public MotionSink {
+class CompensatingSink : public motion::MotionSink {
   public:
-    CompensatingSink(MotionSink& next, Compensation compensation);
+    CompensatingSink(motion::MotionSink& next, Compensation compensation);
 
-    MoveResult move(const AxisMove& move) override;
+    motion::MoveResult move(const motion::AxisMove& move) override;
     void dwell(double duration_s) override { next_.dwell(duration_s); }
     void m_code(int code) override { next_.m_code(code); }
 
   private:
-    MotionSink& next_;
+    motion::MotionSink& next_;
     Compensation compensation_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

@@ -2,11 +2,11 @@
 
 #include "base/alarm.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 namespace {
 
 /// The tool's frame as seen from the table.
-Pose pose_WS(const MachinePose& poses) {
+Pose pose_WS(const kinematics::MachinePose& poses) {
     return poses.pose_MW.inverse() * poses.pose_MS;
 }
 
@@ -18,7 +18,7 @@ Vector3 rotation_vector(const Matrix3& r) {
 
 /// The declared place of the target on the tool; of one that stands on the table: where the tool
 /// is when it is there does not matter, only how far it moves.
-Vector3 declared_S_mm(const Setup& setup, const Artefact& target) {
+Vector3 declared_S_mm(const setup::Setup& setup, const setup::Artefact& target) {
     return target.tool_S_mm ? setup.target_S_mm(target) : Vector3(Vector3::Zero());
 }
 
@@ -26,7 +26,7 @@ Vector3 declared_S_mm(const Setup& setup, const Artefact& target) {
 
 double linear_mm(const InstrumentView& view) {
     const auto k = static_cast<std::size_t>(view.contact.artefact);
-    const Artefact& target = view.setup.artefacts[k];
+    const setup::Artefact& target = view.setup.artefacts[k];
     const Vector3 declared = declared_S_mm(view.setup, target);
     Vector3 place = declared + target.found_mm + view.state.extra.tip_shift_mm;
     if (k < view.offsets.artefact.size()) place += view.offsets.artefact[k];
@@ -46,12 +46,13 @@ double encoder_mm(const InstrumentView& view) {
     return view.state.extra.axis[view.contact.axis];
 }
 
-void aim_at_displacement(const Setup& setup, const Reading& row, Contact& contact) {
-    contact.believed_WS = pose_WS(Machine{setup.machine.chain, {}}.poses(row.commanded));
+void aim_at_displacement(const setup::Setup& setup, const records::Reading& row, Contact& contact) {
+    contact.believed_WS =
+        pose_WS(kinematics::Machine{setup.machine.chain, {}}.poses(row.commanded));
 }
 
-void aim_at_encoder(const Setup& setup, const Reading& row, Contact& contact) {
-    for (const AxisGeometry& axis : setup.machine.chain.axes())
+void aim_at_encoder(const setup::Setup& setup, const records::Reading& row, Contact& contact) {
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
         if (axis.name == row.feature) {
             contact.axis = axis.axis;
             contact.scale_encoder = setup.scale_encoder[index_of(axis.axis)];
@@ -60,4 +61,4 @@ void aim_at_encoder(const Setup& setup, const Reading& row, Contact& contact) {
     throw InputError("the machine has no axis '" + row.feature + "'");
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

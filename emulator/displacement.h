@@ -3,7 +3,7 @@
 
 #include "emulator/instruments.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 
 /// `linear`: displacement of the target along the direction as seen from the table, actual -
 /// commanded, mm. The zero of its test is not taken off (Replay::predict does).
@@ -15,9 +15,9 @@ double angle_rad(const InstrumentView& view);
 double encoder_mm(const InstrumentView& view);
 
 /// Fills the contact of a `linear` or `angle` row: where the declared control puts the tool.
-void aim_at_displacement(const Setup& setup, const Reading& row, Contact& contact);
+void aim_at_displacement(const setup::Setup& setup, const records::Reading& row, Contact& contact);
 /// Fills the contact of an `axis` row. Throws InputError without a place when the machine has no
 /// axis of the row's feature.
-void aim_at_encoder(const Setup& setup, const Reading& row, Contact& contact);
+void aim_at_encoder(const setup::Setup& setup, const records::Reading& row, Contact& contact);
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

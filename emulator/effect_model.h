@@ -7,12 +7,12 @@
 #include "kinematics/machine.h"
 #include "records/readings.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 
 /// What the instrument does at one reading: all that effects of probe, ballbar and artefact need
 /// beside the axis sample. `run` leaves it empty while no device reads.
 struct Contact {
-    Device device = Device::none;
+    records::Device device = records::Device::none;
     int artefact = -1;                      ///< index in Setup::artefacts
     Vector3 direction_M = Vector3::Zero();  ///< component read, approach, or cup to pivot
     Vector3 direction_W = Vector3::Zero();  ///< the same seen from the table
@@ -35,10 +35,12 @@ class EffectModel {
   public:
     virtual ~EffectModel() = default;
     virtual void perturb(const AxisSample& sample, const Contact& contact,
-                         Perturbation& out) const = 0;
-    void perturb(const AxisSample& sample, Perturbation& out) const { perturb(sample, {}, out); }
+                         kinematics::Perturbation& out) const = 0;
+    void perturb(const AxisSample& sample, kinematics::Perturbation& out) const {
+        perturb(sample, {}, out);
+    }
 };
 
 using EffectModels = std::vector<std::shared_ptr<const EffectModel>>;
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

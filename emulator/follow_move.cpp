@@ -6,7 +6,7 @@
 #include "base/units.h"
 #include "motion/tool_centre_point.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 namespace {
 
 Vector3 xyz(const AxisPositions& q) {
@@ -14,18 +14,18 @@ Vector3 xyz(const AxisPositions& q) {
 }
 
 /// No axis has a part both of the circle and of the way along its normal.
-bool turns_in_plane(const AxisMove& move) {
+bool turns_in_plane(const motion::AxisMove& move) {
     const Vector3& n = move.arc->normal;
     const double rise = (xyz(move.to) - xyz(move.from)).dot(n);
-    return std::abs(rise) < path_rounding.mm || n.cwiseAbs().maxCoeff() == 1.0;
+    return std::abs(rise) < records::path_rounding.mm || n.cwiseAbs().maxCoeff() == 1.0;
 }
 
 /// Each axis to the last two places on the arc where it turned. An axis turns every half circle, so
 /// its directions at start and end tell how often: they are those just after the one and just
 /// before the other, where it may stand in a turning point.
-void follow_turns(TravelHistory& history, const AxisMove& move) {
+void follow_turns(records::TravelHistory& history, const motion::AxisMove& move) {
     constexpr double little = 1e-9;
-    const ArcPath& arc = *move.arc;
+    const motion::ArcPath& arc = *move.arc;
     const double sense = arc.sweep_rad < 0.0 ? -1.0 : 1.0, sweep_rad = std::abs(arc.sweep_rad);
     const Vector3 at_start = xyz(move.from) - arc.centre_mm, at_end = xyz(move.to) - arc.centre_mm;
     const Vector3 way_start = sense * arc.normal.cross(at_start),
@@ -34,7 +34,7 @@ void follow_turns(TravelHistory& history, const AxisMove& move) {
     for (Eigen::Index i = 0; i < 3; ++i) {
         const double largest_mm =
             radius_mm * std::sqrt(std::max(0.0, 1.0 - arc.normal[i] * arc.normal[i]));
-        if (largest_mm <= path_rounding.mm) continue;
+        if (largest_mm <= records::path_rounding.mm) continue;
         const double begins = std::abs(way_start[i]) > little_mm ? way_start[i] : -at_start[i];
         const double ends = std::abs(way_end[i]) > little_mm ? way_end[i] : at_end[i];
         const bool same = begins * ends > 0.0, half = sweep_rad > pi + little;
@@ -48,14 +48,14 @@ void follow_turns(TravelHistory& history, const AxisMove& move) {
 
 }  // namespace
 
-void follow(TravelHistory& history, const AxisMove& move) {
+void follow(records::TravelHistory& history, const motion::AxisMove& move) {
     constexpr double last_step = 1e-3;
     if (!history.placed()) history.place(move.from);
     if (move.arc && turns_in_plane(move)) {
         follow_turns(history, move);
     } else if (move.arc || move.curve) {
         const int steps = move.curve
-                              ? 4 * curve_parts(move.from, move.to)
+                              ? 4 * motion::curve_parts(move.from, move.to)
                               : std::max(2, static_cast<int>(16.0 * std::abs(move.arc->turns)));
         const bool hardly_turns = move.curve && steps == 4;  // the hot path of G43.4
         for (int k = 1; k < steps && !hardly_turns; ++k)
@@ -65,4 +65,4 @@ void follow(TravelHistory& history, const AxisMove& move) {
     history.advance(move.to);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

@@ -4,9 +4,9 @@
 #include "motion/motion.h"
 #include "records/travel.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 
 /// Along a move to its end: axes that turn round on an arc or curve are seen to.
-void follow(TravelHistory& history, const AxisMove& move);
+void follow(records::TravelHistory& history, const motion::AxisMove& move);
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

@@ -4,10 +4,10 @@
 #include "emulator/displacement.h"
 #include "emulator/points.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 namespace {
 
-Vector3 shift_of(const ExtensionErrors& errors, const Contact& contact) {
+Vector3 shift_of(const setup::ExtensionErrors& errors, const Contact& contact) {
     const auto it = errors.find(contact.extension_mm);
     return it == errors.end() ? Vector3(Vector3::Zero()) : it->second;
 }
@@ -19,14 +19,14 @@ Vector3 center_W_mm(const InstrumentView& view) {
     return center;
 }
 
-TouchProbe probe_of(const InstrumentView& view) {
-    const ProbeSettings& probe = *view.setup.probe;
+probe::TouchProbe probe_of(const InstrumentView& view) {
+    const setup::ProbeSettings& probe = *view.setup.probe;
     return {probe.tip_with(view.contact.extension_mm) +
                 shift_of(view.offsets.stylus_S, view.contact) + view.state.extra.tip_shift_mm,
             probe.ball_diameter_mm};
 }
 
-SphereTarget sphere_of(const InstrumentView& view) {
+probe::SphereTarget sphere_of(const InstrumentView& view) {
     const auto k = static_cast<std::size_t>(view.contact.artefact);
     return {center_W_mm(view), view.setup.artefacts[k].diameter_mm};
 }
@@ -40,47 +40,49 @@ double touch_mm(const InstrumentView& view) {
 }
 
 double ballbar_mm(const InstrumentView& view) {
-    const BallbarSettings& bar = *view.setup.ballbar;
+    const setup::BallbarSettings& bar = *view.setup.ballbar;
     const Vector3 cup_S_mm = bar.cup_with(view.contact.extension_mm) + view.offsets.cup_S +
                              shift_of(view.offsets.long_cup_S, view.contact) +
                              view.state.extra.tip_shift_mm;
-    const Ballbar mounted{cup_S_mm, center_W_mm(view), bar.warm_length_mm() + view.offsets.length};
-    return length_deviation_mm(view.state.poses, mounted) + view.state.extra.reading_mm;
+    const ballbar::Ballbar mounted{cup_S_mm, center_W_mm(view),
+                                   bar.warm_length_mm() + view.offsets.length};
+    return ballbar::length_deviation_mm(view.state.poses, mounted) + view.state.extra.reading_mm;
 }
 
 /// One device: what it reads, on which kind of artefact, and what the setup must have for it.
 struct DeviceEntry {
-    Device device;
+    records::Device device;
     double (*read)(const InstrumentView&);
-    Artefact::Kind target;
-    bool (*mounted)(const Setup&);
+    setup::Artefact::Kind target;
+    bool (*mounted)(const setup::Setup&);
     const char* missing;
 };
 
-bool always(const Setup&) {
+bool always(const setup::Setup&) {
     return true;
 }
 
 constexpr DeviceEntry devices[] = {
-    {Device::sphere, sphere_mm, Artefact::Kind::sphere,
-     [](const Setup& s) { return s.probe.has_value(); }, "a probe row, but no [probe]"},
-    {Device::touch, touch_mm, Artefact::Kind::sphere,
-     [](const Setup& s) { return s.probe.has_value(); }, "a probe row, but no [probe]"},
-    {Device::ballbar, ballbar_mm, Artefact::Kind::center_pivot,
-     [](const Setup& s) { return s.ballbar.has_value(); }, "a ballbar row, but no [ballbar]"},
-    {Device::point, point_mm, Artefact::Kind::target, always, ""},
-    {Device::linear, linear_mm, Artefact::Kind::target, always, ""},
-    {Device::angle, angle_rad, Artefact::Kind::target, always, ""},
-    {Device::axis, encoder_mm, Artefact::Kind::target, always, ""},
+    {records::Device::sphere, sphere_mm, setup::Artefact::Kind::sphere,
+     [](const setup::Setup& s) { return s.probe.has_value(); }, "a probe row, but no [probe]"},
+    {records::Device::touch, touch_mm, setup::Artefact::Kind::sphere,
+     [](const setup::Setup& s) { return s.probe.has_value(); }, "a probe row, but no [probe]"},
+    {records::Device::ballbar, ballbar_mm, setup::Artefact::Kind::center_pivot,
+     [](const setup::Setup& s) { return s.ballbar.has_value(); },
+     "a ballbar row, but no [ballbar]"},
+    {records::Device::point, point_mm, setup::Artefact::Kind::target, always, ""},
+    {records::Device::linear, linear_mm, setup::Artefact::Kind::target, always, ""},
+    {records::Device::angle, angle_rad, setup::Artefact::Kind::target, always, ""},
+    {records::Device::axis, encoder_mm, setup::Artefact::Kind::target, always, ""},
 };
 
-const DeviceEntry& entry_of(Device device) {
+const DeviceEntry& entry_of(records::Device device) {
     for (const DeviceEntry& entry : devices)
         if (entry.device == device) return entry;
     throw InputError("no prediction for device '" + std::string(name_of(device)) + "'");
 }
 
-int artefact_index(const Setup& setup, const std::string& name) {
+int artefact_index(const setup::Setup& setup, const std::string& name) {
     for (std::size_t k = 0; k < setup.artefacts.size(); ++k)
         if (setup.artefacts[k].name == name) return static_cast<int>(k);
     throw InputError("the setup has no artefact named '" + name + "'");
@@ -96,38 +98,40 @@ Vector3 centre_to_tip_M(const InstrumentView& view) {
     return centre_to_tip_M(view.state.poses, probe_of(view), sphere_of(view));
 }
 
-WayToSphere way_to_contact(const InstrumentView& view) {
-    return way_to_sphere(centre_to_tip_M(view), view.contact.direction_M,
-                         reach_mm(probe_of(view), sphere_of(view)));
+probe::WayToSphere way_to_contact(const InstrumentView& view) {
+    return probe::way_to_sphere(centre_to_tip_M(view), view.contact.direction_M,
+                                probe::reach_mm(probe_of(view), sphere_of(view)));
 }
 
-Contact contact_of(const Setup& setup, const MachinePose& nominal, const Reading& row) {
+Contact contact_of(const setup::Setup& setup, const kinematics::MachinePose& nominal,
+                   const records::Reading& row) {
     const DeviceEntry& entry = entry_of(row.device);
     if (!entry.mounted(setup)) throw InputError(std::string(entry.missing) + " in the setup");
     Contact contact;
     contact.device = row.device;
-    if (row.device == Device::axis) {
+    if (row.device == records::Device::axis) {
         aim_at_encoder(setup, row, contact);
         return contact;
     }
     contact.artefact = artefact_index(setup, row.feature);
     contact.extension_mm = row.extension_mm;
     contact.direction_M = row.direction_M;
-    const Artefact& artefact = setup.artefacts[static_cast<std::size_t>(contact.artefact)];
-    if (artefact.kind != entry.target && entry.target == Artefact::Kind::sphere)
+    const setup::Artefact& artefact = setup.artefacts[static_cast<std::size_t>(contact.artefact)];
+    if (artefact.kind != entry.target && entry.target == setup::Artefact::Kind::sphere)
         throw InputError("a probe row on '" + artefact.name + "', which is no sphere");
-    if (artefact.kind != entry.target && entry.target == Artefact::Kind::target)
+    if (artefact.kind != entry.target && entry.target == setup::Artefact::Kind::target)
         throw InputError(std::string(name_of(row.device)) + " row on '" + artefact.name +
                          "', which is no target");
-    if (row.device == Device::point) aim_at_point(setup, row, contact);
-    if (row.device == Device::linear || row.device == Device::angle)
+    if (row.device == records::Device::point) aim_at_point(setup, row, contact);
+    if (row.device == records::Device::linear || row.device == records::Device::angle)
         aim_at_displacement(setup, row, contact);
-    if (row.device == Device::ballbar)
-        contact.direction_M = cup_to_pivot_M(nominal, {setup.ballbar->cup_with(row.extension_mm),
-                                                       artefact.center_W_mm})
-                                  .normalized();
+    if (row.device == records::Device::ballbar)
+        contact.direction_M =
+            ballbar::cup_to_pivot_M(
+                nominal, {setup.ballbar->cup_with(row.extension_mm), artefact.center_W_mm})
+                .normalized();
     contact.direction_W = nominal.pose_MW.rotation.transpose() * contact.direction_M;
     return contact;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

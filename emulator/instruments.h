@@ -5,12 +5,13 @@
 #include "probe/touch_probe.h"
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 
 /// Where the bodies and the device are at one sample.
 struct PhysicalState {
-    MachinePose poses;
-    Perturbation extra;  ///< what effects add: the device reads tip, work and reading shifts here
+    kinematics::MachinePose poses;
+    kinematics::Perturbation
+        extra;  ///< what effects add: the device reads tip, work and reading shifts here
 };
 
 /// Set-up quantities that differ from the setup file's, mm.
@@ -23,13 +24,13 @@ struct ReplayOffsets {
     std::vector<InstrumentError> instruments;
     std::vector<double> zeros;  ///< of the tests of linear and angle rows, mm or rad
     Vector3 cup_S = Vector3::Zero();
-    double length = 0.0;                   ///< of the ballbar
-    ExtensionErrors stylus_S, long_cup_S;  ///< by extension
+    double length = 0.0;                          ///< of the ballbar
+    setup::ExtensionErrors stylus_S, long_cup_S;  ///< by extension
 };
 
 /// One reading to be taken in one state.
 struct InstrumentView {
-    const Setup& setup;
+    const setup::Setup& setup;
     const ReplayOffsets& offsets;
     const Contact& contact;
     const PhysicalState& state;
@@ -44,10 +45,11 @@ double reading_mm(const InstrumentView& view);
 Vector3 centre_to_tip_M(const InstrumentView& view);
 /// Way from this state to where the stylus ball meets the sphere, as if the machine did not change
 /// on it.
-WayToSphere way_to_contact(const InstrumentView& view);
+probe::WayToSphere way_to_contact(const InstrumentView& view);
 
 /// Ready to be read: the device's contact at a row's nominal pose. Throws InputError without a
 /// place when the setup lacks the device or the artefact.
-Contact contact_of(const Setup& setup, const MachinePose& nominal, const Reading& row);
+Contact contact_of(const setup::Setup& setup, const kinematics::MachinePose& nominal,
+                   const records::Reading& row);
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

@@ -9,15 +9,15 @@
 #include "emulator/follow_move.h"
 #include "motion/tool_centre_point.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 namespace {
 
 /// Less is rounding of an axis that stands.
 constexpr double standing_rad = 1e-9;
 
-std::vector<Axis> axes_of(const Chain& chain) {
+std::vector<Axis> axes_of(const kinematics::Chain& chain) {
     std::vector<Axis> axes;
-    for (const AxisGeometry& axis : chain.axes())
+    for (const kinematics::AxisGeometry& axis : chain.axes())
         if (is_letter(axis)) axes.push_back(axis.axis);
     return axes;
 }
@@ -28,26 +28,26 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-bool turns(const AxisMove& move) {
+bool turns(const motion::AxisMove& move) {
     for (const Axis axis : {Axis::A, Axis::B, Axis::C})
         if (std::abs(move.from[axis] - move.to[axis]) > standing_rad) return true;
     return false;
 }
 
-class MovePath : public PathCurve {
+class MovePath : public motion::PathCurve {
   public:
-    explicit MovePath(const AxisMove& move) : move_(move) {}
+    explicit MovePath(const motion::AxisMove& move) : move_(move) {}
     AxisPositions at(double s) const override { return move_.at(s); }
 
   private:
-    const AxisMove& move_;
+    const motion::AxisMove& move_;
 };
 
 /// Length of the programmed point's path, or of the way of X Y Z if that is longer: under G43.4 the
 /// axes swing while the tip rests.
-double longer_way_mm(const AxisMove& move) {
+double longer_way_mm(const motion::AxisMove& move) {
     if (!move.curve) return move.length_mm;
-    const int parts = 4 * curve_parts(move.from, move.to);
+    const int parts = 4 * motion::curve_parts(move.from, move.to);
     double way_mm = 0.0;
     AxisPositions before = move.from;
     for (int k = 1; k <= parts; ++k) {
@@ -76,7 +76,8 @@ std::string test_name(std::string_view words) {
 
 }  // namespace
 
-MachineSink::MachineSink(const Setup& setup, EffectModels effects, const SinkOptions& options)
+MachineSink::MachineSink(const setup::Setup& setup, EffectModels effects,
+                         const SinkOptions& options)
     : setup_(setup),
       options_(options),
       machine_(setup, std::move(effects)),
@@ -87,7 +88,8 @@ MachineSink::MachineSink(const Setup& setup, EffectModels effects, const SinkOpt
       history_(setup.side_before),
       test_(options.test) {
     can_read_ = setup.probe || setup.ballbar;
-    for (const AxisGeometry& axis : setup.machine.chain.axes()) has_rotary_ |= axis.rotary;
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
+        has_rotary_ |= axis.rotary;
     if (has_rotary_) mode_ = plain_mode_ = PositioningMode::dpp;
     if (options.trace)
         trace_.emplace(axes_of(setup.machine.chain), options.truth, options.trace_chunk);
@@ -114,7 +116,7 @@ void MachineSink::end_pass() {
     log_.set_test(test_);
 }
 
-ReadingTable MachineSink::take_readings() {
+records::ReadingTable MachineSink::take_readings() {
     end_pass();
     return log_.take();
 }
@@ -153,7 +155,7 @@ void MachineSink::set_shop(std::string_view line) {
 
 /// A move under a function sets the mode; a turn without any function is the program's own
 /// arithmetic (dpp). Probing moves after the function was cancelled keep what placed them.
-void MachineSink::follow_mode(const AxisMove& move) {
+void MachineSink::follow_mode(const motion::AxisMove& move) {
     if (move.mode != PositioningMode::none && move.mode != PositioningMode::dpp)
         mode_ = move.mode;
     else if (has_rotary_ && turns(move))
@@ -176,14 +178,14 @@ void MachineSink::write_trace(const PathSampler& path, double end_s) {
 }
 
 /// Places (s) of the SAMPLE rows of a move, rising.
-std::vector<double> MachineSink::sample_places(const AxisMove& move) const {
+std::vector<double> MachineSink::sample_places(const motion::AxisMove& move) const {
     std::vector<double> places;
     const double way_mm = options_.trace_step_mm > 0.0 ? longer_way_mm(move) : 0.0;
     if (way_mm > 0.0)
         for (int i = 1; i * options_.trace_step_mm < way_mm; ++i)
             places.push_back(i * options_.trace_step_mm / way_mm);
     if (options_.trace_chord_mm <= 0.0 || !(move.arc || move.curve)) return places;
-    const auto steps = chord_steps(MovePath(move), options_.trace_chord_mm);
+    const auto steps = motion::chord_steps(MovePath(move), options_.trace_chord_mm);
     places.insert(places.end(), steps.begin() + 1, steps.end());
     std::sort(places.begin(), places.end());
     places.erase(std::unique(places.begin(), places.end()), places.end());
@@ -191,8 +193,8 @@ std::vector<double> MachineSink::sample_places(const AxisMove& move) const {
 }
 
 /// What the shop set up for a reading taken from now on.
-Reading MachineSink::row_now() const {
-    Reading row;
+records::Reading MachineSink::row_now() const {
+    records::Reading row;
     row.time_s = clock_s_;
     row.mode = mode_;
     row.spindle_rad = shop_.spindle_rad;
@@ -203,16 +205,16 @@ Reading MachineSink::row_now() const {
     return row;
 }
 
-std::optional<Touch> MachineSink::probe(const AxisMove& move) {
+std::optional<Touch> MachineSink::probe(const motion::AxisMove& move) {
     if (!move.until_skip || !touch_.mounted(move)) return std::nullopt;
     if (!bar_.commanded()) end_pass();
     log_.passed(move.from, clock_s_, mode_);
     const auto touch = touch_.touch(move, row_now(), machine_, log_);
-    if (touch && touch->row.device != Device::none) log_.add(touch->row);
+    if (touch && touch->row.device != records::Device::none) log_.add(touch->row);
     return touch;
 }
 
-MoveResult MachineSink::move(const AxisMove& move) {
+motion::MoveResult MachineSink::move(const motion::AxisMove& move) {
     follow_mode(move);
     if (can_read_ && log_.empty()) log_.passed(move.from, clock_s_, mode_);
     const std::optional<Touch> touch = probe(move);
@@ -228,4 +230,4 @@ MoveResult MachineSink::move(const AxisMove& move) {
     return {touch.has_value(), end, end_s};
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

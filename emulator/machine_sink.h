@@ -13,7 +13,7 @@
 #include "emulator/touch_station.h"
 #include "emulator/trace.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 
 struct SinkOptions {
     std::uint64_t seed = 1;
@@ -35,42 +35,42 @@ struct SinkOptions {
 /// 60 (deg, kg, deg C, 0 or 1, mm). SAMPLE 5: the ballbar reads every 5 degrees of the swept angle.
 /// POSITIONS DIRECT: turns without a function come from no store (empty mode); POSITIONS STORE ends
 /// that. Readings are those of the rows that are written: device_row and Observer, as predict asks.
-class MachineSink : public MotionSink {
+class MachineSink : public motion::MotionSink {
   public:
     /// `setup` must outlive the sink.
-    MachineSink(const Setup& setup, EffectModels effects, const SinkOptions& options);
+    MachineSink(const setup::Setup& setup, EffectModels effects, const SinkOptions& options);
 
     void place(const AxisPositions& machine);
-    MoveResult move(const AxisMove& move) override;
+    motion::MoveResult move(const motion::AxisMove& move) override;
     void dwell(double duration_s) override { clock_s_ += duration_s; }
     void printed(std::string_view text);
 
     double clock_s() const { return clock_s_; }
     std::size_t readings() const { return log_.size(); }
     /// Ends what still reads.
-    ReadingTable take_readings();
+    records::ReadingTable take_readings();
     std::string take_trace() { return trace_ ? trace_->take() : std::string(); }
     std::vector<std::string> take_notes() { return bar_.take_notes(); }
 
   private:
     void obey(std::string_view line);
     void set_shop(std::string_view line);
-    void follow_mode(const AxisMove& move);
-    std::optional<Touch> probe(const AxisMove& move);
-    Reading row_now() const;
+    void follow_mode(const motion::AxisMove& move);
+    std::optional<Touch> probe(const motion::AxisMove& move);
+    records::Reading row_now() const;
     void end_pass();
-    std::vector<double> sample_places(const AxisMove& move) const;
+    std::vector<double> sample_places(const motion::AxisMove& move) const;
     void write_trace(const PathSampler& path, double end_s);
     Vector3 true_tip_W(const PathSampler& path, double s) const;
 
-    const Setup& setup_;
+    const setup::Setup& setup_;
     SinkOptions options_;
     Observer machine_;
     TouchStation touch_;
     BallbarStation bar_;
     ReadingLog log_;
     std::optional<TraceWriter> trace_;
-    TravelHistory history_;  ///< of the path itself, for the true tip
+    records::TravelHistory history_;  ///< of the path itself, for the true tip
     double clock_s_ = 0.0;
     bool has_rotary_ = false;
     bool can_read_ = false;  ///< there is a device, so the way to its readings counts
@@ -81,4 +81,4 @@ class MachineSink : public MotionSink {
     std::string line_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

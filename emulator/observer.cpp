@@ -2,14 +2,15 @@
 
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::emulator {
 namespace {
 
 constexpr double root_mm = 1e-11;
 constexpr int most_steps = 12;
 
 /// The sample moved along the touch's direction: X Y Z, as far as the machine has them.
-void move_along(const Chain& chain, double way_mm, AxisSample& sample, Contact& contact) {
+void move_along(const kinematics::Chain& chain, double way_mm, AxisSample& sample,
+                Contact& contact) {
     contact.along_mm += way_mm;
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z})
         if (chain.find(axis))
@@ -19,8 +20,8 @@ void move_along(const Chain& chain, double way_mm, AxisSample& sample, Contact& 
 
 }  // namespace
 
-Observer::Observer(const Setup& setup, const Machine& machine, EffectModels effects,
-                   ReplayOffsets offsets)
+Observer::Observer(const setup::Setup& setup, const kinematics::Machine& machine,
+                   EffectModels effects, ReplayOffsets offsets)
     : setup_(setup), model_(machine), effects_(std::move(effects)), offsets_(std::move(offsets)) {}
 
 PhysicalState Observer::at(const AxisSample& sample, const Contact& contact) const {
@@ -30,17 +31,17 @@ PhysicalState Observer::at(const AxisSample& sample, const Contact& contact) con
     return state;
 }
 
-MachinePose Observer::nominal(const AxisSample& sample) const {
+kinematics::MachinePose Observer::nominal(const AxisSample& sample) const {
     return model_.poses(sample.position, spindle_angle(sample));
 }
 
 double Observer::read(const AxisSample& sample, const Contact& contact) const {
-    if (contact.device == Device::touch) return touch(sample, contact).value_mm;
+    if (contact.device == records::Device::touch) return touch(sample, contact).value_mm;
     return reading_mm(view(contact, at(sample, contact)));
 }
 
 Vector3 Observer::centre_to_tip_M(const AxisSample& sample, const Contact& contact) const {
-    return trunnion::centre_to_tip_M(view(contact, at(sample, contact)));
+    return emulator::centre_to_tip_M(view(contact, at(sample, contact)));
 }
 
 double Observer::reach_mm(const Contact& contact) const {
@@ -60,7 +61,7 @@ TouchReading Observer::touch(const AxisSample& sample, const Contact& contact) c
     const auto look = [&](double along_mm) {
         move_along(setup_.machine.chain, along_mm - there.along_mm, here, there);
         const PhysicalState state = at(here, there);
-        const WayToSphere way = way_to_contact(view(there, state));
+        const probe::WayToSphere way = way_to_contact(view(there, state));
         result = {along_mm + way.way_mm, along_mm + way.way_mm + state.extra.reading_mm, way.meets};
         return way.way_mm;
     };
@@ -86,4 +87,4 @@ TouchReading Observer::touch(const AxisSample& sample, const Contact& contact) c
     return result;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

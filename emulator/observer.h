@@ -5,11 +5,11 @@
 #include "emulator/instruments.h"
 #include "kinematics/forward.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 
 /// For the errors of the spindle.
-inline SpindleAngle spindle_angle(const AxisSample& sample) {
-    return sample.spindle_turns ? std::nullopt : SpindleAngle(sample.spindle_rad);
+inline kinematics::SpindleAngle spindle_angle(const AxisSample& sample) {
+    return sample.spindle_turns ? std::nullopt : kinematics::SpindleAngle(sample.spindle_rad);
 }
 
 /// A touch of a sphere along a straight line through the commanded end point.
@@ -23,16 +23,16 @@ struct TouchReading {
 class Observer {
   public:
     /// `setup` must outlive the observer; `machine` and `offsets` may differ from it (a fit).
-    Observer(const Setup& setup, const Machine& machine, EffectModels effects,
+    Observer(const setup::Setup& setup, const kinematics::Machine& machine, EffectModels effects,
              ReplayOffsets offsets = {});
-    Observer(const Setup& setup, EffectModels effects)
+    Observer(const setup::Setup& setup, EffectModels effects)
         : Observer(setup, setup.machine, std::move(effects)) {}
 
-    const Setup& setup() const { return setup_; }
+    const setup::Setup& setup() const { return setup_; }
     /// The machine at a sample; the contact says which device reads.
     PhysicalState at(const AxisSample& sample, const Contact& contact) const;
     /// The machine with its errors, without effects.
-    MachinePose nominal(const AxisSample& sample) const;
+    kinematics::MachinePose nominal(const AxisSample& sample) const;
     /// What the contact's device reads, mm.
     double read(const AxisSample& sample, const Contact& contact) const;
     /// The touch is a root along the line: effects are those at the axis positions of the contact,
@@ -50,10 +50,10 @@ class Observer {
         return {setup_, offsets_, contact, state};
     }
 
-    const Setup& setup_;
-    ForwardModel model_;
+    const setup::Setup& setup_;
+    kinematics::ForwardModel model_;
     EffectModels effects_;
     ReplayOffsets offsets_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

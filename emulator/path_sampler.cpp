@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::emulator {
 namespace {
 
 constexpr double half_step = 1e-3;  ///< of s: neighbours from which motion is taken
 
 /// Positioning and G31 begin and end at rest, exact stops (G9, G61) end there.
-bool at_rest(const AxisMove& move, double s) {
-    const bool stops = move.kind == MotionKind::rapid || move.until_skip;
+bool at_rest(const motion::AxisMove& move, double s) {
+    const bool stops = move.kind == motion::MotionKind::rapid || move.until_skip;
     return (stops && s <= 0.0) || ((stops || !move.gap_free) && s >= 1.0);
 }
 
 /// Second difference of the commanded path, mm/s^2 and rad/s^2; 0 for moves that take no time.
-AxisPositions acceleration(const AxisMove& move, double s) {
+AxisPositions acceleration(const motion::AxisMove& move, double s) {
     AxisPositions out;
     const double step_s = half_step * move.duration_s;
     if (!(step_s > 0.0) || (!move.arc && !move.curve)) return out;
@@ -49,7 +49,7 @@ AxisSample PathSampler::at(double s) const {
     for (std::size_t i = 0; i < axis_count; ++i) {
         const double moved = b.value[i] - a.value[i];
         const double way = straight ? move.to.value[i] - move.from.value[i] : moved;
-        if (std::abs(way) < path_rounding.mm) continue;
+        if (std::abs(way) < records::path_rounding.mm) continue;
         const signed char sign = way > 0.0 ? 1 : -1;
         if (sign != last_travel[i])
             sample.since_reversal[i] =
@@ -61,4 +61,4 @@ AxisSample PathSampler::at(double s) const {
     return sample;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

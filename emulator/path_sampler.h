@@ -5,7 +5,7 @@
 #include "motion/motion.h"
 #include "records/travel.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 
 /// What the shop set up for the readings of a run: columns of the readings that no axis word holds.
 struct ShopState {
@@ -18,8 +18,8 @@ struct ShopState {
 
 /// The move as the axes execute it, started at `start_s` on the clock. Borrows move and history.
 struct PathSampler {
-    const AxisMove& move;
-    const TravelHistory& history;
+    const motion::AxisMove& move;
+    const records::TravelHistory& history;
     double start_s = 0.0;
     PositioningMode mode = PositioningMode::none;  ///< function that positioned the axes
     ShopState shop = {};
@@ -28,4 +28,4 @@ struct PathSampler {
     AxisSample at(double s) const;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

@@ -3,22 +3,22 @@
 #include "base/alarm.h"
 #include "geometry/pose.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 namespace {
 
 /// Where a target is: in M, or from the table where the instrument says so.
-Vector3 seen_mm(const Artefact& target, const Vector3& place_mm, const MachinePose& poses,
-                const Instrument& instrument) {
+Vector3 seen_mm(const setup::Artefact& target, const Vector3& place_mm,
+                const kinematics::MachinePose& poses, const setup::Instrument& instrument) {
     const Vector3 p_M_mm = (target.tool_S_mm ? poses.pose_MS : poses.pose_MW) * place_mm;
     return instrument.sees_table ? poses.pose_MW.inverse() * p_M_mm : p_M_mm;
 }
 
 /// In S of a target that the tool carries, else in W.
-Vector3 place_mm(const Setup& setup, const Artefact& target) {
+Vector3 place_mm(const setup::Setup& setup, const setup::Artefact& target) {
     return target.tool_S_mm ? setup.target_S_mm(target) : target.center_W_mm;
 }
 
-int instrument_index(const Setup& setup, const std::string& name) {
+int instrument_index(const setup::Setup& setup, const std::string& name) {
     if (name.empty() && setup.instruments.size() > 1)
         throw InputError("a point row without an instrument, and the setup has several");
     for (std::size_t k = 0; k < setup.instruments.size(); ++k)
@@ -28,10 +28,10 @@ int instrument_index(const Setup& setup, const std::string& name) {
 }
 
 /// The setup's instrument with what a fit adds; one that stands in M without an [[instrument]].
-Instrument instrument_of(const InstrumentView& view) {
+setup::Instrument instrument_of(const InstrumentView& view) {
     if (view.contact.instrument < 0) return {};
     const auto k = static_cast<std::size_t>(view.contact.instrument);
-    Instrument instrument = view.setup.instruments[k];
+    setup::Instrument instrument = view.setup.instruments[k];
     if (k < view.offsets.instruments.size()) {
         instrument.pose_error += view.offsets.instruments[k].pose;
         instrument.scale_error += view.offsets.instruments[k].scale;
@@ -43,24 +43,25 @@ Instrument instrument_of(const InstrumentView& view) {
 
 double point_mm(const InstrumentView& view) {
     const auto k = static_cast<std::size_t>(view.contact.artefact);
-    const Artefact& target = view.setup.artefacts[k];
+    const setup::Artefact& target = view.setup.artefacts[k];
     Vector3 place = place_mm(view.setup, target) + target.found_mm;
     place += target.tool_S_mm ? view.state.extra.tip_shift_mm : view.state.extra.work_shift_mm;
     if (k < view.offsets.artefact.size()) place += view.offsets.artefact[k];
-    const Instrument instrument = instrument_of(view);
+    const setup::Instrument instrument = instrument_of(view);
     const Vector3 measured_I_mm =
         instrument.read_mm(seen_mm(target, place, view.state.poses, instrument));
     return view.contact.direction_I.dot(measured_I_mm - view.contact.commanded_I_mm) +
            view.state.extra.reading_mm;
 }
 
-void aim_at_point(const Setup& setup, const Reading& row, Contact& contact) {
+void aim_at_point(const setup::Setup& setup, const records::Reading& row, Contact& contact) {
     contact.instrument = instrument_index(setup, row.instrument);
-    const Instrument instrument =
-        contact.instrument < 0 ? Instrument{}
+    const setup::Instrument instrument =
+        contact.instrument < 0 ? setup::Instrument{}
                                : setup.instruments[static_cast<std::size_t>(contact.instrument)];
-    const Artefact& target = setup.artefacts[static_cast<std::size_t>(contact.artefact)];
-    const MachinePose believed = Machine{setup.machine.chain, {}}.poses(row.commanded);
+    const setup::Artefact& target = setup.artefacts[static_cast<std::size_t>(contact.artefact)];
+    const kinematics::MachinePose believed =
+        kinematics::Machine{setup.machine.chain, {}}.poses(row.commanded);
     const Pose pose_IM = instrument.pose_IM();
     contact.direction_I = row.direction_M;
     contact.commanded_I_mm =
@@ -70,4 +71,4 @@ void aim_at_point(const Setup& setup, const Reading& row, Contact& contact) {
         contact.direction_M = believed.pose_MW.rotation * contact.direction_M;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

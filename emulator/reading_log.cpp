@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace trunnion {
+namespace trunnion::emulator {
 namespace {
 
 /// Moves kept between two readings before those that say nothing about a side are dropped.
@@ -29,24 +29,24 @@ bool passes_through(const AxisPositions& a, const AxisPositions& b, const AxisPo
 ReadingLog::ReadingLog(std::vector<Axis> axes, const AxisSides& sides, std::string test)
     : test_(std::move(test)),
       names_{test_},
-      history_(sides, rows_rounding),
-      before_stretch_(sides, rows_rounding) {
+      history_(sides, records::rows_rounding),
+      before_stretch_(sides, records::rows_rounding) {
     table_.axes = std::move(axes);
     table_.optional_columns = {"mode", "feed_mm_min"};
     table_.comment = {{"schema", "trunnion.readings/1"}, {"source", "simulated"}};
     table_.side_before = sides;
 }
 
-ReadingTable ReadingLog::take() {
+records::ReadingTable ReadingLog::take() {
     const auto column = [&](const char* name, const auto& differs) {
         if (std::any_of(table_.rows.begin(), table_.rows.end(), differs))
             table_.optional_columns.emplace_back(name);
     };
-    column("spindle_deg", [](const Reading& r) { return r.spindle_rad != 0.0; });
-    column("temperature_c", [](const Reading& r) { return r.temperature_c != 20.0; });
-    column("load_kg", [](const Reading& r) { return r.load_kg != 0.0; });
-    column("clamped", [](const Reading& r) { return r.clamped; });
-    column("extension_mm", [](const Reading& r) { return r.extension_mm != 0.0; });
+    column("spindle_deg", [](const records::Reading& r) { return r.spindle_rad != 0.0; });
+    column("temperature_c", [](const records::Reading& r) { return r.temperature_c != 20.0; });
+    column("load_kg", [](const records::Reading& r) { return r.load_kg != 0.0; });
+    column("clamped", [](const records::Reading& r) { return r.clamped; });
+    column("extension_mm", [](const records::Reading& r) { return r.extension_mm != 0.0; });
     return std::move(table_);
 }
 
@@ -87,8 +87,8 @@ void ReadingLog::prune() {
     stops_ = std::move(kept);
 }
 
-Reading ReadingLog::row_of(const Stop& stop) {
-    Reading row;
+records::Reading ReadingLog::row_of(const Stop& stop) {
+    records::Reading row;
     row.commanded = stop.at;
     row.time_s = stop.time_s;
     row.mode = stop.mode;
@@ -96,24 +96,24 @@ Reading ReadingLog::row_of(const Stop& stop) {
     return row;
 }
 
-AxisSample ReadingLog::sample_of(Reading row) const {
-    std::vector<Reading> rows;
+AxisSample ReadingLog::sample_of(records::Reading row) const {
+    std::vector<records::Reading> rows;
     if (!table_.rows.empty()) rows.push_back(table_.rows.back());
     for (const Stop& stop : stops_) rows.push_back(row_of(stop));
     if (!stops_.empty() && stops_.back().at == row.commanded) rows.pop_back();
     row.test = test_;
     rows.push_back(std::move(row));
-    return samples_of(rows, table_.axes, history_).back();
+    return records::samples_of(rows, table_.axes, history_).back();
 }
 
-void ReadingLog::append(Reading row) {
-    const Reading* last = table_.rows.empty() ? nullptr : &table_.rows.back();
+void ReadingLog::append(records::Reading row) {
+    const records::Reading* last = table_.rows.empty() ? nullptr : &table_.rows.back();
     if (last) {
         const double step_s = row.commanded == last->commanded ? 0.0 : shortest_time_s;
         row.time_s = std::max(row.time_s, last->time_s + step_s);
     }
     history_.advance(row.commanded);
-    if (last && way_unknown(*last, row)) {
+    if (last && records::way_unknown(*last, row)) {
         history_.begin_anew();
         stretch_ = table_.rows.size();
         before_stretch_ = history_;
@@ -122,10 +122,10 @@ void ReadingLog::append(Reading row) {
     table_.rows.push_back(std::move(row));
 }
 
-void ReadingLog::add(Reading row) {
+void ReadingLog::add(records::Reading row) {
     if (!stops_.empty() && stops_.back().at == row.commanded) stops_.pop_back();
     for (const Stop& stop : stops_) {
-        Reading passing = row_of(stop);
+        records::Reading passing = row_of(stop);
         passing.feature = row.feature;
         append(std::move(passing));
     }
@@ -140,15 +140,15 @@ std::size_t ReadingLog::pass_begin() const {
     return begin;
 }
 
-std::span<Reading> ReadingLog::pass() {
+std::span<records::Reading> ReadingLog::pass() {
     return std::span(table_.rows).subspan(pass_begin());
 }
 
 std::vector<AxisSample> ReadingLog::pass_samples() const {
     const auto rows = std::span(table_.rows).subspan(stretch_);
-    std::vector<AxisSample> all = samples_of(rows, table_.axes, before_stretch_);
+    std::vector<AxisSample> all = records::samples_of(rows, table_.axes, before_stretch_);
     all.erase(all.begin(), all.begin() + static_cast<long>(pass_begin() - stretch_));
     return all;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

@@ -7,7 +7,7 @@
 
 #include "records/samples.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 
 /// The table grows row by row; the history of travel grows with it, so that a reading is taken on
 /// the rows that are written.
@@ -25,19 +25,19 @@ class ReadingLog {
     void passed(const AxisPositions& to, double time_s, PositioningMode mode);
 
     /// The sample of a row that would be added now.
-    AxisSample sample_of(Reading row) const;
+    AxisSample sample_of(records::Reading row) const;
     /// Adds a row: numbers it, names its test, writes the kept moves before it as device-less rows.
-    void add(Reading row);
+    void add(records::Reading row);
 
     /// Rows of the test in force at the end of the table, and their samples.
-    std::span<Reading> pass();
+    std::span<records::Reading> pass();
     std::vector<AxisSample> pass_samples() const;
 
     const std::string& test() const { return test_; }
     std::size_t size() const { return table_.rows.size(); }
     bool empty() const { return table_.rows.empty() && stops_.empty(); }
     /// The table, with a column for each quantity that a row sets beside its usual value.
-    ReadingTable take();
+    records::ReadingTable take();
 
   private:
     struct Stop {
@@ -47,18 +47,18 @@ class ReadingLog {
         std::string test;
     };
     void prune();
-    static Reading row_of(const Stop& stop);
-    void append(Reading row);
+    static records::Reading row_of(const Stop& stop);
+    void append(records::Reading row);
     std::size_t pass_begin() const;
 
-    ReadingTable table_;
+    records::ReadingTable table_;
     std::string test_;
-    std::set<std::string> names_;  ///< given so far
-    std::vector<Stop> stops_;      ///< since the last row
-    TravelHistory history_;        ///< of all rows
+    std::set<std::string> names_;     ///< given so far
+    std::vector<Stop> stops_;         ///< since the last row
+    records::TravelHistory history_;  ///< of all rows
     /// Where the way before is not known: the first row of this stretch, and the history there.
     std::size_t stretch_ = 0;
-    TravelHistory before_stretch_;
+    records::TravelHistory before_stretch_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

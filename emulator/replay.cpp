@@ -8,23 +8,23 @@
 #include "base/alarm.h"
 #include "records/samples.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 namespace {
 
-[[noreturn]] void refuse(const Setup& setup, const ReadingTable& table, const Reading& row,
-                         const std::string& message) {
-    throw InputError(message + " (setup " + setup.path + ")", place_of(table, row));
+[[noreturn]] void refuse(const setup::Setup& setup, const records::ReadingTable& table,
+                         const records::Reading& row, const std::string& message) {
+    throw InputError(message + " (setup " + setup.path + ")", records::place_of(table, row));
 }
 
-void check_axes(const Setup& setup, const ReadingTable& table) {
-    for (const AxisGeometry& axis : setup.machine.chain.axes())
+void check_axes(const setup::Setup& setup, const records::ReadingTable& table) {
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
         if (std::find(table.axes.begin(), table.axes.end(), axis.axis) == table.axes.end())
             throw InputError("no column for axis " + axis.name +
                                  " of the setup's machine: readings of another machine?",
                              {table.path, 0, 0});
     for (const Axis axis : table.axes) {
         if (setup.machine.chain.find(axis)) continue;
-        for (const Reading& row : table.rows)
+        for (const records::Reading& row : table.rows)
             if (row.commanded[axis] != 0.0)
                 refuse(setup, table, row,
                        "axis " + table.names[axis] +
@@ -32,43 +32,44 @@ void check_axes(const Setup& setup, const ReadingTable& table) {
     }
 }
 
-int touches_of(const ReadingTable& table) {
+int touches_of(const records::ReadingTable& table) {
     const auto it = table.comment.find("touches");
     return it == table.comment.end() ? 0 : std::atoi(it->second.c_str());
 }
 
-bool turns(const Chain& chain, Axis axis) {
-    const AxisGeometry* geometry = chain.find(axis);
+bool turns(const kinematics::Chain& chain, Axis axis) {
+    const kinematics::AxisGeometry* geometry = chain.find(axis);
     return geometry && geometry->rotary;
 }
 
 }  // namespace
 
-DeviceRow device_row(const Observer& observer, const Reading& row, const AxisSample& sample,
-                     int touches) {
+DeviceRow device_row(const Observer& observer, const records::Reading& row,
+                     const AxisSample& sample, int touches) {
     DeviceRow ready{sample, contact_of(observer.setup(), observer.nominal(sample), row)};
-    const Chain& chain = observer.setup().machine.chain;
+    const kinematics::Chain& chain = observer.setup().machine.chain;
     for (const Axis axis : all_axes)
-        if (row.device == Device::sphere && !turns(chain, axis)) {
+        if (row.device == records::Device::sphere && !turns(chain, axis)) {
             ready.sample.travel[index_of(axis)] = 0;
             ready.sample.side_unknown[index_of(axis)] = false;
         } else if (ready.sample.side_unknown[index_of(axis)]) {
             ready.sample.travel[index_of(axis)] = 1;
         }
-    if (row.device == Device::sphere) ready.contact.touches = touches;
+    if (row.device == records::Device::sphere) ready.contact.touches = touches;
     return ready;
 }
 
-Replay::Replay(const Setup& setup, const ReadingTable& table) : setup_(setup) {
+Replay::Replay(const setup::Setup& setup, const records::ReadingTable& table) : setup_(setup) {
     check_axes(setup, table);
-    const std::vector<AxisSample> samples = samples_of(table);
+    const std::vector<AxisSample> samples = records::samples_of(table);
     const Observer nominal(setup_, {});
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
-        const Reading& row = table.rows[r];
-        if (row.device == Device::none) continue;
+        const records::Reading& row = table.rows[r];
+        if (row.device == records::Device::none) continue;
         try {
             DeviceRow ready = device_row(nominal, row, samples[r], touches_of(table));
-            if (row.device == Device::touch) nominal.go_to_contact(ready.sample, ready.contact);
+            if (row.device == records::Device::touch)
+                nominal.go_to_contact(ready.sample, ready.contact);
             rows_.push_back(r);
             samples_.push_back(ready.sample);
             contacts_.push_back(ready.contact);
@@ -81,11 +82,11 @@ Replay::Replay(const Setup& setup, const ReadingTable& table) : setup_(setup) {
     list_zeros(table);
 }
 
-void Replay::list_zeros(const ReadingTable& table) {
-    std::map<std::tuple<int, std::string, std::string, Device>, std::size_t> known;
+void Replay::list_zeros(const records::ReadingTable& table) {
+    std::map<std::tuple<int, std::string, std::string, records::Device>, std::size_t> known;
     for (std::size_t i = 0; i < size(); ++i) {
-        const Reading& row = table.rows[rows_[i]];
-        if (row.device != Device::linear && row.device != Device::angle) continue;
+        const records::Reading& row = table.rows[rows_[i]];
+        if (row.device != records::Device::linear && row.device != records::Device::angle) continue;
         const auto [at, added] =
             known.try_emplace({row.part, row.session, row.test, row.device}, zeros_.size());
         if (added) zeros_.push_back({row.test, row.session, row.angular, {}});
@@ -94,12 +95,12 @@ void Replay::list_zeros(const ReadingTable& table) {
     }
 }
 
-void Replay::list_unknown_sides(const ReadingTable& table) {
+void Replay::list_unknown_sides(const records::ReadingTable& table) {
     std::map<std::tuple<int, std::string, Axis>, std::size_t> known;
     for (std::size_t i = 0; i < size(); ++i)
         for (const Axis axis : table.axes) {
             if (!samples_[i].side_unknown[index_of(axis)]) continue;
-            const Reading& row = table.rows[rows_[i]];
+            const records::Reading& row = table.rows[rows_[i]];
             const auto [at, added] =
                 known.try_emplace({row.part, row.session, axis}, unknown_.size());
             if (added) unknown_.push_back({axis, {}});
@@ -112,14 +113,15 @@ void Replay::assume_side(std::size_t k, signed char side) {
         samples_[i].travel[index_of(unknown_[k].axis)] = side;
 }
 
-double Replay::read(std::size_t i, const ForwardModel& model, const ReplayOffsets& offsets,
-                    const Perturbation& extra) const {
+double Replay::read(std::size_t i, const kinematics::ForwardModel& model,
+                    const ReplayOffsets& offsets, const kinematics::Perturbation& extra) const {
     const PhysicalState state{model.poses(samples_[i].position, extra, spindle_angle(samples_[i])),
                               extra};
     return reading_mm({setup_, offsets, contacts_[i], state});
 }
 
-std::vector<double> Replay::predict(const Machine& machine, const ReplayOffsets& offsets,
+std::vector<double> Replay::predict(const kinematics::Machine& machine,
+                                    const ReplayOffsets& offsets,
                                     const EffectModels& models) const {
     const Observer observer(setup_, machine, models, offsets);
     std::vector<double> value_mm(size());
@@ -142,10 +144,10 @@ std::vector<double> Replay::predict(const EffectModels& models) const {
     return predict(setup_.machine, {}, models);
 }
 
-Perturbation Replay::gradient(std::size_t i, const ForwardModel& model,
-                              const ReplayOffsets& offsets) const {
+kinematics::Perturbation Replay::gradient(std::size_t i, const kinematics::ForwardModel& model,
+                                          const ReplayOffsets& offsets) const {
     constexpr double shift_mm = 1e-3, turn_rad = 1e-5;
-    Perturbation at, result;
+    kinematics::Perturbation at, result;
     const auto slope = [&](double& entry, double step) {
         entry = step;
         const double plus = read(i, model, offsets, at);
@@ -155,7 +157,7 @@ Perturbation Replay::gradient(std::size_t i, const ForwardModel& model,
         return (plus - minus) / (2.0 * step);
     };
     for (const auto* side : {&setup_.machine.chain.work, &setup_.machine.chain.tool})
-        for (const AxisGeometry& axis : *side) {
+        for (const kinematics::AxisGeometry& axis : *side) {
             const std::size_t k = index_of(axis.axis);
             result.axis.value[k] = slope(at.axis.value[k], axis.rotary ? turn_rad : shift_mm);
             for (int j = 0; j < 3; ++j) {
@@ -171,7 +173,7 @@ Perturbation Replay::gradient(std::size_t i, const ForwardModel& model,
     return result;
 }
 
-double dot(const Perturbation& gradient, const Perturbation& delta) {
+double dot(const kinematics::Perturbation& gradient, const kinematics::Perturbation& delta) {
     // Component by component: independent sums that a processor adds side by side.
     Vector3 sum = gradient.tip_shift_mm.cwiseProduct(delta.tip_shift_mm);
     Vector3 tilts = gradient.work_shift_mm.cwiseProduct(delta.work_shift_mm);
@@ -184,13 +186,14 @@ double dot(const Perturbation& gradient, const Perturbation& delta) {
     return axes + (sum + tilts).sum();
 }
 
-ReadingTable predicted(const Setup& setup, const ReadingTable& table, const EffectModels& models) {
+records::ReadingTable predicted(const setup::Setup& setup, const records::ReadingTable& table,
+                                const EffectModels& models) {
     const Replay replay(setup, table);
     const std::vector<double> value_mm = replay.predict(models);
-    ReadingTable result = table;
+    records::ReadingTable result = table;
     for (std::size_t i = 0; i < replay.size(); ++i)
         result.rows[replay.table_row(i)].value_mm = value_mm[i];
     return result;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

@@ -6,7 +6,7 @@
 
 #include "emulator/observer.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 
 /// A row whose device reads: what effects and device see. run and predict both begin here.
 struct DeviceRow {
@@ -16,8 +16,8 @@ struct DeviceRow {
 /// Linear axes have no side at a sphere row: its touches (`touches` of them, 0: unknown) come from
 /// opposite ones. Where nothing tells a side it is taken as +. Throws InputError without a place
 /// when the setup lacks the device or the artefact.
-DeviceRow device_row(const Observer& observer, const Reading& row, const AxisSample& sample,
-                     int touches = 0);
+DeviceRow device_row(const Observer& observer, const records::Reading& row,
+                     const AxisSample& sample, int touches = 0);
 
 /// Device rows of one axis before whose first motion nothing tells the side, in one session.
 struct UnknownSide {
@@ -37,14 +37,14 @@ class Replay {
   public:
     /// Throws InputError when a row names an artefact or device that the setup does not have, or an
     /// axis column is missing.
-    Replay(const Setup& setup, const ReadingTable& table);
+    Replay(const setup::Setup& setup, const records::ReadingTable& table);
 
     std::size_t size() const { return rows_.size(); }
     std::size_t table_row(std::size_t i) const { return rows_[i]; }
     /// A touch: at the contact as the machine without effects makes it.
     const AxisSample& sample(std::size_t i) const { return samples_[i]; }
     const Contact& contact(std::size_t i) const { return contacts_[i]; }
-    const Setup& setup() const { return setup_; }
+    const setup::Setup& setup() const { return setup_; }
 
     /// Sides that the table leaves open, one entry for each axis and session.
     const std::vector<UnknownSide>& unknown_sides() const { return unknown_; }
@@ -56,22 +56,22 @@ class Replay {
 
     /// Readings of all device rows, mm; `linear` and `angle` rows count from the first of their
     /// test. `machine` may differ from the setup's (location errors).
-    std::vector<double> predict(const Machine& machine, const ReplayOffsets& offsets,
+    std::vector<double> predict(const kinematics::Machine& machine, const ReplayOffsets& offsets,
                                 const EffectModels& models) const;
     std::vector<double> predict(const EffectModels& models) const;
 
     /// d reading / d Perturbation of device row i by central differences, as a Perturbation whose
     /// entries are the derivatives (mm/mm, mm/rad).
-    Perturbation gradient(std::size_t i, const ForwardModel& model,
-                          const ReplayOffsets& offsets) const;
+    kinematics::Perturbation gradient(std::size_t i, const kinematics::ForwardModel& model,
+                                      const ReplayOffsets& offsets) const;
 
   private:
-    double read(std::size_t i, const ForwardModel& model, const ReplayOffsets& offsets,
-                const Perturbation& extra) const;
-    void list_unknown_sides(const ReadingTable& table);
-    void list_zeros(const ReadingTable& table);
+    double read(std::size_t i, const kinematics::ForwardModel& model, const ReplayOffsets& offsets,
+                const kinematics::Perturbation& extra) const;
+    void list_unknown_sides(const records::ReadingTable& table);
+    void list_zeros(const records::ReadingTable& table);
 
-    Setup setup_;
+    setup::Setup setup_;
     std::vector<std::size_t> rows_;
     std::vector<AxisSample> samples_;
     std::vector<Contact> contacts_;
@@ -81,9 +81,10 @@ class Replay {
 };
 
 /// Sum of products of all entries: the change of a reading for a small `delta`.
-double dot(const Perturbation& gradient, const Perturbation& delta);
+double dot(const kinematics::Perturbation& gradient, const kinematics::Perturbation& delta);
 
 /// The table with value_mm of every device row replaced by its noise-free prediction.
-ReadingTable predicted(const Setup& setup, const ReadingTable& table, const EffectModels& models);
+records::ReadingTable predicted(const setup::Setup& setup, const records::ReadingTable& table,
+                                const EffectModels& models);
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

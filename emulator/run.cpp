@@ -2,7 +2,7 @@
 
 #include "emulator/machine_sink.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 namespace {
 
 SinkOptions sink_options(const RunOptions& options, const ProgramChoice& program) {
@@ -17,7 +17,7 @@ SinkOptions sink_options(const RunOptions& options, const ProgramChoice& program
     if (const auto* number = std::get_if<int>(&program)) {
         sink.test = "O" + std::to_string(*number);
     } else {
-        const std::string& name = std::get<ProgramText>(program).name;
+        const std::string& name = std::get<interpreter::ProgramText>(program).name;
         const std::size_t slash = name.find_last_of('/');
         sink.test = name.substr(slash == std::string::npos ? 0 : slash + 1);
         sink.test = sink.test.substr(0, sink.test.find('.'));
@@ -25,7 +25,8 @@ SinkOptions sink_options(const RunOptions& options, const ProgramChoice& program
     return sink;
 }
 
-std::map<int, double> report_variables(const Controller& controller, const RunOptions& options) {
+std::map<int, double> report_variables(const controller::Controller& controller,
+                                       const RunOptions& options) {
     std::map<int, double> values;
     const std::vector<int>& numbers = options.wanted_variables.empty()
                                           ? controller.used_common_variables()
@@ -40,9 +41,9 @@ void append(std::vector<std::string>& to, std::vector<std::string> from) {
 
 }  // namespace
 
-ControlConfig control_config(const Setup& setup) {
-    ControlConfig config;
-    for (const AxisGeometry& axis : setup.machine.chain.axes())
+controller::ControlConfig control_config(const setup::Setup& setup) {
+    controller::ControlConfig config;
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
         if (is_letter(axis))
             config.axes.push_back({axis.axis, axis.rotary, axis.min, axis.max, axis.max_speed,
                                    axis.max_acceleration});
@@ -58,32 +59,33 @@ ControlConfig control_config(const Setup& setup) {
     return config;
 }
 
-RunLog run_program(const Setup& setup, ProgramSource& programs, const ProgramChoice& program,
-                   const RunOptions& options) {
+RunLog run_program(const setup::Setup& setup, interpreter::ProgramSource& programs,
+                   const ProgramChoice& program, const RunOptions& options) {
     RunLog log;
     log.stores = setup.stores;
     MachineSink sink(setup, options.effects, sink_options(options, program));
     sink.place(options.start);
     std::optional<CompensatingSink> compensating;
     if (options.compensation) compensating.emplace(sink, options.compensation);
-    MotionSink& door = compensating ? static_cast<MotionSink&>(*compensating) : sink;
-    ControlConfig config = control_config(setup);
+    motion::MotionSink& door =
+        compensating ? static_cast<motion::MotionSink&>(*compensating) : sink;
+    controller::ControlConfig config = control_config(setup);
     BudgetMeter meter(options.budget);
     config.max_blocks = options.budget.blocks;
     config.go_on = [&](std::uint64_t blocks) {
         return meter.allows({blocks, log.printed.size(), sink.readings()});
     };
-    Controller controller(std::move(config), log.stores, programs, door,
-                          [&](std::string_view text) {
-                              log.printed += text;
-                              sink.printed(text);
-                          });
+    controller::Controller controller(std::move(config), log.stores, programs, door,
+                                      [&](std::string_view text) {
+                                          log.printed += text;
+                                          sink.printed(text);
+                                      });
     controller.place(options.start);
     for (const auto& [number, value] : setup.stores.variables)
         controller.set_variable(number, value);
     for (const auto& [number, value] : options.variables) controller.set_variable(number, value);
     log.result = std::visit([&](const auto& choice) { return controller.run(choice); }, program);
-    if (log.result.status == RunStatus::limit)
+    if (log.result.status == controller::RunStatus::limit)
         log.limit = meter.reached() == BudgetLimit::none ? BudgetLimit::blocks : meter.reached();
     log.variables = report_variables(controller, options);
     log.readings = sink.take_readings();
@@ -98,4 +100,4 @@ RunLog run_program(const Setup& setup, ProgramSource& programs, const ProgramCho
     return log;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

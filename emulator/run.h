@@ -14,7 +14,7 @@
 #include "emulator/trace.h"
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 
 struct RunOptions {
     std::uint64_t seed = 1;
@@ -35,24 +35,24 @@ struct RunOptions {
 
 /// What a run did.
 struct RunLog {
-    RunResult result;
+    controller::RunResult result;
     BudgetLimit limit = BudgetLimit::none;  ///< which one ended the run
     std::string printed;
-    ReadingTable readings;
+    records::ReadingTable readings;
     std::string trace_csv;
     std::map<int, double> variables;  ///< NaN: vacant
-    Stores stores;                    ///< as the program left them
+    offsets::Stores stores;           ///< as the program left them
     std::vector<std::string> notes;
 };
 
 /// A program's text or its O number in the source.
-using ProgramChoice = std::variant<ProgramText, int>;
+using ProgramChoice = std::variant<interpreter::ProgramText, int>;
 
 /// Runs on a copy of the setup. Same inputs and seed: the same log. NC alarms are in the result.
-RunLog run_program(const Setup& setup, ProgramSource& programs, const ProgramChoice& program,
-                   const RunOptions& options);
+RunLog run_program(const setup::Setup& setup, interpreter::ProgramSource& programs,
+                   const ProgramChoice& program, const RunOptions& options);
 
 /// What the control knows of the machine's axes.
-ControlConfig control_config(const Setup& setup);
+controller::ControlConfig control_config(const setup::Setup& setup);
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

@@ -4,11 +4,11 @@
 
 #include "positioning/rotary_transform.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 namespace {
 
 /// As offset T of the setup says; 0 for a tool that it does not know.
-double tool_length_mm(const Setup& setup, int tool) {
+double tool_length_mm(const setup::Setup& setup, int tool) {
     const auto& tools = setup.stores.tools.tool;
     const auto n = static_cast<std::size_t>(std::max(0, tool));
     return n == 0 || n >= tools.size() ? 0.0 : tools[n].length_mm();
@@ -16,7 +16,8 @@ double tool_length_mm(const Setup& setup, int tool) {
 
 }  // namespace
 
-Vector3 physical_tip_S(const Setup& setup, const AxisMove& move, double extension_mm) {
+Vector3 physical_tip_S(const setup::Setup& setup, const motion::AxisMove& move,
+                       double extension_mm) {
     if (setup.probe && setup.probe->tool != 0 && move.tool == setup.probe->tool)
         return setup.probe->tip_with(extension_mm);
     const double length_mm = tool_length_mm(setup, move.tool);
@@ -26,7 +27,7 @@ Vector3 physical_tip_S(const Setup& setup, const AxisMove& move, double extensio
     return -length_mm * direction;
 }
 
-Contact tip_contact(const Setup& setup, const AxisMove& move) {
+Contact tip_contact(const setup::Setup& setup, const motion::AxisMove& move) {
     Contact contact;
     contact.tip = true;
     contact.stylus =
@@ -39,4 +40,4 @@ Vector3 physical_tip_W(const PhysicalState& state, const Vector3& tip_S_mm) {
            (state.poses.pose_MS * (tip_S_mm + state.extra.tip_shift_mm));
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

@@ -4,18 +4,19 @@
 #include "emulator/observer.h"
 #include "motion/motion.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 
 /// The physical tip in S during a move: the stylus when the setup's probe is in the spindle, else
 /// tool T, as long as offset T of the setup says, whatever H is in force. A tool that the setup
 /// does not know (none called, no length) is as long as the control believes. It points along Z of
 /// S, or as 19697 says: [machine] has no key for the spindle's direction.
-Vector3 physical_tip_S(const Setup& setup, const AxisMove& move, double extension_mm = 0.0);
+Vector3 physical_tip_S(const setup::Setup& setup, const motion::AxisMove& move,
+                       double extension_mm = 0.0);
 
 /// What effects of the tool ask for when no device reads but its tip is wanted.
-Contact tip_contact(const Setup& setup, const AxisMove& move);
+Contact tip_contact(const setup::Setup& setup, const motion::AxisMove& move);
 
 /// Where that tip is in W, effects included.
 Vector3 physical_tip_W(const PhysicalState& state, const Vector3& tip_S_mm);
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

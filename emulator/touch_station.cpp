@@ -5,11 +5,11 @@
 #include "base/units.h"
 #include "emulator/replay.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 namespace {
 
 /// Only X, Y and Z move, straight: the line of the row is that of the move.
-bool is_plain(const AxisMove& move) {
+bool is_plain(const motion::AxisMove& move) {
     if (move.arc || move.curve) return false;
     for (const Axis axis : all_axes)
         if (axis != Axis::X && axis != Axis::Y && axis != Axis::Z &&
@@ -21,13 +21,14 @@ bool is_plain(const AxisMove& move) {
 /// A move towards one sphere, and where its ball touches.
 class Approach {
   public:
-    Approach(const AxisMove& move, Reading row, const Observer& observer, const ReadingLog& log)
+    Approach(const motion::AxisMove& move, records::Reading row, const Observer& observer,
+             const ReadingLog& log)
         : move_(move), row_(std::move(row)), observer_(observer), log_(log) {
         const Vector3 way = gauge(move.to) - gauge(move.from);
         length_mm_ = way.norm();
         start_s_ = row_.time_s;
         row_.commanded = move.to;
-        row_.device = Device::touch;
+        row_.device = records::Device::touch;
         row_.feed_mm_min = move.feed_mm_min;
         row_.direction_M = length_mm_ > 0.0 ? Vector3(way / length_mm_) : Vector3::UnitZ();
     }
@@ -63,7 +64,7 @@ class Approach {
             observer_.reach_mm(at.contact))
             return std::nullopt;
         Touch touch = done(0.0, -length_mm_);
-        touch.row.device = Device::none;
+        touch.row.device = records::Device::none;
         return touch;
     }
 
@@ -74,9 +75,9 @@ class Approach {
             sample.position = move_.at(s);
             return sample;
         };
-        const auto s =
-            first_contact([&](double t) { return observer_.centre_to_tip_M(here(t), at.contact); },
-                          observer_.reach_mm(at.contact));
+        const auto s = probe::first_contact(
+            [&](double t) { return observer_.centre_to_tip_M(here(t), at.contact); },
+            observer_.reach_mm(at.contact));
         if (!s) return std::nullopt;
         row_.time_s = start_s_ + move_.duration_s * *s;
         const double later_mm = observer_.at(here(*s), at.contact).extra.reading_mm;
@@ -91,8 +92,8 @@ class Approach {
         return touch;
     }
 
-    const AxisMove& move_;
-    Reading row_;
+    const motion::AxisMove& move_;
+    records::Reading row_;
     const Observer& observer_;
     const ReadingLog& log_;
     double length_mm_ = 0.0, start_s_ = 0.0;
@@ -100,17 +101,17 @@ class Approach {
 
 }  // namespace
 
-bool TouchStation::mounted(const AxisMove& move) const {
+bool TouchStation::mounted(const motion::AxisMove& move) const {
     if (!setup_.probe) return false;
     return setup_.probe->tool == 0 || move.tool == 0 || move.tool == setup_.probe->tool;
 }
 
-std::optional<Touch> TouchStation::touch(const AxisMove& move, Reading row,
+std::optional<Touch> TouchStation::touch(const motion::AxisMove& move, records::Reading row,
                                          const Observer& observer, const ReadingLog& log) {
     Approach approach(move, std::move(row), observer, log);
     std::optional<Touch> first;
-    for (const Artefact& artefact : setup_.artefacts) {
-        if (artefact.kind != Artefact::Kind::sphere) continue;
+    for (const setup::Artefact& artefact : setup_.artefacts) {
+        if (artefact.kind != setup::Artefact::Kind::sphere) continue;
         auto touch = approach.on(artefact.name);
         if (touch && (!first || touch->s < first->s)) first = std::move(touch);
     }
@@ -121,8 +122,8 @@ std::optional<Touch> TouchStation::touch(const AxisMove& move, Reading row,
     const double length_mm = approach.length_mm();
     if (length_mm > 0.0) first->s = std::clamp(1.0 + value_mm / length_mm, 0.0, 1.0);
     first->stopped = move.at(first->s);
-    if (length_mm == 0.0) first->row.device = Device::none;
+    if (length_mm == 0.0) first->row.device = records::Device::none;
     return first;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

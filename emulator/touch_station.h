@@ -8,30 +8,30 @@
 #include "emulator/reading_log.h"
 #include "motion/motion.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 
 struct Touch {
     double s = 1.0;  ///< of the move, where the skip latched
     AxisPositions stopped;
-    Reading row;  ///< with its value; no device when no linear axis moved
+    records::Reading row;  ///< with its value; no device when no linear axis moved
 };
 
 class TouchStation {
   public:
     /// `setup` must outlive the station.
-    TouchStation(const Setup& setup, std::uint64_t seed) : setup_(setup), noise_(seed) {}
+    TouchStation(const setup::Setup& setup, std::uint64_t seed) : setup_(setup), noise_(seed) {}
 
     /// The probe is in the spindle: no tool called yet, or the one the setup names.
-    bool mounted(const AxisMove& move) const;
+    bool mounted(const motion::AxisMove& move) const;
     /// The first sphere that the stylus meets on the move; `row` holds what the shop set up and
     /// when the move started. The value is that of the row by the rules of a table; where the move
     /// also turns rotary axes or runs along a curve, that of the path.
-    std::optional<Touch> touch(const AxisMove& move, Reading row, const Observer& observer,
-                               const ReadingLog& log);
+    std::optional<Touch> touch(const motion::AxisMove& move, records::Reading row,
+                               const Observer& observer, const ReadingLog& log);
 
   private:
-    const Setup& setup_;
+    const setup::Setup& setup_;
     SeededNoise noise_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

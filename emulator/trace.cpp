@@ -8,7 +8,7 @@
 #include "base/numbers.h"
 #include "positioning/rotary_transform.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 namespace {
 
 constexpr std::size_t chunk_bytes = 1 << 16;
@@ -34,7 +34,7 @@ void append_name(std::string& out, const std::string* name) {
 
 }  // namespace
 
-BelievedTool believed_tool(const AxisMove& move, const AxisPositions& q) {
+BelievedTool believed_tool(const motion::AxisMove& move, const AxisPositions& q) {
     if (move.transform)
         return {move.transform->tip_W(q, move.tool_vector_mm), move.transform->tool_direction_W(q)};
     return {move.parallel.linear(q) - move.tool_vector_mm, Vector3::UnitZ()};
@@ -86,7 +86,7 @@ void TraceWriter::add_numbers(std::span<const TraceNumber> numbers) {
     }
 }
 
-void TraceWriter::add(const AxisMove& move, double s, double time_s, bool end,
+void TraceWriter::add(const motion::AxisMove& move, double s, double time_s, bool end,
                       const Vector3* true_tip_W) {
     const AxisPositions q = move.at(s);
     append_integer(text_, rows_++);
@@ -133,4 +133,4 @@ void TraceWriter::add(const AxisMove& move, double s, double time_s, bool end,
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

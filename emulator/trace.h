@@ -12,14 +12,14 @@
 
 #include "motion/motion.h"
 
-namespace trunnion {
+namespace trunnion::emulator {
 
 /// Believed tip and unit vector from tip to spindle in W at machine positions q of a move.
 struct BelievedTool {
     Vector3 tip_W_mm = Vector3::Zero();
     Vector3 direction_W = Vector3::UnitZ();
 };
-BelievedTool believed_tool(const AxisMove& move, const AxisPositions& q);
+BelievedTool believed_tool(const motion::AxisMove& move, const AxisPositions& q);
 
 /// Receives the trace piece by piece, whole lines.
 using TraceChunk = std::function<void(std::string_view)>;
@@ -49,7 +49,8 @@ class TraceWriter {
     TraceWriter(std::vector<Axis> axes, bool truth, TraceChunk chunk = {});
 
     /// A row at `s` of a move; `true_tip_W` only with truth. `end` false: a SAMPLE row.
-    void add(const AxisMove& move, double s, double time_s, bool end, const Vector3* true_tip_W);
+    void add(const motion::AxisMove& move, double s, double time_s, bool end,
+             const Vector3* true_tip_W);
     /// What was not handed out yet.
     std::string take() { return std::move(text_); }
 
@@ -64,4 +65,4 @@ class TraceWriter {
     std::string text_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::emulator

@@ -4,7 +4,7 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::estimation {
 
 double chi_squared_tail(double value, double freedom) {
     if (!(freedom > 0.0) || !(value > 0.0)) return 1.0;
@@ -28,4 +28,4 @@ double student_probability(double value, double freedom) {
     return value < 0.0 ? 0.5 * both : 1.0 - 0.5 * both;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::estimation

@@ -7,7 +7,7 @@
 #include "estimation/projection.h"
 #include "estimation/quantiles.h"
 
-namespace trunnion {
+namespace trunnion::estimation {
 namespace {
 
 double matern_3_2(double distance, double length) {
@@ -78,4 +78,4 @@ Eigen::MatrixXd polynomials_at(const std::vector<double>& knots, int orders) {
     return values;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::estimation

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::estimation {
 
 /// Every distinct place (nearer than 1e-6 of the range is one place) while there are at most
 /// `most`, else that many evenly over the range.
@@ -36,4 +36,4 @@ Eigen::MatrixXd smooth_shapes(const std::vector<double>& knots, double length,
 /// 1, q, q^2, ... at the knots, q scaled to -1..1: K x orders.
 Eigen::MatrixXd polynomials_at(const std::vector<double>& knots, int orders);
 
-}  // namespace trunnion
+}  // namespace trunnion::estimation

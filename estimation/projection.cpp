@@ -4,7 +4,7 @@
 
 #include "estimation/ranked_least_squares.h"
 
-namespace trunnion {
+namespace trunnion::estimation {
 namespace {
 
 constexpr double rounding = 1e-8;  ///< of the largest direction
@@ -28,4 +28,4 @@ double explained_beside(const Projection& known, const Eigen::MatrixXd& columns,
     return product.dot(solve_ranked(own.transpose() * own, product, threshold).value);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::estimation

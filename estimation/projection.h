@@ -10,7 +10,7 @@
 
 #include <Eigen/Core>
 
-namespace trunnion {
+namespace trunnion::estimation {
 
 class Projection {
   public:
@@ -32,4 +32,4 @@ class Projection {
 double explained_beside(const Projection& known, const Eigen::MatrixXd& columns,
                         const Eigen::VectorXd& data, double threshold = 1e-4);
 
-}  // namespace trunnion
+}  // namespace trunnion::estimation

@@ -6,7 +6,7 @@
 
 #include "estimation/quantiles.h"
 
-namespace trunnion {
+namespace trunnion::estimation {
 
 double PureError::doubt() const {
     return freedom > 0.0 ? std::sqrt(2.0 / freedom) : 0.0;
@@ -34,4 +34,4 @@ PureError pure_error(const Eigen::VectorXd& values, const std::vector<int>& sett
     return result;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::estimation

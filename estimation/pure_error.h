@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::estimation {
 
 struct PureError {
     double variance = 0.0;  ///< s^2, in units of the values squared
@@ -21,4 +21,4 @@ struct PureError {
 PureError pure_error(const Eigen::VectorXd& values, const std::vector<int>& setting,
                      double limit = 6.0);
 
-}  // namespace trunnion
+}  // namespace trunnion::estimation

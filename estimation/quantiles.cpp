@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace trunnion {
+namespace trunnion::estimation {
 
 double quantile(std::vector<double> values, double share) {
     if (values.empty()) return 0.0;
@@ -26,4 +26,4 @@ double robust_deviation(std::vector<double> values) {
     return median(std::move(values)) / of_normal;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::estimation

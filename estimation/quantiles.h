@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::estimation {
 
 /// Quantile by linear interpolation between the sorted values, `share` in 0..1; 0 for no values.
 double quantile(std::vector<double> values, double share);
@@ -12,4 +12,4 @@ double median(std::vector<double> values);  ///< 0 for no values
 /// a few wild values do not change. 0 for no values.
 double robust_deviation(std::vector<double> values);
 
-}  // namespace trunnion
+}  // namespace trunnion::estimation

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace trunnion {
+namespace trunnion::estimation {
 namespace {
 
 /// Gauss-Jordan with full pivoting on the rows of `basis`: the same space with few entries each.
@@ -55,4 +55,4 @@ LinearFit solve_ranked(const Eigen::MatrixXd& information, const Eigen::VectorXd
     return fit;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::estimation

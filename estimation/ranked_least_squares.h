@@ -15,7 +15,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::estimation {
 
 /// p unknowns, k of them (or combinations) not seen.
 struct LinearFit {
@@ -29,4 +29,4 @@ struct LinearFit {
 LinearFit solve_ranked(const Eigen::MatrixXd& information, const Eigen::VectorXd& gradient,
                        double threshold = 0.05);
 
-}  // namespace trunnion
+}  // namespace trunnion::estimation

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace trunnion {
+namespace trunnion::estimation {
 namespace {
 
 constexpr int sizes = 26;
@@ -224,4 +224,4 @@ Variances maximise_likelihood(const GroupEquations& equations, Variances start,
     return start;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::estimation

@@ -18,7 +18,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::estimation {
 
 /// Products of the members' columns, with the known columns projected out.
 struct GroupEquations {
@@ -93,4 +93,4 @@ std::vector<GroupInformation> each_beside_others(const GroupEquations& equations
 Variances maximise_likelihood(const GroupEquations& equations, Variances start,
                               const NoisePrior& prior, int sweeps);
 
-}  // namespace trunnion
+}  // namespace trunnion::estimation

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace trunnion {
+namespace trunnion::inline geometry {
 
 /// The axis letters of ISO 841 that a setup file or an NC word can name.
 enum class Axis : unsigned char { X, Y, Z, A, B, C, U, V, W };
@@ -50,11 +50,11 @@ enum class PositioningMode : unsigned char { none, dpp, rtdfo, rtcp, tw };
 
 /// Axis positions with all that an unmodelled effect may depend on.
 struct AxisSample {
-    AxisPositions position;                        ///< commanded machine coordinates, mm and rad
-    AxisPositions velocity;                        ///< mm/s and rad/s, 0 for a standing axis
-    AxisPositions acceleration;                    ///< mm/s^2 and rad/s^2, commanded
+    AxisPositions position;      ///< commanded machine coordinates, mm and rad
+    AxisPositions velocity;      ///< mm/s and rad/s, 0 for a standing axis
+    AxisPositions acceleration;  ///< mm/s^2 and rad/s^2, commanded
     AxisSides travel{};  ///< side from which each axis came; 0: a turning point, or not known
-    std::array<bool, axis_count> side_unknown{};  ///< nothing tells the side: travel is assumed
+    std::array<bool, axis_count> side_unknown{};      ///< nothing tells the side: travel is assumed
     std::array<double, axis_count> since_reversal{};  ///< mm or rad travelled since the axis turned
     /// The axis began its test at a turning point and has not turned since: whether it came there
     /// from the other side (a run-up) no row tells; since_reversal counts as if it had.
@@ -70,4 +70,4 @@ struct AxisSample {
     PositioningMode mode = PositioningMode::none;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::inline geometry

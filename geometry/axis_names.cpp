@@ -1,6 +1,6 @@
 #include "geometry/axis_names.h"
 
-namespace trunnion {
+namespace trunnion::inline geometry {
 
 std::string lower_case(std::string_view text) {
     std::string out(text);
@@ -26,4 +26,4 @@ std::string AxisNames::column(Axis axis) const {
     return lower_case((*this)[axis]) + (is_rotary(axis) ? "_deg" : "_mm");
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::inline geometry

@@ -8,7 +8,7 @@
 
 #include "geometry/axes.h"
 
-namespace trunnion {
+namespace trunnion::inline geometry {
 
 /// Latin letters in lower case, all else as it is.
 std::string lower_case(std::string_view text);
@@ -33,4 +33,4 @@ struct AxisNames {
     friend bool operator==(const AxisNames&, const AxisNames&) = default;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::inline geometry

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::inline geometry {
 namespace {
 
 constexpr double singular = 1e-12;  // relative: below it points count as collinear or coplanar
@@ -247,4 +247,4 @@ std::optional<CircleFit3> fit_circle_3d(std::span<const Vector3> points, CircleM
     return CircleFit3{center, plane->normal, fit->radius_mm, fit->rms_mm};
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::inline geometry

@@ -7,7 +7,7 @@
 
 #include "geometry/pose.h"
 
-namespace trunnion {
+namespace trunnion::inline geometry {
 
 using Vector2 = Eigen::Vector2d;
 
@@ -63,4 +63,4 @@ struct CircleFit3 {
 std::optional<CircleFit3> fit_circle_3d(std::span<const Vector3> points,
                                         CircleMethod method = CircleMethod::hyper);
 
-}  // namespace trunnion
+}  // namespace trunnion::inline geometry

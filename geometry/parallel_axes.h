@@ -4,7 +4,7 @@
 #include "geometry/axes.h"
 #include "geometry/pose.h"
 
-namespace trunnion {
+namespace trunnion::inline geometry {
 
 /// Parameter 1022 = 5, 6, 7 of U, V, W: a + command moves the tool as + X, Y, Z does.
 struct ParallelAxes {
@@ -20,4 +20,4 @@ struct ParallelAxes {
     friend bool operator==(const ParallelAxes&, const ParallelAxes&) = default;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::inline geometry

@@ -5,7 +5,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::inline geometry {
 
 namespace {
 
@@ -102,4 +102,4 @@ bool cross_over(const PlaneElement& a, const PlaneElement& b) {
     return false;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::inline geometry

@@ -3,7 +3,7 @@
 
 #include "geometry/plane_path.h"
 
-namespace trunnion {
+namespace trunnion::inline geometry {
 
 /// Is a point of the element's line or circle within its length? `slack_mm` widens both ends.
 bool within(const PlaneElement& e, PlanePoint p, double slack_mm);
@@ -13,4 +13,4 @@ bool touch(const PlaneElement& a, const PlaneElement& b);
 /// does `b` that starts where `a` ends.
 bool cross_over(const PlaneElement& a, const PlaneElement& b);
 
-}  // namespace trunnion
+}  // namespace trunnion::inline geometry

@@ -4,7 +4,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::inline geometry {
 
 namespace {
 
@@ -126,4 +126,4 @@ PlaneElement between(const PlaneElement& e, PlanePoint start, PlanePoint end) {
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::inline geometry

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-namespace trunnion {
+namespace trunnion::inline geometry {
 
 struct PlanePoint {
     double x = 0.0, y = 0.0;
@@ -48,4 +48,4 @@ std::optional<PlanePoint> offset_meeting(const PlaneElement& first, double first
 /// sweep follows the shift of start and end.
 PlaneElement between(const PlaneElement& e, PlanePoint start, PlanePoint end);
 
-}  // namespace trunnion
+}  // namespace trunnion::inline geometry

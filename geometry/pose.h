@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::inline geometry {
 
 using Vector3 = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
@@ -72,4 +72,4 @@ struct SmallMotion {
     bool is_zero() const { return shift_mm.isZero(0.0) && tilt_rad.isZero(0.0); }
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::inline geometry

@@ -11,7 +11,7 @@
 #include "estimation/ranked_least_squares.h"
 #include "identification/unknowns.h"
 
-namespace trunnion {
+namespace trunnion::identification {
 namespace {
 
 constexpr double absurd_mm = 5.0;  ///< a residual that no machine has: units, frame or setup wrong
@@ -20,20 +20,21 @@ constexpr double absurd_rad = 0.03;  ///< of a location error
 
 using Slot = Unknowns::Slot;
 
-Eigen::VectorXd residual(const BaseModel& model, const Replay& replay, const Setup& setup) {
-    const std::vector<double> value =
-        replay.predict(setup.machine, offsets_between(replay.setup(), setup), active_models(setup));
+Eigen::VectorXd residual(const BaseModel& model, const emulator::Replay& replay,
+                         const setup::Setup& setup) {
+    const std::vector<double> value = replay.predict(
+        setup.machine, offsets_between(replay.setup(), setup), effects::active_models(setup));
     return model.measured_mm -
            Eigen::Map<const Eigen::VectorXd>(value.data(), static_cast<Eigen::Index>(value.size()));
 }
 
-double location_value(const Setup& setup, const FitParameter& fit) {
+double location_value(const setup::Setup& setup, const FitParameter& fit) {
     return fit.location ? setup.machine.errors.location(*fit.location) : 0.0;
 }
 
 /// Weighted squares of the residuals and of what calibrated values are off.
-double misfit(const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& weight, const Setup& setup,
-              const std::vector<Slot>& slots) {
+double misfit(const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& weight,
+              const setup::Setup& setup, const std::vector<Slot>& slots) {
     double sum = residual_mm.cwiseProduct(weight).squaredNorm();
     for (const Slot& slot : slots)
         if (const FitParameter& p = slot.fit; p.prior_sigma > 0.0)
@@ -43,11 +44,11 @@ double misfit(const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& weight,
 
 /// Takes the step, or a part of it where the whole one makes all fit worse: along a direction that
 /// is hardly seen it may lead far beyond where derivatives hold.
-void take_step(BaseModel& model, const Replay& replay, const std::vector<Slot>& slots,
+void take_step(BaseModel& model, const emulator::Replay& replay, const std::vector<Slot>& slots,
                const Eigen::VectorXd& weight, const Eigen::VectorXd& step) {
     const double before = misfit(model.residual_mm, weight, model.setup, slots);
     for (double part = 1.0;; part *= 0.5) {
-        Setup trial = model.setup;
+        setup::Setup trial = model.setup;
         apply_step(trial, slots, part * step);
         Eigen::VectorXd left = residual(model, replay, trial);
         const bool worse = misfit(left, weight, trial, slots) > 1.01 * before + 1.0;
@@ -74,13 +75,15 @@ Eigen::VectorXd row_weights(const BaseModel& model, const Eigen::VectorXd& r) {
     return weight;
 }
 
-void take_measured(BaseModel& model, const ReadingTable& table, const Replay& replay) {
+void take_measured(BaseModel& model, const records::ReadingTable& table,
+                   const emulator::Replay& replay) {
     const auto n = static_cast<Eigen::Index>(replay.size());
     model.measured_mm.resize(n);
     for (Eigen::Index i = 0; i < n; ++i) {
-        const Reading& row = table.rows[replay.table_row(static_cast<std::size_t>(i))];
+        const records::Reading& row = table.rows[replay.table_row(static_cast<std::size_t>(i))];
         if (!row.value_mm)
-            throw InputError("a row with a device but without value_mm", place_of(table, row));
+            throw InputError("a row with a device but without value_mm",
+                             records::place_of(table, row));
         model.measured_mm(i) = *row.value_mm;
     }
 }
@@ -94,15 +97,16 @@ void tell_absurd(BaseModel& model, bool meant, const std::string& what, const So
     model.notes.push_back(where.program + ": " + message + "; taken as meant");
 }
 
-void tell_absurd_residuals(BaseModel& model, const Replay& replay, const ReadingTable& table) {
+void tell_absurd_residuals(BaseModel& model, const emulator::Replay& replay,
+                           const records::ReadingTable& table) {
     const bool allowed = model.setup.model.allow_large;
     Eigen::Index worst = 0;
     const double most = model.residual_mm.cwiseAbs().maxCoeff(&worst);
-    const Reading& row = table.rows[replay.table_row(static_cast<std::size_t>(worst))];
+    const records::Reading& row = table.rows[replay.table_row(static_cast<std::size_t>(worst))];
     const bool meant = allowed || row.sigma_mm.value_or(0.0) > 0.0;
     if (most > absurd_mm)
         tell_absurd(model, meant, fmt::format("a residual of {:.3g} mm", most),
-                    place_of(table, row));
+                    records::place_of(table, row));
     const double rms =
         std::sqrt(model.residual_mm.squaredNorm() / static_cast<double>(model.residual_mm.size()));
     if (rms > absurd_rms_mm)
@@ -111,7 +115,8 @@ void tell_absurd_residuals(BaseModel& model, const Replay& replay, const Reading
 }
 
 /// A location error that no assembly has means that the setup describes another machine.
-void tell_absurd_location(BaseModel& model, const FitParameter& p, const ReadingTable& table) {
+void tell_absurd_location(BaseModel& model, const FitParameter& p,
+                          const records::ReadingTable& table) {
     if (p.effect == "location" && std::isfinite(p.sigma) &&
         std::abs(p.value) > (p.unit == "mm" ? absurd_mm : absurd_rad))
         tell_absurd(model, model.setup.model.allow_large,
@@ -119,7 +124,8 @@ void tell_absurd_location(BaseModel& model, const FitParameter& p, const Reading
                     {table.path, 0, 0});
 }
 
-void name_null_space(BaseModel& model, const std::vector<Slot>& slots, const LinearFit& fit) {
+void name_null_space(BaseModel& model, const std::vector<Slot>& slots,
+                     const estimation::LinearFit& fit) {
     for (const Eigen::VectorXd& v : fit.null_space) {
         Inseparable group;
         double largest = 0.0;
@@ -155,15 +161,17 @@ std::string to_string(const Inseparable& group) {
 namespace {
 
 /// One sigma of a device where nothing tells it, um or urad.
-double usual_noise(Device device) {
-    static const std::map<Device, double> usual{
-        {Device::sphere, 1.0}, {Device::touch, 1.0}, {Device::ballbar, 0.5}, {Device::point, 10.0},
-        {Device::linear, 0.5}, {Device::angle, 2.0}, {Device::axis, 1.0}};
+double usual_noise(records::Device device) {
+    static const std::map<records::Device, double> usual{
+        {records::Device::sphere, 1.0},  {records::Device::touch, 1.0},
+        {records::Device::ballbar, 0.5}, {records::Device::point, 10.0},
+        {records::Device::linear, 0.5},  {records::Device::angle, 2.0},
+        {records::Device::axis, 1.0}};
     return usual.at(device);
 }
 
 /// The setup's sigma of a device, mm or rad; nothing where it tells none.
-std::optional<double> told_noise(const ModelSettings& model, const Reading& row) {
+std::optional<double> told_noise(const setup::ModelSettings& model, const records::Reading& row) {
     const auto& list = row.angular ? model.noise_urad : model.noise_um;
     const auto it = list.find(std::string(name_of(row.device)));
     const double unit = row.angular ? 1e-6 : 1e-3;
@@ -172,11 +180,12 @@ std::optional<double> told_noise(const ModelSettings& model, const Reading& row)
 
 }  // namespace
 
-RowNoise row_noise(const Setup& setup, const ReadingTable& table, const Replay& replay) {
+RowNoise row_noise(const setup::Setup& setup, const records::ReadingTable& table,
+                   const emulator::Replay& replay) {
     RowNoise noise;
     noise.sigma_mm.resize(static_cast<Eigen::Index>(replay.size()));
     for (std::size_t i = 0; i < replay.size(); ++i) {
-        const Reading& row = table.rows[replay.table_row(i)];
+        const records::Reading& row = table.rows[replay.table_row(i)];
         const auto told = told_noise(setup.model, row);
         const double unit = row.angular ? 1e-6 : 1e-3;
         double sigma = told.value_or(unit * usual_noise(row.device));
@@ -189,49 +198,53 @@ RowNoise row_noise(const Setup& setup, const ReadingTable& table, const Replay& 
     return noise;
 }
 
-Eigen::VectorXd effect_column(const Replay& replay, const std::vector<Perturbation>& gradient,
-                              const Effect& effect, const std::vector<double>& values,
+Eigen::VectorXd effect_column(const emulator::Replay& replay,
+                              const std::vector<kinematics::Perturbation>& gradient,
+                              const effects::Effect& effect, const std::vector<double>& values,
                               std::size_t j, const std::vector<std::size_t>& rows) {
     std::vector<double> at = values;
     for (std::size_t k = 0; k < at.size(); ++k)
         if (!effect.parameters[k].is_key()) at[k] = k == j ? effect.parameters[k].typical : 0.0;
     Eigen::VectorXd column(static_cast<Eigen::Index>(rows.size()));
     for (std::size_t k = 0; k < rows.size(); ++k) {
-        Perturbation change;
+        kinematics::Perturbation change;
         effect.add(replay.sample(rows[k]), replay.contact(rows[k]), at, change);
-        column(static_cast<Eigen::Index>(k)) = dot(gradient[rows[k]], change);
+        column(static_cast<Eigen::Index>(k)) = emulator::dot(gradient[rows[k]], change);
     }
     return column;
 }
 
-Eigen::VectorXd effect_column(const Replay& replay, const std::vector<Perturbation>& gradient,
-                              const Effect& effect, const std::vector<double>& values,
+Eigen::VectorXd effect_column(const emulator::Replay& replay,
+                              const std::vector<kinematics::Perturbation>& gradient,
+                              const effects::Effect& effect, const std::vector<double>& values,
                               std::size_t j) {
     std::vector<std::size_t> rows(replay.size());
     std::iota(rows.begin(), rows.end(), std::size_t{0});
     return effect_column(replay, gradient, effect, values, j, rows);
 }
 
-void add_effect(Setup& setup, const Effect& effect, const std::vector<double>& values) {
+void add_effect(setup::Setup& setup, const effects::Effect& effect,
+                const std::vector<double>& values) {
     if (effect.name == "location") {
         for (std::size_t j = 0; j < values.size(); ++j)
             setup.machine.errors.location(*effect.parameters[j].location) += values[j];
         return;
     }
-    for (EffectSetting& present : setup.effects) {
+    for (setup::EffectSetting& present : setup.effects) {
         if (present.name != effect.name) continue;
-        std::vector<double> sum = values_of(effect, present);
+        std::vector<double> sum = effects::values_of(effect, present);
         for (std::size_t j = 0; j < sum.size(); ++j)
             sum[j] = effect.parameters[j].is_key() ? values[j] : sum[j] + values[j];
-        present = setting_of(effect, sum);
+        present = effects::setting_of(effect, sum);
         return;
     }
-    setup.effects.push_back(setting_of(effect, values));
+    setup.effects.push_back(effects::setting_of(effect, values));
 }
 
-BaseColumns base_columns(const Setup& setup, const Replay& replay, const Catalogue& catalogue,
+BaseColumns base_columns(const setup::Setup& setup, const emulator::Replay& replay,
+                         const effects::Catalogue& catalogue,
                          const std::vector<std::string>& effects,
-                         const std::vector<Perturbation>& gradient) {
+                         const std::vector<kinematics::Perturbation>& gradient) {
     const Unknowns unknowns(setup, replay, catalogue, effects);
     BaseColumns result;
     for (const Slot& slot : unknowns.slots()) result.parameters.push_back(slot.fit);
@@ -239,8 +252,9 @@ BaseColumns base_columns(const Setup& setup, const Replay& replay, const Catalog
     return result;
 }
 
-BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& replay,
-                   const Catalogue& catalogue, const std::vector<std::string>& effects) {
+BaseModel fit_base(const setup::Setup& setup, const records::ReadingTable& table,
+                   const emulator::Replay& replay, const effects::Catalogue& catalogue,
+                   const std::vector<std::string>& effects) {
     BaseModel model;
     model.setup = setup;
     take_measured(model, table, replay);
@@ -250,7 +264,7 @@ BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& 
     const Unknowns unknowns(setup, replay, catalogue, effects);
     const auto& slots = unknowns.slots();
     {
-        const ForwardModel forward(setup.machine);
+        const kinematics::ForwardModel forward(setup.machine);
         for (std::size_t i = 0; i < replay.size(); ++i)
             model.gradient.push_back(replay.gradient(i, forward, {}));
     }
@@ -260,7 +274,7 @@ BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& 
     Eigen::VectorXd typical(p);
     for (Eigen::Index j = 0; j < p; ++j)
         typical(j) = slots[static_cast<std::size_t>(j)].fit.typical;
-    LinearFit fit;
+    estimation::LinearFit fit;
     for (int pass = 0; pass < 8 && p > 0; ++pass) {
         const Eigen::VectorXd weight = row_weights(model, model.residual_mm);
         const Eigen::MatrixXd a = weight.asDiagonal() * model.columns;
@@ -274,7 +288,7 @@ BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& 
             gradient(j) +=
                 pull * pull * (prior.prior_value - location_value(model.setup, prior)) / typical(j);
         }
-        fit = solve_ranked(information, gradient);
+        fit = estimation::solve_ranked(information, gradient);
         take_step(model, replay, slots, weight, typical.cwiseProduct(fit.value));
         if (fit.value.cwiseAbs().maxCoeff() < 1e-7) break;
     }
@@ -291,15 +305,15 @@ BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& 
         } else if (slot.effect->name == "location") {
             done.value = location_value(model.setup, slot.fit);
         } else {
-            for (const EffectSetting& setting : model.setup.effects)
+            for (const setup::EffectSetting& setting : model.setup.effects)
                 if (setting.name == slot.effect->name)
-                    done.value = values_of(*slot.effect, setting)[slot.parameter];
+                    done.value = effects::values_of(*slot.effect, setting)[slot.parameter];
         }
         tell_absurd_location(model, done, table);
         model.parameters.push_back(done);
     }
-    model.models = active_models(model.setup);
+    model.models = effects::active_models(model.setup);
     return model;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::identification

@@ -8,7 +8,7 @@
 #include "effects/catalogue.h"
 #include "identification/set_up.h"
 
-namespace trunnion {
+namespace trunnion::identification {
 
 /// One unknown of the fit. Set-up quantities (artefact centres, cup, bar length) have effect
 /// "setup".
@@ -21,7 +21,7 @@ struct FitParameter {
     double sigma_monte_carlo = 0.0;  ///< the same by repetition, 0 when that was not asked for
     double prior_value = 0.0;
     double prior_sigma = 0.0;  ///< 0: no prior
-    std::optional<ErrorName> location = {};
+    std::optional<kinematics::ErrorName> location = {};
     SetUpQuantity set_up = {};
 };
 
@@ -41,16 +41,17 @@ struct RowNoise {
     Eigen::VectorXd sigma_mm;
     bool given = true;
 };
-RowNoise row_noise(const Setup& setup, const ReadingTable& table, const Replay& replay);
+RowNoise row_noise(const setup::Setup& setup, const records::ReadingTable& table,
+                   const emulator::Replay& replay);
 
 /// A replay with the fitted base and all that a linear analysis of what remains needs. mm inside.
 struct BaseModel {
-    Setup setup;  ///< as fitted: loads again, predicts the same
+    setup::Setup setup;  ///< as fitted: loads again, predicts the same
     std::vector<FitParameter> parameters;
     std::vector<Inseparable> inseparable;
-    EffectModels models;                 ///< of effects that the setup switched on
-    std::vector<Perturbation> gradient;  ///< of each device row
-    Eigen::MatrixXd columns;             ///< d reading / d parameter, for one typical change, mm
+    emulator::EffectModels models;                   ///< of effects that the setup switched on
+    std::vector<kinematics::Perturbation> gradient;  ///< of each device row
+    Eigen::MatrixXd columns;  ///< d reading / d parameter, for one typical change, mm
     Eigen::VectorXd measured_mm, residual_mm, start_residual_mm, sigma_mm;
     bool noise_given = true;
     Eigen::MatrixXd covariance;  ///< of the parameters, in their units
@@ -61,13 +62,15 @@ struct BaseModel {
 /// Throws InputError when a device row has no value, and on residuals that no machine can have
 /// (units, frames or the setup of another machine), unless they are meant: by `allow_large` of the
 /// setup's model or by a `sigma_mm` of the row itself. Then a note tells them.
-BaseModel fit_base(const Setup& setup, const ReadingTable& table, const Replay& replay,
-                   const Catalogue& catalogue, const std::vector<std::string>& effects);
+BaseModel fit_base(const setup::Setup& setup, const records::ReadingTable& table,
+                   const emulator::Replay& replay, const effects::Catalogue& catalogue,
+                   const std::vector<std::string>& effects);
 
 /// Derivatives of the device rows by parameter j of an effect whose keys are in `values`, mm for
 /// one typical change.
-Eigen::VectorXd effect_column(const Replay& replay, const std::vector<Perturbation>& gradient,
-                              const Effect& effect, const std::vector<double>& values,
+Eigen::VectorXd effect_column(const emulator::Replay& replay,
+                              const std::vector<kinematics::Perturbation>& gradient,
+                              const effects::Effect& effect, const std::vector<double>& values,
                               std::size_t j);
 
 /// The unknowns that a replay has for this setup and these effects, and their derivatives.
@@ -75,20 +78,23 @@ struct BaseColumns {
     std::vector<FitParameter> parameters;
     Eigen::MatrixXd columns;  ///< mm for one typical change
 };
-BaseColumns base_columns(const Setup& setup, const Replay& replay, const Catalogue& catalogue,
+BaseColumns base_columns(const setup::Setup& setup, const emulator::Replay& replay,
+                         const effects::Catalogue& catalogue,
                          const std::vector<std::string>& effects,
-                         const std::vector<Perturbation>& gradient);
+                         const std::vector<kinematics::Perturbation>& gradient);
 
 /// The same for some rows only.
-Eigen::VectorXd effect_column(const Replay& replay, const std::vector<Perturbation>& gradient,
-                              const Effect& effect, const std::vector<double>& values,
+Eigen::VectorXd effect_column(const emulator::Replay& replay,
+                              const std::vector<kinematics::Perturbation>& gradient,
+                              const effects::Effect& effect, const std::vector<double>& values,
                               std::size_t j, const std::vector<std::size_t>& rows);
 
 /// Moves a fitted setup by a further step of the base parameters, in units of their typical size.
-void shift_base(Setup& setup, const BaseModel& base, const Catalogue& catalogue,
+void shift_base(setup::Setup& setup, const BaseModel& base, const effects::Catalogue& catalogue,
                 const Eigen::VectorXd& step);
 
 /// The setup with an effect's values added: location errors to the machine, others to [effects].
-void add_effect(Setup& setup, const Effect& effect, const std::vector<double>& values);
+void add_effect(setup::Setup& setup, const effects::Effect& effect,
+                const std::vector<double>& values);
 
-}  // namespace trunnion
+}  // namespace trunnion::identification

@@ -12,19 +12,19 @@
 #include "identification/keys.h"
 #include "identification/unknown_sides.h"
 
-namespace trunnion {
+namespace trunnion::identification {
 namespace {
 
-bool keyed(const Effect& effect) {
+bool keyed(const effects::Effect& effect) {
     return std::any_of(effect.parameters.begin(), effect.parameters.end(),
-                       [](const EffectParameter& p) { return p.is_key(); });
+                       [](const effects::EffectParameter& p) { return p.is_key(); });
 }
 
 /// Part of the weighted squared sum of `left_mm` that an effect with these keys and the base
 /// explain.
 class KeyGain {
   public:
-    KeyGain(const Replay& replay, const BaseModel& base, const Effect& effect,
+    KeyGain(const emulator::Replay& replay, const BaseModel& base, const effects::Effect& effect,
             const Eigen::VectorXd& left_mm)
         : replay_(replay),
           base_(base),
@@ -54,9 +54,9 @@ class KeyGain {
     }
 
   private:
-    const Replay& replay_;
+    const emulator::Replay& replay_;
     const BaseModel& base_;
-    const Effect& effect_;
+    const effects::Effect& effect_;
     Eigen::VectorXd weight_, left_;
     Eigen::MatrixXd columns_;
     Eigen::LLT<Eigen::MatrixXd> llt_;
@@ -100,13 +100,14 @@ double middle_of_plateau(const std::function<double(double)>& gain_at, double ke
 
 }  // namespace
 
-std::vector<double> refine_keys(const Replay& replay, const BaseModel& base, const Effect& effect,
-                                std::vector<double> keys, const Eigen::VectorXd& left_mm) {
+std::vector<double> refine_keys(const emulator::Replay& replay, const BaseModel& base,
+                                const effects::Effect& effect, std::vector<double> keys,
+                                const Eigen::VectorXd& left_mm) {
     constexpr double golden = 0.6180339887498949;
     const KeyGain gain(replay, base, effect, left_mm);
     double best = gain(keys);
     for (std::size_t j = 0; j < keys.size(); ++j) {
-        const EffectParameter& p = effect.parameters[j];
+        const effects::EffectParameter& p = effect.parameters[j];
         if (!p.is_key() || !p.refine) continue;
         const auto at = [&](double value) {
             std::vector<double> trial = keys;
@@ -143,8 +144,8 @@ std::vector<double> refine_keys(const Replay& replay, const BaseModel& base, con
     return keys;
 }
 
-std::vector<double> search_keys(const Replay& replay, const BaseModel& base, const Effect& effect,
-                                const Eigen::VectorXd& left_mm) {
+std::vector<double> search_keys(const emulator::Replay& replay, const BaseModel& base,
+                                const effects::Effect& effect, const Eigen::VectorXd& left_mm) {
     const KeyGain gain(replay, base, effect, left_mm);
     std::vector<double> best = effect.zeros();
     double most = -1.0;
@@ -170,18 +171,18 @@ std::vector<double> search_keys(const Replay& replay, const BaseModel& base, con
 namespace {
 
 /// Each keyed effect at the keys that explain most beside those found before it.
-std::vector<KeyedEffect> search_all_keys(const Replay& replay, const BaseModel& base,
-                                         const Catalogue& catalogue,
+std::vector<KeyedEffect> search_all_keys(const emulator::Replay& replay, const BaseModel& base,
+                                         const effects::Catalogue& catalogue,
                                          const std::vector<std::string>& effects) {
     std::vector<KeyedEffect> list;
     BaseModel grown = base;
-    for (const Effect& effect : catalogue) {
+    for (const effects::Effect& effect : catalogue) {
         if (!keyed(effect) ||
             std::find(effects.begin(), effects.end(), effect.name) == effects.end())
             continue;
         KeyedEffect entry{&effect, search_keys(replay, grown, effect, base.residual_mm), {}};
         for (std::size_t j = 0; j < effect.parameters.size(); ++j) {
-            const EffectParameter& p = effect.parameters[j];
+            const effects::EffectParameter& p = effect.parameters[j];
             if (p.is_key()) {
                 if (p.refine) entry.free.push_back(j);
                 continue;
@@ -207,17 +208,17 @@ void take_values(const BaseModel& base, std::vector<KeyedEffect>& effects) {
 
 }  // namespace
 
-Identification identify(const Setup& setup, const ReadingTable& table,
+Identification identify(const setup::Setup& setup, const records::ReadingTable& table,
                         std::vector<std::string> effects) {
     if (effects.empty()) effects = setup.model.modelled;
-    Replay replay(setup, table);
+    emulator::Replay replay(setup, table);
     if (replay.size() < 2)
         throw InputError("fewer than two readings with a device", {table.path, 0, 0});
-    Catalogue catalogue = make_catalogue(setup, extent_of(setup, table));
+    effects::Catalogue catalogue = effects::make_catalogue(setup, effects::extent_of(setup, table));
     std::vector<std::string> plain;
     for (const std::string& name : effects) {
-        const Effect* effect = find_effect(catalogue, name);
-        if (!effect) refuse_effect_name(setup, name);
+        const effects::Effect* effect = effects::find_effect(catalogue, name);
+        if (!effect) effects::refuse_effect_name(setup, name);
         if (!keyed(*effect)) plain.push_back(name);
     }
     std::vector<std::string> notes = choose_sides(setup, table, replay, catalogue, plain);
@@ -227,7 +228,8 @@ Identification identify(const Setup& setup, const ReadingTable& table,
         with_keys = search_all_keys(replay, base, catalogue, effects);
         refine_together(replay, base, with_keys);
         for (const KeyedEffect& e : with_keys) {
-            Effect& effect = catalogue[static_cast<std::size_t>(e.effect - catalogue.data())];
+            effects::Effect& effect =
+                catalogue[static_cast<std::size_t>(e.effect - catalogue.data())];
             for (std::size_t j = 0; j < e.values.size(); ++j)
                 if (effect.parameters[j].is_key()) effect.parameters[j].typical = e.values[j];
         }
@@ -236,7 +238,7 @@ Identification identify(const Setup& setup, const ReadingTable& table,
     Identification result;
     result.parameters = base.parameters;
     for (const std::string& name : effects)
-        for (const EffectParameter& p : find_effect(catalogue, name)->parameters)
+        for (const effects::EffectParameter& p : effects::find_effect(catalogue, name)->parameters)
             if (p.is_key())
                 result.parameters.push_back(
                     {name, p.name, p.unit, -1, p.typical, p.typical, std::nan(""), 0.0, 0.0});
@@ -258,4 +260,4 @@ Identification identify(const Setup& setup, const ReadingTable& table,
     return result;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::identification

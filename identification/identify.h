@@ -3,7 +3,7 @@
 
 #include "identification/base_model.h"
 
-namespace trunnion {
+namespace trunnion::identification {
 
 struct Identification {
     std::vector<FitParameter> parameters;
@@ -15,21 +15,22 @@ struct Identification {
     /// that the readings see (`inseparable` lists the others).
     Eigen::MatrixXd covariance;
     std::vector<std::string> notes;
-    Setup setup;  ///< with the values entered; loads again
+    setup::Setup setup;  ///< with the values entered; loads again
 };
 
 /// Fits the named effects (none: those of [model].modelled) and the free set-up quantities to all
 /// device rows. Keys of effects (pitch, time constant) are searched. Throws InputError as fit_base.
-Identification identify(const Setup& setup, const ReadingTable& table,
+Identification identify(const setup::Setup& setup, const records::ReadingTable& table,
                         std::vector<std::string> effects);
 
 /// Refines the keys of an effect around `keys` so that it explains most of `left_mm` together with
 /// the base columns. Golden-section search, one key after the other.
-std::vector<double> refine_keys(const Replay& replay, const BaseModel& base, const Effect& effect,
-                                std::vector<double> keys, const Eigen::VectorXd& left_mm);
-
-/// The best setting of an effect's keys on its grid, then refined.
-std::vector<double> search_keys(const Replay& replay, const BaseModel& base, const Effect& effect,
+std::vector<double> refine_keys(const emulator::Replay& replay, const BaseModel& base,
+                                const effects::Effect& effect, std::vector<double> keys,
                                 const Eigen::VectorXd& left_mm);
 
-}  // namespace trunnion
+/// The best setting of an effect's keys on its grid, then refined.
+std::vector<double> search_keys(const emulator::Replay& replay, const BaseModel& base,
+                                const effects::Effect& effect, const Eigen::VectorXd& left_mm);
+
+}  // namespace trunnion::identification

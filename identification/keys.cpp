@@ -5,13 +5,14 @@
 #include <cmath>
 #include <nlopt.hpp>
 
-namespace trunnion {
+namespace trunnion::identification {
 namespace {
 
 /// Part of the weighted squared sum of what the base leaves that effects at these keys explain.
 class JointGain {
   public:
-    JointGain(const Replay& replay, const BaseModel& base, const std::vector<KeyedEffect>& effects)
+    JointGain(const emulator::Replay& replay, const BaseModel& base,
+              const std::vector<KeyedEffect>& effects)
         : replay_(replay),
           base_(base),
           effects_(effects),
@@ -45,7 +46,7 @@ class JointGain {
     }
 
   private:
-    const Replay& replay_;
+    const emulator::Replay& replay_;
     const BaseModel& base_;
     const std::vector<KeyedEffect>& effects_;
     Eigen::VectorXd weight_;
@@ -59,8 +60,9 @@ double objective(const std::vector<double>& keys, std::vector<double>&, void* ga
 }
 
 /// Change of each reading for one unit of key `j` of a fitted effect.
-Eigen::VectorXd key_column(const Replay& replay, const BaseModel& base, const Effect& effect,
-                           std::vector<double> values, std::size_t j) {
+Eigen::VectorXd key_column(const emulator::Replay& replay, const BaseModel& base,
+                           const effects::Effect& effect, std::vector<double> values,
+                           std::size_t j) {
     const double step = 1e-4 * std::abs(values[j]);
     Eigen::VectorXd column(static_cast<Eigen::Index>(replay.size()));
     for (std::size_t i = 0; i < replay.size(); ++i) {
@@ -68,9 +70,9 @@ Eigen::VectorXd key_column(const Replay& replay, const BaseModel& base, const Ef
         for (const int side : {0, 1}) {
             std::vector<double> at = values;
             at[j] += side ? step : -step;
-            Perturbation change;
+            kinematics::Perturbation change;
             effect.add(replay.sample(i), replay.contact(i), at, change);
-            reading[side] = dot(base.gradient[i], change);
+            reading[side] = emulator::dot(base.gradient[i], change);
         }
         column(static_cast<Eigen::Index>(i)) = (reading[1] - reading[0]) / (2.0 * step);
     }
@@ -79,7 +81,7 @@ Eigen::VectorXd key_column(const Replay& replay, const BaseModel& base, const Ef
 
 }  // namespace
 
-void refine_together(const Replay& replay, const BaseModel& base,
+void refine_together(const emulator::Replay& replay, const BaseModel& base,
                      std::vector<KeyedEffect>& effects) {
     std::vector<double> keys, low, high;
     for (const KeyedEffect& e : effects)
@@ -112,7 +114,7 @@ void refine_together(const Replay& replay, const BaseModel& base,
         for (const std::size_t j : e.free) e.values[j] = keys[at++];
 }
 
-void add_key_uncertainty(const Replay& replay, const std::vector<KeyedEffect>& effects,
+void add_key_uncertainty(const emulator::Replay& replay, const std::vector<KeyedEffect>& effects,
                          const BaseModel& base, std::vector<FitParameter>& parameters) {
     std::size_t keys = 0;
     for (const KeyedEffect& e : effects) keys += e.free.size();
@@ -155,4 +157,4 @@ void add_key_uncertainty(const Replay& replay, const std::vector<KeyedEffect>& e
         }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::identification

@@ -5,23 +5,23 @@
 
 #include "identification/base_model.h"
 
-namespace trunnion {
+namespace trunnion::identification {
 
 /// An effect with keys in a fit. `values` in the order of its parameters.
 struct KeyedEffect {
-    const Effect* effect = nullptr;
+    const effects::Effect* effect = nullptr;
     std::vector<double> values;
     std::vector<std::size_t> free;  ///< keys that may lie between grid values
 };
 
 /// Moves all free keys at once so that the effects explain most of what the base leaves (NLopt,
 /// bounded by half the first and twice the last grid value).
-void refine_together(const Replay& replay, const BaseModel& base,
+void refine_together(const emulator::Replay& replay, const BaseModel& base,
                      std::vector<KeyedEffect>& effects);
 
 /// Sigma of the free keys, and of all other parameters when the keys are not known exactly. `base`
 /// is the fit with all effects in it, `effects` have the fitted values.
-void add_key_uncertainty(const Replay& replay, const std::vector<KeyedEffect>& effects,
+void add_key_uncertainty(const emulator::Replay& replay, const std::vector<KeyedEffect>& effects,
                          const BaseModel& base, std::vector<FitParameter>& parameters);
 
-}  // namespace trunnion
+}  // namespace trunnion::identification

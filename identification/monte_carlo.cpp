@@ -6,14 +6,14 @@
 #include "base/random.h"
 #include "effects/settings.h"
 
-namespace trunnion {
+namespace trunnion::identification {
 
 namespace {
 
 /// `exact` with noise of each device row's sigma.
-ReadingTable noisy(const ReadingTable& exact, const Replay& replay, const RowNoise& noise,
-                   SeededNoise& random) {
-    ReadingTable table = exact;
+records::ReadingTable noisy(const records::ReadingTable& exact, const emulator::Replay& replay,
+                            const RowNoise& noise, SeededNoise& random) {
+    records::ReadingTable table = exact;
     for (std::size_t i = 0; i < replay.size(); ++i)
         *table.rows[replay.table_row(i)].value_mm +=
             noise.sigma_mm[static_cast<Eigen::Index>(i)] * random.normal();
@@ -22,11 +22,12 @@ ReadingTable noisy(const ReadingTable& exact, const Replay& replay, const RowNoi
 
 }  // namespace
 
-int add_monte_carlo(const Setup& setup, const ReadingTable& table,
+int add_monte_carlo(const setup::Setup& setup, const records::ReadingTable& table,
                     const std::vector<std::string>& effects, int runs, std::uint64_t seed,
                     Identification& fitted, const std::function<bool(int done)>& go_on) {
-    const ReadingTable exact = predicted(fitted.setup, table, active_models(fitted.setup));
-    const Replay replay(setup, table);
+    const records::ReadingTable exact =
+        emulator::predicted(fitted.setup, table, effects::active_models(fitted.setup));
+    const emulator::Replay replay(setup, table);
     const RowNoise noise = row_noise(setup, table, replay);
     const std::size_t count = fitted.parameters.size();
     std::vector<double> sum(count, 0.0), square(count, 0.0);
@@ -50,4 +51,4 @@ int add_monte_carlo(const Setup& setup, const ReadingTable& table,
     return done;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::identification

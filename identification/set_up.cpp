@@ -4,7 +4,7 @@
 
 #include <set>
 
-namespace trunnion {
+namespace trunnion::identification {
 namespace {
 
 using Kind = SetUpQuantity::Kind;
@@ -16,11 +16,11 @@ struct Used {
     bool bar = false;
 };
 
-Used used_by(const Replay& replay) {
+Used used_by(const emulator::Replay& replay) {
     Used used;
     for (std::size_t i = 0; i < replay.size(); ++i) {
-        const Contact& contact = replay.contact(i);
-        const bool bar = contact.device == Device::ballbar;
+        const emulator::Contact& contact = replay.contact(i);
+        const bool bar = contact.device == records::Device::ballbar;
         used.artefacts.insert(contact.artefact);
         used.instruments.insert(contact.instrument);
         if (contact.extension_mm != 0.0) used.extensions.insert({!bar, contact.extension_mm});
@@ -40,40 +40,42 @@ void add_pose(std::vector<FreeQuantity>& list, const std::string& owner, SetUpQu
         list.push_back({owner + "." + "abc"[place.component - 3] + "_rad", "rad", 1e-4, place});
 }
 
-bool is_free(const Artefact& artefact) {
+bool is_free(const setup::Artefact& artefact) {
     return artefact.tool_S_mm ? artefact.free_tool : artefact.free_center;
 }
 
 /// What a fit moves: readings of a target count from its declared place, which stays.
-Vector3& place_of(Artefact& artefact) {
-    return artefact.kind == Artefact::Kind::target ? artefact.found_mm : artefact.center_W_mm;
+Vector3& place_of(setup::Artefact& artefact) {
+    return artefact.kind == setup::Artefact::Kind::target ? artefact.found_mm
+                                                          : artefact.center_W_mm;
 }
 
-Vector3& ball_of(ExtensionErrors& errors, double extension_mm) {
+Vector3& ball_of(setup::ExtensionErrors& errors, double extension_mm) {
     return errors.try_emplace(extension_mm, Vector3::Zero()).first->second;
 }
 
-double& number_of(Instrument& instrument, int component) {
+double& number_of(setup::Instrument& instrument, int component) {
     if (component < 3) return instrument.pose_error.shift_mm(component);
     if (component < 6) return instrument.pose_error.tilt_rad(component - 3);
     return instrument.scale_error;
 }
 
-ExtensionErrors difference(const ExtensionErrors& from, ExtensionErrors to) {
+setup::ExtensionErrors difference(const setup::ExtensionErrors& from, setup::ExtensionErrors to) {
     for (auto& [length_mm, shift] : to)
         if (const auto it = from.find(length_mm); it != from.end()) shift -= it->second;
     return to;
 }
 
-double artefact_derivative(const SetUpQuantity& quantity, const Contact& contact,
-                           const Perturbation& gradient, bool on_tool) {
+double artefact_derivative(const SetUpQuantity& quantity, const emulator::Contact& contact,
+                           const kinematics::Perturbation& gradient, bool on_tool) {
     if (contact.artefact != quantity.index) return 0.0;
     return (on_tool ? gradient.tip_shift_mm : gradient.work_shift_mm)(quantity.component);
 }
 
 /// Of first order in the pose: p' = p + shift + tilt x p + scale p.
-double instrument_derivative(const SetUpQuantity& quantity, const Contact& contact) {
-    if (contact.instrument != quantity.index || contact.device != Device::point) return 0.0;
+double instrument_derivative(const SetUpQuantity& quantity, const emulator::Contact& contact) {
+    if (contact.instrument != quantity.index || contact.device != records::Device::point)
+        return 0.0;
     const Vector3 &p = contact.commanded_I_mm, &along = contact.direction_I;
     if (quantity.component < 3) return along(quantity.component);
     if (quantity.component < 6) return p.cross(along)(quantity.component - 3);
@@ -85,9 +87,9 @@ double instrument_derivative(const SetUpQuantity& quantity, const Contact& conta
 namespace {
 
 /// "zero.X_mm", "zero.C_rad.tuesday"
-void add_zeros(std::vector<FreeQuantity>& list, const Replay& replay) {
+void add_zeros(std::vector<FreeQuantity>& list, const emulator::Replay& replay) {
     for (std::size_t k = 0; k < replay.zeros().size(); ++k) {
-        const ZeroGroup& group = replay.zeros()[k];
+        const emulator::ZeroGroup& group = replay.zeros()[k];
         const std::string name = "zero." + group.test + (group.angular ? "_rad" : "_mm") +
                                  (group.session.empty() ? "" : '.' + group.session);
         list.push_back({name,
@@ -99,11 +101,12 @@ void add_zeros(std::vector<FreeQuantity>& list, const Replay& replay) {
 
 }  // namespace
 
-std::vector<FreeQuantity> free_quantities(const Setup& setup, const Replay& replay) {
+std::vector<FreeQuantity> free_quantities(const setup::Setup& setup,
+                                          const emulator::Replay& replay) {
     const Used used = used_by(replay);
     std::vector<FreeQuantity> list;
     for (int k = 0; k < static_cast<int>(setup.artefacts.size()); ++k) {
-        const Artefact& artefact = setup.artefacts[static_cast<std::size_t>(k)];
+        const setup::Artefact& artefact = setup.artefacts[static_cast<std::size_t>(k)];
         if (used.artefacts.contains(k) && is_free(artefact))
             add_place(list, artefact.name,
                       {artefact.tool_S_mm ? Kind::target_on_tool : Kind::artefact, k});
@@ -115,7 +118,7 @@ std::vector<FreeQuantity> free_quantities(const Setup& setup, const Replay& repl
         add_place(list, fmt::format("{}{:+}", stylus ? "stylus" : "cup", extension_mm),
                   {stylus ? Kind::stylus : Kind::long_cup, 0, 0, extension_mm});
     for (int k = 0; k < static_cast<int>(setup.instruments.size()); ++k) {
-        const Instrument& instrument = setup.instruments[static_cast<std::size_t>(k)];
+        const setup::Instrument& instrument = setup.instruments[static_cast<std::size_t>(k)];
         if (!used.instruments.contains(k)) continue;
         if (instrument.free_pose) add_pose(list, instrument.name, {Kind::instrument, k});
         if (instrument.free_scale)
@@ -125,7 +128,7 @@ std::vector<FreeQuantity> free_quantities(const Setup& setup, const Replay& repl
     return list;
 }
 
-double& number_of(Setup& setup, const SetUpQuantity& q) {
+double& number_of(setup::Setup& setup, const SetUpQuantity& q) {
     const auto k = static_cast<std::size_t>(q.index);
     switch (q.kind) {
         case Kind::cup:
@@ -147,9 +150,9 @@ double& number_of(Setup& setup, const SetUpQuantity& q) {
     }
 }
 
-double set_up_derivative(const SetUpQuantity& q, const Contact& contact,
-                         const Perturbation& gradient) {
-    const bool bar = contact.device == Device::ballbar;
+double set_up_derivative(const SetUpQuantity& q, const emulator::Contact& contact,
+                         const kinematics::Perturbation& gradient) {
+    const bool bar = contact.device == records::Device::ballbar;
     const bool same_length = contact.extension_mm == q.extension_mm;
     switch (q.kind) {
         case Kind::artefact:
@@ -173,14 +176,14 @@ double set_up_derivative(const SetUpQuantity& q, const Contact& contact,
     }
 }
 
-ReplayOffsets offsets_between(const Setup& from, const Setup& to) {
-    ReplayOffsets offsets;
+emulator::ReplayOffsets offsets_between(const setup::Setup& from, const setup::Setup& to) {
+    emulator::ReplayOffsets offsets;
     for (std::size_t k = 0; k < from.artefacts.size(); ++k) {
-        Artefact was = from.artefacts[k], is = to.artefacts[k];
+        setup::Artefact was = from.artefacts[k], is = to.artefacts[k];
         offsets.artefact.push_back(place_of(is) - place_of(was));
     }
     for (std::size_t k = 0; k < from.instruments.size(); ++k) {
-        const Instrument &was = from.instruments[k], &is = to.instruments[k];
+        const setup::Instrument &was = from.instruments[k], &is = to.instruments[k];
         offsets.instruments.push_back({{is.pose_error.shift_mm - was.pose_error.shift_mm,
                                         is.pose_error.tilt_rad - was.pose_error.tilt_rad},
                                        is.scale_error - was.scale_error});
@@ -196,4 +199,4 @@ ReplayOffsets offsets_between(const Setup& from, const Setup& to) {
     return offsets;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::identification

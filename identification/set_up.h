@@ -6,7 +6,7 @@
 
 #include "emulator/replay.h"
 
-namespace trunnion {
+namespace trunnion::identification {
 
 /// Where one such quantity stands in a setup.
 struct SetUpQuantity {
@@ -34,13 +34,14 @@ struct FreeQuantity {
 };
 
 /// Those that the setup leaves free and that the rows of the replay depend on.
-std::vector<FreeQuantity> free_quantities(const Setup& setup, const Replay& replay);
+std::vector<FreeQuantity> free_quantities(const setup::Setup& setup,
+                                          const emulator::Replay& replay);
 /// The number itself.
-double& number_of(Setup& setup, const SetUpQuantity& quantity);
+double& number_of(setup::Setup& setup, const SetUpQuantity& quantity);
 /// d reading / d quantity of one row, from what the reading's gradient says about machine and tool.
-double set_up_derivative(const SetUpQuantity& quantity, const Contact& contact,
-                         const Perturbation& gradient);
+double set_up_derivative(const SetUpQuantity& quantity, const emulator::Contact& contact,
+                         const kinematics::Perturbation& gradient);
 /// Difference to a setup's own quantities: the replay keeps those of the file.
-ReplayOffsets offsets_between(const Setup& from, const Setup& to);
+emulator::ReplayOffsets offsets_between(const setup::Setup& from, const setup::Setup& to);
 
-}  // namespace trunnion
+}  // namespace trunnion::identification

@@ -4,27 +4,28 @@
 
 #include "effects/settings.h"
 
-namespace trunnion {
+namespace trunnion::identification {
 namespace {
 
 constexpr double tells = 4.0;  ///< difference of the weighted squares: two sigma
 
 class SideChoice {
   public:
-    SideChoice(const Setup& setup, const ReadingTable& table, Replay& replay,
-               const Catalogue& catalogue, const std::vector<std::string>& effects)
+    SideChoice(const setup::Setup& setup, const records::ReadingTable& table,
+               emulator::Replay& replay, const effects::Catalogue& catalogue,
+               const std::vector<std::string>& effects)
         : setup_(setup),
           table_(table),
           replay_(replay),
           catalogue_(catalogue),
           effects_(effects),
-          models_(active_models(setup)) {
+          models_(effects::active_models(setup)) {
         for (const std::string& name : effects)
-            if (const Effect* effect = find_effect(catalogue, name)) {
+            if (const effects::Effect* effect = effects::find_effect(catalogue, name)) {
                 std::vector<double> values = effect->zeros();
                 for (std::size_t j = 0; j < values.size(); ++j)
                     if (!effect->parameters[j].is_key()) values[j] = effect->parameters[j].typical;
-                models_.push_back(make_model(*effect, values));
+                models_.push_back(effects::make_model(*effect, values));
             }
     }
 
@@ -55,7 +56,7 @@ class SideChoice {
     /// Some effect reads otherwise on the other side.
     bool matters(std::size_t k) const {
         for (const std::size_t i : replay_.unknown_sides()[k].rows) {
-            Perturbation plus, minus;
+            kinematics::Perturbation plus, minus;
             AxisSample other = replay_.sample(i);
             other.travel[index_of(replay_.unknown_sides()[k].axis)] = -1;
             for (const auto& model : models_) {
@@ -93,21 +94,21 @@ class SideChoice {
             table_.path, name, side, worse);
     }
 
-    const Setup& setup_;
-    const ReadingTable& table_;
-    Replay& replay_;
-    const Catalogue& catalogue_;
+    const setup::Setup& setup_;
+    const records::ReadingTable& table_;
+    emulator::Replay& replay_;
+    const effects::Catalogue& catalogue_;
     const std::vector<std::string>& effects_;
-    EffectModels models_;
+    emulator::EffectModels models_;
     std::vector<signed char> side_;
 };
 
 }  // namespace
 
-std::vector<std::string> choose_sides(const Setup& setup, const ReadingTable& table, Replay& replay,
-                                      const Catalogue& catalogue,
+std::vector<std::string> choose_sides(const setup::Setup& setup, const records::ReadingTable& table,
+                                      emulator::Replay& replay, const effects::Catalogue& catalogue,
                                       const std::vector<std::string>& effects) {
     return SideChoice(setup, table, replay, catalogue, effects).best();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::identification

@@ -5,22 +5,22 @@
 #include "base/alarm.h"
 #include "effects/settings.h"
 
-namespace trunnion {
+namespace trunnion::identification {
 
 using Slot = Unknowns::Slot;
 
-Unknowns::Unknowns(const Setup& setup, const Replay& replay, const Catalogue& catalogue,
-                   const std::vector<std::string>& effects)
+Unknowns::Unknowns(const setup::Setup& setup, const emulator::Replay& replay,
+                   const effects::Catalogue& catalogue, const std::vector<std::string>& effects)
     : setup_(setup) {
     for (const std::string& name : effects) add_effect_unknowns(catalogue, name);
     add_set_up(replay);
 }
 
-void Unknowns::add_effect_unknowns(const Catalogue& catalogue, const std::string& name) {
-    const Effect* effect = find_effect(catalogue, name);
-    if (!effect) refuse_effect_name(setup_, name);
+void Unknowns::add_effect_unknowns(const effects::Catalogue& catalogue, const std::string& name) {
+    const effects::Effect* effect = effects::find_effect(catalogue, name);
+    if (!effect) effects::refuse_effect_name(setup_, name);
     for (std::size_t j = 0; j < effect->parameters.size(); ++j) {
-        const EffectParameter& p = effect->parameters[j];
+        const effects::EffectParameter& p = effect->parameters[j];
         if (p.is_key()) continue;
         Slot slot;
         slot.effect = effect;
@@ -41,7 +41,7 @@ void Unknowns::add_prior(FitParameter& fit) const {
     fit.prior_sigma = it->second.sigma;
 }
 
-void Unknowns::add_set_up(const Replay& replay) {
+void Unknowns::add_set_up(const emulator::Replay& replay) {
     for (const FreeQuantity& free : free_quantities(setup_, replay)) {
         Slot slot;
         slot.fit = {"setup", free.name, free.unit, -1, free.typical};
@@ -50,8 +50,8 @@ void Unknowns::add_set_up(const Replay& replay) {
     }
 }
 
-Eigen::MatrixXd columns_of(const std::vector<Slot>& slots, const Replay& replay,
-                           const std::vector<Perturbation>& gradient) {
+Eigen::MatrixXd columns_of(const std::vector<Slot>& slots, const emulator::Replay& replay,
+                           const std::vector<kinematics::Perturbation>& gradient) {
     const auto n = static_cast<Eigen::Index>(replay.size());
     Eigen::MatrixXd columns(n, static_cast<Eigen::Index>(slots.size()));
     for (std::size_t j = 0; j < slots.size(); ++j) {
@@ -69,8 +69,8 @@ Eigen::MatrixXd columns_of(const std::vector<Slot>& slots, const Replay& replay,
     return columns;
 }
 
-void apply_step(Setup& setup, const std::vector<Slot>& slots, const Eigen::VectorXd& step) {
-    std::map<const Effect*, std::vector<double>> by_effect;
+void apply_step(setup::Setup& setup, const std::vector<Slot>& slots, const Eigen::VectorXd& step) {
+    std::map<const effects::Effect*, std::vector<double>> by_effect;
     for (std::size_t j = 0; j < slots.size(); ++j) {
         const double by = step(static_cast<Eigen::Index>(j));
         const Slot& slot = slots[j];
@@ -85,14 +85,14 @@ void apply_step(Setup& setup, const std::vector<Slot>& slots, const Eigen::Vecto
     for (const auto& [effect, values] : by_effect) add_effect(setup, *effect, values);
 }
 
-void shift_base(Setup& setup, const BaseModel& base, const Catalogue& catalogue,
+void shift_base(setup::Setup& setup, const BaseModel& base, const effects::Catalogue& catalogue,
                 const Eigen::VectorXd& step) {
     std::vector<Slot> slots;
     for (const FitParameter& p : base.parameters) {
         Slot slot;
         slot.fit = p;
         if (p.effect != "setup") {
-            slot.effect = find_effect(catalogue, p.effect);
+            slot.effect = effects::find_effect(catalogue, p.effect);
             for (std::size_t j = 0; j < slot.effect->parameters.size(); ++j)
                 if (slot.effect->parameters[j].name == p.name &&
                     slot.effect->parameters[j].component == p.component)
@@ -106,4 +106,4 @@ void shift_base(Setup& setup, const BaseModel& base, const Catalogue& catalogue,
     apply_step(setup, slots, by);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::identification

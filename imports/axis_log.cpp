@@ -7,7 +7,7 @@
 #include "imports/column_roles.h"
 #include "imports/row_writer.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 namespace {
 
 /// The columns of one axis.
@@ -75,7 +75,7 @@ std::optional<ColumnRole> role_in(const TextColumn& column, const Facts& facts) 
     return facts.has("axis") ? role_of(column.name + ' ' + facts.text("axis")) : std::nullopt;
 }
 
-Log read_columns(const TextTable& table, const Setup& setup, const Facts& facts,
+Log read_columns(const TextTable& table, const setup::Setup& setup, const Facts& facts,
                  const TimeColumn& time) {
     Log log;
     for (std::size_t k = 0; k < table.columns().size(); ++k) {
@@ -108,14 +108,14 @@ void check(const TextTable& table, const Log& log) {
             1);
 }
 
-void write_row(const TextTable& table, std::size_t i, const std::vector<TableCell>& cells,
-               const Log& log, Reading row, RowWriter& rows) {
+void write_row(const TextTable& table, std::size_t i, const std::vector<records::TableCell>& cells,
+               const Log& log, records::Reading row, RowWriter& rows) {
     const auto number = [&](const std::optional<NumberColumn>& column) {
         return column ? std::optional(number_in(table, i, cells, *column)) : std::nullopt;
     };
     for (const AxisColumns& axis : log.axes)
         if (const auto q = number(axis.commanded)) row.commanded[axis.axis] = *q;
-    row.device = Device::axis;
+    row.device = records::Device::axis;
     for (const AxisColumns& axis : log.axes) {
         if (!axis.read()) continue;
         row.feature = std::string(1, letter_of(axis.axis));
@@ -137,9 +137,9 @@ std::string axes_words(const Log& log) {
     return out;
 }
 
-std::vector<std::string> rate_columns(const Setup& setup) {
+std::vector<std::string> rate_columns(const setup::Setup& setup) {
     std::vector<std::string> names{"velocity_mm_s", "acceleration_mm_s2"};
-    for (const AxisGeometry& axis : setup.machine.chain.axes())
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
         if (axis.rotary) return {"velocity_mm_s", "velocity_deg_s", "acceleration_mm_s2"};
     return names;
 }
@@ -168,11 +168,11 @@ Imported import_axis_log(const ImportRequest& request) {
         const TimeColumn time(table, facts);
         const Log log = read_columns(table, request.setup, facts, time);
         check(table, log);
-        Reading row;
+        records::Reading row;
         row.test = facts.text("test", "log");
         row.commanded = positions_told(request.setup, facts.text("at"));
         rows.begin_file(table, facts);
-        std::vector<TableCell> cells;
+        std::vector<records::TableCell> cells;
         for (std::size_t i = 0; i < table.size(); ++i) {
             table.read(i, cells);
             row.time_s = time.time_s(table, i, cells);
@@ -184,4 +184,4 @@ Imported import_axis_log(const ImportRequest& request) {
     return result;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

@@ -8,7 +8,7 @@
 #include "base/units.h"
 #include "imports/row_writer.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 namespace {
 
 /// One circle about the pivot, as the program commanded it.
@@ -70,7 +70,7 @@ BarColumns columns_of(const TextTable& table, const Facts& facts) {
 std::vector<double> angles_of(const TextTable& table, const BarColumns& columns,
                               const Circle& circle, const std::vector<double>& times) {
     std::vector<double> angles;
-    std::vector<TableCell> cells;
+    std::vector<records::TableCell> cells;
     const double span_s = times.back() - times.front();
     if (!columns.angle && span_s <= 0.0)
         ask(table, "neither angles nor times: a column 'angle' or 'time' is missing");
@@ -106,7 +106,7 @@ void fill_times(const Circle& circle, double length_mm, const std::vector<double
 
 class BarRows {
   public:
-    BarRows(const Setup& setup, const Artefact& pivot, const AxisPositions& at)
+    BarRows(const setup::Setup& setup, const setup::Artefact& pivot, const AxisPositions& at)
         : setup_(setup), pivot_(pivot), at_(at) {
         if (!setup.ballbar) throw InputError("the setup has no [ballbar]", {setup.path});
     }
@@ -140,8 +140,8 @@ class BarRows {
                 {setup_.path});
     }
 
-    const Setup& setup_;
-    const Artefact& pivot_;
+    const setup::Setup& setup_;
+    const setup::Artefact& pivot_;
     AxisPositions at_;
 };
 
@@ -155,7 +155,7 @@ std::string circle_words(const Circle& circle, const std::vector<double>& angles
 
 std::vector<double> times_of(const TextTable& table, const TimeColumn& time) {
     std::vector<double> times;
-    std::vector<TableCell> cells;
+    std::vector<records::TableCell> cells;
     for (std::size_t i = 0; i < table.size(); ++i) {
         table.read(i, cells);
         times.push_back(time.time_s(table, i, cells));
@@ -167,9 +167,9 @@ void import_circle(const ImportRequest& request, const ImportFile& file, RowWrit
                    Imported& result) {
     const TextTable table(file.text, file.path);
     const Facts facts = request.facts.with_head_of(table);
-    const Setup& setup = request.setup;
-    const Artefact& pivot =
-        artefact_for(setup, facts.text("feature"), Artefact::Kind::center_pivot);
+    const setup::Setup& setup = request.setup;
+    const setup::Artefact& pivot =
+        artefact_for(setup, facts.text("feature"), setup::Artefact::Kind::center_pivot);
     const BarRows bar(setup, pivot, positions_told(setup, facts.text("at")));
     const Circle circle = circle_of(table, facts);
     const BarColumns columns = columns_of(table, facts);
@@ -178,14 +178,14 @@ void import_circle(const ImportRequest& request, const ImportFile& file, RowWrit
     std::vector<double> angles = angles_of(table, columns, circle, times);
     unwrap(table, circle, angles);
     if (time.invented()) fill_times(circle, setup.ballbar->length_mm, angles, times);
-    Reading row;
+    records::Reading row;
     row.test = facts.text(
         "test", fmt::format("{}_{}", facts.text("plane"), circle.sense > 0.0 ? "ccw" : "cw"));
-    row.device = Device::ballbar;
+    row.device = records::Device::ballbar;
     row.feature = pivot.name;
     row.feed_mm_min = circle.feed_mm_min.value_or(0.0);
     rows.begin_file(table, facts);
-    std::vector<TableCell> cells;
+    std::vector<records::TableCell> cells;
     for (std::size_t i = 0; i < table.size(); ++i) {
         table.read(i, cells);
         row.time_s = times[i];
@@ -215,4 +215,4 @@ Imported import_ballbar(const ImportRequest& request) {
     return result;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

@@ -6,7 +6,7 @@
 
 #include "imports/columns.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 namespace {
 
 enum class Word : unsigned char {
@@ -143,4 +143,4 @@ std::optional<ColumnRole> role_of(const std::string& name) {
     return role.axis == 0 ? std::nullopt : std::optional(role);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

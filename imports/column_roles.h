@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace trunnion {
+namespace trunnion::imports {
 
 enum class Role : unsigned char { none, commanded, actual, error, following_error };
 enum class Rate : unsigned char { position, velocity, acceleration };
@@ -20,4 +20,4 @@ struct ColumnRole {
 /// says something else (a current, a temperature) or that names no axis.
 std::optional<ColumnRole> role_of(const std::string& name);
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

@@ -8,7 +8,7 @@
 #include "base/alarm.h"
 #include "imports/times.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 namespace {
 
 bool upper(char c) {
@@ -69,9 +69,9 @@ NumberColumn number_column(const TextTable& table, std::size_t index, Quantity q
     return {index, unit->factor};
 }
 
-double number_in(const TextTable& table, std::size_t row, const std::vector<TableCell>& cells,
-                 const NumberColumn& column) {
-    const TableCell& cell = cells[column.index];
+double number_in(const TextTable& table, std::size_t row,
+                 const std::vector<records::TableCell>& cells, const NumberColumn& column) {
+    const records::TableCell& cell = cells[column.index];
     const std::string& name = table.columns()[column.index].name;
     if (const auto value = table.find_number(cell.text)) return *value * column.factor;
     const std::size_t cut = cell.text.find_first_not_of("+-0123456789.,eE ");
@@ -90,17 +90,17 @@ TimeColumn::TimeColumn(const TextTable& table, const Facts& facts,
     if (const auto step = facts.positive("step_s")) step_s_ = *step;
     if (!column_) return;
     name_ = table.columns()[*column_].name;
-    std::vector<TableCell> cells;
+    std::vector<records::TableCell> cells;
     table.read(0, cells);
     stamps_ = !table.find_number(cells[*column_].text);
     if (!stamps_) factor_ = number_column(table, *column_, Quantity::time, "s").factor;
 }
 
 double TimeColumn::time_s(const TextTable& table, std::size_t row,
-                          const std::vector<TableCell>& cells) const {
+                          const std::vector<records::TableCell>& cells) const {
     if (!column_) return step_s_ * static_cast<double>(row);
     if (!stamps_) return number_in(table, row, cells, {*column_, factor_});
-    const TableCell& cell = cells[*column_];
+    const records::TableCell& cell = cells[*column_];
     const auto time = seconds_of(cell.text);
     if (!time)
         table.line(row).fail("'" + std::string(cell.text) +
@@ -114,4 +114,4 @@ std::string TimeColumn::words() const {
     return invented() ? "no times: rows one minute apart" : fmt::format("{} s a row", step_s_);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

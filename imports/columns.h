@@ -9,7 +9,7 @@
 #include "imports/text_table.h"
 #include "imports/units.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 
 /// The words of a name in lower case: "X1_ActualPosition" is x1, actual, position.
 std::vector<std::string> words_of(const std::string& name);
@@ -30,8 +30,8 @@ struct NumberColumn {
 NumberColumn number_column(const TextTable& table, std::size_t index, Quantity quantity,
                            const std::string& otherwise);
 /// One number; an empty cell, or a unit behind the number, throws InputError with its place.
-double number_in(const TextTable& table, std::size_t row, const std::vector<TableCell>& cells,
-                 const NumberColumn& column);
+double number_in(const TextTable& table, std::size_t row,
+                 const std::vector<records::TableCell>& cells, const NumberColumn& column);
 
 /// Times of the rows of one file.
 class TimeColumn {
@@ -43,7 +43,7 @@ class TimeColumn {
 
     /// Seconds; absolute where the file has dates. Throws InputError for a text that is no time.
     double time_s(const TextTable& table, std::size_t row,
-                  const std::vector<TableCell>& cells) const;
+                  const std::vector<records::TableCell>& cells) const;
     std::optional<std::size_t> column() const { return column_; }
     bool invented() const { return !column_ && step_s_ == one_minute_s; }
     std::string words() const;  ///< "times from 'Timestamp'", "0.1 s a row" ...
@@ -56,4 +56,4 @@ class TimeColumn {
     std::string name_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

@@ -8,7 +8,7 @@
 #include "base/numbers.h"
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 namespace {
 
 const std::set<std::string>& known_keys() {
@@ -41,10 +41,10 @@ Facts::Facts(const std::vector<std::string>& told) {
         const std::size_t equal = text.find('=');
         if (equal == std::string::npos)
             throw InputError("--with: '" + text + "' does not read 'unit=um'");
-        const std::string key(without_blanks(text.substr(0, equal)));
+        const std::string key(records::without_blanks(text.substr(0, equal)));
         if (!known_keys().contains(key)) throw InputError("--with: no import has '" + key + "'");
         if (has(key)) throw InputError("--with: '" + key + "' is told twice");
-        facts_[key] = without_blanks(std::string_view(text).substr(equal + 1));
+        facts_[key] = records::without_blanks(std::string_view(text).substr(equal + 1));
     }
 }
 
@@ -77,7 +77,7 @@ std::optional<double> Facts::positive(const std::string& key) const {
     return value;
 }
 
-std::optional<Axis> axis_named(const Setup& setup, const std::string& name) {
+std::optional<Axis> axis_named(const setup::Setup& setup, const std::string& name) {
     if (name.empty()) return std::nullopt;
     const std::string word = upper(name);
     const std::string rest = word.substr(1);
@@ -87,10 +87,10 @@ std::optional<Axis> axis_named(const Setup& setup, const std::string& name) {
     return setup.machine.chain.names().find(word.substr(0, 1));
 }
 
-AxisPositions positions_told(const Setup& setup, const std::string& text) {
+AxisPositions positions_told(const setup::Setup& setup, const std::string& text) {
     AxisPositions at;
     std::string_view left = text;
-    while (!(left = without_blanks(left)).empty()) {
+    while (!(left = records::without_blanks(left)).empty()) {
         const std::size_t end = std::min(left.find_first_of(" ,"), left.size());
         const std::string_view word = left.substr(0, end);
         left.remove_prefix(std::min(end + 1, left.size()));
@@ -109,11 +109,12 @@ AxisPositions positions_told(const Setup& setup, const std::string& text) {
     return at;
 }
 
-const Artefact& artefact_for(const Setup& setup, const std::string& feature, Artefact::Kind kind) {
+const setup::Artefact& artefact_for(const setup::Setup& setup, const std::string& feature,
+                                    setup::Artefact::Kind kind) {
     static constexpr const char* words[] = {"sphere", "center_pivot", "target"};
     const std::string what = words[static_cast<std::size_t>(kind)];
-    const Artefact* found = nullptr;
-    for (const Artefact& artefact : setup.artefacts) {
+    const setup::Artefact* found = nullptr;
+    for (const setup::Artefact& artefact : setup.artefacts) {
         if (artefact.kind != kind || (!feature.empty() && artefact.name != feature)) continue;
         if (found)
             throw InputError("the setup has several artefacts of kind " + what +
@@ -128,4 +129,4 @@ const Artefact& artefact_for(const Setup& setup, const std::string& feature, Art
     return *found;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

@@ -10,7 +10,7 @@
 #include "imports/text_table.h"
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 
 /// One import: the keys that its kind knows are in docs/readings.md.
 class Facts {
@@ -33,12 +33,13 @@ class Facts {
 
 /// The axis that `name` says ("X", "x", "X1", "X-axis"); nothing when the machine has none such.
 /// Letters only: axes of other names come in through a map (kind table).
-std::optional<Axis> axis_named(const Setup& setup, const std::string& name);
+std::optional<Axis> axis_named(const setup::Setup& setup, const std::string& name);
 /// "Y=100 B=-30" (mm, deg): positions of axes that the file does not tell. Throws InputError for
 /// an axis that the machine does not have.
-AxisPositions positions_told(const Setup& setup, const std::string& text);
+AxisPositions positions_told(const setup::Setup& setup, const std::string& text);
 /// The artefact of these kinds that `feature` names, or the only one there is. Throws InputError
 /// that says which setup lacks what.
-const Artefact& artefact_for(const Setup& setup, const std::string& feature, Artefact::Kind kind);
+const setup::Artefact& artefact_for(const setup::Setup& setup, const std::string& feature,
+                                    setup::Artefact::Kind kind);
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

@@ -4,7 +4,7 @@
 
 #include "records/readings.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 
 Imported import_readings(ImportKind kind, const ImportRequest& request) {
     using Function = Imported (*)(const ImportRequest&);
@@ -13,4 +13,4 @@ Imported import_readings(ImportKind kind, const ImportRequest& request) {
     return functions[static_cast<std::size_t>(kind)](request);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

@@ -7,7 +7,7 @@
 #include "imports/facts.h"
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 
 enum class ImportKind : unsigned char { ballbar, iso230_2, points, axis_log, table };
 
@@ -16,7 +16,7 @@ struct ImportFile {
 };
 
 struct ImportRequest {
-    const Setup& setup;
+    const setup::Setup& setup;
     const std::vector<ImportFile>& files;
     Facts facts;
     ImportFile map;  ///< of kind table: which column is what; empty path: none
@@ -39,4 +39,4 @@ Imported import_points(const ImportRequest& request);
 Imported import_axis_log(const ImportRequest& request);
 Imported import_table(const ImportRequest& request);
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

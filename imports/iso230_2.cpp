@@ -12,7 +12,7 @@
 #include "base/units.h"
 #include "imports/row_writer.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 namespace {
 
 constexpr double overrun_mm = 1.0;  ///< before the first target of a run; a row without a device
@@ -102,7 +102,7 @@ double value_factor(const TextTable& table, std::size_t column, Axis axis, const
         .factor;
 }
 
-Axis axis_of_file(const TextTable& table, const Setup& setup, const Facts& facts) {
+Axis axis_of_file(const TextTable& table, const setup::Setup& setup, const Facts& facts) {
     const std::string told = facts.text("axis");
     if (told.empty())
         throw InputError(
@@ -141,7 +141,7 @@ bool holds_positions(const std::vector<Point>& points, const Facts& facts) {
 std::vector<Point> matrix_points(const TextTable& table, const Layout& layout, const Facts& facts,
                                  const std::vector<std::pair<std::size_t, RunName>>& runs) {
     std::vector<Point> points;
-    std::vector<TableCell> cells;
+    std::vector<records::TableCell> cells;
     const double step_s = facts.positive("step_s").value_or(60.0);
     for (const auto& [column, name] : runs) {
         const double factor = value_factor(table, column, layout.axis, facts);
@@ -196,7 +196,7 @@ std::vector<Point> listed_points(const TextTable& table, const Layout& layout, c
     const NumberColumn column{*value, value_factor(table, *value, layout.axis, facts)};
     const TimeColumn time(table, facts);
     std::vector<Point> points;
-    std::vector<TableCell> cells;
+    std::vector<records::TableCell> cells;
     for (std::size_t i = 0; i < table.size(); ++i) {
         table.read(i, cells);
         Point point{number_in(table, i, cells, {layout.target, layout.factor}),
@@ -248,25 +248,25 @@ void check_order(const TextTable& table, const std::vector<Point>& points) {
 }
 
 /// ISO 841: what a positive command moves of the tool against the work, or turns.
-Vector3 direction_M(const Setup& setup, Axis axis) {
-    const Chain& chain = setup.machine.chain;
+Vector3 direction_M(const setup::Setup& setup, Axis axis) {
+    const kinematics::Chain& chain = setup.machine.chain;
     const bool carries_work =
         std::any_of(chain.work.begin(), chain.work.end(), [&](auto& a) { return a.axis == axis; });
     return carries_work ? Vector3(-chain.find(axis)->direction) : chain.find(axis)->direction;
 }
 
-void write_points(const TextTable& table, const std::vector<Point>& points, Reading row, Axis axis,
-                  RowWriter& rows) {
+void write_points(const TextTable& table, const std::vector<Point>& points, records::Reading row,
+                  Axis axis, RowWriter& rows) {
     const double overrun = is_rotary(axis) ? overrun_rad : overrun_mm;
-    const Device device = row.device;
+    const records::Device device = row.device;
     for (std::size_t k = 0; k < points.size(); ++k) {
         const Point& p = points[k];
         const bool begins =
             k == 0 || points[k - 1].direction != p.direction || points[k - 1].run != p.run;
         row.time_s = p.time_s;
         if (begins) {
-            Reading before = row;
-            before.device = Device::none;
+            records::Reading before = row;
+            before.device = records::Device::none;
             before.angular = false;
             before.commanded[axis] = p.target - overrun * p.direction;
             before.time_s = k == 0 ? p.time_s - 1.0 : 0.5 * (points[k - 1].time_s + p.time_s);
@@ -285,7 +285,7 @@ int count_of(const std::vector<Point>& points, bool targets) {
     return static_cast<int>(distinct.size());
 }
 
-Layout layout_of(const TextTable& table, const Setup& setup, const Facts& facts) {
+Layout layout_of(const TextTable& table, const setup::Setup& setup, const Facts& facts) {
     Layout layout;
     layout.axis = axis_of_file(table, setup, facts);
     layout.target = target_column(table);
@@ -320,10 +320,10 @@ void tell(const TextTable& table, const std::vector<Point>& points, const Layout
                                          letter_of(layout.axis), count_of(points, false),
                                          both ? "both ways" : "one way", count_of(points, true),
                                          rotary ? "deg" : "mm", table.dialect_words()));
-    std::vector<DeviationPoint> list;
+    std::vector<records::DeviationPoint> list;
     for (const Point& p : points) list.push_back({p.target, p.direction, p.deviation});
-    const Iso230Figures figures = iso230_2_figures(list);
-    result.summary.push_back(iso230_2_words(figures, rotary));
+    const records::Iso230Figures figures = records::iso230_2_figures(list);
+    result.summary.push_back(records::iso230_2_words(figures, rotary));
 }
 
 }  // namespace
@@ -337,12 +337,12 @@ Imported import_iso230_2(const ImportRequest& request) {
         const Layout layout = layout_of(table, request.setup, facts);
         const bool rotary = is_rotary(layout.axis);
         const auto points = read_points(table, layout, facts, result);
-        Reading row;
+        records::Reading row;
         row.test = facts.text("test", std::string(1, letter_of(layout.axis)));
-        row.device = rotary ? Device::angle : Device::linear;
+        row.device = rotary ? records::Device::angle : records::Device::linear;
         row.angular = rotary;
         row.feature =
-            artefact_for(request.setup, facts.text("feature"), Artefact::Kind::target).name;
+            artefact_for(request.setup, facts.text("feature"), setup::Artefact::Kind::target).name;
         row.direction_M = direction_M(request.setup, layout.axis);
         row.commanded = positions_told(request.setup, facts.text("at"));
         rows.begin_file(table, facts);
@@ -353,4 +353,4 @@ Imported import_iso230_2(const ImportRequest& request) {
     return result;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

@@ -9,7 +9,7 @@
 #include "imports/column_roles.h"
 #include "imports/row_writer.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 namespace {
 
 using ThreeColumns = std::array<std::optional<NumberColumn>, 3>;
@@ -27,7 +27,7 @@ bool complete(const ThreeColumns& columns) {
 }
 
 /// A coordinate without a word ("x") is a measured one.
-void take(const TextTable& table, std::size_t k, const ColumnRole& role, const Setup& setup,
+void take(const TextTable& table, std::size_t k, const ColumnRole& role, const setup::Setup& setup,
           const Facts& facts, PointColumns& columns) {
     const TextColumn& column = table.columns()[k];
     const auto axis = axis_named(setup, std::string(1, role.axis));
@@ -49,7 +49,7 @@ void take(const TextTable& table, std::size_t k, const ColumnRole& role, const S
     place = number_column(table, k, Quantity::length, unit);
 }
 
-PointColumns read_columns(const TextTable& table, const Setup& setup, const Facts& facts,
+PointColumns read_columns(const TextTable& table, const setup::Setup& setup, const Facts& facts,
                           const TimeColumn& time) {
     PointColumns columns;
     columns.session = find_column(table, {"session", "setup", "tag", "day"});
@@ -73,7 +73,7 @@ PointColumns read_columns(const TextTable& table, const Setup& setup, const Fact
     return columns;
 }
 
-Vector3 three(const TextTable& table, std::size_t i, const std::vector<TableCell>& cells,
+Vector3 three(const TextTable& table, std::size_t i, const std::vector<records::TableCell>& cells,
               const ThreeColumns& columns) {
     Vector3 p;
     for (std::size_t d = 0; d < 3; ++d)
@@ -84,7 +84,8 @@ Vector3 three(const TextTable& table, std::size_t i, const std::vector<TableCell
 /// Where the declared control puts a target, in the frame that the instrument reads.
 class CommandedTarget {
   public:
-    CommandedTarget(const Setup& setup, const Artefact& target, const Instrument* instrument)
+    CommandedTarget(const setup::Setup& setup, const setup::Artefact& target,
+                    const setup::Instrument* instrument)
         : machine_(setup.machine),
           target_(target),
           on_table_(instrument && instrument->sees_table) {
@@ -118,15 +119,15 @@ class CommandedTarget {
     }
 
   private:
-    const Machine& machine_;
-    const Artefact& target_;
+    const kinematics::Machine& machine_;
+    const setup::Artefact& target_;
     bool on_table_;
     Pose pose_;
 };
 
-const Instrument* instrument_of(const Setup& setup, const std::string& name) {
+const setup::Instrument* instrument_of(const setup::Setup& setup, const std::string& name) {
     if (name.empty()) return setup.instruments.size() == 1 ? &setup.instruments.front() : nullptr;
-    const Instrument* found = setup.find_instrument(name);
+    const setup::Instrument* found = setup.find_instrument(name);
     if (!found)
         throw InputError("the setup has no [[instrument]] named '" + name + "'", {setup.path});
     return found;
@@ -140,7 +141,7 @@ struct PointFile {
 };
 
 AxisPositions positions_of(const PointFile& file, std::size_t i,
-                           const std::vector<TableCell>& cells, AxisPositions at) {
+                           const std::vector<records::TableCell>& cells, AxisPositions at) {
     bool linear = false;
     for (const auto& [axis, column] : file.columns.axes) {
         at[axis] = number_in(file.table, i, cells, column);
@@ -156,8 +157,8 @@ AxisPositions positions_of(const PointFile& file, std::size_t i,
     return *reached;
 }
 
-void write_point(const PointFile& file, std::size_t i, const std::vector<TableCell>& cells,
-                 Reading row, RowWriter& rows) {
+void write_point(const PointFile& file, std::size_t i, const std::vector<records::TableCell>& cells,
+                 records::Reading row, RowWriter& rows) {
     if (file.columns.session) row.session = cells[*file.columns.session].plain();
     if (file.columns.sigma) row.sigma_mm = number_in(file.table, i, cells, *file.columns.sigma);
     row.commanded = positions_of(file, i, cells, row.commanded);
@@ -186,7 +187,7 @@ void tell(const PointFile& file, const TimeColumn& time, const std::string& inst
 }  // namespace
 
 Imported import_points(const ImportRequest& request) {
-    const Setup& setup = request.setup;
+    const setup::Setup& setup = request.setup;
     Imported result;
     RowWriter rows(setup, "points", {"sigma_mm", "instrument"}, true, false);
     for (const ImportFile& file : request.files) {
@@ -194,19 +195,19 @@ Imported import_points(const ImportRequest& request) {
         const Facts facts = request.facts.with_head_of(table);
         const TimeColumn time(table, facts);
         const PointColumns columns = read_columns(table, setup, facts, time);
-        const Artefact& artefact =
-            artefact_for(setup, facts.text("feature"), Artefact::Kind::target);
-        const Instrument* instrument = instrument_of(setup, facts.text("instrument"));
+        const setup::Artefact& artefact =
+            artefact_for(setup, facts.text("feature"), setup::Artefact::Kind::target);
+        const setup::Instrument* instrument = instrument_of(setup, facts.text("instrument"));
         const CommandedTarget target(setup, artefact, instrument);
-        Reading row;
+        records::Reading row;
         row.test = facts.text("test", "points");
-        row.device = Device::point;
+        row.device = records::Device::point;
         row.feature = artefact.name;
         if (instrument) row.instrument = instrument->name;
         row.commanded = positions_told(setup, facts.text("at"));
         rows.begin_file(table, facts);
         const PointFile points{table, columns, target};
-        std::vector<TableCell> cells;
+        std::vector<records::TableCell> cells;
         for (std::size_t i = 0; i < table.size(); ++i) {
             table.read(i, cells);
             row.time_s = time.time_s(table, i, cells);
@@ -218,4 +219,4 @@ Imported import_points(const ImportRequest& request) {
     return result;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

@@ -4,7 +4,7 @@
 
 #include "base/alarm.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 namespace {
 
 constexpr double pause_s = 60.0;  ///< between two files whose clocks both began at zero
@@ -15,12 +15,13 @@ std::string file_name_of(const std::string& path) {
     return path.substr(path.find_last_of('/') + 1);
 }
 
-ReadingTable head_of(const Setup& setup, const std::string& kind,
-                     std::vector<std::string> columns) {
-    ReadingTable head;
+records::ReadingTable head_of(const setup::Setup& setup, const std::string& kind,
+                              std::vector<std::string> columns) {
+    records::ReadingTable head;
     head.names = setup.machine.chain.names();
     head.comment = {{"schema", "trunnion.readings/1"}, {"source", "real"}, {"import", kind}};
-    for (const AxisGeometry& axis : setup.machine.chain.axes()) head.axes.push_back(axis.axis);
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
+        head.axes.push_back(axis.axis);
     head.optional_columns = std::move(columns);
     for (const char* more : {"session", "source"}) head.optional_columns.emplace_back(more);
     return head;
@@ -28,8 +29,8 @@ ReadingTable head_of(const Setup& setup, const std::string& kind,
 
 }  // namespace
 
-RowWriter::RowWriter(const Setup& setup, const std::string& kind, std::vector<std::string> columns,
-                     bool directions, bool degrees)
+RowWriter::RowWriter(const setup::Setup& setup, const std::string& kind,
+                     std::vector<std::string> columns, bool directions, bool degrees)
     : head_(head_of(setup, kind, std::move(columns))), writer_(head_, directions, degrees) {
     text_ = writer_.head_text();
 }
@@ -41,7 +42,7 @@ void RowWriter::begin_file(const TextTable& table, const Facts& facts) {
     begins_ = true;
 }
 
-void RowWriter::add(Reading row, int line) {
+void RowWriter::add(records::Reading row, int line) {
     if (row.session.empty()) row.session = session_;
     const bool restarts = begins_ || row.session != last_session_;
     if (index_ == 0)
@@ -63,4 +64,4 @@ void RowWriter::add(Reading row, int line) {
     writer_.append(row, text_);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

@@ -8,14 +8,14 @@
 #include "imports/import.h"
 #include "records/readings.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 
 /// Rows go to text at once: a servo log of a million rows is never a table of readings.
 class RowWriter {
   public:
     /// `columns`: optional columns that rows of this import fill (source and, where it is told,
     /// session are added).
-    RowWriter(const Setup& setup, const std::string& kind, std::vector<std::string> columns,
+    RowWriter(const setup::Setup& setup, const std::string& kind, std::vector<std::string> columns,
               bool directions, bool degrees);
 
     /// Rows that follow come from this file. A clock that starts at zero again goes on a minute
@@ -23,13 +23,13 @@ class RowWriter {
     void begin_file(const TextTable& table, const Facts& facts);
     /// `row.time_s` is the file's; throws InputError when it runs back within the session.
     /// `line`: of the file, 0 for a row that no line says.
-    void add(Reading row, int line);
+    void add(records::Reading row, int line);
     int count() const { return index_; }
     std::string take() { return std::move(text_); }
 
   private:
-    ReadingTable head_;
-    ReadingWriter writer_;
+    records::ReadingTable head_;
+    records::ReadingWriter writer_;
     std::string text_, path_, name_, session_, last_session_;
     int index_ = 0;
     bool begins_ = false;
@@ -38,4 +38,4 @@ class RowWriter {
     AxisPositions last_at_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

@@ -10,13 +10,13 @@
 #include "imports/row_writer.h"
 #include "records/reading_columns.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 namespace {
 
 /// One key of the map: a text or number for every row, or a column (less another one).
 struct Source {
     std::string name;  ///< of the readings column
-    StoreCell store;
+    records::StoreCell store;
     std::string constant;
     std::optional<NumberColumn> column, minus;
     std::optional<std::size_t> text_column, time_column;
@@ -55,7 +55,7 @@ Told told_in(const std::string& name) {
 
 class MapReader {
   public:
-    MapReader(const TomlFile& file, const TextTable& table, const Setup& setup)
+    MapReader(const TomlFile& file, const TextTable& table, const setup::Setup& setup)
         : file_(file), table_(table), setup_(setup), names_(setup.machine.chain.names()) {}
 
     Map read() const {
@@ -77,7 +77,7 @@ class MapReader {
         for (const auto& [key, value] : table.entries) {
             value.used = true;
             list.push_back(source(key, value));
-            const ReadingColumn* column = find_reading_column(key);
+            const records::ReadingColumn* column = records::find_reading_column(key);
             if (column && column->optional && key != "session" && key != "source" &&
                 std::find(map.columns.begin(), map.columns.end(), key) == map.columns.end())
                 map.columns.push_back(key);
@@ -89,10 +89,10 @@ class MapReader {
     Source source(const std::string& key, const TomlValue& value) const {
         Source result;
         result.name = key;
-        if (const ReadingColumn* column = find_reading_column(key)) {
+        if (const records::ReadingColumn* column = records::find_reading_column(key)) {
             result.store = column->store;
         } else if (const auto axis = names_.find_column(key)) {
-            result.store = axis_store(*axis, names_.is_rotary(*axis));
+            result.store = records::axis_store(*axis, names_.is_rotary(*axis));
         } else if (AxisNames().find_column(key)) {
             file_.fail(value, "the machine of " + setup_.path + " has no axis for " + key);
         } else {
@@ -157,7 +157,7 @@ class MapReader {
 
     const TomlFile& file_;
     const TextTable& table_;
-    const Setup& setup_;
+    const setup::Setup& setup_;
     AxisNames names_;
 };
 
@@ -170,16 +170,16 @@ class LineReader {
         row_ = i;
         table_.read(i, cells_);
     }
-    void fill(const Sources& sources, Reading& reading) const {
+    void fill(const Sources& sources, records::Reading& reading) const {
         for (const Source& source : sources) fill(source, reading);
     }
     double time_s() const { return time_.time_s(table_, row_, cells_); }
 
   private:
-    void fill(const Source& source, Reading& reading) const {
+    void fill(const Source& source, records::Reading& reading) const {
         if (source.time_column) return;  // TimeColumn reads it, dates too
-        TableLine line = table_.line(row_);
-        TableCell cell{source.constant, 1, false};
+        records::TableLine line = table_.line(row_);
+        records::TableCell cell{source.constant, 1, false};
         std::string text;
         if (source.text_column) {
             cell = cells_[*source.text_column];
@@ -199,14 +199,14 @@ class LineReader {
     const TextTable& table_;
     const TimeColumn& time_;
     std::size_t row_ = 0;
-    std::vector<TableCell> cells_;
+    std::vector<records::TableCell> cells_;
 };
 
 /// A map can ask for rows that no reading is: they are refused here, not by the next command.
 void check_rows(const std::string& readings, const std::string& map_path, const AxisNames& names) {
     std::vector<std::string> notes;
     try {
-        parse_readings(readings, map_path, notes, names);
+        records::parse_readings(readings, map_path, notes, names);
     } catch (const InputError& error) {
         throw InputError("the rows of this map are no readings: " + error.message, {map_path},
                          error.line_text);
@@ -237,13 +237,13 @@ Imported import_table(const ImportRequest& request) {
         rows->begin_file(table, facts);
         for (std::size_t i = 0; i < table.size(); ++i) {
             line.next(i);
-            Reading common;
+            records::Reading common;
             common.commanded = positions_told(request.setup, facts.text("at"));
             common.test = facts.text("test", "table");
             line.fill(map.common, common);
             common.time_s = line.time_s();
             for (const Sources& sources : map.readings) {
-                Reading row = common;
+                records::Reading row = common;
                 line.fill(sources, row);
                 rows->add(std::move(row), table.line(i).number);
             }
@@ -258,4 +258,4 @@ Imported import_table(const ImportRequest& request) {
     return result;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

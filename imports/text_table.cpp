@@ -7,7 +7,7 @@
 #include "base/numbers.h"
 #include "imports/units.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 namespace {
 
 /// Lines at the start that decide how a file is written.
@@ -31,8 +31,8 @@ bool has_decimal_comma(std::string_view text) {
 }
 
 /// Blanks as separator: runs of them count as one.
-std::vector<TableCell> split_blanks(std::string_view text) {
-    std::vector<TableCell> cells;
+std::vector<records::TableCell> split_blanks(std::string_view text) {
+    std::vector<records::TableCell> cells;
     for (std::size_t k = 0; k < text.size();) {
         if (text[k] == ' ' || text[k] == '\t') {
             ++k;
@@ -45,32 +45,32 @@ std::vector<TableCell> split_blanks(std::string_view text) {
     return cells;
 }
 
-std::vector<TableCell> cells_of(const TableLine& line, char separator) {
+std::vector<records::TableCell> cells_of(const records::TableLine& line, char separator) {
     if (separator == ' ') return split_blanks(line.text);
-    std::vector<TableCell> cells;
+    std::vector<records::TableCell> cells;
     line.split(separator, cells);
     return cells;
 }
 
 /// "Pos X [mm]", "Pos X (mm)", "pos_x / mm" -> name and unit.
-TextColumn column_of(const TableCell& cell) {
+TextColumn column_of(const records::TableCell& cell) {
     std::string text = cell.plain();
     for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
         const std::size_t at = text.find(open), end = text.find(close, at + 1);
         if (at == std::string::npos || end == std::string::npos) continue;
-        const std::string unit(without_blanks(text.substr(at + 1, end - at - 1)));
+        const std::string unit(records::without_blanks(text.substr(at + 1, end - at - 1)));
         if (open == '(' && !find_unit(unit)) continue;  // a remark
         text.erase(at, end - at + 1);
-        return {std::string(without_blanks(text)), unit, cell.column};
+        return {std::string(records::without_blanks(text)), unit, cell.column};
     }
     const std::size_t cut = text.find_last_of("_/ ");
     if (cut != std::string::npos && cut > 0) {
-        const std::string unit(without_blanks(text.substr(cut + 1)));
+        const std::string unit(records::without_blanks(text.substr(cut + 1)));
         // "x_m" may be an axis; "time_s", "err um" and "angle / deg" are units.
         if (find_unit(unit)) {
-            std::string name(without_blanks(text.substr(0, cut)));
+            std::string name(records::without_blanks(text.substr(0, cut)));
             while (name.ends_with('/') || name.ends_with('_')) name.pop_back();
-            return {std::string(without_blanks(name)), unit, cell.column};
+            return {std::string(records::without_blanks(name)), unit, cell.column};
         }
     }
     return {text, "", cell.column};
@@ -94,8 +94,8 @@ TextTable::TextTable(std::string_view text, std::string path) : path_(std::move(
 
 void TextTable::take_lines(std::string_view text) {
     for (int number = 1; !text.empty(); ++number) {
-        const std::string_view line = take_line(text);
-        if (!without_blanks(line).empty()) rows_.push_back({line, number});
+        const std::string_view line = records::take_line(text);
+        if (!records::without_blanks(line).empty()) rows_.push_back({line, number});
     }
     if (rows_.empty()) throw InputError("the file is empty", {path_, 1, 1});
 }
@@ -129,7 +129,7 @@ void TextTable::choose_dialect() {
 }
 
 bool TextTable::numbers_in(const Row& row) const {
-    for (const TableCell& cell : cells_of({row.text, row.number, path_}, separator_))
+    for (const records::TableCell& cell : cells_of({row.text, row.number, path_}, separator_))
         if (find_number(cell.text)) return true;
     return false;
 }
@@ -143,7 +143,7 @@ std::size_t TextTable::find_header() const {
                              cells_of({rows_[i].text, rows_[i].number, path_}, separator_).size());
     for (std::size_t i = 0; i < std::min(rows_.size(), sample_lines); ++i) {
         if (rows_[i].text[0] == '#') continue;
-        const TableLine line{rows_[i].text, rows_[i].number, path_};
+        const records::TableLine line{rows_[i].text, rows_[i].number, path_};
         if (cells_of(line, separator_).size() == width) {
             first = i;
             break;
@@ -159,7 +159,7 @@ void TextTable::read_header(std::size_t at) {
     const auto cells = cells_of(header_line(), separator_);
     if (std::all_of(cells.begin(), cells.end(), [&](auto& c) { return find_number(c.text); }))
         header_line().fail("numbers where the names of the columns are expected", 1);
-    for (const TableCell& cell : cells) columns_.push_back(column_of(cell));
+    for (const records::TableCell& cell : cells) columns_.push_back(column_of(cell));
 }
 
 /// A second line that holds units alone: "s;mm;mm".
@@ -183,9 +183,9 @@ void TextTable::read_head(std::size_t count) {
         while (!text.empty() && (text[0] == '#' || text[0] == ' ')) text.remove_prefix(1);
         const std::size_t cut = text.find_first_of(":=;\t");
         if (cut == std::string_view::npos) continue;
-        const std::string_view value = without_blanks(text.substr(cut + 1));
-        head_[lower(without_blanks(text.substr(0, cut)))] =
-            without_blanks(value.substr(0, value.find(';')));
+        const std::string_view value = records::without_blanks(text.substr(cut + 1));
+        head_[lower(records::without_blanks(text.substr(0, cut)))] =
+            records::without_blanks(value.substr(0, value.find(';')));
     }
 }
 
@@ -196,7 +196,7 @@ std::string TextTable::dialect_words() const {
     return between + " between columns, decimal " + (decimal_comma_ ? "comma" : "point");
 }
 
-void TextTable::read(std::size_t i, std::vector<TableCell>& cells) const {
+void TextTable::read(std::size_t i, std::vector<records::TableCell>& cells) const {
     if (separator_ == ' ')
         cells = split_blanks(rows_[i].text);
     else
@@ -217,7 +217,8 @@ std::optional<double> TextTable::find_number(std::string_view text) const {
     return parse_number(point);
 }
 
-double TextTable::number(std::size_t i, const TableCell& cell, std::string_view what) const {
+double TextTable::number(std::size_t i, const records::TableCell& cell,
+                         std::string_view what) const {
     if (const auto value = find_number(cell.text)) return *value;
     line(i).fail(std::string(what) + ": '" + std::string(cell.text) + "' is not a finite number" +
                      (decimal_comma_ ? " with a decimal comma, as the others here" : ""),
@@ -225,9 +226,9 @@ double TextTable::number(std::size_t i, const TableCell& cell, std::string_view 
 }
 
 void TextTable::fail(std::size_t i, std::size_t column, const std::string& message) const {
-    std::vector<TableCell> cells;
+    std::vector<records::TableCell> cells;
     read(i, cells);
     line(i).fail(message, cells[column].column);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

@@ -9,7 +9,7 @@
 
 #include "records/table_line.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 
 /// One column of the header line. "Pos X [mm]" has the name "Pos X" and the unit "mm".
 struct TextColumn {
@@ -35,11 +35,11 @@ class TextTable {
 
     std::size_t size() const { return rows_.size(); }
     /// Cells of row `i`; throws InputError when it has not as many as the header.
-    void read(std::size_t i, std::vector<TableCell>& cells) const;
-    TableLine line(std::size_t i) const { return {rows_[i].text, rows_[i].number, path_}; }
-    TableLine header_line() const { return {header_.text, header_.number, path_}; }
+    void read(std::size_t i, std::vector<records::TableCell>& cells) const;
+    records::TableLine line(std::size_t i) const { return {rows_[i].text, rows_[i].number, path_}; }
+    records::TableLine header_line() const { return {header_.text, header_.number, path_}; }
     /// The cell as a number, decimal comma understood. Throws InputError with its place.
-    double number(std::size_t i, const TableCell& cell, std::string_view what) const;
+    double number(std::size_t i, const records::TableCell& cell, std::string_view what) const;
     std::optional<double> find_number(std::string_view text) const;
     [[noreturn]] void fail(std::size_t i, std::size_t column, const std::string& message) const;
 
@@ -65,4 +65,4 @@ class TextTable {
     bool decimal_comma_ = false;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

@@ -7,7 +7,7 @@
 #include "base/numbers.h"
 #include "records/table_line.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 namespace {
 
 std::optional<int> whole(std::string_view& text, std::size_t most_digits) {
@@ -83,7 +83,7 @@ std::optional<double> take_clock(std::string_view& text) {
         if (!seconds) return std::nullopt;
         time_s += *seconds;
     }
-    text = without_blanks(text);
+    text = records::without_blanks(text);
     if (text == "PM" || text == "pm") time_s += *hours < 12 ? 43200.0 : 0.0;
     if (text == "AM" || text == "am") time_s -= *hours == 12 ? 43200.0 : 0.0;
     if (text.size() == 2 && (text[1] == 'M' || text[1] == 'm')) text = {};
@@ -106,7 +106,7 @@ std::optional<double> take_zone(std::string_view text) {
 }  // namespace
 
 std::optional<double> seconds_of(std::string_view text) {
-    text = without_blanks(text);
+    text = records::without_blanks(text);
     const bool dated = text.find_first_of("-./") < 5;
     std::optional<double> date = 0.0;
     if (dated && text.find(':') > 4) {
@@ -114,7 +114,7 @@ std::optional<double> seconds_of(std::string_view text) {
         if (!date) return std::nullopt;
         if (text.empty()) return date;
         if (!skip(text, 'T') && !skip(text, ' ')) return std::nullopt;
-        text = without_blanks(text);
+        text = records::without_blanks(text);
     }
     const auto clock = take_clock(text);
     if (!clock) return std::nullopt;
@@ -123,4 +123,4 @@ std::optional<double> seconds_of(std::string_view text) {
     return *date + *clock - *zone;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

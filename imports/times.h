@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-namespace trunnion {
+namespace trunnion::imports {
 
 /// A date with a time of day (2024-03-01T08:15:30.250Z, 2024-03-01 08:15:30, 01.03.2024 08:15:30,
 /// 03/25/2024 8:15 PM), as seconds since 1970 in its own time zone (an offset +01:00 is taken
@@ -12,4 +12,4 @@ namespace trunnion {
 /// day that no calendar has, and 01/02/2024, which is two days.
 std::optional<double> seconds_of(std::string_view text);
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

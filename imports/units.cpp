@@ -6,7 +6,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::imports {
 namespace {
 
 /// Lower case, without blanks; both signs for micro (U+00B5, U+03BC) and Latin-1's as u.
@@ -83,4 +83,4 @@ std::optional<Unit> find_unit(std::string_view name) {
     return it == units().end() ? std::nullopt : std::optional(it->second);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-namespace trunnion {
+namespace trunnion::imports {
 
 enum class Quantity : unsigned char { length, angle, time, speed, turning, per_s2, temperature };
 
@@ -16,4 +16,4 @@ struct Unit {
 /// "um", "µm", "arcsec", "ms", "mm/min", "deg/s" ...; nothing for a word that is no unit.
 std::optional<Unit> find_unit(std::string_view name);
 
-}  // namespace trunnion
+}  // namespace trunnion::imports

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace trunnion {
+namespace trunnion::interpreter {
 namespace {
 
 constexpr AlarmInfo table[] = {
@@ -85,4 +85,4 @@ void raise_language_alarm(int number, int column, const std::string& detail) {
     throw Alarm(number, text, where);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

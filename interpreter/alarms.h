@@ -6,7 +6,7 @@
 
 #include "base/alarm.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 struct AlarmInfo {
     int number;
@@ -24,4 +24,4 @@ const AlarmInfo* language_alarm(int number);
 /// line and the program are filled in by whoever runs the block.
 [[noreturn]] void raise_language_alarm(int number, int column = 0, const std::string& detail = {});
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

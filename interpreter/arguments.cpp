@@ -4,7 +4,7 @@
 
 #include "interpreter/alarms.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 namespace {
 
 /// Local variable of A to Z; 0: cannot pass an argument (I, J, K are counted, see below).
@@ -54,4 +54,4 @@ SubprogramCall unpack_subprogram(int p, int l, bool packed) {
     return {p % 10000, p / 10000};
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

@@ -4,7 +4,7 @@
 #include "interpreter/block_words.h"
 #include "interpreter/memory.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 struct ArgumentRules {
     /// Parameter 3401#0 = 1: `X10` passes 10. 0: ten least increments for the letters of positions.
@@ -27,4 +27,4 @@ struct SubprogramCall {
 };
 SubprogramCall unpack_subprogram(int p, int l, bool packed);
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

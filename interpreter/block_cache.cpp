@@ -1,6 +1,6 @@
 #include "interpreter/block_cache.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 namespace {
 
 std::uint64_t key_of(int file, std::uint64_t byte) {
@@ -45,4 +45,4 @@ void BlockCache::connect(int open_end, int block) {
     if (open_end < -1) links[static_cast<std::size_t>(-2 - open_end)].block = block;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

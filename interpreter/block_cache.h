@@ -7,7 +7,7 @@
 #include "interpreter/code.h"
 #include "interpreter/program_files.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 /// Where a jump leads; `block` is -1 until it was compiled.
 struct JumpTarget {
@@ -49,4 +49,4 @@ class BlockCache {
     std::vector<Entry> table_;  ///< open addressing; empty until the first block comes
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

@@ -6,7 +6,7 @@
 #include "interpreter/alarms.h"
 #include "interpreter/block_parser_class.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 namespace {
 
 bool is_name_character(char c) {
@@ -234,4 +234,4 @@ Block parse_block(std::string_view text, std::uint64_t byte, int line, const Par
     return BlockParser(text, byte, line, options, out).run();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

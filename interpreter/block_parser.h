@@ -9,7 +9,7 @@
 #include "interpreter/code.h"
 #include "interpreter/dialect.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 /// Names that SETVN gave to variables: `#[#NAME]`.
 using VariableNames = std::map<std::string, int, std::less<>>;
@@ -36,4 +36,4 @@ constexpr int expression_stack = 48;
 Block parse_block(std::string_view text, std::uint64_t byte, int line, const ParseOptions& options,
                   Code& out);
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

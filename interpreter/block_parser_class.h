@@ -6,7 +6,7 @@
 #include "interpreter/block_reader.h"
 #include "interpreter/expression_parser.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 class BlockParser {
   public:
@@ -65,4 +65,4 @@ class BlockParser {
     bool program_ = false;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

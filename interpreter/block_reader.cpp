@@ -4,7 +4,7 @@
 
 #include "interpreter/alarms.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 std::uint16_t BlockReader::column() const {
     return static_cast<std::uint16_t>(std::min<std::ptrdiff_t>(p - begin + 1, 65535));
@@ -49,4 +49,4 @@ void BlockReader::expect(char c, int alarm) {
     ++p;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

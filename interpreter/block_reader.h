@@ -6,7 +6,7 @@
 #include "interpreter/code.h"
 #include "interpreter/lexical.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 class BlockReader {
   public:
@@ -45,4 +45,4 @@ class BlockReader {
     static constexpr std::size_t most_comments = 4096;  ///< of a block; more are passed over
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

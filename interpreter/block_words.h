@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 /// A word after its expression was evaluated.
 struct WordValue {
@@ -32,4 +32,4 @@ struct BlockWords {
     const WordValue* end() const { return words.data() + count; }
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

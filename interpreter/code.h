@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 enum class OpCode : std::uint8_t {
     constant,
@@ -149,4 +149,4 @@ struct Code {
     }
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

@@ -1,6 +1,6 @@
 #include "interpreter/dialect.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 Dialect fanuc_dialect(ControlGeneration generation) {
     Dialect d;
@@ -20,4 +20,4 @@ Dialect hurco_dialect() {
     return d;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

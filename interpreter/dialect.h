@@ -1,7 +1,7 @@
 // Dialects: a value given to the language and to the control, one table of differences.
 #pragma once
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 enum class DialectFamily : unsigned char { fanuc, hurco };
 enum class ControlGeneration : unsigned char { fanuc_16i, fanuc_30i, fanuc_0i_f };
@@ -20,4 +20,4 @@ struct Dialect {
 Dialect fanuc_dialect(ControlGeneration generation = ControlGeneration::fanuc_30i);
 Dialect hurco_dialect();
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

@@ -6,7 +6,7 @@
 #include "interpreter/alarms.h"
 #include "interpreter/block_parser.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 namespace {
 
 constexpr double largest = 1e47;  ///< +-10^47: range of a macro variable (assumed)
@@ -278,4 +278,4 @@ double evaluate(const Op* code, std::uint32_t count, const Memory& memory,
     return stack[0];
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

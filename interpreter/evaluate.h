@@ -4,7 +4,7 @@
 #include "interpreter/code.h"
 #include "interpreter/memory.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 struct EvaluationRules {
     bool signed_angles = false;  ///< parameter 6004#0 = 1: ATAN[a]/[b] in -180..180, ASIN in
@@ -20,4 +20,4 @@ double evaluate(const Op* code, std::uint32_t count, const Memory& memory,
 /// A value used as a number of something: rounded; vacant is 0. Alarm 110 beyond 9 digits.
 int whole_number(double value, int column);
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

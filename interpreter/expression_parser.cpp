@@ -3,7 +3,7 @@
 #include "interpreter/alarms.h"
 #include "interpreter/memory.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 namespace {
 
 constexpr std::size_t most_ops = 65536;  ///< of a block, so that a line of any length ends soon
@@ -244,4 +244,4 @@ int ExpressionParser::named_variable() {
     return -1;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

@@ -5,7 +5,7 @@
 #include "interpreter/block_reader.h"
 #include "interpreter/keywords.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 class ExpressionParser {
   public:
@@ -48,4 +48,4 @@ class ExpressionParser {
     int stack_ = 0;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

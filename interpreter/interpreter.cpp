@@ -3,7 +3,7 @@
 #include "interpreter/alarms.h"
 #include "interpreter/runner.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 Interpreter::Interpreter(ProgramSource& source, InterpreterOptions options, SystemVariables& system,
                          Print print)
@@ -98,4 +98,4 @@ bool Interpreter::limit_reached() const {
     return state_->limit;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

@@ -15,7 +15,7 @@
 #include "interpreter/program_source.h"
 #include "interpreter/variables.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 /// Codes that call programs by parameters 6050-6089 and 6001#5 (docs/backup_files.md).
 struct CodeCalls {
@@ -98,4 +98,4 @@ class Interpreter {
     std::unique_ptr<State> state_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

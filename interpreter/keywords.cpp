@@ -4,7 +4,7 @@
 
 #include "interpreter/lexical.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 namespace {
 
 struct StatementRow {
@@ -111,4 +111,4 @@ Precedence precedence(OpCode code) {
     return Precedence::none;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

@@ -5,7 +5,7 @@
 
 #include "interpreter/code.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 enum class Keyword : std::uint8_t {
     none,
@@ -37,4 +37,4 @@ Precedence read_operator(const char*& p, const char* end, OpCode& op);
 const char* spelling(OpCode code);
 Precedence precedence(OpCode code);
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

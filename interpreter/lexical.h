@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cstdint>
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 constexpr char control_z = '\x1a';
 
@@ -73,4 +73,4 @@ inline Number read_number(const char*& p, const char* end) {
     return n;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

@@ -2,7 +2,7 @@
 
 #include "interpreter/lexical.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 namespace {
 
 /// Past blanks, whole comments and block skips.
@@ -75,4 +75,4 @@ void LineScan::read_head(const char* p, const char* end) {
     head_.number = number;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

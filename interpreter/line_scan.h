@@ -5,7 +5,7 @@
 
 #include "interpreter/program_files.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 enum class LineKind : unsigned char {
     blank,  ///< nothing but blanks and comments
@@ -43,4 +43,4 @@ class LineScan {
     LineHead head_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

@@ -2,7 +2,7 @@
 
 #include "interpreter/alarms.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 Memory::Memory(SystemVariables& system, bool has_98000) : system(system), has_98000(has_98000) {
     common.fill(vacant);
@@ -32,4 +32,4 @@ void Memory::set(int number, double value, const char* comment) {
     system.set(number, value, comment);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

@@ -6,7 +6,7 @@
 
 #include "interpreter/variables.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 constexpr int local_count = 33;
 constexpr int common_count = 1100;
@@ -39,4 +39,4 @@ class Memory {
     bool has_98000;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

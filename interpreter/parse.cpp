@@ -6,7 +6,7 @@
 #include "interpreter/lexical.h"
 #include "interpreter/line_scan.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 namespace {
 
 std::uint64_t next_line(std::string_view text, std::uint64_t byte) {
@@ -119,4 +119,4 @@ bool same_block(const ParsedProgram& a, const Block& block_a, const ParsedProgra
                       [&](const Comment& x, const Comment& y) { return a.text(x) == b.text(y); });
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

@@ -11,7 +11,7 @@
 #include "interpreter/block_parser.h"
 #include "interpreter/program_source.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 /// Every line of a file in order, blank ones too. Skip marks `/n` stay as items; switches do not
 /// count. Programs begin at blocks of kind `program`; kind `end_of_record` is '%' or a folder line.
@@ -55,4 +55,4 @@ std::optional<double> constant_value(const ParsedProgram& program, const Item& i
 bool same_block(const ParsedProgram& a, const Block& block_a, const ParsedProgram& b,
                 const Block& block_b);
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

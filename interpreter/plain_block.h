@@ -6,7 +6,7 @@
 #include "interpreter/block_words.h"
 #include "interpreter/lexical.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 /// Codes at which the language itself does something: calls, returns, G10 L85.
 struct SpecialCodes {
@@ -85,4 +85,4 @@ inline bool read_plain_block(const char*& p, const char* end, const SpecialCodes
     return true;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

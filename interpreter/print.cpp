@@ -10,7 +10,7 @@
 #include "interpreter/keywords.h"
 #include "interpreter/lexical.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 namespace {
 
 /// Text of a part of an expression with what decides about brackets around it.
@@ -317,4 +317,4 @@ std::string print_program(const ParsedProgram& program) {
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

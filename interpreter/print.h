@@ -5,7 +5,7 @@
 
 #include "interpreter/parse.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 /// A number as the control reads it back to the same double: `10.`, `-0.5`; without a point where
 /// `decimal_point` is false.
@@ -17,4 +17,4 @@ std::string print_block(const ParsedProgram& program, const Block& block);
 /// All blocks, one a line.
 std::string print_program(const ParsedProgram& program);
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

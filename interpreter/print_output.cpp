@@ -9,7 +9,7 @@
 #include "interpreter/lexical.h"
 #include "interpreter/variables.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 std::string decimal_print(double value, int integers, int decimals, bool suppress_zeros) {
     if (is_vacant(value)) value = 0.0;
@@ -35,4 +35,4 @@ std::string binary_print(double value, int decimals) {
     return bytes;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 /// DPRNT #v[ab]: sign (blank for +), `integers` places filled with blanks in front, point and
 /// `decimals` places; higher digits are cut off. With `suppress_zeros` (parameter 6001#1 PRT = 1)
@@ -13,4 +13,4 @@ std::string decimal_print(double value, int integers, int decimals, bool suppres
 /// BPRNT #v[d]: value * 10^d as four bytes, most significant first. Alarm 110 beyond 32 bits.
 std::string binary_print(double value, int decimals);
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

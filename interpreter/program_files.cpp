@@ -6,7 +6,7 @@
 #include "interpreter/lexical.h"
 #include "interpreter/line_scan.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 namespace {
 
 constexpr int outside = -2;                    ///< in place of a file's id: from the source alone
@@ -218,4 +218,4 @@ void ProgramFiles::forget_first_blocks() {
     for (auto& section : sections_) section->first_block = -1;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

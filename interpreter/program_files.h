@@ -10,7 +10,7 @@
 
 #include "interpreter/program_source.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 /// The start of a block.
 struct TextPlace {
@@ -84,4 +84,4 @@ class ProgramFiles {
                                                      ///< missing ones too
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

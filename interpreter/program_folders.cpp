@@ -10,7 +10,7 @@
 #include "base/alarm.h"
 #include "base/read_file.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 namespace fs = std::filesystem;
 namespace {
 
@@ -175,4 +175,4 @@ std::optional<ProgramText> ProgramFolders::find(std::string_view name) {
     return text;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

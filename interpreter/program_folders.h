@@ -7,7 +7,7 @@
 
 #include "interpreter/program_source.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 /// What a file holds now; "-" is standard input. What is written to the file later changes nothing.
 /// Throws InputError when it cannot be read.
@@ -66,4 +66,4 @@ class ProgramFolders : public ProgramSource {
     std::map<std::string, ProgramText> read_;  ///< by path
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

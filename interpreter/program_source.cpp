@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-namespace trunnion {
+namespace trunnion::interpreter {
 namespace {
 
 std::string o_name(int number) {
@@ -31,4 +31,4 @@ std::optional<ProgramText> ProgramsInMemory::find(std::string_view name) {
     return find(number);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

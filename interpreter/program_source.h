@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 /// The bytes of one file as they were when it was read, kept alive as long as anyone uses them.
 struct ProgramText {
@@ -36,4 +36,4 @@ class ProgramsInMemory : public ProgramSource {
     std::map<int, std::shared_ptr<const std::string>> programs_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

@@ -4,7 +4,7 @@
 
 #include "interpreter/alarms.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 Interpreter::State::State(ProgramSource& source, InterpreterOptions given, SystemVariables& system,
                           Print print_line)
@@ -221,4 +221,4 @@ bool Interpreter::State::give_out(const Block& block, const Code& code) {
     return !any_special || special_words(block, code);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

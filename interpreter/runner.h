@@ -13,7 +13,7 @@
 #include "interpreter/plain_block.h"
 #include "interpreter/program_files.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 /// A block to run next: its place, and its number in the cache where that is known.
 struct Place {
@@ -152,4 +152,4 @@ struct Interpreter::State {
     int sequence_number = 0;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

@@ -6,7 +6,7 @@
 #include "interpreter/runner.h"
 #include "interpreter/word_rules.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 namespace {
 
 const CodeCalls::Call* find_call(const std::map<int, CodeCalls::Call>& calls, double code) {
@@ -358,4 +358,4 @@ void Interpreter::State::repeat() {
     link_from = -1;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

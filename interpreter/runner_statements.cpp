@@ -3,7 +3,7 @@
 #include "interpreter/print_output.h"
 #include "interpreter/runner.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 namespace {
 
 /// A condition holds when it is not 0; a vacant one does not.
@@ -159,4 +159,4 @@ void Interpreter::State::set_names(const Code& code, const Item& item) {
                static_cast<int>(item.value), names);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

@@ -2,7 +2,7 @@
 #include "interpreter/alarms.h"
 #include "interpreter/block_parser_class.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 void BlockParser::assignment() {
     const std::uint16_t column = in_.column();
@@ -185,4 +185,4 @@ void BlockParser::setvn(std::uint16_t column) {
     closed_ = true;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

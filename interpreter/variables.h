@@ -3,7 +3,7 @@
 
 #include <limits>
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 /// The value of a vacant variable (#0). Vacant is not 0: it is a NaN that no arithmetic produces,
 /// because every NaN result is an alarm.
@@ -27,4 +27,4 @@ class SystemVariables {
     virtual double parameter(int number, int bit, int axis) = 0;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 namespace {
 
@@ -133,4 +133,4 @@ std::optional<WordFault> find_word_fault(const BlockWords& block, bool all_known
     return std::nullopt;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

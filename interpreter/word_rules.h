@@ -8,7 +8,7 @@
 
 #include "interpreter/block_words.h"
 
-namespace trunnion {
+namespace trunnion::interpreter {
 
 /// A value that breaks the rule is PS0007 (no whole number), PS0006 (a minus sign), `out_of_range`,
 /// or `missing` when the word is absent.
@@ -40,4 +40,4 @@ std::optional<WordFault> find_word_fault(const BlockWords& block, bool all_known
 /// A code number: whole and not below 0, or PS0007, PS0006.
 std::optional<WordFault> find_m_fault(const WordValue& m_word);
 
-}  // namespace trunnion
+}  // namespace trunnion::interpreter

@@ -5,7 +5,7 @@
 
 #include "base/alarm.h"
 
-namespace trunnion {
+namespace trunnion::kinematics {
 namespace {
 
 Vector3 unit_of(Axis axis) {
@@ -140,4 +140,4 @@ Chain parse_chain(std::string_view text) {
     return chain;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::kinematics

@@ -10,7 +10,7 @@
 #include "geometry/axis_names.h"
 #include "geometry/pose.h"
 
-namespace trunnion {
+namespace trunnion::kinematics {
 
 /// One axis as the setup file describes it.
 struct AxisGeometry {
@@ -48,4 +48,4 @@ bool is_letter(const AxisGeometry& axis);
 /// whatever its case; the setup reader adds the place.
 Chain parse_chain(std::string_view text);
 
-}  // namespace trunnion
+}  // namespace trunnion::kinematics

@@ -5,7 +5,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::kinematics {
 namespace {
 
 constexpr std::string_view directions = "XYZABC";
@@ -118,4 +118,4 @@ ErrorCurve& GeometricErrors::motion(const ErrorName& name) {
     return axis[index_of(name.axis)].motion[direction_index(name)];
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::kinematics

@@ -11,7 +11,7 @@
 #include "geometry/axis_names.h"
 #include "geometry/pose.h"
 
-namespace trunnion {
+namespace trunnion::kinematics {
 
 /// EXX, EC0A, ...: letter of the direction (X Y Z: along; A B C: about), and the axis it belongs
 /// to. `location` true: E?0? (position and orientation of the axis line); false: E?? (error
@@ -81,4 +81,4 @@ struct GeometricErrors {
     ErrorCurve& motion(const ErrorName& name);
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::kinematics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::kinematics {
 namespace {
 
 Vector3 first_three(const std::array<double, 6>& v) {
@@ -189,4 +189,4 @@ Vector3 Machine::tip_W(const AxisPositions& commanded, const Vector3& tip_S_mm,
     return tip_seen_from_W(poses(commanded, spindle_rad), tip_S_mm);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::kinematics

@@ -7,7 +7,7 @@
 
 #include "kinematics/machine.h"
 
-namespace trunnion {
+namespace trunnion::kinematics {
 
 /// One axis with its location errors worked out; borrows the curves of its error motions.
 struct Link {
@@ -52,4 +52,4 @@ class ForwardModel {
     bool has_spindle_ = false;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::kinematics

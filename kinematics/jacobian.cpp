@@ -2,7 +2,7 @@
 
 #include "kinematics/forward.h"
 
-namespace trunnion {
+namespace trunnion::kinematics {
 namespace {
 
 /// d exp([e]x) = [J de]x exp([e]x): the left Jacobian of small rotation vectors (rad).
@@ -141,4 +141,4 @@ TipJacobian tip_jacobian(const Machine& machine, const AxisPositions& commanded,
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::kinematics

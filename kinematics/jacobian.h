@@ -5,7 +5,7 @@
 
 #include "kinematics/machine.h"
 
-namespace trunnion {
+namespace trunnion::kinematics {
 
 /// Columns X Y Z (mm per mm) and A B C (mm per rad) of the six errors of one axis.
 using SixColumns = Eigen::Matrix<double, 3, 6>;
@@ -24,4 +24,4 @@ struct TipJacobian {
 TipJacobian tip_jacobian(const Machine& machine, const AxisPositions& commanded,
                          const Vector3& tip_S_mm, SpindleAngle spindle_rad = 0.0);
 
-}  // namespace trunnion
+}  // namespace trunnion::kinematics

@@ -9,7 +9,7 @@
 #include "kinematics/chain.h"
 #include "kinematics/errors.h"
 
-namespace trunnion {
+namespace trunnion::kinematics {
 
 /// What effects outside `GeometricErrors` add at one sample.
 struct Perturbation {
@@ -62,4 +62,4 @@ struct Machine {
                   SpindleAngle spindle_rad = 0.0) const;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::kinematics

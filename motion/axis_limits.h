@@ -5,7 +5,7 @@
 
 #include "geometry/axes.h"
 
-namespace trunnion {
+namespace trunnion::motion {
 
 /// By axis letter, in what the axes are driven with (mm, rad, s). Speeds and accelerations are kept
 /// as their inverses: 0 means no limit, and letters without an axis have none.
@@ -17,4 +17,4 @@ struct AxisLimits {
     bool accelerates = false;  ///< some axis has an acceleration: moves take ramps
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::motion

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace trunnion {
+namespace trunnion::motion {
 
 /// Feed as programmed and as the axes need it.
 struct FeedState {
@@ -27,4 +27,4 @@ struct BlockMarks {
     const std::string* program = nullptr;  ///< name of the file
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::motion

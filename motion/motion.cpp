@@ -4,7 +4,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::motion {
 
 Vector3 point_on_arc(const ArcPath& arc, const Vector3& from, const Vector3& to, double s) {
     const auto split = [&](const Vector3& p) {
@@ -42,4 +42,4 @@ AxisPositions AxisMove::at(double s) const {
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::motion

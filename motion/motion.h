@@ -10,9 +10,11 @@
 #include "geometry/parallel_axes.h"
 #include "geometry/pose.h"
 
-namespace trunnion {
-
+namespace trunnion::positioning {
 class RotaryTransform;
+}  // namespace trunnion::positioning
+
+namespace trunnion::motion {
 
 enum class MotionKind : std::uint8_t { rapid, linear, arc_cw, arc_ccw };  ///< G0 G1 G2 G3
 
@@ -59,7 +61,7 @@ struct AxisMove {
     Vector3 tool_vector_mm =
         Vector3::Zero();    ///< believed: from tip to gauge point, rotaries at zero
     ParallelAxes parallel;  ///< believed: U V W beside X Y Z
-    const RotaryTransform* transform =
+    const positioning::RotaryTransform* transform =
         nullptr;  ///< believed kinematics, for tip and direction in W
     int line = 0;
     std::uint64_t byte = 0;
@@ -85,4 +87,4 @@ class MotionSink {
     virtual void m_code(int /*code*/) {}
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::motion

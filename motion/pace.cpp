@@ -6,7 +6,7 @@
 
 #include "motion/path_rates.h"
 
-namespace trunnion {
+namespace trunnion::motion {
 
 namespace {
 
@@ -50,4 +50,4 @@ double Pace::take(AxisMove& move, const AxisLimits& limits, double way) {
     return cruise_s;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::motion

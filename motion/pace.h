@@ -5,7 +5,7 @@
 #include "motion/motion.h"
 #include "motion/speed_chain.h"
 
-namespace trunnion {
+namespace trunnion::motion {
 
 /// Runs along with the moves that go out. Positioning, G31, exact stops (G9, G61), dwells and M
 /// codes begin and end at rest; cutting moves run into each other (G64) as fast as parameter 1783
@@ -26,4 +26,4 @@ class Pace {
     AxisPositions end_rate_;  ///< of the move before, axis units a mm of way
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::motion

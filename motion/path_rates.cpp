@@ -5,7 +5,7 @@
 
 #include "motion/tool_centre_point.h"
 
-namespace trunnion {
+namespace trunnion::motion {
 
 namespace {
 
@@ -99,4 +99,4 @@ PathRates path_rates(const AxisMove& move, const AxisLimits& limits) {
     return move.arc ? rates_of_arc(move, limits) : rates_of_line(move, limits);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::motion

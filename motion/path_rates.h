@@ -4,7 +4,7 @@
 #include "motion/axis_limits.h"
 #include "motion/motion.h"
 
-namespace trunnion {
+namespace trunnion::motion {
 
 /// Of a move whose s runs from 0 to 1; axis units are mm and rad.
 struct PathRates {
@@ -18,4 +18,4 @@ struct PathRates {
 /// stays within the acceleration; a curve by looking at it, as finely as `curve_parts` says.
 PathRates path_rates(const AxisMove& move, const AxisLimits& limits);
 
-}  // namespace trunnion
+}  // namespace trunnion::motion

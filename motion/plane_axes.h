@@ -3,7 +3,7 @@
 
 #include "geometry/axes.h"
 
-namespace trunnion {
+namespace trunnion::motion {
 
 /// The two axes of a plane and the one normal to it, in right-handed order.
 struct PlaneAxes {
@@ -14,4 +14,4 @@ constexpr PlaneAxes plane_xy{};
 constexpr PlaneAxes plane_zx{Axis::Z, Axis::X, Axis::Y, 'K', 'I'};
 constexpr PlaneAxes plane_yz{Axis::Y, Axis::Z, Axis::X, 'J', 'K'};
 
-}  // namespace trunnion
+}  // namespace trunnion::motion

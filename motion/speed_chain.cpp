@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::motion {
 
 namespace {
 
@@ -79,4 +79,4 @@ void SpeedChain::stop() {
     owed_s_ = 0.0;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::motion

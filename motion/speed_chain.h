@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::motion {
 
 /// One move of a chain. The way may be in any unit, as long as the chain keeps to it.
 struct SpeedLink {
@@ -44,4 +44,4 @@ class SpeedChain {
     double owed_s_ = 0.0;      ///< a joint saved more than the link behind it took
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::motion

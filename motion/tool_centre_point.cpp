@@ -6,16 +6,16 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::motion {
 
-ToolCentrePoint ToolCentrePoint::start(const RotaryTransform& transform,
-                                       const AxisPositions& present, TcpFrame frame,
+ToolCentrePoint ToolCentrePoint::start(const positioning::RotaryTransform& transform,
+                                       const AxisPositions& present, positioning::TcpFrame frame,
                                        const Vector3& tool_vector_mm) {
     ToolCentrePoint tcp;
     tcp.transform = &transform;
     tcp.follows_work = transform.pivot().frame_follows_work;
     tcp.tool_vector_mm = tool_vector_mm;
-    if (frame == TcpFrame::start) tcp.pose_WM0 = transform.pose_MW(present).inverse();
+    if (frame == positioning::TcpFrame::start) tcp.pose_WM0 = transform.pose_MW(present).inverse();
     return tcp;
 }
 
@@ -119,4 +119,4 @@ int curve_parts(const AxisPositions& from, const AxisPositions& to) {
     return std::clamp(static_cast<int>(turn_rad / rad_from_deg(5.0)) + 1, 1, 256);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::motion

@@ -7,19 +7,20 @@
 #include "positioning/rotary_transform.h"
 #include "positioning/tcp_frame.h"
 
-namespace trunnion {
+namespace trunnion::motion {
 
 /// The believed tool centre point control in force. "Programmed tip": where the control's
 /// coordinate stages put the tip in M without it.
 struct ToolCentrePoint {
-    const RotaryTransform* transform = nullptr;
+    const positioning::RotaryTransform* transform = nullptr;
     Pose pose_WM0;              ///< programmed tip -> W, table-fixed frame
     bool follows_work = false;  ///< WKP: the programmed tip is in M at the end of the block instead
     Vector3 tool_vector_mm = Vector3::Zero();
 
     /// `present`: the axes when G43.4 comes.
-    static ToolCentrePoint start(const RotaryTransform& transform, const AxisPositions& present,
-                                 TcpFrame frame, const Vector3& tool_vector_mm);
+    static ToolCentrePoint start(const positioning::RotaryTransform& transform,
+                                 const AxisPositions& present, positioning::TcpFrame frame,
+                                 const Vector3& tool_vector_mm);
 
     Vector3 tip_W(const Vector3& programmed_M_mm, const AxisPositions& rotaries) const;
     /// Inverse: the programmed tip that says where the axes stand.
@@ -78,4 +79,4 @@ std::vector<double> chord_steps(const PathCurve& curve, double tolerance_mm);
 /// most.
 int curve_parts(const AxisPositions& from, const AxisPositions& to);
 
-}  // namespace trunnion
+}  // namespace trunnion::motion

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace trunnion {
+namespace trunnion::offsets {
 
 std::optional<Axis> axis_of_number(const Parameters& parameters, int number,
                                    const std::vector<Axis>& order) {
@@ -36,4 +36,4 @@ ParallelAxes parallel_axes(const Parameters& parameters, const std::vector<Axis>
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::offsets

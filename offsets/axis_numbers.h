@@ -8,7 +8,7 @@
 #include "geometry/parallel_axes.h"
 #include "offsets/stores.h"
 
-namespace trunnion {
+namespace trunnion::offsets {
 
 /// Letter of axis `number`: parameter 1020 of that axis when set, else the control's order, else
 /// (order empty) the order of `Axis`. Nothing when the control has no such axis.
@@ -20,4 +20,4 @@ int number_of_axis(Axis axis, const std::vector<Axis>& order);
 /// Parameter 1022 of U, V and W.
 ParallelAxes parallel_axes(const Parameters& parameters, const std::vector<Axis>& order);
 
-}  // namespace trunnion
+}  // namespace trunnion::offsets

@@ -6,7 +6,7 @@
 #include "geometry/pose.h"
 #include "offsets/stores.h"
 
-namespace trunnion {
+namespace trunnion::offsets {
 
 /// mm for linear axes, deg for rotary ones, so that what was typed reads back to the same double.
 using ControlPosition = OffsetVector;
@@ -34,4 +34,4 @@ inline ControlPosition control_position_of(const AxisPositions& p) {
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::offsets

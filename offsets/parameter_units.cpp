@@ -2,7 +2,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::offsets {
 
 double parameter_unit_mm(const Parameters& parameters, int number) {
     const bool length = number == 19666 || (number >= 19700 && number <= 19705) ||
@@ -10,4 +10,4 @@ double parameter_unit_mm(const Parameters& parameters, int number) {
     return length && parameters.bit(1001, 0) ? mm_from_inch(1.0) : 1.0;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::offsets

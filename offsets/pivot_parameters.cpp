@@ -8,7 +8,7 @@
 #include "base/units.h"
 #include "offsets/axis_numbers.h"
 
-namespace trunnion {
+namespace trunnion::offsets {
 
 namespace {
 
@@ -181,4 +181,4 @@ void encode_pivot(const PivotParameters& pivot, Parameters& parameters,
     parameters.set_bit(19696, 5, pivot.frame_follows_work);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::offsets

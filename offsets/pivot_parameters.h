@@ -9,7 +9,7 @@
 #include "geometry/pose.h"
 #include "offsets/stores.h"
 
-namespace trunnion {
+namespace trunnion::offsets {
 
 /// Parameter 19680: where the two rotary axes sit.
 enum class MechanicalUnit : int { none = 0, tool_tool = 2, table_table = 12, mixed = 21 };
@@ -58,4 +58,4 @@ std::optional<PivotParameters> decode_pivot(const Parameters& parameters,
 void encode_pivot(const PivotParameters& pivot, Parameters& parameters,
                   const std::vector<Axis>& axis_order = {});
 
-}  // namespace trunnion
+}  // namespace trunnion::offsets

@@ -1,6 +1,6 @@
 #include "offsets/stores.h"
 
-namespace trunnion {
+namespace trunnion::offsets {
 
 std::optional<double> Parameters::find(int number) const {
     const auto it = entry.find(number);
@@ -16,7 +16,9 @@ bool Parameters::bit(int number, int index) const {
     return (static_cast<unsigned>(get(number)) >> static_cast<unsigned>(index) & 1U) != 0;
 }
 
-void Parameters::set(int number, double value) { entry[number].value = value; }
+void Parameters::set(int number, double value) {
+    entry[number].value = value;
+}
 
 void Parameters::set_bit(int number, int index, bool on) {
     const unsigned mask = 1U << static_cast<unsigned>(index);
@@ -24,4 +26,4 @@ void Parameters::set_bit(int number, int index, bool on) {
     set(number, on ? (byte | mask) : (byte & ~mask));
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::offsets

@@ -9,7 +9,7 @@
 
 #include "geometry/axes.h"
 
-namespace trunnion {
+namespace trunnion::offsets {
 
 /// An offset vector by axis letter in the control's own units: mm and deg, as typed at the control.
 struct OffsetVector {
@@ -28,8 +28,8 @@ struct WorkOffsets {
 
 /// G54.2 Pn: a fixture offset measured at reference angles. The control turns it with the table.
 struct FixtureOffset {
-    OffsetVector offset;           ///< mm along the linear axes
-    OffsetVector reference_angles; ///< deg of the rotary axes
+    OffsetVector offset;            ///< mm along the linear axes
+    OffsetVector reference_angles;  ///< deg of the rotary axes
 };
 struct FixtureOffsets {
     std::array<FixtureOffset, 8> set;  ///< [0] = P1
@@ -50,8 +50,8 @@ struct ToolOffsets {
 
 /// One CNC parameter: a number or eight bits; `by_axis` where the control keeps one for each axis.
 struct Parameter {
-    double value = 0.0;                ///< bit parameters: the byte as a number
-    std::map<int, double> by_axis;     ///< axis number (1 X, 2 Y, 3 Z, ...) -> value
+    double value = 0.0;             ///< bit parameters: the byte as a number
+    std::map<int, double> by_axis;  ///< axis number (1 X, 2 Y, 3 Z, ...) -> value
 };
 
 /// CNC parameters by number, 19680-19749 among them. Absent ones read as the control's default.
@@ -71,8 +71,8 @@ struct Stores {
     FixtureOffsets fixture;
     ToolOffsets tools;
     Parameters parameters;
-    std::map<int, double> signals;      ///< #1000-#1035 input, #1100-#1135 output, preset by a setup
-    std::map<int, double> variables;    ///< #500-#999 kept between runs
+    std::map<int, double> signals;    ///< #1000-#1035 input, #1100-#1135 output, preset by a setup
+    std::map<int, double> variables;  ///< #500-#999 kept between runs
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::offsets

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-namespace trunnion {
+namespace trunnion::pivot {
 
 namespace {
 
@@ -105,4 +105,4 @@ std::vector<AffectedPart> affected_parts(
     return parts;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::pivot

@@ -7,7 +7,7 @@
 
 #include "pivot/pivot_verdict.h"
 
-namespace trunnion {
+namespace trunnion::pivot {
 
 /// Names of pivot_functions() whose codes stand in the text (comments left out): G43.4 G43.5 M128
 /// are RTCP, G68.2 G68.3 G68.4 G53.1 G53.6 are TW, G54.2 is RTDFO; words of the two rotary axes
@@ -31,4 +31,4 @@ std::vector<AffectedPart> affected_parts(
     const PivotVerdict& verdict, const std::vector<PivotFunction>& functions,
     const std::vector<std::pair<std::string, std::vector<std::string>>>& programs);
 
-}  // namespace trunnion
+}  // namespace trunnion::pivot

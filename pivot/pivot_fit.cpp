@@ -8,7 +8,7 @@
 #include "estimation/ranked_least_squares.h"
 #include "pivot/pivot_verdict.h"
 
-namespace trunnion {
+namespace trunnion::pivot {
 
 namespace {
 
@@ -29,10 +29,10 @@ std::array<Vector3, 2> across(const Vector3& line) {
 
 /// The zero position of a table axis reads as the place of the sphere, that of a head as a shift of
 /// the stylus ball: neither is an unknown of its own.
-std::vector<LineUnknown> line_unknowns(const PivotParameters& pivot) {
+std::vector<LineUnknown> line_unknowns(const offsets::PivotParameters& pivot) {
     std::vector<LineUnknown> unknowns;
     for (const bool second : {false, true}) {
-        const PivotAxis& axis = second ? pivot.second : pivot.first;
+        const offsets::PivotAxis& axis = second ? pivot.second : pivot.first;
         const char letter = letter_of(axis.axis);
         for (const bool tilt : {false, true})
             for (const Vector3& direction : across(axis.line))
@@ -40,15 +40,15 @@ std::vector<LineUnknown> line_unknowns(const PivotParameters& pivot) {
                     {axis.axis, tilt, direction,
                      fmt::format("{} of the {} axis across it", tilt ? "tilt" : "place", letter)});
     }
-    if (pivot.unit == MechanicalUnit::table_table) return unknowns;
+    if (pivot.unit == offsets::MechanicalUnit::table_table) return unknowns;
     for (int i = 0; i < 3; ++i)
         unknowns.push_back({std::nullopt, false, Vector3::Unit(i),
                             fmt::format("{} of the stylus ball under the head", "XYZ"[i])});
     return unknowns;
 }
 
-Machine all_moved(Machine machine, const std::vector<LineUnknown>& unknowns,
-                  const Eigen::VectorXd& value) {
+kinematics::Machine all_moved(kinematics::Machine machine, const std::vector<LineUnknown>& unknowns,
+                              const Eigen::VectorXd& value) {
     for (std::size_t k = 0; k < unknowns.size(); ++k)
         machine = moved(std::move(machine), unknowns[k], value(static_cast<Eigen::Index>(k)));
     return machine;
@@ -95,7 +95,8 @@ class MapFit {
     Eigen::VectorXd residual() const;
     Eigen::VectorXd scale() const;
     Eigen::MatrixXd jacobian() const;
-    void spread(PivotFit& fit, const LinearFit& linear, const Eigen::VectorXd& left) const;
+    void spread(PivotFit& fit, const estimation::LinearFit& linear,
+                const Eigen::VectorXd& left) const;
 
     const PivotEvidence& evidence_;
     std::vector<LineUnknown> unknowns_;
@@ -150,7 +151,8 @@ Eigen::MatrixXd MapFit::jacobian() const {
     return jacobian;
 }
 
-void MapFit::spread(PivotFit& fit, const LinearFit& linear, const Eigen::VectorXd& left) const {
+void MapFit::spread(PivotFit& fit, const estimation::LinearFit& linear,
+                    const Eigen::VectorXd& left) const {
     const Eigen::VectorXd scale = this->scale();
     const auto unseen = static_cast<Eigen::Index>(linear.null_space.size());
     const double freedom =
@@ -173,11 +175,11 @@ void MapFit::spread(PivotFit& fit, const LinearFit& linear, const Eigen::VectorX
 }
 
 PivotFit MapFit::run() {
-    LinearFit linear;
+    estimation::LinearFit linear;
     const Eigen::VectorXd scale = this->scale();
     for (int pass = 0; pass < 4; ++pass) {
         const Eigen::MatrixXd a = jacobian();
-        linear = solve_ranked(a.transpose() * a, a.transpose() * residual());
+        linear = estimation::solve_ranked(a.transpose() * a, a.transpose() * residual());
         value_ += linear.value.cwiseProduct(scale);
         if (linear.value.norm() < 1e-12) break;
     }
@@ -193,7 +195,7 @@ PivotFit MapFit::run() {
 
 }  // namespace
 
-Machine moved(Machine machine, const LineUnknown& unknown, double value) {
+kinematics::Machine moved(kinematics::Machine machine, const LineUnknown& unknown, double value) {
     auto& location = unknown.axis ? machine.errors.axis[index_of(*unknown.axis)].location
                                   : machine.errors.spindle.location;
     for (int i = 0; i < 3; ++i)
@@ -210,4 +212,4 @@ PivotFit fit_pivot_machine(const PivotEvidence& evidence, const std::vector<Pivo
     return MapFit(evidence, maps).run();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::pivot

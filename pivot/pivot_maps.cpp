@@ -8,7 +8,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::pivot {
 
 void name_map(PivotMap& map, Axis first, Axis second) {
     const auto arc = std::find_if(map.arcs.begin(), map.arcs.end(),
@@ -44,9 +44,9 @@ ErrorCircle fit_circle(const PivotMap& map, const std::vector<PivotPoint>& point
     return {c.real() * a + c.imag() * b, v.real() * a + v.imag() * b};
 }
 
-Vector3 moving_axis_M(const PivotParameters& pivot, const PivotMap& map) {
+Vector3 moving_axis_M(const offsets::PivotParameters& pivot, const PivotMap& map) {
     if (map.first_moves) return pivot.first.direction();
-    if (pivot.unit == MechanicalUnit::mixed) return pivot.second.direction();
+    if (pivot.unit == offsets::MechanicalUnit::mixed) return pivot.second.direction();
     return rotation_about(pivot.first.direction(), rad_from_deg(map.fixed_deg)) *
            pivot.second.direction();
 }
@@ -54,8 +54,8 @@ Vector3 moving_axis_M(const PivotParameters& pivot, const PivotMap& map) {
 namespace {
 
 /// DPP and G54.2: both table axes meet in G54.
-PivotParameters about_g54(const RotaryStores& stores) {
-    PivotParameters pivot = stores.pivot;
+offsets::PivotParameters about_g54(const setup::RotaryStores& stores) {
+    offsets::PivotParameters pivot = stores.pivot;
     pivot.table_point_mm = stores.g54;
     pivot.table_offset_mm = Vector3::Zero();
     return pivot;
@@ -71,7 +71,7 @@ void add_linear(AxisPositions& q, const Vector3& way) {
 
 }  // namespace
 
-PivotModel::PivotModel(const Machine& machine, const RotaryStores& in_force,
+PivotModel::PivotModel(const kinematics::Machine& machine, const setup::RotaryStores& in_force,
                        const Vector3& sphere_mm, const Vector3& tip_S_mm)
     : machine_(machine),
       by_parameters_(in_force.pivot),
@@ -88,7 +88,7 @@ Vector3 PivotModel::reached_mm(const AxisPositions& turned) const {
     add_linear(q, sphere_mm_ - tip_S_mm_);
     // The linear axes are nearly square: each pass shrinks what is left by their errors.
     for (int pass = 0; pass < 8; ++pass) {
-        const MachinePose pose = machine_.poses(q);
+        const kinematics::MachinePose pose = machine_.poses(q);
         const Vector3 missing = pose.pose_MW * sphere_W_mm_ - pose.pose_MS * tip_S_mm_;
         add_linear(q, missing);
         if (missing.norm() < 1e-12) break;
@@ -98,7 +98,7 @@ Vector3 PivotModel::reached_mm(const AxisPositions& turned) const {
 
 Vector3 PivotModel::commanded_mm(PivotGroup group, const AxisPositions& turned,
                                  const Vector3& sphere_mm) const {
-    const RotaryTransform& by = group == PivotGroup::g54 ? by_g54_ : by_parameters_;
+    const positioning::RotaryTransform& by = group == PivotGroup::g54 ? by_g54_ : by_parameters_;
     return linear(by.machine_for_tip(sphere_mm, turned, -tip_S_mm_));
 }
 
@@ -110,4 +110,4 @@ Vector3 PivotModel::error_mm(PivotGroup group, double first_deg, double second_d
     return reached_mm(turned) - commanded_mm(group, turned, sphere_mm_ + zero_mm);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::pivot

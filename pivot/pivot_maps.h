@@ -9,7 +9,7 @@
 #include "pivot/pivot_plan.h"
 #include "positioning/rotary_transform.h"
 
-namespace trunnion {
+namespace trunnion::pivot {
 
 /// One indexation: found minus expected sphere centre along X Y Z of M, the sphere zeroed with both
 /// rotary axes at 0. First and second axis as 19681, 19686.
@@ -56,7 +56,7 @@ void name_map(PivotMap& map, Axis first, Axis second);
 ErrorCircle fit_circle(const PivotMap& map, const std::vector<PivotPoint>& points,
                        const Vector3& axis_M);
 /// Direction of the map's moving axis in M, the other standing where the map has it.
-Vector3 moving_axis_M(const PivotParameters& pivot, const PivotMap& map);
+Vector3 moving_axis_M(const offsets::PivotParameters& pivot, const PivotMap& map);
 
 /// What the four functions lead to on a physical machine: axis positions that the control's stores
 /// command for the centre of a sphere, against those that really reach it.
@@ -64,8 +64,8 @@ class PivotModel {
   public:
     /// `sphere_mm`: machine coordinates of the tip on the sphere with the rotaries at zero;
     /// `tip_S_mm`: the stylus ball, as the control's tool length has it.
-    PivotModel(const Machine& machine, const RotaryStores& in_force, const Vector3& sphere_mm,
-               const Vector3& tip_S_mm);
+    PivotModel(const kinematics::Machine& machine, const setup::RotaryStores& in_force,
+               const Vector3& sphere_mm, const Vector3& tip_S_mm);
 
     /// Found minus expected centre. Tilts and all other errors of the machine included; the axes
     /// need not meet. `zero_mm`: error with which the sphere was zeroed (believed minus true).
@@ -77,9 +77,9 @@ class PivotModel {
     Vector3 commanded_mm(PivotGroup group, const AxisPositions& turned,
                          const Vector3& sphere_mm) const;
 
-    Machine machine_;
-    RotaryTransform by_parameters_, by_g54_;
+    kinematics::Machine machine_;
+    positioning::RotaryTransform by_parameters_, by_g54_;
     Vector3 sphere_mm_, tip_S_mm_, sphere_W_mm_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::pivot

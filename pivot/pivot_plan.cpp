@@ -7,7 +7,7 @@
 #include "base/units.h"
 #include "positioning/rotary_transform.h"
 
-namespace trunnion {
+namespace trunnion::pivot {
 
 std::string name_of(PivotGroup group) {
     return group == PivotGroup::g54 ? "G54" : "P1970x";
@@ -34,14 +34,14 @@ constexpr double height_mm = 100.0;  ///< of the tip above the sphere on its way
 constexpr double margin_mm = 5.0;    ///< to the ends of travel
 constexpr int fewest_points = 5;     ///< of an arc worth measuring
 
-const Artefact& sphere_of(const Setup& setup) {
-    for (const Artefact& artefact : setup.artefacts)
-        if (artefact.kind == Artefact::Kind::sphere) return artefact;
+const setup::Artefact& sphere_of(const setup::Setup& setup) {
+    for (const setup::Artefact& artefact : setup.artefacts)
+        if (artefact.kind == setup::Artefact::Kind::sphere) return artefact;
     throw InputError("no [[artefact]] of kind \"sphere\" to probe", {setup.path});
 }
 
-RotaryStores stores_of(const Setup& setup) {
-    const auto stores = rotary_stores(setup.machine.chain, setup.stores);
+setup::RotaryStores stores_of(const setup::Setup& setup) {
+    const auto stores = setup::rotary_stores(setup.machine.chain, setup.stores);
     if (!stores)
         throw InputError(
             "pivot needs a control that knows two rotary axes (parameters 19680-19690); this one "
@@ -53,17 +53,17 @@ RotaryStores stores_of(const Setup& setup) {
     return *stores;
 }
 
-bool square(const PivotAxis& axis) {
+bool square(const offsets::PivotAxis& axis) {
     return axis.line.cwiseAbs().maxCoeff() > 1.0 - 1e-9;
 }
 
 /// No group 7580-7588 can say that an inclined axis turns the offset; a Hurco has no G54.2, and its
 /// tilted planes are written in another way.
 std::vector<PivotFunction> functions_of(const PivotPlan& plan) {
-    const PivotParameters& pivot = plan.stores.pivot;
+    const offsets::PivotParameters& pivot = plan.stores.pivot;
     std::vector<PivotFunction> functions;
     for (const PivotFunction& f : pivot_functions()) {
-        const bool table = pivot.unit != MechanicalUnit::tool_tool;
+        const bool table = pivot.unit != offsets::MechanicalUnit::tool_tool;
         const bool inclined = !square(pivot.first) || !square(pivot.second);
         if (f.group == PivotGroup::g54 && !table) continue;
         if (f.name == "RTDFO" && (inclined || plan.hurco)) continue;
@@ -74,16 +74,16 @@ std::vector<PivotFunction> functions_of(const PivotPlan& plan) {
 }
 
 struct Planner {
-    const Setup& setup;
+    const setup::Setup& setup;
     const PivotPlan& plan;
-    RotaryTransform transform;
+    positioning::RotaryTransform transform;
     Vector3 tool_vector_mm;
 
-    const AxisGeometry* geometry(bool first) const {
+    const kinematics::AxisGeometry* geometry(bool first) const {
         return setup.machine.chain.find(first ? plan.first() : plan.second());
     }
     bool within(bool first, double angle_deg) const {
-        const AxisGeometry* axis = geometry(first);
+        const kinematics::AxisGeometry* axis = geometry(first);
         const double angle = rad_from_deg(angle_deg);
         return !axis ||
                ((!axis->min || angle >= *axis->min) && (!axis->max || angle <= *axis->max));
@@ -94,7 +94,7 @@ struct Planner {
         const AxisPositions q =
             transform.machine_for_tip(plan.sphere_mm + above_mm * n_W, turned, tool_vector_mm);
         return std::all_of(all_axes.begin(), all_axes.begin() + 3, [&](Axis letter) {
-            const AxisGeometry* axis = setup.machine.chain.find(letter);
+            const kinematics::AxisGeometry* axis = setup.machine.chain.find(letter);
             return !axis || ((!axis->min || q[letter] >= *axis->min + margin_mm) &&
                              (!axis->max || q[letter] <= *axis->max - margin_mm));
         });
@@ -128,12 +128,12 @@ struct Planner {
     }
 };
 
-bool along_tool(const PivotParameters& pivot, const PivotAxis& axis) {
+bool along_tool(const offsets::PivotParameters& pivot, const offsets::PivotAxis& axis) {
     return axis.line.cross(pivot.tool_direction).norm() < 1e-9;
 }
 
 std::vector<PlannedMap> maps_of(const Planner& planner) {
-    const PivotParameters& pivot = planner.plan.stores.pivot;
+    const offsets::PivotParameters& pivot = planner.plan.stores.pivot;
     // The axis along the tool turns, the other one tilts; of two that tilt the second turns.
     const bool first_tilts = !along_tool(pivot, pivot.first);
     std::vector<PlannedMap> maps;
@@ -145,9 +145,9 @@ std::vector<PlannedMap> maps_of(const Planner& planner) {
     maps.push_back(planner.arc(!first_tilts, 0.0, round ? 0.0 : -90.0, round ? 345.0 : 90.0));
     std::erase_if(maps, [](const PlannedMap& map) { return map.count < fewest_points; });
     for (PlannedMap& map : maps)
-        map.turns_table_only =
-            pivot.unit == MechanicalUnit::table_table ||
-            (pivot.unit == MechanicalUnit::mixed && !map.first_moves && map.fixed_deg == 0.0);
+        map.turns_table_only = pivot.unit == offsets::MechanicalUnit::table_table ||
+                               (pivot.unit == offsets::MechanicalUnit::mixed && !map.first_moves &&
+                                map.fixed_deg == 0.0);
     return maps;
 }
 
@@ -160,22 +160,22 @@ int PivotPlan::first_map(const PivotFunction& function) const {
     return 0;
 }
 
-PivotPlan plan_pivot_test(const Setup& setup) {
+PivotPlan plan_pivot_test(const setup::Setup& setup) {
     if (!setup.probe) throw InputError("no [probe] to measure with", {setup.path});
     PivotPlan plan;
     plan.stores = stores_of(setup);
-    plan.hurco = setup.dialect.family == DialectFamily::hurco;
-    const Artefact& sphere = sphere_of(setup);
+    plan.hurco = setup.dialect.family == interpreter::DialectFamily::hurco;
+    const setup::Artefact& sphere = sphere_of(setup);
     plan.sphere_mm = sphere.center_W_mm;
     plan.sphere_diameter_mm = sphere.diameter_mm;
     plan.ball_diameter_mm = setup.probe->ball_diameter_mm;
     plan.tool_offset = setup.probe->tool > 0 ? setup.probe->tool : 1;
-    if (const AxisGeometry* z = setup.machine.chain.find(Axis::Z); z && z->max)
+    if (const kinematics::AxisGeometry* z = setup.machine.chain.find(Axis::Z); z && z->max)
         plan.safe_z_mm = *z->max - 20.0;
     plan.functions = functions_of(plan);
     const double length_mm =
         setup.stores.tools.tool[static_cast<std::size_t>(plan.tool_offset)].length_mm();
-    const Planner planner{setup, plan, RotaryTransform(plan.stores.pivot),
+    const Planner planner{setup, plan, positioning::RotaryTransform(plan.stores.pivot),
                           length_mm * plan.stores.pivot.tool_direction};
     plan.maps = maps_of(planner);
     std::erase_if(plan.functions, [&](const PivotFunction& f) { return plan.first_map(f) == 0; });
@@ -187,4 +187,4 @@ PivotPlan plan_pivot_test(const Setup& setup) {
     return plan;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::pivot

@@ -7,7 +7,7 @@
 #include "setup/right_stores.h"
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::pivot {
 
 /// The two groups of stores from which a positioning function takes the rotary axes.
 enum class PivotGroup : unsigned char { g54, p1970x };
@@ -36,7 +36,7 @@ struct PlannedMap {
 
 /// All that the programs of one machine start from.
 struct PivotPlan {
-    RotaryStores stores;  ///< in force
+    setup::RotaryStores stores;  ///< in force
     std::vector<PivotFunction> functions;
     std::vector<PlannedMap> maps;  ///< those of G54's functions last
     bool hurco = false;
@@ -55,6 +55,6 @@ struct PivotPlan {
 /// Arcs of the tilting axis with the turning one at 0, 90 and 180 degrees, and one of the turning
 /// axis, cut to the travel of all axes. Throws InputError: not two real rotary axes in 19680-19690,
 /// no probe or sphere in the setup, or a sphere that no arc reaches.
-PivotPlan plan_pivot_test(const Setup& setup);
+PivotPlan plan_pivot_test(const setup::Setup& setup);
 
-}  // namespace trunnion
+}  // namespace trunnion::pivot

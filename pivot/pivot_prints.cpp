@@ -11,7 +11,7 @@
 #include "base/alarm.h"
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::pivot {
 
 namespace {
 
@@ -250,17 +250,17 @@ PivotPrints parse_pivot_prints(const std::vector<PrintedFile>& files, Axis first
     return reader.take(files.empty() ? std::string() : files.front().path);
 }
 
-RotaryStores stores_in_force(const PivotPrints& prints, const RotaryStores& declared,
-                             std::vector<std::string>& notes) {
-    RotaryStores stores = declared;
-    for (const StoreNumber& n : store_numbers(declared)) {
+setup::RotaryStores stores_in_force(const PivotPrints& prints, const setup::RotaryStores& declared,
+                                    std::vector<std::string>& notes) {
+    setup::RotaryStores stores = declared;
+    for (const setup::StoreNumber& n : setup::store_numbers(declared)) {
         std::optional<double> printed_mm;
         if (n.parameter == 0 && prints.g54_mm) printed_mm = (*prints.g54_mm)[n.component];
         if (const auto at = prints.parameters_mm.find(n.parameter);
             at != prints.parameters_mm.end())
             printed_mm = at->second;
         if (!printed_mm) continue;
-        set_number(stores, n, *printed_mm);
+        setup::set_number(stores, n, *printed_mm);
         if (std::abs(*printed_mm - n.value_mm) > 1e-6)
             notes.push_back(
                 fmt::format("{} was {:.4f} when the programs ran, declared is {:.4f}: "
@@ -270,4 +270,4 @@ RotaryStores stores_in_force(const PivotPrints& prints, const RotaryStores& decl
     return stores;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::pivot

@@ -8,7 +8,7 @@
 
 #include "pivot/pivot_maps.h"
 
-namespace trunnion {
+namespace trunnion::pivot {
 
 /// What one call was given: prints of one run of each function.
 struct PivotPrints {
@@ -38,7 +38,7 @@ PivotPrints parse_pivot_prints(const std::vector<PrintedFile>& files, Axis first
 
 /// Stores in force: `declared`, with what was printed in their place; one note for each number that
 /// differs.
-RotaryStores stores_in_force(const PivotPrints& prints, const RotaryStores& declared,
-                             std::vector<std::string>& notes);
+setup::RotaryStores stores_in_force(const PivotPrints& prints, const setup::RotaryStores& declared,
+                                    std::vector<std::string>& notes);
 
-}  // namespace trunnion
+}  // namespace trunnion::pivot

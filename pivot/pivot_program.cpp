@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::pivot {
 
 namespace {
 
@@ -35,7 +35,7 @@ std::string point(const char* letters, const Vector3& v) {
 }
 
 /// Line that turns #545 #546 #547 (or the point given) about an axis by the angle in `angle`.
-std::string turn(const PivotAxis& axis, const std::string& angle,
+std::string turn(const offsets::PivotAxis& axis, const std::string& angle,
                  const std::string& from = "X#545Y#546Z#547") {
     return "G65P8140" + from + point("IJK", axis.direction()) + "A" + angle + "\n";
 }
@@ -43,29 +43,29 @@ std::string turn(const PivotAxis& axis, const std::string& angle,
 /// Into #545 #546 #547: the tool's direction seen from the table; tilting heads leave it seen from
 /// the machine in #540 #541 #542.
 std::string tool_direction(const PivotPlan& plan) {
-    const PivotParameters& pivot = plan.stores.pivot;
+    const offsets::PivotParameters& pivot = plan.stores.pivot;
     std::string from = point("XYZ", pivot.tool_direction), text;
-    const auto add = [&](const PivotAxis& axis, const char* angle) {
+    const auto add = [&](const offsets::PivotAxis& axis, const char* angle) {
         text += turn(axis, angle, from);
         from = "X#545Y#546Z#547";
     };
-    const bool head = pivot.unit != MechanicalUnit::table_table;
-    if (pivot.unit == MechanicalUnit::tool_tool) add(pivot.second, "#531");
+    const bool head = pivot.unit != offsets::MechanicalUnit::table_table;
+    if (pivot.unit == offsets::MechanicalUnit::tool_tool) add(pivot.second, "#531");
     if (head) {
         add(pivot.first, "#530");
         text += "#540=#545\n#541=#546\n#542=#547\n";
     } else {
         add(pivot.first, "[0-#530]");
     }
-    if (pivot.unit != MechanicalUnit::tool_tool) add(pivot.second, "[0-#531]");
+    if (pivot.unit != offsets::MechanicalUnit::tool_tool) add(pivot.second, "[0-#531]");
     return text;
 }
 
 /// The point found at home, turned with the table about G54.
 std::string turned_point(const PivotPlan& plan) {
-    const PivotParameters& pivot = plan.stores.pivot;
+    const offsets::PivotParameters& pivot = plan.stores.pivot;
     std::string text = turn(pivot.second, "#531", "X#520Y#521Z#522");
-    if (pivot.unit == MechanicalUnit::table_table) text += turn(pivot.first, "#530");
+    if (pivot.unit == offsets::MechanicalUnit::table_table) text += turn(pivot.first, "#530");
     return text;
 }
 
@@ -144,7 +144,7 @@ FunctionText text_of(const std::string& name, bool hurco) {
 
 std::string main_program(const PivotPlan& plan, const PivotFunction& function) {
     const FunctionText text = text_of(function.name, plan.hurco);
-    const bool head = plan.stores.pivot.unit != MechanicalUnit::table_table;
+    const bool head = plan.stores.pivot.unit != offsets::MechanicalUnit::table_table;
     std::string program = filled(main_text, {{"BEGIN", text.begin},
                                              {"LEAD", text.lead},
                                              {"CANCEL", text.cancel},
@@ -248,7 +248,7 @@ std::string maps_text(const PivotPlan& plan) {
 std::string stores_text(const PivotPlan& plan) {
     std::string text;
     if (plan.hurco) return text;
-    for (const StoreNumber& n : store_numbers(plan.stores))
+    for (const setup::StoreNumber& n : setup::store_numbers(plan.stores))
         if (n.parameter != 0)
             text += fmt::format("#7=PRM[{0}]\nDPRNT[STORE*N{0}*V#7[47]]\n", n.parameter);
     return text;
@@ -277,4 +277,4 @@ std::map<std::string, std::string> pivot_programs(const PivotPlan& plan) {
     return programs;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::pivot

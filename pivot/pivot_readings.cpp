@@ -7,7 +7,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::pivot {
 
 namespace {
 
@@ -32,26 +32,26 @@ std::string_view function_of(PositioningMode mode) {
 
 /// Rows of one found sphere.
 struct Finding {
-    std::vector<const Reading*> rows;
-    const Reading& row() const { return *rows.front(); }
+    std::vector<const records::Reading*> rows;
+    const records::Reading& row() const { return *rows.front(); }
 };
 
-bool same_finding(const Reading& a, const Reading& b, Axis first, Axis second) {
+bool same_finding(const records::Reading& a, const records::Reading& b, Axis first, Axis second) {
     return a.test == b.test && a.mode == b.mode && a.device == b.device && a.feature == b.feature &&
            std::abs(a.commanded[first] - b.commanded[first]) < 1e-6 &&
            std::abs(a.commanded[second] - b.commanded[second]) < 1e-6;
 }
 
-std::vector<Finding> findings_of(const ReadingTable& table, Axis first, Axis second) {
+std::vector<Finding> findings_of(const records::ReadingTable& table, Axis first, Axis second) {
     std::vector<Finding> findings;
     bool apart = true;
-    for (const Reading& row : table.rows) {
+    for (const records::Reading& row : table.rows) {
         // A move of a rotary axis ends a finding; the moves between its touches do not.
         if (!findings.empty() &&
             (std::abs(row.commanded[first] - findings.back().row().commanded[first]) > 1e-6 ||
              std::abs(row.commanded[second] - findings.back().row().commanded[second]) > 1e-6))
             apart = true;
-        if (row.device != Device::sphere && row.device != Device::touch) continue;
+        if (row.device != records::Device::sphere && row.device != records::Device::touch) continue;
         if (!row.value_mm) continue;
         if (apart || findings.empty() || !same_finding(findings.back().row(), row, first, second))
             findings.emplace_back();
@@ -65,7 +65,7 @@ std::vector<Finding> findings_of(const ReadingTable& table, Axis first, Axis sec
 Vector3 by_components(const Finding& finding) {
     Matrix3 a = Matrix3::Zero();
     Vector3 b = Vector3::Zero();
-    for (const Reading* row : finding.rows) {
+    for (const records::Reading* row : finding.rows) {
         a += row->direction_M * row->direction_M.transpose();
         b += row->direction_M * *row->value_mm;
     }
@@ -76,7 +76,7 @@ Vector3 by_components(const Finding& finding) {
 Vector3 expected_centre(const Finding& finding) {
     Eigen::Matrix4d a = Eigen::Matrix4d::Zero();
     Eigen::Vector4d b = Eigen::Vector4d::Zero();
-    for (const Reading* row : finding.rows)
+    for (const records::Reading* row : finding.rows)
         for (int i = 0; i < 3; ++i) {
             Eigen::Vector4d line = Eigen::Vector4d::Zero();
             line(i) = 1.0;
@@ -92,7 +92,7 @@ Vector3 found_centre(const Finding& finding, double radius_mm, Vector3 centre) {
     for (int pass = 0; pass < 20; ++pass) {
         Matrix3 a = Matrix3::Zero();
         Vector3 b = Vector3::Zero();
-        for (const Reading* row : finding.rows) {
+        for (const records::Reading* row : finding.rows) {
             const Vector3 away =
                 linear(row->commanded) + *row->value_mm * row->direction_M - centre;
             const Vector3 unit = away.normalized();
@@ -106,29 +106,29 @@ Vector3 found_centre(const Finding& finding, double radius_mm, Vector3 centre) {
     return centre;
 }
 
-void check_directions(const ReadingTable& table, const Finding& finding) {
+void check_directions(const records::ReadingTable& table, const Finding& finding) {
     Matrix3 spread = Matrix3::Zero();
-    for (const Reading* row : finding.rows)
+    for (const records::Reading* row : finding.rows)
         spread += row->direction_M * row->direction_M.transpose();
-    if (finding.rows.size() < (finding.row().device == Device::touch ? 4U : 3U) ||
+    if (finding.rows.size() < (finding.row().device == records::Device::touch ? 4U : 3U) ||
         std::abs(spread.determinant()) < 1e-6)
         throw InputError("the rows of this sphere do not look from three sides",
-                         place_of(table, finding.row()));
+                         records::place_of(table, finding.row()));
 }
 
 }  // namespace
 
-PivotPrints pivot_readings(const ReadingTable& table, Axis first, Axis second, double radii_mm,
-                           const Vector3& tip_S_mm) {
+PivotPrints pivot_readings(const records::ReadingTable& table, Axis first, Axis second,
+                           double radii_mm, const Vector3& tip_S_mm) {
     PivotPrints out;
     std::map<std::string, int> number_of_map;
     std::map<int, PivotMap> maps;
     for (const Finding& finding : findings_of(table, first, second)) {
-        const Reading& row = finding.row();
+        const records::Reading& row = finding.row();
         const std::string function(function_of(row.mode));
         const bool zero = row.test.starts_with("zero") || function.empty();
         check_directions(table, finding);
-        const bool touches = row.device == Device::touch;
+        const bool touches = row.device == records::Device::touch;
         const Vector3 expected = touches ? expected_centre(finding) : linear(row.commanded);
         const Vector3 error = touches
                                   ? Vector3(found_centre(finding, radii_mm, expected) - expected)
@@ -163,4 +163,4 @@ PivotPrints pivot_readings(const ReadingTable& table, Axis first, Axis second, d
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::pivot

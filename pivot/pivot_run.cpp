@@ -6,32 +6,32 @@
 #include "emulator/run.h"
 #include "interpreter/program_folders.h"
 
-namespace trunnion {
+namespace trunnion::pivot {
 
 namespace {
 
-std::string print_of(const Setup& setup, const std::map<std::string, std::string>& programs,
+std::string print_of(const setup::Setup& setup, const std::map<std::string, std::string>& programs,
                      const std::vector<std::string>& folders, int number,
-                     const RunOptions& options) {
-    ProgramFolders source(folders);
+                     const emulator::RunOptions& options) {
+    interpreter::ProgramFolders source(folders);
     for (const auto& [name, text] : programs) {
         const auto owner = std::make_shared<std::string>(text);
         source.add_file({name, *owner, owner});
     }
-    const RunLog log = run_program(setup, source, number, options);
+    const emulator::RunLog log = emulator::run_program(setup, source, number, options);
     if (log.result.alarm) throw *log.result.alarm;
     return log.printed;
 }
 
-Machine nominal_of(const Setup& setup) {
-    Machine machine = setup.machine;
+kinematics::Machine nominal_of(const setup::Setup& setup) {
+    kinematics::Machine machine = setup.machine;
     machine.errors = {};
     return machine;
 }
 
 }  // namespace
 
-std::vector<PivotMap> modelled_maps(const PivotPlan& plan, const Machine& machine,
+std::vector<PivotMap> modelled_maps(const PivotPlan& plan, const kinematics::Machine& machine,
                                     const Vector3& tip_S_mm) {
     const PivotModel model(machine, plan.stores, plan.sphere_mm, tip_S_mm);
     std::vector<PivotMap> maps;
@@ -53,14 +53,14 @@ std::vector<PivotMap> modelled_maps(const PivotPlan& plan, const Machine& machin
     return maps;
 }
 
-PivotDemonstration demonstrate_pivot(const Setup& setup,
+PivotDemonstration demonstrate_pivot(const setup::Setup& setup,
                                      const std::map<std::string, std::string>& programs,
                                      const std::vector<std::string>& folders,
                                      unsigned long long seed) {
     PivotDemonstration demo;
     demo.plan = plan_pivot_test(setup);
-    RunOptions options;
-    options.effects = active_models(setup);
+    emulator::RunOptions options;
+    options.effects = effects::active_models(setup);
     for (std::size_t k = 0; k < demo.plan.functions.size(); ++k) {
         options.seed = 4 * seed + k;  // each program gets its own repeatability
         demo.printed += print_of(setup, programs, folders, demo.plan.functions[k].program, options);
@@ -70,12 +70,12 @@ PivotDemonstration demonstrate_pivot(const Setup& setup,
     demo.maps = prints.maps;
     const PivotEvidence evidence{nominal_of(setup), demo.plan.stores, prints.sphere_mm(),
                                  setup.probe->tip_S_mm,
-                                 least_increment_mm(setup.stores.parameters)};
+                                 setup::least_increment_mm(setup.stores.parameters)};
     demo.verdict = judge_pivot(evidence, demo.maps);
-    demo.true_right = right_stores(setup.machine, demo.plan.stores);
+    demo.true_right = setup::right_stores(setup.machine, demo.plan.stores);
     add_expected({setup.machine, demo.plan.stores, evidence.sphere_mm, evidence.tip_S_mm},
                  demo.plan.stores.pivot, demo.maps);
     return demo;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::pivot

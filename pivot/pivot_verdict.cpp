@@ -8,20 +8,20 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::pivot {
 
 namespace {
 
 /// d right value / d unknown for each number, and with the covariance its sigma.
 std::vector<double> sigmas_of(const PivotVerdict& verdict) {
-    const auto numbers = store_numbers(verdict.right);
+    const auto numbers = setup::store_numbers(verdict.right);
     const auto& unknowns = verdict.fit.unknowns;
     Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(numbers.size()),
                                                   static_cast<Eigen::Index>(unknowns.size()));
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
         const double step = unknowns[k].tilt ? 1e-6 : 1e-3;
-        const Machine machine = moved(verdict.fit.machine, unknowns[k], step);
-        const auto there = store_numbers(right_stores(machine, verdict.in_force));
+        const kinematics::Machine machine = moved(verdict.fit.machine, unknowns[k], step);
+        const auto there = setup::store_numbers(setup::right_stores(machine, verdict.in_force));
         for (std::size_t n = 0; n < numbers.size(); ++n)
             slope(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(k)) =
                 (there[n].value_mm - numbers[n].value_mm) / step;
@@ -93,8 +93,9 @@ double agreement_um(const PivotModel& typed, const std::vector<PivotMap>& maps) 
 }
 
 void add_stores(PivotVerdict& verdict, bool with_g54) {
-    const auto now = store_numbers(verdict.in_force), right = store_numbers(verdict.right),
-               typed = store_numbers(verdict.typed);
+    const auto now = setup::store_numbers(verdict.in_force),
+               right = setup::store_numbers(verdict.right),
+               typed = setup::store_numbers(verdict.typed);
     const auto sigma = sigmas_of(verdict);
     for (std::size_t i = 0; i < now.size(); ++i)
         if (with_g54 || now[i].parameter != 0)
@@ -102,14 +103,14 @@ void add_stores(PivotVerdict& verdict, bool with_g54) {
                                       now[i].value_mm - right[i].value_mm, sigma[i], false});
 }
 
-std::string along(const char* numbers, const PivotAxis& axis) {
+std::string along(const char* numbers, const offsets::PivotAxis& axis) {
     return fmt::format("{}: its part along the {} axis (any point of the line serves)", numbers,
                        letter_of(axis.axis));
 }
 
 bool moves_a_store(const PivotVerdict& verdict, const LineUnknown& unknown) {
-    const auto here = store_numbers(verdict.right);
-    const auto there = store_numbers(right_stores(
+    const auto here = setup::store_numbers(verdict.right);
+    const auto there = setup::store_numbers(setup::right_stores(
         moved(verdict.fit.machine, unknown, unknown.tilt ? 1e-5 : 1e-2), verdict.in_force));
     for (std::size_t n = 0; n < here.size(); ++n)
         if (std::abs(there[n].value_mm - here[n].value_mm) > 1e-7) return true;
@@ -117,20 +118,20 @@ bool moves_a_store(const PivotVerdict& verdict, const LineUnknown& unknown) {
 }
 
 std::vector<std::string> unobservable(const PivotVerdict& verdict, bool with_g54) {
-    const PivotParameters& pivot = verdict.in_force.pivot;
+    const offsets::PivotParameters& pivot = verdict.in_force.pivot;
     std::vector<std::string> out;
     switch (pivot.unit) {
-        case MechanicalUnit::table_table:
+        case offsets::MechanicalUnit::table_table:
             out = {along("19700-19702", pivot.first), along("19703-19705", pivot.second)};
             break;
-        case MechanicalUnit::mixed:
+        case offsets::MechanicalUnit::mixed:
             out = {along("19700-19702", pivot.second), along("19709-19711", pivot.first)};
             if (with_g54) out.push_back(along("G54", pivot.second));
             break;
         default:
             out = {along("19709-19711", pivot.first), along("19712-19714", pivot.second)};
     }
-    if (pivot.unit != MechanicalUnit::table_table)
+    if (pivot.unit != offsets::MechanicalUnit::table_table)
         out.push_back(
             "the stylus length in the tool table and zero positions of the head's axes: wrong ones "
             "read as 19709-19714");
@@ -155,13 +156,13 @@ PivotVerdict judge_pivot(const PivotEvidence& evidence, const std::vector<PivotM
     PivotVerdict verdict;
     verdict.fit = fit_pivot_machine(evidence, maps);
     verdict.in_force = evidence.in_force;
-    verdict.right = right_stores(verdict.fit.machine, evidence.in_force);
-    verdict.typed = rounded(verdict.right, evidence.increment_mm);
+    verdict.right = setup::right_stores(verdict.fit.machine, evidence.in_force);
+    verdict.typed = setup::rounded(verdict.right, evidence.increment_mm);
     verdict.increment_mm = evidence.increment_mm;
     verdict.limit_um = evidence.limit_um;
     const bool with_g54 = measured(maps, PivotGroup::g54);
     add_stores(verdict, with_g54);
-    const auto model = [&](const RotaryStores& stores) {
+    const auto model = [&](const setup::RotaryStores& stores) {
         return PivotModel(verdict.fit.machine, stores, evidence.sphere_mm, evidence.tip_S_mm);
     };
     const Models models{model(verdict.in_force), model(verdict.right), model(verdict.typed)};
@@ -180,7 +181,7 @@ PivotVerdict judge_pivot(const PivotEvidence& evidence, const std::vector<PivotM
     return verdict;
 }
 
-void add_expected(const PivotModel& model, const PivotParameters& pivot,
+void add_expected(const PivotModel& model, const offsets::PivotParameters& pivot,
                   std::vector<PivotMap>& maps) {
     for (PivotMap& map : maps) {
         const Vector3 axis_M = moving_axis_M(pivot, map);
@@ -216,4 +217,4 @@ std::string sentence(const PivotVerdict& verdict, bool hurco) {
     return text;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::pivot

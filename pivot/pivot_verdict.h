@@ -8,7 +8,7 @@
 
 #include "pivot/pivot_maps.h"
 
-namespace trunnion {
+namespace trunnion::pivot {
 
 /// One unknown of the machine: a shift (mm) or a turn (rad) of a rotary axis's line, or a shift of
 /// the stylus ball in the spindle frame.
@@ -23,7 +23,7 @@ struct LineUnknown {
 /// where the stylus ball hangs under it), fitted to all points together with
 /// one free vector for each zeroing of the sphere (its scatter).
 struct PivotFit {
-    Machine machine;  ///< the known machine with the fitted location errors added
+    kinematics::Machine machine;  ///< the known machine with the fitted location errors added
     std::vector<LineUnknown> unknowns;
     Eigen::MatrixXd covariance;       ///< of the unknowns, mm and rad
     std::vector<std::size_t> unseen;  ///< unknowns that change no reading
@@ -33,11 +33,11 @@ struct PivotFit {
 };
 
 /// `machine` with one unknown moved.
-Machine moved(Machine machine, const LineUnknown& unknown, double value);
+kinematics::Machine moved(kinematics::Machine machine, const LineUnknown& unknown, double value);
 
 /// One number that may be typed.
 struct StoreVerdict {
-    StoreNumber in_force;
+    setup::StoreNumber in_force;
     double exact_mm = 0.0, type_mm = 0.0;
     double error_mm = 0.0;  ///< in force minus what is right; 0 in directions that nothing sees
     double sigma_mm = 0.0;
@@ -56,7 +56,7 @@ struct GroupVerdict {
 
 struct PivotVerdict {
     PivotFit fit;
-    RotaryStores in_force, right, typed;
+    setup::RotaryStores in_force, right, typed;
     std::vector<StoreVerdict> stores;
     std::vector<GroupVerdict> groups;  ///< G54 (of a rotary table), P1970x
     std::vector<std::string> unobservable;
@@ -69,8 +69,8 @@ struct PivotVerdict {
 
 /// What a verdict starts from.
 struct PivotEvidence {
-    Machine known;  ///< without what is to be found: nominal places of the rotary axes
-    RotaryStores in_force;
+    kinematics::Machine known;  ///< without what is to be found: nominal places of the rotary axes
+    setup::RotaryStores in_force;
     Vector3 sphere_mm = Vector3::Zero(), tip_S_mm = Vector3(0, 0, -150);
     double increment_mm = 0.001;
     double limit_um = 3.0;  ///< a store that causes less is no stale one
@@ -82,10 +82,10 @@ PivotFit fit_pivot_machine(const PivotEvidence& evidence, const std::vector<Pivo
 PivotVerdict judge_pivot(const PivotEvidence& evidence, const std::vector<PivotMap>& maps);
 
 /// Expected errors and circles of all points by a machine; measured circles too.
-void add_expected(const PivotModel& model, const PivotParameters& pivot,
+void add_expected(const PivotModel& model, const offsets::PivotParameters& pivot,
                   std::vector<PivotMap>& maps);
 
 /// One plain sentence for each store group, in the words of the dialect.
 std::string sentence(const PivotVerdict& verdict, bool hurco);
 
-}  // namespace trunnion
+}  // namespace trunnion::pivot

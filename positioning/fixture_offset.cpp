@@ -10,13 +10,14 @@
 #include "base/units.h"
 #include "offsets/axis_numbers.h"
 
-namespace trunnion {
+namespace trunnion::positioning {
 
 namespace {
 
-Axis group_axis(const Parameters& parameters, int number, const std::vector<Axis>& order,
+Axis group_axis(const offsets::Parameters& parameters, int number, const std::vector<Axis>& order,
                 bool rotary) {
-    const auto axis = axis_of_number(parameters, static_cast<int>(parameters.get(number)), order);
+    const auto axis =
+        offsets::axis_of_number(parameters, static_cast<int>(parameters.get(number)), order);
     if (!axis || is_rotary(*axis) != rotary)
         throw Alarm(5459, fmt::format("MACHINE PARAMETER INCORRECT (No.{})", number));
     return *axis;
@@ -33,13 +34,13 @@ std::vector<FixtureGroup> assumed_groups(const std::vector<Axis>& order) {
     return groups;
 }
 
-bool has_groups(const Parameters& parameters) {
+bool has_groups(const offsets::Parameters& parameters) {
     for (int number = 7580; number <= 7588; ++number)
         if (parameters.find(number)) return true;
     return false;
 }
 
-std::vector<FixtureGroup> typed_groups(const Parameters& parameters,
+std::vector<FixtureGroup> typed_groups(const offsets::Parameters& parameters,
                                        const std::vector<Axis>& order) {
     std::vector<FixtureGroup> groups;
     for (int number = 7580; number <= 7586; number += 3) {
@@ -54,19 +55,19 @@ std::vector<FixtureGroup> typed_groups(const Parameters& parameters,
     return groups;
 }
 
-std::array<bool, axis_count> enabled_axes(const Parameters& parameters,
+std::array<bool, axis_count> enabled_axes(const offsets::Parameters& parameters,
                                           const std::vector<Axis>& order) {
     std::array<bool, axis_count> enabled;
     const auto fax = parameters.entry.find(7575);
     enabled.fill(fax == parameters.entry.end() || fax->second.by_axis.empty());
     if (enabled[0]) return enabled;
     for (const auto& [number, bits] : fax->second.by_axis)
-        if (const auto axis = axis_of_number(parameters, number, order))
+        if (const auto axis = offsets::axis_of_number(parameters, number, order))
             enabled[index_of(*axis)] = (static_cast<unsigned>(bits) & 1U) != 0;
     return enabled;
 }
 
-void turn(OffsetVector& v, const FixtureGroup& group, double angle_deg) {
+void turn(offsets::OffsetVector& v, const FixtureGroup& group, double angle_deg) {
     const double s = std::sin(rad_from_deg(angle_deg)), c = std::cos(rad_from_deg(angle_deg));
     const double from = v[group.from], to = v[group.to];
     v[group.from] = c * from - s * to;
@@ -75,7 +76,7 @@ void turn(OffsetVector& v, const FixtureGroup& group, double angle_deg) {
 
 }  // namespace
 
-FixtureSettings decode_fixture_settings(const Parameters& parameters,
+FixtureSettings decode_fixture_settings(const offsets::Parameters& parameters,
                                         const std::vector<Axis>& axis_order) {
     FixtureSettings settings;
     settings.assumed = !has_groups(parameters);
@@ -85,9 +86,10 @@ FixtureSettings decode_fixture_settings(const Parameters& parameters,
     return settings;
 }
 
-OffsetVector turned_fixture_offset(const FixtureSettings& settings, const FixtureOffset& fixture,
-                                   const OffsetVector& machine) {
-    OffsetVector v = fixture.offset;
+offsets::OffsetVector turned_fixture_offset(const FixtureSettings& settings,
+                                            const offsets::FixtureOffset& fixture,
+                                            const offsets::OffsetVector& machine) {
+    offsets::OffsetVector v = fixture.offset;
     const auto& groups = settings.groups;
     for (auto group = groups.rbegin(); group != groups.rend(); ++group)
         turn(v, *group, -fixture.reference_angles[group->rotary]);
@@ -97,4 +99,4 @@ OffsetVector turned_fixture_offset(const FixtureSettings& settings, const Fixtur
     return v;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::positioning

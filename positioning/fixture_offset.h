@@ -7,7 +7,7 @@
 #include "geometry/axes.h"
 #include "offsets/stores.h"
 
-namespace trunnion {
+namespace trunnion::positioning {
 
 /// One of the groups 7580-7588: a + turn of the rotary axis carries + of `from` to + of `to`.
 struct FixtureGroup {
@@ -24,12 +24,13 @@ struct FixtureSettings {
 };
 
 /// Throws Alarm 5459 when a group names axes that cannot be. `axis_order`: the control's axes.
-FixtureSettings decode_fixture_settings(const Parameters& parameters,
+FixtureSettings decode_fixture_settings(const offsets::Parameters& parameters,
                                         const std::vector<Axis>& axis_order);
 
 /// The offset vector in force (mm, along M axes): R(angles) R(reference)^-1 offset, with R = group
 /// 3 * group 2 * group 1. `machine`: machine coordinates, mm and deg.
-OffsetVector turned_fixture_offset(const FixtureSettings& settings, const FixtureOffset& fixture,
-                                   const OffsetVector& machine);
+offsets::OffsetVector turned_fixture_offset(const FixtureSettings& settings,
+                                            const offsets::FixtureOffset& fixture,
+                                            const offsets::OffsetVector& machine);
 
-}  // namespace trunnion
+}  // namespace trunnion::positioning

@@ -5,7 +5,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::positioning {
 
 namespace {
 
@@ -64,7 +64,7 @@ RotaryChoice choose_rotaries(const RotaryTransform& transform, const Vector3& n_
                              const RotarySolution& present, const RotaryTravel& travel,
                              Branch branch) {
     RotaryChoice choice;
-    const bool second_leads = transform.pivot().unit == MechanicalUnit::mixed;
+    const bool second_leads = transform.pivot().unit == offsets::MechanicalUnit::mixed;
     Merit best{};
     for (const RotarySolution& s : transform.orient(n_W, present)) {
         const auto first = nearest_turn(s.first_rad, present.first_rad, travel.first);
@@ -84,4 +84,4 @@ RotaryChoice choose_rotaries(const RotaryTransform& transform, const Vector3& n_
     return choice;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::positioning

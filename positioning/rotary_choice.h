@@ -6,7 +6,7 @@
 
 #include "positioning/rotary_transform.h"
 
-namespace trunnion {
+namespace trunnion::positioning {
 
 /// P of G53.1: by the way, or by the sign of the axis that tilts the tool.
 enum class Branch : int { nearest = 0, positive = 1, negative = 2 };
@@ -38,4 +38,4 @@ RotaryChoice choose_rotaries(const RotaryTransform& transform, const Vector3& n_
 std::optional<double> nearest_turn(double angle_rad, double present_rad,
                                    const RotaryTravel::Range& range);
 
-}  // namespace trunnion
+}  // namespace trunnion::positioning

@@ -5,20 +5,22 @@
 #include "base/units.h"
 #include "positioning/rotation_pair.h"
 
-namespace trunnion {
+namespace trunnion::positioning {
 
-RotaryTransform::RotaryTransform(const PivotParameters& pivot) : pivot_(pivot) {
+RotaryTransform::RotaryTransform(const offsets::PivotParameters& pivot) : pivot_(pivot) {
     first_.u = pivot.first.direction();
     second_.u = pivot.second.direction();
-    if (pivot.unit == MechanicalUnit::tool_tool || pivot.unit == MechanicalUnit::mixed)
+    if (pivot.unit == offsets::MechanicalUnit::tool_tool ||
+        pivot.unit == offsets::MechanicalUnit::mixed)
         place_tool_lines();
-    if (pivot.unit == MechanicalUnit::table_table || pivot.unit == MechanicalUnit::mixed)
+    if (pivot.unit == offsets::MechanicalUnit::table_table ||
+        pivot.unit == offsets::MechanicalUnit::mixed)
         place_table_lines();
 }
 
 /// A hypothetical first axis of a table tilts the second axis once and for all; W stays M at zero.
 void RotaryTransform::place_table_lines() {
-    if (pivot_.unit == MechanicalUnit::mixed) {
+    if (pivot_.unit == offsets::MechanicalUnit::mixed) {
         second_.point_mm = pivot_.table_point_mm;
         return;
     }
@@ -35,7 +37,7 @@ void RotaryTransform::place_table_lines() {
 void RotaryTransform::place_tool_lines() {
     first_.point_mm = pivot_.holder_offset_mm * pivot_.tool_direction + pivot_.tool_offset_mm;
     if (pivot_.first.hypothetical) first_fixed_rad_ = pivot_.first.hypothetical_rad;
-    if (pivot_.unit == MechanicalUnit::mixed) return;
+    if (pivot_.unit == offsets::MechanicalUnit::mixed) return;
     second_.point_mm = first_.point_mm - pivot_.tool_second_offset_mm;
     if (pivot_.second.hypothetical) second_fixed_rad_ = pivot_.second.hypothetical_rad;
 }
@@ -50,7 +52,8 @@ inline Vector3 RotaryTransform::moved(const Line& line, const Turn& turn, const 
 }
 
 inline RotaryTransform::Turn RotaryTransform::turn_of(const AxisPositions& machine,
-                                                      const PivotAxis& axis, double fixed_rad) {
+                                                      const offsets::PivotAxis& axis,
+                                                      double fixed_rad) {
     const double angle_rad = axis.hypothetical ? fixed_rad : machine[axis.axis];
     return {std::sin(angle_rad), std::cos(angle_rad)};
 }
@@ -62,9 +65,9 @@ inline RotaryTransform::Turns RotaryTransform::turns(const AxisPositions& machin
 
 inline Vector3 RotaryTransform::from_W(const Turns& q, const Vector3& p_W) const {
     switch (pivot_.unit) {
-        case MechanicalUnit::table_table:
+        case offsets::MechanicalUnit::table_table:
             return moved(first_, q.first, moved(second_, q.second, p_W));
-        case MechanicalUnit::mixed:
+        case offsets::MechanicalUnit::mixed:
             return moved(second_, q.second, p_W);
         default:
             return p_W;
@@ -73,9 +76,9 @@ inline Vector3 RotaryTransform::from_W(const Turns& q, const Vector3& p_W) const
 
 inline Vector3 RotaryTransform::to_W(const Turns& q, const Vector3& p_M) const {
     switch (pivot_.unit) {
-        case MechanicalUnit::table_table:
+        case offsets::MechanicalUnit::table_table:
             return moved(second_, q.second.inverse(), moved(first_, q.first.inverse(), p_M));
-        case MechanicalUnit::mixed:
+        case offsets::MechanicalUnit::mixed:
             return moved(second_, q.second.inverse(), p_M);
         default:
             return p_M;
@@ -84,9 +87,9 @@ inline Vector3 RotaryTransform::to_W(const Turns& q, const Vector3& p_M) const {
 
 inline Vector3 RotaryTransform::direction_to_W(const Turns& q, const Vector3& v_M) const {
     switch (pivot_.unit) {
-        case MechanicalUnit::table_table:
+        case offsets::MechanicalUnit::table_table:
             return turned(second_, q.second.inverse(), turned(first_, q.first.inverse(), v_M));
-        case MechanicalUnit::mixed:
+        case offsets::MechanicalUnit::mixed:
             return turned(second_, q.second.inverse(), v_M);
         default:
             return v_M;
@@ -96,9 +99,9 @@ inline Vector3 RotaryTransform::direction_to_W(const Turns& q, const Vector3& v_
 /// Where a point of the spindle frame S is, seen from (X, Y, Z) in M axes.
 inline Vector3 RotaryTransform::swing(const Turns& q, const Vector3& p_S) const {
     switch (pivot_.unit) {
-        case MechanicalUnit::tool_tool:
+        case offsets::MechanicalUnit::tool_tool:
             return moved(first_, q.first, moved(second_, q.second, p_S));
-        case MechanicalUnit::mixed:
+        case offsets::MechanicalUnit::mixed:
             return moved(first_, q.first, p_S);
         default:
             return p_S;
@@ -107,9 +110,9 @@ inline Vector3 RotaryTransform::swing(const Turns& q, const Vector3& p_S) const 
 
 inline Vector3 RotaryTransform::tool_direction_M(const Turns& q) const {
     switch (pivot_.unit) {
-        case MechanicalUnit::tool_tool:
+        case offsets::MechanicalUnit::tool_tool:
             return turned(first_, q.first, turned(second_, q.second, pivot_.tool_direction));
-        case MechanicalUnit::mixed:
+        case offsets::MechanicalUnit::mixed:
             return turned(first_, q.first, pivot_.tool_direction);
         default:
             return pivot_.tool_direction;
@@ -159,9 +162,9 @@ TipDerivative RotaryTransform::derivative(const AxisPositions& machine,
     const Vector3 gauge_M = pivot_.parallel.linear(machine);
     const Vector3 tip_M = gauge_M + swing(q, -tool_vector_mm);
     const Vector3 tool_M = tool_direction_M(q);
-    const bool tool_first = pivot_.unit != MechanicalUnit::table_table;
-    const bool tool_second = pivot_.unit == MechanicalUnit::tool_tool;
-    const bool carried = pivot_.unit != MechanicalUnit::mixed;
+    const bool tool_first = pivot_.unit != offsets::MechanicalUnit::table_table;
+    const bool tool_second = pivot_.unit == offsets::MechanicalUnit::tool_tool;
+    const bool carried = pivot_.unit != offsets::MechanicalUnit::mixed;
 
     const Vector3 u1 = first_.u;
     const Vector3 u2 = carried ? turned(first_, q.first, second_.u) : second_.u;
@@ -209,12 +212,12 @@ struct OrientProblem {
     double first_sign;
 };
 
-OrientProblem orient_problem(const PivotParameters& pivot, const Vector3& n_W) {
+OrientProblem orient_problem(const offsets::PivotParameters& pivot, const Vector3& n_W) {
     const Vector3& t = pivot.tool_direction;
     switch (pivot.unit) {
-        case MechanicalUnit::tool_tool:
+        case offsets::MechanicalUnit::tool_tool:
             return {n_W, t, -1.0};  // Rot1(-q1) n = Rot2(q2) t
-        case MechanicalUnit::mixed:
+        case offsets::MechanicalUnit::mixed:
             return {t, n_W, 1.0};  // Rot1(q1) t = Rot2(q2) n
         default:
             return {t, n_W, -1.0};  // Rot1(-q1) t = Rot2(q2) n
@@ -243,4 +246,4 @@ std::vector<RotarySolution> RotaryTransform::orient(const Vector3& n_W,
     return solutions;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::positioning

@@ -8,7 +8,7 @@
 #include "geometry/pose.h"
 #include "offsets/pivot_parameters.h"
 
-namespace trunnion {
+namespace trunnion::positioning {
 
 /// One solution of the orientation inverse.
 struct RotarySolution {
@@ -29,9 +29,9 @@ struct TipDerivative {
 /// of the table is a fixed wedge below the second axis; one of the tool tilts the tool for good.
 class RotaryTransform {
   public:
-    explicit RotaryTransform(const PivotParameters& pivot);
+    explicit RotaryTransform(const offsets::PivotParameters& pivot);
 
-    const PivotParameters& pivot() const { return pivot_; }
+    const offsets::PivotParameters& pivot() const { return pivot_; }
 
     /// Table frame seen from M at these positions (identity for tool-tool machines).
     Pose pose_MW(const AxisPositions& machine) const;
@@ -76,7 +76,8 @@ class RotaryTransform {
     };
     static Vector3 turned(const Line& line, const Turn& turn, const Vector3& v);
     static Vector3 moved(const Line& line, const Turn& turn, const Vector3& p);
-    static Turn turn_of(const AxisPositions& machine, const PivotAxis& axis, double fixed_rad);
+    static Turn turn_of(const AxisPositions& machine, const offsets::PivotAxis& axis,
+                        double fixed_rad);
     Turns turns(const AxisPositions& machine) const;
     Vector3 from_W(const Turns& q, const Vector3& p_W) const;
     Vector3 to_W(const Turns& q, const Vector3& p_M) const;
@@ -86,9 +87,9 @@ class RotaryTransform {
     void place_table_lines();
     void place_tool_lines();
 
-    PivotParameters pivot_;
+    offsets::PivotParameters pivot_;
     Line first_, second_;
     double first_fixed_rad_ = 0.0, second_fixed_rad_ = 0.0;  ///< of a hypothetical axis
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::positioning

@@ -4,7 +4,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::positioning {
 
 namespace {
 
@@ -70,4 +70,4 @@ PairSolutions solve_rotation_pair(const Vector3& a, const Vector3& x, const Vect
     return solutions;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::positioning

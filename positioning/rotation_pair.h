@@ -5,7 +5,7 @@
 
 #include "geometry/pose.h"
 
-namespace trunnion {
+namespace trunnion::positioning {
 
 /// One way to satisfy Rot(a, alpha) x = Rot(b, beta) y. An angle that nothing depends on is free.
 struct PairSolution {
@@ -25,4 +25,4 @@ struct PairSolutions {
 PairSolutions solve_rotation_pair(const Vector3& a, const Vector3& x, const Vector3& b,
                                   const Vector3& y);
 
-}  // namespace trunnion
+}  // namespace trunnion::positioning

@@ -1,7 +1,7 @@
 // The programming frame of tool centre point control.
 #pragma once
 
-namespace trunnion {
+namespace trunnion::positioning {
 
 /// To what the table-fixed frame of G43.4 is tied when it comes with the table turned
 /// (docs/five_axis.md: depends on options).
@@ -10,4 +10,4 @@ enum class TcpFrame : unsigned char {
     rotary_zero  ///< the work frame lies on the table with its rotaries at zero
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::positioning

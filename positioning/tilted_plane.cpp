@@ -4,7 +4,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::positioning {
 
 namespace {
 
@@ -177,4 +177,4 @@ Pose plane_of_tool(const Vector3& tool_direction_P, const Vector3& origin_P_mm, 
     return turned_about_z({from_x_and_z(x.normalized(), z), origin_P_mm}, r_deg);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::positioning

@@ -7,7 +7,7 @@
 #include "base/alarm.h"
 #include "geometry/pose.h"
 
-namespace trunnion {
+namespace trunnion::positioning {
 
 /// The words of one G68.2, G68.3 or G68.4 block: mm, deg, or components of a vector; P and Q as
 /// written.
@@ -65,4 +65,4 @@ struct VerticalAxis {
 Pose plane_of_tool(const Vector3& tool_direction_P, const Vector3& origin_P_mm, double r_deg,
                    const VerticalAxis& vertical);
 
-}  // namespace trunnion
+}  // namespace trunnion::positioning

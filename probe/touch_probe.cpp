@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::probe {
 namespace {
 
 constexpr double root_mm = 1e-10;          ///< well below the 1e-9 mm that is promised
@@ -46,7 +46,7 @@ double root(const Gap& gap, double a, double gap_a, double b, double gap_b, doub
 
 }  // namespace
 
-Vector3 centre_to_tip_M(const MachinePose& poses, const TouchProbe& probe,
+Vector3 centre_to_tip_M(const kinematics::MachinePose& poses, const TouchProbe& probe,
                         const SphereTarget& sphere) {
     return poses.pose_MS * probe.tip_S_mm - poses.pose_MW * sphere.center_W_mm;
 }
@@ -72,4 +72,4 @@ std::optional<double> first_contact(const Separation& separation, double reach_m
     return std::nullopt;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::probe

@@ -7,7 +7,7 @@
 #include "geometry/pose.h"
 #include "kinematics/machine.h"
 
-namespace trunnion {
+namespace trunnion::probe {
 
 /// The physical stylus.
 struct TouchProbe {
@@ -22,7 +22,7 @@ struct SphereTarget {
 };
 
 /// From the sphere's centre to the stylus ball's centre, in M.
-Vector3 centre_to_tip_M(const MachinePose& poses, const TouchProbe& probe,
+Vector3 centre_to_tip_M(const kinematics::MachinePose& poses, const TouchProbe& probe,
                         const SphereTarget& sphere);
 
 /// Distance of the two centres at contact.
@@ -47,4 +47,4 @@ using Separation = std::function<Vector3(double)>;
 /// when the path ends before.
 std::optional<double> first_contact(const Separation& separation, double reach_mm);
 
-}  // namespace trunnion
+}  // namespace trunnion::probe

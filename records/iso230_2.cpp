@@ -10,7 +10,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::records {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -146,4 +146,4 @@ std::vector<DeviationPoint> deviation_points(const ReadingTable& table, const st
     return points;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::records

@@ -6,7 +6,7 @@
 
 #include "records/readings.h"
 
-namespace trunnion {
+namespace trunnion::records {
 
 /// One measured deviation, actual - target, mm or rad.
 struct DeviationPoint {
@@ -49,4 +49,4 @@ std::string iso230_2_words(const Iso230Figures& figures, bool rotary);
 /// axis that moves in it. Throws InputError (place) when none or several move.
 std::vector<DeviationPoint> deviation_points(const ReadingTable& table, const std::string& test);
 
-}  // namespace trunnion
+}  // namespace trunnion::records

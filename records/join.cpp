@@ -4,7 +4,7 @@
 
 #include "records/readings.h"
 
-namespace trunnion {
+namespace trunnion::records {
 namespace {
 
 constexpr double pause_s = 60.0;  ///< between two tables whose clocks both began at zero
@@ -91,4 +91,4 @@ SourceRef place_of(const ReadingTable& table, const Reading& row) {
     return {joined ? table.parts[static_cast<std::size_t>(row.part)] : table.path, row.line, 0};
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::records

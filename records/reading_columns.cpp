@@ -6,7 +6,7 @@
 #include "base/numbers.h"
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::records {
 namespace {
 
 constexpr std::array<std::string_view, 8> device_names{"",       "sphere", "touch", "ballbar",
@@ -250,4 +250,4 @@ std::string axis_text(const Reading& row, Axis axis, bool rotary) {
     return rotary ? shortest_degrees(q) : shortest(q);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::records

@@ -9,7 +9,7 @@
 #include "records/readings.h"
 #include "records/table_line.h"
 
-namespace trunnion {
+namespace trunnion::records {
 
 /// Puts one cell into a row; throws InputError with the cell's place.
 using StoreCell = std::function<void(Reading&, const TableLine&, const TableCell&)>;
@@ -37,4 +37,4 @@ std::string axis_text(const Reading& row, Axis axis, bool rotary);
 /// The device reads along or about `dir_x dir_y dir_z`.
 bool has_direction(Device device);
 
-}  // namespace trunnion
+}  // namespace trunnion::records

@@ -7,7 +7,7 @@
 #include "records/reading_columns.h"
 #include "records/table_line.h"
 
-namespace trunnion {
+namespace trunnion::records {
 namespace {
 
 using Cells = std::vector<TableCell>;
@@ -258,4 +258,4 @@ std::string format_readings(const ReadingTable& table) {
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::records

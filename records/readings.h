@@ -13,7 +13,7 @@
 #include "geometry/axis_names.h"
 #include "geometry/pose.h"
 
-namespace trunnion {
+namespace trunnion::records {
 
 enum class Device : unsigned char { none, sphere, touch, ballbar, linear, angle, point, axis };
 
@@ -55,9 +55,9 @@ struct ReadingTable {
     std::vector<std::string> parts;              ///< of a joined table: path of each file
     std::map<std::string, std::string> comment;  ///< `# key = value`
     AxisSides side_before{};  ///< head line `side`: of the first session; 0 where not told
-    std::map<int, AxisSides> part_sides;  ///< the same of the further files of a joined table
-    std::vector<Axis> axes;   ///< machine axes with a column
-    AxisNames names;          ///< of the machine; the letters by default
+    std::map<int, AxisSides> part_sides;        ///< the same of the further files of a joined table
+    std::vector<Axis> axes;                     ///< machine axes with a column
+    AxisNames names;                            ///< of the machine; the letters by default
     std::vector<std::string> optional_columns;  ///< optional columns present, in file order
     std::vector<Reading> rows;
 };
@@ -94,4 +94,4 @@ class ReadingWriter {
 std::string format_sides(const std::vector<Axis>& axes, const AxisSides& sides,
                          const AxisNames& names = {});
 
-}  // namespace trunnion
+}  // namespace trunnion::records

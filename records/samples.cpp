@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-namespace trunnion {
+namespace trunnion::records {
 namespace {
 
 using Rows = std::vector<std::size_t>;  // of one test, in order
@@ -262,4 +262,4 @@ std::vector<AxisSample> samples_of(const ReadingTable& table) {
     return samples;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::records

@@ -7,7 +7,7 @@
 #include "records/readings.h"
 #include "records/travel.h"
 
-namespace trunnion {
+namespace trunnion::records {
 
 /// Rows of the device come so dense that their differences are velocities.
 bool is_continuous(Device device);
@@ -32,4 +32,4 @@ std::vector<AxisSample> samples_of(std::span<const Reading> rows, const std::vec
 /// Nobody tells the way from one row to the next.
 bool way_unknown(const Reading& from, const Reading& to);
 
-}  // namespace trunnion
+}  // namespace trunnion::records

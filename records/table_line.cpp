@@ -6,7 +6,7 @@
 #include "base/alarm.h"
 #include "base/numbers.h"
 
-namespace trunnion {
+namespace trunnion::records {
 namespace {
 
 bool blank(char c) {
@@ -90,4 +90,4 @@ std::string cell_text(const std::string& text) {
     return out + '"';
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::records

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::records {
 
 struct TableCell {
     std::string_view text;  ///< without quotes and blanks around it; "" inside quotes stays two
@@ -33,4 +33,4 @@ std::string_view take_line(std::string_view& text);
 /// The text as a cell: in quotes where it needs them.
 std::string cell_text(const std::string& text);
 
-}  // namespace trunnion
+}  // namespace trunnion::records

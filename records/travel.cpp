@@ -4,7 +4,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::records {
 
 const Rounding rows_rounding{1.5e-6, rad_from_deg(1.5e-6)};
 
@@ -61,4 +61,4 @@ void TravelHistory::describe(AxisSample& sample) const {
                                    (turned_[i] ? 0.0 : no_reversal_seen + 1.0);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::records

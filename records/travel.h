@@ -4,7 +4,7 @@
 
 #include "geometry/axis_names.h"
 
-namespace trunnion {
+namespace trunnion::records {
 
 /// since_reversal of an axis that nobody saw turning: more than this (mm or rad).
 constexpr double no_reversal_seen = 1e6;
@@ -58,4 +58,4 @@ class TravelHistory {
     bool placed_ = false;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::records

@@ -5,7 +5,7 @@
 #include <deque>
 #include <unordered_map>
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -205,4 +205,4 @@ std::vector<IndexPair> match_sequences(const Keys& a, const Keys& b, std::size_t
     return pairs;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -9,7 +9,7 @@
 
 #include "regression/path_record.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// A stretch of passes (or lines): first..last, last not included.
 struct PassRange {
@@ -67,4 +67,4 @@ struct IndexPair {
 };
 std::vector<IndexPair> match_sequences(const Keys& a, const Keys& b, std::size_t most_edits = 1000);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -5,7 +5,7 @@
 
 #include "regression/align.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -211,4 +211,4 @@ void align(const AlignSource& source, const AlignLimits& limits,
     WindowedAligner(source, limits, found).run();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

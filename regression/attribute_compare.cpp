@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -121,4 +121,4 @@ void AttributeComparer::end() {
                     regions_->end());
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

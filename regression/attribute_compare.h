@@ -6,7 +6,7 @@
 
 #include "regression/path_region.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// Takes parts of a segment of A and of one of B that agree as paths, in order, and adds a region
 /// where they differ in feed, spindle, coolant or tool.
@@ -47,4 +47,4 @@ class AttributeComparer {
     double gone_mm_ = 0.0;  ///< along A, to the end of the pair at hand
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -9,7 +9,7 @@
 
 #include "interpreter/lexical.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -28,12 +28,13 @@ std::vector<WrittenWord> words_of(const std::string& block) {
     bool comment = false;
     int depth = 0;
     for (const char raw : block) {
-        const char c = upper(raw);
+        const char c = interpreter::upper(raw);
         if (c == '(' || c == ')') comment = c == '(';
-        if (comment || c == ')' || is_blank(c) || (c == '/' && words.empty())) continue;
+        if (comment || c == ')' || interpreter::is_blank(c) || (c == '/' && words.empty()))
+            continue;
         if (c == '=' || (c == '#' && words.empty())) return {};
         depth += c == '[' ? 1 : c == ']' ? -1 : 0;
-        const bool begins_word = is_letter(c) && depth == 0;
+        const bool begins_word = interpreter::is_letter(c) && depth == 0;
         if (begins_word && !words.empty() && words.back().number.empty()) return {};  // IF, GOTO
         if (begins_word)
             words.push_back({c, "", 0.0});
@@ -158,4 +159,4 @@ std::array<std::optional<double>, 3> position_words(const std::string& block) {
     return found;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// "X54. instead of X45.", "C of opposite sign: ..", "decimal point lost: ..", "I J absolute
 /// instead of incremental: .."; empty when both say the same, compute, or differ in more than three
@@ -17,4 +17,4 @@ std::string block_difference(const std::string& a, const std::string& b,
 /// X Y Z of a block, where it has them as plain numbers.
 std::array<std::optional<double>, 3> position_words(const std::string& block);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -8,7 +8,7 @@
 
 #include "regression/moved_pivot.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -337,4 +337,4 @@ std::string frame_hint(const RecordedRun& run, const char* side) {
     return {};
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

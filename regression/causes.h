@@ -9,14 +9,14 @@
 #include "regression/recorded_run.h"
 #include "regression/written_gaps.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// What explaining needs beside the clusters.
 struct CauseInput {
     const RecordedRun& a;
     const RecordedRun& b;
     WrittenGaps* gaps = nullptr;  ///< nullptr: no texts to look at (a golden)
-    const std::optional<RotaryTransform>& transform;
+    const std::optional<positioning::RotaryTransform>& transform;
     Tolerances tolerances;
 };
 
@@ -29,4 +29,4 @@ std::vector<ExplainedCluster> explain(const std::vector<PathCluster>& clusters,
 /// "G43.4 begins with the table turned ..." where a side does so; empty otherwise.
 std::string frame_hint(const RecordedRun& run, const char* side);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -132,4 +132,4 @@ void sample_curve(const std::function<PathPoint(double)>& at, int pieces,
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

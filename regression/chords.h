@@ -6,7 +6,7 @@
 
 #include "regression/segment.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// The point of a segment at s in [0, 1] of its length; `start` is where the segment before ended.
 PathPoint point_at(const PathPoint& start, const Segment& segment, double s);
@@ -28,4 +28,4 @@ void append_chords(const PathPoint& start, const Segment& segment, const Toleran
 void sample_curve(const std::function<PathPoint(double)>& at, int pieces,
                   const Tolerances& tolerances, std::vector<PathPoint>& points);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -4,7 +4,7 @@
 
 #include "regression/chords.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -69,4 +69,4 @@ void draw_paths(const std::vector<PathRegion>& marked_regions, const PathRecord&
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

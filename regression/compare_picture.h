@@ -7,11 +7,11 @@
 #include "regression/path_record.h"
 #include "regression/path_region.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// Cuts and rapids of both sides, of many passes evenly chosen ones, and the first regions as
 /// marks. Nothing without regions.
 void draw_paths(const std::vector<PathRegion>& marked_regions, const PathRecord& a,
                 const PathRecord& b, const Tolerances& tolerances, ComparePicture& picture);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -15,14 +15,15 @@
 #include "regression/verdict.h"
 #include "regression/written_layers.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
 class ProgramComparer {
   public:
-    ProgramComparer(const ProgramText& a, const Setup& setup_a, const ProgramText& b,
-                    const Setup& setup_b, const CompareOptions& options)
+    ProgramComparer(const interpreter::ProgramText& a, const setup::Setup& setup_a,
+                    const interpreter::ProgramText& b, const setup::Setup& setup_b,
+                    const CompareOptions& options)
         : a_(a),
           b_(b),
           setup_a_(setup_a),
@@ -111,7 +112,7 @@ class ProgramComparer {
     }
 
     /// A program that may call others is what it is together with them: only a run tells which.
-    WrittenSide written_side(const ProgramText& program, const Setup& setup,
+    WrittenSide written_side(const interpreter::ProgramText& program, const setup::Setup& setup,
                              const std::optional<RecordedRun>& run) {
         const bool calls =
             !options_.call.empty() || may_call(a_.text, setup_a_) || may_call(b_.text, setup_b_);
@@ -158,7 +159,7 @@ class ProgramComparer {
         if (!gaps_) gaps_.emplace(a_, setup_a_, b_, setup_b_);
         return *gaps_;
     }
-    const std::optional<RotaryTransform>& transform() {
+    const std::optional<positioning::RotaryTransform>& transform() {
         // With two stores of one machine the shifts are known to come from them.
         if (!transform_ && &setup_a_ == &setup_b_) transform_ = believed_transform(setup_a_);
         return transform_;
@@ -188,7 +189,8 @@ class ProgramComparer {
     /// An alarm or a limit: no deeper layer can say more.
     bool stopped() const { return run_a_ && !ran_to_the_end() && result_.by == Layer::path; }
     bool ran_to_the_end() const {
-        return run_a_->result.status == RunStatus::ok && run_b_->result.status == RunStatus::ok;
+        return run_a_->result.status == controller::RunStatus::ok &&
+               run_b_->result.status == controller::RunStatus::ok;
     }
 
     bool by_what_runs() {
@@ -278,7 +280,7 @@ class ProgramComparer {
     /// only when the programs are equal too where they are least increments.
     void as_increments() {
         if (!run_a_->reads_bare_words && !run_b_->reads_bare_words) return;
-        Setup setup = setup_a_;
+        setup::Setup setup = setup_a_;
         setup.stores.parameters.entry[3401] = {};
         for (RecordedRun* run : {&*run_a_, &*run_b_}) {  // what they hold was compared
             run->path = {};
@@ -328,10 +330,11 @@ class ProgramComparer {
             result_.notes.push_back(note);
     }
 
-    void take_end(const RunResult& run, std::string& alarm, const char* side, SourceLines& lines) {
-        if (run.status == RunStatus::limit && result_.status != CompareStatus::alarm)
+    void take_end(const controller::RunResult& run, std::string& alarm, const char* side,
+                  SourceLines& lines) {
+        if (run.status == controller::RunStatus::limit && result_.status != CompareStatus::alarm)
             result_.status = CompareStatus::limit;
-        if (run.status != RunStatus::alarm || !run.alarm) return;
+        if (run.status != controller::RunStatus::alarm || !run.alarm) return;
         alarm = fmt::format("{} {}", run.alarm->number, run.alarm->text);
         if (result_.by == Layer::text || result_.by == Layer::words) return;
         result_.status = CompareStatus::alarm;
@@ -351,7 +354,7 @@ class ProgramComparer {
     }
 
     /// The block that an alarm of one side comes from, as far as the words tell.
-    void place_alarm(Difference& d, const RunResult& run, bool side_is_a) {
+    void place_alarm(Difference& d, const controller::RunResult& run, bool side_is_a) {
         if (!run_a_ || (run_a_->result.alarm && run_b_->result.alarm)) return;
         const int line = run.alarm->where.line;
         const auto cause = written_gaps().before(side_is_a ? line : 0, side_is_a ? 0 : line);
@@ -366,14 +369,14 @@ class ProgramComparer {
         (side_is_a ? lines_b_ : lines_a_).show(side_is_a ? d.b : d.a);
     }
 
-    const ProgramText &a_, &b_;
-    const Setup &setup_a_, &setup_b_;
+    const interpreter::ProgramText &a_, &b_;
+    const setup::Setup &setup_a_, &setup_b_;
     CompareOptions options_;
     SourceLines lines_a_, lines_b_;
     PathSpace space_ = PathSpace::tip;
     std::optional<RecordedRun> run_a_, run_b_;
     std::optional<WrittenGaps> gaps_;
-    std::optional<RotaryTransform> transform_;
+    std::optional<positioning::RotaryTransform> transform_;
     bool equal_so_far_ = true;  ///< of the layer at hand, where it keeps no differences
     Comparison result_;
 };
@@ -381,15 +384,16 @@ class ProgramComparer {
 }  // namespace
 
 Comparison compare_with_golden(const PathRecord& golden, const std::string& golden_path,
-                               const ProgramText& program, const Setup& setup,
+                               const interpreter::ProgramText& program, const setup::Setup& setup,
                                const CompareOptions& options) {
-    ProgramText golden_text = read_program(golden_path);
+    interpreter::ProgramText golden_text = interpreter::read_program(golden_path);
     return ProgramComparer(golden_text, setup, program, setup, options).run_against(golden);
 }
 
-Comparison compare_programs(const ProgramText& a, const Setup& setup_a, const ProgramText& b,
-                            const Setup& setup_b, const CompareOptions& options) {
+Comparison compare_programs(const interpreter::ProgramText& a, const setup::Setup& setup_a,
+                            const interpreter::ProgramText& b, const setup::Setup& setup_b,
+                            const CompareOptions& options) {
     return ProgramComparer(a, setup_a, b, setup_b, options).run();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -10,7 +10,7 @@
 #include "regression/recorded_run.h"
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 struct CompareOptions {
     Tolerances tolerances;
@@ -26,12 +26,13 @@ struct CompareOptions {
 /// Without `by` the layers are text, words, blocks, then path and functions (only these where the
 /// setups differ); effects and functions where neither program moves anything. Where both stop with
 /// the same alarm, the words say what changed.
-Comparison compare_programs(const ProgramText& a, const Setup& setup_a, const ProgramText& b,
-                            const Setup& setup_b, const CompareOptions& options);
+Comparison compare_programs(const interpreter::ProgramText& a, const setup::Setup& setup_a,
+                            const interpreter::ProgramText& b, const setup::Setup& setup_b,
+                            const CompareOptions& options);
 
 /// A recorded path (a golden) against a program, in the layer `path`.
 Comparison compare_with_golden(const PathRecord& golden, const std::string& golden_path,
-                               const ProgramText& program, const Setup& setup,
+                               const interpreter::ProgramText& program, const setup::Setup& setup,
                                const CompareOptions& options);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

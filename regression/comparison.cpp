@@ -4,7 +4,7 @@
 
 #include "base/exit_codes.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -80,4 +80,4 @@ std::string verdict_of(const CompareReport& report) {
            " programs";
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// The layers, from what is written to what it does.
 enum class Layer : std::uint8_t { text, words, blocks, path, functions, axes, effects };
@@ -156,4 +156,4 @@ int exit_code(const CompareReport& report);
 /// One line: the single case's verdict, or how many cases are equal.
 std::string verdict_of(const CompareReport& report);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

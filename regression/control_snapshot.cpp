@@ -9,7 +9,7 @@
 #include "controller/control.h"
 #include "controller/g_codes.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -17,13 +17,13 @@ float number(double value) {
     return static_cast<float>(value + 0.0);
 }
 
-std::array<float, 3> xyz(const ControlPosition& p) {
+std::array<float, 3> xyz(const offsets::ControlPosition& p) {
     return {number(p[Axis::X]), number(p[Axis::Y]), number(p[Axis::Z])};
 }
 
-void read_frames(const Frames& frames, ControlSnapshot& s) {
-    const Coordinates& stages = frames.stages;
-    const ControlPosition origin = stages.work_origin();
+void read_frames(const controller::Frames& frames, ControlSnapshot& s) {
+    const controller::Coordinates& stages = frames.stages;
+    const offsets::ControlPosition origin = stages.work_origin();
     s.length_mm = xyz(stages.length);
     s.origin_mm = xyz(origin);
     s.origin_deg = {number(origin[Axis::A]), number(origin[Axis::B]), number(origin[Axis::C])};
@@ -43,14 +43,14 @@ void read_frames(const Frames& frames, ControlSnapshot& s) {
 }
 
 /// Radius of offset number D while G41 or G42 is in force.
-double radius_in_force_mm(const Control& c) {
+double radius_in_force_mm(const controller::Control& c) {
     const auto d = static_cast<std::size_t>(std::max(0, c.modal.number.radius));
     const auto& tools = c.stores.tools.tool;
     return c.modal.cutter_is_off() || d >= tools.size() ? 0.0 : tools[d].radius_mm();
 }
 
-void read_numbers(const Control& c, ControlSnapshot& s) {
-    const Modal& modal = c.modal;
+void read_numbers(const controller::Control& c, ControlSnapshot& s) {
+    const controller::Modal& modal = c.modal;
     s.work_number = static_cast<std::int16_t>(modal.number.work);
     s.radius_number = static_cast<std::int16_t>(modal.number.radius);
     s.tool_selected = modal.number.tool;
@@ -63,7 +63,7 @@ void read_numbers(const Control& c, ControlSnapshot& s) {
 }
 
 /// G5.1 Q, G5 P, G8 P: accepted by the control without effect on positions.
-void read_smoothing(const SortedWords& words, ControlSnapshot& s) {
+void read_smoothing(const controller::SortedWords& words, ControlSnapshot& s) {
     constexpr std::array<int, 3> code10{51, 50, 80};
     constexpr std::array<char, 3> letter{'Q', 'P', 'P'};
     for (std::size_t k = 0; k < words.code_count; ++k)
@@ -74,8 +74,8 @@ void read_smoothing(const SortedWords& words, ControlSnapshot& s) {
 
 /// Which stores a G10 block writes, as one number. How much it writes is compared at the end, with
 /// a tolerance.
-std::uint64_t store_key_of(const Control& c) {
-    const SortedWords& w = c.words;
+std::uint64_t store_key_of(const controller::Control& c) {
+    const controller::SortedWords& w = c.words;
     if (!w.has_code(100)) return 0;
     std::uint64_t h = 1;
     for (char letter = 'A'; letter <= 'Z'; ++letter) {
@@ -90,7 +90,7 @@ std::uint64_t store_key_of(const Control& c) {
 }
 
 /// A number without a point that would be another length in least increments.
-bool has_bare_length(const SortedWords& w) {
+bool has_bare_length(const controller::SortedWords& w) {
     constexpr std::string_view lengths = "ABCIJKQRUVWXYZ";
     return std::any_of(lengths.begin(), lengths.end(), [&w](char letter) {
         return w.has(letter) && w.is_bare(letter) && w.get(letter) != 0.0;
@@ -99,7 +99,7 @@ bool has_bare_length(const SortedWords& w) {
 
 }  // namespace
 
-BlockLook look_at(const Control& c, ControlSnapshot& s) {
+BlockLook look_at(const controller::Control& c, ControlSnapshot& s) {
     std::copy(c.modal.codes.code10.begin(), c.modal.codes.code10.end(), s.modal10.begin());
     read_numbers(c, s);
     read_frames(c.frames, s);
@@ -108,22 +108,22 @@ BlockLook look_at(const Control& c, ControlSnapshot& s) {
     look.line = c.modal.block.line;
     look.program = c.modal.block.program;
     look.store_key = store_key_of(c);
-    const ControlPosition& machine = c.frames.machine;
+    const offsets::ControlPosition& machine = c.frames.machine;
     look.rotary_deg = {machine[Axis::A], machine[Axis::B], machine[Axis::C]};
     look.bare_words_meet_no_parameter =
         c.words.bare != 0 && has_bare_length(c.words) && !c.stores.parameters.find(3401);
     return look;
 }
 
-int tool_in_spindle(const Control& control) {
+int tool_in_spindle(const controller::Control& control) {
     return control.modal.block.tool;
 }
 
-int running_line(const Control& control) {
+int running_line(const controller::Control& control) {
     return control.modal.block.line;
 }
 
-bool feeds_by_inverse_time(const Control& control) {
+bool feeds_by_inverse_time(const controller::Control& control) {
     return control.modal.block.feed.inverse_time;
 }
 
@@ -140,7 +140,7 @@ Values modal_value(S s) {
 }
 template <std::size_t group>
 std::string modal_text(S s) {
-    return g_code_text(s.modal10[group]);
+    return controller::g_code_text(s.modal10[group]);
 }
 
 std::string vector_text(const char* what, const std::array<float, 3>& v) {
@@ -152,7 +152,7 @@ Values of(const std::array<float, 3>& v) {
 }
 
 std::string work_text(S s) {
-    const std::string code = g_code_text(s.modal10[14]);
+    const std::string code = controller::g_code_text(s.modal10[14]);
     return s.modal10[14] == 541 ? fmt::format("{} P{}", code, s.work_number) : code;
 }
 
@@ -237,4 +237,4 @@ std::span<const SnapshotField> snapshot_fields() {
     return fields;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -6,9 +6,11 @@
 #include <span>
 #include <string>
 
-namespace trunnion {
-
+namespace trunnion::controller {
 struct Control;
+}  // namespace trunnion::controller
+
+namespace trunnion::regression {
 
 /// The state after a block. Filled in control_snapshot.cpp alone, whatever the controller looks
 /// like inside.
@@ -46,12 +48,12 @@ struct BlockLook {
 };
 
 /// Brings `snapshot` up to date (`smoothing` is kept from block to block).
-BlockLook look_at(const Control& control, ControlSnapshot& snapshot);
-int tool_in_spindle(const Control& control);
+BlockLook look_at(const controller::Control& control, ControlSnapshot& snapshot);
+int tool_in_spindle(const controller::Control& control);
 /// Of the block that runs.
-int running_line(const Control& control);
+int running_line(const controller::Control& control);
 /// G93 in force for the move that goes out now.
-bool feeds_by_inverse_time(const Control& control);
+bool feeds_by_inverse_time(const controller::Control& control);
 
 /// What a field can explain.
 enum Explains : unsigned {
@@ -71,4 +73,4 @@ struct SnapshotField {
 };
 std::span<const SnapshotField> snapshot_fields();
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -12,9 +12,9 @@
 #include "regression/block_difference.h"
 #include "regression/compare_picture.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
-SourceLines::SourceLines(const ProgramText& main) : name_(main.name) {
+SourceLines::SourceLines(const interpreter::ProgramText& main) : name_(main.name) {
     texts_[main.name] = main;
 }
 
@@ -23,7 +23,7 @@ const ProgramLines* SourceLines::lines_of(const std::string& program) {
     if (known != lines_.end()) return known->second ? &*known->second : nullptr;
     std::optional<ProgramLines>& lines = lines_[program];
     try {
-        if (!texts_.contains(program)) texts_[program] = read_program(program);
+        if (!texts_.contains(program)) texts_[program] = interpreter::read_program(program);
         lines.emplace(texts_[program].text);
     } catch (const InputError&) {
         return nullptr;  // a golden, or a program that is no file: nothing to show
@@ -138,9 +138,9 @@ std::array<double, 3> array_of(const Vector3& v) {
 std::string bare(const std::string& block) {
     std::string out;
     for (const char c : block)
-        if (!is_blank(c)) out += upper(c);
+        if (!interpreter::is_blank(c)) out += interpreter::upper(c);
     std::size_t end = out.starts_with("N") ? 1 : 0;
-    while (end > 0 && end < out.size() && is_digit(out[end])) ++end;
+    while (end > 0 && end < out.size() && interpreter::is_digit(out[end])) ++end;
     return out.substr(end);
 }
 
@@ -245,4 +245,4 @@ void add_fingerprints(Comparison& result) {
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

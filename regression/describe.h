@@ -13,12 +13,12 @@
 #include "regression/path_recorder.h"
 #include "regression/program_lines.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// The source lines of one side: its main program and whatever files it called.
 class SourceLines {
   public:
-    explicit SourceLines(const ProgramText& main);
+    explicit SourceLines(const interpreter::ProgramText& main);
     /// Fills block and context from program and line.
     void show(ComparePlace& place);
     const std::string& main_name() const { return name_; }
@@ -27,7 +27,7 @@ class SourceLines {
     const ProgramLines* lines_of(const std::string& program);
 
     std::string name_;
-    std::map<std::string, ProgramText> texts_;
+    std::map<std::string, interpreter::ProgramText> texts_;
     std::map<std::string, std::optional<ProgramLines>> lines_;
 };
 
@@ -48,4 +48,4 @@ void describe_gaps(const KeyedLines& a, const KeyedLines& b, SourceLines& lines_
 /// how often that occurred before. It does not change when lines are added or removed elsewhere.
 void add_fingerprints(Comparison& result);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -86,4 +86,4 @@ std::optional<Vector3> common_shift(SegmentWindow& a_path, Stretch a, SegmentWin
     return shift;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

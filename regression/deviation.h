@@ -5,7 +5,7 @@
 
 #include "regression/frechet.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 struct Deviation {
     double position_mm = 0.0;
@@ -23,4 +23,4 @@ Deviation deviation_between(SegmentWindow& a_path, Stretch a, SegmentWindow& b_p
 std::optional<Vector3> common_shift(SegmentWindow& a_path, Stretch a, SegmentWindow& b_path,
                                     Stretch b, const Tolerances& tolerances);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -19,7 +19,7 @@ Values values_of(const RecordedRun& run) {
     const auto add = [&](const std::string& name, double value) {
         if (value != 0.0) v[name] = value;
     };
-    const auto add_vector = [&](const std::string& name, const OffsetVector& offset) {
+    const auto add_vector = [&](const std::string& name, const offsets::OffsetVector& offset) {
         for (const Axis axis : all_axes) add(name + " " + letter_of(axis), offset[axis]);
     };
     for (const auto& [number, value] : run.variables) v[fmt::format("#{}", number)] = value;
@@ -34,7 +34,7 @@ Values values_of(const RecordedRun& run) {
                    run.stores.fixture.set[k].reference_angles);
     }
     for (std::size_t k = 0; k < run.stores.tools.tool.size(); ++k) {
-        const ToolOffset& t = run.stores.tools.tool[k];
+        const offsets::ToolOffset& t = run.stores.tools.tool[k];
         add(fmt::format("tool offset {} length", k), t.length_geometry_mm);
         add(fmt::format("tool offset {} length wear", k), t.length_wear_mm);
         add(fmt::format("tool offset {} radius", k), t.radius_geometry_mm);
@@ -134,4 +134,4 @@ void compare_effects(const RecordedRun& a, const RecordedRun& b, const Tolerance
     compare_times(a, b, tolerances, result);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -4,7 +4,7 @@
 #include "regression/comparison.h"
 #include "regression/recorded_run.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// Variables, offsets, parameters, printed lines, alarms and cycle time; adds a difference for
 /// each.
@@ -21,4 +21,4 @@ void compare_leftovers(const RecordedRun& a, const RecordedRun& b, bool stores,
 void compare_times(const RecordedRun& a, const RecordedRun& b, const Tolerances& tolerances,
                    Comparison& result);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -5,7 +5,7 @@
 
 #include "regression/path_compare.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// Where a cause enters: line from 1 in one of PathRecord::programs; 0: not known.
 struct CausePlace {
@@ -20,4 +20,4 @@ struct ExplainedCluster {
     CausePlace a = {}, b = {};
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

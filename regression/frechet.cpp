@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -275,4 +275,4 @@ FrechetResult next_common_corner(SegmentWindow& a_path, Stretch a, SegmentWindow
     return FreeSpaceWalk(a_path, a, b_path, b, tolerances, a_beyond, b_beyond).run();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

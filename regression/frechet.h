@@ -6,7 +6,7 @@
 #include "regression/chords.h"
 #include "regression/segment_file.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// A stretch of a path: segments first..last (last not included); it starts at the end of segment
 /// first - 1, so first >= 1.
@@ -31,4 +31,4 @@ FrechetResult next_common_corner(SegmentWindow& a_path, Stretch a, SegmentWindow
                                  const Tolerances& tolerances, std::uint64_t a_beyond = 0,
                                  std::uint64_t b_beyond = 0);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -179,4 +179,4 @@ bool compare_functions(const RecordedRun& a, const RecordedRun& b,
     return same_writes;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

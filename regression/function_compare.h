@@ -5,7 +5,7 @@
 #include "regression/describe.h"
 #include "regression/recorded_run.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 struct FunctionCompareOptions {
     Tolerances tolerances;
@@ -24,4 +24,4 @@ bool compare_functions(const RecordedRun& a, const RecordedRun& b,
                        const FunctionCompareOptions& options, SourceLines& lines_a,
                        SourceLines& lines_b, Comparison& result);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -11,7 +11,7 @@
 #include "base/alarm.h"
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -172,4 +172,4 @@ Golden parse_golden(const std::string& text, const std::string& path) {
     return golden;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

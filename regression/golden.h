@@ -6,7 +6,7 @@
 
 #include "regression/path_record.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// CSV with a head of comments: why it was written (newest first) and a line for each tool, so that
 /// a change reads well in a review. One row a line or arc of the tip in the table frame;
@@ -20,4 +20,4 @@ struct Golden {
 /// Throws InputError with line and column.
 Golden parse_golden(const std::string& text, const std::string& path);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

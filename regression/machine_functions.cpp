@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -22,8 +22,8 @@ std::uint64_t key_of(const FunctionEvent& e) {
 
 }  // namespace
 
-void FunctionRecorder::before_move(const AxisMove& move) {
-    if (move.kind != MotionKind::rapid) now_.exact_stop = move.gap_free ? 0 : 1;
+void FunctionRecorder::before_move(const motion::AxisMove& move) {
+    if (move.kind != motion::MotionKind::rapid) now_.exact_stop = move.gap_free ? 0 : 1;
     tell_states();
     mode_ = static_cast<std::uint8_t>(move.mode);
 }
@@ -156,4 +156,4 @@ std::string text_of(const FunctionEvent& e) {
     return {};
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

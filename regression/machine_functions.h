@@ -10,7 +10,7 @@
 #include "regression/path_record.h"
 #include "regression/program_lines.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 enum class FunctionKind : std::uint8_t {
     m_code,
@@ -48,7 +48,7 @@ class FunctionRecorder {
     FunctionRecorder(FunctionEvents& events, PathRecord& path, KeyedLines& blocks)
         : events_(events), path_(path), blocks_(blocks) {}
 
-    void before_move(const AxisMove& move);
+    void before_move(const motion::AxisMove& move);
     void dwell(double duration_s);
     /// `tool`: in the spindle after the code.
     void m_code(int code, int tool, int line);
@@ -82,4 +82,4 @@ class FunctionRecorder {
 /// "M8", "dwell 0.5 s", "exact stop".
 std::string text_of(const FunctionEvent& event);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

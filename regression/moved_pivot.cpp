@@ -8,7 +8,7 @@
 #include "base/units.h"
 #include "positioning/rotary_transform.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -96,4 +96,4 @@ std::optional<MovedPivot> moved_pivot(const std::vector<PathCluster>& clusters,
     return std::nullopt;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -8,11 +8,11 @@
 #include "regression/path_compare.h"
 #include "regression/recorded_run.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 struct MovedPivotInput {
     const RecordedRun& a;
-    const std::optional<RotaryTransform>& transform;
+    const std::optional<positioning::RotaryTransform>& transform;
     Tolerances tolerances;
 };
 
@@ -26,4 +26,4 @@ struct MovedPivot {
 std::optional<MovedPivot> moved_pivot(const std::vector<PathCluster>& clusters,
                                       const MovedPivotInput& input);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -11,36 +11,37 @@
 #include "interpreter/program_source.h"
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// A program that was asked for, by number or name, and what was found (empty: nothing).
 struct OpenedProgram {
     std::string asked;
-    std::optional<ProgramText> found;
+    std::optional<interpreter::ProgramText> found;
 };
 
 /// Passes on to another source and keeps each program the first time it is asked for. A run is
 /// decided by its main program and what this finds, in this order.
-class RememberingSource : public ProgramSource {
+class RememberingSource : public interpreter::ProgramSource {
   public:
-    RememberingSource(ProgramSource& source, std::vector<OpenedProgram>& opened)
+    RememberingSource(interpreter::ProgramSource& source, std::vector<OpenedProgram>& opened)
         : source_(source), opened_(opened) {}
-    std::optional<ProgramText> find(int o_number) override;
-    std::optional<ProgramText> find(std::string_view name) override;
+    std::optional<interpreter::ProgramText> find(int o_number) override;
+    std::optional<interpreter::ProgramText> find(std::string_view name) override;
 
   private:
-    std::optional<ProgramText> keep(std::string asked, std::optional<ProgramText> found);
+    std::optional<interpreter::ProgramText> keep(std::string asked,
+                                                 std::optional<interpreter::ProgramText> found);
 
-    ProgramSource& source_;
+    interpreter::ProgramSource& source_;
     std::vector<OpenedProgram>& opened_;
     std::set<std::string> known_;
 };
 
 /// G, M or T codes call programs by parameters 6050-6089, 6001#5.
-bool codes_call(const Setup& setup);
+bool codes_call(const setup::Setup& setup);
 
 /// False when no block of the text can call another program: no M98, M198, G65, G66, no computed
 /// G or M, and no codes that call by parameter. True in doubt.
-bool may_call(std::string_view text, const Setup& setup);
+bool may_call(std::string_view text, const setup::Setup& setup);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -306,4 +306,4 @@ PathComparison compare_paths(const PathRecord& a, const PathRecord& b, const Wal
     return PathComparer(a, b, options, most_clusters).run();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -9,7 +9,7 @@
 #include "regression/path_record.h"
 #include "regression/stretch_compare.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// A cluster with its first region, before places are named.
 struct PathCluster {
@@ -36,4 +36,4 @@ struct PathComparison {
 PathComparison compare_paths(const PathRecord& a, const PathRecord& b, const WalkOptions& options,
                              std::size_t most_clusters = 1000);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

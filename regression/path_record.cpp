@@ -4,7 +4,7 @@
 
 #include "regression/chords.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -99,4 +99,4 @@ void PathRecord::count(const Segment& segment, double length) {
     if (feed > 0.0) t.cut_s += 60.0 * length / feed;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

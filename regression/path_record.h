@@ -9,7 +9,7 @@
 
 #include "regression/segment_file.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// Rapids to a cut, and the cut: segments first..last, the cut from cut_first on (empty at the end
 /// of a program). A new pass begins with the first rapid after a cut, or with another tool.
@@ -72,4 +72,4 @@ class PathRecord {
     bool open_ = false;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -6,12 +6,12 @@
 #include "base/units.h"
 #include "positioning/rotary_transform.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
 /// Time of a move at its even rate, without the ramps that its neighbours decide about.
-double even_time_s(const AxisMove& move) {
+double even_time_s(const motion::AxisMove& move) {
     const bool even = move.length_mm > 0.0 && move.feed_mm_min > 0.0;
     return even ? 60.0 * move.length_mm / move.feed_mm_min : move.duration_s;
 }
@@ -35,7 +35,7 @@ void set_end(Segment& segment, const PathPoint& p) {
     segment.end_orientation = {p.orientation.x(), p.orientation.y(), p.orientation.z()};
 }
 
-double turned_rad(const AxisMove& move) {
+double turned_rad(const motion::AxisMove& move) {
     return (rotary_of(move.to) - rotary_of(move.from)).cwiseAbs().maxCoeff();
 }
 
@@ -53,7 +53,7 @@ void PathRecorder::finish() {
 }
 
 /// Prepares the map from X Y Z to the tip for the rotary positions in frame_.
-void PathRecorder::refresh(const AxisMove& move) {
+void PathRecorder::refresh(const motion::AxisMove& move) {
     frame_.tool_vector_mm = move.tool_vector_mm;
     frame_.transform = move.transform;
     frame_.valid = true;
@@ -74,10 +74,10 @@ void PathRecorder::refresh(const AxisMove& move) {
     frame_.direction = move.transform->tool_direction_W(at);
 }
 
-PathPoint PathRecorder::point(const AxisMove& move, const AxisPositions& at) {
+PathPoint PathRecorder::point(const motion::AxisMove& move, const AxisPositions& at) {
     const Vector3 linear_mm = move.parallel.linear(at);
     if (space_ == PathSpace::joints) return {linear_mm, rotary_of(at)};
-    const RotaryTransform* t = move.transform;
+    const positioning::RotaryTransform* t = move.transform;
     const bool same = frame_.valid && frame_.transform == t &&
                       rotary_of(frame_.rotary) == rotary_of(at) &&
                       frame_.tool_vector_mm == move.tool_vector_mm &&
@@ -90,9 +90,9 @@ PathPoint PathRecorder::point(const AxisMove& move, const AxisPositions& at) {
     return {frame_.rotation * linear_mm + frame_.translation_mm, frame_.direction};
 }
 
-Segment PathRecorder::plain_segment(const AxisMove& move) {
+Segment PathRecorder::plain_segment(const motion::AxisMove& move) {
     Segment s;
-    s.kind = move.kind == MotionKind::rapid ? SegmentKind::rapid : SegmentKind::feed;
+    s.kind = move.kind == motion::MotionKind::rapid ? SegmentKind::rapid : SegmentKind::feed;
     s.feed_mm_min = s.kind == SegmentKind::feed ? static_cast<float>(move.feed_mm_min) : 0.0F;
     s.spindle_rpm = static_cast<float>(move.spindle_rpm);
     s.coolant = move.coolant;
@@ -108,15 +108,15 @@ Segment PathRecorder::plain_segment(const AxisMove& move) {
     return s;
 }
 
-void PathRecorder::see_through(const RotaryTransform* transform,
+void PathRecorder::see_through(const positioning::RotaryTransform* transform,
                                std::vector<double> tool_length_mm) {
     seen_through_ = transform;
     seen_length_mm_ = std::move(tool_length_mm);
 }
 
-MoveResult PathRecorder::move(const AxisMove& move) {
+motion::MoveResult PathRecorder::move(const motion::AxisMove& move) {
     if (seen_through_ == nullptr) return record(move);
-    AxisMove seen = move;
+    motion::AxisMove seen = move;
     seen.transform = seen_through_;
     const auto offset = static_cast<std::size_t>(std::max(0, move.tool_offset));
     const double length_mm = move.tool_vector_mm.norm();
@@ -125,7 +125,7 @@ MoveResult PathRecorder::move(const AxisMove& move) {
     return record(seen);
 }
 
-MoveResult PathRecorder::record(const AxisMove& move) {
+motion::MoveResult PathRecorder::record(const motion::AxisMove& move) {
     Segment segment = plain_segment(move);
     if (move.from == move.to && !move.arc && move.curve == nullptr) return {};
     const PathPoint start = point(move, move.from);
@@ -160,7 +160,7 @@ MoveResult PathRecorder::record(const AxisMove& move) {
     return {};
 }
 
-void PathRecorder::add_arc(const AxisMove& move, Segment segment, const PathPoint& end) {
+void PathRecorder::add_arc(const motion::AxisMove& move, Segment segment, const PathPoint& end) {
     AxisPositions at = move.from;
     const Vector3& c = move.arc->centre_mm;
     at[Axis::X] = c.x();
@@ -179,7 +179,7 @@ void PathRecorder::add_arc(const AxisMove& move, Segment segment, const PathPoin
     runs_.add(segment);
 }
 
-void PathRecorder::add_curve(const AxisMove& move, const Segment& segment) {
+void PathRecorder::add_curve(const motion::AxisMove& move, const Segment& segment) {
     points_.clear();
     const int pieces = 1 + static_cast<int>(turned_rad(move) / (pi / 4.0));
     sample_curve([&](double s) { return point(move, move.at(s)); }, pieces, tolerances_, points_);
@@ -201,4 +201,4 @@ void PathRecorder::add_curve(const AxisMove& move, const Segment& segment) {
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -3,7 +3,7 @@
 
 #include "regression/frechet.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// How a region differs. `moved`: the same path shifted by one vector.
 enum class RegionKind : std::uint8_t { moved, path, only_a, only_b, feed, spindle, coolant, tool };
@@ -20,4 +20,4 @@ struct PathRegion {
     double length_mm = 0.0, run_mm = 0.0, run_end_mm = 0.0;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

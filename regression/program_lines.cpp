@@ -4,7 +4,7 @@
 
 #include "interpreter/lexical.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -16,14 +16,14 @@ void each_line(std::string_view text, const Visit& visit) {
     const char* p = text.data();
     const char* const end = p + text.size();
     for (int number = 1; p != end; ++number) {
-        const char* const line_end = find_line_end(p, end);
+        const char* const line_end = interpreter::find_line_end(p, end);
         visit(std::string_view(p, static_cast<std::size_t>(line_end - p)), number);
-        p = line_end == end ? end : past_line_end(line_end, end);
+        p = line_end == end ? end : interpreter::past_line_end(line_end, end);
     }
 }
 
 std::string_view without_trailing_blanks(std::string_view line) {
-    while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
+    while (!line.empty() && interpreter::is_blank(line.back())) line.remove_suffix(1);
     return line;
 }
 
@@ -42,8 +42,8 @@ std::string ProgramLines::line(int number) const {
     const char* p = text_.data() + starts_[static_cast<std::size_t>((number - 1) / lines_a_mark)];
     const char* const end = text_.data() + text_.size();
     for (int skip = (number - 1) % lines_a_mark; skip > 0; --skip)
-        p = past_line_end(find_line_end(p, end), end);
-    const char* const line_end = find_line_end(p, end);
+        p = interpreter::past_line_end(interpreter::find_line_end(p, end), end);
+    const char* const line_end = interpreter::find_line_end(p, end);
     std::string line(without_trailing_blanks({p, static_cast<std::size_t>(line_end - p)}));
     for (char& c : line)
         if (static_cast<unsigned char>(c) < 0x20 && c != '\t') c = '?';
@@ -62,15 +62,16 @@ namespace {
 class TextKeys : public LineKeys {
   public:
     explicit TextKeys(std::string_view text) : text_(text) {
-        while (!text_.empty() && (is_blank(text_.back()) || is_line_end(text_.back())))
+        while (!text_.empty() &&
+               (interpreter::is_blank(text_.back()) || interpreter::is_line_end(text_.back())))
             text_.remove_suffix(1);
     }
     std::optional<KeyedLine> next() override {
         if (at_ >= text_.size()) return std::nullopt;
         const char* const begin = text_.data() + at_;
         const char* const end = text_.data() + text_.size();
-        const char* const line_end = find_line_end(begin, end);
-        const char* const after = line_end == end ? end : past_line_end(line_end, end);
+        const char* const line_end = interpreter::find_line_end(begin, end);
+        const char* const after = line_end == end ? end : interpreter::past_line_end(line_end, end);
         at_ += static_cast<std::size_t>(after - begin);
         const std::string_view line(begin, static_cast<std::size_t>(line_end - begin));
         return KeyedLine{hash_of(without_trailing_blanks(line)), ++number_};
@@ -131,4 +132,4 @@ void key_gaps(const KeyedLines& a, const KeyedLines& b,
     });
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

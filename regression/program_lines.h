@@ -14,7 +14,7 @@
 #include "regression/comparison.h"
 #include "regression/spilled_array.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// Finds lines of a text by number without keeping where each one starts.
 class ProgramLines {
@@ -54,7 +54,7 @@ std::unique_ptr<LineKeys> text_keys(std::string_view text);
 /// comments, the way a number is written, the order of words and repeated modal words (G codes, F,
 /// S, positions) do not count. A line that cannot be read counts as it is written.
 /// With `codes_call` any G, M or T code may call a program, so nothing is a repetition.
-std::unique_ptr<LineKeys> word_keys(std::string_view text, const Dialect& dialect,
+std::unique_ptr<LineKeys> word_keys(std::string_view text, const interpreter::Dialect& dialect,
                                     bool codes_call = false);
 
 /// Stops at the first that differs, and keeps none; `compared`: how many were looked at.
@@ -73,4 +73,4 @@ void key_gaps(const KeyedLines& a, const KeyedLines& b,
 /// FNV-1a, 64 bits, mixed at the end: the same on every machine.
 std::uint64_t hash_of(std::string_view text, std::uint64_t seed = 0xCBF29CE484222325ULL);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -10,7 +10,7 @@
 #include "interpreter/program_folders.h"
 #include "positioning/rotary_transform.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -20,7 +20,7 @@ class BlockKeys {
   public:
     explicit BlockKeys(KeyedLines& lines) : lines_(lines) {}
 
-    void move(const AxisMove& m) {
+    void move(const motion::AxisMove& m) {
         std::uint64_t h = mix(1, static_cast<std::uint64_t>(m.kind) | (m.until_skip ? 8U : 0U) |
                                      (m.gap_free ? 16U : 0U) | (m.coolant ? 32U : 0U) |
                                      (m.curve != nullptr ? 64U : 0U) |
@@ -52,19 +52,20 @@ class BlockKeys {
 };
 
 /// Writes the path, the block keys, the functions and the states of one run at the same time.
-class RecordingSink : public MotionSink {
+class RecordingSink : public motion::MotionSink {
   public:
-    RecordingSink(RecordedRun& run, const Setup& setup, const RecordOptions& options)
+    RecordingSink(RecordedRun& run, const setup::Setup& setup, const RecordOptions& options)
         : run_(run),
           path_(run.path, options.space, options.tolerances),
           keys_(run.blocks),
           functions_(run.functions, run.path, run.blocks) {
-        if (options.devices) machine_.emplace(setup, EffectModels{}, SinkOptions{});
+        if (options.devices)
+            machine_.emplace(setup, emulator::EffectModels{}, emulator::SinkOptions{});
     }
-    MoveResult move(const AxisMove& move) override {
-        const MoveResult made = machine_ ? machine_->move(move) : MoveResult{};
+    motion::MoveResult move(const motion::AxisMove& move) override {
+        const motion::MoveResult made = machine_ ? machine_->move(move) : motion::MoveResult{};
         run_.skips = run_.skips || move.until_skip;
-        AxisMove seen = move;
+        motion::AxisMove seen = move;
         if (made.skipped) seen.to = made.stopped;
         if (control_ != nullptr) path_.feeds_by_time(feeds_by_inverse_time(*control_));
         functions_.before_move(seen);
@@ -72,9 +73,10 @@ class RecordingSink : public MotionSink {
         path_.move(seen);
         return made;
     }
-    void see_through(const RotaryTransform& transform, const Stores& stores) {
+    void see_through(const positioning::RotaryTransform& transform, const offsets::Stores& stores) {
         std::vector<double> lengths_mm;
-        for (const ToolOffset& tool : stores.tools.tool) lengths_mm.push_back(tool.length_mm());
+        for (const offsets::ToolOffset& tool : stores.tools.tool)
+            lengths_mm.push_back(tool.length_mm());
         path_.see_through(&transform, std::move(lengths_mm));
     }
     void dwell(double duration_s) override {
@@ -89,7 +91,7 @@ class RecordingSink : public MotionSink {
         run_.printed += text;
         if (machine_) machine_->printed(text);
     }
-    void watch(const Control& control) {
+    void watch(const controller::Control& control) {
         control_ = &control;
         const BlockLook look = look_at(control, state_);
         run_.reads_bare_words = run_.reads_bare_words || look.bare_words_meet_no_parameter;
@@ -120,14 +122,15 @@ class RecordingSink : public MotionSink {
     PathRecorder path_;
     BlockKeys keys_;
     FunctionRecorder functions_;
-    std::optional<MachineSink> machine_;
-    const Control* control_ = nullptr;
+    std::optional<emulator::MachineSink> machine_;
+    const controller::Control* control_ = nullptr;
     ControlSnapshot state_, kept_;
     std::array<double, 3> rotary_deg_{};
     std::uint64_t segments_before_ = 0;
 };
 
-std::vector<std::string> folders_of(const ProgramText& program, const RecordOptions& options) {
+std::vector<std::string> folders_of(const interpreter::ProgramText& program,
+                                    const RecordOptions& options) {
     std::vector<std::string> folders = options.program_folders;
     const auto own = std::filesystem::path(program.name).parent_path();
     const std::string folder = own.empty() ? "." : own.string();
@@ -136,41 +139,42 @@ std::vector<std::string> folders_of(const ProgramText& program, const RecordOpti
 }
 
 /// A main program in memory that calls the one to compare.
-ProgramText caller_of(const std::string& call) {
+interpreter::ProgramText caller_of(const std::string& call) {
     const auto text = std::make_shared<const std::string>(call + "\nM30\n");
     return {"--call", *text, text};
 }
 
 }  // namespace
 
-std::optional<RotaryTransform> believed_transform(const Setup& setup) {
+std::optional<positioning::RotaryTransform> believed_transform(const setup::Setup& setup) {
     std::vector<Axis> order;
-    for (const ControlAxis& axis : control_config(setup).axes) order.push_back(axis.axis);
-    const auto pivot = decode_pivot(setup.stores.parameters, order);
+    for (const controller::ControlAxis& axis : emulator::control_config(setup).axes)
+        order.push_back(axis.axis);
+    const auto pivot = offsets::decode_pivot(setup.stores.parameters, order);
     if (!pivot) return std::nullopt;
-    return RotaryTransform(*pivot);
+    return positioning::RotaryTransform(*pivot);
 }
 
 constexpr std::size_t most_printed_bytes = 100'000'000;  ///< an endless DPRNT ends here
 
-RecordedRun record_run(const Setup& setup, const ProgramText& program, const RecordOptions& options,
-                       const Setup* seen_through) {
+RecordedRun record_run(const setup::Setup& setup, const interpreter::ProgramText& program,
+                       const RecordOptions& options, const setup::Setup* seen_through) {
     RecordedRun run;
     run.stores = setup.stores;
     RecordingSink sink(run, setup, options);
     const auto seen = seen_through != nullptr ? believed_transform(*seen_through) : std::nullopt;
     if (seen) sink.see_through(*seen, seen_through->stores);
-    ProgramFolders folders(folders_of(program, options));
+    interpreter::ProgramFolders folders(folders_of(program, options));
     folders.add_file(program);
     RememberingSource programs(folders, run.opened);
-    ControlConfig config = control_config(setup);
+    controller::ControlConfig config = emulator::control_config(setup);
     config.max_blocks = options.max_blocks;
     config.go_on = [&run](std::uint64_t) { return run.printed.size() < most_printed_bytes; };
-    Controller controller(std::move(config), run.stores, programs, sink,
-                          [&sink](std::string_view text) { sink.printed(text); });
+    controller::Controller controller(std::move(config), run.stores, programs, sink,
+                                      [&sink](std::string_view text) { sink.printed(text); });
     for (const auto& [number, value] : setup.stores.variables)
         controller.set_variable(number, value);
-    controller.watch([&sink](const Control& control) { sink.watch(control); });
+    controller.watch([&sink](const controller::Control& control) { sink.watch(control); });
     run.result = controller.run(options.call.empty() ? program : caller_of(options.call));
     for (const int number : controller.used_common_variables())
         run.variables[number] = controller.variable(number);
@@ -178,4 +182,4 @@ RecordedRun record_run(const Setup& setup, const ProgramText& program, const Rec
     return run;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

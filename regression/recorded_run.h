@@ -13,7 +13,7 @@
 #include "regression/program_lines.h"
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// What is in force from a segment on, until the next row.
 struct StateRow {
@@ -29,7 +29,7 @@ struct RotaryRow {
 };
 
 struct RecordedRun {
-    RunResult result;
+    controller::RunResult result;
     PathRecord path;    ///< in the space asked for
     KeyedLines blocks;  ///< one key for each move and function: layer `blocks`
     FunctionEvents functions;
@@ -40,7 +40,7 @@ struct RecordedRun {
     bool skips = false;                 ///< G31 moved
     std::string printed;
     std::map<int, double> variables;  ///< common variables in use
-    Stores stores;                    ///< as the program left them
+    offsets::Stores stores;           ///< as the program left them
 };
 
 struct RecordOptions {
@@ -53,12 +53,12 @@ struct RecordOptions {
 };
 
 /// The kinematics that the setup's control believes in; nothing without parameters.
-std::optional<RotaryTransform> believed_transform(const Setup& setup);
+std::optional<positioning::RotaryTransform> believed_transform(const setup::Setup& setup);
 
 /// Without `devices` G31 runs to its end. NC alarms are in the result. With `seen_through` the
 /// path is where the tip goes when that setup's pivot parameters and tool lengths are the true
 /// ones.
-RecordedRun record_run(const Setup& setup, const ProgramText& program, const RecordOptions& options,
-                       const Setup* seen_through = nullptr);
+RecordedRun record_run(const setup::Setup& setup, const interpreter::ProgramText& program,
+                       const RecordOptions& options, const setup::Setup* seen_through = nullptr);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -31,4 +31,4 @@ std::vector<std::string> notes_of(const RecordedRun* a, const RecordedRun& b,
     return notes;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -6,11 +6,11 @@
 
 #include "regression/compare_programs.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// The runs' own notes, with the side where only one has it, and one line about what was not
 /// compared. `a` is nullptr where a golden stands for it.
 std::vector<std::string> notes_of(const RecordedRun* a, const RecordedRun& b,
                                   const CompareOptions& options);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -7,7 +7,7 @@
 
 #include "geometry/pose.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// What a segment is to the comparer. A jump is no motion: the believed tip changes place (G43,
 /// G49).
@@ -59,4 +59,4 @@ struct Tolerances {
     double chord_rad() const { return 0.02 * direction_rad; }
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

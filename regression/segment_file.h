@@ -4,9 +4,9 @@
 #include "regression/segment.h"
 #include "regression/spilled_array.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 using SegmentFile = SpilledArray<Segment>;
 using SegmentWindow = SpilledWindow<Segment>;
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

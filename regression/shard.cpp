@@ -7,7 +7,7 @@
 #include "base/alarm.h"
 #include "regression/suite.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -85,4 +85,4 @@ Shard parse_shard(const std::string& text) {
     return checked(found->index, count, text);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -2,7 +2,7 @@
 
 #include "regression/chords.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -53,4 +53,4 @@ void ShortRuns::write_held_as(const Segment& like) {
     write_held();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

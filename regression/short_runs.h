@@ -5,7 +5,7 @@
 
 #include "regression/path_record.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// Stands before a PathRecord. A run of cuts between rapids, or of rapids between cuts, that is not
 /// longer than `noise_mm` is passed on as part of what follows it; at the end of the program, of
@@ -29,4 +29,4 @@ class ShortRuns {
     Segment last_;   ///< written
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -11,7 +11,7 @@
 #include "base/alarm.h"
 #include "base/file_handle.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -69,4 +69,4 @@ void TemporaryFile::read(void* data, std::size_t bytes, std::uint64_t at) const 
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// Bytes in an unnamed temporary file ($TMPDIR, else /tmp), gone when the process ends. Throws
 /// InputError with the reason when the disk is full.
@@ -119,4 +119,4 @@ class SpilledWindow {
     const std::vector<T>* items_ = nullptr;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

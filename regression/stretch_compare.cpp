@@ -6,7 +6,7 @@
 
 #include "regression/deviation.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -324,4 +324,4 @@ void StretchComparer::add_region(Corner from, Corner to) {
     regions_->push_back(region);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

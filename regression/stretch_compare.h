@@ -8,7 +8,7 @@
 #include "regression/align.h"
 #include "regression/attribute_compare.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// What was seen on the way, differences or not.
 struct WalkTotals {
@@ -68,4 +68,4 @@ class StretchComparer {
     std::vector<Corner> commits_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

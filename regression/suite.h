@@ -10,7 +10,7 @@
 
 #include "regression/compare_programs.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// One comparison to make.
 struct SuiteCase {
@@ -54,7 +54,7 @@ struct SuiteRun {
     std::vector<std::size_t> places;  ///< their numbers in the suite
 };
 /// Loads setups by path ("" is the default one).
-using SetupLoader = Setup (*)(const std::string& path);
+using SetupLoader = setup::Setup (*)(const std::string& path);
 /// Who looks on while a suite runs; both may be empty, both are called from any thread.
 struct SuiteWatch {
     std::function<void(std::size_t done, std::size_t total)> progress;
@@ -68,4 +68,4 @@ SuiteRun run_suite(const Suite& suite, Shard shard, SetupLoader load, unsigned t
 std::map<std::string, std::string> updated_goldens(const Suite& suite, const std::string& reason,
                                                    SetupLoader load);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -8,7 +8,7 @@
 #include "base/units.h"
 #include "regression/suite.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace fs = std::filesystem;
 
@@ -231,4 +231,4 @@ Suite read_suite(const std::string& path, const SuiteCase& like) {
     return suite;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

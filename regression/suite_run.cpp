@@ -13,7 +13,7 @@
 #include "regression/golden.h"
 #include "regression/suite.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -31,10 +31,10 @@ class Setups {
             for (const std::string& path : {c.setup, c.setup_b})
                 if (!by_path_.contains(path)) by_path_.emplace(path, load(path));
     }
-    const Setup& at(const std::string& path) const { return by_path_.at(path); }
+    const setup::Setup& at(const std::string& path) const { return by_path_.at(path); }
 
   private:
-    std::map<std::string, Setup> by_path_;
+    std::map<std::string, setup::Setup> by_path_;
 };
 
 Comparison not_compared(const SuiteCase& c, const std::string& why, CompareStatus status) {
@@ -55,12 +55,12 @@ Comparison compare_case(const SuiteCase& c, const Setups& setups) {
             return not_compared(c, "no golden yet: " + c.golden + " (--update --reason writes it)",
                                 CompareStatus::differs);
         const Golden golden = parse_golden(*text, c.golden);
-        return compare_with_golden(golden.path, c.golden, read_main_program(c.b),
+        return compare_with_golden(golden.path, c.golden, interpreter::read_main_program(c.b),
                                    setups.at(c.setup), c.options);
     }
     if (c.a.empty()) return not_compared(c, "only in B: " + c.b, CompareStatus::differs);
-    return compare_programs(read_main_program(c.a), setups.at(c.setup), read_main_program(c.b),
-                            setups.at(c.setup_b), c.options);
+    return compare_programs(interpreter::read_main_program(c.a), setups.at(c.setup),
+                            interpreter::read_main_program(c.b), setups.at(c.setup_b), c.options);
 }
 
 /// A bad file spoils its own case only.
@@ -145,13 +145,14 @@ std::map<std::string, std::string> updated_goldens(const Suite& suite, const std
         std::vector<std::string> reasons{reason};
         if (const auto text = read_golden(c.golden)) {
             const Golden golden = parse_golden(*text, c.golden);
-            const Comparison now = compare_with_golden(
-                golden.path, c.golden, read_main_program(c.b), setups.at(c.setup), c.options);
+            const Comparison now =
+                compare_with_golden(golden.path, c.golden, interpreter::read_main_program(c.b),
+                                    setups.at(c.setup), c.options);
             if (now.equal) continue;
             reasons.insert(reasons.end(), golden.reasons.begin(), golden.reasons.end());
         }
         const RecordedRun run =
-            record_run(setups.at(c.setup), read_main_program(c.b),
+            record_run(setups.at(c.setup), interpreter::read_main_program(c.b),
                        {PathSpace::tip, c.options.tolerances, c.options.program_folders,
                         c.options.max_blocks, "", c.options.devices});
         if (run.result.alarm) {
@@ -163,4 +164,4 @@ std::map<std::string, std::string> updated_goldens(const Suite& suite, const std
     return files;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

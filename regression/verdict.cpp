@@ -7,7 +7,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -67,4 +67,4 @@ std::string verdict_of(const Comparison& c, const Tolerances& tolerances) {
     return c.equal ? equal_verdict(c, tolerances) : differing_verdict(c);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

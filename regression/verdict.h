@@ -6,9 +6,9 @@
 #include "regression/comparison.h"
 #include "regression/segment.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// For a comparison whose status, layers and differences stand.
 std::string verdict_of(const Comparison& comparison, const Tolerances& tolerances);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -11,14 +11,14 @@
 #include "regression/program_lines.h"
 #include "regression/word_memory.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
 /// Case aside; `word` in upper case.
 bool holds(std::string_view text, std::string_view word) {
     return std::search(text.begin(), text.end(), word.begin(), word.end(),
-                       [](char a, char b) { return upper(a) == b; }) != text.end();
+                       [](char a, char b) { return interpreter::upper(a) == b; }) != text.end();
 }
 
 /// The line without blanks and comments, upper case: for blocks that compute.
@@ -28,19 +28,19 @@ std::uint64_t key_of_text(std::string_view line, bool keep_number) {
     const bool prints = holds(line, "PRNT");  // there blanks and case are printed
     for (const char c : line) {
         if (prints) {
-            if (!is_line_end(c)) bare += c;
+            if (!interpreter::is_line_end(c)) bare += c;
             continue;
         }
         if (c == '(')
             ++comment;
         else if (c == ')')
             comment = 0;
-        else if (comment == 0 && !is_blank(c) && !is_line_end(c))
-            bare += upper(c);
+        else if (comment == 0 && !interpreter::is_blank(c) && !interpreter::is_line_end(c))
+            bare += interpreter::upper(c);
     }
     std::size_t start = 0;
-    if (!keep_number && bare.size() > 1 && bare[0] == 'N' && is_digit(bare[1]))
-        while (++start < bare.size() && is_digit(bare[start])) {
+    if (!keep_number && bare.size() > 1 && bare[0] == 'N' && interpreter::is_digit(bare[1]))
+        while (++start < bare.size() && interpreter::is_digit(bare[start])) {
         }
     return start == bare.size() ? 0 : hash_of(std::string_view(bare).substr(start));
 }
@@ -49,18 +49,18 @@ std::uint64_t with_number(std::uint64_t key, std::uint64_t number) {
     return (key ^ (number + 1)) * 0xBF58476D1CE4E5B9ULL;
 }
 
-bool is_plain(const Block& block, const Code& code) {
-    if (block.kind != BlockKind::words) return false;
+bool is_plain(const interpreter::Block& block, const interpreter::Code& code) {
+    if (block.kind != interpreter::BlockKind::words) return false;
     for (std::uint32_t k = 0; k < block.items.count; ++k) {
-        const Item& item = code.items[block.items.first + k];
-        if (item.kind != ItemKind::word || item.letter == '<') return false;
+        const interpreter::Item& item = code.items[block.items.first + k];
+        if (item.kind != interpreter::ItemKind::word || item.letter == '<') return false;
     }
     return true;
 }
 
 /// G10 of a table whose lines begin with the number of what they set, as N words (L3, L50, L52);
 /// in doubt too.
-bool begins_table(const Item* items, std::size_t count) {
+bool begins_table(const interpreter::Item* items, std::size_t count) {
     bool g10 = false, other = true;
     for (std::size_t k = 0; k < count; ++k) {
         if (items[k].letter == 'G' && items[k].value == 10.0) g10 = true;
@@ -73,7 +73,7 @@ bool begins_table(const Item* items, std::size_t count) {
 
 class WordKeys : public LineKeys {
   public:
-    WordKeys(std::string_view text, const Dialect& dialect, bool codes_call)
+    WordKeys(std::string_view text, const interpreter::Dialect& dialect, bool codes_call)
         : text_(text),
           codes_call_(codes_call),
           jumps_(holds(text, "GO") || holds(text, "WH") || holds(text, "M99")) {
@@ -85,8 +85,9 @@ class WordKeys : public LineKeys {
         while (byte_ < text_.size()) {
             const char* const begin = text_.data() + byte_;
             const char* const end = text_.data() + text_.size();
-            const char* const line_end = find_line_end(begin, end);
-            const char* const after = line_end == end ? end : past_line_end(line_end, end);
+            const char* const line_end = interpreter::find_line_end(begin, end);
+            const char* const after =
+                line_end == end ? end : interpreter::past_line_end(line_end, end);
             const auto key = key_of({begin, static_cast<std::size_t>(line_end - begin)}, ++number_);
             byte_ += static_cast<std::uint64_t>(after - begin);
             if (key) return KeyedLine{*key, static_cast<std::uint32_t>(number_)};
@@ -98,7 +99,8 @@ class WordKeys : public LineKeys {
     std::optional<std::uint64_t> key_of(std::string_view line, int number) {
         code_.clear();
         try {
-            const Block block = parse_block(text_, byte_, number, options_, code_);
+            const interpreter::Block block =
+                interpreter::parse_block(text_, byte_, number, options_, code_);
             if (is_plain(block, code_)) return key_of_words(block);
             forget_by(block);
         } catch (const Alarm&) {  // counts as it is written
@@ -109,15 +111,15 @@ class WordKeys : public LineKeys {
     }
 
     /// A statement may write offsets, a computed or optional block anything.
-    void forget_by(const Block& block) {
-        if (block.kind == BlockKind::statements)
+    void forget_by(const interpreter::Block& block) {
+        if (block.kind == interpreter::BlockKind::statements)
             memory_.forget_positions();
         else if (block.items.count > 0)
             memory_.forget();
     }
 
-    std::optional<std::uint64_t> key_of_words(const Block& block) {
-        const Item* const items = code_.items.data() + block.items.first;
+    std::optional<std::uint64_t> key_of_words(const interpreter::Block& block) {
+        const interpreter::Item* const items = code_.items.data() + block.items.first;
         const bool numbered = (jumps_ || in_table_) && block.sequence_number >= 0;
         const auto number = static_cast<std::uint64_t>(numbered ? block.sequence_number : 0);
         if (block.items.count == 0)
@@ -135,8 +137,8 @@ class WordKeys : public LineKeys {
     bool in_table_ = false;  ///< between G10 L50 and G11: N numbers are data
     /// Where a program jumps, N numbers are targets and what is in force depends on the way taken.
     bool jumps_;
-    ParseOptions options_;
-    Code code_;
+    interpreter::ParseOptions options_;
+    interpreter::Code code_;
     WordMemory memory_;
     std::uint64_t byte_ = 0;
     int number_ = 0;
@@ -144,9 +146,9 @@ class WordKeys : public LineKeys {
 
 }  // namespace
 
-std::unique_ptr<LineKeys> word_keys(std::string_view text, const Dialect& dialect,
+std::unique_ptr<LineKeys> word_keys(std::string_view text, const interpreter::Dialect& dialect,
                                     bool codes_call) {
     return std::make_unique<WordKeys>(text, dialect, codes_call);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -48,7 +48,7 @@ bool point_counts(char letter) {
 bool is_position(char letter) {
     return std::strchr("XYZABC", letter) != nullptr;
 }
-int g_code(const Item& item) {
+int g_code(const interpreter::Item& item) {
     return static_cast<int>(std::lround(item.value * 10.0));
 }
 
@@ -63,7 +63,7 @@ bool is_known(std::optional<std::uint64_t>& known, std::uint64_t value, bool all
     return same;
 }
 
-std::uint64_t key_of_value(const Item& item) {
+std::uint64_t key_of_value(const interpreter::Item& item) {
     const bool no_point = !item.decimal_point && item.value != 0.0 && point_counts(item.letter);
     return mix(bits_of(item.value), no_point ? 1 : 0);
 }
@@ -80,11 +80,11 @@ struct WordMemory::BlockLook {
 
 namespace {
 
-WordMemory::BlockLook look_at(const Item* items, std::size_t count) {
+WordMemory::BlockLook look_at(const interpreter::Item* items, std::size_t count) {
     WordMemory::BlockLook look;
     std::uint32_t letters = 0, groups = 0;
     for (std::size_t k = 0; k < count; ++k) {
-        const Item& item = items[k];
+        const interpreter::Item& item = items[k];
         if (item.letter == 'G') {
             const int code = g_code(item), group = group_of(code);
             if (group > 0 && (groups & (1U << group)) != 0) look.order_counts = true;
@@ -123,7 +123,7 @@ void WordMemory::forget() {
     modal_call_ = true;
 }
 
-std::optional<std::uint64_t> WordMemory::key_of(const Item* items, std::size_t count) {
+std::optional<std::uint64_t> WordMemory::key_of(const interpreter::Item* items, std::size_t count) {
     words_.clear();
     const BlockLook look = look_at(items, count);
     if (look.calls) forget();
@@ -143,7 +143,7 @@ void WordMemory::forget_values() {
     feed_ = speed_ = std::nullopt;
 }
 
-void WordMemory::take_g(const Item& item, const BlockLook& look) {
+void WordMemory::take_g(const interpreter::Item& item, const BlockLook& look) {
     const int code = g_code(item), group = group_of(code);
     if (group == 0) {
         group_[motion].reset();  // a cycle takes the motion group's place
@@ -160,7 +160,7 @@ void WordMemory::take_g(const Item& item, const BlockLook& look) {
     words_.push_back({'G', bits_of(item.value)});
 }
 
-void WordMemory::take(const Item& item, const BlockLook& look) {
+void WordMemory::take(const interpreter::Item& item, const BlockLook& look) {
     const std::uint64_t value = key_of_value(item);
     if (!look.order_counts && repeats(item.letter, value, look)) return;
     words_.push_back({item.letter, value});
@@ -186,7 +186,8 @@ bool WordMemory::absolute_straight() const {
 
 /// M codes act in the order written; other words in an order of their own, unless one is there
 /// twice.
-std::uint64_t WordMemory::hash(const BlockLook& look, const Item* items, std::size_t count) {
+std::uint64_t WordMemory::hash(const BlockLook& look, const interpreter::Item* items,
+                               std::size_t count) {
     std::uint64_t h = 7;
     if (look.order_counts) {
         for (std::size_t k = 0; k < count; ++k)
@@ -202,4 +203,4 @@ std::uint64_t WordMemory::hash(const BlockLook& look, const Item* items, std::si
     return h;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

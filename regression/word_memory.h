@@ -8,7 +8,7 @@
 
 #include "interpreter/code.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// Where the words do not tell what is in force, nothing is a repetition.
 class WordMemory {
@@ -21,7 +21,7 @@ class WordMemory {
     void forget_positions() { position_.fill(std::nullopt); }
 
     /// The key of a block of plain words, or nothing when all of them repeat what is in force.
-    std::optional<std::uint64_t> key_of(const Item* items, std::size_t count);
+    std::optional<std::uint64_t> key_of(const interpreter::Item* items, std::size_t count);
 
     struct BlockLook;
 
@@ -31,12 +31,12 @@ class WordMemory {
         std::uint64_t value;
     };
     void forget_values();
-    void take_g(const Item& item, const BlockLook& look);
-    void take(const Item& item, const BlockLook& look);
+    void take_g(const interpreter::Item& item, const BlockLook& look);
+    void take(const interpreter::Item& item, const BlockLook& look);
     bool repeats(char letter, std::uint64_t value, const BlockLook& look);
     bool per_minute() const;
     bool absolute_straight() const;
-    std::uint64_t hash(const BlockLook& look, const Item* items, std::size_t count);
+    std::uint64_t hash(const BlockLook& look, const interpreter::Item* items, std::size_t count);
 
     std::array<std::optional<int>, 16> group_{};  ///< code * 10 by modal group
     std::array<std::optional<std::uint64_t>, 26> position_{};
@@ -45,4 +45,4 @@ class WordMemory {
     std::vector<Word> words_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

@@ -7,7 +7,7 @@
 #include "regression/block_difference.h"
 #include "regression/written_layers.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -20,8 +20,8 @@ int line_at(SpilledWindow<KeyedLine>& keys, std::uint64_t at) {
 
 }  // namespace
 
-WrittenGaps::WrittenGaps(const ProgramText& a, const Setup& setup_a, const ProgramText& b,
-                         const Setup& setup_b)
+WrittenGaps::WrittenGaps(const interpreter::ProgramText& a, const setup::Setup& setup_a,
+                         const interpreter::ProgramText& b, const setup::Setup& setup_b)
     : a_(a), b_(b), setup_a_(setup_a), setup_b_(setup_b), lines_a_(a.text), lines_b_(b.text) {}
 
 void WrittenGaps::find_gaps() {
@@ -126,4 +126,4 @@ std::optional<WrittenCause> WrittenGaps::said(const WrittenGap& gap, int line_a,
     return WrittenCause{gap.line_a, gap.line_b, ""};
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

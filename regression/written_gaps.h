@@ -8,7 +8,7 @@
 #include "regression/describe.h"
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// A stretch of blocks written differently, by line; a side without blocks has the line that
 /// follows, and count 0.
@@ -28,8 +28,8 @@ struct WrittenCause {
 /// there the time is worth more than the hint.
 class WrittenGaps {
   public:
-    WrittenGaps(const ProgramText& a, const Setup& setup_a, const ProgramText& b,
-                const Setup& setup_b);
+    WrittenGaps(const interpreter::ProgramText& a, const setup::Setup& setup_a,
+                const interpreter::ProgramText& b, const setup::Setup& setup_b);
 
     /// The last gap at or before these lines (0: that side says nothing), said in words.
     std::optional<WrittenCause> before(int line_a, int line_b);
@@ -45,10 +45,10 @@ class WrittenGaps {
     std::array<std::optional<double>, 3> start_of(int line_a);
     WrittenCause missing(const WrittenGap& gap);
 
-    ProgramText a_, b_;
-    const Setup &setup_a_, &setup_b_;
+    interpreter::ProgramText a_, b_;
+    const setup::Setup &setup_a_, &setup_b_;
     ProgramLines lines_a_, lines_b_;
     std::optional<std::vector<WrittenGap>> gaps_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

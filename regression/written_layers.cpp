@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace trunnion {
+namespace trunnion::regression {
 
 namespace {
 
@@ -12,8 +12,9 @@ const std::vector<OpenedProgram>& opened_by(const WrittenSide& side) {
     return side.opened != nullptr ? *side.opened : none;
 }
 
-bool same_program(Layer layer, const ProgramText& a, const Setup& setup_a, const ProgramText& b,
-                  const Setup& setup_b, std::uint64_t& compared) {
+bool same_program(Layer layer, const interpreter::ProgramText& a, const setup::Setup& setup_a,
+                  const interpreter::ProgramText& b, const setup::Setup& setup_b,
+                  std::uint64_t& compared) {
     if (a.text.data() == b.text.data() && a.text.size() == b.text.size()) return true;
     std::uint64_t lines = 0;
     const bool same =
@@ -22,8 +23,9 @@ bool same_program(Layer layer, const ProgramText& a, const Setup& setup_a, const
     return same;
 }
 
-void describe_pair(Layer layer, const ProgramText& a, const Setup& setup_a, const ProgramText& b,
-                   const Setup& setup_b, std::size_t most, Comparison& result) {
+void describe_pair(Layer layer, const interpreter::ProgramText& a, const setup::Setup& setup_a,
+                   const interpreter::ProgramText& b, const setup::Setup& setup_b, std::size_t most,
+                   Comparison& result) {
     SourceLines lines_a(a), lines_b(b);
     const std::uint64_t before = result.compared;
     describe_gaps(all_keys(*written_keys(a, layer, setup_a)),
@@ -50,8 +52,8 @@ const OpenedProgram* find(const std::vector<OpenedProgram>& programs, const std:
 
 }  // namespace
 
-std::unique_ptr<LineKeys> written_keys(const ProgramText& program, Layer layer,
-                                       const Setup& setup) {
+std::unique_ptr<LineKeys> written_keys(const interpreter::ProgramText& program, Layer layer,
+                                       const setup::Setup& setup) {
     if (layer == Layer::text) return text_keys(program.text);
     return word_keys(program.text, setup.dialect, codes_call(setup));
 }
@@ -83,4 +85,4 @@ void describe_written(Layer layer, const WrittenSide& a, const WrittenSide& b, s
         if (q.found && find(opened_by(a), q.asked) == nullptr) describe_missing(q, false, result);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

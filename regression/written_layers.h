@@ -6,17 +6,18 @@
 #include "regression/describe.h"
 #include "regression/recorded_run.h"
 
-namespace trunnion {
+namespace trunnion::regression {
 
 /// One side: its main program, and what its run opened (empty where nothing can be called).
 struct WrittenSide {
-    const ProgramText* main = nullptr;
+    const interpreter::ProgramText* main = nullptr;
     const std::vector<OpenedProgram>* opened = nullptr;
-    const Setup* setup = nullptr;
+    const setup::Setup* setup = nullptr;
 };
 
 /// The keys of one program in a layer, text or words.
-std::unique_ptr<LineKeys> written_keys(const ProgramText& program, Layer layer, const Setup& setup);
+std::unique_ptr<LineKeys> written_keys(const interpreter::ProgramText& program, Layer layer,
+                                       const setup::Setup& setup);
 
 /// True when all programs are written alike in that layer; then, on one setup, both runs are the
 /// same.
@@ -27,4 +28,4 @@ bool written_alike(Layer layer, const WrittenSide& a, const WrittenSide& b,
 void describe_written(Layer layer, const WrittenSide& a, const WrittenSide& b, std::size_t most,
                       Comparison& result);
 
-}  // namespace trunnion
+}  // namespace trunnion::regression

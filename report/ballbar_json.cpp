@@ -3,15 +3,15 @@
 #include "base/units.h"
 #include "report/ballbar_report.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json stores_json(const StoresToType& stores) {
+Json stores_json(const setup::StoresToType& stores) {
     Json list = Json::array();
-    for (const StoreLine& line : stores.lines)
+    for (const setup::StoreLine& line : stores.lines)
         list.push_back({{"name", line.in_force.name},
                         {"in_force_mm", line.in_force.value_mm},
                         {"exact_mm", line.exact_mm},
@@ -19,13 +19,13 @@ Json stores_json(const StoresToType& stores) {
     return list;
 }
 
-const char* unit_of(const ErrorName& name) {
+const char* unit_of(const kinematics::ErrorName& name) {
     return name.angular() ? "rad" : "mm";
 }
 
-Json rows_json(const std::vector<BallbarErrorRow>& rows, bool after) {
+Json rows_json(const std::vector<ballbar::test::BallbarErrorRow>& rows, bool after) {
     Json list = Json::array();
-    for (const BallbarErrorRow& row : rows) {
+    for (const ballbar::test::BallbarErrorRow& row : rows) {
         Json entry = {{"name", to_string(row.name)},
                       {"before", row.before},
                       {"after", after ? Json(row.after) : Json()},
@@ -39,10 +39,10 @@ Json rows_json(const std::vector<BallbarErrorRow>& rows, bool after) {
     return list;
 }
 
-Json planar_json(const PlanarResult& planar) {
-    const CircularFigures& f = planar.figures;
+Json planar_json(const ballbar::test::PlanarResult& planar) {
+    const ballbar::test::CircularFigures& f = planar.figures;
     Json causes = Json::array();
-    for (const CircularCause& c : planar.diagnosis.causes)
+    for (const ballbar::test::CircularCause& c : planar.diagnosis.causes)
         causes.push_back({{"name", c.name},
                           {"effect", c.effect},
                           {"value", c.value},
@@ -53,7 +53,7 @@ Json planar_json(const PlanarResult& planar) {
                           {"rank", c.rank},
                           {"significant", c.significant},
                           {"note", c.note}});
-    return {{"plane", plane_name(planar.test.plane)},
+    return {{"plane", ballbar::test::plane_name(planar.test.plane)},
             {"feed_mm_min", planar.test.passes.front().feed_mm_min},
             {"arc_deg", deg_from_rad(planar.test.arc_rad)},
             {"circularity_ccw_um", f.circularity_ccw_um},
@@ -69,14 +69,14 @@ Json planar_json(const PlanarResult& planar) {
             {"residual_um", planar.diagnosis.residual_um}};
 }
 
-Json groups_json(const std::vector<InseparableGroup>& groups) {
+Json groups_json(const std::vector<ballbar::test::InseparableGroup>& groups) {
     Json list = Json::array();
-    for (const InseparableGroup& group : groups)
+    for (const ballbar::test::InseparableGroup& group : groups)
         list.push_back({{"names", group.names}, {"direction", group.direction}});
     return list;
 }
 
-Json time_json(const BallbarResult& r) {
+Json time_json(const ballbar::test::BallbarResult& r) {
     return {{"program_s", r.before.time_s},
             {"one_setup_s", r.single_setup_s()},
             {"two_setups_s", r.two_setups_s()},
@@ -84,7 +84,7 @@ Json time_json(const BallbarResult& r) {
             {"assumed_remount_s", r.times.remount_s}};
 }
 
-Json residual_json(const BallbarResult& r) {
+Json residual_json(const ballbar::test::BallbarResult& r) {
     return {
         {"rms_um", um_from_mm(r.fit.rms_mm)},
         {"noise_um", um_from_mm(r.fit.noise_mm)},
@@ -97,7 +97,7 @@ Json residual_json(const BallbarResult& r) {
 
 }  // namespace
 
-std::string ballbar_json(const BallbarResult& r) {
+std::string ballbar_json(const ballbar::test::BallbarResult& r) {
     Json out;
     out["schema"] = "trunnion.ballbar/1";
     out["machine"] = r.machine;
@@ -106,7 +106,8 @@ std::string ballbar_json(const BallbarResult& r) {
     out["time_s"] = r.before.time_s;
     out["time"] = time_json(r);
     out["circularity"] = Json::array();
-    for (const PlanarResult& planar : r.planar) out["circularity"].push_back(planar_json(planar));
+    for (const ballbar::test::PlanarResult& planar : r.planar)
+        out["circularity"].push_back(planar_json(planar));
     out["readings"] = r.fit.residual_mm.size();
     out["rank"] = r.open_fit.rank;
     out["unknowns"] = r.open_fit.parameters.size();
@@ -116,10 +117,10 @@ std::string ballbar_json(const BallbarResult& r) {
     out["location_check"] = {{"pivot_offset_mm", {p.x(), p.y(), p.z()}},
                              {"length_error_mm", r.published.length_error_mm},
                              {"rms_um", um_from_mm(r.published.setup_rms_mm)}};
-    const BarLength bar = bar_length(r);
+    const ballbar::test::BarLength bar = ballbar::test::bar_length(r);
     out["bar_length"] = {
         {"reference_mm", r.reference_mm}, {"error_mm", bar.error_mm}, {"sigma_mm", bar.sigma_mm}};
-    const Vector3 pivot = pivot_found_mm(r);
+    const Vector3 pivot = ballbar::test::pivot_found_mm(r);
     out["pivot_found_mm"] = {pivot.x(), pivot.y(), pivot.z()};
     out["true_tip_um"] = r.true_tip_um ? Json(*r.true_tip_um) : Json();
     out["sphere_check"] = r.sphere_check ? Json{{"poses", r.sphere_check->poses},
@@ -132,4 +133,4 @@ std::string ballbar_json(const BallbarResult& r) {
     return out.dump(2) + "\n";
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

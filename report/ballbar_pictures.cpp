@@ -6,7 +6,7 @@
 #include "report/ballbar_report.h"
 #include "report/polar_plot.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 namespace {
 
@@ -16,11 +16,11 @@ std::string um(double value) {
     return fmt::format("{:.2f} µm", std::abs(value) < 0.005 ? 0.0 : value);
 }
 
-std::string set_up_line(const BallbarResult& r) {
+std::string set_up_line(const ballbar::test::BallbarResult& r) {
     return fmt::format("{}  ·  single set-up, L0 {:g} mm", r.machine, r.data.layout.length_mm);
 }
 
-PolarSection figures_section(const CircularFigures& f) {
+PolarSection figures_section(const ballbar::test::CircularFigures& f) {
     return {"ISO 230-4",
             {{"circularity, ccw", um(f.circularity_ccw_um)},
              {"circularity, cw", um(f.circularity_cw_um)},
@@ -31,9 +31,9 @@ PolarSection figures_section(const CircularFigures& f) {
              {"hysteresis", um(f.hysteresis_um)}}};
 }
 
-PolarSection diagnosis_section(const CircularDiagnosis& diagnosis) {
+PolarSection diagnosis_section(const ballbar::test::CircularDiagnosis& diagnosis) {
     PolarSection section{"Diagnosis (share of all traces)", {}};
-    for (const CircularCause& c : diagnosis.causes) {
+    for (const ballbar::test::CircularCause& c : diagnosis.causes) {
         if (!c.significant || section.rows.size() == lines_shown) continue;
         section.rows.emplace_back(fmt::format("{}. {}", c.rank, c.name),
                                   fmt::format("{:.2f} {}  {:.0f} %", c.value,
@@ -46,24 +46,26 @@ PolarSection diagnosis_section(const CircularDiagnosis& diagnosis) {
     return section;
 }
 
-PolarPlot planar_plot(const BallbarResult& r, const PlanarResult& planar) {
-    const auto [u, v] = axes_of_plane(planar.test.plane);
+PolarPlot planar_plot(const ballbar::test::BallbarResult& r,
+                      const ballbar::test::PlanarResult& planar) {
+    const auto [u, v] = ballbar::test::axes_of_plane(planar.test.plane);
     const double feed = planar.test.passes.front().feed_mm_min;
     PolarPlot plot;
     plot.title = fmt::format("{} circle, radius {:g} mm, {:.0f}°, {:.0f} mm/min",
-                             plane_name(planar.test.plane), planar.test.radius_mm,
+                             ballbar::test::plane_name(planar.test.plane), planar.test.radius_mm,
                              deg_from_rad(planar.test.arc_rad), feed);
     plot.subtitle = set_up_line(r);
     plot.right = std::string("+") + letter_of(u);
     plot.top = std::string("+") + letter_of(v);
     plot.left = std::string("-") + letter_of(u);
     plot.bottom = std::string("-") + letter_of(v);
-    for (const CircularPass& pass : planar.test.passes) {
+    for (const ballbar::test::CircularPass& pass : planar.test.passes) {
         PolarTrace trace{pass.ccw ? "counter-clockwise" : "clockwise",
                          pass.angle_rad,
                          {},
                          rad_from_deg(r.data.overshoot_deg)};
-        for (const double mm : centred_radial_mm(pass, planar.test.circle, planar.test.radius_mm))
+        for (const double mm :
+             ballbar::test::centred_radial_mm(pass, planar.test.circle, planar.test.radius_mm))
             trace.radial_um.push_back(um_from_mm(mm));
         plot.traces.push_back(std::move(trace));
     }
@@ -73,8 +75,9 @@ PolarPlot planar_plot(const BallbarResult& r, const PlanarResult& planar) {
 }
 
 /// Means over neighbouring readings, less the mean of the pass.
-PolarTrace rotary_trace(const std::vector<Reading>& rows, const BallbarPass& pass,
-                        const std::string& name, double feed_in_rad) {
+PolarTrace rotary_trace(const std::vector<records::Reading>& rows,
+                        const ballbar::test::BallbarPass& pass, const std::string& name,
+                        double feed_in_rad) {
     PolarTrace trace{name, {}, {}, feed_in_rad};
     const std::size_t count = pass.end - pass.begin;
     const std::size_t blocks = std::min<std::size_t>(count, 720);
@@ -92,16 +95,18 @@ PolarTrace rotary_trace(const std::vector<Reading>& rows, const BallbarPass& pas
     return trace;
 }
 
-std::string direction_of(const BallbarPass& pass) {
+std::string direction_of(const ballbar::test::BallbarPass& pass) {
     return pass.travel > 0.0 ? "angle rising" : "angle falling";
 }
 
-PolarPlot rotary_plot(const BallbarResult& r, const BallbarPass& pass) {
+PolarPlot rotary_plot(const ballbar::test::BallbarResult& r,
+                      const ballbar::test::BallbarPass& pass) {
     const char axis = letter_of(*pass.test.rotary);
     PolarPlot plot;
-    plot.title = fmt::format("{} test of {}, {:.0f}°, TCP on",
-                             pass.test.kind == BallbarTestKind::radial ? "Radial" : "Axial", axis,
-                             std::abs(deg_from_rad(pass.travel)));
+    plot.title =
+        fmt::format("{} test of {}, {:.0f}°, TCP on",
+                    pass.test.kind == ballbar::test::BallbarTestKind::radial ? "Radial" : "Axial",
+                    axis, std::abs(deg_from_rad(pass.travel)));
     plot.subtitle = set_up_line(r) + ", bar length about its mean";
     plot.right = fmt::format("{} 0°", axis);
     plot.top = fmt::format("{} 90°", axis);
@@ -120,9 +125,11 @@ double largest_um(const std::vector<PolarTrace>& traces, std::size_t from, std::
     return out;
 }
 
-void add_rotary_plots(const BallbarResult& r, std::map<std::string, std::string>& out) {
+void add_rotary_plots(const ballbar::test::BallbarResult& r,
+                      std::map<std::string, std::string>& out) {
     std::map<std::string, PolarPlot> plots;
-    for (const BallbarPass& pass : ballbar_passes(r.before.readings.rows)) {
+    for (const ballbar::test::BallbarPass& pass :
+         ballbar::test::ballbar_passes(r.before.readings.rows)) {
         if (!pass.test.rotary) continue;
         const auto [at, added] = plots.try_emplace(to_string(pass.test));
         if (added) at->second = rotary_plot(r, pass);
@@ -135,7 +142,8 @@ void add_rotary_plots(const BallbarResult& r, std::map<std::string, std::string>
         plot.fitted_um = fit_eccentric_circle(plot.traces);
         before[name] = plot.traces.size();
     }
-    for (const BallbarPass& pass : ballbar_passes(r.after.readings.rows))
+    for (const ballbar::test::BallbarPass& pass :
+         ballbar::test::ballbar_passes(r.after.readings.rows))
         if (pass.test.rotary)
             plots[to_string(pass.test)].traces.push_back(
                 rotary_trace(r.after.readings.rows, pass, "after, " + direction_of(pass), 0.0));
@@ -154,14 +162,14 @@ void add_rotary_plots(const BallbarResult& r, std::map<std::string, std::string>
 
 }  // namespace
 
-std::map<std::string, std::string> ballbar_pictures(const BallbarResult& r) {
+std::map<std::string, std::string> ballbar_pictures(const ballbar::test::BallbarResult& r) {
     std::map<std::string, std::string> out;
-    for (const PlanarResult& planar : r.planar)
-        out[fmt::format("{}_{:.0f}.svg", to_string(BallbarTest{planar.test.plane, std::nullopt}),
-                        planar.test.passes.front().feed_mm_min)] =
-            polar_svg(planar_plot(r, planar));
+    for (const ballbar::test::PlanarResult& planar : r.planar)
+        out[fmt::format(
+            "{}_{:.0f}.svg", to_string(ballbar::test::BallbarTest{planar.test.plane, std::nullopt}),
+            planar.test.passes.front().feed_mm_min)] = polar_svg(planar_plot(r, planar));
     add_rotary_plots(r, out);
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -8,23 +8,23 @@
 #include "base/units.h"
 #include "report/stores_text.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 namespace {
 
 /// um or urad, never "-0.000".
-double small(const ErrorName& name, double value) {
+double small(const kinematics::ErrorName& name, double value) {
     const double out = name.angular() ? urad_from_rad(value) : um_from_mm(value);
     return std::abs(out) < 5e-4 ? 0.0 : out;
 }
 
-std::string error_table(const std::vector<BallbarErrorRow>& rows, bool after) {
+std::string error_table(const std::vector<ballbar::test::BallbarErrorRow>& rows, bool after) {
     std::string text =
         after ? fmt::format("{:6} {:>11} {:>10} {:>9} {:>11} {:>9}  {:>9}  {}\n", "error", "before",
                             "u(before)", "after", "change", "u(after)", "published", "unit")
               : fmt::format("{:6} {:>11} {:>10}  {:>9}  {}\n", "error", "found", "u(found)",
                             "published", "unit");
-    for (const BallbarErrorRow& row : rows) {
+    for (const ballbar::test::BallbarErrorRow& row : rows) {
         const auto n = [&](double v) { return small(row.name, v); };
         if (!after) {
             text += fmt::format(
@@ -43,7 +43,7 @@ std::string error_table(const std::vector<BallbarErrorRow>& rows, bool after) {
     return text;
 }
 
-std::string group_text(const InseparableGroup& group) {
+std::string group_text(const ballbar::test::InseparableGroup& group) {
     std::string text;
     for (std::size_t i = 0; i < group.names.size(); ++i)
         text += fmt::format("{}{:+.2f} {}", i ? "  " : "", group.direction[i], group.names[i]);
@@ -51,15 +51,15 @@ std::string group_text(const InseparableGroup& group) {
 }
 
 /// Letter of the axis next to the bed.
-char first_axis(const BallbarResult& r) {
+char first_axis(const ballbar::test::BallbarResult& r) {
     return r.errors.empty() ? '?' : letter_of(r.errors.front().name.axis);
 }
 
-std::string rank_text(const BallbarResult& r) {
+std::string rank_text(const ballbar::test::BallbarResult& r) {
     std::string text = fmt::format(
         "rank {} of {}: with the cup's place unknown these move together and change no reading\n",
         r.open_fit.rank, r.open_fit.parameters.size());
-    for (const InseparableGroup& group : r.open_fit.inseparable)
+    for (const ballbar::test::InseparableGroup& group : r.open_fit.inseparable)
         text += "  " + group_text(group) + "\n";
     return text + fmt::format(
                       "taken as known: tool length {:.3f} mm (offset H{}) and a cup that runs "
@@ -68,7 +68,7 @@ std::string rank_text(const BallbarResult& r) {
                       -r.data.layout.cup_S_mm.z(), r.data.tool_offset, first_axis(r));
 }
 
-std::string residual_text(const BallbarResult& r) {
+std::string residual_text(const ballbar::test::BallbarResult& r) {
     std::string text = fmt::format("residual {:.3f} um rms, noise {:.3f} um",
                                    um_from_mm(r.fit.rms_mm), um_from_mm(r.fit.noise_mm));
     if (!r.verdict.structured) return text + ": nothing but noise is left\n";
@@ -80,10 +80,10 @@ std::string residual_text(const BallbarResult& r) {
                       r.verdict.excess_um, r.verdict.worst_test, r.setup_path, r.setup_path);
 }
 
-std::string setup_text(const BallbarResult& r) {
+std::string setup_text(const ballbar::test::BallbarResult& r) {
     const Vector3& p = r.published.pivot_offset_mm;
-    const BarLength bar = bar_length(r);
-    const Vector3 pivot = pivot_found_mm(r);
+    const ballbar::test::BarLength bar = ballbar::test::bar_length(r);
+    const Vector3 pivot = ballbar::test::pivot_found_mm(r);
     return fmt::format(
                "exact fit of the set-up: bar {:.4f} mm {:+.3f} +- {:.3f} um, pivot ({:.2f} {:.2f} "
                "{:.2f}) um from its stated place on the table\n",
@@ -97,16 +97,16 @@ std::string setup_text(const BallbarResult& r) {
                um_from_mm(r.published.length_error_mm), um_from_mm(r.published.setup_rms_mm));
 }
 
-std::string planar_text(const PlanarResult& planar) {
-    const CircularFigures& f = planar.figures;
+std::string planar_text(const ballbar::test::PlanarResult& planar) {
+    const ballbar::test::CircularFigures& f = planar.figures;
     std::string text = fmt::format(
         "{} at {:.0f} mm/min, {:.0f} deg: circularity ccw {:.2f}, cw {:.2f}, bidirectional {:.2f}, "
         "mean radial deviation {:+.2f},\n  hysteresis {:.2f} um at {:.0f} deg\n",
-        plane_name(planar.test.plane), planar.test.passes.front().feed_mm_min,
+        ballbar::test::plane_name(planar.test.plane), planar.test.passes.front().feed_mm_min,
         deg_from_rad(planar.test.arc_rad), f.circularity_ccw_um, f.circularity_cw_um,
         f.bidirectional_circularity_um, f.mean_radial_deviation_um, f.hysteresis_um,
         deg_from_rad(f.hysteresis_at_rad));
-    for (const CircularCause& c : planar.diagnosis.causes)
+    for (const ballbar::test::CircularCause& c : planar.diagnosis.causes)
         text += fmt::format("  {:2} {:22} {:9.3f} +- {:6.3f} {:5} {:7.2f} um {:4.0f} % {}{}\n",
                             c.rank, c.name, c.value, c.sigma, c.unit, c.share_um, 100.0 * c.share,
                             c.significant ? "" : "(not significant) ", c.note);
@@ -119,7 +119,7 @@ std::string minutes(double seconds) {
     return fmt::format("{:.1f} min", seconds / 60.0);
 }
 
-std::string time_text(const BallbarResult& r) {
+std::string time_text(const ballbar::test::BallbarResult& r) {
     return fmt::format(
         "time: program {}; one set-up {}, two set-ups {} ({:.0f} % saved; assumed: {} for a "
         "set-up, {} to move the bar between tests)\n",
@@ -133,9 +133,9 @@ std::string cell(double value) {
     return std::isfinite(value) ? shortest(value) : std::string();
 }
 
-std::string csv_rows(const char* where, const std::vector<BallbarErrorRow>& rows) {
+std::string csv_rows(const char* where, const std::vector<ballbar::test::BallbarErrorRow>& rows) {
     std::string text;
-    for (const BallbarErrorRow& row : rows)
+    for (const ballbar::test::BallbarErrorRow& row : rows)
         text += fmt::format("{},{},{},{},{},{},{},{},{}\n", where, to_string(row.name),
                             cell(row.before), cell(row.sigma_before), cell(row.after),
                             cell(row.sigma), cell(row.change_percent()),
@@ -146,14 +146,14 @@ std::string csv_rows(const char* where, const std::vector<BallbarErrorRow>& rows
 
 }  // namespace
 
-std::string ballbar_csv(const BallbarResult& r) {
+std::string ballbar_csv(const ballbar::test::BallbarResult& r) {
     return "where,name,before,u_before,after,u_after,change_percent,published_before,unit\n" +
            csv_rows("point_mm", r.errors) + csv_rows("intersection", r.at_intersection);
 }
 
 namespace {
 
-std::string proof_text(const BallbarResult& r) {
+std::string proof_text(const ballbar::test::BallbarResult& r) {
     std::string text;
     if (r.true_tip_um)
         text += fmt::format(
@@ -171,7 +171,7 @@ std::string proof_text(const BallbarResult& r) {
     return text;
 }
 
-std::string location_text(const BallbarResult& r) {
+std::string location_text(const ballbar::test::BallbarResult& r) {
     if (r.errors.empty())
         return "no passes of the rotary axes: location errors are not evaluated\n\n";
     std::string text =
@@ -190,7 +190,7 @@ std::string location_text(const BallbarResult& r) {
 
 }  // namespace
 
-std::string ballbar_table(const BallbarResult& r) {
+std::string ballbar_table(const ballbar::test::BallbarResult& r) {
     std::string text = fmt::format(
         "{}: {}, L0 {:g} mm, {} tests, {} readings\n\n", r.machine,
         r.simulated ? "single-set-up ballbar test, simulated" : "measured ballbar passes",
@@ -198,8 +198,8 @@ std::string ballbar_table(const BallbarResult& r) {
     text += location_text(r) + proof_text(r);
     if (r.simulated) text += time_text(r);
     text += "\n";
-    for (const PlanarResult& planar : r.planar) text += planar_text(planar);
+    for (const ballbar::test::PlanarResult& planar : r.planar) text += planar_text(planar);
     return text;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

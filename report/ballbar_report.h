@@ -6,18 +6,18 @@
 
 #include "ballbar/test/ballbar_procedure.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 /// Tables like the 2015 paper's Table 2 (at the setup's point_mm, and at the nominal intersection),
 /// set-up, what the test cannot tell apart, residual, ISO 230-4 figures, diagnosis, times.
-std::string ballbar_table(const BallbarResult& result);
+std::string ballbar_table(const ballbar::test::BallbarResult& result);
 /// `{"schema":"trunnion.ballbar/1",...}` of formats.md.
-std::string ballbar_json(const BallbarResult& result);
+std::string ballbar_json(const ballbar::test::BallbarResult& result);
 /// Both error tables, one line an error: where (point_mm or intersection), name, before, u_before,
 /// after, u_after, change_percent, published_before, unit (mm or rad).
-std::string ballbar_csv(const BallbarResult& result);
+std::string ballbar_csv(const ballbar::test::BallbarResult& result);
 /// Polar plots by file name: planar ones centred, rotary ones about their mean with the fitted
 /// eccentric circle.
-std::map<std::string, std::string> ballbar_pictures(const BallbarResult& result);
+std::map<std::string, std::string> ballbar_pictures(const ballbar::test::BallbarResult& result);
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -6,7 +6,7 @@
 #include "report/comparison_report.h"
 #include "report/places.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 namespace {
 
@@ -20,7 +20,7 @@ constexpr const char* style =
     "1fr;gap:1rem}.pair>div{min-width:0}.equal{color:#00664a}"
     ".differs{color:#a33b00}svg{max-width:100%;height:auto}";
 
-std::string place_html(const char* side, const ComparePlace& p) {
+std::string place_html(const char* side, const regression::ComparePlace& p) {
     if (p.line == 0)
         return fmt::format("<div>{} {}<pre>nothing here</pre></div>", side, escape_xml(p.program));
     std::string lines;
@@ -37,12 +37,12 @@ std::string range_html(const std::array<double, 2>& r) {
     return r[0] == r[1] ? fmt::format("{:g}", r[1]) : fmt::format("{:g}–{:g}", r[0], r[1]);
 }
 
-std::string table_html(const Comparison& c) {
+std::string table_html(const regression::Comparison& c) {
     if (c.tools.empty()) return {};
     std::string out =
         "<table><tr><th>tool<th>cut A mm<th>cut B mm<th>longer by<th>feed A<th>feed B<th>spindle A"
         "<th>spindle B<th>equal<th>moved<th>changed<th>reordered<th>only A<th>only B</tr>\n";
-    for (const ToolRow& r : c.tools)
+    for (const regression::ToolRow& r : c.tools)
         if (r.says_something())
             out += fmt::format(
                 "<tr><td>T{}<td>{:.3f}<td>{:.3f}<td>{:+.3f}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>"
@@ -55,12 +55,12 @@ std::string table_html(const Comparison& c) {
 }
 
 /// What was compared, by which layers, how long it takes, what else there is to know.
-std::string facts_html(const Comparison& c) {
+std::string facts_html(const regression::Comparison& c) {
     std::string out =
         fmt::format("<p>A: {}{}<br>B: {}{}<br>layers:", escape_xml(c.a),
                     c.setup.empty() ? "" : " on " + escape_xml(c.setup), escape_xml(c.b),
                     c.setup_b.empty() ? "" : " on " + escape_xml(c.setup_b));
-    for (const LayerVerdict& l : c.layers)
+    for (const regression::LayerVerdict& l : c.layers)
         out += fmt::format(" {} {}", name_of(l.layer), l.equal ? "equal" : "differs");
     if (c.time_a_s > 0.0 || c.time_b_s > 0.0)
         out += fmt::format("<br>cycle time {:.1f} → {:.1f} s", c.time_a_s, c.time_b_s);
@@ -68,7 +68,7 @@ std::string facts_html(const Comparison& c) {
     return out + "</p>\n";
 }
 
-std::string case_html(const Comparison& c, bool single) {
+std::string case_html(const regression::Comparison& c, bool single) {
     std::string out;
     if (!single)
         out = fmt::format("<h2>{}</h2><p class=\"{}\">{}</p>\n",
@@ -79,7 +79,7 @@ std::string case_html(const Comparison& c, bool single) {
     out += picture_html(c) + table_html(c);
     constexpr std::size_t shown = 200;
     for (std::size_t k = 0; k < std::min(shown, c.differences.size()); ++k) {
-        const Difference& d = c.differences[k];
+        const regression::Difference& d = c.differences[k];
         out += fmt::format("<h3>{}. {}</h3>{}<div class=\"pair\">{}{}</div>\n", k + 1,
                            escape_xml(d.what),
                            d.expected ? "<p>expected: " + escape_xml(d.reason) + "</p>" : "",
@@ -90,18 +90,19 @@ std::string case_html(const Comparison& c, bool single) {
 
 }  // namespace
 
-std::string comparison_html(const CompareReport& report) {
+std::string comparison_html(const regression::CompareReport& report) {
     const bool single = report.single && report.cases.size() == 1;
     std::string out = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>trunnion "
         "compare</title><style>{}</style></head><body>\n<h1 class=\"{}\">{}</h1>\n",
-        style, exit_code(report) == 0 ? "equal" : "differs", escape_xml(verdict_of(report)));
-    for (const Comparison& c : report.cases) out += case_html(c, single);
-    for (const ExpectedDifference& e : no_longer_occurring(report))
+        style, regression::exit_code(report) == 0 ? "equal" : "differs",
+        escape_xml(verdict_of(report)));
+    for (const regression::Comparison& c : report.cases) out += case_html(c, single);
+    for (const regression::ExpectedDifference& e : regression::no_longer_occurring(report))
         out +=
             fmt::format("<p>Expected, but no longer there: {} {} ({}).</p>\n",
                         escape_xml(e.case_name), escape_xml(e.fingerprint), escape_xml(e.reason));
     return out + "</body></html>\n";
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

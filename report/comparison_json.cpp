@@ -5,13 +5,13 @@
 #include "report/comparison_report.h"
 #include "report/places.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json place_json(const ComparePlace& p, bool whole) {
+Json place_json(const regression::ComparePlace& p, bool whole) {
     Json j = {{"program", valid_utf8(p.program)}, {"line", p.line}, {"block", valid_utf8(p.block)}};
     if (!whole) return j;
     j["last_line"] = p.last_line;
@@ -21,8 +21,8 @@ Json place_json(const ComparePlace& p, bool whole) {
     return j;
 }
 
-ComparePlace place_of(const Json& j) {
-    ComparePlace p;
+regression::ComparePlace place_of(const Json& j) {
+    regression::ComparePlace p;
     p.program = j.at("program");
     p.line = j.at("line");
     p.block = j.at("block");
@@ -32,7 +32,7 @@ ComparePlace place_of(const Json& j) {
     return p;
 }
 
-Json difference_json(const Difference& d) {
+Json difference_json(const regression::Difference& d) {
     return {{"kind", name_of(d.kind)},
             {"what", valid_utf8(d.what)},
             {"cause", valid_utf8(d.cause)},
@@ -57,9 +57,10 @@ std::size_t index_of_name(const Names& names, const std::string& name) {
     return static_cast<std::size_t>(found - names.begin());
 }
 
-Difference difference_of(const Json& j) {
-    Difference d;
-    d.kind = static_cast<DifferenceKind>(index_of_name(difference_names, j.at("kind")));
+regression::Difference difference_of(const Json& j) {
+    regression::Difference d;
+    d.kind = static_cast<regression::DifferenceKind>(
+        index_of_name(regression::difference_names, j.at("kind")));
     d.what = j.at("what");
     d.cause = j.at("cause");
     d.a = place_of(j.at("a"));
@@ -101,21 +102,21 @@ void each_column(Row& r, const Visit& visit) {
     visit("spindle_b_rpm", r.spindle_b);
 }
 
-Json row_json(const ToolRow& row) {
+Json row_json(const regression::ToolRow& row) {
     Json j;
     each_column(row, [&](const char* name, const auto& value) { j[name] = value; });
     return j;
 }
 
-ToolRow row_of(const Json& j) {
-    ToolRow row;
+regression::ToolRow row_of(const Json& j) {
+    regression::ToolRow row;
     each_column(row, [&](const char* name, auto& value) { j.at(name).get_to(value); });
     return row;
 }
 
-Json first_json(const Comparison& c) {
+Json first_json(const regression::Comparison& c) {
     const auto open = std::find_if(c.differences.begin(), c.differences.end(),
-                                   [](const Difference& d) { return !d.expected; });
+                                   [](const regression::Difference& d) { return !d.expected; });
     if (open == c.differences.end()) return nullptr;
     return {{"a", place_json(open->a, false)},
             {"b", place_json(open->b, false)},
@@ -123,7 +124,7 @@ Json first_json(const Comparison& c) {
 }
 
 /// The contract's keys, then what a report needs besides.
-Json case_json(const Comparison& c) {
+Json case_json(const regression::Comparison& c) {
     Json j = {{"equal", c.equal},
               {"by", name_of(c.by)},
               {"first", first_json(c)},
@@ -138,16 +139,17 @@ Json case_json(const Comparison& c) {
               {"file_b", valid_utf8(c.b)},
               {"setup", valid_utf8(c.setup)},
               {"setup_b", valid_utf8(c.setup_b)},
-              {"status", status_names[static_cast<std::size_t>(c.status)]},
+              {"status", regression::status_names[static_cast<std::size_t>(c.status)]},
               {"verdict", valid_utf8(c.verdict)}};
     j["layers"] = Json::array();
-    for (const LayerVerdict& l : c.layers)
+    for (const regression::LayerVerdict& l : c.layers)
         j["layers"].push_back({{"name", name_of(l.layer)}, {"equal", l.equal}});
     j["differences"] = Json::array();
-    for (const Difference& d : c.differences) j["differences"].push_back(difference_json(d));
+    for (const regression::Difference& d : c.differences)
+        j["differences"].push_back(difference_json(d));
     j["differences_left_out"] = c.differences_left_out;
     j["tools"] = Json::array();
-    for (const ToolRow& row : c.tools) j["tools"].push_back(row_json(row));
+    for (const regression::ToolRow& row : c.tools) j["tools"].push_back(row_json(row));
     j["time_a_s"] = c.time_a_s;
     j["time_b_s"] = c.time_b_s;
     j["alarm_a"] = valid_utf8(c.alarm_a);
@@ -157,10 +159,10 @@ Json case_json(const Comparison& c) {
     return j;
 }
 
-Comparison case_of(const Json& j) {
-    Comparison c;
+regression::Comparison case_of(const Json& j) {
+    regression::Comparison c;
     c.equal = j.at("equal");
-    c.by = static_cast<Layer>(index_of_name(layer_names, j.at("by")));
+    c.by = static_cast<regression::Layer>(index_of_name(regression::layer_names, j.at("by")));
     c.position_mm = j.at("worst").at("position_mm");
     c.direction_deg = j.at("worst").at("direction_deg");
     c.worst_a = place_of(j.at("worst").at("a"));
@@ -171,11 +173,13 @@ Comparison case_of(const Json& j) {
     c.b = j.at("file_b");
     c.setup = j.at("setup");
     c.setup_b = j.at("setup_b");
-    c.status = static_cast<CompareStatus>(index_of_name(status_names, j.at("status")));
+    c.status = static_cast<regression::CompareStatus>(
+        index_of_name(regression::status_names, j.at("status")));
     c.verdict = j.at("verdict");
     for (const Json& l : j.at("layers"))
         c.layers.push_back(
-            {static_cast<Layer>(index_of_name(layer_names, l.at("name"))), l.at("equal")});
+            {static_cast<regression::Layer>(index_of_name(regression::layer_names, l.at("name"))),
+             l.at("equal")});
     for (const Json& d : j.at("differences")) c.differences.push_back(difference_of(d));
     c.differences_left_out = j.at("differences_left_out");
     for (const Json& row : j.at("tools")) c.tools.push_back(row_of(row));
@@ -187,19 +191,19 @@ Comparison case_of(const Json& j) {
     return c;
 }
 
-Json picture_json(const ComparePicture& p) {
+Json picture_json(const regression::ComparePicture& p) {
     Json j = {{"cuts_a", p.cuts_a},
               {"cuts_b", p.cuts_b},
               {"rapids_a", p.rapids_a},
               {"rapids_b", p.rapids_b},
               {"marks", Json::array()}};
-    for (const ComparePicture::Mark& m : p.marks)
+    for (const regression::ComparePicture::Mark& m : p.marks)
         j["marks"].push_back({{"difference", m.difference}, {"a", m.a}, {"b", m.b}});
     return j;
 }
 
-ComparePicture picture_of(const Json& j) {
-    ComparePicture p;
+regression::ComparePicture picture_of(const Json& j) {
+    regression::ComparePicture p;
     j.at("cuts_a").get_to(p.cuts_a);
     j.at("cuts_b").get_to(p.cuts_b);
     j.at("rapids_a").get_to(p.rapids_a);
@@ -213,40 +217,40 @@ ComparePicture picture_of(const Json& j) {
     return p;
 }
 
-Json expected_json(const std::vector<ExpectedDifference>& list) {
+Json expected_json(const std::vector<regression::ExpectedDifference>& list) {
     Json j = Json::array();
-    for (const ExpectedDifference& e : list)
+    for (const regression::ExpectedDifference& e : list)
         j.push_back({{"case", valid_utf8(e.case_name)},
                      {"fingerprint", valid_utf8(e.fingerprint)},
                      {"reason", valid_utf8(e.reason)}});
     return j;
 }
 
-Json suite_json(const CompareReport& report) {
-    Json j = {{"schema", "trunnion.compare/1"}, {"equal", exit_code(report) == 0}};
-    const Comparison* worst = nullptr;
-    const Comparison* first = nullptr;
+Json suite_json(const regression::CompareReport& report) {
+    Json j = {{"schema", "trunnion.compare/1"}, {"equal", regression::exit_code(report) == 0}};
+    const regression::Comparison* worst = nullptr;
+    const regression::Comparison* first = nullptr;
     std::uint64_t compared = 0;
-    for (const Comparison& c : report.cases) {
+    for (const regression::Comparison& c : report.cases) {
         compared += c.compared;
         if (first == nullptr && !c.equal) first = &c;
         if (worst == nullptr || c.position_mm > worst->position_mm) worst = &c;
     }
-    j["by"] = name_of(first != nullptr ? first->by : Layer::path);
+    j["by"] = name_of(first != nullptr ? first->by : regression::Layer::path);
     j["first"] = first != nullptr ? first_json(*first) : Json(nullptr);
     j["worst"] = worst != nullptr ? case_json(*worst).at("worst") : Json(nullptr);
     j["compared"] = compared;
     j["suite"] = valid_utf8(report.suite);
     j["verdict"] = valid_utf8(verdict_of(report));
     j["cases"] = Json::array();
-    for (const Comparison& c : report.cases) j["cases"].push_back(case_json(c));
-    j["no_longer_occurring"] = expected_json(no_longer_occurring(report));
+    for (const regression::Comparison& c : report.cases) j["cases"].push_back(case_json(c));
+    j["no_longer_occurring"] = expected_json(regression::no_longer_occurring(report));
     return j;
 }
 
 }  // namespace
 
-std::string comparison_json(const CompareReport& report) {
+std::string comparison_json(const regression::CompareReport& report) {
     if (!report.single || report.cases.size() != 1) return suite_json(report).dump(2) + "\n";
     Json j = {{"schema", "trunnion.compare/1"}};
     j.update(case_json(report.cases.front()));
@@ -291,4 +295,4 @@ ComparePart parse_part(const std::string& text, const std::string& path) {
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "report/comparison_report.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 namespace {
 
@@ -24,25 +24,25 @@ std::string plain(const std::string& text) {
     return out;
 }
 
-std::string place(const ComparePlace& p) {
+std::string place(const regression::ComparePlace& p) {
     return p.line > 0 ? fmt::format("{}:{}", plain(p.program), p.line) : plain(p.program);
 }
 
-std::string row(const Comparison& c) {
+std::string row(const regression::Comparison& c) {
     const std::string name = c.name.empty() ? c.b : c.name;
     return fmt::format("| {} | {} | {} |\n", plain(name), c.equal ? "equal" : "**differs**",
                        plain(c.verdict));
 }
 
-std::string block(const char* side, const ComparePlace& p) {
+std::string block(const char* side, const regression::ComparePlace& p) {
     return fmt::format("  - {} {}: `` {} ``\n", side, place(p), printable(p.block));
 }
 
-std::string details(const Comparison& c) {
+std::string details(const regression::Comparison& c) {
     constexpr std::size_t shown = 5;
     std::string out = fmt::format("\n### {}\n\n", plain(c.name.empty() ? c.b : c.name));
     for (std::size_t k = 0; k < std::min(shown, c.differences.size()); ++k) {
-        const Difference& d = c.differences[k];
+        const regression::Difference& d = c.differences[k];
         out += fmt::format("{}. {}\n", k + 1, plain(d.what));
         out += block("A", d.a) + block("B", d.b);
     }
@@ -54,13 +54,14 @@ std::string details(const Comparison& c) {
 
 }  // namespace
 
-std::string comparison_markdown(const CompareReport& report) {
-    std::vector<const Comparison*> order;
-    for (const Comparison& c : report.cases)
+std::string comparison_markdown(const regression::CompareReport& report) {
+    std::vector<const regression::Comparison*> order;
+    for (const regression::Comparison& c : report.cases)
         if (!c.equal || report.cases.size() == 1) order.push_back(&c);
-    std::stable_sort(order.begin(), order.end(), [](const Comparison* p, const Comparison* q) {
-        return gravity_of(*p) > gravity_of(*q);
-    });
+    std::stable_sort(order.begin(), order.end(),
+                     [](const regression::Comparison* p, const regression::Comparison* q) {
+                         return regression::gravity_of(*p) > regression::gravity_of(*q);
+                     });
     constexpr std::size_t listed = 200, detailed = 10;  // a summary holds 1 MB
     std::string out = fmt::format("## {}\n", plain(verdict_of(report)));
     if (order.empty()) return out;
@@ -73,4 +74,4 @@ std::string comparison_markdown(const CompareReport& report) {
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -8,11 +8,11 @@
 
 #include "report/svg.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 namespace {
 
-using Line = ComparePicture::Line;
+using Line = regression::ComparePicture::Line;
 using Point3 = std::array<double, 3>;
 
 Point2 from_above(const Point3& p) {
@@ -79,14 +79,14 @@ double bar_length(double span) {
 
 class ViewDrawing {
   public:
-    ViewDrawing(Svg& svg, const View& view, const ComparePicture& picture)
+    ViewDrawing(Svg& svg, const View& view, const regression::ComparePicture& picture)
         : svg_(svg), view_(view), picture_(picture) {
         for (const auto* lines : {&picture.cuts_a, &picture.cuts_b})
             for (const Line& line : *lines) widen(line);
         // What differs far away (a retract to machine zero) must not set the scale.
         const double size = std::max({box_.width(), box_.height(), 1.0});
         const Box near = box_.grown(0.5 * size);
-        for (const ComparePicture::Mark& m : picture.marks)
+        for (const regression::ComparePicture::Mark& m : picture.marks)
             for (const Line* line : {&m.a, &m.b})
                 for (const Point3& p : *line)
                     if (near.holds(view_.seen(p))) box_.widen(view_.seen(p));
@@ -105,11 +105,11 @@ class ViewDrawing {
         for (const Line& line : picture_.rapids_b) draw_line(line, faint_b);
         for (const Line& line : picture_.cuts_a) draw_line(line, {"#8a8a8a", 1.0, "none", ""});
         for (const Line& line : picture_.cuts_b) draw_line(line, {"#56B4E9", 1.0, "none", "4 3"});
-        for (const ComparePicture::Mark& m : picture_.marks) {
+        for (const regression::ComparePicture::Mark& m : picture_.marks) {
             draw_line(m.a, {"#D55E00", 3.0, "none", ""});
             draw_line(m.b, {"#0072B2", 3.0, "none", "5 4"});
         }
-        for (const ComparePicture::Mark& m : picture_.marks) draw_number(m);
+        for (const regression::ComparePicture::Mark& m : picture_.marks) draw_number(m);
         svg_.rectangle(view_.corner, view_.width, view_.height, {"#bbb", 1.0, "none", ""});
         svg_.text({view_.corner.x, view_.corner.y - 6}, view_.name, 13);
         draw_bar();
@@ -146,7 +146,7 @@ class ViewDrawing {
         flush();
     }
     /// The difference's number beside the middle of its first place.
-    void draw_number(const ComparePicture::Mark& m) {
+    void draw_number(const regression::ComparePicture::Mark& m) {
         const Line& line = m.b.empty() ? m.a : m.b;
         if (line.empty()) return;
         Point2 a = view_.seen(line[line.size() / 2]);
@@ -169,7 +169,7 @@ class ViewDrawing {
 
     Svg& svg_;
     View view_;
-    const ComparePicture& picture_;
+    const regression::ComparePicture& picture_;
     Box box_;
     double scale_ = 1.0;
     std::vector<Point2> numbers_;
@@ -177,8 +177,8 @@ class ViewDrawing {
 
 }  // namespace
 
-std::string picture_html(const Comparison& comparison) {
-    const ComparePicture& picture = comparison.picture;
+std::string picture_html(const regression::Comparison& comparison) {
+    const regression::ComparePicture& picture = comparison.picture;
     if (picture.empty()) return {};
     Svg svg(1040.0, 700.0);
     for (const View& view :
@@ -193,4 +193,4 @@ std::string picture_html(const Comparison& comparison) {
            "</figure>\n";
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -5,10 +5,10 @@
 
 #include "regression/comparison.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 /// Three views in one drawing and its legend; empty when nothing was drawn. The cuts and what
 /// differs near them set the scale; rapids are faint and end at the frame.
-std::string picture_html(const Comparison& comparison);
+std::string picture_html(const regression::Comparison& comparison);
 
-}  // namespace trunnion
+}  // namespace trunnion::report

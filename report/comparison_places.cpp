@@ -7,7 +7,7 @@
 #include "report/comparison_report.h"
 #include "report/places.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 namespace {
 
@@ -33,8 +33,8 @@ const std::vector<ReportRule>& rules() {
 }
 
 /// The place a reader wants to open: B is the new program, A where B has nothing.
-ReportItem item_of(const Difference& d) {
-    const ComparePlace& p = d.b.line > 0 || d.a.line == 0 ? d.b : d.a;
+ReportItem item_of(const regression::Difference& d) {
+    const regression::ComparePlace& p = d.b.line > 0 || d.a.line == 0 ? d.b : d.a;
     ReportItem item;
     item.rule = name_of(d.kind);
     item.level = d.expected ? "note" : "error";
@@ -50,8 +50,8 @@ ReportItem item_of(const Difference& d) {
 }
 
 /// A whole program as one item: at its gravest difference, with its verdict.
-ReportItem item_of(const Comparison& c) {
-    const std::size_t gravest = gravest_difference(c);
+ReportItem item_of(const regression::Comparison& c) {
+    const std::size_t gravest = regression::gravest_difference(c);
     ReportItem item;
     if (gravest < c.differences.size())
         item = item_of(c.differences[gravest]);
@@ -63,7 +63,7 @@ ReportItem item_of(const Comparison& c) {
     return item;
 }
 
-ReportItem item_of(const ExpectedDifference& e, const std::string& suite) {
+ReportItem item_of(const regression::ExpectedDifference& e, const std::string& suite) {
     ReportItem item;
     item.rule = "stale-expectation";
     item.level = "warning";
@@ -73,10 +73,10 @@ ReportItem item_of(const ExpectedDifference& e, const std::string& suite) {
     return item;
 }
 
-std::vector<ReportItem> items_of(const CompareReport& report) {
+std::vector<ReportItem> items_of(const regression::CompareReport& report) {
     std::vector<ReportItem> items;
-    for (const Comparison& c : report.cases) {
-        for (const Difference& d : c.differences) items.push_back(item_of(d));
+    for (const regression::Comparison& c : report.cases) {
+        for (const regression::Difference& d : c.differences) items.push_back(item_of(d));
         if (c.equal || !c.differences.empty()) continue;
         ReportItem whole;
         whole.rule = "case";
@@ -84,25 +84,26 @@ std::vector<ReportItem> items_of(const CompareReport& report) {
         whole.text = c.verdict;
         items.push_back(whole);
     }
-    for (const ExpectedDifference& e : no_longer_occurring(report))
+    for (const regression::ExpectedDifference& e : regression::no_longer_occurring(report))
         items.push_back(item_of(e, report.suite));
     return items;
 }
 
 /// GitHub shows ten annotations of a step: one for each program that differs, gravest first, and
 /// the last one counts the programs that found no place.
-std::vector<ReportItem> annotations_of(const CompareReport& report) {
+std::vector<ReportItem> annotations_of(const regression::CompareReport& report) {
     constexpr std::size_t shown = 10;
-    std::vector<const Comparison*> order;
-    for (const Comparison& c : report.cases)
+    std::vector<const regression::Comparison*> order;
+    for (const regression::Comparison& c : report.cases)
         if (!c.equal) order.push_back(&c);
-    std::stable_sort(order.begin(), order.end(), [](const Comparison* p, const Comparison* q) {
-        return gravity_of(*p) > gravity_of(*q);
-    });
+    std::stable_sort(order.begin(), order.end(),
+                     [](const regression::Comparison* p, const regression::Comparison* q) {
+                         return regression::gravity_of(*p) > regression::gravity_of(*q);
+                     });
     std::vector<ReportItem> items;
     const std::size_t room = order.size() > shown ? shown - 1 : order.size();
     for (std::size_t k = 0; k < room; ++k) items.push_back(item_of(*order[k]));
-    for (const ExpectedDifference& e : no_longer_occurring(report))
+    for (const regression::ExpectedDifference& e : regression::no_longer_occurring(report))
         if (items.size() < shown && order.size() <= room) items.push_back(item_of(e, report.suite));
     if (order.size() <= room) return items;
     ReportItem rest;
@@ -114,19 +115,19 @@ std::vector<ReportItem> annotations_of(const CompareReport& report) {
     return items;
 }
 
-std::uint64_t left_out_of(const CompareReport& report) {
+std::uint64_t left_out_of(const regression::CompareReport& report) {
     std::uint64_t count = 0;
-    for (const Comparison& c : report.cases) count += c.differences_left_out;
+    for (const regression::Comparison& c : report.cases) count += c.differences_left_out;
     return count;
 }
 
-std::string junit_of(const CompareReport& report) {
+std::string junit_of(const regression::CompareReport& report) {
     std::vector<JUnitCase> cases;
-    for (const Comparison& c : report.cases) {
+    for (const regression::Comparison& c : report.cases) {
         JUnitCase j{c.name.empty() ? c.b : c.name, c.b, "", ""};
         if (!c.equal) {
             j.failure = c.verdict;
-            for (const Difference& d : c.differences)
+            for (const regression::Difference& d : c.differences)
                 if (!d.expected)
                     j.details += fmt::format("A {}:{}  B {}:{}  {}\n", d.a.program, d.a.line,
                                              d.b.program, d.b.line, d.what);
@@ -149,7 +150,7 @@ ReportFormat report_format(const std::string& name) {
     return static_cast<ReportFormat>(found - format_names.begin());
 }
 
-std::string format_comparison(const CompareReport& report, ReportFormat format) {
+std::string format_comparison(const regression::CompareReport& report, ReportFormat format) {
     switch (format) {
         case ReportFormat::text:
             return comparison_text(report);
@@ -169,10 +170,11 @@ std::string format_comparison(const CompareReport& report, ReportFormat format) 
     return {};
 }
 
-CompareReport merge_parts(const std::vector<ComparePart>& parts) {
+regression::CompareReport merge_parts(const std::vector<ComparePart>& parts) {
     if (parts.empty()) throw InputError("merge: no parts given");
     const ComparePart& first = parts.front();
-    CompareReport whole{first.report.suite, first.report.single, {}, first.report.expected};
+    regression::CompareReport whole{
+        first.report.suite, first.report.single, {}, first.report.expected};
     whole.cases.resize(first.total);
     std::vector<bool> seen(first.total, false);
     for (const ComparePart& part : parts) {
@@ -194,4 +196,4 @@ CompareReport merge_parts(const std::vector<ComparePart>& parts) {
     return whole;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

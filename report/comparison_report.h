@@ -5,33 +5,33 @@
 
 #include "regression/comparison.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 enum class ReportFormat : unsigned char { text, json, junit, sarif, github, html, markdown };
 /// The format of a name on the command line; throws InputError that lists them.
 ReportFormat report_format(const std::string& name);
 
-std::string format_comparison(const CompareReport& report, ReportFormat format);
+std::string format_comparison(const regression::CompareReport& report, ReportFormat format);
 
-std::string comparison_text(const CompareReport& report);
+std::string comparison_text(const regression::CompareReport& report);
 /// The contract's JSON, see docs/compare.md.
-std::string comparison_json(const CompareReport& report);
+std::string comparison_json(const regression::CompareReport& report);
 /// For step summaries: the answer, a table of the programs that differ, and their first
 /// differences.
-std::string comparison_markdown(const CompareReport& report);
-std::string comparison_html(const CompareReport& report);
+std::string comparison_markdown(const regression::CompareReport& report);
+std::string comparison_html(const regression::CompareReport& report);
 
 /// One shard's part of a suite's results: everything a report is written from, as JSON, and back.
 struct ComparePart {
-    CompareReport report;             ///< cases of this shard only
-    std::vector<std::size_t> places;  ///< their numbers in the whole suite, from 0
-    std::size_t total = 0;            ///< cases of the whole suite
+    regression::CompareReport report;  ///< cases of this shard only
+    std::vector<std::size_t> places;   ///< their numbers in the whole suite, from 0
+    std::size_t total = 0;             ///< cases of the whole suite
 };
 std::string format_part(const ComparePart& part);
 /// Throws InputError when the text is no part.
 ComparePart parse_part(const std::string& text, const std::string& path);
 /// Puts parts together in the suite's order; throws InputError when one is missing, doubled or from
 /// another suite.
-CompareReport merge_parts(const std::vector<ComparePart>& parts);
+regression::CompareReport merge_parts(const std::vector<ComparePart>& parts);
 
-}  // namespace trunnion
+}  // namespace trunnion::report

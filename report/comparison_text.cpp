@@ -6,11 +6,11 @@
 #include "base/text.h"
 #include "report/comparison_report.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 namespace {
 
-std::string place_text(const char* side, const ComparePlace& p) {
+std::string place_text(const char* side, const regression::ComparePlace& p) {
     if (p.line == 0) return fmt::format("    {} {}: nothing here\n", side, p.program);
     std::string out = fmt::format("    {} {}:{}\n", side, p.program, p.line);
     for (int k = 0; k < static_cast<int>(p.context.size()); ++k)
@@ -20,7 +20,7 @@ std::string place_text(const char* side, const ComparePlace& p) {
     return out;
 }
 
-std::string difference_text(const Difference& d, std::size_t number) {
+std::string difference_text(const regression::Difference& d, std::size_t number) {
     std::string out = fmt::format("  {}. {}", number, printable(d.what));
     if (d.expected) out += fmt::format("\n    expected: {}", d.reason);
     return out + "\n" + place_text("A", d.a) + place_text("B", d.b);
@@ -36,7 +36,7 @@ std::string both(const std::array<double, 2>& a, const std::array<double, 2>& b)
 }
 
 /// What became of a tool's passes, in words.
-std::string fate_text(const ToolRow& r) {
+std::string fate_text(const regression::ToolRow& r) {
     std::string out;
     const auto say = [&](std::uint64_t count, const char* word) {
         if (count == 0) return;
@@ -52,12 +52,12 @@ std::string fate_text(const ToolRow& r) {
     return out;
 }
 
-std::string table_text(const Comparison& c) {
+std::string table_text(const regression::Comparison& c) {
     if (c.tools.empty()) return {};
     std::string out =
         "\n  tool  cut A mm    cut B mm    longer by   feed mm/min       spindle rpm       "
         "passes\n";
-    for (const ToolRow& r : c.tools)
+    for (const regression::ToolRow& r : c.tools)
         if (r.says_something())
             out +=
                 fmt::format("  T{:<4} {:<11.3f} {:<11.3f} {:<+11.3f} {:<17} {:<17} {}\n", r.tool,
@@ -66,19 +66,19 @@ std::string table_text(const Comparison& c) {
     return out;
 }
 
-std::string layers_text(const Comparison& c) {
+std::string layers_text(const regression::Comparison& c) {
     std::string out = "  layers:";
-    for (const LayerVerdict& l : c.layers)
+    for (const regression::LayerVerdict& l : c.layers)
         out += fmt::format(" {} {}", name_of(l.layer), l.equal ? "equal" : "differs");
     return out + "\n";
 }
 
-std::string case_text(const Comparison& c, bool single) {
+std::string case_text(const regression::Comparison& c, bool single) {
     std::string out = printable(single ? c.verdict : c.name + ": " + c.verdict) + "\n";
     if (c.equal && !single && c.differences.empty()) return out;
     if (!c.layers.empty()) out += layers_text(c);
     constexpr std::size_t shown = 20;
-    const std::size_t gravest = gravest_difference(c);
+    const std::size_t gravest = regression::gravest_difference(c);
     for (std::size_t k = 0; k < std::min(shown, c.differences.size()); ++k)
         out += difference_text(c.differences[k], k + 1);
     const std::uint64_t more =
@@ -100,15 +100,15 @@ std::string case_text(const Comparison& c, bool single) {
 
 }  // namespace
 
-std::string comparison_text(const CompareReport& report) {
+std::string comparison_text(const regression::CompareReport& report) {
     const bool single = report.single && report.cases.size() == 1;
     std::string out;
     if (!single) out = verdict_of(report) + "\n";
-    for (const Comparison& c : report.cases) out += case_text(c, single);
-    for (const ExpectedDifference& e : no_longer_occurring(report))
+    for (const regression::Comparison& c : report.cases) out += case_text(c, single);
+    for (const regression::ExpectedDifference& e : regression::no_longer_occurring(report))
         out += fmt::format("expected, but no longer there: {} {} ({}); take it out of the suite\n",
                            e.case_name, e.fingerprint, e.reason);
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -9,7 +9,7 @@
 #include "report/svg.h"
 #include "report/xml.h"
 
-namespace trunnion {
+namespace trunnion::report {
 namespace {
 
 struct Bar {
@@ -55,7 +55,7 @@ std::string bars(const std::vector<Bar>& list, double full, const std::string& u
     return svg.str();
 }
 
-std::string share_bars(const Diagnosis& d) {
+std::string share_bars(const diagnosis::Diagnosis& d) {
     std::vector<Bar> list;
     for (std::size_t k = 0; k < d.causes.size(); ++k)
         list.push_back({d.causes[k].effect, fmt::format("{:.0f} %", 100.0 * d.causes[k].share),
@@ -65,7 +65,7 @@ std::string share_bars(const Diagnosis& d) {
     return bars(list, 100.0, "share of the gap in %");
 }
 
-std::string before_after(const HeldOut& h) {
+std::string before_after(const diagnosis::HeldOut& h) {
     if (h.rms_before_um <= 0.0) return "";
     const std::vector<Bar> list{
         {"simulation as it is", fmt::format("{:.2f} µm", h.rms_before_um), 1.0, "#d55e00"},
@@ -76,7 +76,7 @@ std::string before_after(const HeldOut& h) {
 }
 
 /// Machine minus simulation of each reading, without and with the causes; the noise as a band.
-std::string residual_plot(const Diagnosis& d) {
+std::string residual_plot(const diagnosis::Diagnosis& d) {
     const std::size_t n = d.before_um.size();
     if (n < 2) return "";
     std::vector<double> size;
@@ -113,17 +113,17 @@ std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
     return text + "</tr>\n";
 }
 
-std::string rivals_text(const Cause& cause) {
+std::string rivals_text(const diagnosis::Cause& cause) {
     return cause.rivals.empty() ? "none"
                                 : escape_xml(fmt::format("{}", fmt::join(cause.rivals, ", ")));
 }
 
-std::string cause_table(const Diagnosis& d) {
+std::string cause_table(const diagnosis::Diagnosis& d) {
     std::string text =
         "<table class=\"wide\">\n" +
         row({"Cause", "Share of the gap", "Size", "Could also be", "Alone it shrinks the gap by"},
             "th");
-    for (const Cause& cause : d.causes) {
+    for (const diagnosis::Cause& cause : d.causes) {
         const bool known = cause.effect != "unknown";
         text += row({"<b>" + escape_xml(cause.effect) + "</b><br><span class=\"small\">" +
                          escape_xml(cause.what) + "</span>",
@@ -139,7 +139,7 @@ std::string cause_table(const Diagnosis& d) {
     return text + "</table>\n";
 }
 
-std::string cause_section(const Cause& cause) {
+std::string cause_section(const diagnosis::Cause& cause) {
     if (cause.parameters.empty()) return "";
     std::string text = fmt::format(
         "<h3>{}</h3>\n<p>{}. <b>Usual cause:</b> {}. <b>What to do:</b> "
@@ -150,31 +150,32 @@ std::string cause_section(const Cause& cause) {
         text += "<p class=\"rival\">These readings cannot tell it from: " + rivals_text(cause) +
                 ".</p>\n";
     text += "<table>" + row({"Parameter", "Value", "&plusmn; 1 sigma", "Unit"}, "th");
-    for (const FitParameter& p : cause.parameters) {
+    for (const identification::FitParameter& p : cause.parameters) {
         const ShopValue v = shop_value(p);
         text += row({escape_xml(v.name), v.value, v.sigma, escape_xml(v.unit)});
     }
     text += "</table>\n";
-    for (const Inseparable& group : cause.unseen)
+    for (const identification::Inseparable& group : cause.unseen)
         text +=
             "<p class=\"small\">No reading here sees this change: " + escape_xml(to_string(group)) +
             ".</p>\n";
     return text;
 }
 
-std::string where_section(const Diagnosis& d) {
+std::string where_section(const diagnosis::Diagnosis& d) {
     if (d.where.empty()) return "";
     std::string text =
         "<h2>Where it shows</h2>\n<p>Each line stands alone; they overlap, because one cause shows "
         "in several ways. Only what chance cannot make (p below 0.0001) is listed.</p>\n<ul>\n";
-    for (const DriverShare& w : d.where) text += "<li>" + escape_xml(w.text) + ".</li>\n";
+    for (const diagnosis::DriverShare& w : d.where)
+        text += "<li>" + escape_xml(w.text) + ".</li>\n";
     return text + "</ul>\n";
 }
 
-std::string next_section(const Diagnosis& d) {
+std::string next_section(const diagnosis::Diagnosis& d) {
     if (d.next.empty()) return "";
     std::string text = "<h2>What to measure next</h2>\n";
-    for (const NextMeasurement& next : d.next) {
+    for (const diagnosis::NextMeasurement& next : d.next) {
         text += "<p>" + escape_xml(upper_first(next.text)) + ".</p>\n";
         if (!next.program.empty())
             text += "<details><summary>NC program</summary><pre>" + escape_xml(next.program) +
@@ -183,7 +184,7 @@ std::string next_section(const Diagnosis& d) {
     return text;
 }
 
-std::string small_print(const Diagnosis& d) {
+std::string small_print(const diagnosis::Diagnosis& d) {
     std::string text = "<h2>How to read this</h2>\n<dl>\n";
     const auto entry = [&](const char* term, const std::string& meaning) {
         text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, meaning);
@@ -220,7 +221,7 @@ const char* style =
 
 }  // namespace
 
-std::string diagnosis_page(const Diagnosis& d, const std::string& title) {
+std::string diagnosis_page(const diagnosis::Diagnosis& d, const std::string& title) {
     std::string text = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
         "<meta name=\"viewport\" content=\"width=device-width\"><title>Machine against simulation: "
@@ -242,8 +243,8 @@ std::string diagnosis_page(const Diagnosis& d, const std::string& title) {
     text += "<h2>All readings</h2>\n" + residual_plot(d);
     text += where_section(d) + next_section(d);
     if (!d.causes.empty()) text += "<h2>The causes one by one</h2>\n";
-    for (const Cause& cause : d.causes) text += cause_section(cause);
+    for (const diagnosis::Cause& cause : d.causes) text += cause_section(cause);
     return text + small_print(d) + "</body></html>\n";
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -5,10 +5,10 @@
 
 #include "diagnosis/diagnosis.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 /// Verdict in words, where the gap lives, the causes with their shares, and what to measure next.
 /// `title` is the name of the readings.
-std::string diagnosis_page(const Diagnosis& diagnosis, const std::string& title);
+std::string diagnosis_page(const diagnosis::Diagnosis& diagnosis, const std::string& title);
 
-}  // namespace trunnion
+}  // namespace trunnion::report

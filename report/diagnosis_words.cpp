@@ -6,7 +6,7 @@
 #include <cctype>
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::report {
 namespace {
 
 struct ShopUnit {
@@ -18,7 +18,7 @@ constexpr ShopUnit shop_units[] = {
     {"mm", "µm", 1e3, 1.0}, {"rad", "µrad", 1e6, 0.01}, {"s", "ms", 1e3, 0.1}};
 
 /// "gap_rad" in rad is "gap"; vector components get their letter.
-std::string plain_name(const FitParameter& p) {
+std::string plain_name(const identification::FitParameter& p) {
     std::string name = p.name;
     const std::string end = '_' + p.unit;
     if (name.size() > end.size() && name.ends_with(end)) name.erase(name.size() - end.size());
@@ -26,21 +26,21 @@ std::string plain_name(const FitParameter& p) {
     return p.component < 0 ? name : fmt::format("{} {}", name, "xyz"[p.component]);
 }
 
-std::string size_words(const Diagnosis& d) {
+std::string size_words(const diagnosis::Diagnosis& d) {
     return fmt::format("{:.2f} um rms, {:.2f} um of it noise ({})", d.rms_um, d.noise_um,
                        to_string(d.noise.source));
 }
 
-std::string shrink_words(const HeldOut& h) {
+std::string shrink_words(const diagnosis::HeldOut& h) {
     return fmt::format(
         "With that in the simulation the gap beyond noise shrinks by {:.0f} % ({:.0f} to {:.0f} %) "
         "on readings that took no part in the fit.",
         100.0 * h.shrink, 100.0 * h.low, 100.0 * h.high);
 }
 
-std::string causes_words(const Diagnosis& d) {
+std::string causes_words(const diagnosis::Diagnosis& d) {
     std::string text;
-    for (const Cause& cause : d.causes) {
+    for (const diagnosis::Cause& cause : d.causes) {
         if (cause.effect == "unknown") continue;
         text += fmt::format("{}{} ({:.0f} %)", text.empty() ? "" : ", ", cause.effect,
                             100.0 * cause.share);
@@ -56,7 +56,7 @@ std::string upper_first(std::string text) {
     return text;
 }
 
-ShopValue shop_value(const FitParameter& p) {
+ShopValue shop_value(const identification::FitParameter& p) {
     ShopValue v{plain_name(p), "", "–", p.unit == "1" ? "" : p.unit};
     double factor = 1.0;
     for (const ShopUnit& unit : shop_units)
@@ -77,40 +77,40 @@ ShopValue shop_value(const FitParameter& p) {
     return v;
 }
 
-std::string main_size(const Cause& cause) {
-    const FitParameter* most = nullptr;
-    const auto strength = [](const FitParameter& p) {
+std::string main_size(const diagnosis::Cause& cause) {
+    const identification::FitParameter* most = nullptr;
+    const auto strength = [](const identification::FitParameter& p) {
         return std::isfinite(p.sigma) && p.sigma > 0.0 ? std::abs(p.value) / p.sigma : 0.0;
     };
-    for (const FitParameter& p : cause.parameters)
+    for (const identification::FitParameter& p : cause.parameters)
         if (!most || strength(p) > strength(*most)) most = &p;
     if (!most) return "–";
     const ShopValue v = shop_value(*most);
     return fmt::format("{} {} ± {} {}", v.name, v.value, v.sigma, v.unit);
 }
 
-std::string verdict_sentence(const Diagnosis& d) {
+std::string verdict_sentence(const diagnosis::Diagnosis& d) {
     const std::string size = size_words(d);
     const std::string first = d.causes.empty() ? "" : d.causes.front().effect;
     switch (d.verdict) {
-        case Verdict::no_gap:
+        case diagnosis::Verdict::no_gap:
             return "No gap beyond noise: " + size + ".";
-        case Verdict::explained:
+        case diagnosis::Verdict::explained:
             return fmt::format("The gap is explained, most of it by {}: {}.", first, size);
-        case Verdict::ambiguous:
+        case diagnosis::Verdict::ambiguous:
             return fmt::format(
                 "The gap is explained, but these readings cannot tell {} from its rivals: {}.",
                 first, size);
-        case Verdict::partly_explained:
+        case diagnosis::Verdict::partly_explained:
             return fmt::format("The gap is explained in part: {}.", size);
-        case Verdict::unexplained:
+        case diagnosis::Verdict::unexplained:
             return fmt::format("There is a gap that the catalogue does not explain: {}.", size);
     }
     return size;
 }
 
-std::string answer(const Diagnosis& d) {
-    if (d.verdict == Verdict::no_gap)
+std::string answer(const diagnosis::Diagnosis& d) {
+    if (d.verdict == diagnosis::Verdict::no_gap)
         return fmt::format(
             "No gap. Machine and simulation differ by {:.2f} µm rms, and noise alone "
             "makes {:.2f} µm.",
@@ -121,13 +121,13 @@ std::string answer(const Diagnosis& d) {
     const std::string causes = causes_words(d);
     const std::string part = fmt::format("{:.0f} %", 100.0 * d.explained);
     switch (d.verdict) {
-        case Verdict::explained:
+        case diagnosis::Verdict::explained:
             return size + "The cause is " + causes + ". " + shrink_words(d.after);
-        case Verdict::ambiguous:
+        case diagnosis::Verdict::ambiguous:
             return size + "The cause is " + causes +
                    ", or another effect that these readings cannot tell from it: see below. " +
                    shrink_words(d.after);
-        case Verdict::partly_explained:
+        case diagnosis::Verdict::partly_explained:
             return size + part + " of it is explained: " + causes +
                    ". The rest has a structure that no known effect explains. ";
         default:
@@ -139,14 +139,14 @@ std::string answer(const Diagnosis& d) {
     }
 }
 
-std::string noise_words(const Diagnosis& d) {
+std::string noise_words(const diagnosis::Diagnosis& d) {
     const std::string size = fmt::format("{:.2f} µm rms, ", d.noise_um);
     switch (d.noise.source) {
-        case NoiseSource::repeats:
+        case diagnosis::NoiseSource::repeats:
             return size + "measured from poses and passes that were repeated.";
-        case NoiseSource::given:
+        case diagnosis::NoiseSource::given:
             return size + "as the setup states it; nothing was repeated to check it.";
-        case NoiseSource::assumed:
+        case diagnosis::NoiseSource::assumed:
             return size +
                    "assumed: nothing was repeated, and what the fit leaves is of another size than "
                    "stated. Repeat some poses to be sure.";
@@ -154,4 +154,4 @@ std::string noise_words(const Diagnosis& d) {
     return size;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -7,32 +7,33 @@
 #include "base/alarm.h"
 #include "report/places.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 namespace {
 
-const char* name_of(Severity severity) {
-    return severity == Severity::error ? "error" : "warning";
+const char* name_of(check::Severity severity) {
+    return severity == check::Severity::error ? "error" : "warning";
 }
 
-std::string line_of(const Finding& f) {
+std::string line_of(const check::Finding& f) {
     return fmt::format("{}:{}:{}: {}: {} [{}]{}\n", printable(f.path), f.line, f.column,
                        name_of(f.severity), printable(f.text), f.rule,
                        f.remedy.empty() ? "" : " " + f.remedy);
 }
 
-std::string text_of(const std::vector<Finding>& findings, std::size_t files) {
+std::string text_of(const std::vector<check::Finding>& findings, std::size_t files) {
     std::string out;
-    for (const Finding& f : findings) out += line_of(f);
+    for (const check::Finding& f : findings) out += line_of(f);
     return out + fmt::format("{} finding{} in {} file{}\n", findings.size(),
                              findings.size() == 1 ? "" : "s", files, files == 1 ? "" : "s");
 }
 
-std::string json_of(const std::vector<Finding>& findings, const std::vector<std::string>& files) {
+std::string json_of(const std::vector<check::Finding>& findings,
+                    const std::vector<std::string>& files) {
     nlohmann::ordered_json j = {{"schema", "trunnion.check/1"},
                                 {"files", files.size()},
                                 {"findings", nlohmann::ordered_json::array()}};
-    for (const Finding& f : findings)
+    for (const check::Finding& f : findings)
         j["findings"].push_back({{"rule", f.rule},
                                  {"severity", name_of(f.severity)},
                                  {"path", valid_utf8(f.path)},
@@ -43,9 +44,9 @@ std::string json_of(const std::vector<Finding>& findings, const std::vector<std:
     return j.dump(2) + "\n";
 }
 
-std::vector<ReportItem> items_of(const std::vector<Finding>& findings) {
+std::vector<ReportItem> items_of(const std::vector<check::Finding>& findings) {
     std::vector<ReportItem> items;
-    for (const Finding& f : findings)
+    for (const check::Finding& f : findings)
         items.push_back(
             {f.rule, name_of(f.severity), f.path, f.line, f.column, f.line, f.text, f.remedy, ""});
     return items;
@@ -53,16 +54,18 @@ std::vector<ReportItem> items_of(const std::vector<Finding>& findings) {
 
 std::vector<ReportRule> rules() {
     std::vector<ReportRule> list;
-    for (const CheckRule& rule : check_rules()) list.push_back({rule.name, rule.description});
+    for (const check::CheckRule& rule : check::check_rules())
+        list.push_back({rule.name, rule.description});
     return list;
 }
 
-std::string junit_of(const std::vector<Finding>& findings, const std::vector<std::string>& files) {
+std::string junit_of(const std::vector<check::Finding>& findings,
+                     const std::vector<std::string>& files) {
     std::vector<JUnitCase> cases;
     for (const std::string& file : files) {
         JUnitCase c{file, file, "", ""};
         int count = 0;
-        for (const Finding& f : findings)
+        for (const check::Finding& f : findings)
             if (f.path == file) {
                 if (++count == 1) c.failure = f.text;
                 c.details += line_of(f);
@@ -75,7 +78,7 @@ std::string junit_of(const std::vector<Finding>& findings, const std::vector<std
 
 }  // namespace
 
-std::string format_findings(const std::vector<Finding>& findings,
+std::string format_findings(const std::vector<check::Finding>& findings,
                             const std::vector<std::string>& files, const std::string& format) {
     if (format == "text") return text_of(findings, files.size());
     if (format == "json") return json_of(findings, files);
@@ -85,4 +88,4 @@ std::string format_findings(const std::vector<Finding>& findings,
     throw InputError("--format " + format + ": one of text, json, junit, sarif, github");
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -6,11 +6,11 @@
 
 #include "check/check.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 /// format: text, json, junit, sarif, github; throws InputError for another. `files` are all that
 /// were looked at: a JUnit case each.
-std::string format_findings(const std::vector<Finding>& findings,
+std::string format_findings(const std::vector<check::Finding>& findings,
                             const std::vector<std::string>& files, const std::string& format);
 
-}  // namespace trunnion
+}  // namespace trunnion::report

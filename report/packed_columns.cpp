@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace trunnion {
+namespace trunnion::report {
 namespace {
 
 void append_varint(std::string& out, std::uint64_t value) {
@@ -62,4 +62,4 @@ std::string packed_base64(const std::vector<PackedColumn>& columns) {
     return base64(deflated(bytes));
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

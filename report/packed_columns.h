@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::report {
 
 /// One column: the value of row i is number[i] * step. Rounding to whole steps is the only loss.
 struct PackedColumn {
@@ -19,4 +19,4 @@ struct PackedColumn {
 /// columns, same text.
 std::string packed_base64(const std::vector<PackedColumn>& columns);
 
-}  // namespace trunnion
+}  // namespace trunnion::report

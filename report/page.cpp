@@ -7,7 +7,7 @@
 #include "report/page_assets.h"
 #include "report/xml.h"
 
-namespace trunnion {
+namespace trunnion::report {
 namespace {
 
 std::string_view tone_class(Tone tone) {
@@ -130,4 +130,4 @@ std::string table_html(const PageTable& table) {
     return out + "</tbody>\n</table></div>\n";
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

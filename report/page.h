@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::report {
 
 /// How a verdict is marked beside its words: by a rule in colour, never by colour alone.
 enum class Tone : unsigned char { neutral, good, bad };
@@ -64,4 +64,4 @@ struct PageTable {
 /// Scrolls sideways inside its own frame where the page is narrow.
 std::string table_html(const PageTable& table);
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace trunnion {
+namespace trunnion::report {
 
 struct PageAsset {
     std::string_view text;
@@ -15,4 +15,4 @@ extern const PageAsset page_style;
 extern const PageAsset chart_script;
 extern const PageAsset run_script;
 
-}  // namespace trunnion
+}  // namespace trunnion::report

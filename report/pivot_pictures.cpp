@@ -9,13 +9,13 @@
 #include "report/pivot_report.h"
 #include "report/svg.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 namespace {
 
-std::vector<Vector3> measured_of(const PivotArc& arc) {
+std::vector<Vector3> measured_of(const pivot::PivotArc& arc) {
     std::vector<Vector3> errors;
-    for (const PivotPoint& p : arc.points) errors.push_back(p.error_mm);
+    for (const pivot::PivotPoint& p : arc.points) errors.push_back(p.error_mm);
     return errors;
 }
 
@@ -37,16 +37,17 @@ struct Panels {
     }
 };
 
-std::size_t style_of(const PivotArc& arc) {
-    const auto& all = pivot_functions();
-    const auto at = std::find_if(all.begin(), all.end(),
-                                 [&](const PivotFunction& f) { return f.name == arc.function; });
+std::size_t style_of(const pivot::PivotArc& arc) {
+    const auto& all = pivot::pivot_functions();
+    const auto at = std::find_if(all.begin(), all.end(), [&](const pivot::PivotFunction& f) {
+        return f.name == arc.function;
+    });
     return static_cast<std::size_t>(at - all.begin());
 }
 
-void draw_legend(Svg& svg, Point2 at, const std::vector<PivotMap>& maps) {
-    std::vector<PivotArc> named;
-    for (const PivotMap& map : maps)
+void draw_legend(Svg& svg, Point2 at, const std::vector<pivot::PivotMap>& maps) {
+    std::vector<pivot::PivotArc> named;
+    for (const pivot::PivotMap& map : maps)
         if (map.arcs.size() > named.size()) named = map.arcs;
     for (std::size_t k = 0; k < named.size(); ++k) {
         const double x = at.x + 150.0 * static_cast<double>(k);
@@ -57,11 +58,11 @@ void draw_legend(Svg& svg, Point2 at, const std::vector<PivotMap>& maps) {
     }
 }
 
-std::string moving_letter(const PivotResult& r, const PivotMap& map) {
+std::string moving_letter(const PivotResult& r, const pivot::PivotMap& map) {
     return std::string(1, letter_of(map.first_moves ? r.first : r.second));
 }
 
-void draw_distances(Plot& plot, Svg& svg, const PivotMap& map, const PivotArc& arc) {
+void draw_distances(Plot& plot, Svg& svg, const pivot::PivotMap& map, const pivot::PivotArc& arc) {
     const std::size_t k = style_of(arc);
     const auto measured = distances_um(measured_of(arc)), expected = distances_um(arc.expected_mm);
     std::vector<Point2> line;
@@ -80,20 +81,20 @@ std::string distances_picture(const PivotResult& r) {
                   16, "middle");
     draw_legend(page.svg, {170, 54}, r.maps);
     double highest = 0.1;
-    for (const PivotMap& map : r.maps)
-        for (const PivotArc& arc : map.arcs)
+    for (const pivot::PivotMap& map : r.maps)
+        for (const pivot::PivotArc& arc : map.arcs)
             for (const double d : distances_um(measured_of(arc))) highest = std::max(highest, d);
     for (std::size_t m = 0; m < r.maps.size(); ++m) {
-        const PivotMap& map = r.maps[m];
+        const pivot::PivotMap& map = r.maps[m];
         double last = 90.0;
-        for (const PivotArc& arc : map.arcs)
-            for (const PivotPoint& p : arc.points) last = std::max(last, map.moving_deg(p));
+        for (const pivot::PivotArc& arc : map.arcs)
+            for (const pivot::PivotPoint& p : arc.points) last = std::max(last, map.moving_deg(p));
         Plot plot(page.svg, page.corner(m), 370, 260,
                   last > 180.0 ? PlotRange{0, 360, 60} : PlotRange{-90, 90, 30},
                   round_range(0.0, highest));
         plot.frame(fmt::format("Map {}: {}", map.number, map.name),
                    moving_letter(r, map) + " / deg", "distance / µm");
-        for (const PivotArc& arc : map.arcs) draw_distances(plot, page.svg, map, arc);
+        for (const pivot::PivotArc& arc : map.arcs) draw_distances(plot, page.svg, map, arc);
     }
     return page.svg.str();
 }
@@ -125,7 +126,7 @@ CirclePlane plane_across(const Vector3& axis_M) {
     return plane;
 }
 
-void draw_circle(const Plot& plot, Svg& svg, const CirclePlane& plane, const PivotArc& arc) {
+void draw_circle(const Plot& plot, Svg& svg, const CirclePlane& plane, const pivot::PivotArc& arc) {
     const std::size_t k = style_of(arc);
     const Point2 centre = plane.um(arc.circle.centre_mm),
                  expected = plane.um(arc.expected.centre_mm);
@@ -134,7 +135,7 @@ void draw_circle(const Plot& plot, Svg& svg, const CirclePlane& plane, const Piv
     svg.circle(plot.at(expected.x, expected.y),
                um_from_mm(arc.expected.radius_mm()) * plot.scale_x(),
                {plot_colours[k], 0.8, "none", "6 5"});
-    for (const PivotPoint& p : arc.points) {
+    for (const pivot::PivotPoint& p : arc.points) {
         const Point2 at = plane.um(p.error_mm);
         svg.mark(plot.at(at.x, at.y), static_cast<int>(k), plot_colours[k], k % 2 ? 1.8 : 3.0);
     }
@@ -143,10 +144,10 @@ void draw_circle(const Plot& plot, Svg& svg, const CirclePlane& plane, const Piv
     svg.line({at.x, at.y - 5}, {at.x, at.y + 5}, {plot_colours[k], 1.2, "none", ""});
 }
 
-double reach_um(const std::vector<PivotMap>& maps) {
+double reach_um(const std::vector<pivot::PivotMap>& maps) {
     double reach = 0.05;
-    for (const PivotMap& map : maps)
-        for (const PivotArc& arc : map.arcs)
+    for (const pivot::PivotMap& map : maps)
+        for (const pivot::PivotArc& arc : map.arcs)
             reach = std::max(
                 reach, 1.12 * um_from_mm(arc.circle.centre_mm.norm() + arc.circle.radius_mm()));
     return reach;
@@ -159,9 +160,9 @@ std::string circles_picture(const PivotResult& r) {
     draw_legend(page.svg, {170, 54}, r.maps);
     const double reach = reach_um(r.maps);
     for (std::size_t m = 0; m < r.maps.size(); ++m) {
-        const PivotMap& map = r.maps[m];
+        const pivot::PivotMap& map = r.maps[m];
         const CirclePlane plane =
-            plane_across(moving_axis_M(r.verdict.in_force.pivot, map).normalized());
+            plane_across(pivot::moving_axis_M(r.verdict.in_force.pivot, map).normalized());
         Point2 corner = page.corner(m);
         corner.x += 55;
         const PlotRange range = round_range(-reach, reach, 4);
@@ -169,7 +170,7 @@ std::string circles_picture(const PivotResult& r) {
         plot.frame(fmt::format("Map {}: {}", map.number, map.name), plane.a_name + " / µm",
                    plane.b_name + " / µm");
         double y = corner.y + 60;
-        for (const PivotArc& arc : map.arcs) {
+        for (const pivot::PivotArc& arc : map.arcs) {
             draw_circle(plot, page.svg, plane, arc);
             page.svg.text({corner.x + 268, y}, arc.function, 11, "start",
                           plot_colours[style_of(arc)]);
@@ -187,4 +188,4 @@ std::map<std::string, std::string> pivot_pictures(const PivotResult& result) {
     return {{"distances.svg", distances_picture(result)}, {"circles.svg", circles_picture(result)}};
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -8,7 +8,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 namespace {
 
@@ -24,22 +24,23 @@ std::string um_vector(const Vector3& v_mm) {
                        number(v_mm.z()));
 }
 
-const PivotPoint* worst_point(const PivotArc& arc) {
-    const auto worst = std::max_element(
-        arc.points.begin(), arc.points.end(), [](const PivotPoint& a, const PivotPoint& b) {
-            return a.error_mm.squaredNorm() < b.error_mm.squaredNorm();
-        });
+const pivot::PivotPoint* worst_point(const pivot::PivotArc& arc) {
+    const auto worst =
+        std::max_element(arc.points.begin(), arc.points.end(),
+                         [](const pivot::PivotPoint& a, const pivot::PivotPoint& b) {
+                             return a.error_mm.squaredNorm() < b.error_mm.squaredNorm();
+                         });
     return worst == arc.points.end() ? nullptr : &*worst;
 }
 
-std::string map_text(const PivotResult& r, const PivotMap& map) {
+std::string map_text(const PivotResult& r, const pivot::PivotMap& map) {
     std::string out = fmt::format("Map {}: {}, {} indexations\n", map.number, map.name,
                                   map.arcs.empty() ? 0 : map.arcs[0].points.size());
     out +=
         "  function  store    circle radius    expected   largest error at                X    "
         "     Y         Z / µm\n";
-    for (const PivotArc& arc : map.arcs)
-        if (const PivotPoint* worst = worst_point(arc))
+    for (const pivot::PivotArc& arc : map.arcs)
+        if (const pivot::PivotPoint* worst = worst_point(arc))
             out += fmt::format("  {:<9} {:<7} {:10.2f} µm {:8.2f} µm   {}{:<7g} {}{:<7g} {}\n",
                                arc.function, name_of(arc.group), um_from_mm(arc.circle.radius_mm()),
                                um_from_mm(arc.expected.radius_mm()), letter_of(r.first),
@@ -49,7 +50,7 @@ std::string map_text(const PivotResult& r, const PivotMap& map) {
 }
 
 /// Name of a number in the words of the dialect.
-std::string number_name(const PivotResult& r, const StoreNumber& n) {
+std::string number_name(const PivotResult& r, const setup::StoreNumber& n) {
     if (n.parameter == 0) return n.name;
     if (!r.hurco) return fmt::format("No.{} ({})", n.name, "XYZ"[n.component]);
     const char axis = letter_of(n.place == 1 ? r.first : r.second);
@@ -58,17 +59,17 @@ std::string number_name(const PivotResult& r, const StoreNumber& n) {
 }
 
 std::string stores_table(const PivotResult& r) {
-    const PivotVerdict& v = r.verdict;
+    const pivot::PivotVerdict& v = r.verdict;
     std::string out =
         fmt::format("{:<20} {:>12} {:>12} {:>11} {:>8}{}\n", "Pivot stores", "in force/mm",
                     "to type/mm", "error/µm", "u/µm", r.true_right ? "   true error/µm" : "");
-    std::vector<StoreNumber> right;
-    if (r.true_right) right = store_numbers(*r.true_right);
-    for (const StoreVerdict& s : v.stores) {
+    std::vector<setup::StoreNumber> right;
+    if (r.true_right) right = setup::store_numbers(*r.true_right);
+    for (const pivot::StoreVerdict& s : v.stores) {
         out += fmt::format("  {:<18} {:12.4f} {:12.4f} {:11.2f} {:8.2f}",
                            number_name(r, s.in_force), s.in_force.value_mm + 0.0, s.type_mm + 0.0,
                            plain(um_from_mm(s.error_mm), 0.005), um_from_mm(s.sigma_mm));
-        for (const StoreNumber& n : right)
+        for (const setup::StoreNumber& n : right)
             if (n.name == s.in_force.name)
                 out += fmt::format("   {:13.2f}",
                                    plain(um_from_mm(s.in_force.value_mm - n.value_mm), 0.005));
@@ -78,15 +79,15 @@ std::string stores_table(const PivotResult& r) {
     return out + "\n";
 }
 
-std::string quality_text(const PivotVerdict& v) {
+std::string quality_text(const pivot::PivotVerdict& v) {
     std::string out = fmt::format(
         "found from these readings: one centre scatters by {:.2f} µm an axis, {} "
         "zeroings of the sphere by {:.2f} µm\n",
         v.fit.noise_um, v.fit.zeroings, v.fit.zero_scatter_um);
-    for (const GroupVerdict& g : v.groups)
+    for (const pivot::GroupVerdict& g : v.groups)
         out += fmt::format("after typing ({:g} mm steps) {} functions are off by up to {:.2f} µm\n",
                            v.increment_mm, name_of(g.group), g.left_um);
-    const double apart_um = um_from_mm(step_between_axes_mm(v.right).norm());
+    const double apart_um = um_from_mm(setup::step_between_axes_mm(v.right).norm());
     if (v.groups.size() > 1 && apart_um > 0.05)
         out += fmt::format(
             "the rotary axes pass each other by {:.1f} µm: G54 holds one point, so DPP and G54.2 "
@@ -101,11 +102,11 @@ std::string quality_text(const PivotVerdict& v) {
 
 std::string affected_text(const PivotResult& r) {
     std::string out;
-    for (const AffectedPart& part : r.affected)
+    for (const pivot::AffectedPart& part : r.affected)
         if (part.stale)
             out += fmt::format("  {:<28} {:<6} {:<32} {:8.1f} µm\n",
                                part.path.empty() ? "parts made with" : part.path, part.function,
-                               codes_of(part.function, r.hurco), part.error_um);
+                               pivot::codes_of(part.function, r.hurco), part.error_um);
     return out.empty() ? out : "affected:\n" + out;
 }
 
@@ -113,9 +114,9 @@ Json vector_json(const Vector3& v) {
     return {v.x(), v.y(), v.z()};
 }
 
-Vector3 mean_of(const std::vector<PivotPoint>& points) {
+Vector3 mean_of(const std::vector<pivot::PivotPoint>& points) {
     Vector3 sum = Vector3::Zero();
-    for (const PivotPoint& p : points) sum += p.error_mm;
+    for (const pivot::PivotPoint& p : points) sum += p.error_mm;
     return points.empty() ? sum : Vector3(sum / static_cast<double>(points.size()));
 }
 
@@ -125,11 +126,11 @@ Vector3 mean_of(const std::vector<Vector3>& points) {
     return points.empty() ? sum : Vector3(sum / static_cast<double>(points.size()));
 }
 
-Json arc_json(const PivotResult& r, const PivotArc& arc) {
+Json arc_json(const PivotResult& r, const pivot::PivotArc& arc) {
     Json points = Json::array();
     const Vector3 mean = mean_of(arc.points), expected_mean = mean_of(arc.expected_mm);
     for (std::size_t i = 0; i < arc.points.size(); ++i) {
-        const PivotPoint& p = arc.points[i];
+        const pivot::PivotPoint& p = arc.points[i];
         points.push_back({{std::string(1, letter_of(r.first)), p.first_deg},
                           {std::string(1, letter_of(r.second)), p.second_deg},
                           {"error_mm", vector_json(p.error_mm)},
@@ -144,9 +145,9 @@ Json arc_json(const PivotResult& r, const PivotArc& arc) {
             {"points", points}};
 }
 
-Json map_json(const PivotResult& r, const PivotMap& map) {
+Json map_json(const PivotResult& r, const pivot::PivotMap& map) {
     Json functions = Json::object();
-    for (const PivotArc& arc : map.arcs) functions[arc.function] = arc_json(r, arc);
+    for (const pivot::PivotArc& arc : map.arcs) functions[arc.function] = arc_json(r, arc);
     const char moving = letter_of(map.first_moves ? r.first : r.second);
     const char fixed = letter_of(map.first_moves ? r.second : r.first);
     return {{"name", map.name},
@@ -157,7 +158,7 @@ Json map_json(const PivotResult& r, const PivotMap& map) {
 
 Json stores_json(const PivotResult& r) {
     Json list = Json::array();
-    for (const StoreVerdict& s : r.verdict.stores)
+    for (const pivot::StoreVerdict& s : r.verdict.stores)
         list.push_back({{"name", s.in_force.parameter == 0 ? "G54" : s.in_force.name},
                         {"axis", std::string(1, "XYZ"[s.in_force.component])},
                         {"in_force_mm", s.in_force.value_mm},
@@ -172,10 +173,10 @@ Json stores_json(const PivotResult& r) {
 
 Json affected_json(const PivotResult& r) {
     Json list = Json::array();
-    for (const AffectedPart& part : r.affected)
+    for (const pivot::AffectedPart& part : r.affected)
         list.push_back({{"program", part.path.empty() ? Json() : Json(part.path)},
                         {"function", part.function},
-                        {"codes", codes_of(part.function, r.hurco)},
+                        {"codes", pivot::codes_of(part.function, r.hurco)},
                         {"store", name_of(part.group)},
                         {"error_um", part.error_um},
                         {"stale", part.stale}});
@@ -186,16 +187,16 @@ Json affected_json(const PivotResult& r) {
 
 std::string pivot_table(const PivotResult& r) {
     std::string out = fmt::format("{} ({})\n\n", r.machine, r.source) + stores_table(r);
-    for (const PivotMap& map : r.maps) out += map_text(r, map);
-    return out + quality_text(r.verdict) + affected_text(r) + "\n" + sentence(r.verdict, r.hurco) +
-           "\n";
+    for (const pivot::PivotMap& map : r.maps) out += map_text(r, map);
+    return out + quality_text(r.verdict) + affected_text(r) + "\n" +
+           pivot::sentence(r.verdict, r.hurco) + "\n";
 }
 
 std::string pivot_json(const PivotResult& r) {
     Json maps = Json::array();
-    for (const PivotMap& map : r.maps) maps.push_back(map_json(r, map));
+    for (const pivot::PivotMap& map : r.maps) maps.push_back(map_json(r, map));
     Json groups = Json::array();
-    for (const GroupVerdict& g : r.verdict.groups)
+    for (const pivot::GroupVerdict& g : r.verdict.groups)
         groups.push_back({{"store", name_of(g.group)},
                           {"measured", g.measured},
                           {"stale", g.stale},
@@ -203,7 +204,7 @@ std::string pivot_json(const PivotResult& r) {
                           {"sigma_um", g.sigma_um},
                           {"left_after_typing_um", g.left_um}});
     return Json({{"schema", "trunnion.pivot/1"},
-                 {"verdict", sentence(r.verdict, r.hurco)},
+                 {"verdict", pivot::sentence(r.verdict, r.hurco)},
                  {"machine", r.machine},
                  {"source", r.source},
                  {"maps", maps},
@@ -224,14 +225,14 @@ std::string pivot_page(const PivotResult& r, const PageOrigin& origin) {
     page.title = "Pivot stores";
     page.subject = r.machine + ", " + r.source;
     const bool stale = std::any_of(r.verdict.groups.begin(), r.verdict.groups.end(),
-                                   [](const GroupVerdict& g) { return g.stale; });
+                                   [](const pivot::GroupVerdict& g) { return g.stale; });
     page.tone = stale ? Tone::bad : Tone::good;
-    page.verdict = sentence(r.verdict, r.hurco);
+    page.verdict = pivot::sentence(r.verdict, r.hurco);
     PageTable stores{"What to type",
                      {"number", "in force / mm", "to type / mm", "error / µm", "u / µm", ""},
                      "lrrrrl",
                      {}};
-    for (const StoreVerdict& s : r.verdict.stores)
+    for (const pivot::StoreVerdict& s : r.verdict.stores)
         stores.rows.push_back(
             {number_name(r, s.in_force), fmt::format("{:.4f}", s.in_force.value_mm + 0.0),
              fmt::format("{:.4f}", s.type_mm + 0.0),
@@ -246,10 +247,10 @@ std::string pivot_page(const PivotResult& r, const PageOrigin& origin) {
     page.body_html += section_html("Maps", figures);
     PageTable affected{
         "Who is affected", {"what", "function", "codes", "off by up to / µm"}, "lllr", {}};
-    for (const AffectedPart& part : r.affected)
+    for (const pivot::AffectedPart& part : r.affected)
         affected.rows.push_back(
             {part.path.empty() ? "all parts" : part.path, part.function,
-             codes_of(part.function, r.hurco),
+             pivot::codes_of(part.function, r.hurco),
              fmt::format("{:.1f}{}", part.error_um, part.stale ? "" : " (right)")});
     page.body_html += section_html("Programs", table_html(affected));
     std::string unseen;
@@ -259,4 +260,4 @@ std::string pivot_page(const PivotResult& r, const PageOrigin& origin) {
     return page_html(page);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

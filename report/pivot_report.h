@@ -8,17 +8,18 @@
 #include "pivot/affected_programs.h"
 #include "report/page.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 /// All that is said of one test.
 struct PivotResult {
     std::string machine;
     Axis first = Axis::B, second = Axis::C;
     bool hurco = false;
-    std::vector<PivotMap> maps;
-    PivotVerdict verdict;
-    std::optional<RotaryStores> true_right;  ///< a simulator knows what the stores had to hold
-    std::vector<AffectedPart> affected;
+    std::vector<pivot::PivotMap> maps;
+    pivot::PivotVerdict verdict;
+    std::optional<setup::RotaryStores>
+        true_right;  ///< a simulator knows what the stores had to hold
+    std::vector<pivot::AffectedPart> affected;
     std::string source;  ///< "simulated", or where the readings come from
 };
 
@@ -32,4 +33,4 @@ std::map<std::string, std::string> pivot_pictures(const PivotResult& result);
 /// The page for a shop.
 std::string pivot_page(const PivotResult& result, const PageOrigin& origin);
 
-}  // namespace trunnion
+}  // namespace trunnion::report

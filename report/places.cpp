@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace trunnion {
+namespace trunnion::report {
 
 namespace {
 
@@ -66,4 +66,4 @@ std::string format_junit(const std::string& suite, const std::vector<JUnitCase>&
     return out + "  </testsuite>\n</testsuites>\n";
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

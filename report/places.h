@@ -7,7 +7,7 @@
 
 #include "report/xml.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 /// One result at one place.
 struct ReportItem {
@@ -46,4 +46,4 @@ std::string format_sarif(const std::vector<ReportRule>& rules, const std::vector
 std::string format_github(const std::vector<ReportItem>& items);
 std::string format_junit(const std::string& suite, const std::vector<JUnitCase>& cases);
 
-}  // namespace trunnion
+}  // namespace trunnion::report

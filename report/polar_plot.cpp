@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/pose.h"
 #include "base/units.h"
+#include "geometry/pose.h"
 #include "report/svg.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 namespace {
 
@@ -194,4 +194,4 @@ std::string polar_svg(const PolarPlot& plot) {
     return svg.str();
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::report {
 
 /// One pass. Angle counter-clockwise, 0 to the right.
 struct PolarTrace {
@@ -38,4 +38,4 @@ std::vector<double> fit_eccentric_circle(const std::vector<PolarTrace>& traces);
 
 std::string polar_svg(const PolarPlot& plot);
 
-}  // namespace trunnion
+}  // namespace trunnion::report

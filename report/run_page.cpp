@@ -11,7 +11,7 @@
 #include "report/packed_columns.h"
 #include "report/svg.h"
 
-namespace trunnion {
+namespace trunnion::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -141,10 +141,10 @@ Json vector_json(const Vector3& v) {
     return Json::array({v.x(), v.y(), v.z()});
 }
 
-Json machine_json(const Setup& setup) {
+Json machine_json(const setup::Setup& setup) {
     Json axes = Json::array();
     for (const auto* side : {&setup.machine.chain.work, &setup.machine.chain.tool})
-        for (const AxisGeometry& axis : *side) {
+        for (const kinematics::AxisGeometry& axis : *side) {
             Json entry = {{"name", std::string(1, letter_of(axis.axis))},
                           {"kind", axis.rotary ? "rotary" : "linear"},
                           {"side", side == &setup.machine.chain.work ? "work" : "tool"},
@@ -158,7 +158,7 @@ Json machine_json(const Setup& setup) {
 }
 
 /// Gauge point to tip of each tool that the path uses, in S: as the control believes.
-Json tools_json(const Setup& setup, const std::vector<RunPath::Point>& points) {
+Json tools_json(const setup::Setup& setup, const std::vector<RunPath::Point>& points) {
     Json tools = Json::object();
     for (const RunPath::Point& p : points) {
         const std::string key = std::to_string(p.tool);
@@ -187,7 +187,7 @@ Json programs_json(const RunPath& path, const ProgramTexts& texts) {
     return programs;
 }
 
-std::string data_json(const Setup& setup, const RunPath& path, const ProgramTexts& texts) {
+std::string data_json(const setup::Setup& setup, const RunPath& path, const ProgramTexts& texts) {
     const std::vector<PackedColumn> columns = columns_of(path);
     Json packed = Json::array();
     for (const PackedColumn& c : columns) packed.push_back({{"name", c.name}, {"step", c.step}});
@@ -215,7 +215,7 @@ constexpr const char* view_html =
     "<p class=\"note\">Drag turns the view, two fingers or the right button move it, the wheel "
     "zooms. A click on the path selects its block; a click on a block shows where it ends.</p>\n";
 
-std::string figures_html(const RunLog& log, const RunPath& path) {
+std::string figures_html(const emulator::RunLog& log, const RunPath& path) {
     PageTable table{"", {}, "lr", {}};
     table.rows.push_back({"Blocks executed", fmt::format("{}", log.result.blocks)});
     table.rows.push_back({"Moves", fmt::format("{}", log.result.moves)});
@@ -229,7 +229,7 @@ std::string figures_html(const RunLog& log, const RunPath& path) {
     return table_html(table);
 }
 
-void set_verdict(Page& page, const RunLog& log, const RunPath& path) {
+void set_verdict(Page& page, const emulator::RunLog& log, const RunPath& path) {
     if (const auto& alarm = log.result.alarm) {
         page.tone = Tone::bad;
         page.verdict =
@@ -237,7 +237,7 @@ void set_verdict(Page& page, const RunLog& log, const RunPath& path) {
                         alarm->text, alarm->where.program, alarm->where.line);
         return;
     }
-    const std::string ended = log.result.status == RunStatus::limit
+    const std::string ended = log.result.status == controller::RunStatus::limit
                                   ? "The run ended at a limit. "
                                   : "The program ran to its end. ";
     if (path.points().empty()) {
@@ -250,7 +250,7 @@ void set_verdict(Page& page, const RunLog& log, const RunPath& path) {
         "at {}:{}.",
         ended, length_text(deviation_mm(worst)), worst.feed ? "while it feeds" : "in rapid moves",
         path.programs()[static_cast<std::size_t>(worst.program)], worst.line);
-    page.tone = log.result.status == RunStatus::limit ? Tone::bad : Tone::neutral;
+    page.tone = log.result.status == controller::RunStatus::limit ? Tone::bad : Tone::neutral;
 }
 
 constexpr const char* reading_text =
@@ -327,7 +327,7 @@ void RunPath::thin() {
     stride_ *= 2;
 }
 
-Page run_page(const Setup& setup, const RunLog& log, const RunPath& path,
+Page run_page(const setup::Setup& setup, const emulator::RunLog& log, const RunPath& path,
               const ProgramTexts& programs) {
     Page page;
     page.title = path.programs().empty() ? "Run" : "Run of " + path.programs().front();
@@ -349,4 +349,4 @@ Page run_page(const Setup& setup, const RunLog& log, const RunPath& path,
     return page;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -10,7 +10,7 @@
 #include "emulator/run.h"
 #include "report/page.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 /// The path of a run from its trace (CSV with --truth), whole lines in any pieces. At most `most`
 /// points are kept: beyond it every second one is left out, again and again.
@@ -57,7 +57,7 @@ class RunPath {
 using ProgramTexts = std::map<std::string, std::string>;
 
 /// Title, verdict (alarm, limit or the largest deviation with its block), view and figures.
-Page run_page(const Setup& setup, const RunLog& log, const RunPath& path,
+Page run_page(const setup::Setup& setup, const emulator::RunLog& log, const RunPath& path,
               const ProgramTexts& programs);
 
-}  // namespace trunnion
+}  // namespace trunnion::report

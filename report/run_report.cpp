@@ -9,13 +9,15 @@
 #include "base/sha256.h"
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* status_name(RunStatus status) {
-    return status == RunStatus::ok ? "ok" : status == RunStatus::alarm ? "alarm" : "limit";
+const char* status_name(controller::RunStatus status) {
+    return status == controller::RunStatus::ok      ? "ok"
+           : status == controller::RunStatus::alarm ? "alarm"
+                                                    : "limit";
 }
 
 Json alarm_json(const std::optional<Alarm>& alarm) {
@@ -25,9 +27,9 @@ Json alarm_json(const std::optional<Alarm>& alarm) {
             {"column", alarm->where.column},   {"block", alarm->block}};
 }
 
-Json position_json(const AxisPositions& q, const Chain& chain) {
+Json position_json(const AxisPositions& q, const kinematics::Chain& chain) {
     Json out = Json::object();
-    for (const AxisGeometry& axis : chain.axes()) {
+    for (const kinematics::AxisGeometry& axis : chain.axes()) {
         const double value = q[axis.axis];
         out[axis.name] = axis.rotary
                              ? parse_number(shortest_degrees(value)).value_or(deg_from_rad(value))
@@ -36,21 +38,21 @@ Json position_json(const AxisPositions& q, const Chain& chain) {
     return out;
 }
 
-Json programs_json(const std::vector<ProgramText>& programs) {
+Json programs_json(const std::vector<interpreter::ProgramText>& programs) {
     Json list = Json::array();
-    for (const ProgramText& program : programs)
+    for (const interpreter::ProgramText& program : programs)
         list.push_back({{"path", program.name}, {"sha256", sha256(program.text)}});
     return list;
 }
 
 }  // namespace
 
-std::string run_json(const RunLog& log, const Chain& chain,
-                     const std::vector<ProgramText>& programs) {
+std::string run_json(const emulator::RunLog& log, const kinematics::Chain& chain,
+                     const std::vector<interpreter::ProgramText>& programs) {
     Json variables = Json::object();
     for (const auto& [number, value] : log.variables)
         variables[std::to_string(number)] = std::isfinite(value) ? Json(value) : Json(nullptr);
-    const RunResult& r = log.result;
+    const controller::RunResult& r = log.result;
     const Json json = {
         {"schema", "trunnion.run/1"},
         {"status", status_name(r.status)},
@@ -69,17 +71,17 @@ std::string run_json(const RunLog& log, const Chain& chain,
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-std::string run_summary(const RunLog& log) {
-    const RunResult& r = log.result;
+std::string run_summary(const emulator::RunLog& log) {
+    const controller::RunResult& r = log.result;
     return fmt::format("{}: {} blocks, {} moves, {:.3f} s, {:.3f} mm", status_name(r.status),
                        r.blocks, r.moves, r.time_s, r.path_mm);
 }
 
-std::string variables_text(const RunLog& log) {
+std::string variables_text(const emulator::RunLog& log) {
     std::string out;
     for (const auto& [number, value] : log.variables)
         out += fmt::format("#{} ={}\n", number, std::isfinite(value) ? " " + shortest(value) : "");
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

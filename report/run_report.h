@@ -6,14 +6,14 @@
 
 #include "emulator/run.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 /// trunnion.run/1, one object; `programs`: the files that the run read, with their SHA-256.
-std::string run_json(const RunLog& log, const Chain& chain,
-                     const std::vector<ProgramText>& programs);
+std::string run_json(const emulator::RunLog& log, const kinematics::Chain& chain,
+                     const std::vector<interpreter::ProgramText>& programs);
 /// One line: status, blocks, moves, time, path.
-std::string run_summary(const RunLog& log);
+std::string run_summary(const emulator::RunLog& log);
 /// "#100 = 1.5" lines; vacant ones without a value.
-std::string variables_text(const RunLog& log);
+std::string variables_text(const emulator::RunLog& log);
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -8,7 +8,7 @@
 
 #include "report/places.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 namespace {
 
@@ -117,4 +117,4 @@ std::string format_sarif(const std::vector<ReportRule>& rules, const std::vector
     return log.dump(2) + "\n";
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -6,7 +6,7 @@
 
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 namespace {
 
@@ -21,14 +21,14 @@ std::string line_text(const std::string& name, double now_mm, double type_mm, in
 }
 
 /// Fields of the part set-up: two lines across each axis, in machine coordinates.
-std::string hurco_lines(const StoresToType& s, int digits) {
+std::string hurco_lines(const setup::StoresToType& s, int digits) {
     std::string text;
-    const auto points = [](const RotaryStores& stores, bool second) -> Vector3 {
+    const auto points = [](const setup::RotaryStores& stores, bool second) -> Vector3 {
         return stores.pivot.table_point_mm +
                (second ? stores.pivot.table_offset_mm : Vector3::Zero());
     };
     for (const bool second : {false, true}) {
-        const PivotAxis& axis = second ? s.in_force.pivot.second : s.in_force.pivot.first;
+        const offsets::PivotAxis& axis = second ? s.in_force.pivot.second : s.in_force.pivot.first;
         for (int i = 0; i < 3; ++i) {
             if (std::abs(axis.line[i]) > 0.5) continue;
             text += line_text(fmt::format("{} centreline {}", letter_of(axis.axis), "XYZ"[i]),
@@ -38,21 +38,21 @@ std::string hurco_lines(const StoresToType& s, int digits) {
     return text;
 }
 
-std::string fanuc_lines(const StoresToType& s, int digits) {
+std::string fanuc_lines(const setup::StoresToType& s, int digits) {
     std::string text;
-    for (const StoreLine& line : s.lines)
+    for (const setup::StoreLine& line : s.lines)
         if (line.in_force.parameter != 0)
             text +=
                 line_text("No." + line.in_force.name, line.in_force.value_mm, line.type_mm, digits);
     return text;
 }
 
-std::string centre_lines(const StoresToType& s, int digits) {
+std::string centre_lines(const setup::StoresToType& s, int digits) {
     std::string text;
-    for (const StoreLine& line : s.lines)
+    for (const setup::StoreLine& line : s.lines)
         if (line.in_force.parameter == 0)
             text += line_text(line.in_force.name, line.in_force.value_mm, line.type_mm, digits);
-    for (const StoreLine& line : s.fixture)
+    for (const setup::StoreLine& line : s.fixture)
         text += line_text(line.in_force.name, line.in_force.value_mm, line.type_mm, digits);
     if (text.empty()) return text;
     return "only where this work offset is the centre of DPP or G54.2 (G54 + external offset):\n" +
@@ -61,10 +61,10 @@ std::string centre_lines(const StoresToType& s, int digits) {
 
 }  // namespace
 
-std::string stores_text(const StoresToType& s, DialectFamily dialect) {
+std::string stores_text(const setup::StoresToType& s, interpreter::DialectFamily dialect) {
     const int digits = digits_of(s.increment_mm);
-    const bool hurco =
-        dialect == DialectFamily::hurco && s.in_force.pivot.unit == MechanicalUnit::table_table;
+    const bool hurco = dialect == interpreter::DialectFamily::hurco &&
+                       s.in_force.pivot.unit == offsets::MechanicalUnit::table_table;
     std::string text =
         fmt::format("{:<24} {:>12} {:>12} {:>11}\n", hurco ? "part set-up (assumed)" : "to type",
                     "in force / mm", "type / mm", "change / um");
@@ -84,4 +84,4 @@ std::string stores_text(const StoresToType& s, DialectFamily dialect) {
     return text + "\n";
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

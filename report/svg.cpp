@@ -6,7 +6,7 @@
 
 #include "report/xml.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 const std::vector<std::string> plot_colours{"#0072B2", "#E69F00", "#009E73", "#CC79A7",
                                             "#D55E00", "#56B4E9", "#000000", "#999999"};
@@ -130,4 +130,4 @@ void Plot::frame(const std::string& title, const std::string& x_label, const std
     svg_.text({corner_.x - 44, corner_.y + height_ / 2}, y_label, 12, "middle", "#222", -90.0);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

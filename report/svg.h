@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace trunnion {
+namespace trunnion::report {
 
 /// Colours that stay apart for colour-blind readers (Okabe and Ito), in the order used.
 extern const std::vector<std::string> plot_colours;
@@ -67,4 +67,4 @@ class Plot {
     PlotRange x_, y_;
 };
 
-}  // namespace trunnion
+}  // namespace trunnion::report

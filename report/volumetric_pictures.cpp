@@ -11,12 +11,12 @@
 #include "report/svg.h"
 #include "report/volumetric_report.h"
 
-namespace trunnion {
+namespace trunnion::report {
 namespace {
 
-using Points = std::vector<const VolumetricPoint*>;
+using Points = std::vector<const volumetric::VolumetricPoint*>;
 
-double error_um(const VolumetricPoint& point) {
+double error_um(const volumetric::VolumetricPoint& point) {
     return um_from_mm(point.error_W_mm.norm());
 }
 
@@ -34,11 +34,11 @@ std::string heat(double part) {
 }
 
 /// Where the axes beyond X Y Z stand in the slices: the grid's places nearest to zero.
-AxisPositions middle_of(const VolumetricMap& map) {
+AxisPositions middle_of(const volumetric::VolumetricMap& map) {
     AxisPositions nearest;
     for (const Axis axis : map.axes) {
         double best = INFINITY;
-        for (const VolumetricPoint& p : map.points)
+        for (const volumetric::VolumetricPoint& p : map.points)
             if (std::abs(p.at[axis]) < std::abs(best)) best = p.at[axis];
         nearest[axis] = best;
     }
@@ -46,9 +46,9 @@ AxisPositions middle_of(const VolumetricMap& map) {
 }
 
 /// Points of the slices by height Z.
-std::map<double, Points> slices(const VolumetricMap& map, const AxisPositions& middle) {
+std::map<double, Points> slices(const volumetric::VolumetricMap& map, const AxisPositions& middle) {
     std::map<double, Points> out;
-    for (const VolumetricPoint& p : map.points) {
+    for (const volumetric::VolumetricPoint& p : map.points) {
         bool here = true;
         for (const Axis axis : map.axes)
             here = here && (index_of(axis) < 3 || p.at[axis] == middle[axis]);
@@ -60,7 +60,7 @@ std::map<double, Points> slices(const VolumetricMap& map, const AxisPositions& m
 /// The places of one axis among points, rising.
 std::vector<double> places(const Points& points, Axis axis) {
     std::vector<double> out;
-    for (const VolumetricPoint* p : points) out.push_back(p->at[axis]);
+    for (const volumetric::VolumetricPoint* p : points) out.push_back(p->at[axis]);
     std::sort(out.begin(), out.end());
     out.erase(std::unique(out.begin(), out.end()), out.end());
     return out;
@@ -104,13 +104,13 @@ void arrow(Svg& svg, Point2 a, Point2 b) {
 }
 
 /// The eight causes with the largest rms, as bars.
-void cause_bars(Svg& svg, Point2 corner, double width, const VolumetricMap& map) {
+void cause_bars(Svg& svg, Point2 corner, double width, const volumetric::VolumetricMap& map) {
     svg.text({corner.x, corner.y - 8}, "what contributes, over the whole grid (rms, um)", 13);
     if (map.causes.empty()) return svg.text({corner.x, corner.y + 14}, "no error is set", 12);
     const std::size_t count = std::min<std::size_t>(8, map.causes.size());
     const double largest = std::max(map.causes[0].rms_mm, 1e-12);
     for (std::size_t i = 0; i < count; ++i) {
-        const VolumetricCause& cause = map.causes[i];
+        const volumetric::VolumetricCause& cause = map.causes[i];
         const double y = corner.y + 20.0 * static_cast<double>(i);
         const double bar = (width - 270) * cause.rms_mm / largest;
         svg.text({corner.x + 120, y + 13}, cause.name, 12, "end");
@@ -122,15 +122,15 @@ void cause_bars(Svg& svg, Point2 corner, double width, const VolumetricMap& map)
     }
 }
 
-std::string rotary_text(const VolumetricMap& map, const AxisPositions& middle) {
+std::string rotary_text(const volumetric::VolumetricMap& map, const AxisPositions& middle) {
     std::vector<Axis> others;
     for (const Axis axis : map.axes)
         if (index_of(axis) >= 3) others.push_back(axis);
     return others.empty() ? "" : ", " + place_text(map.names, others, middle);
 }
 
-std::string slice_picture(const VolumetricMap& map, const AxisPositions& middle, double z,
-                          const Points& points) {
+std::string slice_picture(const volumetric::VolumetricMap& map, const AxisPositions& middle,
+                          double z, const Points& points) {
     const double largest_um = std::max(error_um(map.points[map.worst]), 1e-6);
     const auto xs = places(points, Axis::X), ys = places(points, Axis::Y);
     const double dx = spacing(xs), dy = spacing(ys);
@@ -145,8 +145,8 @@ std::string slice_picture(const VolumetricMap& map, const AxisPositions& middle,
     plot.frame("", "X, mm", "Y, mm");
     const double arrow_px =
         0.8 * std::min(plot.at(dx, 0).x - plot.at(0, 0).x, plot.at(0, 0).y - plot.at(0, dy).y);
-    const VolumetricPoint* worst = points.front();
-    for (const VolumetricPoint* p : points) {
+    const volumetric::VolumetricPoint* worst = points.front();
+    for (const volumetric::VolumetricPoint* p : points) {
         const Point2 low = plot.at(p->at[Axis::X] - 0.5 * dx, p->at[Axis::Y] + 0.5 * dy);
         const Point2 high = plot.at(p->at[Axis::X] + 0.5 * dx, p->at[Axis::Y] - 0.5 * dy);
         svg.rectangle(low, high.x - low.x, high.y - low.y,
@@ -154,7 +154,7 @@ std::string slice_picture(const VolumetricMap& map, const AxisPositions& middle,
         if (error_um(*p) > error_um(*worst)) worst = p;
     }
     const bool roomy = xs.size() <= 9 && ys.size() <= 9;
-    for (const VolumetricPoint* p : points) {
+    for (const volumetric::VolumetricPoint* p : points) {
         const Point2 at = plot.at(p->at[Axis::X], p->at[Axis::Y]);
         const double scale = arrow_px / largest_um;
         const double part = error_um(*p) / largest_um;
@@ -179,7 +179,7 @@ std::string slice_picture(const VolumetricMap& map, const AxisPositions& middle,
     svg.circle({808, 520}, 8, {"#D55E00", 2.5, "none", ""});
     svg.text({824, 524}, "worst here", 12);
     if (roomy) svg.text({800, 552}, "numbers: length, and Z", 11);
-    const auto worst_line = [&](const char* where, const VolumetricPoint& p) {
+    const auto worst_line = [&](const char* where, const volumetric::VolumetricPoint& p) {
         return fmt::format("{}: {:.2f} um at {}, mostly {}", where, error_um(p),
                            place_text(map.names, map.axes, p.at), cause_name(map, p));
     };
@@ -190,13 +190,13 @@ std::string slice_picture(const VolumetricMap& map, const AxisPositions& middle,
 }
 
 /// Worst and rms error of all points at each place of one axis.
-void axis_plot(Svg& svg, Point2 corner, const VolumetricMap& map, Axis axis) {
+void axis_plot(Svg& svg, Point2 corner, const volumetric::VolumetricMap& map, Axis axis) {
     struct Column {
         double worst = 0.0, squares = 0.0;
         int count = 0;
     };
     std::map<double, Column> columns;
-    for (const VolumetricPoint& p : map.points) {
+    for (const volumetric::VolumetricPoint& p : map.points) {
         Column& column = columns[map.names.is_rotary(axis) ? deg_from_rad(p.at[axis]) : p.at[axis]];
         column.worst = std::max(column.worst, error_um(p));
         column.squares += error_um(p) * error_um(p);
@@ -218,11 +218,11 @@ void axis_plot(Svg& svg, Point2 corner, const VolumetricMap& map, Axis axis) {
     for (const Point2& p : rms) svg.mark(p, 1, plot_colours[0], 2.2);
 }
 
-std::string axes_picture(const VolumetricMap& map) {
+std::string axes_picture(const volumetric::VolumetricMap& map) {
     const std::size_t rows = (map.axes.size() + 1) / 2;
     const double plots = 240.0 * static_cast<double>(rows);
     Svg svg(900, 90 + plots + 210);
-    const VolumetricPoint& worst = map.points[map.worst];
+    const volumetric::VolumetricPoint& worst = map.points[map.worst];
     svg.text({70, 30}, "Error of the tool point along each axis: " + map.machine, 17);
     svg.text({70, 52},
              fmt::format("{} poses, tool {:.6g} mm; rms {:.2f} um, worst {:.2f} um at {}",
@@ -244,7 +244,8 @@ std::string axes_picture(const VolumetricMap& map) {
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> volumetric_pictures(const VolumetricMap& map) {
+std::vector<std::pair<std::string, std::string>> volumetric_pictures(
+    const volumetric::VolumetricMap& map) {
     std::vector<std::pair<std::string, std::string>> files;
     const AxisPositions middle = middle_of(map);
     for (const auto& [z, points] : slices(map, middle))
@@ -254,4 +255,4 @@ std::vector<std::pair<std::string, std::string>> volumetric_pictures(const Volum
     return files;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -5,7 +5,7 @@
 #include "base/numbers.h"
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::report {
 namespace {
 
 std::string list_of(const AxisNames& names, const std::vector<Axis>& axes) {
@@ -16,7 +16,8 @@ std::string list_of(const AxisNames& names, const std::vector<Axis>& axes) {
 
 }  // namespace
 
-std::string cause_name(const VolumetricMap& map, const VolumetricPoint& point) {
+std::string cause_name(const volumetric::VolumetricMap& map,
+                       const volumetric::VolumetricPoint& point) {
     return map.causes.empty() ? "" : map.causes[point.worst].name;
 }
 
@@ -31,11 +32,11 @@ std::string place_text(const AxisNames& names, const std::vector<Axis>& axes,
     return out;
 }
 
-std::string volumetric_csv(const VolumetricMap& map) {
+std::string volumetric_csv(const volumetric::VolumetricMap& map) {
     std::string out;
     for (const Axis axis : map.axes) out += map.names.column(axis) + ',';
     out += "tip_x_mm,tip_y_mm,tip_z_mm,error_x_mm,error_y_mm,error_z_mm,error_mm,cause\n";
-    for (const VolumetricPoint& point : map.points) {
+    for (const volumetric::VolumetricPoint& point : map.points) {
         for (const Axis axis : map.axes)
             out += (map.names.is_rotary(axis) ? shortest_degrees(point.at[axis])
                                               : shortest(point.at[axis])) +
@@ -47,8 +48,8 @@ std::string volumetric_csv(const VolumetricMap& map) {
     return out;
 }
 
-std::string volumetric_text(const VolumetricMap& map) {
-    const VolumetricPoint& worst = map.points[map.worst];
+std::string volumetric_text(const volumetric::VolumetricMap& map) {
+    const volumetric::VolumetricPoint& worst = map.points[map.worst];
     std::string out =
         fmt::format("{} poses: rms {:.2f} um, largest {:.2f} um at {} (mostly {})\n",
                     map.points.size(), um_from_mm(map.rms_mm), um_from_mm(worst.error_W_mm.norm()),
@@ -61,11 +62,11 @@ std::string volumetric_text(const VolumetricMap& map) {
         out += fmt::format("travel beyond a table of errors, held at its last value there: {}\n",
                            list_of(map.names, map.clamped));
     if (!map.causes.empty()) out += "cause                rms um  largest um   share\n";
-    for (const VolumetricCause& cause : map.causes)
+    for (const volumetric::VolumetricCause& cause : map.causes)
         out +=
             fmt::format("{:18} {:8.2f} {:11.2f} {:6.1f} %\n", cause.name, um_from_mm(cause.rms_mm),
                         um_from_mm(cause.largest_mm), 100.0 * cause.share);
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -6,18 +6,19 @@
 
 #include "volumetric/volumetric.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 /// One row a pose: axis positions, nominal tip in W, error in W (mm), and the cause that
 /// contributes most there.
-std::string volumetric_csv(const VolumetricMap& map);
+std::string volumetric_csv(const volumetric::VolumetricMap& map);
 /// Worst place, rms, and a table of causes.
-std::string volumetric_text(const VolumetricMap& map);
+std::string volumetric_text(const volumetric::VolumetricMap& map);
 
 /// The cause that contributes most at a point; empty when there is none.
-std::string cause_name(const VolumetricMap& map, const VolumetricPoint& point);
+std::string cause_name(const volumetric::VolumetricMap& map,
+                       const volumetric::VolumetricPoint& point);
 /// "X-200 Y0 B30": mm and deg.
 std::string place_text(const AxisNames& names, const std::vector<Axis>& axes,
                        const AxisPositions& q);
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -1,6 +1,6 @@
 #include "report/xml.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 std::string escape_xml(const std::string& text) {
     std::string out;
@@ -21,4 +21,4 @@ std::string escape_xml(const std::string& text) {
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::report

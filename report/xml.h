@@ -5,9 +5,9 @@
 
 #include "base/text.h"
 
-namespace trunnion {
+namespace trunnion::report {
 
 /// Safe as XML or HTML text and inside quoted attributes; control characters become '?'.
 std::string escape_xml(const std::string& text);
 
-}  // namespace trunnion
+}  // namespace trunnion::report

@@ -4,7 +4,7 @@
 
 #include "setup/toml_text.h"
 
-namespace trunnion {
+namespace trunnion::setup {
 namespace {
 
 constexpr std::array<const char*, 3> kind_names{"sphere", "center_pivot", "target"};
@@ -144,4 +144,4 @@ std::string instrument_text(const Instrument& instrument) {
            free_text(free);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::setup

@@ -7,7 +7,7 @@
 #include "base/toml_reader.h"
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::setup {
 
 void read_artefacts(const TomlFile& file, Setup& setup);
 void read_instruments(const TomlFile& file, Setup& setup);
@@ -19,4 +19,4 @@ std::set<std::string> read_free(const TomlFile& file, const TomlValue& value,
 std::string artefact_text(const Artefact& artefact);
 std::string instrument_text(const Instrument& instrument);
 
-}  // namespace trunnion
+}  // namespace trunnion::setup

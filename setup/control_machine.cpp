@@ -3,12 +3,12 @@
 #include "base/alarm.h"
 #include "offsets/pivot_parameters.h"
 
-namespace trunnion {
+namespace trunnion::setup {
 
 namespace {
 
-AxisGeometry rotary(const PivotAxis& axis, const Vector3& point_mm) {
-    AxisGeometry geometry;
+kinematics::AxisGeometry rotary(const offsets::PivotAxis& axis, const Vector3& point_mm) {
+    kinematics::AxisGeometry geometry;
     geometry.axis = axis.axis;
     geometry.rotary = true;
     geometry.direction = axis.direction();
@@ -18,26 +18,27 @@ AxisGeometry rotary(const PivotAxis& axis, const Vector3& point_mm) {
     return geometry;
 }
 
-AxisGeometry slide(Axis axis) {
-    AxisGeometry geometry;
+kinematics::AxisGeometry slide(Axis axis) {
+    kinematics::AxisGeometry geometry;
     geometry.axis = axis;
     geometry.direction = Vector3::Unit(static_cast<int>(index_of(axis)));
     return geometry;
 }
 
-std::string text_of(const Chain& chain) {
+std::string text_of(const kinematics::Chain& chain) {
     std::string text = "w";
     for (auto axis = chain.work.rbegin(); axis != chain.work.rend(); ++axis)
         text += std::string(" ") + letter_of(axis->axis);
     text += " b";
-    for (const AxisGeometry& axis : chain.tool) text += std::string(" ") + letter_of(axis.axis);
+    for (const kinematics::AxisGeometry& axis : chain.tool)
+        text += std::string(" ") + letter_of(axis.axis);
     return text + " t";
 }
 
 }  // namespace
 
-Setup setup_of_control(const Stores& stores, const std::string& path) {
-    const auto pivot = decode_pivot(stores.parameters);
+Setup setup_of_control(const offsets::Stores& stores, const std::string& path) {
+    const auto pivot = offsets::decode_pivot(stores.parameters);
     if (!pivot || pivot->first.hypothetical || pivot->second.hypothetical)
         throw InputError("these files name no two real rotary axes (19680-19690): give --setup",
                          {path});
@@ -45,20 +46,20 @@ Setup setup_of_control(const Stores& stores, const std::string& path) {
     setup.name = path;
     setup.path = path;
     setup.stores = stores;
-    Chain& chain = setup.machine.chain;
+    kinematics::Chain& chain = setup.machine.chain;
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) chain.tool.push_back(slide(axis));
     const Vector3 head = pivot->holder_offset_mm * pivot->tool_direction + pivot->tool_offset_mm;
-    if (pivot->unit == MechanicalUnit::table_table)
+    if (pivot->unit == offsets::MechanicalUnit::table_table)
         chain.work = {rotary(pivot->first, pivot->table_point_mm),
                       rotary(pivot->second, pivot->table_point_mm + pivot->table_offset_mm)};
     else
         chain.tool.push_back(rotary(pivot->first, head));
-    if (pivot->unit == MechanicalUnit::mixed)
+    if (pivot->unit == offsets::MechanicalUnit::mixed)
         chain.work = {rotary(pivot->second, pivot->table_point_mm)};
-    if (pivot->unit == MechanicalUnit::tool_tool)
+    if (pivot->unit == offsets::MechanicalUnit::tool_tool)
         chain.tool.push_back(rotary(pivot->second, head - pivot->tool_second_offset_mm));
     setup.chain_text = text_of(chain);
     return setup;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::setup

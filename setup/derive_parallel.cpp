@@ -1,7 +1,7 @@
 // Parameter 1022: which linear axes run beside X, Y and Z.
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::setup {
 namespace {
 
 /// 1, 2, 3 for + X, Y, Z as the tool moves against the work, 0 for any other direction.
@@ -12,10 +12,10 @@ int basic_direction(const Vector3& moves_tool) {
 }
 
 /// Values of one side; what a rotary axis carries turns with it and runs beside nothing.
-void number_side(const std::vector<AxisGeometry>& side, double sign,
+void number_side(const std::vector<kinematics::AxisGeometry>& side, double sign,
                  std::array<int, axis_count>& value) {
     bool carried = false;
-    for (const AxisGeometry& axis : side) {
+    for (const kinematics::AxisGeometry& axis : side) {
         carried |= axis.rotary;
         if (!axis.rotary && !carried)
             value[index_of(axis.axis)] = basic_direction(sign * axis.direction);
@@ -24,16 +24,17 @@ void number_side(const std::vector<AxisGeometry>& side, double sign,
 
 }  // namespace
 
-std::string derive_parallel_axes(const Machine& machine, Parameters& parameters) {
+std::string derive_parallel_axes(const kinematics::Machine& machine,
+                                 offsets::Parameters& parameters) {
     const auto is_extra = [](Axis axis) { return index_of(axis) >= index_of(Axis::U); };
     std::array<int, axis_count> direction{};
     number_side(machine.chain.tool, 1.0, direction);
     number_side(machine.chain.work, -1.0, direction);
-    Parameter derived;
+    offsets::Parameter derived;
     std::string alone;
     bool extra = false;
     int number = 0;
-    for (const AxisGeometry& axis : machine.chain.axes()) {
+    for (const kinematics::AxisGeometry& axis : machine.chain.axes()) {
         if (!is_letter(axis)) continue;  // no NC word moves it
         const int basic = direction[index_of(axis.axis)];
         const bool parallel = is_extra(axis.axis) && basic != 0;
@@ -46,4 +47,4 @@ std::string derive_parallel_axes(const Machine& machine, Parameters& parameters)
     return alone;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::setup

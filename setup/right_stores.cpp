@@ -8,53 +8,53 @@
 #include "base/units.h"
 #include "positioning/rotary_transform.h"
 
-namespace trunnion {
+namespace trunnion::setup {
 
 namespace {
 
-Vector3 xyz_of(const OffsetVector& offset) {
+Vector3 xyz_of(const offsets::OffsetVector& offset) {
     return {offset[Axis::X], offset[Axis::Y], offset[Axis::Z]};
 }
 
 /// The part of `change` across an axis line.
-Vector3 across(const Vector3& change, const PivotAxis& axis) {
+Vector3 across(const Vector3& change, const offsets::PivotAxis& axis) {
     const Vector3 u = axis.line.normalized();
     return change - u.dot(change) * u;
 }
 
-bool has_table(MechanicalUnit unit) {
-    return unit == MechanicalUnit::table_table || unit == MechanicalUnit::mixed;
+bool has_table(offsets::MechanicalUnit unit) {
+    return unit == offsets::MechanicalUnit::table_table || unit == offsets::MechanicalUnit::mixed;
 }
 
-Vector3 holder(const PivotParameters& pivot) {
+Vector3 holder(const offsets::PivotParameters& pivot) {
     return pivot.holder_offset_mm * pivot.tool_direction;
 }
 
-void correct_table(const Machine& machine, PivotParameters& pivot) {
+void correct_table(const kinematics::Machine& machine, offsets::PivotParameters& pivot) {
     pivot.table_point_mm +=
         across(known_point_mm(machine, pivot.first.axis) - pivot.table_point_mm, pivot.first);
     const Vector3 step = known_point_mm(machine, pivot.second.axis) - pivot.table_point_mm;
     pivot.table_offset_mm += across(step - pivot.table_offset_mm, pivot.second);
 }
 
-void correct_head(const Machine& machine, PivotParameters& pivot) {
+void correct_head(const kinematics::Machine& machine, offsets::PivotParameters& pivot) {
     const Vector3 first = known_point_mm(machine, pivot.first.axis) - holder(pivot);
     pivot.tool_offset_mm += across(first - pivot.tool_offset_mm, pivot.first);
 }
 
-void correct_second_of_head(const Machine& machine, PivotParameters& pivot) {
+void correct_second_of_head(const kinematics::Machine& machine, offsets::PivotParameters& pivot) {
     const Vector3 back =
         holder(pivot) + pivot.tool_offset_mm - known_point_mm(machine, pivot.second.axis);
     pivot.tool_second_offset_mm += across(back - pivot.tool_second_offset_mm, pivot.second);
 }
 
-void correct_one_table_axis(const Machine& machine, PivotParameters& pivot) {
+void correct_one_table_axis(const kinematics::Machine& machine, offsets::PivotParameters& pivot) {
     pivot.table_point_mm +=
         across(known_point_mm(machine, pivot.second.axis) - pivot.table_point_mm, pivot.second);
 }
 
 /// Feet of the common perpendicular of the two table axes.
-std::pair<Vector3, Vector3> feet(const PivotParameters& pivot) {
+std::pair<Vector3, Vector3> feet(const offsets::PivotParameters& pivot) {
     const Vector3 u = pivot.first.line, v = pivot.second.line, d = pivot.table_offset_mm;
     const double uv = u.dot(v), square = 1.0 - uv * uv;
     const double s = (u.dot(d) - uv * v.dot(d)) / square, t = (uv * u.dot(d) - v.dot(d)) / square;
@@ -62,31 +62,32 @@ std::pair<Vector3, Vector3> feet(const PivotParameters& pivot) {
 }
 
 Vector3 right_g54(const RotaryStores& stores) {
-    const PivotParameters& pivot = stores.pivot;
-    if (pivot.unit == MechanicalUnit::table_table) return feet(pivot).second;
-    if (pivot.unit != MechanicalUnit::mixed) return stores.g54;
+    const offsets::PivotParameters& pivot = stores.pivot;
+    if (pivot.unit == offsets::MechanicalUnit::table_table) return feet(pivot).second;
+    if (pivot.unit != offsets::MechanicalUnit::mixed) return stores.g54;
     return stores.g54 + across(pivot.table_point_mm - stores.g54, pivot.second);
 }
 
-Machine without_tilts(Machine machine) {
-    for (AxisErrors& axis : machine.errors.axis)
+kinematics::Machine without_tilts(kinematics::Machine machine) {
+    for (kinematics::AxisErrors& axis : machine.errors.axis)
         for (const std::size_t tilt : {3U, 4U, 5U}) axis.location[tilt] = 0.0;
     return machine;
 }
 
 }  // namespace
 
-std::optional<RotaryStores> rotary_stores(const Chain& chain, const Stores& stores) {
+std::optional<RotaryStores> rotary_stores(const kinematics::Chain& chain,
+                                          const offsets::Stores& stores) {
     std::vector<Axis> order;
-    for (const AxisGeometry& axis : chain.axes()) order.push_back(axis.axis);
-    const auto pivot = decode_pivot(stores.parameters, order);
+    for (const kinematics::AxisGeometry& axis : chain.axes()) order.push_back(axis.axis);
+    const auto pivot = offsets::decode_pivot(stores.parameters, order);
     if (!pivot) return std::nullopt;
     return RotaryStores{*pivot, xyz_of(stores.work.standard[0]) + xyz_of(stores.work.external)};
 }
 
-Vector3 known_point_mm(const Machine& machine, Axis axis) {
+Vector3 known_point_mm(const kinematics::Machine& machine, Axis axis) {
     const Vector3 gauge = machine.poses({}).pose_MS.translation_mm;
-    Machine carriers = machine;
+    kinematics::Machine carriers = machine;
     carriers.errors.spindle = {};
     for (auto* side : {&carriers.chain.work, &carriers.chain.tool}) {
         const auto at =
@@ -95,26 +96,26 @@ Vector3 known_point_mm(const Machine& machine, Axis axis) {
         const bool work = side == &carriers.chain.work;
         const Vector3 point = at->point_mm;
         side->erase(at + 1, side->end());
-        const MachinePose pose = carriers.poses({});
+        const kinematics::MachinePose pose = carriers.poses({});
         return (work ? pose.pose_MW : pose.pose_MS) * point - gauge;
     }
     return Vector3::Zero();
 }
 
-RotaryStores right_stores(const Machine& known, const RotaryStores& in_force) {
-    const Machine machine = without_tilts(known);
+RotaryStores right_stores(const kinematics::Machine& known, const RotaryStores& in_force) {
+    const kinematics::Machine machine = without_tilts(known);
     RotaryStores right = in_force;
-    PivotParameters& pivot = right.pivot;
+    offsets::PivotParameters& pivot = right.pivot;
     if (pivot.first.hypothetical || pivot.second.hypothetical) return right;
     switch (pivot.unit) {
-        case MechanicalUnit::table_table:
+        case offsets::MechanicalUnit::table_table:
             correct_table(machine, pivot);
             break;
-        case MechanicalUnit::mixed:
+        case offsets::MechanicalUnit::mixed:
             correct_head(machine, pivot);
             correct_one_table_axis(machine, pivot);
             break;
-        case MechanicalUnit::tool_tool:
+        case offsets::MechanicalUnit::tool_tool:
             correct_head(machine, pivot);
             correct_second_of_head(machine, pivot);
             break;
@@ -126,7 +127,7 @@ RotaryStores right_stores(const Machine& known, const RotaryStores& in_force) {
 }
 
 Vector3 step_between_axes_mm(const RotaryStores& stores) {
-    if (stores.pivot.unit != MechanicalUnit::table_table) return Vector3::Zero();
+    if (stores.pivot.unit != offsets::MechanicalUnit::table_table) return Vector3::Zero();
     const auto [first, second] = feet(stores.pivot);
     return second - first;
 }
@@ -151,13 +152,13 @@ Vector3& vector_at(RotaryStores& stores, int place) {
     }
 }
 
-std::vector<int> places_of(MechanicalUnit unit) {
+std::vector<int> places_of(offsets::MechanicalUnit unit) {
     switch (unit) {
-        case MechanicalUnit::table_table:
+        case offsets::MechanicalUnit::table_table:
             return {0, 1, 2};
-        case MechanicalUnit::mixed:
+        case offsets::MechanicalUnit::mixed:
             return {0, 1, 3};
-        case MechanicalUnit::tool_tool:
+        case offsets::MechanicalUnit::tool_tool:
             return {3, 4};
         default:
             return {};
@@ -187,7 +188,7 @@ void set_number(RotaryStores& stores, const StoreNumber& number, double value_mm
     vector_at(stores, number.place)[number.component] = value_mm;
 }
 
-double least_increment_mm(const Parameters& parameters) {
+double least_increment_mm(const offsets::Parameters& parameters) {
     const double increment = parameters.bit(1013, 1) ? 1e-4 : 1e-3;
     return parameters.bit(1001, 0) ? mm_from_inch(0.1 * increment) : increment;
 }
@@ -202,8 +203,9 @@ RotaryStores rounded(const RotaryStores& stores, double increment_mm) {
 namespace {
 
 /// Every 15 degrees over the travel, at most a quarter turn to each side or once round.
-std::vector<double> angles_of(const Chain& chain, const PivotAxis& axis, bool round) {
-    const AxisGeometry* geometry = chain.find(axis.axis);
+std::vector<double> angles_of(const kinematics::Chain& chain, const offsets::PivotAxis& axis,
+                              bool round) {
+    const kinematics::AxisGeometry* geometry = chain.find(axis.axis);
     std::vector<double> angles;
     for (int deg = round ? 0 : -90; deg <= (round ? 345 : 90); deg += 15) {
         const double angle = rad_from_deg(deg);
@@ -214,7 +216,7 @@ std::vector<double> angles_of(const Chain& chain, const PivotAxis& axis, bool ro
     return angles;
 }
 
-bool along_tool(const PivotParameters& pivot, const PivotAxis& axis) {
+bool along_tool(const offsets::PivotParameters& pivot, const offsets::PivotAxis& axis) {
     return axis.line.cross(pivot.tool_direction).norm() < 1e-9;
 }
 
@@ -224,7 +226,8 @@ struct RotaryPose {
     bool head = false;
 };
 
-std::vector<RotaryPose> rotary_poses(const Chain& chain, const PivotParameters& pivot) {
+std::vector<RotaryPose> rotary_poses(const kinematics::Chain& chain,
+                                     const offsets::PivotParameters& pivot) {
     std::vector<RotaryPose> poses;
     for (const double first : angles_of(chain, pivot.first, along_tool(pivot, pivot.first)))
         for (const double second :
@@ -232,7 +235,7 @@ std::vector<RotaryPose> rotary_poses(const Chain& chain, const PivotParameters& 
             RotaryPose pose;
             pose.q[pivot.first.axis] = first;
             pose.q[pivot.second.axis] = second;
-            pose.head = pivot.unit != MechanicalUnit::table_table && first != 0.0;
+            pose.head = pivot.unit != offsets::MechanicalUnit::table_table && first != 0.0;
             poses.push_back(pose);
         }
     return poses;
@@ -240,7 +243,7 @@ std::vector<RotaryPose> rotary_poses(const Chain& chain, const PivotParameters& 
 
 /// Where the tip is and what it is worked with.
 struct Work {
-    const Machine& machine;
+    const kinematics::Machine& machine;
     Vector3 point_W_mm, tip_S_mm;
 };
 
@@ -251,12 +254,12 @@ AxisPositions with_xyz(AxisPositions q, const Vector3& xyz) {
 
 /// Axes that put the real tip on the point with the rotaries at zero.
 AxisPositions home_of(const Work& work) {
-    const MachinePose pose = work.machine.poses({});
+    const kinematics::MachinePose pose = work.machine.poses({});
     return with_xyz({}, pose.pose_MW * work.point_W_mm - pose.pose_MS * work.tip_S_mm);
 }
 
-double tcp_wander_mm(const Work& work, const PivotParameters& pivot) {
-    const RotaryTransform transform(pivot);
+double tcp_wander_mm(const Work& work, const offsets::PivotParameters& pivot) {
+    const positioning::RotaryTransform transform(pivot);
     const AxisPositions home = home_of(work);
     const Vector3 tool = -work.tip_S_mm;
     const Vector3 believed_W = transform.tip_W(home, tool);
@@ -272,10 +275,10 @@ double tcp_wander_mm(const Work& work, const PivotParameters& pivot) {
 /// DPP and G54.2 turn the table's point about G54; a head stands at zero.
 double g54_wander_mm(const Work& work, const RotaryStores& stores) {
     if (!has_table(stores.pivot.unit)) return 0.0;
-    PivotParameters turning = stores.pivot;
+    offsets::PivotParameters turning = stores.pivot;
     turning.table_point_mm = stores.g54;
     turning.table_offset_mm = Vector3::Zero();
-    const RotaryTransform transform(turning);
+    const positioning::RotaryTransform transform(turning);
     const AxisPositions home = home_of(work);
     const Vector3 tool = -work.tip_S_mm;
     const Vector3 believed_W = transform.tip_W(home, tool);
@@ -290,7 +293,7 @@ double g54_wander_mm(const Work& work, const RotaryStores& stores) {
 }
 
 /// Sets of G54.2 in use: their offset is counted from G54, so it changes when G54 does.
-std::vector<StoreLine> fixture_lines(const Stores& stores, const Vector3& g54_change_mm,
+std::vector<StoreLine> fixture_lines(const offsets::Stores& stores, const Vector3& g54_change_mm,
                                      double increment_mm) {
     std::vector<StoreLine> lines;
     for (std::size_t n = 0; n < stores.fixture.set.size(); ++n) {
@@ -317,7 +320,7 @@ std::vector<StoreLine> lines_of(const StoresToType& stores) {
 
 }  // namespace
 
-std::optional<StoresToType> stores_to_type(const Setup& setup, const Machine& known,
+std::optional<StoresToType> stores_to_type(const Setup& setup, const kinematics::Machine& known,
                                            const Vector3& point_W_mm, const Vector3& tip_S_mm) {
     const auto in_force = rotary_stores(setup.machine.chain, setup.stores);
     if (!in_force || store_numbers(*in_force).empty()) return std::nullopt;
@@ -331,7 +334,7 @@ std::optional<StoresToType> stores_to_type(const Setup& setup, const Machine& kn
     const Work work{known, point_W_mm, tip_S_mm};
     out.now_um = um_from_mm(tcp_wander_mm(work, out.in_force.pivot));
     out.tilts_um = um_from_mm(tcp_wander_mm(work, out.exact.pivot));
-    const Machine straight = without_tilts(known);
+    const kinematics::Machine straight = without_tilts(known);
     out.rounding_um = um_from_mm(tcp_wander_mm({straight, point_W_mm, tip_S_mm}, out.typed.pivot));
     out.g54_now_um = um_from_mm(g54_wander_mm(work, out.in_force));
     out.g54_left_um = um_from_mm(g54_wander_mm(work, out.typed));
@@ -339,4 +342,4 @@ std::optional<StoresToType> stores_to_type(const Setup& setup, const Machine& kn
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::setup

@@ -9,29 +9,30 @@
 #include "offsets/pivot_parameters.h"
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::setup {
 
 /// The stores that say where the rotary axes are, mm: 19700-19714 for G43.4 and G68.2/G53.1, and
 /// the centre that DPP and G54.2 turn about (G54 plus the external offset).
 struct RotaryStores {
-    PivotParameters pivot;
+    offsets::PivotParameters pivot;
     Vector3 g54 = Vector3::Zero();
 };
 
 /// The stores in force. Nothing without 19680; throws Alarm 5459 for numbers that cannot be.
-std::optional<RotaryStores> rotary_stores(const Chain& chain, const Stores& stores);
+std::optional<RotaryStores> rotary_stores(const kinematics::Chain& chain,
+                                          const offsets::Stores& stores);
 
 /// Where a point of a rotary axis's line lies with all axes at zero, location errors of the axis
 /// and of its carriers included, counted from where the spindle's gauge point then really is (a
 /// control knows positions by its tool only; EX0S EY0S EZ0S of the spindle shift it). mm along M.
-Vector3 known_point_mm(const Machine& machine, Axis axis);
+Vector3 known_point_mm(const kinematics::Machine& machine, Axis axis);
 
 /// The stores that put the tip right on this machine, in the gauge of `in_force`: what no function
 /// can see stays as it is (the part of a point along its own axis). Exact without tilts; tilts of
 /// an axis have no place in these stores and are left out. G54 is the point of the second axis
 /// nearest to the first (of a table's one axis: the point nearest to G54; without a rotary table:
 /// G54 as it is).
-RotaryStores right_stores(const Machine& known, const RotaryStores& in_force);
+RotaryStores right_stores(const kinematics::Machine& known, const RotaryStores& in_force);
 
 /// Shortest way from the first table axis to the second, mm: G54 holds one point, so DPP and G54.2
 /// are off by (R1 - 1) times this whatever G54 says. Zero where the axes meet, and with one or no
@@ -54,7 +55,7 @@ void set_number(RotaryStores& stores, const StoreNumber& number, double value_mm
 
 /// Least input increment of a length, mm: 0.001 (IS-B), 0.0001 where 1013#1 ISC is 1; on an inch
 /// machine (1001#0) a tenth of that in inches. 1013 from memory, so assumed.
-double least_increment_mm(const Parameters& parameters);
+double least_increment_mm(const offsets::Parameters& parameters);
 RotaryStores rounded(const RotaryStores& stores, double increment_mm);
 
 /// One line of a list that a person types from.
@@ -79,7 +80,7 @@ struct StoresToType {
 
 /// For the machine `known`; nothing where 19700-19714 do not apply. `point_W_mm` is where the tip
 /// works, `tip_S_mm` the tool.
-std::optional<StoresToType> stores_to_type(const Setup& setup, const Machine& known,
+std::optional<StoresToType> stores_to_type(const Setup& setup, const kinematics::Machine& known,
                                            const Vector3& point_W_mm, const Vector3& tip_S_mm);
 
-}  // namespace trunnion
+}  // namespace trunnion::setup

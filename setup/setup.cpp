@@ -6,7 +6,7 @@
 #include "base/units.h"
 #include "setup/setup_reader.h"
 
-namespace trunnion {
+namespace trunnion::setup {
 namespace {
 
 /// "7580-7585, 19666"
@@ -23,7 +23,7 @@ std::string ranges(const std::vector<int>& rising) {
 /// Numbers of the pivot (19680-19714) and of the G54.2 groups that the file does not give are those
 /// of the machine, told truthfully.
 void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
-    Parameters& parameters = setup.stores.parameters;
+    offsets::Parameters& parameters = setup.stores.parameters;
     const auto given = parameters.entry;
     const std::string reason = derive_pivot_parameters(setup.machine, parameters);
     const auto axes = setup.machine.chain.axes();
@@ -90,7 +90,7 @@ Vector3 Instrument::read_mm(const Vector3& p_M_mm) const {
 namespace {
 
 /// The flange of a machine that no X, Y or Z places.
-bool is_arm(const Chain& chain) {
+bool is_arm(const kinematics::Chain& chain) {
     const AxisNames names = chain.names();
     return !names.find("X") && !names.find("Y") && !names.find("Z") && !chain.tool.empty() &&
            chain.tool.back().rotary;
@@ -129,4 +129,4 @@ Setup parse_setup(const std::string& text, const std::string& path, std::vector<
     return setup;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::setup

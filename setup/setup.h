@@ -16,7 +16,7 @@
 #include "offsets/stores.h"
 #include "positioning/tcp_frame.h"
 
-namespace trunnion {
+namespace trunnion::setup {
 
 /// Where the ball of a longer stylus or cup was found beside its place straight below, by length
 /// of the extension (readings column extension_mm), in S.
@@ -114,20 +114,21 @@ struct Setup {
     std::string name;
     std::string path;  ///< of the file, for messages
     std::string chain_text;
-    Machine machine;
+    kinematics::Machine machine;
     AxisSides side_before = came_travelling_plus();  ///< [machine] side: before the first move
     std::array<bool, axis_count> scale_encoder{};  ///< encoder = "scale": reads behind the backlash
     std::vector<EffectSetting> effects;            ///< backlash and pretravel keys too
-    Dialect dialect;
-    TcpFrame tcp_frame = TcpFrame::start;    ///< [control] tcp_frame = "start" or "rotary_zero"
-    bool work_positions_with_length = true;  ///< #5041.. and #5061.. include the tool length
-    bool g89_feeds_to_initial = true;        ///< G89 under G98 feeds out all the way
-    std::vector<ClampCode> clamps;           ///< [control.clamps]
-    std::vector<int> block_skip;             ///< [control] block_skip: switches 1-9 that are on
-    bool optional_stop = false;              ///< [control] optional_stop: M01 stops
-    bool threading = false;                  ///< [control] threading: the control has G33
-    BuilderProfile builder;                  ///< [control.builder]
-    Stores stores;
+    interpreter::Dialect dialect;
+    positioning::TcpFrame tcp_frame =
+        positioning::TcpFrame::start;           ///< [control] tcp_frame = "start" or "rotary_zero"
+    bool work_positions_with_length = true;     ///< #5041.. and #5061.. include the tool length
+    bool g89_feeds_to_initial = true;           ///< G89 under G98 feeds out all the way
+    std::vector<controller::ClampCode> clamps;  ///< [control.clamps]
+    std::vector<int> block_skip;                ///< [control] block_skip: switches 1-9 that are on
+    bool optional_stop = false;                 ///< [control] optional_stop: M01 stops
+    bool threading = false;                     ///< [control] threading: the control has G33
+    controller::BuilderProfile builder;         ///< [control.builder]
+    offsets::Stores stores;
     std::optional<ProbeSettings> probe;
     std::optional<BallbarSettings> ballbar;
     std::vector<Artefact> artefacts;
@@ -146,7 +147,7 @@ struct Setup {
 /// Fills the stores from the backup folder that [control] names, before the file's own keys
 /// override them. The backup room stands beside this one, so the command that loads the setup hands
 /// it in.
-using BackupReader = std::function<void(const std::string& folder, Stores& stores)>;
+using BackupReader = std::function<void(const std::string& folder, offsets::Stores& stores)>;
 
 /// Reads a setup file; throws InputError with line, column and the line's text. `notes` gets one
 /// line for each value that was derived (19680-19714) or key that is not known. A `backup` key
@@ -162,13 +163,15 @@ std::string format_setup(const Setup& setup);
 /// this machine. Numbers that `parameters` already has stay. Returns why they cannot be derived
 /// (not two rotary axes, a linear axis carried by a rotary one, an axis line in no coordinate
 /// plane), and then leaves all as it was; empty when done.
-std::string derive_pivot_parameters(const Machine& machine, Parameters& parameters);
+std::string derive_pivot_parameters(const kinematics::Machine& machine,
+                                    offsets::Parameters& parameters);
 /// 1022 of machines with U, V or W: 5, 6, 7 for one that moves the tool as X, Y, Z do, 0 for one
 /// that runs otherwise or that a rotary axis carries; returns the letters of those. Nothing when
 /// 1022 is present already.
-std::string derive_parallel_axes(const Machine& machine, Parameters& parameters);
+std::string derive_parallel_axes(const kinematics::Machine& machine,
+                                 offsets::Parameters& parameters);
 /// G54.2 groups 7580-7588 of the machine's table axes, the one nearest the work first. Nothing when
 /// any of them is present already, or when a table axis is inclined (no group can say that).
-void derive_fixture_groups(const Machine& machine, Parameters& parameters);
+void derive_fixture_groups(const kinematics::Machine& machine, offsets::Parameters& parameters);
 
-}  // namespace trunnion
+}  // namespace trunnion::setup

@@ -6,7 +6,7 @@
 #include "offsets/parameter_units.h"
 #include "setup/setup_reader.h"
 
-namespace trunnion {
+namespace trunnion::setup {
 namespace {
 
 int whole_number(const TomlFile& file, const std::string& key, const TomlValue& value, int lowest,
@@ -17,8 +17,8 @@ int whole_number(const TomlFile& file, const std::string& key, const TomlValue& 
     return static_cast<int>(*n);
 }
 
-OffsetVector read_offset(const TomlFile& file, const TomlValue& table) {
-    OffsetVector offset;
+offsets::OffsetVector read_offset(const TomlFile& file, const TomlValue& table) {
+    offsets::OffsetVector offset;
     for (const auto& [key, value] : file.table(table).entries) {
         const auto axis = key.size() == 1 ? axis_of(key[0]) : std::nullopt;
         if (!axis) continue;  // noted as unknown
@@ -28,7 +28,7 @@ OffsetVector read_offset(const TomlFile& file, const TomlValue& table) {
     return offset;
 }
 
-OffsetVector* find_offset(WorkOffsets& work, const std::string& name) {
+offsets::OffsetVector* find_offset(offsets::WorkOffsets& work, const std::string& name) {
     if (name == "external" || name == "EXT") return &work.external;
     if (name.size() == 3 && name.starts_with("G5") && name[2] >= '4' && name[2] <= '9')
         return &work.standard[static_cast<std::size_t>(name[2] - '4')];
@@ -38,10 +38,10 @@ OffsetVector* find_offset(WorkOffsets& work, const std::string& name) {
     return valid ? &work.additional[static_cast<std::size_t>(*n) - 1] : nullptr;
 }
 
-void read_work_offsets(const TomlFile& file, const TomlValue& table, WorkOffsets& work) {
+void read_work_offsets(const TomlFile& file, const TomlValue& table, offsets::WorkOffsets& work) {
     for (const auto& [key, value] : file.table(table).entries) {
         value.used = true;
-        OffsetVector* offset = find_offset(work, key);
+        offsets::OffsetVector* offset = find_offset(work, key);
         if (!offset)
             file.fail(value, "'" + key + "' is not G54 ... G59, \"G54.1 P1\" ... P300 or external");
         *offset = read_offset(file, value);
@@ -49,23 +49,23 @@ void read_work_offsets(const TomlFile& file, const TomlValue& table, WorkOffsets
 }
 
 /// P1 = { X = .., Y = .., Z = .., reference = { B = .., C = .. } }
-void read_fixtures(const TomlFile& file, const TomlValue& table, FixtureOffsets& fixture) {
+void read_fixtures(const TomlFile& file, const TomlValue& table, offsets::FixtureOffsets& fixture) {
     for (const auto& [key, value] : file.table(table).entries) {
         value.used = true;
         const std::string number = key.starts_with("P") ? key.substr(1) : key;
         const int n = whole_number(file, number, value, 1, 8, "P1 ... P8");
-        FixtureOffset& set = fixture.set[static_cast<std::size_t>(n) - 1];
+        offsets::FixtureOffset& set = fixture.set[static_cast<std::size_t>(n) - 1];
         set.offset = read_offset(file, value);
         if (const TomlValue* angles = value.find("reference"))
             set.reference_angles = read_offset(file, *angles);
     }
 }
 
-void read_tools(const TomlFile& file, const TomlValue& table, ToolOffsets& tools) {
+void read_tools(const TomlFile& file, const TomlValue& table, offsets::ToolOffsets& tools) {
     for (const auto& [key, value] : file.table(table).entries) {
         value.used = true;
         const int n = whole_number(file, key, value, 1, 999, "a tool offset number");
-        ToolOffset& tool = tools.tool[static_cast<std::size_t>(n)];
+        offsets::ToolOffset& tool = tools.tool[static_cast<std::size_t>(n)];
         tool.length_geometry_mm = file.find_number(file.table(value), "length_mm").value_or(0.0);
         tool.length_wear_mm = file.find_number(value, "length_wear_mm").value_or(0.0);
         tool.radius_geometry_mm = file.find_number(value, "diameter_mm").value_or(0.0) / 2.0;
@@ -83,10 +83,10 @@ double parameter_value(const TomlFile& file, const TomlValue& value) {
     return byte;
 }
 
-int axis_number(const std::string& key, const Chain& chain) {
+int axis_number(const std::string& key, const kinematics::Chain& chain) {
     if (const auto n = parse_number(key)) return *n >= 1 && *n <= 99 ? static_cast<int>(*n) : 0;
     int number = 0;
-    for (const AxisGeometry& axis : chain.axes()) {
+    for (const kinematics::AxisGeometry& axis : chain.axes()) {
         if (!is_letter(axis)) continue;
         ++number;
         if (key == axis.name) return number;
@@ -95,8 +95,9 @@ int axis_number(const std::string& key, const Chain& chain) {
 }
 
 /// A value, or one for each axis: [..] in the control's order, { X = .., Y = .. } or { 1 = .. }.
-Parameter read_parameter(const TomlFile& file, const TomlValue& value, const Chain& chain) {
-    Parameter parameter;
+offsets::Parameter read_parameter(const TomlFile& file, const TomlValue& value,
+                                  const kinematics::Chain& chain) {
+    offsets::Parameter parameter;
     if (value.kind == TomlValue::Kind::array) {
         for (std::size_t i = 0; i < value.items.size(); ++i)
             parameter.by_axis[static_cast<int>(i) + 1] = parameter_value(file, value.items[i]);
@@ -124,7 +125,7 @@ void read_parameters(const TomlFile& file, const TomlValue& table, Setup& setup)
     // 1001 may stand anywhere, in the backup too.
     for (const int number : read)
         setup.stores.parameters.entry[number].value *=
-            parameter_unit_mm(setup.stores.parameters, number);
+            offsets::parameter_unit_mm(setup.stores.parameters, number);
 }
 
 void read_numbered(const TomlFile& file, const TomlValue& table, std::map<int, double>& store) {
@@ -157,7 +158,7 @@ void read_clamps(const TomlFile& file, const TomlValue& table, Setup& setup) {
                 file.fail(value, std::string(name) + " is an M code, 0 to 999");
             return static_cast<int>(m);
         };
-        ClampCode clamp{*axis, code("clamp", 10), code("release", 11), true};
+        controller::ClampCode clamp{*axis, code("clamp", 10), code("release", 11), true};
         read_switch(file, value, "alarm", clamp.alarm);
         setup.clamps.push_back(clamp);
     }
@@ -193,13 +194,15 @@ void read_ranges(const TomlFile& file, const TomlValue& value,
     }
 }
 
-void read_builder(const TomlFile& file, const TomlValue& table, BuilderProfile& builder) {
+void read_builder(const TomlFile& file, const TomlValue& table,
+                  controller::BuilderProfile& builder) {
     if (const TomlValue* codes = table.find("g_codes"))
         for (const double g : file.numbers(*codes)) {
             const double tenfold = std::round(g * 10.0);
             if (!(g >= 0 && g < 1000) || std::abs(g * 10.0 - tenfold) > 1e-6)
                 file.fail(*codes, "a G code is 0 to 999.9 with one decimal");
-            if (find_g_code(g)) file.fail(*codes, "the control has one of these G codes itself");
+            if (controller::find_g_code(g))
+                file.fail(*codes, "the control has one of these G codes itself");
             builder.add_g_code(static_cast<int>(tenfold));
         }
     if (const TomlValue* codes = table.find("m_codes")) read_m_codes(file, *codes, builder.m_codes);
@@ -210,19 +213,21 @@ void read_builder(const TomlFile& file, const TomlValue& table, BuilderProfile& 
 }
 
 /// Generations whose nesting limits and M98 forms differ (docs/control.md).
-Dialect read_dialect(const TomlFile& file, const TomlValue& control) {
+interpreter::Dialect read_dialect(const TomlFile& file, const TomlValue& control) {
     const TomlValue* name = control.find("dialect");
-    if (name && file.text(*name) == "hurco") return hurco_dialect();
+    if (name && file.text(*name) == "hurco") return interpreter::hurco_dialect();
     if (name && file.text(*name) != "fanuc") file.fail(*name, "dialect is \"fanuc\" or \"hurco\"");
     const TomlValue* generation = control.find("generation");
-    if (!generation || file.text(*generation) == "30i") return fanuc_dialect();
-    if (generation->text == "16i") return fanuc_dialect(ControlGeneration::fanuc_16i);
-    if (generation->text == "0i-F") return fanuc_dialect(ControlGeneration::fanuc_0i_f);
+    if (!generation || file.text(*generation) == "30i") return interpreter::fanuc_dialect();
+    if (generation->text == "16i")
+        return interpreter::fanuc_dialect(interpreter::ControlGeneration::fanuc_16i);
+    if (generation->text == "0i-F")
+        return interpreter::fanuc_dialect(interpreter::ControlGeneration::fanuc_0i_f);
     file.fail(*generation, "generation is \"16i\", \"30i\" or \"0i-F\"");
 }
 
 void read_backup(const TomlFile& file, const TomlValue& value, const BackupReader& backup,
-                 Stores& stores) {
+                 offsets::Stores& stores) {
     if (!backup) file.fail(value, "backups are not read here");
     const std::filesystem::path folder =
         std::filesystem::path(file.path()).parent_path() / file.text(value);
@@ -246,7 +251,8 @@ void read_control(const TomlFile& file, const TomlValue& control, const BackupRe
     if (const TomlValue* frame = control.find("tcp_frame")) {
         if (file.text(*frame) != "start" && file.text(*frame) != "rotary_zero")
             file.fail(*frame, "tcp_frame is \"start\" or \"rotary_zero\"");
-        setup.tcp_frame = frame->text == "rotary_zero" ? TcpFrame::rotary_zero : TcpFrame::start;
+        setup.tcp_frame = frame->text == "rotary_zero" ? positioning::TcpFrame::rotary_zero
+                                                       : positioning::TcpFrame::start;
     }
     if (const TomlValue* folder = control.find("backup"))
         read_backup(file, *folder, backup, setup.stores);
@@ -263,4 +269,4 @@ void read_control(const TomlFile& file, const TomlValue& control, const BackupRe
         read_numbered(file, *table, setup.stores.signals);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::setup

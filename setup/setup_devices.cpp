@@ -3,7 +3,7 @@
 #include "setup/artefact_keys.h"
 #include "setup/setup_reader.h"
 
-namespace trunnion {
+namespace trunnion::setup {
 namespace {
 
 /// Four numbers an entry: length of the extension, then the place of its ball beside that below.
@@ -57,7 +57,7 @@ void read_ballbar(const TomlFile& file, const TomlValue& table, Setup& setup) {
 
 CalibrationPrior read_prior(const TomlFile& file, const std::string& name, const TomlValue& table,
                             const AxisNames& names) {
-    const auto error = parse_error_name(name, names);
+    const auto error = kinematics::parse_error_name(name, names);
     if (!error)
         file.fail(table, "'" + name + "' is not an error name of ISO 230 of an axis, e.g. EX0C");
     const std::string unit = error->angular() ? "_rad" : "_mm";
@@ -120,4 +120,4 @@ void read_devices(const TomlFile& file, Setup& setup) {
     if (const TomlValue* table = root.find("effects")) read_effects(file, *table, setup);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::setup

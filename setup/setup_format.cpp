@@ -8,7 +8,7 @@
 #include "setup/setup.h"
 #include "setup/toml_text.h"
 
-namespace trunnion {
+namespace trunnion::setup {
 namespace {
 
 /// Text of a number that `to_inside` turns into `value` again: the shortest among the neighbours.
@@ -37,7 +37,7 @@ std::string speed(bool rotary, double value) {
     return text_for(value, 60.0 * (rotary ? deg_from_rad(value) : value), inside);
 }
 
-std::string curve_text(const ErrorCurve& curve, bool rotary) {
+std::string curve_text(const kinematics::ErrorCurve& curve, bool rotary) {
     std::string out;
     const auto add = [&](const std::string& key, const std::string& value) {
         out += (out.empty() ? "" : ", ") + key + " = " + value;
@@ -47,18 +47,19 @@ std::string curve_text(const ErrorCurve& curve, bool rotary) {
     if (!curve.at.empty()) {
         add(rotary ? "at_rad" : "at_mm", toml_numbers(curve.at));
         add("value", toml_numbers(curve.value));
-        add("interpolation",
-            curve.interpolation == ErrorCurve::Interpolation::cubic ? "\"cubic\"" : "\"linear\"");
+        add("interpolation", curve.interpolation == kinematics::ErrorCurve::Interpolation::cubic
+                                 ? "\"cubic\""
+                                 : "\"linear\"");
     }
     if (curve.period_mm != 0.0) add("period_mm", shortest(curve.period_mm));
     if (!curve.harmonics.empty())
-        add("harmonics", toml_list(curve.harmonics, [](const ErrorCurve::Harmonic& h) {
+        add("harmonics", toml_list(curve.harmonics, [](const kinematics::ErrorCurve::Harmonic& h) {
                 return toml_numbers(std::array{h.order, h.cosine, h.sine});
             }));
     return "{ " + out + " }";
 }
 
-std::string axis_text(const AxisGeometry& axis) {
+std::string axis_text(const kinematics::AxisGeometry& axis) {
     std::string out = "\n[machine.axis." + axis.name + "]\n";
     out += "direction = " + toml_numbers(axis.direction) + '\n';
     if (axis.rotary) out += "point_mm = " + toml_numbers(axis.point_mm) + '\n';
@@ -74,7 +75,8 @@ std::string axis_text(const AxisGeometry& axis) {
     return out;
 }
 
-std::string axis_error_text(const AxisGeometry& axis, const AxisErrors& errors) {
+std::string axis_error_text(const kinematics::AxisGeometry& axis,
+                            const kinematics::AxisErrors& errors) {
     std::string out;
     for (std::size_t k = 0; k < 6; ++k) {
         const std::string unit = k < 3 ? "_mm = " : "_rad = ", error{'E', "XYZABC"[k]};
@@ -86,15 +88,15 @@ std::string axis_error_text(const AxisGeometry& axis, const AxisErrors& errors) 
     return out;
 }
 
-std::string spindle_error_text(const AxisErrors& errors) {
+std::string spindle_error_text(const kinematics::AxisErrors& errors) {
     std::string out;
     for (std::size_t k = 0; k < 5; ++k) {
         const std::string unit = k < 3 ? "_mm = " : "_rad = ";
         if (errors.location[k] != 0.0)
-            out +=
-                to_string(SpindleErrorName{k, true}) + unit + shortest(errors.location[k]) + '\n';
+            out += to_string(kinematics::SpindleErrorName{k, true}) + unit +
+                   shortest(errors.location[k]) + '\n';
         if (!errors.motion[k].is_zero())
-            out += to_string(SpindleErrorName{k, false}) + unit +
+            out += to_string(kinematics::SpindleErrorName{k, false}) + unit +
                    curve_text(errors.motion[k], true) + '\n';
     }
     return out;
@@ -103,7 +105,7 @@ std::string spindle_error_text(const AxisErrors& errors) {
 /// The axes that came from the minus side; plus is what a file without the key says.
 std::string sides_text(const Setup& setup) {
     std::string out;
-    for (const AxisGeometry& axis : setup.machine.chain.axes())
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
         if (setup.side_before[index_of(axis.axis)] < 0)
             out += (out.empty() ? "" : ", ") + axis.name + " = \"-\"";
     return out.empty() ? out : "side = { " + out + " }\n";
@@ -114,8 +116,8 @@ std::string machine_text(const Setup& setup) {
         "schema = \"trunnion.setup/1\"\n\n[machine]\nname = " + toml_quoted(setup.name) +
         "\nchain = " + toml_quoted(setup.chain_text) + '\n' + sides_text(setup);
     std::string errors;
-    for (const AxisGeometry& axis : setup.machine.chain.axes()) {
-        const AxisErrors& own = setup.machine.errors.axis[index_of(axis.axis)];
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes()) {
+        const kinematics::AxisErrors& own = setup.machine.errors.axis[index_of(axis.axis)];
         out += axis_text(axis);
         if (setup.scale_encoder[index_of(axis.axis)]) out += "encoder = \"scale\"\n";
         errors += axis_error_text(axis, own);
@@ -124,7 +126,7 @@ std::string machine_text(const Setup& setup) {
     return errors.empty() ? out : out + "\n[machine.errors]\n" + errors;
 }
 
-std::string offset_text(const OffsetVector& offset, const std::string& more = "") {
+std::string offset_text(const offsets::OffsetVector& offset, const std::string& more = "") {
     std::string out;
     for (const Axis axis : all_axes)
         if (offset[axis] != 0.0)
@@ -134,10 +136,10 @@ std::string offset_text(const OffsetVector& offset, const std::string& more = ""
     return out.empty() ? "{}" : "{ " + out + " }";
 }
 
-std::string work_text(const WorkOffsets& work) {
+std::string work_text(const offsets::WorkOffsets& work) {
     std::string out;
-    const auto add = [&](const std::string& key, const OffsetVector& offset) {
-        if (offset != OffsetVector{}) out += key + " = " + offset_text(offset) + '\n';
+    const auto add = [&](const std::string& key, const offsets::OffsetVector& offset) {
+        if (offset != offsets::OffsetVector{}) out += key + " = " + offset_text(offset) + '\n';
     };
     add("external", work.external);
     for (std::size_t i = 0; i < work.standard.size(); ++i)
@@ -147,21 +149,23 @@ std::string work_text(const WorkOffsets& work) {
     return out.empty() ? out : "\n[control.work_offsets]\n" + out;
 }
 
-std::string fixture_text(const FixtureOffsets& fixture) {
+std::string fixture_text(const offsets::FixtureOffsets& fixture) {
     std::string out;
     for (std::size_t i = 0; i < fixture.set.size(); ++i) {
-        const FixtureOffset& set = fixture.set[i];
-        if (set.offset == OffsetVector{} && set.reference_angles == OffsetVector{}) continue;
+        const offsets::FixtureOffset& set = fixture.set[i];
+        if (set.offset == offsets::OffsetVector{} &&
+            set.reference_angles == offsets::OffsetVector{})
+            continue;
         out += 'P' + std::to_string(i + 1) + " = " +
                offset_text(set.offset, "reference = " + offset_text(set.reference_angles)) + '\n';
     }
     return out.empty() ? out : "\n[control.fixture_offsets]\n" + out;
 }
 
-std::string tools_text(const ToolOffsets& tools) {
+std::string tools_text(const offsets::ToolOffsets& tools) {
     std::string out;
     for (std::size_t i = 1; i < tools.tool.size(); ++i) {
-        const ToolOffset& tool = tools.tool[i];
+        const offsets::ToolOffset& tool = tools.tool[i];
         std::string line;
         const auto add = [&](const char* key, double value) {
             if (value != 0.0)
@@ -177,7 +181,7 @@ std::string tools_text(const ToolOffsets& tools) {
 }
 
 /// `unit_mm`: of the number as typed.
-std::string parameter_text(const Parameter& parameter, double unit_mm) {
+std::string parameter_text(const offsets::Parameter& parameter, double unit_mm) {
     if (parameter.by_axis.empty()) return shortest(parameter.value / unit_mm);
     std::string out;
     for (const auto& [axis, value] : parameter.by_axis)
@@ -192,9 +196,9 @@ std::string numbered_text(const char* title, const std::map<int, double>& store)
     return out.empty() ? out : std::string("\n[control.") + title + "]\n" + out;
 }
 
-std::string clamps_text(const std::vector<ClampCode>& clamps) {
+std::string clamps_text(const std::vector<controller::ClampCode>& clamps) {
     std::string out = clamps.empty() ? "" : "\n[control.clamps]\n";
-    for (const ClampCode& c : clamps)
+    for (const controller::ClampCode& c : clamps)
         out += std::string(1, letter_of(c.axis)) + " = { clamp = " + std::to_string(c.m_clamp) +
                ", release = " + std::to_string(c.m_release) +
                ", alarm = " + (c.alarm ? "true" : "false") + " }\n";
@@ -207,9 +211,9 @@ std::string list_text(const char* key, const std::vector<int>& numbers) {
     return out.empty() ? out : std::string(key) + " = [" + out + "]\n";
 }
 
-std::string builder_text(const BuilderProfile& builder) {
+std::string builder_text(const controller::BuilderProfile& builder) {
     std::string codes, ranges;
-    for (const GCode& code : builder.g_codes)
+    for (const controller::GCode& code : builder.g_codes)
         codes += (codes.empty() ? "" : ", ") + shortest(code.code10 / 10.0);
     for (const auto& [first, last] : builder.variables)
         ranges += (ranges.empty() ? "[" : ", [") + std::to_string(first) + ", " +
@@ -222,15 +226,16 @@ std::string builder_text(const BuilderProfile& builder) {
     return out.empty() ? out : "\n[control.builder]\n" + out;
 }
 
-std::string generation_text(ControlGeneration generation) {
-    if (generation == ControlGeneration::fanuc_16i) return "generation = \"16i\"\n";
-    return generation == ControlGeneration::fanuc_0i_f ? "generation = \"0i-F\"\n" : "";
+std::string generation_text(interpreter::ControlGeneration generation) {
+    if (generation == interpreter::ControlGeneration::fanuc_16i) return "generation = \"16i\"\n";
+    return generation == interpreter::ControlGeneration::fanuc_0i_f ? "generation = \"0i-F\"\n"
+                                                                    : "";
 }
 
 std::string control_text(const Setup& setup) {
     std::string out =
         std::string("\n[control]\ndialect = ") +
-        (setup.dialect.family == DialectFamily::hurco ? "\"hurco\"\n" : "\"fanuc\"\n");
+        (setup.dialect.family == interpreter::DialectFamily::hurco ? "\"hurco\"\n" : "\"fanuc\"\n");
     out += generation_text(setup.dialect.generation);
     if (!setup.work_positions_with_length) out += "work_positions_with_length = false\n";
     if (!setup.g89_feeds_to_initial) out += "g89_feeds_to_initial = false\n";
@@ -241,13 +246,16 @@ std::string control_text(const Setup& setup) {
         for (const int n : setup.block_skip) out += std::to_string(n) + ", ";
         out.replace(out.size() - 2, 2, "]\n");
     }
-    if (setup.tcp_frame == TcpFrame::rotary_zero) out += "tcp_frame = \"rotary_zero\"\n";
+    if (setup.tcp_frame == positioning::TcpFrame::rotary_zero)
+        out += "tcp_frame = \"rotary_zero\"\n";
     out += clamps_text(setup.clamps) + builder_text(setup.builder);
     out += work_text(setup.stores.work) + fixture_text(setup.stores.fixture);
     if (!setup.stores.parameters.entry.empty()) out += "\n[control.parameters]\n";
     for (const auto& [number, parameter] : setup.stores.parameters.entry)
-        out += std::to_string(number) + " = " +
-               parameter_text(parameter, parameter_unit_mm(setup.stores.parameters, number)) + '\n';
+        out +=
+            std::to_string(number) + " = " +
+            parameter_text(parameter, offsets::parameter_unit_mm(setup.stores.parameters, number)) +
+            '\n';
     out += tools_text(setup.stores.tools);
     out += numbered_text("variables", setup.stores.variables);
     return out + numbered_text("signals", setup.stores.signals);
@@ -300,7 +308,7 @@ std::string model_text(const ModelSettings& model, const AxisNames& names) {
                       noise_text("noise_urad", model.noise_urad);
     if (!model.calibration.empty()) out += "\n[model.calibration]\n";
     for (const auto& [name, prior] : model.calibration) {
-        const auto error = parse_error_name(name, names);
+        const auto error = kinematics::parse_error_name(name, names);
         const std::string unit = error && error->angular() ? "_rad = " : "_mm = ";
         out += name + " = { value" + unit + shortest(prior.value) + ", sigma" + unit +
                shortest(prior.sigma) + " }\n";
@@ -331,4 +339,4 @@ std::string format_setup(const Setup& setup) {
     return out + model_text(setup.model, setup.machine.chain.names());
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::setup

@@ -6,14 +6,14 @@
 #include "base/units.h"
 #include "setup/setup_reader.h"
 
-namespace trunnion {
+namespace trunnion::setup {
 namespace {
 
 double from_file(bool rotary, double value) {
     return rotary ? rad_from_deg(value) : value;
 }
 
-void read_limits(const TomlFile& file, const TomlValue& table, AxisGeometry& axis) {
+void read_limits(const TomlFile& file, const TomlValue& table, kinematics::AxisGeometry& axis) {
     const TomlValue* limits = table.find(axis.rotary ? "limits_deg" : "limits_mm");
     if (!limits) return;
     const std::vector<double> both = file.numbers(*limits);
@@ -23,7 +23,7 @@ void read_limits(const TomlFile& file, const TomlValue& table, AxisGeometry& axi
     axis.max = from_file(axis.rotary, both[1]);
 }
 
-void read_dynamics(const TomlFile& file, const TomlValue& table, AxisGeometry& axis) {
+void read_dynamics(const TomlFile& file, const TomlValue& table, kinematics::AxisGeometry& axis) {
     if (const TomlValue* speed = table.find(axis.rotary ? "max_deg_min" : "max_mm_min"))
         axis.max_speed = from_file(axis.rotary, file.positive(*speed)) / 60.0;
     if (const TomlValue* most = table.find(axis.rotary ? "accel_deg_s2" : "accel_mm_s2"))
@@ -43,7 +43,7 @@ const TomlValue* first_of(const TomlValue& table, const Keys& keys) {
 
 /// A B C turn and the other letters do not, as NC words address them; any other axis turns when it
 /// has a key of a rotary one. Keys of both kinds are refused.
-void read_kind(const TomlFile& file, const TomlValue& table, AxisGeometry& axis) {
+void read_kind(const TomlFile& file, const TomlValue& table, kinematics::AxisGeometry& axis) {
     if (!is_letter(axis)) axis.rotary = first_of(table, rotary_keys) != nullptr;
     const TomlValue* other =
         axis.rotary ? first_of(table, linear_keys) : first_of(table, rotary_keys);
@@ -55,7 +55,7 @@ void read_kind(const TomlFile& file, const TomlValue& table, AxisGeometry& axis)
 
 /// A linear axis with a letter runs along the axis of its letter; whether a table turns with its
 /// word or against it nobody can guess.
-void read_direction(const TomlFile& file, const TomlValue& table, AxisGeometry& axis) {
+void read_direction(const TomlFile& file, const TomlValue& table, kinematics::AxisGeometry& axis) {
     const TomlValue* direction = table.find("direction");
     if (!direction && is_letter(axis) && !axis.rotary) return;
     if (!direction)
@@ -66,7 +66,8 @@ void read_direction(const TomlFile& file, const TomlValue& table, AxisGeometry& 
     axis.direction = std::abs(v.norm() - 1.0) < 1e-15 ? v : Vector3(v.normalized());
 }
 
-void read_axis(const TomlFile& file, const TomlValue& table, AxisGeometry& axis, Setup& setup) {
+void read_axis(const TomlFile& file, const TomlValue& table, kinematics::AxisGeometry& axis,
+               Setup& setup) {
     read_kind(file, table, axis);
     if (axis.rotary) {
         const TomlValue* point = table.find("point_mm");
@@ -83,9 +84,9 @@ void read_axis(const TomlFile& file, const TomlValue& table, AxisGeometry& axis,
                        file.number(*gap), setup);
 }
 
-AxisGeometry* find_axis(Chain& chain, std::string_view name) {
+kinematics::AxisGeometry* find_axis(kinematics::Chain& chain, std::string_view name) {
     for (auto* side : {&chain.work, &chain.tool})
-        for (AxisGeometry& axis : *side)
+        for (kinematics::AxisGeometry& axis : *side)
             if (axis.name == name) return &axis;
     return nullptr;
 }
@@ -103,7 +104,7 @@ bool read_scale_encoder(const TomlFile& file, const TomlValue& table) {
 void read_sides(const TomlFile& file, const TomlValue& sides, Setup& setup) {
     for (const auto& [name, value] : file.table(sides).entries) {
         value.used = true;
-        const AxisGeometry* axis = find_axis(setup.machine.chain, name);
+        const kinematics::AxisGeometry* axis = find_axis(setup.machine.chain, name);
         if (!axis) file.fail(value, "axis " + name + " does not stand in the chain");
         if (file.text(value) != "+" && file.text(value) != "-")
             file.fail(value, "a side is \"+\" or \"-\"");
@@ -114,7 +115,7 @@ void read_sides(const TomlFile& file, const TomlValue& sides, Setup& setup) {
 void read_axes(const TomlFile& file, const TomlValue& axes, Setup& setup) {
     for (const auto& [name, value] : file.table(axes).entries) {
         value.used = true;
-        AxisGeometry* axis = find_axis(setup.machine.chain, name);
+        kinematics::AxisGeometry* axis = find_axis(setup.machine.chain, name);
         if (!axis) file.fail(value, "axis " + name + " does not stand in the chain");
         const std::size_t k = index_of(axis->axis);
         read_axis(file, file.table(value), *axis, setup);
@@ -123,12 +124,13 @@ void read_axes(const TomlFile& file, const TomlValue& axes, Setup& setup) {
 }
 
 /// X, Y and Z reach every point: none of them lies along another or in the plane of the two.
-void check_linear_axes(const TomlFile& file, const TomlValue& axes, const Chain& chain) {
+void check_linear_axes(const TomlFile& file, const TomlValue& axes,
+                       const kinematics::Chain& chain) {
     constexpr double least_sine = 0.01;
     Matrix3 span = Matrix3::Zero();
     Eigen::Index rank = 0;
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
-        const AxisGeometry* geometry = chain.find(axis);
+        const kinematics::AxisGeometry* geometry = chain.find(axis);
         if (!geometry || geometry->rotary) continue;
         Vector3 apart = geometry->direction;
         for (Eigen::Index k = 0; k < rank; ++k) apart -= apart.dot(span.col(k)) * span.col(k);
@@ -144,8 +146,8 @@ void check_linear_axes(const TomlFile& file, const TomlValue& axes, const Chain&
 
 /// Only a linear axis with a letter of ISO 841 can do without its table.
 void check_axes(const TomlFile& file, const TomlValue& chain_text, const TomlValue* axes,
-                const Chain& chain) {
-    for (const AxisGeometry& axis : chain.axes()) {
+                const kinematics::Chain& chain) {
+    for (const kinematics::AxisGeometry& axis : chain.axes()) {
         if ((is_letter(axis) && !axis.rotary) || (axes && axes->find(axis.name))) continue;
         const std::string lacks = axis.rotary ? "rotary axis " + axis.name + " has no point_mm"
                                               : "axis " + axis.name + " has no direction";
@@ -165,7 +167,8 @@ std::vector<double> table_positions(const TomlFile& file, const TomlValue& table
     return list;
 }
 
-void read_table(const TomlFile& file, const TomlValue& table, bool rotary, ErrorCurve& curve) {
+void read_table(const TomlFile& file, const TomlValue& table, bool rotary,
+                kinematics::ErrorCurve& curve) {
     curve.at = table_positions(file, table, rotary);
     if (const TomlValue* value = table.find("value")) curve.value = file.numbers(*value);
     if (curve.at.size() != curve.value.size() || curve.at.size() == 1)
@@ -175,12 +178,13 @@ void read_table(const TomlFile& file, const TomlValue& table, bool rotary, Error
     if (const TomlValue* kind = table.find("interpolation")) {
         if (file.text(*kind) != "linear" && file.text(*kind) != "cubic")
             file.fail(*kind, "interpolation is \"linear\" or \"cubic\"");
-        curve.interpolation = kind->text == "cubic" ? ErrorCurve::Interpolation::cubic
-                                                    : ErrorCurve::Interpolation::linear;
+        curve.interpolation = kind->text == "cubic" ? kinematics::ErrorCurve::Interpolation::cubic
+                                                    : kinematics::ErrorCurve::Interpolation::linear;
     }
 }
 
-void read_harmonics(const TomlFile& file, const TomlValue& table, bool rotary, ErrorCurve& curve) {
+void read_harmonics(const TomlFile& file, const TomlValue& table, bool rotary,
+                    kinematics::ErrorCurve& curve) {
     if (const TomlValue* period = table.find("period_mm")) curve.period_mm = file.positive(*period);
     const TomlValue* list = table.find("harmonics");
     if (!list) return;
@@ -192,8 +196,8 @@ void read_harmonics(const TomlFile& file, const TomlValue& table, bool rotary, E
     }
 }
 
-ErrorCurve read_curve(const TomlFile& file, const TomlValue& value, bool rotary) {
-    ErrorCurve curve;
+kinematics::ErrorCurve read_curve(const TomlFile& file, const TomlValue& value, bool rotary) {
+    kinematics::ErrorCurve curve;
     if (value.kind == TomlValue::Kind::number) {
         curve.constant = file.number(value);
         return curve;
@@ -222,7 +226,7 @@ void read_machine(const TomlFile& file, const TomlValue& machine, Setup& setup) 
     if (!chain) file.fail(machine, "[machine] has no chain, e.g. chain = \"w C B b X Y Z t\"");
     try {
         setup.chain_text = file.text(*chain);
-        setup.machine.chain = parse_chain(setup.chain_text);
+        setup.machine.chain = kinematics::parse_chain(setup.chain_text);
     } catch (const InputError& error) {
         file.fail(*chain, error.message);
     }
@@ -246,13 +250,13 @@ void check_unit(const TomlFile& file, const TomlValue& value, const std::string&
         file.fail(value, "the unit of " + name + " is " + (angular ? "_rad" : "_mm"));
 }
 
-void read_spindle_error(const TomlFile& file, const TomlValue& value, const SpindleErrorName& name,
-                        AxisErrors& spindle) {
+void read_spindle_error(const TomlFile& file, const TomlValue& value,
+                        const kinematics::SpindleErrorName& name, kinematics::AxisErrors& spindle) {
     if (name.location) {
         spindle.location[name.direction] = file.number(value);
         return;
     }
-    ErrorCurve& curve = spindle.motion[name.direction] = read_curve(file, value, true);
+    kinematics::ErrorCurve& curve = spindle.motion[name.direction] = read_curve(file, value, true);
     if (curve.slope != 0.0 || !curve.at.empty())
         file.fail(value, "an error motion of the spindle is a constant and harmonics of its angle");
 }
@@ -260,18 +264,18 @@ void read_spindle_error(const TomlFile& file, const TomlValue& value, const Spin
 }  // namespace
 
 void read_machine_errors(const TomlFile& file, const TomlValue& table, Setup& setup) {
-    GeometricErrors& errors = setup.machine.errors;
+    kinematics::GeometricErrors& errors = setup.machine.errors;
     const AxisNames names = setup.machine.chain.names();
     for (const auto& [key, value] : table.entries) {
         value.used = true;
         const std::string_view word = std::string_view(key).substr(0, key.find('_'));
-        if (const auto spindle = parse_spindle_error_name(word)) {
+        if (const auto spindle = kinematics::parse_spindle_error_name(word)) {
             check_unit(file, value, key, to_string(*spindle), spindle->angular());
             read_spindle_error(file, value, *spindle, errors.spindle);
             continue;
         }
-        const auto name = parse_error_name(word, names);
-        if (!name && parse_error_name(word))
+        const auto name = kinematics::parse_error_name(word, names);
+        if (!name && kinematics::parse_error_name(word))
             file.fail(value, "the machine has no axis " + std::string(1, word.back()));
         if (!name)
             file.fail(
@@ -285,4 +289,4 @@ void read_machine_errors(const TomlFile& file, const TomlValue& table, Setup& se
     }
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::setup

@@ -7,7 +7,7 @@
 #include "base/toml_reader.h"
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::setup {
 
 void read_machine(const TomlFile& file, const TomlValue& machine, Setup& setup);
 /// A key that is another name of an effect's parameter: backlash, pretravel. Refused at `place`
@@ -20,4 +20,4 @@ void read_control(const TomlFile& file, const TomlValue& control, const BackupRe
 /// [probe], [ballbar], [[artefact]], [model], [effects].
 void read_devices(const TomlFile& file, Setup& setup);
 
-}  // namespace trunnion
+}  // namespace trunnion::setup

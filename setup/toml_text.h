@@ -5,7 +5,7 @@
 
 #include "base/numbers.h"
 
-namespace trunnion {
+namespace trunnion::setup {
 
 inline std::string toml_quoted(const std::string& text) {
     std::string out = "\"";
@@ -32,4 +32,4 @@ std::string toml_numbers(const List& list) {
     return toml_list(list, toml_number);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::setup

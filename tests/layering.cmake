@@ -1,6 +1,7 @@
-# Fails when a room includes a room that cmake/rooms.cmake does not list for it, and when a listed
-# permission is used by no #include. Inside controller/ the subjects of cmake/controller_order.cmake
-# may include only those before them.
+# Fails when a room includes a room that cmake/rooms.cmake does not list for it, when a listed
+# permission is used by no #include, and when a room's names stand in another namespace than
+# trunnion::ROOM. Inside controller/ the subjects of cmake/controller_order.cmake may include only
+# those before them.
 cmake_minimum_required(VERSION 3.25)
 include(${ROOT}/cmake/rooms.cmake)
 include(${ROOT}/cmake/controller_order.cmake)
@@ -15,7 +16,14 @@ foreach(line IN LISTS TRUNNION_ROOMS)
   trunnion_room_depends("${line}" allowed)
   set(unused ${allowed})
   file(GLOB files ${ROOT}/${name}/*.h ${ROOT}/${name}/*.cpp)
+  string(REPLACE "/" "::" space "trunnion::${name}")
   foreach(file IN LISTS files)
+    file(STRINGS ${file} own REGEX "^namespace trunnion::(inline )?[a-z:_]+ {$")
+    string(REPLACE "inline " "" own "${own}")
+    if(NOT own MATCHES "namespace ${space}(::[a-z_]+)? {")
+      message(SEND_ERROR "${file}: its namespace is not ${space}")
+      math(EXPR faults "${faults} + 1")
+    endif()
     file(STRINGS ${file} includes REGEX "^#include \"[a-z]+/")
     foreach(include IN LISTS includes)
       string(REGEX REPLACE "^#include \"([a-z/]+)/.*" "\\1" room "${include}")

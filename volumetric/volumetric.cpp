@@ -8,7 +8,7 @@
 #include "emulator/tool_tip.h"
 #include "kinematics/jacobian.h"
 
-namespace trunnion {
+namespace trunnion::volumetric {
 namespace {
 
 constexpr double default_reach_mm = 200.0;
@@ -19,7 +19,8 @@ std::vector<double> evenly(double low, double step, int count) {
     return steps;
 }
 
-std::vector<double> steps_of(const AxisGeometry& axis, const VolumetricOptions& options) {
+std::vector<double> steps_of(const kinematics::AxisGeometry& axis,
+                             const VolumetricOptions& options) {
     const int count = axis.rotary ? options.rotary_grid : options.grid;
     const double reach = axis.rotary ? pi : default_reach_mm;
     const double low = axis.min.value_or(-reach), high = axis.max.value_or(reach);
@@ -31,9 +32,10 @@ std::vector<double> steps_of(const AxisGeometry& axis, const VolumetricOptions& 
     return evenly(low, (high - low) / (count - 1), count);
 }
 
-std::vector<AxisPositions> grid_of(const Chain& chain, const VolumetricOptions& options) {
+std::vector<AxisPositions> grid_of(const kinematics::Chain& chain,
+                                   const VolumetricOptions& options) {
     std::vector<AxisPositions> all{AxisPositions{}};
-    for (const AxisGeometry& axis : chain.axes()) {
+    for (const kinematics::AxisGeometry& axis : chain.axes()) {
         std::vector<AxisPositions> next;
         for (const AxisPositions& base : all)
             for (const double step : steps_of(axis, options)) {
@@ -46,11 +48,11 @@ std::vector<AxisPositions> grid_of(const Chain& chain, const VolumetricOptions& 
 }
 
 /// The grid leaves a table of the axis's errors: beyond its ends a table holds its last value.
-bool beyond_tables(const AxisGeometry& axis, const GeometricErrors& errors,
+bool beyond_tables(const kinematics::AxisGeometry& axis, const kinematics::GeometricErrors& errors,
                    const VolumetricOptions& options) {
     const std::vector<double> steps = steps_of(axis, options);
     const auto& curves = errors.axis[index_of(axis.axis)].motion;
-    return std::any_of(curves.begin(), curves.end(), [&](const ErrorCurve& curve) {
+    return std::any_of(curves.begin(), curves.end(), [&](const kinematics::ErrorCurve& curve) {
         return !curve.at.empty() &&
                (steps.front() < curve.at.front() || steps.back() > curve.at.back());
     });
@@ -64,23 +66,25 @@ struct NamedError {
     std::size_t k = 0;
 };
 
-std::vector<NamedError> errors_present(const Machine& machine) {
+std::vector<NamedError> errors_present(const kinematics::Machine& machine) {
     std::vector<NamedError> list;
     const AxisNames names = machine.chain.names();
-    for (const AxisGeometry& axis : machine.chain.axes())
+    for (const kinematics::AxisGeometry& axis : machine.chain.axes())
         for (std::size_t k = 0; k < 6; ++k) {
-            const AxisErrors& own = machine.errors.axis[index_of(axis.axis)];
+            const kinematics::AxisErrors& own = machine.errors.axis[index_of(axis.axis)];
             const auto add = [&](bool location) {
-                list.push_back({to_string(ErrorName{"XYZABC"[k], location, axis.axis}, names),
-                                axis.axis, location, k});
+                list.push_back(
+                    {to_string(kinematics::ErrorName{"XYZABC"[k], location, axis.axis}, names),
+                     axis.axis, location, k});
             };
             if (own.location[k] != 0.0) add(true);
             if (!own.motion[k].is_zero()) add(false);
         }
     for (std::size_t k = 0; k < 5; ++k) {
-        const AxisErrors& own = machine.errors.spindle;
+        const kinematics::AxisErrors& own = machine.errors.spindle;
         const auto add = [&](bool location) {
-            list.push_back({to_string(SpindleErrorName{k, location}), std::nullopt, location, k});
+            list.push_back(
+                {to_string(kinematics::SpindleErrorName{k, location}), std::nullopt, location, k});
         };
         if (own.location[k] != 0.0) add(true);
         if (!own.motion[k].is_zero()) add(false);
@@ -98,7 +102,7 @@ AxisSample standing_at(const AxisPositions& q) {
 /// Works out one point and the contribution of each cause to it.
 class Mapper {
   public:
-    Mapper(const Setup& setup, const EffectModels& effects, double length_mm)
+    Mapper(const setup::Setup& setup, const emulator::EffectModels& effects, double length_mm)
         : setup_(setup),
           nominal_(setup.machine),
           named_(errors_present(setup.machine)),
@@ -107,7 +111,8 @@ class Mapper {
         tool_.tip = tool_.stylus = true;
         nominal_.errors = {};
         for (const auto& effect : effects)
-            alone_.push_back(std::make_unique<Observer>(setup, nominal_, EffectModels{effect}));
+            alone_.push_back(std::make_unique<emulator::Observer>(setup, nominal_,
+                                                                  emulator::EffectModels{effect}));
     }
 
     std::vector<std::string> names(const std::vector<std::string>& effect_names) const {
@@ -118,28 +123,31 @@ class Mapper {
     }
 
     VolumetricPoint point(const AxisPositions& q, std::vector<Vector3>& parts) const {
-        const TipJacobian jacobian = tip_jacobian(nominal_, q, tip_S_mm_);
+        const kinematics::TipJacobian jacobian = kinematics::tip_jacobian(nominal_, q, tip_S_mm_);
         const AxisSample sample = standing_at(q);
         VolumetricPoint point;
         point.at = q;
         point.tip_W_mm = jacobian.tip_W_mm;
-        point.error_W_mm = physical_tip_W(whole_.at(sample, tool_), tip_S_mm_) - point.tip_W_mm;
+        point.error_W_mm =
+            emulator::physical_tip_W(whole_.at(sample, tool_), tip_S_mm_) - point.tip_W_mm;
         parts.clear();
         for (const NamedError& error : named_) parts.push_back(part(error, q, jacobian));
         for (const auto& machine : alone_)
-            parts.push_back(physical_tip_W(machine->at(sample, tool_), tip_S_mm_) - point.tip_W_mm);
+            parts.push_back(emulator::physical_tip_W(machine->at(sample, tool_), tip_S_mm_) -
+                            point.tip_W_mm);
         return point;
     }
 
   private:
     Vector3 part(const NamedError& error, const AxisPositions& q,
-                 const TipJacobian& jacobian) const {
-        const GeometricErrors& errors = setup_.machine.errors;
-        const AxisErrors& own = error.axis ? errors.axis[index_of(*error.axis)] : errors.spindle;
+                 const kinematics::TipJacobian& jacobian) const {
+        const kinematics::GeometricErrors& errors = setup_.machine.errors;
+        const kinematics::AxisErrors& own =
+            error.axis ? errors.axis[index_of(*error.axis)] : errors.spindle;
         const double value = error.location
                                  ? own.location[error.k]
                                  : own.motion[error.k](error.axis ? q[*error.axis] : 0.0);
-        const SixColumns& columns =
+        const kinematics::SixColumns& columns =
             error.axis
                 ? (error.location ? jacobian.location : jacobian.motion)[index_of(*error.axis)]
             : error.location ? jacobian.spindle_location
@@ -147,13 +155,13 @@ class Mapper {
         return value * columns.col(static_cast<Eigen::Index>(error.k));
     }
 
-    const Setup& setup_;
-    Machine nominal_;
+    const setup::Setup& setup_;
+    kinematics::Machine nominal_;
     std::vector<NamedError> named_;
-    Observer whole_;
-    std::vector<std::unique_ptr<Observer>> alone_;
+    emulator::Observer whole_;
+    std::vector<std::unique_ptr<emulator::Observer>> alone_;
     Vector3 tip_S_mm_;
-    Contact tool_;  ///< what effects of the tool act on
+    emulator::Contact tool_;  ///< what effects of the tool act on
 };
 
 /// Orders causes by rms and renumbers what the points refer to.
@@ -193,16 +201,19 @@ void finish(VolumetricMap& map) {
 
 }  // namespace
 
-VolumetricMap volumetric_map(const Setup& setup, const std::vector<std::string>& effect_names,
-                             const EffectModels& effects, const VolumetricOptions& options) {
+VolumetricMap volumetric_map(const setup::Setup& setup,
+                             const std::vector<std::string>& effect_names,
+                             const emulator::EffectModels& effects,
+                             const VolumetricOptions& options) {
     const Mapper mapper(setup, effects, options.length_mm);
     VolumetricMap map;
     map.machine = setup.name;
     map.length_mm = options.length_mm;
     map.names = setup.machine.chain.names();
-    for (const AxisGeometry& axis : setup.machine.chain.axes()) map.axes.push_back(axis.axis);
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
+        map.axes.push_back(axis.axis);
     for (const std::string& name : mapper.names(effect_names)) map.causes.push_back({name});
-    for (const AxisGeometry& axis : setup.machine.chain.axes()) {
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes()) {
         if (!axis.min || !axis.max) map.assumed.push_back(axis.axis);
         if (beyond_tables(axis, setup.machine.errors, options)) map.clamped.push_back(axis.axis);
     }
@@ -222,4 +233,4 @@ VolumetricMap volumetric_map(const Setup& setup, const std::vector<std::string>&
     return map;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::volumetric

@@ -8,7 +8,7 @@
 #include "emulator/effect_model.h"
 #include "setup/setup.h"
 
-namespace trunnion {
+namespace trunnion::volumetric {
 
 /// One pose of the grid.
 struct VolumetricPoint {
@@ -50,7 +50,9 @@ struct VolumetricOptions {
 /// Each axis steps through its limits, ends included (+-200 mm and +-180 degrees where the setup
 /// gives none). An axis that can turn round steps through one turn instead, each angle once, 0
 /// among them. Errors one by one come from the Jacobian, effects from switching them on alone.
-VolumetricMap volumetric_map(const Setup& setup, const std::vector<std::string>& effect_names,
-                             const EffectModels& effects, const VolumetricOptions& options);
+VolumetricMap volumetric_map(const setup::Setup& setup,
+                             const std::vector<std::string>& effect_names,
+                             const emulator::EffectModels& effects,
+                             const VolumetricOptions& options);
 
-}  // namespace trunnion
+}  // namespace trunnion::volumetric

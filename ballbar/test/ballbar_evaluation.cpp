@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 
-Machine nominal_of(const Setup& setup) {
-    Machine machine = setup.machine;
+kinematics::Machine nominal_of(const setup::Setup& setup) {
+    kinematics::Machine machine = setup.machine;
     machine.errors = {};
     return machine;
 }
 
-std::vector<double> readings_of(const BallbarModel& model, const ReadingTable& table) {
+std::vector<double> readings_of(const BallbarModel& model, const records::ReadingTable& table) {
     std::vector<double> values;
     for (const std::size_t row : model.rows_used()) values.push_back(*table.rows[row].value_mm);
     return values;
@@ -41,8 +41,8 @@ constexpr std::size_t points_per_pass = 720;  ///< of circular figures: half a d
 
 /// Planar passes as means of neighbouring readings: figures of a range must not grow with the
 /// sampling rate. Values count from the nominal length of the bar.
-ReadingTable thinned(const ReadingTable& table, double warm_mm) {
-    ReadingTable out = table;
+records::ReadingTable thinned(const records::ReadingTable& table, double warm_mm) {
+    records::ReadingTable out = table;
     out.rows.clear();
     for (const BallbarPass& pass : ballbar_passes(table.rows)) {
         const std::size_t count = pass.end - pass.begin, blocks = std::min(count, points_per_pass);
@@ -50,8 +50,8 @@ ReadingTable thinned(const ReadingTable& table, double warm_mm) {
             const std::size_t begin = pass.begin + count * b / blocks;
             const std::size_t end = pass.begin + count * (b + 1) / blocks;
             // Place and time of the mean: halfway between the middle two of an even number.
-            Reading row = table.rows[(begin + end - 1) / 2];
-            const Reading& other = table.rows[(begin + end) / 2];
+            records::Reading row = table.rows[(begin + end - 1) / 2];
+            const records::Reading& other = table.rows[(begin + end) / 2];
             row.time_s = 0.5 * (row.time_s + other.time_s);
             for (const Axis axis : all_axes)
                 row.commanded[axis] = 0.5 * (row.commanded[axis] + other.commanded[axis]);
@@ -69,7 +69,7 @@ ReadingTable thinned(const ReadingTable& table, double warm_mm) {
 /// Figures and plots of means, the diagnosis of every reading: a mean across a reversal is
 /// neither side's.
 void add_circles(BallbarResult& result) {
-    const ReadingTable& first = result.before.readings;
+    const records::ReadingTable& first = result.before.readings;
     const double radius_mm = result.data.layout.length_mm;
     const auto every = circular_tests(first, radius_mm);
     const auto means = circular_tests(thinned(first, result.reference_mm - radius_mm), radius_mm);
@@ -84,9 +84,9 @@ BallbarLayout evaluated_layout(const BallbarResult& result) {
 }
 
 /// The exact and the published evaluation of the first run.
-void fit_first_run(BallbarResult& result, const Machine& nominal, double declared_mm) {
+void fit_first_run(BallbarResult& result, const kinematics::Machine& nominal, double declared_mm) {
     const BallbarLayout layout = evaluated_layout(result);
-    const ReadingTable& first = result.before.readings;
+    const records::ReadingTable& first = result.before.readings;
     const BallbarModel model(nominal, layout, first.rows, {});
     const std::vector<double> values = readings_of(model, first);
     result.fit = model.fit(values);
@@ -98,4 +98,4 @@ void fit_first_run(BallbarResult& result, const Machine& nominal, double declare
     result.reading_sigma_mm = reading_sigma_mm(result.fit, declared_mm);
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

@@ -4,14 +4,14 @@
 #include "ballbar/test/ballbar_procedure.h"
 #include "ballbar/test/ballbar_result.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 
 /// Geometry without any error: what the operator knows before the test.
-Machine nominal_of(const Setup& setup);
+kinematics::Machine nominal_of(const setup::Setup& setup);
 /// Layout with the length from which the readings are counted.
 BallbarLayout evaluated_layout(const BallbarResult& result);
 /// Values of the rows that the model uses, mm.
-std::vector<double> readings_of(const BallbarModel& model, const ReadingTable& table);
+std::vector<double> readings_of(const BallbarModel& model, const records::ReadingTable& table);
 std::vector<BallbarErrorRow> rows_of(const std::vector<ErrorEstimate>& before,
                                      const std::vector<ErrorEstimate>& after,
                                      const std::vector<NamedError>& published);
@@ -19,6 +19,6 @@ std::vector<BallbarErrorRow> rows_of(const std::vector<ErrorEstimate>& before,
 /// Circles of `result.before`: figures, traces, diagnosis.
 void add_circles(BallbarResult& result);
 /// The exact and the published evaluation of `result.before`. `declared_mm`: noise by the setup.
-void fit_first_run(BallbarResult& result, const Machine& nominal, double declared_mm);
+void fit_first_run(BallbarResult& result, const kinematics::Machine& nominal, double declared_mm);
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

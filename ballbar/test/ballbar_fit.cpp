@@ -7,11 +7,11 @@
 #include "base/units.h"
 #include "kinematics/forward.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 
 /// One set of values, ready to evaluate.
 struct BallbarState {
-    ForwardModel machine;
+    kinematics::ForwardModel machine;
     Vector3 cup_S_mm, pivot_W_mm;
     double length_mm;
     std::vector<double> test_constant_mm;
@@ -27,13 +27,13 @@ constexpr double step = 1e-3;            // of the central differences, in scale
 constexpr double null_threshold = 1e-8;  // of eigenvalues of the column-scaled normal matrix
 
 /// Two positions and two tilts across the axis's nominal direction.
-void add_location(std::vector<BallbarParameter>& out, const AxisGeometry& axis) {
+void add_location(std::vector<BallbarParameter>& out, const kinematics::AxisGeometry& axis) {
     Eigen::Index along = 0;
     axis.direction.cwiseAbs().maxCoeff(&along);
     for (const char* letters : {"XYZ", "ABC"})
         for (int k = 0; k < 3; ++k) {
             if (k == along) continue;
-            const ErrorName error{letters[k], true, axis.axis};
+            const kinematics::ErrorName error{letters[k], true, axis.axis};
             out.push_back({Kind::location, error, k, to_string(error)});
         }
 }
@@ -90,8 +90,9 @@ bool BallbarFit::determined(int parameter) const {
     return true;
 }
 
-BallbarModel::BallbarModel(const Machine& nominal, const BallbarLayout& layout,
-                           const std::vector<Reading>& rows, const BallbarUnknowns& unknowns)
+BallbarModel::BallbarModel(const kinematics::Machine& nominal, const BallbarLayout& layout,
+                           const std::vector<records::Reading>& rows,
+                           const BallbarUnknowns& unknowns)
     : nominal_(nominal),
       layout_(layout),
       pivot_place_(unknowns.pivot),
@@ -131,7 +132,7 @@ BallbarModel::BallbarModel(const Machine& nominal, const BallbarLayout& layout,
 }
 
 BallbarState BallbarModel::state(const Eigen::VectorXd& scaled) const {
-    Machine machine = nominal_;
+    kinematics::Machine machine = nominal_;
     Vector3 cup = layout_.cup_S_mm, pivot = layout_.pivot_W_mm;
     double length = layout_.length_mm;
     std::vector<double> constant(parameters_.size(), 0.0);
@@ -158,11 +159,11 @@ BallbarState BallbarModel::state(const Eigen::VectorXd& scaled) const {
         }
     }
     if (pivot_place_ == PivotPlace::at_spindle) pivot = machine.poses({}).pose_MW.inverse() * pivot;
-    return {ForwardModel(machine), cup, pivot, length, constant};
+    return {kinematics::ForwardModel(machine), cup, pivot, length, constant};
 }
 
 double BallbarModel::reading(const BallbarState& state, std::size_t i) const {
-    const MachinePose pose = state.machine.poses(poses_[i]);
+    const kinematics::MachinePose pose = state.machine.poses(poses_[i]);
     const Vector3 bar = pose.pose_MS * state.cup_S_mm - pose.pose_MW * state.pivot_W_mm;
     return bar.norm() - state.length_mm +
            state.test_constant_mm[static_cast<std::size_t>(test_of_[i])];
@@ -288,4 +289,4 @@ ResidualVerdict judge_residuals(const BallbarModel& model, const BallbarFit& fit
     return verdict;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

@@ -10,7 +10,7 @@
 #include "kinematics/machine.h"
 #include "records/readings.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 
 /// What may be added to the readings: nothing, one error of the bar's length (value = distance -
 /// nominal - error), or a constant for each test (drift between tests, a new set-up).
@@ -30,9 +30,9 @@ struct BallbarUnknowns {
 struct BallbarParameter {
     enum class Kind : unsigned char { location, cup, pivot, length, test_constant };
     Kind kind = Kind::location;
-    ErrorName error;    ///< of `location`
-    int component = 0;  ///< x y z of cup (S) and pivot (W); number of the test
-    std::string name;   ///< "EY0A", "ballbar.cup.x", "ballbar.pivot.z", "ballbar.length", ...
+    kinematics::ErrorName error;  ///< of `location`
+    int component = 0;            ///< x y z of cup (S) and pivot (W); number of the test
+    std::string name;  ///< "EY0A", "ballbar.cup.x", "ballbar.pivot.z", "ballbar.length", ...
 
     bool angular() const { return kind == Kind::location && error.angular(); }
 };
@@ -66,8 +66,8 @@ struct BallbarState;  // one set of values, ready to evaluate
 class BallbarModel {
   public:
     /// `nominal` holds what is known of the machine (usually no errors); `rows` all ballbar passes.
-    BallbarModel(const Machine& nominal, const BallbarLayout& layout,
-                 const std::vector<Reading>& rows, const BallbarUnknowns& unknowns);
+    BallbarModel(const kinematics::Machine& nominal, const BallbarLayout& layout,
+                 const std::vector<records::Reading>& rows, const BallbarUnknowns& unknowns);
 
     std::size_t size() const { return poses_.size(); }
     const std::vector<BallbarParameter>& parameters() const { return parameters_; }
@@ -97,7 +97,7 @@ class BallbarModel {
     Eigen::MatrixXd jacobian(const Eigen::VectorXd& scaled) const;
     Linear linearise(const Eigen::VectorXd& scaled) const;
 
-    Machine nominal_;
+    kinematics::Machine nominal_;
     BallbarLayout layout_;
     PivotPlace pivot_place_;
     std::vector<BallbarParameter> parameters_;
@@ -124,4 +124,4 @@ struct ResidualVerdict {
 };
 ResidualVerdict judge_residuals(const BallbarModel& model, const BallbarFit& fit);
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

@@ -5,11 +5,11 @@
 #include "base/alarm.h"
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 
 namespace {
 
-bool has_rotary_passes(const ReadingTable& table) {
+bool has_rotary_passes(const records::ReadingTable& table) {
     const auto passes = ballbar_passes(table.rows);
     return std::any_of(passes.begin(), passes.end(),
                        [](const BallbarPass& pass) { return pass.test.rotary.has_value(); });
@@ -24,8 +24,8 @@ std::vector<ErrorEstimate> measured_errors(const BallbarFit& fit, double sigma_m
     return out;
 }
 
-void add_after(BallbarResult& result, const Machine& nominal, const ReadingTable& after,
-               double declared_mm) {
+void add_after(BallbarResult& result, const kinematics::Machine& nominal,
+               const records::ReadingTable& after, double declared_mm) {
     const BallbarModel model(nominal, evaluated_layout(result), after.rows, {});
     const BallbarFit fit = model.fit(readings_of(model, after));
     const auto estimates = chain_estimates(fit, reading_sigma_mm(fit, declared_mm));
@@ -39,8 +39,8 @@ void add_after(BallbarResult& result, const Machine& nominal, const ReadingTable
 
 }  // namespace
 
-BallbarResult evaluate_ballbar(const Setup& stated, const ReadingTable& before,
-                               const std::optional<ReadingTable>& after) {
+BallbarResult evaluate_ballbar(const setup::Setup& stated, const records::ReadingTable& before,
+                               const std::optional<records::ReadingTable>& after) {
     if (ballbar_passes(before.rows).empty())
         throw InputError(
             "no passes of a ballbar test (tests named xy_.., yz_.., zx_.., radial_A_.., "
@@ -58,16 +58,16 @@ BallbarResult evaluate_ballbar(const Setup& stated, const ReadingTable& before,
     result.reference_mm = stated.ballbar->length_at_mm(stated.ballbar->read_temperature_c);
     add_circles(result);
     if (!has_rotary_passes(before)) return result;
-    const Machine nominal = nominal_of(stated);
+    const kinematics::Machine nominal = nominal_of(stated);
     const double declared_mm = mm_from_um(stated.ballbar->noise_um);
     fit_first_run(result, nominal, declared_mm);
     const auto found = measured_errors(result.fit, result.reading_sigma_mm);
     result.errors = rows_of(found, found, result.published.chain);
     if (after) add_after(result, nominal, *after, declared_mm);
-    const Machine known = machine_of(nominal, result.fit);
-    result.stores =
-        stores_to_type(stated, known, result.data.layout.pivot_W_mm, result.data.layout.cup_S_mm);
+    const kinematics::Machine known = machine_of(nominal, result.fit);
+    result.stores = setup::stores_to_type(stated, known, result.data.layout.pivot_W_mm,
+                                          result.data.layout.cup_S_mm);
     return result;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

@@ -13,22 +13,22 @@
 #include "base/units.h"
 #include "interpreter/program_folders.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 
 namespace {
 
-BallbarRun run_once(const Setup& setup, const BallbarResult& result,
+BallbarRun run_once(const setup::Setup& setup, const BallbarResult& result,
                     const BallbarProcedureOptions& options, std::uint64_t seed,
-                    Compensation compensation, std::vector<std::string>& notes) {
+                    emulator::Compensation compensation, std::vector<std::string>& notes) {
     const auto owner = std::make_shared<std::string>(result.program);
-    const ProgramText program{"O8200.nc", *owner, owner};
-    ProgramFolders folders({});
+    const interpreter::ProgramText program{"O8200.nc", *owner, owner};
+    interpreter::ProgramFolders folders({});
     folders.add_file(program);
-    RunOptions run;
+    emulator::RunOptions run;
     run.seed = seed;
     run.effects = options.effects;
     run.compensation = std::move(compensation);
-    RunLog log = run_program(setup, folders, program, run);
+    emulator::RunLog log = emulator::run_program(setup, folders, program, run);
     if (log.result.alarm) throw *log.result.alarm;
     for (const std::string& note : log.notes)
         if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
@@ -94,11 +94,11 @@ Vector3 pivot_found_mm(const BallbarResult& result) {
     return out;
 }
 
-BallbarLayout stated_layout(const Setup& setup, int& tool_offset) {
+BallbarLayout stated_layout(const setup::Setup& setup, int& tool_offset) {
     if (!setup.ballbar) throw InputError(setup.path + ": the setup has no [ballbar]");
-    const auto pivot =
-        std::find_if(setup.artefacts.begin(), setup.artefacts.end(),
-                     [](const Artefact& a) { return a.kind == Artefact::Kind::center_pivot; });
+    const auto pivot = std::find_if(
+        setup.artefacts.begin(), setup.artefacts.end(),
+        [](const setup::Artefact& a) { return a.kind == setup::Artefact::Kind::center_pivot; });
     if (pivot == setup.artefacts.end())
         throw InputError(setup.path + ": the setup has no [[artefact]] of kind center_pivot");
     const double wanted_mm = -setup.ballbar->cup_S_mm.z();
@@ -120,29 +120,29 @@ BallbarLayout stated_layout(const Setup& setup, int& tool_offset) {
     return layout;
 }
 
-BallbarProgramData stated_program_data(const Setup& setup, bool inside) {
+BallbarProgramData stated_program_data(const setup::Setup& setup, bool inside) {
     int tool_offset = 0;
     BallbarLayout layout = stated_layout(setup, tool_offset);
     layout.inside = inside;
     BallbarProgramData data = ballbar_program_data(nominal_of(setup), layout);
     data.tool_offset = tool_offset;
-    data.hurco = setup.dialect.family == DialectFamily::hurco;
+    data.hurco = setup.dialect.family == interpreter::DialectFamily::hurco;
     return data;
 }
 
-BallbarResult run_ballbar(const Setup& stated, const BallbarProcedureOptions& options) {
-    Setup setup = stated;
+BallbarResult run_ballbar(const setup::Setup& stated, const BallbarProcedureOptions& options) {
+    setup::Setup setup = stated;
     BallbarResult result;
     result.machine = setup.name;
     result.setup_path = setup.path;
     result.dialect = setup.dialect.family;
     result.times = options.times;
-    const Machine nominal = nominal_of(setup);
+    const kinematics::Machine nominal = nominal_of(setup);
     result.data = stated_program_data(setup, options.inside);
     // Programs go on the nominal circle, readings count from the bar as warm as it was read.
     BallbarLayout layout = result.data.layout;
-    for (Artefact& artefact : setup.artefacts)
-        if (artefact.kind == Artefact::Kind::center_pivot)
+    for (setup::Artefact& artefact : setup.artefacts)
+        if (artefact.kind == setup::Artefact::Kind::center_pivot)
             artefact.center_W_mm += options.pivot_offset_mm;
     layout.length_mm = setup.ballbar->length_at_mm(setup.ballbar->read_temperature_c);
     result.reference_mm = layout.length_mm;
@@ -153,12 +153,12 @@ BallbarResult run_ballbar(const Setup& stated, const BallbarProcedureOptions& op
     const double declared_mm = mm_from_um(setup.ballbar->noise_um);
     fit_first_run(result, nominal, declared_mm);
 
-    const Machine known = machine_of(nominal, result.fit);
-    const Compensation compensate = [&](const AxisPositions& q) {
+    const kinematics::Machine known = machine_of(nominal, result.fit);
+    const emulator::Compensation compensate = [&](const AxisPositions& q) {
         return compensated(q, nominal, known, layout.cup_S_mm);
     };
     result.after = run_once(setup, result, options, options.seed + 1, compensate, result.notes);
-    const ReadingTable& second = result.after.readings;
+    const records::ReadingTable& second = result.after.readings;
     const BallbarModel again(known, layout, second.rows, {});
     check_complete(again, result.notes);
     const BallbarFit rest = again.fit(readings_of(again, second));
@@ -171,14 +171,14 @@ BallbarResult run_ballbar(const Setup& stated, const BallbarProcedureOptions& op
         rows_of(lines, left_over(intersection_estimates(known, rest, sigma_2), lines),
                 result.published.intersection);
     add_circles(result);
-    result.stores = stores_to_type(stated, known, layout.pivot_W_mm, layout.cup_S_mm);
+    result.stores = setup::stores_to_type(stated, known, layout.pivot_W_mm, layout.cup_S_mm);
     result.true_tip_um = true_tip_um(setup, layout, compensate);
     // The stylus has its own length: its place is compensated, not the cup's.
-    const Compensation for_stylus = [&](const AxisPositions& q) {
+    const emulator::Compensation for_stylus = [&](const AxisPositions& q) {
         return compensated(q, nominal, known, setup.probe->tip_S_mm);
     };
     result.sphere_check = check_by_sphere(setup, layout, options.effects, for_stylus);
     return result;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

@@ -13,11 +13,11 @@
 #include "emulator/run.h"
 #include "setup/right_stores.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 
 /// One line of the result table. mm or rad.
 struct BallbarErrorRow {
-    ErrorName name;
+    kinematics::ErrorName name;
     double before = 0.0, after = 0.0;
     double sigma_before = 0.0;
     double sigma = 0.0;  ///< of `after`: noise of both runs, so the larger one
@@ -40,7 +40,7 @@ struct PlanarResult {
 };
 
 struct BallbarRun {
-    ReadingTable readings;
+    records::ReadingTable readings;
     double time_s = 0.0;
 };
 
@@ -56,7 +56,7 @@ struct SphereCheck {
 struct BallbarResult {
     std::string machine;
     std::string setup_path;
-    DialectFamily dialect = DialectFamily::fanuc;
+    interpreter::DialectFamily dialect = interpreter::DialectFamily::fanuc;
     BallbarProgramData data;
     double reading_sigma_mm = 0.0;  ///< standard uncertainty of one reading of the first run
     double reference_mm = 100.0;  ///< length of the bar that the evaluation counts from: warm when
@@ -70,7 +70,7 @@ struct BallbarResult {
     ResidualVerdict verdict;
     PublishedEvaluation published;
     std::vector<PlanarResult> planar;
-    std::optional<StoresToType> stores;  ///< what to type for the positions found
+    std::optional<setup::StoresToType> stores;  ///< what to type for the positions found
     SetupTimes times;
     bool simulated = true;              ///< false: the passes are of a real machine
     bool has_after = true;              ///< `after` was run or given
@@ -85,7 +85,7 @@ struct BallbarResult {
 
 struct BallbarProcedureOptions {
     std::uint64_t seed = 1;
-    EffectModels effects;
+    emulator::EffectModels effects;
     SetupTimes times;
     bool inside = false;  ///< bar turned round where it lies flat
     /// Where the pivot really stands, from where the setup says: an error of the set-up, in W.
@@ -103,19 +103,19 @@ Vector3 pivot_found_mm(const BallbarResult& result);
 
 /// The bar as the operator states it: pivot from the setup's center_pivot, cup from the tool table
 /// (the offset whose length is nearest the cup's). Throws InputError when the setup lacks them.
-BallbarLayout stated_layout(const Setup& setup, int& tool_offset);
+BallbarLayout stated_layout(const setup::Setup& setup, int& tool_offset);
 
 /// What the NC programs of this setup start from: stated layout, dialect of the control.
-BallbarProgramData stated_program_data(const Setup& setup, bool inside);
+BallbarProgramData stated_program_data(const setup::Setup& setup, bool inside);
 
 /// Evaluates passes of a real machine, `after` measured once more when the numbers were typed: each
 /// against the nominal machine. Circles alone give their ISO 230-4 figures and no location errors.
 /// Throws InputError when no row belongs to a pass.
-BallbarResult evaluate_ballbar(const Setup& stated, const ReadingTable& before,
-                               const std::optional<ReadingTable>& after);
+BallbarResult evaluate_ballbar(const setup::Setup& stated, const records::ReadingTable& before,
+                               const std::optional<records::ReadingTable>& after);
 
 /// Throws Alarm when the program stops, InputError when the setup cannot carry the test or a pass
 /// has no readings (out of range).
-BallbarResult run_ballbar(const Setup& stated, const BallbarProcedureOptions& options);
+BallbarResult run_ballbar(const setup::Setup& stated, const BallbarProcedureOptions& options);
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

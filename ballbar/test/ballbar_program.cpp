@@ -11,7 +11,7 @@
 #include "base/alarm.h"
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 
 namespace {
 
@@ -33,7 +33,7 @@ std::string nc(double value) {
     return text;
 }
 
-char linear_along(const AxisGeometry& axis) {
+char linear_along(const kinematics::AxisGeometry& axis) {
     return std::abs(axis.direction.x()) > 0.5 ? 'X' : 'Y';
 }
 
@@ -55,7 +55,7 @@ void add_stations(Words& words, bool along_x) {
     words["RADIAL1POINT"] = along_x ? "X0Y" + c + "Z" + s : "X" + s + "Y0Z" + c;
 }
 
-Words words_of(const Machine& nominal, const BallbarProgramData& data) {
+Words words_of(const kinematics::Machine& nominal, const BallbarProgramData& data) {
     const auto [first, second] = table_axes(nominal.chain);
     const Vector3 meet = nominal_intersection(first, second).first;
     const Vector3 offset = data.layout.pivot_W_mm - meet;
@@ -102,8 +102,8 @@ std::string subprograms(Words words) {
 }
 
 /// Range wanted, cut to the travel limits with room for the overshoot.
-std::pair<double, double> within(const AxisGeometry& axis, std::pair<double, double> wanted,
-                                 double overshoot_rad) {
+std::pair<double, double> within(const kinematics::AxisGeometry& axis,
+                                 std::pair<double, double> wanted, double overshoot_rad) {
     if (axis.min) wanted.first = std::max(wanted.first, *axis.min + overshoot_rad);
     if (axis.max) wanted.second = std::min(wanted.second, *axis.max - overshoot_rad);
     return wanted;
@@ -111,7 +111,8 @@ std::pair<double, double> within(const AxisGeometry& axis, std::pair<double, dou
 
 }  // namespace
 
-BallbarProgramData ballbar_program_data(const Machine& nominal, const BallbarLayout& layout) {
+BallbarProgramData ballbar_program_data(const kinematics::Machine& nominal,
+                                        const BallbarLayout& layout) {
     const auto [first, second] = table_axes(nominal.chain);
     const Vector3 offset = layout.pivot_W_mm - nominal_intersection(first, second).first;
     if (std::abs(second.direction.z()) < 0.99 || std::abs(first.direction.z()) > 0.01)
@@ -127,19 +128,20 @@ BallbarProgramData ballbar_program_data(const Machine& nominal, const BallbarLay
     const double overshoot = rad_from_deg(data.overshoot_deg);
     data.layout.first_rad = within(first, layout.first_rad, overshoot);
     data.layout.second_rad = within(second, layout.second_rad, overshoot);
-    if (const AxisGeometry* z = nominal.chain.find(Axis::Z); z && z->max)
+    if (const kinematics::AxisGeometry* z = nominal.chain.find(Axis::Z); z && z->max)
         data.safe_z_mm = std::min(data.safe_z_mm, *z->max);
     return data;
 }
 
-std::string ballbar_program(const Machine& nominal, const BallbarProgramData& data) {
+std::string ballbar_program(const kinematics::Machine& nominal, const BallbarProgramData& data) {
     const Words words = words_of(nominal, data);
     return "%\n" + fill(ballbar_text::main_program, words) + subprograms(words) + "%\n";
 }
 
-std::string kinematic_test_program(const Machine& nominal, const BallbarProgramData& data) {
+std::string kinematic_test_program(const kinematics::Machine& nominal,
+                                   const BallbarProgramData& data) {
     const Words words = words_of(nominal, data);
     return "%\n" + fill(ballbar_text::kinematic_program, words) + subprograms(words) + "%\n";
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

@@ -5,7 +5,7 @@
 
 #include "ballbar/test/ballbar_tests.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 
 /// What a generated program starts from; every value can be changed at its head.
 struct BallbarProgramData {
@@ -25,14 +25,16 @@ struct BallbarProgramData {
 /// limits, A or B -30 to 90 deg and C one turn where they allow it. Throws InputError when the
 /// pivot does not stand where the single set-up needs it (straight above the first rotary axis,
 /// offset along it from the second).
-BallbarProgramData ballbar_program_data(const Machine& nominal, const BallbarLayout& layout);
+BallbarProgramData ballbar_program_data(const kinematics::Machine& nominal,
+                                        const BallbarLayout& layout);
 
 /// Main program O8200 and its subprograms in one file: set-up circles XY, YZ, ZX, radial and axial
 /// tests of both rotary axes, one run, one set-up. Macro B.
-std::string ballbar_program(const Machine& nominal, const BallbarProgramData& data);
+std::string ballbar_program(const kinematics::Machine& nominal, const BallbarProgramData& data);
 
 /// O8300: kinematic tests BK1 (tilting axis), BK2 (turning axis) and BK4 (all five axes at once)
 /// for two rotary axes under the workpiece, same set-up and data.
-std::string kinematic_test_program(const Machine& nominal, const BallbarProgramData& data);
+std::string kinematic_test_program(const kinematics::Machine& nominal,
+                                   const BallbarProgramData& data);
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

@@ -1,6 +1,6 @@
 #include "ballbar/test/ballbar_program_text.h"
 
-namespace trunnion::ballbar_text {
+namespace trunnion::ballbar::test::ballbar_text {
 
 // Letters in braces are filled in: {R} {C} rotary axes, {U} linear axis along the first of them,
 // {ZU} plane of Z and U with the angle {Z} of Z in it, {ACROSS} plane across U with {ZX} of Z.
@@ -232,4 +232,4 @@ O8261 (BALLBAR: TCP OFF, THE CUP STANDS AT X #24 Y #25 Z #26)
 M99
 )";
 
-}  // namespace trunnion::ballbar_text
+}  // namespace trunnion::ballbar::test::ballbar_text

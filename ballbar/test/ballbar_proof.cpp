@@ -7,12 +7,13 @@
 #include "base/units.h"
 #include "emulator/replay.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 
 namespace {
 
 /// Rotary angles over which compensation is judged: every 30 degrees of the tested ranges.
-std::vector<AxisPositions> judged_poses(const Machine& nominal, const BallbarLayout& layout) {
+std::vector<AxisPositions> judged_poses(const kinematics::Machine& nominal,
+                                        const BallbarLayout& layout) {
     const auto [first, second] = table_axes(nominal.chain);
     std::vector<AxisPositions> poses(1);
     const double step = rad_from_deg(30.0);
@@ -26,30 +27,32 @@ std::vector<AxisPositions> judged_poses(const Machine& nominal, const BallbarLay
     return poses;
 }
 
-AxisPositions aimed(const Machine& nominal, AxisPositions q, const Vector3& point_W_mm,
+AxisPositions aimed(const kinematics::Machine& nominal, AxisPositions q, const Vector3& point_W_mm,
                     const Vector3& tip_S_mm) {
     const Vector3 at = nominal.poses(q).pose_MW * point_W_mm - tip_S_mm;
     for (int i = 0; i < 3; ++i) q.value[static_cast<std::size_t>(i)] = at[i];
     return q;
 }
 
-const Artefact* sphere_of(const Setup& setup) {
-    for (const Artefact& artefact : setup.artefacts)
-        if (artefact.kind == Artefact::Kind::sphere) return &artefact;
+const setup::Artefact* sphere_of(const setup::Setup& setup) {
+    for (const setup::Artefact& artefact : setup.artefacts)
+        if (artefact.kind == setup::Artefact::Kind::sphere) return &artefact;
     return nullptr;
 }
 
 /// Sphere rows at the poses, three components each, home first.
-ReadingTable sphere_rows(const Setup& setup, const BallbarLayout& layout, const Artefact& sphere,
-                         const Compensation& compensate) {
-    Machine nominal = setup.machine;
+records::ReadingTable sphere_rows(const setup::Setup& setup, const BallbarLayout& layout,
+                                  const setup::Artefact& sphere,
+                                  const emulator::Compensation& compensate) {
+    kinematics::Machine nominal = setup.machine;
     nominal.errors = {};
-    ReadingTable table;
-    for (const AxisGeometry& axis : nominal.chain.axes()) table.axes.push_back(axis.axis);
+    records::ReadingTable table;
+    for (const kinematics::AxisGeometry& axis : nominal.chain.axes())
+        table.axes.push_back(axis.axis);
     for (const AxisPositions& pose : judged_poses(nominal, layout)) {
-        Reading row;
+        records::Reading row;
         row.test = "sphere";
-        row.device = Device::sphere;
+        row.device = records::Device::sphere;
         row.feature = sphere.name;
         row.mode = PositioningMode::rtcp;
         row.time_s = 10.0 * static_cast<double>(table.rows.size());
@@ -63,11 +66,12 @@ ReadingTable sphere_rows(const Setup& setup, const BallbarLayout& layout, const 
 }
 
 /// Largest found minus expected centre; what was found at home is taken along with the table.
-double largest_miss_um(const Setup& setup, const BallbarLayout& layout, const Artefact& sphere,
-                       const EffectModels& effects, const Compensation& compensate) {
-    const ReadingTable found =
-        predicted(setup, sphere_rows(setup, layout, sphere, compensate), effects);
-    Machine nominal = setup.machine;
+double largest_miss_um(const setup::Setup& setup, const BallbarLayout& layout,
+                       const setup::Artefact& sphere, const emulator::EffectModels& effects,
+                       const emulator::Compensation& compensate) {
+    const records::ReadingTable found =
+        emulator::predicted(setup, sphere_rows(setup, layout, sphere, compensate), effects);
+    kinematics::Machine nominal = setup.machine;
     nominal.errors = {};
     std::optional<Vector3> home_W;
     double worst_mm = 0.0;
@@ -83,9 +87,9 @@ double largest_miss_um(const Setup& setup, const BallbarLayout& layout, const Ar
 
 }  // namespace
 
-double true_tip_um(const Setup& setup, const BallbarLayout& layout,
-                   const Compensation& compensate) {
-    Machine nominal = setup.machine;
+double true_tip_um(const setup::Setup& setup, const BallbarLayout& layout,
+                   const emulator::Compensation& compensate) {
+    kinematics::Machine nominal = setup.machine;
     nominal.errors = {};
     const Vector3 tip = layout.cup_S_mm;
     std::optional<Vector3> home;
@@ -100,12 +104,12 @@ double true_tip_um(const Setup& setup, const BallbarLayout& layout,
     return um_from_mm(worst_mm);
 }
 
-std::optional<SphereCheck> check_by_sphere(const Setup& setup, const BallbarLayout& layout,
-                                           const EffectModels& effects,
-                                           const Compensation& compensate) {
-    const Artefact* sphere = sphere_of(setup);
+std::optional<SphereCheck> check_by_sphere(const setup::Setup& setup, const BallbarLayout& layout,
+                                           const emulator::EffectModels& effects,
+                                           const emulator::Compensation& compensate) {
+    const setup::Artefact* sphere = sphere_of(setup);
     if (!sphere || !setup.probe) return std::nullopt;
-    const Compensation none = [](const AxisPositions& q) { return q; };
+    const emulator::Compensation none = [](const AxisPositions& q) { return q; };
     SphereCheck check;
     check.poses = static_cast<int>(judged_poses(setup.machine, layout).size());
     check.before_um = largest_miss_um(setup, layout, *sphere, effects, none);
@@ -113,4 +117,4 @@ std::optional<SphereCheck> check_by_sphere(const Setup& setup, const BallbarLayo
     return check;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

@@ -4,15 +4,16 @@
 #include "ballbar/test/ballbar_procedure.h"
 #include "emulator/compensating_sink.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 
 /// A simulator knows where the tip of a tool really is that is as long as its offset says: its
 /// largest way from its place at home, over poses every 30 degrees of the tested ranges, um.
-double true_tip_um(const Setup& setup, const BallbarLayout& layout, const Compensation& compensate);
+double true_tip_um(const setup::Setup& setup, const BallbarLayout& layout,
+                   const emulator::Compensation& compensate);
 
 /// The setup's sphere found by its probe in the same poses; nothing without probe or sphere.
-std::optional<SphereCheck> check_by_sphere(const Setup& setup, const BallbarLayout& layout,
-                                           const EffectModels& effects,
-                                           const Compensation& compensate);
+std::optional<SphereCheck> check_by_sphere(const setup::Setup& setup, const BallbarLayout& layout,
+                                           const emulator::EffectModels& effects,
+                                           const emulator::Compensation& compensate);
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

@@ -4,7 +4,7 @@
 
 #include "geometry/fits.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 namespace {
 
 /// Measured end of the bar: from the commanded cup along the nominal bar by the measured length.
@@ -16,13 +16,14 @@ struct BarPoint {
     Vector3 measured_M_mm() const { return cup_M_mm + length_mm * direction; }
 };
 
-std::vector<BarPoint> points_of(const Machine& nominal, const BallbarLayout& layout,
-                                const std::vector<Reading>& rows, const BallbarTest& test) {
+std::vector<BarPoint> points_of(const kinematics::Machine& nominal, const BallbarLayout& layout,
+                                const std::vector<records::Reading>& rows,
+                                const BallbarTest& test) {
     std::vector<BarPoint> points;
     for (const BallbarPass& pass : ballbar_passes(rows)) {
         if (!(pass.test == test)) continue;
         for (std::size_t i = pass.begin; i < pass.end; ++i) {
-            const MachinePose pose = nominal.poses(rows[i].commanded);
+            const kinematics::MachinePose pose = nominal.poses(rows[i].commanded);
             BarPoint point{pose.pose_MS * layout.cup_S_mm, pose.pose_MW * layout.pivot_W_mm, {}, 0};
             point.direction = (point.pivot_M_mm - point.cup_M_mm).normalized();
             point.length_mm = layout.length_mm + rows[i].value_mm.value_or(0.0);
@@ -33,8 +34,8 @@ std::vector<BarPoint> points_of(const Machine& nominal, const BallbarLayout& lay
 }
 
 /// Location check: tool-tip coordinates from lengths, one sphere through the three circles.
-void fit_setup(const Machine& nominal, const BallbarLayout& layout,
-               const std::vector<Reading>& rows, PublishedEvaluation& out) {
+void fit_setup(const kinematics::Machine& nominal, const BallbarLayout& layout,
+               const std::vector<records::Reading>& rows, PublishedEvaluation& out) {
     std::vector<Vector3> tips;
     for (const auto kind : {BallbarTestKind::xy, BallbarTestKind::yz, BallbarTestKind::zx})
         for (const BarPoint& p : points_of(nominal, layout, rows, {kind, std::nullopt}))
@@ -51,8 +52,9 @@ void fit_setup(const Machine& nominal, const BallbarLayout& layout,
 
 /// Centre of rotation from the radial test, in the plane through the pivot across the axis, and
 /// direction of the plane of rotation from the axial test.
-bool fit_axis(const Machine& nominal, const BallbarLayout& layout, const std::vector<Reading>& rows,
-              const AxisGeometry& axis, AxisLine& line) {
+bool fit_axis(const kinematics::Machine& nominal, const BallbarLayout& layout,
+              const std::vector<records::Reading>& rows, const kinematics::AxisGeometry& axis,
+              AxisLine& line) {
     const Vector3 k = axis.direction, u = k.unitOrthogonal(), v = k.cross(u);
     std::vector<Vector2> flat;
     for (const BarPoint& p :
@@ -76,17 +78,17 @@ bool fit_axis(const Machine& nominal, const BallbarLayout& layout, const std::ve
 }
 
 /// What the errors of an axis do to its carried body with all axes at zero.
-Pose home_motion(const AxisGeometry& axis, const AxisErrors& errors) {
+Pose home_motion(const kinematics::AxisGeometry& axis, const kinematics::AxisErrors& errors) {
     const Vector3 shift(errors.location[0], errors.location[1], errors.location[2]);
     const Vector3 tilt(errors.location[3], errors.location[4], errors.location[5]);
     const Matrix3 e = rotation_of(tilt);
     return {e, axis.point_mm + shift - e * axis.point_mm};
 }
 
-AxisErrors errors_from(const std::vector<NamedError>& errors) {
-    GeometricErrors all;
+kinematics::AxisErrors errors_from(const std::vector<NamedError>& errors) {
+    kinematics::GeometricErrors all;
     for (const NamedError& e : errors) all.location(e.name) = e.value;
-    return errors.empty() ? AxisErrors{} : all.axis[index_of(errors.front().name.axis)];
+    return errors.empty() ? kinematics::AxisErrors{} : all.axis[index_of(errors.front().name.axis)];
 }
 
 AxisLine operator*(const Pose& pose, const AxisLine& line) {
@@ -95,8 +97,8 @@ AxisLine operator*(const Pose& pose, const AxisLine& line) {
 
 }  // namespace
 
-std::pair<Vector3, Vector3> nominal_intersection(const AxisGeometry& first,
-                                                 const AxisGeometry& second) {
+std::pair<Vector3, Vector3> nominal_intersection(const kinematics::AxisGeometry& first,
+                                                 const kinematics::AxisGeometry& second) {
     const Vector3 &a = first.direction, &b = second.direction;
     const Vector3 between = second.point_mm - first.point_mm;
     const double cosine = a.dot(b), determinant = 1.0 - cosine * cosine;
@@ -106,7 +108,8 @@ std::pair<Vector3, Vector3> nominal_intersection(const AxisGeometry& first,
     return {first.point_mm + s * a, second.point_mm + t * b};
 }
 
-std::vector<NamedError> errors_of_line(const AxisLine& line, const AxisGeometry& nominal,
+std::vector<NamedError> errors_of_line(const AxisLine& line,
+                                       const kinematics::AxisGeometry& nominal,
                                        const Vector3& point_mm) {
     const Vector3& k = nominal.direction;
     const double along = k.dot(point_mm - line.point_mm) / k.dot(line.direction);
@@ -127,7 +130,7 @@ std::vector<NamedError> errors_of_line(const AxisLine& line, const AxisGeometry&
     return out;
 }
 
-std::pair<AxisLine, AxisLine> axis_lines(const Machine& machine) {
+std::pair<AxisLine, AxisLine> axis_lines(const kinematics::Machine& machine) {
     const auto [first, second] = table_axes(machine.chain);
     const Pose one = home_motion(first, machine.errors.axis[index_of(first.axis)]);
     const Pose two = home_motion(second, machine.errors.axis[index_of(second.axis)]);
@@ -136,7 +139,7 @@ std::pair<AxisLine, AxisLine> axis_lines(const Machine& machine) {
 }
 
 std::vector<NamedError> chain_errors(const AxisLine& first, const AxisLine& second,
-                                     const Machine& nominal) {
+                                     const kinematics::Machine& nominal) {
     const auto [axis_1, axis_2] = table_axes(nominal.chain);
     std::vector<NamedError> out = errors_of_line(first, axis_1, axis_1.point_mm);
     const Pose carried = home_motion(axis_1, errors_from(out)).inverse();
@@ -146,7 +149,7 @@ std::vector<NamedError> chain_errors(const AxisLine& first, const AxisLine& seco
 }
 
 std::vector<NamedError> intersection_errors(const AxisLine& first, const AxisLine& second,
-                                            const Machine& nominal) {
+                                            const kinematics::Machine& nominal) {
     const auto [axis_1, axis_2] = table_axes(nominal.chain);
     const auto [point_1, point_2] = nominal_intersection(axis_1, axis_2);
     std::vector<NamedError> out = errors_of_line(first, axis_1, point_1);
@@ -155,8 +158,9 @@ std::vector<NamedError> intersection_errors(const AxisLine& first, const AxisLin
     return out;
 }
 
-PublishedEvaluation evaluate_as_published(const Machine& nominal, const BallbarLayout& layout,
-                                          const std::vector<Reading>& rows) {
+PublishedEvaluation evaluate_as_published(const kinematics::Machine& nominal,
+                                          const BallbarLayout& layout,
+                                          const std::vector<records::Reading>& rows) {
     PublishedEvaluation out;
     const auto [first, second] = table_axes(nominal.chain);
     fit_setup(nominal, layout, rows, out);
@@ -172,4 +176,4 @@ PublishedEvaluation evaluate_as_published(const Machine& nominal, const BallbarL
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

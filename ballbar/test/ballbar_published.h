@@ -9,7 +9,7 @@
 #include "ballbar/test/ballbar_tests.h"
 #include "kinematics/errors.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 
 /// Straight line of a rotary axis in M.
 struct AxisLine {
@@ -18,7 +18,7 @@ struct AxisLine {
 };
 
 struct NamedError {
-    ErrorName name;
+    kinematics::ErrorName name;
     double value = 0.0;  ///< mm or rad
 };
 
@@ -35,27 +35,29 @@ struct PublishedEvaluation {
 
 /// `rows` as of ballbar_passes(). The published way takes the cup's place for the truth and the
 /// direction of the bar for the nominal one: its results carry a small bias (cosine error).
-PublishedEvaluation evaluate_as_published(const Machine& nominal, const BallbarLayout& layout,
-                                          const std::vector<Reading>& rows);
+PublishedEvaluation evaluate_as_published(const kinematics::Machine& nominal,
+                                          const BallbarLayout& layout,
+                                          const std::vector<records::Reading>& rows);
 
 /// Nominal points of the two axis lines that are nearest to each other (equal when they meet).
-std::pair<Vector3, Vector3> nominal_intersection(const AxisGeometry& first,
-                                                 const AxisGeometry& second);
+std::pair<Vector3, Vector3> nominal_intersection(const kinematics::AxisGeometry& first,
+                                                 const kinematics::AxisGeometry& second);
 
 /// Two positions and two tilts of `line` against the nominal axis through `point_mm`: the position
 /// is taken in the plane through that point across the nominal axis.
-std::vector<NamedError> errors_of_line(const AxisLine& line, const AxisGeometry& nominal,
+std::vector<NamedError> errors_of_line(const AxisLine& line,
+                                       const kinematics::AxisGeometry& nominal,
                                        const Vector3& point_mm);
 
 /// Lines of both axes in M, all axes at zero, of a machine with location errors (the second axis is
 /// carried by the first: its line moves with the first one's errors).
-std::pair<AxisLine, AxisLine> axis_lines(const Machine& machine);
+std::pair<AxisLine, AxisLine> axis_lines(const kinematics::Machine& machine);
 
 /// Errors that the setup file would have to hold for these two lines.
 std::vector<NamedError> chain_errors(const AxisLine& first, const AxisLine& second,
-                                     const Machine& nominal);
+                                     const kinematics::Machine& nominal);
 /// The same lines as errors in M at the nominal intersection.
 std::vector<NamedError> intersection_errors(const AxisLine& first, const AxisLine& second,
-                                            const Machine& nominal);
+                                            const kinematics::Machine& nominal);
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

@@ -2,18 +2,18 @@
 
 #include <cmath>
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 namespace {
 
-std::vector<NamedError> lines_of(const Machine& nominal, const BallbarFit& fit) {
+std::vector<NamedError> lines_of(const kinematics::Machine& nominal, const BallbarFit& fit) {
     const auto [first, second] = axis_lines(machine_of(nominal, fit));
     return intersection_errors(first, second, nominal);
 }
 
 }  // namespace
 
-Machine machine_of(const Machine& nominal, const BallbarFit& fit) {
-    Machine machine = nominal;
+kinematics::Machine machine_of(const kinematics::Machine& nominal, const BallbarFit& fit) {
+    kinematics::Machine machine = nominal;
     for (std::size_t k = 0; k < fit.parameters.size(); ++k)
         if (fit.parameters[k].kind == BallbarParameter::Kind::location)
             machine.errors.location(fit.parameters[k].error) +=
@@ -32,8 +32,8 @@ std::vector<ErrorEstimate> chain_estimates(const BallbarFit& fit, double reading
     return out;
 }
 
-std::vector<ErrorEstimate> intersection_estimates(const Machine& nominal, const BallbarFit& fit,
-                                                  double reading_sigma_mm) {
+std::vector<ErrorEstimate> intersection_estimates(const kinematics::Machine& nominal,
+                                                  const BallbarFit& fit, double reading_sigma_mm) {
     const std::vector<NamedError> value = lines_of(nominal, fit);
     Eigen::MatrixXd slope =
         Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(value.size()), fit.value.size());
@@ -56,13 +56,13 @@ std::vector<ErrorEstimate> intersection_estimates(const Machine& nominal, const 
     return out;
 }
 
-AxisPositions compensated(const AxisPositions& programmed, const Machine& nominal,
-                          const Machine& known, const Vector3& cup_S_mm) {
+AxisPositions compensated(const AxisPositions& programmed, const kinematics::Machine& nominal,
+                          const kinematics::Machine& known, const Vector3& cup_S_mm) {
     const Vector3 wanted_W = nominal.tip_W(programmed, cup_S_mm);
     AxisPositions q = programmed;
     // The linear axes are nearly orthogonal: each pass shrinks what is left by their squareness.
     for (int i = 0; i < 6; ++i) {
-        const MachinePose pose = known.poses(q);
+        const kinematics::MachinePose pose = known.poses(q);
         const Vector3 missing = pose.pose_MW * wanted_W - pose.pose_MS * cup_S_mm;
         q[Axis::X] += missing.x();
         q[Axis::Y] += missing.y();
@@ -72,4 +72,4 @@ AxisPositions compensated(const AxisPositions& programmed, const Machine& nomina
     return q;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

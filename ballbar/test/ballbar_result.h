@@ -6,27 +6,27 @@
 #include "ballbar/test/ballbar_fit.h"
 #include "ballbar/test/ballbar_published.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 
 struct ErrorEstimate {
-    ErrorName name;
+    kinematics::ErrorName name;
     double value = 0.0;  ///< mm or rad
     double sigma = 0.0;  ///< standard uncertainty, mm or rad
 };
 
 /// `nominal` with the fitted location errors added.
-Machine machine_of(const Machine& nominal, const BallbarFit& fit);
+kinematics::Machine machine_of(const kinematics::Machine& nominal, const BallbarFit& fit);
 
 /// As the setup file means them: at point_mm, in the frame of the carrier.
 std::vector<ErrorEstimate> chain_estimates(const BallbarFit& fit, double reading_sigma_mm);
 
 /// As the paper means them: of the axis lines in M, all axes at zero, at the nominal intersection.
-std::vector<ErrorEstimate> intersection_estimates(const Machine& nominal, const BallbarFit& fit,
-                                                  double reading_sigma_mm);
+std::vector<ErrorEstimate> intersection_estimates(const kinematics::Machine& nominal,
+                                                  const BallbarFit& fit, double reading_sigma_mm);
 
 /// X Y Z of a control that knows the errors in `known`: the cup goes where the programmed position
 /// would put it on the table of a machine without them. Rotary positions are kept.
-AxisPositions compensated(const AxisPositions& programmed, const Machine& nominal,
-                          const Machine& known, const Vector3& cup_S_mm);
+AxisPositions compensated(const AxisPositions& programmed, const kinematics::Machine& nominal,
+                          const kinematics::Machine& known, const Vector3& cup_S_mm);
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

@@ -8,7 +8,7 @@
 #include "base/alarm.h"
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 namespace {
 
 constexpr std::array<std::string_view, 5> kind_names = {"xy", "yz", "zx", "radial", "axial"};
@@ -67,9 +67,10 @@ std::string to_string(const BallbarTest& test) {
     return name;
 }
 
-std::pair<AxisGeometry, AxisGeometry> table_axes(const Chain& chain) {
-    std::vector<AxisGeometry> rotary;
-    for (const AxisGeometry& axis : chain.work)
+std::pair<kinematics::AxisGeometry, kinematics::AxisGeometry> table_axes(
+    const kinematics::Chain& chain) {
+    std::vector<kinematics::AxisGeometry> rotary;
+    for (const kinematics::AxisGeometry& axis : chain.work)
         if (axis.rotary) rotary.push_back(axis);
     if (rotary.size() != 2)
         throw InputError("the single-set-up ballbar test needs two rotary axes under the table");
@@ -77,7 +78,7 @@ std::pair<AxisGeometry, AxisGeometry> table_axes(const Chain& chain) {
 }
 
 Vector3 bar_at_home(const BallbarLayout& layout, const BallbarTest& test,
-                    const AxisGeometry& axis) {
+                    const kinematics::AxisGeometry& axis) {
     const double side = layout.inside ? -1.0 : 1.0;
     const Vector3 arm = layout.pivot_W_mm - axis.point_mm;
     const double along = axis.direction.dot(arm);
@@ -88,8 +89,9 @@ Vector3 bar_at_home(const BallbarLayout& layout, const BallbarTest& test,
     return side * up;
 }
 
-std::vector<AxisPositions> ideal_path(const Machine& nominal, const BallbarLayout& layout,
-                                      const BallbarTest& test, int count, bool negative) {
+std::vector<AxisPositions> ideal_path(const kinematics::Machine& nominal,
+                                      const BallbarLayout& layout, const BallbarTest& test,
+                                      int count, bool negative) {
     const auto [first, second] = table_axes(nominal.chain);
     const bool on_first = test.rotary == first.axis;
     auto range = test.planar() ? planar_range(test.kind, layout.partial_rad)
@@ -120,7 +122,7 @@ std::vector<AxisPositions> ideal_path(const Machine& nominal, const BallbarLayou
 namespace {
 
 /// Angle a planar pass went about its own mean point, or the rotary axis turned.
-double travel_of(const std::vector<Reading>& rows, const BallbarPass& pass) {
+double travel_of(const std::vector<records::Reading>& rows, const BallbarPass& pass) {
     const std::size_t last = pass.end - 1;
     if (pass.test.rotary)
         return rows[last].commanded[*pass.test.rotary] -
@@ -143,7 +145,7 @@ double travel_of(const std::vector<Reading>& rows, const BallbarPass& pass) {
 
 }  // namespace
 
-std::vector<BallbarPass> ballbar_passes(const std::vector<Reading>& rows) {
+std::vector<BallbarPass> ballbar_passes(const std::vector<records::Reading>& rows) {
     std::vector<BallbarPass> passes;
     for (std::size_t i = 0; i < rows.size();) {
         std::size_t end = i;
@@ -151,7 +153,7 @@ std::vector<BallbarPass> ballbar_passes(const std::vector<Reading>& rows) {
                rows[end].device == rows[i].device)
             ++end;
         const auto test = parse_ballbar_test(rows[i].test);
-        if (test && rows[i].device == Device::ballbar && end - i >= 3) {
+        if (test && rows[i].device == records::Device::ballbar && end - i >= 3) {
             BallbarPass pass{rows[i].test, *test, i, end, 0.0};
             pass.travel = travel_of(rows, pass);
             passes.push_back(pass);
@@ -161,4 +163,4 @@ std::vector<BallbarPass> ballbar_passes(const std::vector<Reading>& rows) {
     return passes;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

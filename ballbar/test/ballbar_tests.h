@@ -10,7 +10,7 @@
 #include "kinematics/machine.h"
 #include "records/readings.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 
 /// planar: XY, YZ, ZX circles about the centre pivot, rotary axes at zero. radial, axial: the bar
 /// points at, or along, a rotary axis and turns with the table (TCP active).
@@ -43,17 +43,20 @@ struct BallbarLayout {
 };
 
 /// The table's two rotary axes, from the bed outwards. Throws InputError for other machines.
-std::pair<AxisGeometry, AxisGeometry> table_axes(const Chain& chain);
+std::pair<kinematics::AxisGeometry, kinematics::AxisGeometry> table_axes(
+    const kinematics::Chain& chain);
 
 /// Unit vector from pivot to cup of a rotary test at home: radial tests across the axis, away from
 /// it (towards it when `inside`), axial ones along it, on the side on which the pivot stands.
-Vector3 bar_at_home(const BallbarLayout& layout, const BallbarTest& test, const AxisGeometry& axis);
+Vector3 bar_at_home(const BallbarLayout& layout, const BallbarTest& test,
+                    const kinematics::AxisGeometry& axis);
 
 /// Gauge point and rotary angles of `count` points of a test along its ideal path (equal steps,
 /// both ends included, rotary or circle angle rising; reversed when `negative`): what an ideal
 /// control that knows `nominal` commands.
-std::vector<AxisPositions> ideal_path(const Machine& nominal, const BallbarLayout& layout,
-                                      const BallbarTest& test, int count, bool negative = false);
+std::vector<AxisPositions> ideal_path(const kinematics::Machine& nominal,
+                                      const BallbarLayout& layout, const BallbarTest& test,
+                                      int count, bool negative = false);
 
 /// Rows of one pass: one value of `test`, consecutive.
 struct BallbarPass {
@@ -64,6 +67,6 @@ struct BallbarPass {
 };
 
 /// All passes with a recognised name, in order; rows of other devices and tests are left out.
-std::vector<BallbarPass> ballbar_passes(const std::vector<Reading>& rows);
+std::vector<BallbarPass> ballbar_passes(const std::vector<records::Reading>& rows);
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

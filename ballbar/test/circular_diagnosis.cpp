@@ -7,7 +7,7 @@
 #include "ballbar/test/circular_evaluation.h"
 #include "base/units.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 namespace {
 
 constexpr std::size_t points_per_pass = 720;
@@ -320,4 +320,4 @@ CircularDiagnosis diagnose_circle(const CircularTest& test) {
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

@@ -7,7 +7,7 @@
 #include "base/units.h"
 #include "records/samples.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 
 namespace {
 
@@ -17,7 +17,7 @@ Vector2 in_plane(const AxisPositions& q, BallbarTestKind plane) {
 }
 
 /// Angle, reading and sample of each row of a pass about the commanded circle's centre.
-CircularPass make_pass(const ReadingTable& table, const std::vector<AxisSample>& samples,
+CircularPass make_pass(const records::ReadingTable& table, const std::vector<AxisSample>& samples,
                        const BallbarPass& pass, const Vector2& center) {
     CircularPass out{pass.name, pass.travel > 0.0, table.rows[pass.begin].feed_mm_min, {}, {}, {},
                      {}};
@@ -132,8 +132,8 @@ std::vector<double> centred_radial_mm(const CircularPass& pass, const CircleFit&
     return out;
 }
 
-std::vector<CircularTest> circular_tests(const ReadingTable& table, double radius_mm) {
-    const std::vector<AxisSample> samples = samples_of(table);
+std::vector<CircularTest> circular_tests(const records::ReadingTable& table, double radius_mm) {
+    const std::vector<AxisSample> samples = records::samples_of(table);
     std::vector<CircularTest> tests;
     for (const BallbarPass& pass : ballbar_passes(table.rows)) {
         if (!pass.test.planar()) continue;
@@ -188,4 +188,4 @@ CircularFigures circular_figures(const CircularTest& test) {
     return out;
 }
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

@@ -8,7 +8,7 @@
 #include "geometry/fits.h"
 #include "records/readings.h"
 
-namespace trunnion {
+namespace trunnion::ballbar::test {
 
 /// One direction of travel along one circle. Angles counter-clockwise in the plane from its first
 /// axis (XY from X, YZ from Y, ZX from Z).
@@ -67,7 +67,7 @@ struct CircularDiagnosis {
 };
 
 /// The planar tests among the readings, by plane and feed, in order of appearance.
-std::vector<CircularTest> circular_tests(const ReadingTable& table, double radius_mm);
+std::vector<CircularTest> circular_tests(const records::ReadingTable& table, double radius_mm);
 
 /// Radius of the measured path about the pivot that `circle` found, minus the nominal radius.
 std::vector<double> centred_radial_mm(const CircularPass& pass, const CircleFit& circle,
@@ -83,4 +83,4 @@ CircularDiagnosis diagnose_circle(const CircularTest& test);
 std::pair<Axis, Axis> axes_of_plane(BallbarTestKind plane);
 std::string plane_name(BallbarTestKind plane);  ///< "XY"
 
-}  // namespace trunnion
+}  // namespace trunnion::ballbar::test

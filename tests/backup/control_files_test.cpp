@@ -9,8 +9,8 @@ using namespace trunnion;
 
 namespace {
 
-ControlBackup sample() {
-    ControlBackup b{"stick", {}};
+backup::ControlBackup sample() {
+    backup::ControlBackup b{"stick", {}};
     b.files["CNC-PARA.TXT"] =
         "%\n\r\rN00000Q1L1P00000010L2P00000000 \n\r\rN01020Q1A1P88A2P89A3P90\n\r\r"
         "N19680Q1L1P12\n\r\rN19700Q1L1P0.5L2P0.0\n\r\rN19701Q1L1P-1.25\n\r\rN19702Q1L1P3.\n\r\r"
@@ -28,9 +28,9 @@ ControlBackup sample() {
 }  // namespace
 
 TEST_CASE("a backup fills the stores") {
-    Stores stores;
+    offsets::Stores stores;
     stores.variables[501] = 9.0;
-    apply_backup(sample(), stores);
+    backup::apply_backup(sample(), stores);
     CHECK(stores.parameters.get(0) == 2.0);
     CHECK(stores.parameters.bit(0, 1));
     CHECK(stores.parameters.entry.at(1020).by_axis.at(3) == 90.0);
@@ -46,22 +46,22 @@ TEST_CASE("a backup fills the stores") {
 }
 
 TEST_CASE("an untouched backup keeps its bytes and a change touches only its value") {
-    ControlBackup b = sample();
-    Stores stores;
-    apply_backup(b, stores);
-    update_backup(b, stores);
+    backup::ControlBackup b = sample();
+    offsets::Stores stores;
+    backup::apply_backup(b, stores);
+    backup::update_backup(b, stores);
     CHECK(b.files == sample().files);
 
     stores.parameters.set(19700, 0.75);
     stores.parameters.set_bit(0, 0, true);
     stores.work.standard[0][Axis::X] = -99.0;
     stores.variables[500] = -1.0;
-    update_backup(b, stores);
-    Stores again;
-    apply_backup(b, again);
+    backup::update_backup(b, stores);
+    offsets::Stores again;
+    backup::apply_backup(b, again);
     CHECK(again.parameters.get(19700) == 0.75);
     CHECK(b.files["EXT_WKZ.TXT"].find("X-99.0Y2.0Z-250.125") != std::string::npos);
-    const auto differences = diff_backups(sample(), b);
+    const auto differences = backup::diff_backups(sample(), b);
     REQUIRE(differences.size() == 4);
     CHECK(differences[0].name == "0");
     CHECK(differences[0].b == "00000011");
@@ -73,36 +73,36 @@ TEST_CASE("an untouched backup keeps its bytes and a change touches only its val
 TEST_CASE("files on disk round-trip byte for byte") {
     const auto folder = std::filesystem::temp_directory_path() / "trunnion_backup_test";
     std::filesystem::remove_all(folder);
-    write_backup(sample(), folder.string());
-    CHECK(read_backup(folder.string()).files == sample().files);
+    backup::write_backup(sample(), folder.string());
+    CHECK(backup::read_backup(folder.string()).files == sample().files);
     std::filesystem::remove_all(folder);
-    CHECK_THROWS_AS(read_backup(folder.string()), InputError);
+    CHECK_THROWS_AS(backup::read_backup(folder.string()), InputError);
 }
 
 TEST_CASE("bad backup lines are refused with their place") {
-    ControlBackup b = sample();
+    backup::ControlBackup b = sample();
     b.files["CNC-PARA.TXT"] = "%\nN19700Q1L1X0.0\n";
     try {
-        list_values(b);
+        backup::list_values(b);
         FAIL("accepted");
     } catch (const InputError& e) {
         CHECK(e.where.line == 2);
         CHECK(e.where.column == 11);
     }
     b.files["CNC-PARA.TXT"] = "%\nN19680Q1L1P12\n%\n";
-    Stores stores;
-    CHECK_THROWS_AS(apply_backup(b, stores), InputError);
+    offsets::Stores stores;
+    CHECK_THROWS_AS(backup::apply_backup(b, stores), InputError);
     b.files["CNC-PARA.TXT"] = "%\n<<<<<<< HEAD\n%\n";
-    CHECK_THROWS_AS(list_values(b), InputError);
+    CHECK_THROWS_AS(backup::list_values(b), InputError);
     for (const char* number : {"1.2.3", "--1", "1-", "."}) {
         INFO(number);
         b.files["CNC-PARA.TXT"] = std::string("%\nN19700Q1L1P") + number + "\n%\n";
-        CHECK_THROWS_AS(list_values(b), InputError);
+        CHECK_THROWS_AS(backup::list_values(b), InputError);
     }
-    ControlBackup variables;
+    backup::ControlBackup variables;
     const auto read = [&](const std::string& digits) {
         variables.files["MACRO.TXT"] = "%\nG10L85P500(" + digits + ")\n%\n";
-        return list_values(variables).size();
+        return backup::list_values(variables).size();
     };
     CHECK(read("3FF0000000000000") == 1);
     CHECK(read("FFFFFFFFFFFFFFFF") == 1);

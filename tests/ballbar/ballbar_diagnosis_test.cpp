@@ -12,13 +12,14 @@ namespace {
 
 struct Injected {
     std::string effect;
-    BallbarTestKind plane;
+    ballbar::test::BallbarTestKind plane;
     std::string line;
     double value;
     double allowed;  ///< beside four sigma: of what the model of the line leaves out
 };
 
-constexpr auto xy = BallbarTestKind::xy, yz = BallbarTestKind::yz, zx = BallbarTestKind::zx;
+constexpr auto xy = ballbar::test::BallbarTestKind::xy, yz = ballbar::test::BallbarTestKind::yz,
+               zx = ballbar::test::BallbarTestKind::zx;
 
 /// Circle of R 100 about (75, 0, 230): a bow p2 (q/200)^2 about q = 75 needs the slope -0.75 p2.
 const std::vector<Injected> injected = {
@@ -41,15 +42,18 @@ const std::vector<Injected> injected = {
     {"X.cyclic: cos_mm=0.002, period_mm=10", xy, "cyclic error X", 2.0, 0.1},
     {"Y.cyclic: sin_mm=0.003, period_mm=12", xy, "cyclic error Y", 3.0, 0.1}};
 
-PlanarResult circle_with(const std::string& effect, BallbarTestKind plane, double noise_um) {
-    Setup setup = load("ac_trunnion.toml");
+ballbar::test::PlanarResult circle_with(const std::string& effect,
+                                        ballbar::test::BallbarTestKind plane, double noise_um) {
+    setup::Setup setup = load("ac_trunnion.toml");
     setup.machine.errors = {};
     setup.ballbar->noise_um = noise_um;
     setup.ballbar->sample_hz = 40.0;
-    if (!effect.empty()) setup.effects.push_back(parse_injection(effect, make_catalogue(setup)));
-    BallbarProcedureOptions options;
-    options.effects = active_models(setup);
-    for (const PlanarResult& planar : run_ballbar(setup, options).planar)
+    if (!effect.empty())
+        setup.effects.push_back(effects::parse_injection(effect, effects::make_catalogue(setup)));
+    ballbar::test::BallbarProcedureOptions options;
+    options.effects = effects::active_models(setup);
+    for (const ballbar::test::PlanarResult& planar :
+         ballbar::test::run_ballbar(setup, options).planar)
         if (planar.test.plane == plane) return planar;
     FAIL("no such circle");
     return {};
@@ -59,9 +63,9 @@ PlanarResult circle_with(const std::string& effect, BallbarTestKind plane, doubl
 
 TEST_CASE("each line of the diagnosis ranks first with its value when its error is there") {
     for (const Injected& in : injected) {
-        const PlanarResult planar = circle_with(in.effect, in.plane, 0.3);
+        const ballbar::test::PlanarResult planar = circle_with(in.effect, in.plane, 0.3);
         REQUIRE_FALSE(planar.diagnosis.causes.empty());
-        const CircularCause& first = planar.diagnosis.causes.front();
+        const ballbar::test::CircularCause& first = planar.diagnosis.causes.front();
         CAPTURE(in.effect, first.name, first.value, first.sigma, first.share);
         CHECK(first.name == in.line);
         CHECK(first.rank == 1);
@@ -76,8 +80,8 @@ TEST_CASE("each line of the diagnosis ranks first with its value when its error 
 
 TEST_CASE("without an error no line of any circle is significant") {
     for (const auto plane : {xy, yz, zx}) {
-        const PlanarResult planar = circle_with("", plane, 0.3);
-        for (const CircularCause& c : planar.diagnosis.causes) {
+        const ballbar::test::PlanarResult planar = circle_with("", plane, 0.3);
+        for (const ballbar::test::CircularCause& c : planar.diagnosis.causes) {
             CAPTURE(c.name, c.value, c.sigma);
             CHECK(std::abs(c.value) < 4.2 * c.sigma);
         }
@@ -85,14 +89,16 @@ TEST_CASE("without an error no line of any circle is significant") {
 }
 
 TEST_CASE("an eccentric set-up leaves nothing on a noise-free circle") {
-    Setup setup = load("ac_trunnion.toml");  // the errors move the pivot by 0.17 mm at home
+    setup::Setup setup = load("ac_trunnion.toml");  // the errors move the pivot by 0.17 mm at home
     setup.ballbar->noise_um = 0.0;
     for (const double hz : {50.0, 300.0}) {
         setup.ballbar->sample_hz = hz;
-        for (const PlanarResult& planar : run_ballbar(setup, {}).planar) {
-            CAPTURE(hz, plane_name(planar.test.plane));
+        for (const ballbar::test::PlanarResult& planar :
+             ballbar::test::run_ballbar(setup, {}).planar) {
+            CAPTURE(hz, ballbar::test::plane_name(planar.test.plane));
             CHECK(planar.figures.hysteresis_um < 1e-3);
-            for (const CircularCause& c : planar.diagnosis.causes) CHECK(c.share_um < 0.01);
+            for (const ballbar::test::CircularCause& c : planar.diagnosis.causes)
+                CHECK(c.share_um < 0.01);
         }
     }
 }

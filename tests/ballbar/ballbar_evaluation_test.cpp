@@ -15,8 +15,8 @@ using namespace trunnion::ballbar_test;
 namespace {
 
 struct Bench {
-    Machine nominal = nominal_ac();
-    BallbarLayout layout;
+    kinematics::Machine nominal = nominal_ac();
+    ballbar::test::BallbarLayout layout;
     Truth truth;
 
     Bench() {
@@ -25,15 +25,17 @@ struct Bench {
         // at zero it stands at its stated place in M, errors of the table or not.
         truth.pivot_W_mm = truth.machine.poses({}).pose_MW.inverse() * layout.pivot_W_mm;
     }
-    double true_value(const NamedError& e) const { return truth.machine.errors.location(e.name); }
+    double true_value(const ballbar::test::NamedError& e) const {
+        return truth.machine.errors.location(e.name);
+    }
 };
 
 }  // namespace
 
 TEST_CASE("paper's errors go into the machine and come out of its axis lines") {
     const Bench bench;
-    const auto [first, second] = axis_lines(bench.truth.machine);
-    const auto back = intersection_errors(first, second, bench.nominal);
+    const auto [first, second] = ballbar::test::axis_lines(bench.truth.machine);
+    const auto back = ballbar::test::intersection_errors(first, second, bench.nominal);
     const auto paper = paper_errors();
     REQUIRE(back.size() == 8);
     for (std::size_t i = 0; i < 8; ++i) {
@@ -46,11 +48,12 @@ TEST_CASE("closed-form signals of the four rotary tests") {
     const Bench bench;
     const double ox = 75, oz = 110;
     std::map<std::string, double> e;
-    for (const NamedError& error : paper_errors()) e[to_string(error.name)] = error.value;
+    for (const ballbar::test::NamedError& error : paper_errors())
+        e[to_string(error.name)] = error.value;
     const double ya = e["EY0A"] + ox * e["EC0A"], za = e["EZ0A"] - ox * e["EB0A"];
     const double xc = e["EX0C"] + oz * e["EB0C"], yc = e["EY0C"] - oz * e["EA0C"];
     const auto rows = measure(bench.nominal, bench.truth, bench.layout, false);
-    for (const Reading& row : rows) {
+    for (const records::Reading& row : rows) {
         const bool on_a = row.test.find("_A") != std::string::npos;
         const double angle = -row.commanded[on_a ? Axis::A : Axis::C];  // left-hand thread
         const double s = std::sin(angle), c1 = std::cos(angle) - 1.0;
@@ -71,12 +74,12 @@ TEST_CASE("noise-free the exact fit returns all eight errors") {
     for (const bool inside : {false, true}) {
         bench.layout.inside = inside;
         const auto rows = measure(bench.nominal, bench.truth, bench.layout);
-        const BallbarModel model(bench.nominal, bench.layout, rows, {});
-        const BallbarFit fit = model.fit(values_of(rows));
+        const ballbar::test::BallbarModel model(bench.nominal, bench.layout, rows, {});
+        const ballbar::test::BallbarFit fit = model.fit(values_of(rows));
         CHECK(fit.rank == 12);
         CHECK(fit.inseparable.empty());
         CHECK(fit.rms_mm < 1e-11);
-        for (const NamedError& e : paper_errors()) {
+        for (const ballbar::test::NamedError& e : paper_errors()) {
             const int k = fit.find(to_string(e.name));
             REQUIRE(k >= 0);
             INFO(to_string(e.name));
@@ -93,7 +96,8 @@ TEST_CASE("the published way has its published bias and no more") {
     for (const bool inside : {false, true}) {
         bench.layout.inside = inside;
         const auto rows = measure(bench.nominal, bench.truth, bench.layout);
-        const auto published = evaluate_as_published(bench.nominal, bench.layout, rows);
+        const auto published =
+            ballbar::test::evaluate_as_published(bench.nominal, bench.layout, rows);
         CHECK(published.missing.empty());
         REQUIRE(published.intersection.size() == 8);
         const double side = inside ? -1.0 : 1.0;
@@ -120,7 +124,7 @@ TEST_CASE("the location check finds the centre pivot and the bar's length") {
         bench.truth.machine.poses({}).pose_MW.inverse() * (bench.layout.pivot_W_mm + off);
     bench.truth.length_mm += 0.005;
     const auto rows = measure(bench.nominal, bench.truth, bench.layout);
-    const auto published = evaluate_as_published(bench.nominal, bench.layout, rows);
+    const auto published = ballbar::test::evaluate_as_published(bench.nominal, bench.layout, rows);
     CHECK((published.pivot_offset_mm - off).norm() < 2e-5);
     CHECK(std::abs(published.length_error_mm + 0.005) < 2e-5);
     CHECK(published.setup_rms_mm < 1e-5);
@@ -130,29 +134,29 @@ TEST_CASE("predicted uncertainties are the Cramer-Rao bounds of the facts") {
     const Bench bench;
     struct Case {
         const char* name;
-        BallbarUnknowns unknowns;
+        ballbar::test::BallbarUnknowns unknowns;
         std::vector<double> um_urad;
     };
     // Pivot clamped where the spindle says (home pose free of error); what is added to the readings
     // differs. EY0A EZ0A EB0A EC0A EX0C EY0C EA0C EB0C as the withheld oracle computes it.
-    const PivotPlace clamped = PivotPlace::at_spindle;
+    const ballbar::test::PivotPlace clamped = ballbar::test::PivotPlace::at_spindle;
     const std::vector<Case> cases = {{"one free constant a test",
-                                      {false, clamped, BarConstant::per_test},
+                                      {false, clamped, ballbar::test::BarConstant::per_test},
                                       {0.142, 0.225, 1.69, 1.07, 0.066, 0.066, 0.50, 0.50}},
                                      {"only L0 free",
-                                      {false, clamped, BarConstant::length},
+                                      {false, clamped, ballbar::test::BarConstant::length},
                                       {0.142, 0.220, 1.63, 1.06, 0.053, 0.066, 0.50, 0.35}},
                                      {"the eight alone",
-                                      {false, clamped, BarConstant::none},
+                                      {false, clamped, ballbar::test::BarConstant::none},
                                       {0.141, 0.215, 1.61, 1.06, 0.038, 0.066, 0.50, 0.29}}};
     const auto rows = measure(bench.nominal, bench.truth, bench.layout, false);
     for (const Case& c : cases) {
-        const BallbarModel model(bench.nominal, bench.layout, rows, c.unknowns);
-        const BallbarFit fit = model.fit(values_of(rows));
+        const ballbar::test::BallbarModel model(bench.nominal, bench.layout, rows, c.unknowns);
+        const ballbar::test::BallbarFit fit = model.fit(values_of(rows));
         CHECK(fit.rms_mm < 1e-11);
-        const auto estimates = intersection_estimates(bench.nominal, fit, 0.5e-3);
+        const auto estimates = ballbar::test::intersection_estimates(bench.nominal, fit, 0.5e-3);
         for (std::size_t i = 0; i < 8; ++i) {
-            const ErrorEstimate& e = estimates[i];
+            const ballbar::test::ErrorEstimate& e = estimates[i];
             const double found = e.sigma * (e.name.angular() ? 1e6 : 1e3);
             CAPTURE(c.name, to_string(e.name), found);
             // Half of the last digit printed, and the step from linear to exact.
@@ -160,17 +164,20 @@ TEST_CASE("predicted uncertainties are the Cramer-Rao bounds of the facts") {
         }
     }
     // With a constant for each test it does not matter what is known of the pivot ...
-    const auto sigma_of = [&](PivotPlace place, BarConstant constant, const char* name) {
-        const BallbarModel model(bench.nominal, bench.layout, rows, {false, place, constant});
-        for (const ErrorEstimate& e :
-             intersection_estimates(bench.nominal, model.fit(values_of(rows)), 0.5e-3))
+    const auto sigma_of = [&](ballbar::test::PivotPlace place, ballbar::test::BarConstant constant,
+                              const char* name) {
+        const ballbar::test::BallbarModel model(bench.nominal, bench.layout, rows,
+                                                {false, place, constant});
+        for (const ballbar::test::ErrorEstimate& e : ballbar::test::intersection_estimates(
+                 bench.nominal, model.fit(values_of(rows)), 0.5e-3))
             if (to_string(e.name) == name) return 1e3 * e.sigma;
         return 0.0;
     };
-    CHECK(sigma_of(PivotPlace::on_table, BarConstant::per_test, "EZ0A") ==
-          Approx(0.225).epsilon(0.005));
+    CHECK(sigma_of(ballbar::test::PivotPlace::on_table, ballbar::test::BarConstant::per_test,
+                   "EZ0A") == Approx(0.225).epsilon(0.005));
     // ... without one it does: a pivot known on the table shows errors at home too.
-    CHECK(sigma_of(PivotPlace::on_table, BarConstant::length, "EZ0A") < 0.1);
+    CHECK(sigma_of(ballbar::test::PivotPlace::on_table, ballbar::test::BarConstant::length,
+                   "EZ0A") < 0.1);
 }
 
 namespace {
@@ -191,14 +198,15 @@ TEST_CASE("noisy runs scatter as predicted - five groups of 200 seeded runs") {
     // = 4.2), and the pooled 1000 runs within 10 % (4.5 of their standard deviations).
     const Bench bench;
     const auto rows = measure(bench.nominal, bench.truth, bench.layout, false);
-    const BallbarModel model(bench.nominal, bench.layout, rows,
-                             {false, PivotPlace::at_spindle, BarConstant::per_test});
+    const ballbar::test::BallbarModel model(
+        bench.nominal, bench.layout, rows,
+        {false, ballbar::test::PivotPlace::at_spindle, ballbar::test::BarConstant::per_test});
     const auto exact = values_of(rows);
-    const BallbarFit ideal = model.fit(exact);
+    const ballbar::test::BallbarFit ideal = model.fit(exact);
     const double noise_mm = 0.5e-3;
     const Eigen::MatrixXd weight =
         (noise_mm * noise_mm * ideal.cofactor.topLeftCorner(8, 8)).inverse();
-    const auto predicted = intersection_estimates(bench.nominal, ideal, noise_mm);
+    const auto predicted = ballbar::test::intersection_estimates(bench.nominal, ideal, noise_mm);
     const auto paper = paper_errors();
     const int groups = 5, runs = 200;
     std::vector<double> pooled(8, 0.0), mean(8, 0.0);
@@ -209,12 +217,13 @@ TEST_CASE("noisy runs scatter as predicted - five groups of 200 seeded runs") {
         for (int run = 0; run < runs; ++run) {
             auto values = exact;
             add_noise(values, noise_mm, noise);
-            const BallbarFit fit = model.fit(values);
+            const ballbar::test::BallbarFit fit = model.fit(values);
             const Eigen::VectorXd off = (fit.value - ideal.value).head(8);
             joint += off.dot(weight * off);
             residual += fit.dof * std::pow(fit.rms_mm / noise_mm, 2);
-            const auto [first, second] = axis_lines(machine_of(bench.nominal, fit));
-            const auto found = intersection_errors(first, second, bench.nominal);
+            const auto [first, second] =
+                ballbar::test::axis_lines(ballbar::test::machine_of(bench.nominal, fit));
+            const auto found = ballbar::test::intersection_errors(first, second, bench.nominal);
             for (std::size_t i = 0; i < 8; ++i) {
                 const double z = (found[i].value - paper[i].value) / predicted[i].sigma;
                 square[i] += z * z;
@@ -247,9 +256,10 @@ TEST_CASE("noisy runs scatter as predicted - five groups of 200 seeded runs") {
 TEST_CASE("rank 12 of 15 - tool cup, centre pivot and both axes move together") {
     const Bench bench;
     auto rows = measure(bench.nominal, bench.truth, bench.layout);
-    const BallbarModel model(bench.nominal, bench.layout, rows,
-                             {true, PivotPlace::unknown, BarConstant::length});
-    const BallbarFit fit = model.fit(values_of(rows));
+    const ballbar::test::BallbarModel model(
+        bench.nominal, bench.layout, rows,
+        {true, ballbar::test::PivotPlace::unknown, ballbar::test::BarConstant::length});
+    const ballbar::test::BallbarFit fit = model.fit(values_of(rows));
     CHECK(fit.parameters.size() == 15);
     CHECK(fit.rank == 12);
     REQUIRE(fit.inseparable.size() == 3);
@@ -257,7 +267,7 @@ TEST_CASE("rank 12 of 15 - tool cup, centre pivot and both axes move together") 
     CHECK_FALSE(fit.determined(fit.find("ballbar.cup.z")));
     CHECK(fit.determined(fit.find("EB0A")));
     CHECK(fit.determined(fit.find("ballbar.length")));
-    for (const InseparableGroup& group : fit.inseparable) {
+    for (const ballbar::test::InseparableGroup& group : fit.inseparable) {
         // Along each group no reading changes.
         Eigen::VectorXd at = fit.value;
         for (std::size_t i = 0; i < group.names.size(); ++i)
@@ -267,8 +277,9 @@ TEST_CASE("rank 12 of 15 - tool cup, centre pivot and both axes move together") 
     }
     // The four tests of the rotary axes alone leave two more open.
     rows = measure(bench.nominal, bench.truth, bench.layout, false);
-    CHECK(BallbarModel(bench.nominal, bench.layout, rows,
-                       {true, PivotPlace::unknown, BarConstant::length})
+    CHECK(ballbar::test::BallbarModel(
+              bench.nominal, bench.layout, rows,
+              {true, ballbar::test::PivotPlace::unknown, ballbar::test::BarConstant::length})
               .fit(values_of(rows))
               .rank == 10);
 }
@@ -281,19 +292,20 @@ TEST_CASE("a wrong tool length reads as EZ0A and a cup offset as a shift of the 
     for (const auto& [off, moved] : cases) {
         bench.truth.cup_S_mm = bench.layout.cup_S_mm + off;
         const auto rows = measure(bench.nominal, bench.truth, bench.layout);
-        const BallbarModel model(bench.nominal, bench.layout, rows, {});
-        const auto found = intersection_estimates(bench.nominal, model.fit(values_of(rows)), 0.0);
+        const ballbar::test::BallbarModel model(bench.nominal, bench.layout, rows, {});
+        const auto found =
+            ballbar::test::intersection_estimates(bench.nominal, model.fit(values_of(rows)), 0.0);
         for (std::size_t i = 0; i < 8; ++i) {
             const bool shifts = std::find(moved.begin(), moved.end(), i) != moved.end();
             CAPTURE(to_string(paper[i].name), off.transpose());
             CHECK(std::abs(found[i].value - paper[i].value + (shifts ? 0.01 : 0.0)) < 2e-5);
         }
         // Told the true cup, the fit has them right.
-        BallbarLayout known = bench.layout;
+        ballbar::test::BallbarLayout known = bench.layout;
         known.cup_S_mm = bench.truth.cup_S_mm;
-        const BallbarModel resolved(bench.nominal, known, rows, {});
-        const auto right =
-            intersection_estimates(bench.nominal, resolved.fit(values_of(rows)), 0.0);
+        const ballbar::test::BallbarModel resolved(bench.nominal, known, rows, {});
+        const auto right = ballbar::test::intersection_estimates(
+            bench.nominal, resolved.fit(values_of(rows)), 0.0);
         for (std::size_t i = 0; i < 8; ++i) CHECK(std::abs(right[i].value - paper[i].value) < 1e-9);
     }
 }
@@ -302,27 +314,28 @@ TEST_CASE("after compensation and a new measurement every error is within three 
     Bench bench;
     SeededNoise noise(11);
     const auto rows = measure(bench.nominal, bench.truth, bench.layout, true, true);
-    const BallbarModel model(bench.nominal, bench.layout, rows, {});
+    const ballbar::test::BallbarModel model(bench.nominal, bench.layout, rows, {});
     auto values = values_of(rows);
     add_noise(values, 0.5e-3, noise);
-    const BallbarFit first = model.fit(values);
-    const Machine known = machine_of(bench.nominal, first);
+    const ballbar::test::BallbarFit first = model.fit(values);
+    const kinematics::Machine known = ballbar::test::machine_of(bench.nominal, first);
     // The control leads the cup to where the programmed path would have put it on a perfect
     // machine.
     auto again = rows;
-    for (Reading& row : again) {
+    for (records::Reading& row : again) {
         const AxisPositions q =
-            compensated(row.commanded, bench.nominal, known, bench.layout.cup_S_mm);
-        const MachinePose pose = bench.truth.machine.poses(q);
+            ballbar::test::compensated(row.commanded, bench.nominal, known, bench.layout.cup_S_mm);
+        const kinematics::MachinePose pose = bench.truth.machine.poses(q);
         row.value_mm =
             (pose.pose_MS * bench.truth.cup_S_mm - pose.pose_MW * bench.truth.pivot_W_mm).norm() -
             100.0;
     }
     values = values_of(again);
     add_noise(values, 0.5e-3, noise);
-    const BallbarFit second = BallbarModel(bench.nominal, bench.layout, again, {}).fit(values);
-    const double sigma = std::sqrt(2.0) * reading_sigma_mm(second, 0.5e-3);
-    for (const ErrorEstimate& e : chain_estimates(second, sigma)) {
+    const ballbar::test::BallbarFit second =
+        ballbar::test::BallbarModel(bench.nominal, bench.layout, again, {}).fit(values);
+    const double sigma = std::sqrt(2.0) * ballbar::test::reading_sigma_mm(second, 0.5e-3);
+    for (const ballbar::test::ErrorEstimate& e : ballbar::test::chain_estimates(second, sigma)) {
         CAPTURE(to_string(e.name), e.value, e.sigma);
         CHECK(std::abs(e.value) < 3.0 * e.sigma);
         CHECK(std::abs(e.value) <
@@ -337,11 +350,13 @@ TEST_CASE("errors of linear axes are not absorbed - the residual shows them") {
     auto values = values_of(rows);
     add_noise(values, 0.3e-3, noise);
     {
-        const BallbarModel model(bench.nominal, bench.layout, rows, {});
-        const ResidualVerdict verdict = judge_residuals(model, model.fit(values));
+        const ballbar::test::BallbarModel model(bench.nominal, bench.layout, rows, {});
+        const ballbar::test::ResidualVerdict verdict =
+            ballbar::test::judge_residuals(model, model.fit(values));
         CHECK_FALSE(verdict.structured);
     }
-    for (const ErrorName name : {ErrorName{'C', true, Axis::Y}, ErrorName{'X', false, Axis::X}}) {
+    for (const kinematics::ErrorName name :
+         {kinematics::ErrorName{'C', true, Axis::Y}, kinematics::ErrorName{'X', false, Axis::X}}) {
         Bench bad = bench;
         if (name.location)
             bad.truth.machine.errors.location(name) = 3e-5;  // squareness
@@ -350,8 +365,9 @@ TEST_CASE("errors of linear axes are not absorbed - the residual shows them") {
         rows = measure(bad.nominal, bad.truth, bad.layout, true, true);
         values = values_of(rows);
         add_noise(values, 0.3e-3, noise);
-        const BallbarModel model(bad.nominal, bad.layout, rows, {});
-        const ResidualVerdict verdict = judge_residuals(model, model.fit(values));
+        const ballbar::test::BallbarModel model(bad.nominal, bad.layout, rows, {});
+        const ballbar::test::ResidualVerdict verdict =
+            ballbar::test::judge_residuals(model, model.fit(values));
         CAPTURE(to_string(name), verdict.excess_um, verdict.worst_test);
         CHECK(verdict.structured);
         CHECK(verdict.excess_um > 0.3);
@@ -363,18 +379,18 @@ TEST_CASE("the same evaluation serves a B-C table") {
     bench.nominal.chain.work[0].axis = Axis::B;
     bench.nominal.chain.work[0].direction = -Vector3::UnitY();
     bench.truth.machine = bench.nominal;
-    const std::vector<NamedError> errors = {
+    const std::vector<ballbar::test::NamedError> errors = {
         {{'X', true, Axis::B}, 0.021}, {{'Z', true, Axis::B}, -0.013}, {{'A', true, Axis::B}, 4e-5},
         {{'C', true, Axis::B}, -6e-5}, {{'X', true, Axis::C}, 0.017},  {{'Y', true, Axis::C}, 0.03},
         {{'A', true, Axis::C}, 3e-5},  {{'B', true, Axis::C}, -2e-5}};
     bench.truth.machine = with_lines(bench.nominal, errors);
     bench.truth.pivot_W_mm = bench.layout.pivot_W_mm + Vector3(0.02, -0.03, 0.015);
     const auto rows = measure(bench.nominal, bench.truth, bench.layout);
-    const BallbarModel model(bench.nominal, bench.layout, rows, {});
-    const BallbarFit fit = model.fit(values_of(rows));
+    const ballbar::test::BallbarModel model(bench.nominal, bench.layout, rows, {});
+    const ballbar::test::BallbarFit fit = model.fit(values_of(rows));
     CHECK(fit.rank == 12);
-    const auto found = intersection_estimates(bench.nominal, fit, 0.0);
-    const auto published = evaluate_as_published(bench.nominal, bench.layout, rows);
+    const auto found = ballbar::test::intersection_estimates(bench.nominal, fit, 0.0);
+    const auto published = ballbar::test::evaluate_as_published(bench.nominal, bench.layout, rows);
     REQUIRE(found.size() == 8);
     for (std::size_t i = 0; i < 8; ++i) {
         CHECK(found[i].name == errors[i].name);
@@ -385,15 +401,15 @@ TEST_CASE("the same evaluation serves a B-C table") {
 }
 
 TEST_CASE("names of ballbar passes") {
-    CHECK(to_string(*parse_ballbar_test("radial_A_pos")) == "radial_A");
-    CHECK(to_string(*parse_ballbar_test("AXIAL_C_NEG")) == "axial_C");
-    CHECK(to_string(*parse_ballbar_test("xy_ccw_1000")) == "xy");
-    CHECK_FALSE(parse_ballbar_test("xyz"));
-    CHECK_FALSE(parse_ballbar_test("map"));
-    CHECK_FALSE(parse_ballbar_test("radial_X"));
+    CHECK(to_string(*ballbar::test::parse_ballbar_test("radial_A_pos")) == "radial_A");
+    CHECK(to_string(*ballbar::test::parse_ballbar_test("AXIAL_C_NEG")) == "axial_C");
+    CHECK(to_string(*ballbar::test::parse_ballbar_test("xy_ccw_1000")) == "xy");
+    CHECK_FALSE(ballbar::test::parse_ballbar_test("xyz"));
+    CHECK_FALSE(ballbar::test::parse_ballbar_test("map"));
+    CHECK_FALSE(ballbar::test::parse_ballbar_test("radial_X"));
     const Bench bench;
     const auto rows = measure(bench.nominal, bench.truth, bench.layout, true, true);
-    const auto passes = ballbar_passes(rows);
+    const auto passes = ballbar::test::ballbar_passes(rows);
     REQUIRE(passes.size() == 14);
     CHECK(passes[0].travel == Approx(2 * pi).epsilon(0.01));
     CHECK(passes[7].travel == Approx(-2 * pi).epsilon(0.01));

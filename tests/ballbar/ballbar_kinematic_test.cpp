@@ -40,7 +40,7 @@ const std::vector<TableMachine> machines = {
      {"EX0B", "EZ0B", "EA0B", "EC0B", "EX0C", "EY0C", "EA0C", "EB0C"}}};
 
 /// First order: minus what the error moves the pivot along the bar. Axes cross in the origin.
-double closed_form(const TableMachine& m, const Reading& row, const std::string& error,
+double closed_form(const TableMachine& m, const records::Reading& row, const std::string& error,
                    double size) {
     const Axis first = m.first.y() == 0.0 ? Axis::A : Axis::B;
     const Matrix3 r1 = Eigen::AngleAxisd(row.commanded[first], m.first).toRotationMatrix();
@@ -53,8 +53,8 @@ double closed_form(const TableMachine& m, const Reading& row, const std::string&
     return -bar.dot(second ? Vector3(r1 * moved) : moved);
 }
 
-Setup perfect(const TableMachine& m) {
-    Setup setup = load(m.setup);
+setup::Setup perfect(const TableMachine& m) {
+    setup::Setup setup = load(m.setup);
     setup.machine.errors = {};
     setup.ballbar->noise_um = 0.0;
     setup.ballbar->sample_hz = 4.0;
@@ -63,22 +63,23 @@ Setup perfect(const TableMachine& m) {
     return setup;
 }
 
-std::string program_of(const Setup& setup) {
-    return kinematic_test_program(without_errors(setup.machine), stated_program_data(setup, false));
+std::string program_of(const setup::Setup& setup) {
+    return ballbar::test::kinematic_test_program(without_errors(setup.machine),
+                                                 ballbar::test::stated_program_data(setup, false));
 }
 
 }  // namespace
 
 TEST_CASE("BK1 BK2 and BK4 read zero on a perfect machine") {
     for (const TableMachine& m : machines) {
-        Setup setup = perfect(m);
-        const RunLog log = run(setup, program_of(setup));
+        setup::Setup setup = perfect(m);
+        const emulator::RunLog log = run(setup, program_of(setup));
         require_no_alarm(log);
         std::map<std::string, int> count;
         double worst_mm = 0.0;
         bool five_axes = false;
-        for (const Reading& row : log.readings.rows) {
-            if (row.device != Device::ballbar) continue;
+        for (const records::Reading& row : log.readings.rows) {
+            if (row.device != records::Device::ballbar) continue;
             ++count[row.test];
             worst_mm = std::max(worst_mm, std::abs(*row.value_mm));
             five_axes |= row.test == "bk4_pos" && row.commanded[Axis::C] > 2.0 &&
@@ -95,18 +96,18 @@ TEST_CASE("BK1 BK2 and BK4 read zero on a perfect machine") {
 
 TEST_CASE("each location error leaves its closed form on BK1 BK2 and BK4") {
     for (const TableMachine& m : machines) {
-        const Setup clean = perfect(m);
+        const setup::Setup clean = perfect(m);
         const std::string program = program_of(clean);
         for (const std::string& error : m.errors) {
-            Setup setup = clean;
-            const ErrorName name = *parse_error_name(error);
+            setup::Setup setup = clean;
+            const kinematics::ErrorName name = *kinematics::parse_error_name(error);
             const double size = name.angular() ? 5e-5 : 0.02;
             setup.machine.errors.location(name) = size;
-            const RunLog log = run(setup, program);
+            const emulator::RunLog log = run(setup, program);
             require_no_alarm(log);
             double worst_mm = 0.0, largest_mm = 0.0;
-            for (const Reading& row : log.readings.rows) {
-                if (row.device != Device::ballbar) continue;
+            for (const records::Reading& row : log.readings.rows) {
+                if (row.device != records::Device::ballbar) continue;
                 const double expected = closed_form(m, row, error, size);
                 largest_mm = std::max(largest_mm, std::abs(expected));
                 worst_mm = std::max(worst_mm, std::abs(*row.value_mm - expected));

@@ -12,11 +12,11 @@ namespace trunnion::ballbar_test {
 
 /// W at the centre pivot's home: A through (0, 0, -Oz), C through (-Ox, 0, 0); both at the nominal
 /// intersection. Table axes turn against the tool.
-inline Machine nominal_ac(double ox_mm = 75, double oz_mm = 110) {
-    Machine machine;
+inline kinematics::Machine nominal_ac(double ox_mm = 75, double oz_mm = 110) {
+    kinematics::Machine machine;
     const Vector3 p0(-ox_mm, 0, -oz_mm);
     const auto axis = [](Axis letter, bool rotary, const Vector3& direction, const Vector3& point) {
-        AxisGeometry geometry;
+        kinematics::AxisGeometry geometry;
         geometry.axis = letter;
         geometry.rotary = rotary;
         geometry.direction = direction;
@@ -33,17 +33,18 @@ inline Machine nominal_ac(double ox_mm = 75, double oz_mm = 110) {
 
 /// Uncompensated values of the paper's Table 2 (two misprints corrected, docs/sources.md): lines
 /// in M at the nominal intersection.
-inline std::vector<NamedError> paper_errors() {
+inline std::vector<ballbar::test::NamedError> paper_errors() {
     return {{{'Y', true, Axis::A}, 0.0726},    {{'Z', true, Axis::A}, -0.0202},
             {{'B', true, Axis::A}, 1.1284e-5}, {{'C', true, Axis::A}, -1.3006e-4},
             {{'X', true, Axis::C}, 0.0283},    {{'Y', true, Axis::C}, 0.1041},
             {{'A', true, Axis::C}, 5.1954e-6}, {{'B', true, Axis::C}, -4.1544e-5}};
 }
 
-inline AxisLine line_of(const AxisGeometry& axis, const std::vector<NamedError>& errors,
-                        const Vector3& point_mm) {
+inline ballbar::test::AxisLine line_of(const kinematics::AxisGeometry& axis,
+                                       const std::vector<ballbar::test::NamedError>& errors,
+                                       const Vector3& point_mm) {
     Vector3 shift = Vector3::Zero(), tilt = Vector3::Zero();
-    for (const NamedError& e : errors) {
+    for (const ballbar::test::NamedError& e : errors) {
         if (e.name.axis != axis.axis) continue;
         (e.name.angular() ? tilt : shift)(
             static_cast<int>(std::string("XYZABC").find(e.name.direction) % 3)) = e.value;
@@ -52,34 +53,36 @@ inline AxisLine line_of(const AxisGeometry& axis, const std::vector<NamedError>&
 }
 
 /// `nominal` with axis lines as `errors` say at the nominal intersection in M.
-inline Machine with_lines(Machine nominal, const std::vector<NamedError>& errors) {
-    const auto [first, second] = table_axes(nominal.chain);
-    const auto [p1, p2] = nominal_intersection(first, second);
-    const auto chain =
-        chain_errors(line_of(first, errors, p1), line_of(second, errors, p2), nominal);
-    for (const NamedError& e : chain) nominal.errors.location(e.name) = e.value;
+inline kinematics::Machine with_lines(kinematics::Machine nominal,
+                                      const std::vector<ballbar::test::NamedError>& errors) {
+    const auto [first, second] = ballbar::test::table_axes(nominal.chain);
+    const auto [p1, p2] = ballbar::test::nominal_intersection(first, second);
+    const auto chain = ballbar::test::chain_errors(line_of(first, errors, p1),
+                                                   line_of(second, errors, p2), nominal);
+    for (const ballbar::test::NamedError& e : chain) nominal.errors.location(e.name) = e.value;
     return nominal;
 }
 
 /// What is physically there; the evaluation knows only the layout.
 struct Truth {
-    Machine machine;
+    kinematics::Machine machine;
     Vector3 cup_S_mm, pivot_W_mm;
     double length_mm = 100.0;
 };
 
-inline void add_pass(std::vector<Reading>& rows, const Machine& nominal, const Truth& truth,
-                     const BallbarLayout& layout, const std::string& test, int count,
-                     bool negative) {
-    const auto path = ideal_path(nominal, layout, *parse_ballbar_test(test), count, negative);
+inline void add_pass(std::vector<records::Reading>& rows, const kinematics::Machine& nominal,
+                     const Truth& truth, const ballbar::test::BallbarLayout& layout,
+                     const std::string& test, int count, bool negative) {
+    const auto path = ballbar::test::ideal_path(
+        nominal, layout, *ballbar::test::parse_ballbar_test(test), count, negative);
     for (const AxisPositions& q : path) {
-        Reading row;
+        records::Reading row;
         row.index = static_cast<int>(rows.size());
         row.time_s = 0.1 * row.index;
         row.test = test + (negative ? "_neg" : "_pos");
-        row.device = Device::ballbar;
+        row.device = records::Device::ballbar;
         row.commanded = q;
-        const MachinePose pose = truth.machine.poses(q);
+        const kinematics::MachinePose pose = truth.machine.poses(q);
         row.value_mm = (pose.pose_MS * truth.cup_S_mm - pose.pose_MW * truth.pivot_W_mm).norm() -
                        truth.length_mm;
         rows.push_back(row);
@@ -87,11 +90,11 @@ inline void add_pass(std::vector<Reading>& rows, const Machine& nominal, const T
 }
 
 /// The four tests of the rotary axes (A every half degree, C every degree), or all seven.
-inline std::vector<Reading> measure(const Machine& nominal, const Truth& truth,
-                                    const BallbarLayout& layout, bool planar = true,
-                                    bool both = false) {
-    std::vector<Reading> rows;
-    const auto [first, second] = table_axes(nominal.chain);
+inline std::vector<records::Reading> measure(const kinematics::Machine& nominal, const Truth& truth,
+                                             const ballbar::test::BallbarLayout& layout,
+                                             bool planar = true, bool both = false) {
+    std::vector<records::Reading> rows;
+    const auto [first, second] = ballbar::test::table_axes(nominal.chain);
     for (const bool negative : {false, true}) {
         if (negative && !both) break;
         if (planar) {
@@ -107,9 +110,9 @@ inline std::vector<Reading> measure(const Machine& nominal, const Truth& truth,
     return rows;
 }
 
-inline std::vector<double> values_of(const std::vector<Reading>& rows) {
+inline std::vector<double> values_of(const std::vector<records::Reading>& rows) {
     std::vector<double> values;
-    for (const Reading& row : rows) values.push_back(*row.value_mm);
+    for (const records::Reading& row : rows) values.push_back(*row.value_mm);
     return values;
 }
 

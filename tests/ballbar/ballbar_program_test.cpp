@@ -15,8 +15,8 @@ using namespace trunnion::ballbar_test;
 
 namespace {
 
-BallbarLayout layout_of(const Setup& setup) {
-    BallbarLayout layout;
+ballbar::test::BallbarLayout layout_of(const setup::Setup& setup) {
+    ballbar::test::BallbarLayout layout;
     layout.pivot_W_mm = setup.find_artefact("P1")->center_W_mm;
     layout.cup_S_mm = setup.ballbar->cup_S_mm;
     layout.length_mm = setup.ballbar->length_mm;
@@ -47,26 +47,27 @@ double number(const std::string& text) {
     return std::stod(text);
 }
 
-std::vector<double> values_at(const ReadingTable& table, const std::vector<std::size_t>& rows) {
+std::vector<double> values_at(const records::ReadingTable& table,
+                              const std::vector<std::size_t>& rows) {
     std::vector<double> out;
     for (const std::size_t i : rows) out.push_back(*table.rows[i].value_mm);
     return out;
 }
 
 /// Seven tests both ways, exact; every error found.
-void check_single_run(Setup setup, bool inside = false) {
+void check_single_run(setup::Setup setup, bool inside = false) {
     setup.ballbar->noise_um = 0.0;
     setup.ballbar->sample_hz = 5.0;
-    const Machine nominal = without_errors(setup.machine);
-    const BallbarLayout layout = layout_of(setup);
-    const RunLog log = run(setup, test_program(setup, inside));
+    const kinematics::Machine nominal = without_errors(setup.machine);
+    const ballbar::test::BallbarLayout layout = layout_of(setup);
+    const emulator::RunLog log = run(setup, test_program(setup, inside));
     require_no_alarm(log);
-    const BallbarModel model(nominal, layout, log.readings.rows, {});
+    const ballbar::test::BallbarModel model(nominal, layout, log.readings.rows, {});
     CHECK(model.passes().size() == 14);
-    const BallbarFit fit = model.fit(values_at(log.readings, model.rows_used()));
+    const ballbar::test::BallbarFit fit = model.fit(values_at(log.readings, model.rows_used()));
     CHECK(fit.rank == 12);
     CHECK(fit.rms_mm < 1e-10);
-    for (const ErrorEstimate& e : chain_estimates(fit, 0.0)) {
+    for (const ballbar::test::ErrorEstimate& e : ballbar::test::chain_estimates(fit, 0.0)) {
         CAPTURE(to_string(e.name));
         CHECK(std::abs(e.value - setup.machine.errors.location(e.name)) <
               (e.name.angular() ? 1e-9 : 1e-6));
@@ -92,23 +93,23 @@ const std::vector<Variant> variants = {
     {"B-C long bar, pivot in front", "bc_table.toml", 150, {0, -90, 70}, false},
     {"B-C short bar inside", "bc_table.toml", 50, {40, 80, 90}, true}};
 
-Setup setup_of(const Variant& v) {
-    Setup setup = load(v.setup);
+setup::Setup setup_of(const Variant& v) {
+    setup::Setup setup = load(v.setup);
     setup.ballbar->length_mm = v.length_mm;
-    for (Artefact& artefact : setup.artefacts)
+    for (setup::Artefact& artefact : setup.artefacts)
         if (artefact.name == "P1") artefact.center_W_mm = v.pivot_mm;
     if (setup.machine.chain.work[0].axis != Axis::B) return setup;
     for (const char* name : {"EX0B", "EZ0B", "EX0C", "EY0C"})
-        setup.machine.errors.location(*parse_error_name(name)) = 0.02;
+        setup.machine.errors.location(*kinematics::parse_error_name(name)) = 0.02;
     for (const char* name : {"EA0B", "EC0B", "EA0C", "EB0C"})
-        setup.machine.errors.location(*parse_error_name(name)) = 5e-5;
+        setup.machine.errors.location(*kinematics::parse_error_name(name)) = 5e-5;
     return setup;
 }
 
 /// Ball-to-ball lengths that an ideal machine runs through while the bar is mounted.
-std::vector<double> bar_lengths_mm(const Setup& setup, bool inside) {
-    const BallbarLayout layout = layout_of(setup);
-    const RunLog log = run(setup, test_program(setup, inside), 5.0);
+std::vector<double> bar_lengths_mm(const setup::Setup& setup, bool inside) {
+    const ballbar::test::BallbarLayout layout = layout_of(setup);
+    const emulator::RunLog log = run(setup, test_program(setup, inside), 5.0);
     require_no_alarm(log);
     std::vector<double> bar_mm, pending_mm;  // of feed moves, of the move being read
     std::istringstream lines(log.trace_csv);
@@ -141,14 +142,14 @@ TEST_CASE("one run does all seven tests both ways and finds the errors - every m
 }
 
 TEST_CASE("inside the flat bar points to the second rotary axis and the upright one stays up") {
-    Setup setup = load("ac_trunnion.toml");
+    setup::Setup setup = load("ac_trunnion.toml");
     setup.ballbar->sample_hz = 1.0;
-    const Machine nominal = without_errors(setup.machine);
+    const kinematics::Machine nominal = without_errors(setup.machine);
     for (const bool inside : {false, true}) {
-        const RunLog log = run(setup, test_program(setup, inside));
+        const emulator::RunLog log = run(setup, test_program(setup, inside));
         std::map<std::string, Vector3> bar;
-        for (const Reading& row : log.readings.rows) {
-            const MachinePose pose = nominal.poses(row.commanded);
+        for (const records::Reading& row : log.readings.rows) {
+            const kinematics::MachinePose pose = nominal.poses(row.commanded);
             const Vector3 cup_W = pose.pose_MW.inverse() * (pose.pose_MS * setup.ballbar->cup_S_mm);
             bar[row.test] = cup_W - Vector3(75, 0, 110);
         }
@@ -161,21 +162,21 @@ TEST_CASE("inside the flat bar points to the second rotary axis and the upright 
 }
 
 TEST_CASE("the Hurco program with M128 gives the readings of the Fanuc program") {
-    Setup setup = load("ac_trunnion.toml");
+    setup::Setup setup = load("ac_trunnion.toml");
     setup.ballbar->noise_um = 0.0;
     setup.ballbar->sample_hz = 5.0;
-    const RunLog fanuc = run(setup, test_program(setup));
-    setup.dialect = hurco_dialect();
+    const emulator::RunLog fanuc = run(setup, test_program(setup));
+    setup.dialect = interpreter::hurco_dialect();
     const std::string program = test_program(setup);
     CHECK(program.find("M128") != std::string::npos);
     CHECK(program.find("G43.4") == std::string::npos);
-    const RunLog hurco = run(setup, program);
+    const emulator::RunLog hurco = run(setup, program);
     require_no_alarm(hurco);
     REQUIRE(hurco.readings.rows.size() == fanuc.readings.rows.size());
     double worst_mm = 0.0;
     int tests = 0;
     for (std::size_t i = 0; i < hurco.readings.rows.size(); ++i) {
-        const Reading &a = fanuc.readings.rows[i], &b = hurco.readings.rows[i];
+        const records::Reading &a = fanuc.readings.rows[i], &b = hurco.readings.rows[i];
         REQUIRE(a.test == b.test);
         REQUIRE(a.value_mm.has_value() == b.value_mm.has_value());
         tests += i > 0 && a.test != fanuc.readings.rows[i - 1].test;
@@ -188,7 +189,7 @@ TEST_CASE("the Hurco program with M128 gives the readings of the Fanuc program")
 
 TEST_CASE("the bar keeps its length from the first test to the last - every machine and side") {
     for (const Variant& v : variants) {
-        Setup setup = setup_of(v);
+        setup::Setup setup = setup_of(v);
         tell_the_pivots(setup);
         const auto bar_mm = bar_lengths_mm(setup, v.inside);
         CAPTURE(v.name);
@@ -206,23 +207,24 @@ TEST_CASE("the programs that ship are what the generator writes") {
     for (const Shipped& s :
          {Shipped{"ac_trunnion.toml", "", false}, Shipped{"bc_table.toml", "bc/", false},
           Shipped{"ac_trunnion.toml", "hurco/", true}}) {
-        const Setup setup = load(s.setup);
-        const Machine nominal = without_errors(setup.machine);
-        auto data = stated_program_data(setup, false);
+        const setup::Setup setup = load(s.setup);
+        const kinematics::Machine nominal = without_errors(setup.machine);
+        auto data = ballbar::test::stated_program_data(setup, false);
         data.hurco = s.hurco;
         const std::string folder =
             std::string(TRUNNION_SOURCE_DIR) + "/programs/ballbar/" + s.folder;
         CAPTURE(folder);
-        CHECK(file_text(folder + "O8200.nc") == ballbar_program(nominal, data));
-        CHECK(file_text(folder + "O8300.nc") == kinematic_test_program(nominal, data));
+        CHECK(file_text(folder + "O8200.nc") == ballbar::test::ballbar_program(nominal, data));
+        CHECK(file_text(folder + "O8300.nc") ==
+              ballbar::test::kinematic_test_program(nominal, data));
     }
 }
 
 TEST_CASE("a pivot on an axis is refused") {
-    const Setup setup = load("ac_trunnion.toml");
-    BallbarLayout layout = layout_of(setup);
+    const setup::Setup setup = load("ac_trunnion.toml");
+    ballbar::test::BallbarLayout layout = layout_of(setup);
     layout.pivot_W_mm = Vector3(0, 0, 110);
-    CHECK_THROWS_AS(ballbar_program_data(setup.machine, layout), InputError);
+    CHECK_THROWS_AS(ballbar::test::ballbar_program_data(setup.machine, layout), InputError);
     layout.pivot_W_mm = Vector3(75, 0, 0);
-    CHECK_THROWS_AS(ballbar_program_data(setup.machine, layout), InputError);
+    CHECK_THROWS_AS(ballbar::test::ballbar_program_data(setup.machine, layout), InputError);
 }

@@ -12,14 +12,14 @@ using namespace trunnion;
 
 namespace {
 
-std::vector<Finding> check_text(const std::string& text) {
+std::vector<check::Finding> check_text(const std::string& text) {
     const auto owner = std::make_shared<const std::string>(text);
-    CheckOptions options;
-    options.dialect = fanuc_dialect();
+    check::CheckOptions options;
+    options.dialect = interpreter::fanuc_dialect();
     options.knows_g = [](int code10) { return code10 != 7770; };
     options.finds_program = [](int number) { return number == 5; };
     options.finds_named = [](const std::string& name) { return name == "BORE"; };
-    return check_program({"p.nc", *owner, owner}, options);
+    return check::check_program({"p.nc", *owner, owner}, options);
 }
 
 }  // namespace
@@ -91,15 +91,16 @@ TEST_CASE("each rule finds its fault at its line, once, and not in the mended pr
 TEST_CASE("findings in every format carry the place", "[check]") {
     const auto findings = check_text("O1\nGOTO 50\nM30\n");
     for (const char* format : {"text", "json", "junit", "sarif", "github"})
-        CHECK(format_findings(findings, {"p.nc"}, format).find("GOTO 50") != std::string::npos);
-    CHECK_THROWS(format_findings(findings, {"p.nc"}, "xml"));
-    CHECK(format_findings({}, {"p.nc"}, "text") == "0 findings in 1 file\n");
-    CHECK(format_findings({}, {"p.nc"}, "github").empty());
+        CHECK(report::format_findings(findings, {"p.nc"}, format).find("GOTO 50") !=
+              std::string::npos);
+    CHECK_THROWS(report::format_findings(findings, {"p.nc"}, "xml"));
+    CHECK(report::format_findings({}, {"p.nc"}, "text") == "0 findings in 1 file\n");
+    CHECK(report::format_findings({}, {"p.nc"}, "github").empty());
 }
 
 TEST_CASE("text has one line for each finding, with place, rule and remedy", "[check]") {
     const auto findings = check_text("O1\nGOTO 50\nG777\nM30\n");
-    const std::string text = format_findings(findings, {"p.nc"}, "text");
+    const std::string text = report::format_findings(findings, {"p.nc"}, "text");
     CHECK(std::count(text.begin(), text.end(), '\n') == 4);  // and the sum
     CHECK(text.starts_with("p.nc:2:1: error: GOTO 50 but the program has no N50 [jump-target] "));
     CHECK(text.find("p.nc:3:1: error: this control has no G777 [unknown-code] Use") !=
@@ -111,14 +112,14 @@ TEST_CASE("SARIF is what 2.1.0 asks for", "[check]") {
     using Json = nlohmann::json;
     const auto findings = check_text("O1\nG777\nG777\nG2X1.I1.\nM30\n");
     REQUIRE(findings.size() == 3);
-    const Json log = Json::parse(format_findings(findings, {"my part.nc"}, "sarif"));
+    const Json log = Json::parse(report::format_findings(findings, {"my part.nc"}, "sarif"));
     CHECK(log["version"] == "2.1.0");
     CHECK(log["$schema"].get<std::string>().find("sarif-2.1.0") != std::string::npos);
     REQUIRE(log["runs"].size() == 1);
     const Json& run = log["runs"][0];
     const Json& driver = run["tool"]["driver"];
     CHECK(driver["name"] == "trunnion");
-    CHECK(driver["rules"].size() == check_rules().size());
+    CHECK(driver["rules"].size() == check::check_rules().size());
     std::set<std::string> ids, fingerprints;
     for (const Json& rule : driver["rules"]) {
         CHECK(ids.insert(rule["id"].get<std::string>()).second);
@@ -146,7 +147,7 @@ TEST_CASE("SARIF is what 2.1.0 asks for", "[check]") {
 TEST_CASE("a SARIF fingerprint stays when lines move", "[check]") {
     using Json = nlohmann::json;
     const auto fingerprint = [](const std::string& text) {
-        const Json log = Json::parse(format_findings(check_text(text), {"p.nc"}, "sarif"));
+        const Json log = Json::parse(report::format_findings(check_text(text), {"p.nc"}, "sarif"));
         return log["runs"][0]["results"][0]["partialFingerprints"];
     };
     CHECK(fingerprint("O1\nG777\nM30\n") == fingerprint("O1\n(A)\n(B)\nG777\nM30\n"));
@@ -156,10 +157,10 @@ TEST_CASE("a SARIF fingerprint stays when lines move", "[check]") {
 TEST_CASE("JUnit has a case for each file, GitHub a line for each finding", "[check]") {
     const auto findings = check_text("O1\nGOTO 50\nM98<A,B>\nM30\n");
     REQUIRE(findings.size() >= 2);
-    const std::string junit = format_findings(findings, {"p.nc", "clean.nc"}, "junit");
+    const std::string junit = report::format_findings(findings, {"p.nc", "clean.nc"}, "junit");
     CHECK(junit.find("tests=\"2\" failures=\"1\"") != std::string::npos);
     CHECK(junit.find("name=\"clean.nc\"") != std::string::npos);
-    const std::string github = format_findings(findings, {"p.nc"}, "github");
+    const std::string github = report::format_findings(findings, {"p.nc"}, "github");
     CHECK(github.starts_with("::error file=p.nc,line=2,col=1,title=trunnion jump-target::GOTO"));
     CHECK(std::count(github.begin(), github.end(), '\n') ==
           static_cast<std::ptrdiff_t>(findings.size()));

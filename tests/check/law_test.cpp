@@ -15,40 +15,46 @@ using namespace trunnion;
 
 namespace {
 
-class NoAxes : public MotionSink {
+class NoAxes : public motion::MotionSink {
   public:
-    MoveResult move(const AxisMove&) override { return {}; }
+    motion::MoveResult move(const motion::AxisMove&) override { return {}; }
 };
 
-class OneTrial : public Trial {
+class OneTrial : public check::Trial {
   public:
-    OneTrial(const ControlConfig& config, const Stores& stores) : trial_(config, stores) {}
-    std::optional<Alarm> run(const BlockWords& block) override { return trial_.run(block); }
-    std::optional<Alarm> read(const BlockWords& block) override { return trial_.read(block); }
+    OneTrial(const controller::ControlConfig& config, const offsets::Stores& stores)
+        : trial_(config, stores) {}
+    std::optional<Alarm> run(const interpreter::BlockWords& block) override {
+        return trial_.run(block);
+    }
+    std::optional<Alarm> read(const interpreter::BlockWords& block) override {
+        return trial_.read(block);
+    }
     std::optional<Alarm> end() override { return trial_.end(); }
 
   private:
-    BlockTrial trial_;
+    controller::BlockTrial trial_;
 };
 
-ControlConfig five_axes() {
-    ControlConfig config;
-    config.dialect = fanuc_dialect();
+controller::ControlConfig five_axes() {
+    controller::ControlConfig config;
+    config.dialect = interpreter::fanuc_dialect();
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z, Axis::B, Axis::C})
         config.axes.push_back({axis, is_rotary(axis), {}, {}, {}, {}});
     return config;
 }
 
-CheckOptions options_for(const ControlConfig& config, const Stores& stores) {
-    CheckOptions options;
+check::CheckOptions options_for(const controller::ControlConfig& config,
+                                const offsets::Stores& stores) {
+    check::CheckOptions options;
     options.dialect = config.dialect;
     options.knows_g = [](int code10) {
-        return find_g_code(code10 / 10.0) || (code10 >= 650 && code10 <= 670);
+        return controller::find_g_code(code10 / 10.0) || (code10 >= 650 && code10 <= 670);
     };
     options.finds_program = [](int) { return false; };
-    options.alarm_text = [](int number) { return alarm_title(number, ""); };
+    options.alarm_text = [](int number) { return controller::alarm_title(number, ""); };
     options.variable_alarm = [&config, &stores](int number, bool writes) {
-        return variable_alarm(number, writes, config, stores);
+        return controller::variable_alarm(number, writes, config, stores);
     };
     options.start_trial = [&config, &stores] { return std::make_unique<OneTrial>(config, stores); };
     return options;
@@ -86,38 +92,38 @@ std::string random_block(SeededNoise& noise) {
     return block;
 }
 
-bool refuses(const std::vector<Finding>& findings, int line) {
-    for (const Finding& f : findings)
-        if (f.severity == Severity::error && f.line == line) return true;
+bool refuses(const std::vector<check::Finding>& findings, int line) {
+    for (const check::Finding& f : findings)
+        if (f.severity == check::Severity::error && f.line == line) return true;
     return false;
 }
 
 }  // namespace
 
 TEST_CASE("what run refuses when it reaches a block, check refuses", "[check]") {
-    const ControlConfig config = five_axes();
-    Stores stores;
+    const controller::ControlConfig config = five_axes();
+    offsets::Stores stores;
     stores.parameters.set(3401, 1);
-    const CheckOptions options = options_for(config, stores);
+    const check::CheckOptions options = options_for(config, stores);
     SeededNoise noise(1905);
     std::array<int, 4> count{};  // [refused by run][refused by check]
     for (int i = 0; i < 6000; ++i) {
         const std::string block = random_block(noise);
         const auto text = std::make_shared<const std::string>("O1\nG21G90G17G94G54F200.S500M3\n" +
                                                               block + "\nM30\n");
-        const ProgramText program{"p.nc", *text, text};
-        Stores own = stores;
+        const interpreter::ProgramText program{"p.nc", *text, text};
+        offsets::Stores own = stores;
         NoAxes sink;
-        ProgramsInMemory none;
-        Controller control(config, own, none, sink, [](std::string_view) {});
-        const RunResult result = control.run(program);
+        interpreter::ProgramsInMemory none;
+        controller::Controller control(config, own, none, sink, [](std::string_view) {});
+        const controller::RunResult result = control.run(program);
         if (block.find("M98") != block.npos && block.find("M99") != block.npos) continue;
         // Nesting and the caller's numbers (77, 78) are known to a run only.
         const bool dynamic =
             result.alarm && (result.alarm->number == 77 || result.alarm->number == 78);
         const bool by_run = result.alarm && !dynamic && result.alarm->where.line == 3 &&
                             (result.alarm->number < 3000 || result.alarm->number >= 5000);
-        const bool by_check = refuses(check_program(program, options), 3);
+        const bool by_check = refuses(check::check_program(program, options), 3);
         INFO(block << (result.alarm
                            ? fmt::format(" run: {} {}", result.alarm->number, result.alarm->text)
                            : " runs"));

@@ -119,8 +119,8 @@ TEST_CASE("what location errors do not explain goes to diagnose - which names it
     const std::string setup = bench.setup();
     const std::string readings = bench.file("r.csv");
     const auto diagnose = [&](const std::string& injection, const std::string& seed) {
-        REQUIRE(bench.trunnion("ballbar --setup " + setup + " --seed " + seed + " --write-readings " +
-                               readings +
+        REQUIRE(bench.trunnion("ballbar --setup " + setup + " --seed " + seed +
+                               " --write-readings " + readings +
                                (injection.empty() ? "" : " --inject '" + injection + "'")) == 0);
         const std::string table = bench.read("out.txt");
         CHECK((table.find("nothing but noise is left") != std::string::npos) == injection.empty());

@@ -54,7 +54,7 @@ TEST_CASE("the imports of docs/readings.md do what the page says") {
         const std::string out = command.substr(command.rfind(' ') + 1);
         std::vector<std::string> notes;
         const std::string text = bench.read(out.substr(0, out.find('\n')));
-        CHECK_FALSE(parse_readings(text, "out.csv", notes).rows.empty());
+        CHECK_FALSE(records::parse_readings(text, "out.csv", notes).rows.empty());
         CHECK(notes.empty());
     }
     CHECK(bench.trunnion("import iso230-2 " + bench.file("laser_x.txt") + " --setup " +

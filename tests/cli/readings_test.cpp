@@ -36,15 +36,15 @@ std::vector<std::string> cells_of(const std::string& line) {
 
 /// A good table of a small campaign, to be spoilt.
 struct Good {
-    Setup setup = campaign::bc_setup();
+    setup::Setup setup = campaign::bc_setup();
     std::vector<std::string> lines;
     std::size_t header = 0;
     Good() {
-        ReadingTable table = campaign::empty_table(setup);
+        records::ReadingTable table = campaign::empty_table(setup);
         table.comment = {{"schema", "trunnion.readings/1"}};
         table.optional_columns = {"mode", "feed_mm_min"};
         campaign::add_sphere_map(table, setup, 12, 3);
-        lines = lines_of(format_readings(campaign::measured(setup, table, 1)));
+        lines = lines_of(records::format_readings(campaign::measured(setup, table, 1)));
         while (lines[header][0] == '#') ++header;
     }
     std::size_t column(const std::string& name) const {
@@ -73,7 +73,7 @@ struct Good {
 TEST_CASE("bad readings: one message with its place, exit code 2, no verdict, nothing written") {
     const Bench bench;
     const Good good;
-    const std::string setup = bench.write("setup.toml", format_setup(good.setup));
+    const std::string setup = bench.write("setup.toml", setup::format_setup(good.setup));
     struct Case {
         std::string what;
         std::vector<std::string> lines;
@@ -142,14 +142,14 @@ TEST_CASE("a setup of another machine and bad held-out readings are refused") {
     const Bench bench;
     const Good good;
     const std::string table = bench.write("table.csv", text_of(good.lines));
-    const std::string setup = bench.write("setup.toml", format_setup(good.setup));
-    const std::string ac = bench.write("ac.toml", format_setup(campaign::ac_setup()));
-    Setup shifted = good.setup;
-    for (AxisGeometry& axis : shifted.machine.chain.work) axis.point_mm.x() += 90.0;
-    const std::string far = bench.write("far.toml", format_setup(shifted));
-    Setup bare = good.setup;
+    const std::string setup = bench.write("setup.toml", setup::format_setup(good.setup));
+    const std::string ac = bench.write("ac.toml", setup::format_setup(campaign::ac_setup()));
+    setup::Setup shifted = good.setup;
+    for (kinematics::AxisGeometry& axis : shifted.machine.chain.work) axis.point_mm.x() += 90.0;
+    const std::string far = bench.write("far.toml", setup::format_setup(shifted));
+    setup::Setup bare = good.setup;
     bare.probe.reset();
-    const std::string blind = bench.write("blind.toml", format_setup(bare));
+    const std::string blind = bench.write("blind.toml", setup::format_setup(bare));
     const std::string bad = bench.write("bad.csv", text_of(good.with(8, "value_mm", "")));
     const std::pair<std::string, std::string> cases[] = {
         {table + " --setup " + ac, "the machine's"},
@@ -175,7 +175,7 @@ TEST_CASE("several tables are read as one") {
     const Good good;
     const std::string table = bench.write("table.csv", text_of(good.lines));
     const std::string again = bench.write("again.csv", text_of(good.with(8, "value_mm", "")));
-    const std::string setup = bench.write("setup.toml", format_setup(good.setup));
+    const std::string setup = bench.write("setup.toml", setup::format_setup(good.setup));
     const std::string more = bench.write("more.csv", text_of(good.with(8, "value_mm", "0.0123")));
     REQUIRE(bench.trunnion("diagnose " + table + " " + more + " --json --setup " + setup) == 0);
     CHECK(Json::parse(bench.read("out.txt"))["readings"] == 72);
@@ -190,7 +190,7 @@ TEST_CASE("repetitions that are interrupted count as far as they are done") {
     const Bench bench;
     const Good good;
     const std::string table = bench.write("table.csv", text_of(good.lines));
-    const std::string setup = bench.write("setup.toml", format_setup(good.setup));
+    const std::string setup = bench.write("setup.toml", setup::format_setup(good.setup));
     CHECK(bench.interrupted("identify " + table + " --setup " + setup +
                             " --monte-carlo 100000 --json --out " + bench.file("x.toml")) == 4);
     const Json first = Json::parse(bench.read("out.txt"))["parameters"][0];
@@ -220,7 +220,7 @@ TEST_CASE("injections are refused with one message") {
 
 namespace {
 
-double rms_between(const ReadingTable& a, const ReadingTable& b) {
+double rms_between(const records::ReadingTable& a, const records::ReadingTable& b) {
     double sum = 0.0, rows = 0.0;
     for (std::size_t i = 0; i < a.rows.size(); ++i) {
         if (!a.rows[i].value_mm) continue;
@@ -230,9 +230,9 @@ double rms_between(const ReadingTable& a, const ReadingTable& b) {
     return 1e3 * std::sqrt(sum / rows);
 }
 
-ReadingTable table_in(const std::string& text) {
+records::ReadingTable table_in(const std::string& text) {
     std::vector<std::string> notes;
-    return parse_readings(text, "out.txt", notes);
+    return records::parse_readings(text, "out.txt", notes);
 }
 
 /// Columns of a trace by name, rows of moves only.
@@ -253,18 +253,19 @@ std::vector<Vector3> points(const std::string& csv, const std::string& prefix) {
 
 TEST_CASE("the loop: readings, diagnosis, setup, prediction, compensated program") {
     const Bench bench;
-    Setup setup = campaign::bc_setup();
-    const Setup real =
+    setup::Setup setup = campaign::bc_setup();
+    const setup::Setup real =
         campaign::with_effect(campaign::real_machine(setup), "C.backlash: gap_rad=1.2e-4");
-    ReadingTable campaign = campaign::empty_table(setup), fresh = campaign::empty_table(setup);
+    records::ReadingTable campaign = campaign::empty_table(setup),
+                          fresh = campaign::empty_table(setup);
     campaign::add_sphere_map(campaign, setup, 60, 5);
     campaign::add_sphere_map(fresh, setup, 30, 77);
-    const std::string before = bench.write("before.toml", format_setup(setup));
-    const std::string truth = bench.write("truth.toml", format_setup(real));
-    const std::string readings =
-        bench.write("readings.csv", format_readings(campaign::measured(real, campaign, 3)));
-    const ReadingTable seen = campaign::measured(real, fresh, 4);
-    const std::string held = bench.write("held.csv", format_readings(seen));
+    const std::string before = bench.write("before.toml", setup::format_setup(setup));
+    const std::string truth = bench.write("truth.toml", setup::format_setup(real));
+    const std::string readings = bench.write(
+        "readings.csv", records::format_readings(campaign::measured(real, campaign, 3)));
+    const records::ReadingTable seen = campaign::measured(real, fresh, 4);
+    const std::string held = bench.write("held.csv", records::format_readings(seen));
 
     REQUIRE(bench.trunnion("diagnose " + readings + " --setup " + before + " --holdout " + held +
                            " --out " + bench.file("after.toml") + " --json") == 0);

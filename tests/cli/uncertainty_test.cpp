@@ -23,20 +23,20 @@ std::vector<std::string> split(const std::string& text, char mark) {
 }
 
 struct Campaign : CommandBench {
-    Setup setup = campaign::bc_setup();
+    setup::Setup setup = campaign::bc_setup();
     std::string readings, file_of_setup;
     Campaign() {
-        ReadingTable table = campaign::empty_table(setup);
+        records::ReadingTable table = campaign::empty_table(setup);
         campaign::add_sphere_map(table, setup, 40, 5);
-        const Setup real = campaign::real_machine(setup);
-        readings = write("r.csv", format_readings(campaign::measured(real, table, 3)));
-        file_of_setup = write("s.toml", format_setup(setup));
+        const setup::Setup real = campaign::real_machine(setup);
+        readings = write("r.csv", records::format_readings(campaign::measured(real, table, 3)));
+        file_of_setup = write("s.toml", setup::format_setup(setup));
     }
-    ReadingTable predicted(const Setup& changed) const {
-        write("changed.toml", format_setup(changed));
+    records::ReadingTable predicted(const setup::Setup& changed) const {
+        write("changed.toml", setup::format_setup(changed));
         REQUIRE(trunnion("predict " + readings + " --setup " + file("changed.toml")) == 0);
         std::vector<std::string> notes;
-        return parse_readings(read("out.txt"), "out", notes);
+        return records::parse_readings(read("out.txt"), "out", notes);
     }
 };
 
@@ -77,13 +77,13 @@ TEST_CASE("predict --jacobian: the derivatives are differences of predictions") 
         names.begin();
     REQUIRE(column < static_cast<long>(names.size()));
     constexpr double step_mm = 1e-3;
-    Setup more = bench.setup, less = bench.setup;
+    setup::Setup more = bench.setup, less = bench.setup;
     more.machine.errors.location({'X', true, Axis::C}) += step_mm;
     less.machine.errors.location({'X', true, Axis::C}) -= step_mm;
-    const ReadingTable above = bench.predicted(more), below = bench.predicted(less);
+    const records::ReadingTable above = bench.predicted(more), below = bench.predicted(less);
     std::size_t line = 1;
     for (std::size_t i = 0; i < above.rows.size(); ++i) {
-        if (!above.rows[i].value_mm || above.rows[i].device == Device::none) continue;
+        if (!above.rows[i].value_mm || above.rows[i].device == records::Device::none) continue;
         const double difference =
             (*above.rows[i].value_mm - *below.rows[i].value_mm) / (2.0 * step_mm);
         const auto cells = split(lines[line++], ',');

@@ -10,10 +10,10 @@
 
 namespace trunnion::bench {
 
-inline ControlConfig five_axes() {
-    ControlConfig config;
+inline controller::ControlConfig five_axes() {
+    controller::ControlConfig config;
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z, Axis::B, Axis::C}) {
-        ControlAxis entry;
+        controller::ControlAxis entry;
         entry.axis = axis;
         entry.rotary = is_rotary(axis);
         config.axes.push_back(entry);
@@ -21,9 +21,9 @@ inline ControlConfig five_axes() {
     return config;
 }
 
-class Recorder : public MotionSink {
+class Recorder : public motion::MotionSink {
   public:
-    MoveResult move(const AxisMove& m) override {
+    motion::MoveResult move(const motion::AxisMove& m) override {
         moves.push_back(m);
         if (m.until_skip && trigger_at >= 0.0) return {true, m.at(trigger_at), trigger_at};
         return {};
@@ -31,15 +31,15 @@ class Recorder : public MotionSink {
     void dwell(double duration_s) override { dwells.push_back(duration_s); }
     void m_code(int code) override { m_codes.push_back(code); }
 
-    std::vector<AxisMove> moves;
+    std::vector<motion::AxisMove> moves;
     std::vector<double> dwells;
     std::vector<int> m_codes;
     double trigger_at = -1.0;  ///< s of G31 moves at which the skip signal comes
 };
 
 /// "G1 X10. Y#" as words: letters and numbers only, `,R1.` as 'r'.
-inline BlockWords words_of(const std::string& text) {
-    BlockWords block;
+inline interpreter::BlockWords words_of(const std::string& text) {
+    interpreter::BlockWords block;
     bool comma = false;
     for (std::size_t i = 0; i < text.size();) {
         if (text[i] == ' ' || text[i] == ',') {
@@ -47,7 +47,7 @@ inline BlockWords words_of(const std::string& text) {
             ++i;
             continue;
         }
-        WordValue word;
+        interpreter::WordValue word;
         word.letter = static_cast<char>(comma ? text[i] - 'A' + 'a' : text[i]);
         word.column = static_cast<std::uint16_t>(i + 1);
         char* end = nullptr;
@@ -66,16 +66,17 @@ inline BlockWords words_of(const std::string& text) {
 }
 
 struct Bench {
-    explicit Bench(ControlConfig config = five_axes()) : control(std::move(config), stores, sink) {}
+    explicit Bench(controller::ControlConfig config = five_axes())
+        : control(std::move(config), stores, sink) {}
 
     /// Runs blocks separated by ';'.
     void operator()(const std::string& program) {
         std::size_t from = 0;
         while (from <= program.size()) {
             const std::size_t to = std::min(program.find(';', from), program.size());
-            BlockWords block = words_of(program.substr(from, to - from));
+            interpreter::BlockWords block = words_of(program.substr(from, to - from));
             block.line = ++line;
-            if (block.count) execute_block(control, block);
+            if (block.count) controller::execute_block(control, block);
             from = to + 1;
         }
     }
@@ -88,13 +89,15 @@ struct Bench {
         }
         return 0;
     }
-    double variable(int number) { return ControlVariables(control).get(number); }
-    void set(int number, double value) { ControlVariables(control).set(number, value, ""); }
-    const AxisMove& last() const { return sink.moves.back(); }
+    double variable(int number) { return controller::ControlVariables(control).get(number); }
+    void set(int number, double value) {
+        controller::ControlVariables(control).set(number, value, "");
+    }
+    const motion::AxisMove& last() const { return sink.moves.back(); }
 
-    Stores stores;
+    offsets::Stores stores;
     Recorder sink;
-    Control control;
+    controller::Control control;
     int line = 0;
 };
 

@@ -10,10 +10,10 @@ TEST_CASE("a plain program moves the axes where it says") {
     Bench b;
     b("G21 G90 G17 G94 G40 G80;G54;G0 X10. Y-5. Z20.;G1 X11.5 F600.;B90. C-30.");
     REQUIRE(b.sink.moves.size() == 3);
-    CHECK(b.sink.moves[0].kind == MotionKind::rapid);
+    CHECK(b.sink.moves[0].kind == motion::MotionKind::rapid);
     CHECK(b.sink.moves[0].to[Axis::X] == 10.0);
     CHECK(b.sink.moves[0].feed_mm_min == 0.0);
-    CHECK(b.sink.moves[1].kind == MotionKind::linear);
+    CHECK(b.sink.moves[1].kind == motion::MotionKind::linear);
     CHECK(b.sink.moves[1].to[Axis::X] == 11.5);
     CHECK(b.sink.moves[1].feed_mm_min == Approx(600.0));
     CHECK(b.sink.moves[1].duration_s == Approx(0.15));
@@ -111,7 +111,7 @@ TEST_CASE("what the control does not know is an alarm with its column") {
     CHECK(b.alarm("G1 X7.") == 11);
     b("M77;M77");
     CHECK(b.control.mover.record().notes.size() == 1);
-    CHECK_THROWS_AS(ControlVariables(b.control).set(3000, 5, "PROBE OPEN"), Alarm);
+    CHECK_THROWS_AS(controller::ControlVariables(b.control).set(3000, 5, "PROBE OPEN"), Alarm);
 }
 
 TEST_CASE("the last of two codes of one group counts, or alarms by 3403 bit 6") {
@@ -124,7 +124,7 @@ TEST_CASE("the last of two codes of one group counts, or alarms by 3403 bit 6") 
 }
 
 TEST_CASE("stroke limits stop the move before it starts") {
-    ControlConfig config = bench::five_axes();
+    controller::ControlConfig config = bench::five_axes();
     config.axes[0].max = 50.0;
     config.axes[0].min = -50.0;
     Bench b(config);

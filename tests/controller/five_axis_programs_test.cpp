@@ -12,7 +12,7 @@ namespace {
 /// The same moves flat and in a plane tilted by 35 deg on a BC table, as tips in the plane's frame.
 std::vector<Vector3> tips(bool tilted, const std::string& body, int* alarm) {
     Bench b;
-    Parameters& p = b.stores.parameters;
+    offsets::Parameters& p = b.stores.parameters;
     p.set(19680, 12);
     p.set(19681, 4);
     p.set(19682, 2);
@@ -39,7 +39,7 @@ std::vector<Vector3> tips(bool tilted, const std::string& body, int* alarm) {
     b.sink.moves.clear();
     *alarm = b.alarm(body);
     std::vector<Vector3> out;
-    for (const AxisMove& m : b.sink.moves)
+    for (const motion::AxisMove& m : b.sink.moves)
         for (const double s : {0.5, 1.0})
             out.push_back(plane.inverse() *
                           b.control.frames.believed.transform->tip_W(m.at(s), m.tool_vector_mm));

@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "block_bench.h"
 #include "base/units.h"
+#include "block_bench.h"
 #include "motion/path_rates.h"
 
 namespace trunnion {
@@ -18,9 +18,9 @@ constexpr double a_x = 1000.0, a_y = 500.0;  // mm/s^2
 constexpr double v_x = 200.0, v_y = 300.0;   // mm/s
 
 /// X and Y differ, Z is as X; B and C 90 deg/s and 400 deg/s^2.
-ControlConfig axes() {
-    ControlConfig config = bench::five_axes();
-    for (ControlAxis& axis : config.axes) {
+controller::ControlConfig axes() {
+    controller::ControlConfig config = bench::five_axes();
+    for (controller::ControlAxis& axis : config.axes) {
         axis.rapid_speed = axis.rotary ? pi / 2 : axis.axis == Axis::Y ? v_y : v_x;
         axis.max_acceleration = axis.rotary            ? rad_from_deg(400.0)
                                 : axis.axis == Axis::Y ? a_y
@@ -30,8 +30,8 @@ ControlConfig axes() {
 }
 
 struct Timed : Bench {
-    explicit Timed(ControlConfig config = axes()) : Bench(std::move(config)) {
-        Parameters& p = stores.parameters;
+    explicit Timed(controller::ControlConfig config = axes()) : Bench(std::move(config)) {
+        offsets::Parameters& p = stores.parameters;
         p.set(3401, 1);
         p.set(1783, 600);  // 10 mm/s, 10 deg/s
         for (const auto& [number, value] : {std::pair{19680, 12},
@@ -166,18 +166,18 @@ TEST_CASE("G43.4: the tip's feed, the limits of the axes that follow") {
 TEST_CASE("rates of a curve are those of the circle it is") {
     Timed b;
     b("G0 B0 C0;G43.4 H1 X100. Y0 Z0");
-    struct Look : MotionSink {
-        MoveResult move(const AxisMove& m) override {
-            if (m.curve) rates = path_rates(m, *limits);
+    struct Look : motion::MotionSink {
+        motion::MoveResult move(const motion::AxisMove& m) override {
+            if (m.curve) rates = motion::path_rates(m, *limits);
             return {};
         }
-        const AxisLimits* limits = nullptr;
-        PathRates rates;
+        const motion::AxisLimits* limits = nullptr;
+        motion::PathRates rates;
     } look;
     look.limits = &b.control.mover.axes.limits;
-    Control control(b.control.config, b.stores, look);
+    controller::Control control(b.control.config, b.stores, look);
     for (const char* text : {"G90 G54 G0 B0 C0", "G43.4 H1 X100. Y0 Z0", "C180."})
-        execute_block(control, bench::words_of(text));
+        controller::execute_block(control, bench::words_of(text));
     CHECK(look.rates.start[Axis::Y] == Approx(-100 * pi).epsilon(1e-3));
     CHECK(look.rates.end[Axis::Y] == Approx(100 * pi).epsilon(1e-3));
     CHECK(std::abs(look.rates.start[Axis::X]) < 0.1);

@@ -11,9 +11,9 @@ namespace trunnion::bench {
 /// Words, modal state, frames and a mover on a recorder: X Y Z B C, all at zero, G1 F600.
 struct Parts {
     Parts() : frames(stores), mover(words, modal, frames, sink) {
-        const ControlConfig config = five_axes();
-        modal.codes = initial_modal_codes(1);
-        modal.settings = decode_settings(stores.parameters, config);
+        const controller::ControlConfig config = five_axes();
+        modal.codes = controller::initial_modal_codes(1);
+        modal.settings = controller::decode_settings(stores.parameters, config);
         mover.axes.configure(config);
         mover.axes.parameters_changed();
         mover.cutter.set(modal.settings.cutter);
@@ -27,22 +27,22 @@ struct Parts {
         words.clear();
         words.units = modal.units;
         for (const auto& [letter, value] : block) {
-            words.present |= SortedWords::bit(letter);
+            words.present |= controller::SortedWords::bit(letter);
             words.value[static_cast<std::size_t>(letter - 'A')] = value;
         }
     }
-    ControlPosition at(double x, double y, double z) const {
-        ControlPosition p;
-        set_xyz(p, {x, y, z});
+    offsets::ControlPosition at(double x, double y, double z) const {
+        offsets::ControlPosition p;
+        offsets::set_xyz(p, {x, y, z});
         return p;
     }
 
-    Stores stores;
+    offsets::Stores stores;
     Recorder sink;
-    SortedWords words;
-    Modal modal;
-    Frames frames;
-    Mover mover;
+    controller::SortedWords words;
+    controller::Modal modal;
+    controller::Frames frames;
+    controller::Mover mover;
 };
 
 }  // namespace trunnion::bench

@@ -169,7 +169,7 @@ TEST_CASE("G43.4 and G68.2/G53.1 put the tip on the programmed point on every ma
     const int units[] = {12, 2, 21};
     for (int k = 0; k < 600; ++k) {
         TableBench b;
-        Parameters& p = b.stores.parameters;
+        offsets::Parameters& p = b.stores.parameters;
         const int unit = units[k % 3];
         p.set(19680, unit);
         // First carries second: B carries C on a table, C carries B on a head, tool B and table C.

@@ -63,11 +63,11 @@ std::vector<PathRow> expected_path(const std::filesystem::path& csv) {
     return rows;
 }
 
-PathRow row_of(const AxisMove& m) {
+PathRow row_of(const motion::AxisMove& m) {
     PathRow row;
-    row.kind = m.arc ? "ARC" : m.kind == MotionKind::rapid ? "G0" : "G1";
+    row.kind = m.arc ? "ARC" : m.kind == motion::MotionKind::rapid ? "G0" : "G1";
     row.line = m.line;
-    const ControlPosition to = control_position_of(m.to);
+    const offsets::ControlPosition to = offsets::control_position_of(m.to);
     const Axis axes[5] = {Axis::X, Axis::Y, Axis::Z, Axis::B, Axis::C};
     for (int i = 0; i < 5; ++i) row.end[i] = to[axes[i]];
     if (m.arc) {
@@ -77,8 +77,8 @@ PathRow row_of(const AxisMove& m) {
     return row;
 }
 
-RunResult run_reference(const std::filesystem::path& program, bench::Recorder& sink) {
-    Stores stores;
+controller::RunResult run_reference(const std::filesystem::path& program, bench::Recorder& sink) {
+    offsets::Stores stores;
     stores.parameters.set(3410, 0.05);
     stores.parameters.set(5114, 0.254);
     stores.parameters.set(5115, 0.254);
@@ -87,9 +87,9 @@ RunResult run_reference(const std::filesystem::path& program, bench::Recorder& s
     std::ostringstream text;
     text << in.rdbuf();
     const auto owner = std::make_shared<const std::string>(text.str());
-    ProgramsInMemory none;
-    Controller control(bench::five_axes(), stores, none, sink, [](std::string_view) {});
-    return control.run(ProgramText{program.filename().string(), *owner, owner});
+    interpreter::ProgramsInMemory none;
+    controller::Controller control(bench::five_axes(), stores, none, sink, [](std::string_view) {});
+    return control.run(interpreter::ProgramText{program.filename().string(), *owner, owner});
 }
 
 /// Largest fault of two rows: end point (mm, deg), and for arcs centre in the plane and sense.
@@ -108,7 +108,7 @@ std::string fault(const PathRow& is, const PathRow& wanted) {
 void compare(const std::filesystem::path& program) {
     INFO(program.string());
     bench::Recorder sink;
-    const RunResult result = run_reference(program, sink);
+    const controller::RunResult result = run_reference(program, sink);
     if (result.alarm) {
         FAIL_CHECK(result.alarm->number << " " << result.alarm->text << " line "
                                         << result.alarm->where.line);
@@ -117,7 +117,7 @@ void compare(const std::filesystem::path& program) {
     std::filesystem::path csv = program;
     const std::vector<PathRow> wanted = expected_path(csv.replace_extension(".path.csv"));
     std::vector<PathRow> is;
-    for (const AxisMove& m : sink.moves) push(is, row_of(m));
+    for (const motion::AxisMove& m : sink.moves) push(is, row_of(m));
     for (std::size_t i = 0; i < std::min(is.size(), wanted.size()); ++i)
         if (const std::string what = fault(is[i], wanted[i]); !what.empty()) {
             FAIL_CHECK(what << " at line " << is[i].line << " (" << wanted[i].line

@@ -19,13 +19,14 @@ TEST_CASE("commanded position: G90, G91 and G16 about the zero of the coordinate
     Parts p;
     p.frames.stand_at(p.at(10, 20, 30));
     p.say({{'X', 1.0}});
-    CHECK(commanded_position(p.words, p.modal, p.frames)[Axis::X] == 1.0);
-    p.modal.codes.set(ModalGroup::distance, 910);
-    CHECK(commanded_position(p.words, p.modal, p.frames)[Axis::X] == 11.0);
-    p.modal.codes.set(ModalGroup::distance, 900);
-    p.modal.codes.set(ModalGroup::polar_words, 160);
+    CHECK(controller::commanded_position(p.words, p.modal, p.frames)[Axis::X] == 1.0);
+    p.modal.codes.set(controller::ModalGroup::distance, 910);
+    CHECK(controller::commanded_position(p.words, p.modal, p.frames)[Axis::X] == 11.0);
+    p.modal.codes.set(controller::ModalGroup::distance, 900);
+    p.modal.codes.set(controller::ModalGroup::polar_words, 160);
     p.say({{'X', 10.0}, {'Y', 90.0}});
-    const ControlPosition polar = commanded_position(p.words, p.modal, p.frames);
+    const offsets::ControlPosition polar =
+        controller::commanded_position(p.words, p.modal, p.frames);
     CHECK(polar[Axis::X] == Approx(0.0).margin(1e-12));
     CHECK(polar[Axis::Y] == Approx(10.0));
     CHECK(p.modal.polar_angle_deg == 90.0);
@@ -35,13 +36,13 @@ TEST_CASE("work frames: a shift moves nothing and the program position is counte
     Parts p;
     p.stores.work.standard[1][Axis::X] = 100.0;
     p.frames.stand_at(p.at(130, 0, 0));
-    set_work_offset(p.words, p.modal, p.frames, p.mover, 550);
+    controller::set_work_offset(p.words, p.modal, p.frames, p.mover, 550);
     CHECK(p.frames.program[Axis::X] == 30.0);
     p.say({{'X', 5.0}});
-    set_local_shift(p.words, p.modal, p.frames, p.mover);
+    controller::set_local_shift(p.words, p.modal, p.frames, p.mover);
     CHECK(p.frames.program[Axis::X] == 25.0);
     p.say({{'X', 0.0}});
-    preset_position(p.words, p.modal, p.frames, p.mover);
+    controller::preset_position(p.words, p.modal, p.frames, p.mover);
     CHECK(p.frames.program[Axis::X] == 0.0);
     CHECK(p.frames.machine[Axis::X] == 130.0);
     CHECK(p.sink.moves.empty());
@@ -51,19 +52,19 @@ TEST_CASE("tool length: the program position stands and the axis still has to go
     Parts p;
     p.stores.tools.tool[3].length_geometry_mm = 80.0;
     p.say({{'H', 3.0}});
-    set_tool_length(p.words, p.modal, p.frames, p.mover, 430);
+    controller::set_tool_length(p.words, p.modal, p.frames, p.mover, 430);
     CHECK(p.frames.length_moves);
     CHECK(p.frames.program[Axis::Z] == 0.0);
-    p.mover.line(MotionKind::rapid, p.frames.program);
+    p.mover.line(motion::MotionKind::rapid, p.frames.program);
     CHECK(p.frames.machine[Axis::Z] == 80.0);
     CHECK(p.frames.shown_length()[Axis::Z] == 80.0);
     p.say({{'H', 1000.0}});
-    CHECK_THROWS_AS(set_tool_length(p.words, p.modal, p.frames, p.mover, 430), Alarm);
+    CHECK_THROWS_AS(controller::set_tool_length(p.words, p.modal, p.frames, p.mover, 430), Alarm);
 }
 
 TEST_CASE("G28 goes by the intermediate point, G29 comes back by it") {
     Parts p;
-    ReferencePoints points;
+    controller::ReferencePoints points;
     p.modal.settings.reference[0][index_of(Axis::Z)] = 500.0;
     p.frames.stand_at(p.at(1, 2, 3));
     p.say({{'Z', 100.0}});
@@ -80,31 +81,31 @@ TEST_CASE("G28 goes by the intermediate point, G29 comes back by it") {
 
 TEST_CASE("a pecking cycle cuts its depth in steps of Q and needs Q") {
     Parts p;
-    CycleData cycle;
+    controller::CycleData cycle;
     p.frames.stand_at(p.at(0, 0, 10));
-    start_cycle(cycle, p.modal, p.frames, 830);
+    controller::start_cycle(cycle, p.modal, p.frames, 830);
     p.say({{'X', 5.0}, {'Z', -7.0}, {'R', 1.0}, {'Q', 4.0}});
-    run_cycle(cycle, p.words, p.modal, p.frames, p.mover);
+    controller::run_cycle(cycle, p.words, p.modal, p.frames, p.mover);
     std::vector<double> cut;
-    for (const AxisMove& m : p.sink.moves)
-        if (m.kind == MotionKind::linear) cut.push_back(m.to[Axis::Z]);
+    for (const motion::AxisMove& m : p.sink.moves)
+        if (m.kind == motion::MotionKind::linear) cut.push_back(m.to[Axis::Z]);
     CHECK(cut == std::vector<double>{-3.0, -7.0});
     CHECK(p.frames.program[Axis::Z] == 10.0);
     cycle.peck = 0.0;
     p.say({{'X', 6.0}});
-    CHECK_THROWS_AS(run_cycle(cycle, p.words, p.modal, p.frames, p.mover), Alarm);
+    CHECK_THROWS_AS(controller::run_cycle(cycle, p.words, p.modal, p.frames, p.mover), Alarm);
 }
 
 TEST_CASE("a mirror turns an arc round and keeps its radius") {
     Parts p;
     p.frames.stand_at(p.at(10, 0, 0));
     p.say({{'X', 0.0}});
-    set_mirror(p.words, p.modal, p.frames, p.mover);
+    controller::set_mirror(p.words, p.modal, p.frames, p.mover);
     CHECK(p.frames.program[Axis::X] == -10.0);
-    p.modal.codes.set(ModalGroup::motion, 20);
+    p.modal.codes.set(controller::ModalGroup::motion, 20);
     p.say({{'X', 0.0}, {'Y', 10.0}, {'I', 10.0}});
-    move_arc_block(p.words, p.modal, p.frames, p.mover);
-    const AxisMove& arc = p.sink.moves.back();
+    controller::move_arc_block(p.words, p.modal, p.frames, p.mover);
+    const motion::AxisMove& arc = p.sink.moves.back();
     REQUIRE(arc.arc);
     CHECK(arc.arc->sweep_rad == Approx(pi / 2));  // clockwise as programmed
     CHECK(arc.to[Axis::Y] == 10.0);
@@ -113,15 +114,15 @@ TEST_CASE("a mirror turns an arc round and keeps its radius") {
 
 TEST_CASE("skip: the place of the trigger, or where it ends, and no feed without an axis word") {
     Parts p;
-    SkipState skip;
+    controller::SkipState skip;
     p.sink.trigger_at = 0.5;
     p.say({{'X', 8.0}});
-    skip_move(skip, p.words, p.modal, p.frames, p.mover);
+    controller::skip_move(skip, p.words, p.modal, p.frames, p.mover);
     CHECK(skip.triggered);
     CHECK(skip.work[Axis::X] == 4.0);
     p.modal.block.feed = {};
     p.say({});
-    skip_move(skip, p.words, p.modal, p.frames, p.mover);
+    controller::skip_move(skip, p.words, p.modal, p.frames, p.mover);
     CHECK_FALSE(skip.triggered);
     CHECK(p.sink.moves.size() == 1);
 }

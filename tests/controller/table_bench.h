@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "block_bench.h"
 #include "base/random.h"
 #include "base/units.h"
+#include "block_bench.h"
 #include "positioning/rotary_transform.h"
 
 namespace trunnion::bench {
@@ -19,7 +19,7 @@ inline Vector3 xyz(const AxisPositions& q) {
 /// BC or AC table, axes turning left-handed, true geometry as chosen here.
 struct TableBench : Bench {
     explicit TableBench(Axis tilt_axis = Axis::B) : Bench(axes(tilt_axis)), tilt(tilt_axis) {
-        Parameters& p = stores.parameters;
+        offsets::Parameters& p = stores.parameters;
         p.set(19680, 12);
         p.set(19681, 4);
         p.set(19682, tilt == Axis::A ? 1 : 2);
@@ -33,8 +33,8 @@ struct TableBench : Bench {
         stores.tools.tool[1].length_wear_mm = 0.25;
         control.parameters_changed();
     }
-    static ControlConfig axes(Axis tilt) {
-        ControlConfig config = bench::five_axes();
+    static controller::ControlConfig axes(Axis tilt) {
+        controller::ControlConfig config = bench::five_axes();
         config.axes[3].axis = tilt;
         return config;
     }
@@ -52,7 +52,9 @@ struct TableBench : Bench {
         control.frames.take_work_offset(control.modal);
         control.mover.frames_changed();
     }
-    const RotaryTransform& belief() const { return *control.frames.believed.transform; }
+    const positioning::RotaryTransform& belief() const {
+        return *control.frames.believed.transform;
+    }
     Vector3 tip_W(const AxisPositions& q) const { return belief().tip_W(q, {0, 0, 120.25}); }
     void run(const std::string& text) { (*this)(text); }
 

@@ -80,7 +80,7 @@ TEST_CASE("G68.2 inside G52, G68.4 on top, G69 restores") {
     b.run("G52 X100.;G68.4 P1 X0 Y0 Z0 I0 J0 K90.;X0 Y0 Z0;Y3.");
     b.run("G69;X0 Y0 Z0");
     CHECK((xyz(b.last().to) - Vector3(10, 0, 0)).norm() < 1e-12);
-    CHECK(b.control.modal.is(ModalGroup::rotation, 690));
+    CHECK(b.control.modal.is(controller::ModalGroup::rotation, 690));
 }
 
 TEST_CASE("G68.3 takes the plane from the tool as it stands") {
@@ -153,7 +153,7 @@ TEST_CASE("alarms of five-axis functions") {
 
 TEST_CASE("#5081 shows the tool length, not the swing of a head") {
     TableBench b;
-    Parameters& p = b.stores.parameters;
+    offsets::Parameters& p = b.stores.parameters;
     p.set(19680, 2);
     p.set(19709, 12.0);
     p.set(19711, 200.0);

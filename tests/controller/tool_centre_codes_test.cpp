@@ -36,13 +36,15 @@ TEST_CASE("the start-up block of G43.4 only adds the tool length") {
 }
 
 TEST_CASE("G43.4 with the table turned: the frame as it lies, or the frame at rotary zero") {
-    for (const TcpFrame frame : {TcpFrame::start, TcpFrame::rotary_zero}) {
+    for (const positioning::TcpFrame frame :
+         {positioning::TcpFrame::start, positioning::TcpFrame::rotary_zero}) {
         TableBench b;
         b.control.config.tcp_frame = frame;
         b.set_pivot({0, 0, 40}, {0, 0, -20});
         b.run("G90 G54 G0 X0 Y0 Z100. B30. C45.;G43.4 H1 X10. Y0 Z5.;X10. Y0 Z6.");
         const AxisPositions q = b.last().to;
-        if (frame == TcpFrame::start)  // program axes lie along the machine until the table turns
+        if (frame == positioning::TcpFrame::start)  // program axes lie along the machine until the
+                                                    // table turns
             CHECK((xyz(q) - Vector3(10, 0, 126.25)).norm() < 1e-9);
         else
             CHECK((b.tip_W(q) - Vector3(10, 0, 6)).norm() < 1e-9);
@@ -93,8 +95,8 @@ TEST_CASE("TCP: an arc with standing rotaries is an arc of the axes, with turnin
               1e-9);
     }
     CHECK(b.last().length_mm == Approx(10 * pi));
-    struct Check : MotionSink {
-        MoveResult move(const AxisMove& m) override {
+    struct Check : motion::MotionSink {
+        motion::MoveResult move(const motion::AxisMove& m) override {
             for (const double s : {0.25, 0.5, 0.75}) {
                 const Vector3 tip = m.transform->tip_W(m.at(s), m.tool_vector_mm);
                 worst_mm = std::max(worst_mm, std::abs(tip.norm() - 20.0));
@@ -105,9 +107,11 @@ TEST_CASE("TCP: an arc with standing rotaries is an arc of the axes, with turnin
         double worst_mm = 0.0;
         bool curve = false;
     } check;
-    Stores stores = b.stores;
-    Control control(b.control.config, stores, check);
-    const auto run = [&](const char* text) { execute_block(control, bench::words_of(text)); };
+    offsets::Stores stores = b.stores;
+    controller::Control control(b.control.config, stores, check);
+    const auto run = [&](const char* text) {
+        controller::execute_block(control, bench::words_of(text));
+    };
     for (const char* text : {"G90 G54 G17 G0 B0 C0", "G43.4 H1 X20. Y0 Z0"}) run(text);
     check.worst_mm = 0.0;
     run("G3 X0 Y20. I-20. J0 B-20. C75. F500.");
@@ -179,7 +183,7 @@ TEST_CASE("TCP inside a tilted plane keeps the plane's coordinates") {
 
 TEST_CASE("Hurco: M128 and M129, M126 and M127") {
     TableBench b;
-    b.control.config.dialect = hurco_dialect();
+    b.control.config.dialect = interpreter::hurco_dialect();
     b.set_pivot({1, 2, 40}, {0.5, 0.25, -20});
     b.run("G90 G54 G0 G43 H1 X10. Y0 Z50. B30. C40.;M128;X10. Y5. Z20.");
     CHECK((b.tip_W(b.last().to) - Vector3(10, 5, 20)).norm() < 1e-9);

@@ -10,17 +10,17 @@ namespace trunnion {
 
 namespace {
 
-class Recorder : public PathReceiver {
+class Recorder : public cutter::PathReceiver {
   public:
-    void take(const PathOutput& out) override { taken.push_back(out); }
-    std::vector<PathOutput> taken;
+    void take(const cutter::PathOutput& out) override { taken.push_back(out); }
+    std::vector<cutter::PathOutput> taken;
 };
 
 /// A path of straight sides, cutter radius 5 mm to the left.
 struct Path {
     Path() : cutter(out) {}
-    PathMove to(double x, double y, double offset_mm = 5.0) {
-        PathMove m;
+    cutter::PathMove to(double x, double y, double offset_mm = 5.0) {
+        cutter::PathMove m;
         m.plane.start = at;
         m.plane.end = at = {x, y};
         m.to[Axis::X] = x;
@@ -29,13 +29,13 @@ struct Path {
         m.marks.line = ++line;
         return m;
     }
-    void go(const PathMove& m) {
-        ControlPosition from;
+    void go(const cutter::PathMove& m) {
+        offsets::ControlPosition from;
         from[Axis::X] = m.plane.start.x;
         from[Axis::Y] = m.plane.start.y;
         cutter.add(m, from);
     }
-    int alarm(const PathMove& m) {
+    int alarm(const cutter::PathMove& m) {
         try {
             go(m);
         } catch (const Alarm& alarm) {
@@ -45,7 +45,7 @@ struct Path {
     }
 
     Recorder out;
-    CutterPath cutter;
+    cutter::CutterPath cutter;
     PlanePoint at;
     int line = 0;
 };
@@ -72,7 +72,7 @@ TEST_CASE("a left-hand square inside: the tool stays one radius away from every 
 
 TEST_CASE("a corner radius between two sides touches both") {
     Path p;
-    PathMove first = p.to(100, 0, 0.0);
+    cutter::PathMove first = p.to(100, 0, 0.0);
     first.round = true;
     first.corner_mm = 10.0;
     p.go(first);
@@ -97,14 +97,14 @@ TEST_CASE("a slot narrower than the cutter, an arc about its own start, a corner
     Path q;
     q.cutter.start({}, false);
     q.go(q.to(0, 20));
-    PathMove point = q.to(0, 20);
+    cutter::PathMove point = q.to(0, 20);
     point.plane.arc = true;
     point.plane.centre = point.plane.start;
     point.plane.sweep_rad = 6.0;
     CHECK(q.alarm(point) == 38);
 
     Path r;
-    PathMove corner = r.to(10, 0, 0.0);
+    cutter::PathMove corner = r.to(10, 0, 0.0);
     corner.chamfer = true;
     corner.corner_mm = 1.0;
     r.go(corner);
@@ -116,7 +116,7 @@ TEST_CASE("dwells and M codes keep their turn") {
     p.cutter.start({}, false);
     p.go(p.to(0, 20));
     p.go(p.to(0, 100));
-    PathOutput event;
+    cutter::PathOutput event;
     event.m_code = 8;
     p.cutter.add_event(event);
     p.go(p.to(-80, 100));

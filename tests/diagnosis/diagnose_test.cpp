@@ -2,24 +2,25 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "diagnosis/diagnosis.h"
 #include "base/alarm.h"
 #include "base/random.h"
+#include "diagnosis/diagnosis.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {
 namespace {
 
 struct Bench {
-    Setup setup = campaign::bc_setup();
-    Setup real = campaign::real_machine(setup);
-    ReadingTable table = campaign::empty_table(setup);
+    setup::Setup setup = campaign::bc_setup();
+    setup::Setup real = campaign::real_machine(setup);
+    records::ReadingTable table = campaign::empty_table(setup);
     Bench() {
         campaign::add_sphere_map(table, setup, 50, 5);
         campaign::add_ballbar(table, setup, 36);
     }
-    Diagnosis of(const Setup& truth, std::uint64_t seed, double noise = 1.0) const {
-        return diagnose(setup, campaign::measured(truth, table, seed, noise));
+    diagnosis::Diagnosis of(const setup::Setup& truth, std::uint64_t seed,
+                            double noise = 1.0) const {
+        return diagnosis::diagnose(setup, campaign::measured(truth, table, seed, noise));
     }
 };
 
@@ -28,18 +29,18 @@ struct Bench {
 TEST_CASE("nothing is claimed on noise alone", "[diagnosis]") {
     const Bench bench;
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-        REQUIRE(bench.of(bench.real, seed).verdict == Verdict::no_gap);
-        REQUIRE(bench.of(bench.real, seed, 1.3).verdict == Verdict::no_gap);
-        REQUIRE(bench.of(bench.real, seed, 0.7).verdict == Verdict::no_gap);
+        REQUIRE(bench.of(bench.real, seed).verdict == diagnosis::Verdict::no_gap);
+        REQUIRE(bench.of(bench.real, seed, 1.3).verdict == diagnosis::Verdict::no_gap);
+        REQUIRE(bench.of(bench.real, seed, 0.7).verdict == diagnosis::Verdict::no_gap);
     }
-    REQUIRE(bench.of(bench.real, 1, 1.3).noise.source == NoiseSource::assumed);
-    REQUIRE(bench.of(bench.real, 1, 1.0).noise.source == NoiseSource::given);
-    ReadingTable small = campaign::empty_table(bench.setup);
+    REQUIRE(bench.of(bench.real, 1, 1.3).noise.source == diagnosis::NoiseSource::assumed);
+    REQUIRE(bench.of(bench.real, 1, 1.0).noise.source == diagnosis::NoiseSource::given);
+    records::ReadingTable small = campaign::empty_table(bench.setup);
     campaign::add_sphere_map(small, bench.setup, 30, 2);
     int loud = 0;
     for (std::uint64_t seed = 1; seed <= 100; ++seed)
-        if (diagnose(bench.setup, campaign::measured(bench.real, small, seed)).verdict !=
-            Verdict::no_gap)
+        if (diagnosis::diagnose(bench.setup, campaign::measured(bench.real, small, seed)).verdict !=
+            diagnosis::Verdict::no_gap)
             ++loud;
     REQUIRE(loud <= 2);
 }
@@ -65,58 +66,62 @@ TEST_CASE("a single effect is named first, with its size and how far the gap shr
         {"artefact.moved: shift_mm=[0.01, 0, 0.01], artefact=1, time_s=700", "artefact.moved",
          "artefact", 1}};
     for (const Case& c : cases) {
-        const Diagnosis result = bench.of(campaign::with_effect(bench.real, c.injection), 7);
+        const diagnosis::Diagnosis result =
+            bench.of(campaign::with_effect(bench.real, c.injection), 7);
         INFO(c.injection);
         REQUIRE(!result.causes.empty());
-        const Cause& first = result.causes.front();
+        const diagnosis::Cause& first = result.causes.front();
         std::string all;
-        for (const Cause& cause : result.causes)
+        for (const diagnosis::Cause& cause : result.causes)
             all += cause.effect + " " + std::to_string(cause.share) + "  ";
         INFO(all);
         REQUIRE(first.effect == c.effect);
         REQUIRE(first.share > 0.95);
-        REQUIRE((result.verdict == Verdict::explained || result.verdict == Verdict::ambiguous));
+        REQUIRE((result.verdict == diagnosis::Verdict::explained ||
+                 result.verdict == diagnosis::Verdict::ambiguous));
         REQUIRE(first.heldout.shrink > 0.75);
         REQUIRE(first.heldout.low <= first.heldout.shrink);
         REQUIRE(first.heldout.high >= first.heldout.shrink);
-        for (const FitParameter& p : first.parameters)
+        for (const identification::FitParameter& p : first.parameters)
             if (p.name == c.parameter) REQUIRE(p.value == Approx(c.value).epsilon(0.1));
     }
 }
 
 TEST_CASE("two effects at once are both named", "[diagnosis]") {
     const Bench bench;
-    const Setup truth =
+    const setup::Setup truth =
         campaign::with_effect(campaign::with_effect(bench.real, "C.backlash: gap_rad=8e-5"),
                               "servo.contour: lag2_s2=1e-4");
-    const Diagnosis result = bench.of(truth, 3);
+    const diagnosis::Diagnosis result = bench.of(truth, 3);
     REQUIRE(result.causes.size() == 2);
     double share = 0.0;
-    for (const Cause& cause : result.causes) share += cause.share;
+    for (const diagnosis::Cause& cause : result.causes) share += cause.share;
     REQUIRE(share == Approx(1.0).margin(0.08));
 }
 
 TEST_CASE("a gap outside the catalogue is said to be unknown", "[diagnosis]") {
     const Bench bench;
-    ReadingTable readings = campaign::measured(bench.real, bench.table, 3);
-    for (Reading& row : readings.rows)  // a ripple of the readings with time that nothing makes
+    records::ReadingTable readings = campaign::measured(bench.real, bench.table, 3);
+    for (records::Reading& row :
+         readings.rows)  // a ripple of the readings with time that nothing makes
         if (row.value_mm) *row.value_mm += 0.002 * std::sin(row.time_s / 60.0);
-    const Diagnosis result = diagnose(bench.setup, readings);
-    REQUIRE(result.verdict == Verdict::unexplained);
-    const auto unknown = std::find_if(result.causes.begin(), result.causes.end(),
-                                      [](const Cause& c) { return c.effect == "unknown"; });
+    const diagnosis::Diagnosis result = diagnosis::diagnose(bench.setup, readings);
+    REQUIRE(result.verdict == diagnosis::Verdict::unexplained);
+    const auto unknown =
+        std::find_if(result.causes.begin(), result.causes.end(),
+                     [](const diagnosis::Cause& c) { return c.effect == "unknown"; });
     REQUIRE(unknown != result.causes.end());
     REQUIRE(unknown->share > 0.5);
     REQUIRE(std::any_of(result.where.begin(), result.where.end(),
-                        [](const DriverShare& d) { return d.by == "time"; }));
+                        [](const diagnosis::DriverShare& d) { return d.by == "time"; }));
 }
 
 TEST_CASE("a few wild readings change neither the noise nor the claim", "[diagnosis]") {
     const Bench bench;
-    const auto with_outliers = [&](const Setup& truth, bool repeat) {
-        ReadingTable table = bench.table;
+    const auto with_outliers = [&](const setup::Setup& truth, bool repeat) {
+        records::ReadingTable table = bench.table;
         if (repeat)
-            for (Reading row : bench.table.rows) {
+            for (records::Reading row : bench.table.rows) {
                 row.time_s += bench.table.rows.back().time_s + 60.0;
                 row.test += "_again";
                 table.rows.push_back(row);
@@ -124,18 +129,19 @@ TEST_CASE("a few wild readings change neither the noise nor the claim", "[diagno
         table = campaign::measured(truth, table, 11);
         for (std::size_t k = 17; k < table.rows.size(); k += 50)  // 2 %, 8 um
             if (table.rows[k].value_mm) *table.rows[k].value_mm += k % 100 == 17 ? 8e-3 : -8e-3;
-        return diagnose(bench.setup, table);
+        return diagnosis::diagnose(bench.setup, table);
     };
-    const Setup truth = campaign::with_effect(bench.real, "C.backlash: gap_rad=8e-5");
+    const setup::Setup truth = campaign::with_effect(bench.real, "C.backlash: gap_rad=8e-5");
     for (const bool repeat : {false, true}) {
         INFO("repeats: " << repeat);
-        const Diagnosis null = with_outliers(bench.real, repeat);
-        REQUIRE(null.verdict == Verdict::no_gap);
+        const diagnosis::Diagnosis null = with_outliers(bench.real, repeat);
+        REQUIRE(null.verdict == diagnosis::Verdict::no_gap);
         REQUIRE(null.outliers > 10);
-        REQUIRE(null.noise.source == (repeat ? NoiseSource::repeats : NoiseSource::given));
+        REQUIRE(null.noise.source ==
+                (repeat ? diagnosis::NoiseSource::repeats : diagnosis::NoiseSource::given));
         REQUIRE(null.noise.ballbar.scale == Approx(1.0).margin(0.1));
         REQUIRE(null.noise.sphere.scale == Approx(1.0).margin(0.15));
-        const Diagnosis gap = with_outliers(truth, repeat);
+        const diagnosis::Diagnosis gap = with_outliers(truth, repeat);
         REQUIRE(gap.causes.size() == 1);
         REQUIRE(gap.causes.front().effect == "C.backlash");
         REQUIRE(gap.causes.front().parameters.front().value == Approx(8e-5).epsilon(0.1));
@@ -146,8 +152,9 @@ TEST_CASE("touches that share a centre error and neighbours along a pass make no
           "[diagnosis]") {
     const Bench bench;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-        ReadingTable table = bench.table;
-        for (Reading row : bench.table.rows) {  // all passes twice: the repeats show the memory
+        records::ReadingTable table = bench.table;
+        for (records::Reading row :
+             bench.table.rows) {  // all passes twice: the repeats show the memory
             row.time_s += bench.table.rows.back().time_s + 60.0;
             row.test += "_again";
             table.rows.push_back(row);
@@ -156,17 +163,17 @@ TEST_CASE("touches that share a centre error and neighbours along a pass make no
         SeededNoise random(100 + seed);
         double shared = 0.0;
         std::string test;
-        for (Reading& row : table.rows) {
-            if (row.device != Device::ballbar) continue;
+        for (records::Reading& row : table.rows) {
+            if (row.device != records::Device::ballbar) continue;
             if (row.test != test) shared = random.normal();
             test = row.test;
             shared = 0.9 * shared + std::sqrt(1.0 - 0.81) * random.normal();
             *row.value_mm += 0.3e-3 * 0.8 * shared;
         }
-        const Diagnosis result = diagnose(bench.setup, table);
+        const diagnosis::Diagnosis result = diagnosis::diagnose(bench.setup, table);
         INFO("seed " << seed);
-        REQUIRE(result.verdict == Verdict::no_gap);
-        REQUIRE(result.noise.source == NoiseSource::repeats);
+        REQUIRE(result.verdict == diagnosis::Verdict::no_gap);
+        REQUIRE(result.noise.source == diagnosis::NoiseSource::repeats);
         REQUIRE(result.noise.ballbar.shared > 0.4);
         REQUIRE(result.noise.ballbar.memory > 0.75);
     }
@@ -175,31 +182,35 @@ TEST_CASE("touches that share a centre error and neighbours along a pass make no
 TEST_CASE("noise that the setup states wrongly is said to be assumed, whatever else is found",
           "[diagnosis]") {
     const Bench bench;
-    const Setup gap = campaign::with_effect(bench.real, "C.backlash: gap_rad=8e-5");
+    const setup::Setup gap = campaign::with_effect(bench.real, "C.backlash: gap_rad=8e-5");
     for (const double factor : {0.75, 1.33}) {
         INFO("noise times " << factor);
-        REQUIRE(bench.of(bench.real, 4, factor).noise.source == NoiseSource::assumed);
-        REQUIRE(bench.of(gap, 4, factor).noise.source == NoiseSource::assumed);
-        ReadingTable odd = campaign::measured(bench.real, bench.table, 4, factor);
-        for (Reading& row : odd.rows)
+        REQUIRE(bench.of(bench.real, 4, factor).noise.source == diagnosis::NoiseSource::assumed);
+        REQUIRE(bench.of(gap, 4, factor).noise.source == diagnosis::NoiseSource::assumed);
+        records::ReadingTable odd = campaign::measured(bench.real, bench.table, 4, factor);
+        for (records::Reading& row : odd.rows)
             if (row.value_mm) *row.value_mm += 0.002 * std::sin(row.time_s / 60.0);
-        REQUIRE(diagnose(bench.setup, odd).noise.source == NoiseSource::assumed);
-        ReadingTable wild = campaign::measured(bench.real, bench.table, 4, factor);
+        REQUIRE(diagnosis::diagnose(bench.setup, odd).noise.source ==
+                diagnosis::NoiseSource::assumed);
+        records::ReadingTable wild = campaign::measured(bench.real, bench.table, 4, factor);
         for (std::size_t k = 9; k < wild.rows.size(); k += 50)
             if (wild.rows[k].value_mm) *wild.rows[k].value_mm += 8e-3;
-        REQUIRE(diagnose(bench.setup, wild).noise.source == NoiseSource::assumed);
+        REQUIRE(diagnosis::diagnose(bench.setup, wild).noise.source ==
+                diagnosis::NoiseSource::assumed);
     }
-    REQUIRE(bench.of(gap, 4).noise.source == NoiseSource::given);
+    REQUIRE(bench.of(gap, 4).noise.source == diagnosis::NoiseSource::given);
 }
 
 TEST_CASE("the closed loop: the setup written predicts new positions", "[diagnosis]") {
     const Bench bench;
-    const Setup truth = campaign::with_effect(bench.real, "C.backlash: gap_rad=8e-5");
-    const Diagnosis result = bench.of(truth, 5);
-    ReadingTable fresh = campaign::empty_table(bench.setup);
+    const setup::Setup truth = campaign::with_effect(bench.real, "C.backlash: gap_rad=8e-5");
+    const diagnosis::Diagnosis result = bench.of(truth, 5);
+    records::ReadingTable fresh = campaign::empty_table(bench.setup);
     campaign::add_sphere_map(fresh, bench.setup, 30, 99);
-    const ReadingTable real = predicted(truth, fresh, active_models(truth));
-    const ReadingTable simulated = predicted(result.setup, fresh, active_models(result.setup));
+    const records::ReadingTable real =
+        emulator::predicted(truth, fresh, effects::active_models(truth));
+    const records::ReadingTable simulated =
+        emulator::predicted(result.setup, fresh, effects::active_models(result.setup));
     double sum = 0.0, rows = 0.0;
     for (std::size_t i = 0; i < fresh.rows.size(); ++i) {
         if (!real.rows[i].value_mm) continue;
@@ -211,17 +222,17 @@ TEST_CASE("the closed loop: the setup written predicts new positions", "[diagnos
 
 TEST_CASE("the same readings give the same diagnosis", "[diagnosis]") {
     const Bench bench;
-    const Setup truth = campaign::with_effect(bench.real, "C.backlash: gap_rad=8e-5");
-    const Diagnosis a = bench.of(truth, 5), b = bench.of(truth, 5);
+    const setup::Setup truth = campaign::with_effect(bench.real, "C.backlash: gap_rad=8e-5");
+    const diagnosis::Diagnosis a = bench.of(truth, 5), b = bench.of(truth, 5);
     REQUIRE(a.causes.front().heldout.low == b.causes.front().heldout.low);
     REQUIRE(a.causes.front().parameters.front().value == b.causes.front().parameters.front().value);
 }
 
 TEST_CASE("too few readings give a message and no verdict", "[diagnosis]") {
     const Bench bench;
-    ReadingTable few = campaign::measured(bench.real, bench.table, 1);
+    records::ReadingTable few = campaign::measured(bench.real, bench.table, 1);
     few.rows.resize(4);
-    REQUIRE_THROWS_AS(diagnose(bench.setup, few), InputError);
+    REQUIRE_THROWS_AS(diagnosis::diagnose(bench.setup, few), InputError);
 }
 
 }  // namespace trunnion

@@ -12,8 +12,8 @@ namespace trunnion {
 namespace {
 
 /// A smooth error of X that no textbook form has, 6 um.
-Setup with_form(Setup truth) {
-    ErrorCurve& curve = truth.machine.errors.axis[index_of(Axis::X)].motion[0];
+setup::Setup with_form(setup::Setup truth) {
+    kinematics::ErrorCurve& curve = truth.machine.errors.axis[index_of(Axis::X)].motion[0];
     for (double q = -400.0; q <= 400.0; q += 10.0) {
         curve.at.push_back(q);
         curve.value.push_back(0.006 * std::sin(q / 35.0) * std::exp(-std::pow(q / 150.0, 2)));
@@ -21,54 +21,58 @@ Setup with_form(Setup truth) {
     return truth;
 }
 
-ReadingTable campaign_of(const Setup& setup) {
-    ReadingTable table = campaign::empty_table(setup);
+records::ReadingTable campaign_of(const setup::Setup& setup) {
+    records::ReadingTable table = campaign::empty_table(setup);
     campaign::add_sphere_map(table, setup, 60, 5);
     campaign::add_ballbar(table, setup, 48);
     return table;
 }
 
-void check_one_verdict(const Diagnosis& d) {
-    if (d.verdict == Verdict::no_gap) return;
-    CHECK((d.verdict == Verdict::unexplained) == (d.explained < 0.5));
-    CHECK((d.verdict == Verdict::partly_explained) == (d.explained >= 0.5 && d.explained < 0.8));
-    for (const Cause& c : d.causes)
+void check_one_verdict(const diagnosis::Diagnosis& d) {
+    if (d.verdict == diagnosis::Verdict::no_gap) return;
+    CHECK((d.verdict == diagnosis::Verdict::unexplained) == (d.explained < 0.5));
+    CHECK((d.verdict == diagnosis::Verdict::partly_explained) ==
+          (d.explained >= 0.5 && d.explained < 0.8));
+    for (const diagnosis::Cause& c : d.causes)
         if (c.effect != "unknown") CHECK(c.probability <= d.explained + 1e-12);
 }
 
 }  // namespace
 
 TEST_CASE("a ripple needs places", "[diagnosis]") {
-    CHECK_FALSE(shows_period({0, 100, 200, 300, 400}, 10.0));  // five places
+    CHECK_FALSE(diagnosis::shows_period({0, 100, 200, 300, 400}, 10.0));  // five places
     std::vector<double> even, odd;
     for (int k = 0; k < 21; ++k) {
         even.push_back(20.0 * k);
         odd.push_back(20.0 * k + (k % 3) * 2.9);
     }
-    CHECK_FALSE(shows_period(even, 10.0));  // the same phase everywhere
-    CHECK_FALSE(shows_period(even, 30.0));  // less than two spacings
-    CHECK(shows_period(even, 70.0));
-    CHECK_FALSE(shows_period(even, 250.0));  // not two periods in the range
-    CHECK(shows_period(odd, 11.0));
-    CHECK_FALSE(shows_period({}, 10.0));
+    CHECK_FALSE(diagnosis::shows_period(even, 10.0));  // the same phase everywhere
+    CHECK_FALSE(diagnosis::shows_period(even, 30.0));  // less than two spacings
+    CHECK(diagnosis::shows_period(even, 70.0));
+    CHECK_FALSE(diagnosis::shows_period(even, 250.0));  // not two periods in the range
+    CHECK(diagnosis::shows_period(odd, 11.0));
+    CHECK_FALSE(diagnosis::shows_period({}, 10.0));
 }
 
 TEST_CASE("an error of any shape is a cause of its own, with its curve", "[diagnosis]") {
-    const Setup setup = campaign::bc_setup(), truth = with_form(campaign::real_machine(setup));
-    const ReadingTable table = campaign_of(setup);
-    const Diagnosis d = diagnose(setup, campaign::measured(truth, table, 3));
+    const setup::Setup setup = campaign::bc_setup(),
+                       truth = with_form(campaign::real_machine(setup));
+    const records::ReadingTable table = campaign_of(setup);
+    const diagnosis::Diagnosis d = diagnosis::diagnose(setup, campaign::measured(truth, table, 3));
     check_one_verdict(d);
     CHECK(d.explained > 0.8);
     const auto form = std::find_if(d.causes.begin(), d.causes.end(),
-                                   [](const Cause& c) { return !c.points.empty(); });
+                                   [](const diagnosis::Cause& c) { return !c.points.empty(); });
     REQUIRE(form != d.causes.end());
     CHECK(form->effect == "X.positioning");
     CHECK(form->share > 0.5);
     // What it predicts at places that were not measured.
-    ReadingTable fresh = campaign::empty_table(setup);
+    records::ReadingTable fresh = campaign::empty_table(setup);
     campaign::add_sphere_map(fresh, setup, 40, 77);
-    const ReadingTable real = predicted(truth, fresh, active_models(truth));
-    const ReadingTable with = predicted(d.setup, fresh, active_models(d.setup));
+    const records::ReadingTable real =
+        emulator::predicted(truth, fresh, effects::active_models(truth));
+    const records::ReadingTable with =
+        emulator::predicted(d.setup, fresh, effects::active_models(d.setup));
     double left = 0.0, rows = 0.0;
     for (std::size_t i = 0; i < fresh.rows.size(); ++i) {
         if (!real.rows[i].value_mm) continue;
@@ -79,35 +83,37 @@ TEST_CASE("an error of any shape is a cause of its own, with its curve", "[diagn
 }
 
 TEST_CASE("a named effect stands beside an error of any shape", "[diagnosis]") {
-    const Setup setup = campaign::bc_setup();
-    const Setup truth =
+    const setup::Setup setup = campaign::bc_setup();
+    const setup::Setup truth =
         campaign::with_effect(with_form(campaign::real_machine(setup)), "X.backlash: gap_mm=0.004");
-    const Diagnosis d = diagnose(setup, campaign::measured(truth, campaign_of(setup), 4));
+    const diagnosis::Diagnosis d =
+        diagnosis::diagnose(setup, campaign::measured(truth, campaign_of(setup), 4));
     check_one_verdict(d);
-    const auto gap = std::find_if(d.causes.begin(), d.causes.end(),
-                                  [](const Cause& c) { return c.effect == "X.backlash"; });
+    const auto gap = std::find_if(d.causes.begin(), d.causes.end(), [](const diagnosis::Cause& c) {
+        return c.effect == "X.backlash";
+    });
     REQUIRE(gap != d.causes.end());
     CHECK(gap->parameters.front().value == Approx(0.004).epsilon(0.1));
 }
 
 TEST_CASE("a scatter of zeroing is noise, not a cause", "[diagnosis]") {
-    const Setup setup = campaign::bc_setup();
-    const Setup truth =
+    const setup::Setup setup = campaign::bc_setup();
+    const setup::Setup truth =
         campaign::with_effect(campaign::real_machine(setup), "C.backlash: gap_rad=8e-5");
-    ReadingTable table = campaign_of(setup);
+    records::ReadingTable table = campaign_of(setup);
     for (const bool effect : {false, true}) {
-        ReadingTable readings =
+        records::ReadingTable readings =
             campaign::measured(effect ? truth : campaign::real_machine(setup), table, 6);
         std::map<std::string, double> zero;
         SeededNoise random(9);
-        for (Reading& row : readings.rows)
-            if (row.device == Device::ballbar)
+        for (records::Reading& row : readings.rows)
+            if (row.device == records::Device::ballbar)
                 *row.value_mm +=
                     zero.try_emplace(row.test, 0.25e-3 * random.normal()).first->second;
-        const Diagnosis d = diagnose(setup, readings);
+        const diagnosis::Diagnosis d = diagnosis::diagnose(setup, readings);
         INFO("effect " << effect);
         check_one_verdict(d);
-        if (!effect) CHECK(d.verdict == Verdict::no_gap);
+        if (!effect) CHECK(d.verdict == diagnosis::Verdict::no_gap);
         if (effect) {
             REQUIRE(!d.causes.empty());
             CHECK(d.causes.front().effect == "C.backlash");
@@ -117,13 +123,13 @@ TEST_CASE("a scatter of zeroing is noise, not a cause", "[diagnosis]") {
 }
 
 TEST_CASE("the probability of a cause knows how many blocks saw it", "[diagnosis]") {
-    BlockLoss without{{4, 4, 4, 4, 4, 4}, {1, 1, 1, 1, 1, 1}}, with = without;
+    diagnosis::BlockLoss without{{4, 4, 4, 4, 4, 4}, {1, 1, 1, 1, 1, 1}}, with = without;
     for (double& s : with.square) s = 1.0;
     with.square[2] = 1.5;
-    const Saving saving = saving_of(without, with);
+    const diagnosis::Saving saving = diagnosis::saving_of(without, with);
     CHECK(saving.blocks == 6.0);
     CHECK(saving.t > 10.0);
-    CHECK(saving_of(without, without).blocks == 0.0);
+    CHECK(diagnosis::saving_of(without, without).blocks == 0.0);
 }
 
 }  // namespace trunnion

@@ -8,40 +8,41 @@
 #include "emulator/run.h"
 #include "identification/identify.h"
 #include "interpreter/program_folders.h"
-#include "tests/support/campaign.h"
 #include "records/samples.h"
+#include "tests/support/campaign.h"
 
 namespace trunnion {
 namespace {
 
 /// Runs a measurement's program on the emulated control of `machine`.
-ReadingTable run_measurement(const Setup& machine, const std::string& program, std::uint64_t seed) {
-    ProgramFolders folders({std::string(TRUNNION_SOURCE_DIR) + "/programs"});
-    RunOptions options;
+records::ReadingTable run_measurement(const setup::Setup& machine, const std::string& program,
+                                      std::uint64_t seed) {
+    interpreter::ProgramFolders folders({std::string(TRUNNION_SOURCE_DIR) + "/programs"});
+    emulator::RunOptions options;
     options.seed = seed;
-    options.effects = active_models(machine);
-    const ProgramText text{"O8900", program, {}};
-    RunLog log = run_program(machine, folders, text, options);
+    options.effects = effects::active_models(machine);
+    const interpreter::ProgramText text{"O8900", program, {}};
+    emulator::RunLog log = emulator::run_program(machine, folders, text, options);
     INFO((log.result.alarm ? log.result.alarm->text + " in " + log.result.alarm->block : ""));
-    REQUIRE(log.result.status == RunStatus::ok);
+    REQUIRE(log.result.status == controller::RunStatus::ok);
     return std::move(log.readings);
 }
 
-std::vector<std::size_t> device_rows(const ReadingTable& table) {
+std::vector<std::size_t> device_rows(const records::ReadingTable& table) {
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < table.rows.size(); ++i)
-        if (table.rows[i].device != Device::none) rows.push_back(i);
+        if (table.rows[i].device != records::Device::none) rows.push_back(i);
     return rows;
 }
 
 /// Rows that differ in what a prediction depends on, time aside.
-void require_same_rows(const Measurement& planned, const ReadingTable& run) {
+void require_same_rows(const diagnosis::Measurement& planned, const records::ReadingTable& run) {
     const auto a = device_rows(planned.table), b = device_rows(run);
     INFO(planned.name);
     REQUIRE(a.size() == b.size());
-    const auto sa = samples_of(planned.table), sb = samples_of(run);
+    const auto sa = records::samples_of(planned.table), sb = records::samples_of(run);
     for (std::size_t i = 0; i < a.size(); ++i) {
-        const Reading &p = planned.table.rows[a[i]], &r = run.rows[b[i]];
+        const records::Reading &p = planned.table.rows[a[i]], &r = run.rows[b[i]];
         INFO("reading " << i << " of test " << r.test << " line " << p.test);
         REQUIRE(p.device == r.device);
         REQUIRE(p.feature == r.feature);
@@ -50,11 +51,12 @@ void require_same_rows(const Measurement& planned, const ReadingTable& run) {
         for (const Axis axis : planned.table.axes) {
             INFO("axis " << letter_of(axis));
             REQUIRE(p.commanded[axis] == Approx(r.commanded[axis]).margin(2e-4));
-            if (p.device == Device::touch)
+            if (p.device == records::Device::touch)
                 REQUIRE(static_cast<int>(sa[a[i]].travel[index_of(axis)]) ==
                         static_cast<int>(sb[b[i]].travel[index_of(axis)]));
         }
-        if (p.device == Device::touch) REQUIRE((p.direction_M - r.direction_M).norm() < 1e-5);
+        if (p.device == records::Device::touch)
+            REQUIRE((p.direction_M - r.direction_M).norm() < 1e-5);
         REQUIRE(p.spindle_rad == Approx(r.spindle_rad));
         REQUIRE(p.temperature_c == r.temperature_c);
         REQUIRE(p.load_kg == r.load_kg);
@@ -64,8 +66,9 @@ void require_same_rows(const Measurement& planned, const ReadingTable& run) {
 }
 
 /// What the run read is what a replay of its rows predicts.
-void require_predicted(const Setup& machine, const ReadingTable& run) {
-    const ReadingTable replayed = predicted(machine, run, active_models(machine));
+void require_predicted(const setup::Setup& machine, const records::ReadingTable& run) {
+    const records::ReadingTable replayed =
+        emulator::predicted(machine, run, effects::active_models(machine));
     for (std::size_t i = 0; i < run.rows.size(); ++i)
         if (run.rows[i].value_mm) {
             INFO(run.rows[i].test << " row " << i);
@@ -73,13 +76,13 @@ void require_predicted(const Setup& machine, const ReadingTable& run) {
         }
 }
 
-Setup shipped(const char* name) {
+setup::Setup shipped(const char* name) {
     std::vector<std::string> notes;
-    return load_setup(std::string(TRUNNION_SOURCE_DIR) + "/machines/" + name, notes);
+    return setup::load_setup(std::string(TRUNNION_SOURCE_DIR) + "/machines/" + name, notes);
 }
 
 /// bc_table.toml holds wrong stores on purpose.
-void tell_truth(Setup& setup) {
+void tell_truth(setup::Setup& setup) {
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) setup.stores.work.standard[0][axis] = 0.0;
     if (setup.name == "BC rotary table")
         for (int n = 19700; n <= 19705; ++n) setup.stores.parameters.set(n, 0.0);
@@ -88,16 +91,16 @@ void tell_truth(Setup& setup) {
 }  // namespace
 
 TEST_CASE("every program of the list reads the rows that were predicted", "[diagnosis][next]") {
-    for (Setup setup : {campaign::bc_setup(), campaign::ac_setup(), shipped("bc_table.toml"),
-                        shipped("ac_trunnion.toml")}) {
+    for (setup::Setup setup : {campaign::bc_setup(), campaign::ac_setup(), shipped("bc_table.toml"),
+                               shipped("ac_trunnion.toml")}) {
         INFO(setup.name);
         setup.machine.errors = {};
         tell_truth(setup);
-        const auto list = ready_measurements(setup, 100.0);
+        const auto list = diagnosis::ready_measurements(setup, 100.0);
         REQUIRE(list.size() == 14);
         setup.probe->repeatability_um = setup.ballbar->noise_um = 0.0;
-        for (const Measurement& m : list) {
-            const ReadingTable run = run_measurement(setup, m.program, 1);
+        for (const diagnosis::Measurement& m : list) {
+            const records::ReadingTable run = run_measurement(setup, m.program, 1);
             require_same_rows(m, run);
             require_predicted(setup, run);
         }
@@ -107,9 +110,9 @@ TEST_CASE("every program of the list reads the rows that were predicted", "[diag
 namespace {
 
 struct Bench {
-    Setup setup, real;
-    ReadingTable table;
-    Bench(const Setup& machine, bool ballbar)
+    setup::Setup setup, real;
+    records::ReadingTable table;
+    Bench(const setup::Setup& machine, bool ballbar)
         : setup(machine),
           real(campaign::real_machine(machine)),
           table(campaign::empty_table(machine)) {
@@ -131,13 +134,15 @@ std::string names(const std::vector<std::string>& list) {
 namespace {
 
 /// Weighted squares left when `effect` (with the location) is fitted.
-double left_by(const Bench& bench, const ReadingTable& table, const std::string& effect) {
-    const Identification fit = identify(bench.setup, table, {"location", effect});
-    const ReadingTable read = predicted(fit.setup, table, active_models(fit.setup));
+double left_by(const Bench& bench, const records::ReadingTable& table, const std::string& effect) {
+    const identification::Identification fit =
+        identification::identify(bench.setup, table, {"location", effect});
+    const records::ReadingTable read =
+        emulator::predicted(fit.setup, table, effects::active_models(fit.setup));
     double sum = 0.0;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         if (!table.rows[i].value_mm) continue;
-        const double sigma_um = table.rows[i].device == Device::ballbar ? 0.3 : 0.8;
+        const double sigma_um = table.rows[i].device == records::Device::ballbar ? 0.3 : 0.8;
         sum += std::pow(1e3 * (*table.rows[i].value_mm - *read.rows[i].value_mm) / sigma_um, 2);
     }
     return sum;
@@ -161,23 +166,23 @@ void go_the_whole_way(const Bench& bench, const std::string& injection, const st
                       std::uint64_t seed) {
     const std::string right = name_of_effect(injection), wrong = name_of_effect(rival);
     INFO(bench.setup.chain_text << ": " << injection << " against " << wrong);
-    const Setup truth = campaign::with_effect(bench.real, injection);
-    const ReadingTable first = campaign::measured(truth, bench.table, seed);
-    const Diagnosis before = diagnose(bench.setup, first);
-    REQUIRE(before.verdict == Verdict::ambiguous);
+    const setup::Setup truth = campaign::with_effect(bench.real, injection);
+    const records::ReadingTable first = campaign::measured(truth, bench.table, seed);
+    const diagnosis::Diagnosis before = diagnosis::diagnose(bench.setup, first);
+    REQUIRE(before.verdict == diagnosis::Verdict::ambiguous);
     REQUIRE(before.causes.size() == 1);
-    const Cause& claim = before.causes.front();
+    const diagnosis::Cause& claim = before.causes.front();
     INFO("first " << claim.effect << " rivals " << names(claim.rivals));
     REQUIRE((claim.effect == right || lists(claim.rivals, right)));
     REQUIRE((claim.effect == wrong || lists(claim.rivals, wrong)));
-    const NextMeasurement* next = nullptr;
-    for (const NextMeasurement& n : before.next)
+    const diagnosis::NextMeasurement* next = nullptr;
+    for (const diagnosis::NextMeasurement& n : before.next)
         if (!next && !n.program.empty() && (lists({n.first, n.second}, right))) next = &n;
     REQUIRE(next);
     INFO(next->text);
-    const ReadingTable all =
-        join_readings({first, run_measurement(truth, next->program, seed + 1)});
-    const Diagnosis after = diagnose(bench.setup, all);
+    const records::ReadingTable all =
+        records::join_readings({first, run_measurement(truth, next->program, seed + 1)});
+    const diagnosis::Diagnosis after = diagnosis::diagnose(bench.setup, all);
     INFO("then " << after.causes.front().effect << " rivals "
                  << names(after.causes.front().rivals));
     REQUIRE(after.causes.size() == 1);
@@ -194,18 +199,19 @@ void go_the_whole_way(const Bench& bench, const std::string& injection, const st
 
 }  // namespace
 
-TEST_CASE("the verdict is the same without the plan of the next measurement", "[.known][diagnosis][next]") {
+TEST_CASE("the verdict is the same without the plan of the next measurement",
+          "[.known][diagnosis][next]") {
     const Bench bench(campaign::bc_setup(), false);
-    const Setup truth = campaign::with_effect(bench.real, "ZX.squareness: angle_rad=6e-5");
-    const ReadingTable table = campaign::measured(truth, bench.table, 17);
-    const Diagnosis whole = diagnose(bench.setup, table);
+    const setup::Setup truth = campaign::with_effect(bench.real, "ZX.squareness: angle_rad=6e-5");
+    const records::ReadingTable table = campaign::measured(truth, bench.table, 17);
+    const diagnosis::Diagnosis whole = diagnosis::diagnose(bench.setup, table);
     REQUIRE(whole.next.size() > 0);
     std::vector<std::string> stages;
     int asked = 0;
-    DiagnosisOptions options;
+    diagnosis::DiagnosisOptions options;
     options.watch = [&](const char* stage) { stages.emplace_back(stage); };
     options.plan_on = [&] { return ++asked < 3; };
-    const Diagnosis cut = diagnose(bench.setup, table, options);
+    const diagnosis::Diagnosis cut = diagnosis::diagnose(bench.setup, table, options);
     CHECK(asked == 3);
     CHECK(stages.size() == 5);
     CHECK(cut.next.empty());
@@ -215,7 +221,8 @@ TEST_CASE("the verdict is the same without the plan of the next measurement", "[
     CHECK(cut.causes[0].heldout.low == whole.causes[0].heldout.low);
 }
 
-TEST_CASE("ambiguous, measured as asked, diagnosed together: the right one is claimed", "[.known][diagnosis][next]") {
+TEST_CASE("ambiguous, measured as asked, diagnosed together: the right one is claimed",
+          "[.known][diagnosis][next]") {
     const Pair pairs[] = {
         {false, false, "pivot.g54: dg_mm=[0.005, 0.004, -0.006]",
          "pivot.p1970x: dp_mm=[-0.005, -0.004, 0.006]"},

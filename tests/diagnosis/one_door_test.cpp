@@ -43,8 +43,8 @@ struct Wrong {
     }
 };
 
-void add_errors(const Chain& chain, std::vector<Wrong>& list) {
-    for (const AxisGeometry& axis : chain.axes())
+void add_errors(const kinematics::Chain& chain, std::vector<Wrong>& list) {
+    for (const kinematics::AxisGeometry& axis : chain.axes())
         for (int k = 0; k < 6; ++k) {
             const std::string unit = k < 3 ? "_mm" : "_rad", size = k < 3 ? "0.01" : "4e-5";
             const std::string of(1, letter_of(axis.axis)), direction(1, "XYZABC"[k]);
@@ -64,8 +64,8 @@ void add_errors(const Chain& chain, std::vector<Wrong>& list) {
         {"EYS_mm", {{"[machine.errors]", "EYS_mm = { harmonics = [[1, 0.005, 0.002]] }"}}});
 }
 
-void add_keys(const Chain& chain, std::vector<Wrong>& list) {
-    for (const AxisGeometry& axis : chain.axes()) {
+void add_keys(const kinematics::Chain& chain, std::vector<Wrong>& list) {
+    for (const kinematics::AxisGeometry& axis : chain.axes()) {
         const std::string of(1, letter_of(axis.axis)), section = "[machine.axis." + of + "]";
         const std::string gap = axis.rotary ? "backlash_rad = 6e-5" : "backlash_mm = 0.006";
         list.push_back({of + " backlash key", {{section, gap}}});
@@ -81,23 +81,23 @@ void add_keys(const Chain& chain, std::vector<Wrong>& list) {
 
 /// Every effect: all parameters at their typical size, keys as usual; others of their values too
 /// where the form depends on them.
-void add_effects(const Setup& setup, std::vector<Wrong>& list) {
-    for (const Effect& effect : make_catalogue(setup)) {
+void add_effects(const setup::Setup& setup, std::vector<Wrong>& list) {
+    for (const effects::Effect& effect : effects::make_catalogue(setup)) {
         std::vector<double> values = effect.zeros();
         for (std::size_t j = 0; j < values.size(); ++j)
             if (!effect.parameters[j].is_key()) values[j] = effect.parameters[j].typical;
         const auto add = [&](const std::string& name) {
-            const EffectSetting setting = setting_of(effect, values);
+            const setup::EffectSetting setting = effects::setting_of(effect, values);
             if (setting.parameters.empty()) return;
-            Setup alone;
+            setup::Setup alone;
             alone.effects = {setting};
-            const std::string text = format_setup(alone);
+            const std::string text = setup::format_setup(alone);
             const std::size_t at = text.find("[effects]\n") + 10;
             list.push_back({name, {{"[effects]", text.substr(at, text.find('\n', at) - at)}}});
         };
         add(effect.name);
         for (std::size_t j = 0; j < values.size(); ++j) {
-            const EffectParameter& p = effect.parameters[j];
+            const effects::EffectParameter& p = effect.parameters[j];
             if (!p.is_key()) continue;
             const double usual = values[j];
             values[j] = p.grid.front() == usual ? p.grid.back() : p.grid.front();
@@ -110,7 +110,7 @@ void add_effects(const Setup& setup, std::vector<Wrong>& list) {
 /// What runs: an O number of the program folders or a text.
 struct Program {
     std::string name;
-    ProgramChoice choice;
+    emulator::ProgramChoice choice;
     std::vector<std::string> folders;
 };
 
@@ -137,9 +137,9 @@ std::string without_noise(const std::string& text) {
     return with_line(std::regex_replace(text, noise, ""), "[ballbar]", "sample_deg = 5");
 }
 
-Setup setup_of(const std::string& text) {
+setup::Setup setup_of(const std::string& text) {
     std::vector<std::string> notes;
-    return parse_setup(text, "one_door.toml", notes);
+    return setup::parse_setup(text, "one_door.toml", notes);
 }
 
 /// Programs that ship for a machine, and those that the diagnosis would write for it.
@@ -150,42 +150,45 @@ MeasuredMachine machine_of(const std::string& file, const std::vector<int>& ship
     if (!folder.empty()) folders.insert(folders.begin(), root + "/programs/" + folder);
     for (const int number : shipped)
         machine.programs.push_back({"O" + std::to_string(number), number, folders});
-    const Setup setup = setup_of(machine.text);
-    for (const Measurement& planned : ready_measurements(setup, 0.0)) {
+    const setup::Setup setup = setup_of(machine.text);
+    for (const diagnosis::Measurement& planned : diagnosis::ready_measurements(setup, 0.0)) {
         const auto owner = std::make_shared<std::string>(planned.program);
         machine.programs.push_back(
-            {planned.name, ProgramText{"O8900", *owner, owner}, {root + "/programs"}});
+            {planned.name, interpreter::ProgramText{"O8900", *owner, owner}, {root + "/programs"}});
     }
     if (machine.programs.empty())
-        machine.programs.push_back(
-            {"sphere and circles", ProgramText{"O8950", mill_program, {}}, {root + "/programs"}});
+        machine.programs.push_back({"sphere and circles",
+                                    interpreter::ProgramText{"O8950", mill_program, {}},
+                                    {root + "/programs"}});
     return machine;
 }
 
-ReadingTable run_of(const Setup& setup, const Program& program) {
-    ProgramFolders folders(program.folders);
-    RunOptions options;
-    options.effects = active_models(setup);
-    RunLog log = run_program(setup, folders, program.choice, options);
+records::ReadingTable run_of(const setup::Setup& setup, const Program& program) {
+    interpreter::ProgramFolders folders(program.folders);
+    emulator::RunOptions options;
+    options.effects = effects::active_models(setup);
+    emulator::RunLog log = emulator::run_program(setup, folders, program.choice, options);
     INFO(program.name << ": " << (log.result.alarm ? log.result.alarm->text : ""));
-    REQUIRE(log.result.status == RunStatus::ok);
+    REQUIRE(log.result.status == controller::RunStatus::ok);
     return std::move(log.readings);
 }
 
 /// Largest |run - predict| over the rows, read again from the CSV that run writes.
-double worst_mm(const Setup& setup, const ReadingTable& run) {
+double worst_mm(const setup::Setup& setup, const records::ReadingTable& run) {
     std::vector<std::string> notes;
-    const ReadingTable read = parse_readings(format_readings(run), "r.csv", notes);
+    const records::ReadingTable read =
+        records::parse_readings(records::format_readings(run), "r.csv", notes);
     REQUIRE(notes.empty());
-    const ReadingTable said = predicted(setup, read, active_models(setup));
+    const records::ReadingTable said =
+        emulator::predicted(setup, read, effects::active_models(setup));
     double worst = 0.0;
     for (std::size_t i = 0; i < run.rows.size(); ++i)
-        if (run.rows[i].device != Device::none)
+        if (run.rows[i].device != records::Device::none)
             worst = std::max(worst, std::abs(*run.rows[i].value_mm - *said.rows[i].value_mm));
     return worst;
 }
 
-double farthest_mm(const ReadingTable& a, const ReadingTable& b) {
+double farthest_mm(const records::ReadingTable& a, const records::ReadingTable& b) {
     if (a.rows.size() != b.rows.size()) return 1.0;
     double most = 0.0;
     for (std::size_t i = 0; i < a.rows.size(); ++i)
@@ -196,7 +199,7 @@ double farthest_mm(const ReadingTable& a, const ReadingTable& b) {
 
 /// All that may be wrong with a machine.
 std::vector<Wrong> wrongs_of(const MeasuredMachine& machine) {
-    const Setup setup = setup_of(machine.text);
+    const setup::Setup setup = setup_of(machine.text);
     std::vector<Wrong> list;
     add_errors(setup.machine.chain, list);
     std::erase_if(list, [&](const Wrong& wrong) {  // the file has it already
@@ -211,14 +214,14 @@ std::vector<Wrong> wrongs_of(const MeasuredMachine& machine) {
 /// now and then. Returns what no program saw.
 std::set<std::string> check_door(const MeasuredMachine& machine, std::size_t programs) {
     std::map<std::string, double> seen_mm;
-    std::vector<ReadingTable> base;
+    std::vector<records::ReadingTable> base;
     const std::size_t count = std::min(programs, machine.programs.size());
     for (std::size_t p = 0; p < count; ++p)
         base.push_back(run_of(setup_of(machine.text), machine.programs[p]));
     for (const Wrong& wrong : wrongs_of(machine)) {
-        const Setup setup = setup_of(wrong.text(machine.text));
+        const setup::Setup setup = setup_of(wrong.text(machine.text));
         for (std::size_t p = 0; p < count; ++p) {
-            const ReadingTable run = run_of(setup, machine.programs[p]);
+            const records::ReadingTable run = run_of(setup, machine.programs[p]);
             INFO(machine.file << ", " << machine.programs[p].name << ": " << wrong.name);
             CHECK(worst_mm(setup, run) <= 1e-9);
             double& most = seen_mm[wrong.name];

@@ -9,14 +9,14 @@ namespace trunnion {
 namespace {
 
 /// A campaign whose shop conditions change from pose to pose, each on its own.
-ReadingTable varied(const Setup& setup, bool ballbar) {
-    ReadingTable table = campaign::empty_table(setup);
+records::ReadingTable varied(const setup::Setup& setup, bool ballbar) {
+    records::ReadingTable table = campaign::empty_table(setup);
     campaign::add_sphere_map(table, setup, 90, 5);
     SeededNoise random(17);
     double time_s = -1.0, temperature_c = 20.0, load_kg = 0.0;
     bool clamped = false;
-    for (Reading& row : table.rows) {
-        if (row.device == Device::none || row.time_s != time_s) {
+    for (records::Reading& row : table.rows) {
+        if (row.device == records::Device::none || row.time_s != time_s) {
             temperature_c = 18.0 + 4.0 * random.uniform();
             load_kg = random.uniform() < 0.5 ? 0.0 : 120.0;
             clamped = random.uniform() < 0.5;
@@ -30,19 +30,20 @@ ReadingTable varied(const Setup& setup, bool ballbar) {
     return table;
 }
 
-const DriverShare* entry(const Diagnosis& d, const std::string& by) {
-    for (const DriverShare& w : d.where)
+const diagnosis::DriverShare* entry(const diagnosis::Diagnosis& d, const std::string& by) {
+    for (const diagnosis::DriverShare& w : d.where)
         if (w.by == by) return &w;
     return nullptr;
 }
 
 /// Gives the poses each other's labels.
-ReadingTable shuffled(const ReadingTable& table,
-                      const std::function<void(Reading&, const Reading&)>& take,
-                      std::uint64_t seed) {
+records::ReadingTable shuffled(
+    const records::ReadingTable& table,
+    const std::function<void(records::Reading&, const records::Reading&)>& take,
+    std::uint64_t seed) {
     std::vector<std::vector<std::size_t>> poses;
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
-        if (table.rows[i].device != Device::sphere) continue;
+        if (table.rows[i].device != records::Device::sphere) continue;
         if (poses.empty() || table.rows[poses.back().front()].time_s != table.rows[i].time_s)
             poses.emplace_back();
         poses.back().push_back(i);
@@ -53,7 +54,7 @@ ReadingTable shuffled(const ReadingTable& table,
     for (std::size_t k = order.size(); k > 1; --k)
         std::swap(order[k - 1],
                   order[static_cast<std::size_t>(random.uniform() * static_cast<double>(k))]);
-    ReadingTable result = table;
+    records::ReadingTable result = table;
     for (std::size_t k = 0; k < poses.size(); ++k)
         for (const std::size_t i : poses[k])
             take(result.rows[i], table.rows[poses[order[k]].front()]);
@@ -63,7 +64,7 @@ ReadingTable shuffled(const ReadingTable& table,
 }  // namespace
 
 TEST_CASE("each driver is found where an effect follows it, with its share", "[diagnosis]") {
-    const Setup setup = campaign::bc_setup(), real = campaign::real_machine(setup);
+    const setup::Setup setup = campaign::bc_setup(), real = campaign::real_machine(setup);
     struct Case {
         const char *injection, *by, *words;
         bool ballbar;
@@ -83,13 +84,13 @@ TEST_CASE("each driver is found where an effect follows it, with its share", "[d
         {"servo.mismatch: tau_x_s=4e-4", "velocity", "grows with the feed", true}};
     for (const Case& c : cases) {
         INFO(c.injection);
-        const Diagnosis d =
-            diagnose(setup, campaign::measured(campaign::with_effect(real, c.injection),
-                                               varied(setup, c.ballbar), 3));
+        const diagnosis::Diagnosis d =
+            diagnosis::diagnose(setup, campaign::measured(campaign::with_effect(real, c.injection),
+                                                          varied(setup, c.ballbar), 3));
         std::string all;
-        for (const DriverShare& w : d.where) all += w.text + "\n";
+        for (const diagnosis::DriverShare& w : d.where) all += w.text + "\n";
         INFO(all);
-        const DriverShare* found = entry(d, c.by);
+        const diagnosis::DriverShare* found = entry(d, c.by);
         REQUIRE(found);
         CHECK(found->share > c.least_share);
         CHECK(found->p_value < 1e-4);
@@ -100,29 +101,32 @@ TEST_CASE("each driver is found where an effect follows it, with its share", "[d
 }
 
 TEST_CASE("labels given to the wrong poses say nothing", "[diagnosis]") {
-    const Setup setup = campaign::bc_setup(), real = campaign::real_machine(setup);
+    const setup::Setup setup = campaign::bc_setup(), real = campaign::real_machine(setup);
     struct Case {
         const char *injection, *by;
-        std::function<void(Reading&, const Reading&)> take;
+        std::function<void(records::Reading&, const records::Reading&)> take;
     };
     const Case cases[] = {
         {"pivot.g54: dg_mm=[0.01, 0.008, -0.01]", "mode",
-         [](Reading& to, const Reading& from) { to.mode = from.mode; }},
+         [](records::Reading& to, const records::Reading& from) { to.mode = from.mode; }},
         {"clamp.shift: shift_b_mm=[0.01, 0, 0.01]", "clamp",
-         [](Reading& to, const Reading& from) { to.clamped = from.clamped; }},
+         [](records::Reading& to, const records::Reading& from) { to.clamped = from.clamped; }},
         {"thermal.expansion: growth_x_per_k=2e-5, growth_z_per_k=2e-5", "temperature",
-         [](Reading& to, const Reading& from) { to.temperature_c = from.temperature_c; }}};
+         [](records::Reading& to, const records::Reading& from) {
+             to.temperature_c = from.temperature_c;
+         }}};
     for (const Case& c : cases)
         for (std::uint64_t seed = 1; seed <= 4; ++seed) {
             INFO(c.injection << " seed " << seed);
-            const ReadingTable readings = campaign::measured(
+            const records::ReadingTable readings = campaign::measured(
                 campaign::with_effect(real, c.injection), varied(setup, false), seed);
-            CHECK(entry(diagnose(setup, readings), c.by));
-            CHECK_FALSE(entry(diagnose(setup, shuffled(readings, c.take, seed)), c.by));
+            CHECK(entry(diagnosis::diagnose(setup, readings), c.by));
+            CHECK_FALSE(entry(diagnosis::diagnose(setup, shuffled(readings, c.take, seed)), c.by));
         }
     // And without any effect nothing is said at all.
     for (std::uint64_t seed = 1; seed <= 10; ++seed)
-        CHECK(diagnose(setup, campaign::measured(real, varied(setup, false), seed)).where.empty());
+        CHECK(diagnosis::diagnose(setup, campaign::measured(real, varied(setup, false), seed))
+                  .where.empty());
 }
 
 }  // namespace trunnion

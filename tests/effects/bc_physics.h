@@ -14,7 +14,7 @@ namespace trunnion {
 
 /// What one reading looks like to physics: mm, rad, s.
 struct Seen {
-    const Reading* row = nullptr;
+    const records::Reading* row = nullptr;
     Vector3 at = Vector3::Zero();  ///< X Y Z words
     double b = 0.0, c = 0.0;
     Vector3 travel = Vector3::Zero(), velocity = Vector3::Zero(), acceleration = Vector3::Zero();
@@ -66,15 +66,16 @@ inline Vector3 work_point(const Seen& s, const Wrong& w) {
 }
 
 inline double reading(const Seen& s, const Wrong& w) {
-    const bool bar = s.row->device == Device::ballbar;
+    const bool bar = s.row->device == records::Device::ballbar;
     const Vector3 arm = bar ? cup : stylus;
     const Vector3 tip = s.at + arm + w.tool.cross(arm) + w.tip;
     const Vector3 apart = work_point(s, w) - tip;
     if (bar) return apart.norm() - bar_mm + w.reading;
     const Vector3& d = s.row->direction_M;
-    if (s.row->device == Device::sphere) return d.dot(apart) + w.reading;
+    if (s.row->device == records::Device::sphere) return d.dot(apart) + w.reading;
     const double along = d.dot(apart);
-    return along - std::sqrt(along * along - apart.squaredNorm() + touching_mm * touching_mm) + w.reading;
+    return along - std::sqrt(along * along - apart.squaredNorm() + touching_mm * touching_mm) +
+           w.reading;
 }
 
 inline double sign(double v) {
@@ -83,8 +84,8 @@ inline double sign(double v) {
 
 /// A campaign of every device, and how each of its readings is seen.
 struct Physics {
-    Setup setup = campaign::bc_setup();
-    ReadingTable table = campaign::empty_table(setup);
+    setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
     std::vector<Seen> seen;
 
     Physics() {
@@ -92,12 +93,12 @@ struct Physics {
         add_touches();
         campaign::add_ballbar(table, setup, 180);
         for (std::size_t i = 0; i < table.rows.size(); ++i) {
-            Reading& row = table.rows[i];
+            records::Reading& row = table.rows[i];
             row.load_kg = i % 2 ? 40.0 : 0.0;
             row.temperature_c = 20.0 + 0.02 * static_cast<double>(i % 200);
             row.clamped = i % 3 == 0;
             row.spindle_rad =
-                row.device == Device::ballbar ? 0.0 : 0.7 * static_cast<double>(i % 5);
+                row.device == records::Device::ballbar ? 0.0 : 0.7 * static_cast<double>(i % 5);
         }
         for (std::size_t i = 0; i < table.rows.size(); ++i) seen.push_back(look(i));
     }
@@ -106,7 +107,7 @@ struct Physics {
         double time_s = table.rows.back().time_s;
         const double angle = 0.6;
         for (int k = 0; k < 10; ++k) {
-            Reading row;
+            records::Reading row;
             row.test = "touches";
             row.feature = "S1";
             row.mode = PositioningMode::rtcp;
@@ -117,7 +118,8 @@ struct Physics {
             for (const double distance : {touching_mm + 8.0, touching_mm - 1.5}) {
                 campaign::aim(row, setup, artefact("S1"), stylus - distance * out);
                 row.time_s = time_s += 3.0;
-                row.device = distance > touching_mm ? Device::none : Device::touch;
+                row.device =
+                    distance > touching_mm ? records::Device::none : records::Device::touch;
                 row.direction_M = -out;
                 table.rows.push_back(row);
             }
@@ -141,10 +143,10 @@ struct Physics {
         s.c = word(i, Axis::C);
         s.travel_b = approach(i, Axis::B);
         s.travel_c = approach(i, Axis::C);
-        if (s.row->device != Device::sphere)
+        if (s.row->device != records::Device::sphere)
             s.travel = {approach(i, Axis::X), approach(i, Axis::Y), approach(i, Axis::Z)};
-        if (s.row->device == Device::touch) s.at += reading(s, {}) * s.row->direction_M;
-        if (s.row->device == Device::ballbar) planar(i, s);
+        if (s.row->device == records::Device::touch) s.at += reading(s, {}) * s.row->direction_M;
+        if (s.row->device == records::Device::ballbar) planar(i, s);
         return s;
     }
 
@@ -175,9 +177,10 @@ struct Physics {
     /// Largest difference between the product's change and the law's, over the largest change.
     double miss(const std::string& injection, const std::function<Wrong(const Seen&)>& law,
                 const std::function<bool(const Seen&)>& where = {}) const {
-        const ReadingTable off = predicted(setup, table, {});
-        const Setup with = campaign::with_effect(setup, injection);
-        const ReadingTable on = predicted(with, table, active_models(with));
+        const records::ReadingTable off = emulator::predicted(setup, table, {});
+        const setup::Setup with = campaign::with_effect(setup, injection);
+        const records::ReadingTable on =
+            emulator::predicted(with, table, effects::active_models(with));
         double worst = 0.0, largest = 0.0;
         std::string where_worst;
         for (std::size_t i = 0; i < table.rows.size(); ++i) {
@@ -201,7 +204,7 @@ inline bool planar_circle(const Seen& s) {
     return s.row->test.rfind("plane", 0) == 0;
 }
 inline bool probing(const Seen& s) {
-    return s.row->device != Device::ballbar;
+    return s.row->device != records::Device::ballbar;
 }
 /// Rows at a circle's ends and where an axis turns say little about speed.
 inline bool moving(const Seen& s) {

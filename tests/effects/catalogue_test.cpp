@@ -1,27 +1,27 @@
 // What holds for every effect: linear in its sizes, sound at the limits of its keys.
 #include <catch2/catch.hpp>
 
-#include "tests/effects/bc_physics.h"
 #include "records/samples.h"
+#include "tests/effects/bc_physics.h"
 
 namespace trunnion {
 
 TEST_CASE("twice the parameter is twice the change, for every parameter of the catalogue",
           "[effects]") {
     const Physics physics;
-    const Catalogue catalogue = make_catalogue(physics.setup);
-    const Replay replay(physics.setup, physics.table);
+    const effects::Catalogue catalogue = effects::make_catalogue(physics.setup);
+    const emulator::Replay replay(physics.setup, physics.table);
     const std::vector<double> off = replay.predict({});
-    for (const Effect& effect : catalogue)
+    for (const effects::Effect& effect : catalogue)
         for (std::size_t j = 0; j < effect.parameters.size(); ++j) {
             if (effect.parameters[j].is_key()) continue;
             INFO(effect.name << ' ' << effect.parameters[j].name);
             std::vector<double> values = effect.zeros();
-            CHECK(replay.predict({make_model(effect, values)}) == off);  // off is off
+            CHECK(replay.predict({effects::make_model(effect, values)}) == off);  // off is off
             values[j] = effect.parameters[j].typical;
-            const auto once = replay.predict({make_model(effect, values)});
+            const auto once = replay.predict({effects::make_model(effect, values)});
             values[j] *= 2.0;
-            const auto twice = replay.predict({make_model(effect, values)});
+            const auto twice = replay.predict({effects::make_model(effect, values)});
             double worst = 0.0, largest = 0.0;
             for (std::size_t i = 0; i < off.size(); ++i) {
                 worst = std::max(worst, std::abs(twice[i] - off[i] - 2.0 * (once[i] - off[i])));
@@ -44,36 +44,39 @@ TEST_CASE("time constants, pitches and decays at their limits", "[effects]") {
     CHECK(drift(1.0) < 1e-6);  // long over: the whole shift
     CHECK(drift(1e9) > 0.99);  // not begun: nothing
     // A ripple whose pitch is the distance between two positions is the same at both.
-    const Effect ripple = linear_cyclic(*physics.setup.machine.chain.find(Axis::X));
-    const auto shift = [&](const Effect& effect, const std::vector<double>& values, Axis axis,
-                           double q) {
+    const effects::Effect ripple =
+        effects::linear_cyclic(*physics.setup.machine.chain.find(Axis::X));
+    const auto shift = [&](const effects::Effect& effect, const std::vector<double>& values,
+                           Axis axis, double q) {
         AxisSample sample;
         sample.position[axis] = q;
-        Perturbation out;
+        kinematics::Perturbation out;
         effect.add(sample, {}, values, out);
         return out.axis[axis];
     };
     CHECK(shift(ripple, {2e-3, 1e-3, 12.0}, Axis::X, 5.0) ==
           Approx(shift(ripple, {2e-3, 1e-3, 12.0}, Axis::X, 5.0 - 24.0)));
-    const Effect teeth = rotary_cyclic(*physics.setup.machine.chain.find(Axis::C));
+    const effects::Effect teeth =
+        effects::rotary_cyclic(*physics.setup.machine.chain.find(Axis::C));
     CHECK(shift(teeth, {2e-5, 1e-5, 90.0}, Axis::C, 0.1) ==
           Approx(shift(teeth, {2e-5, 1e-5, 90.0}, Axis::C, 0.1 + 2.0 * pi / 90.0)));
     // A spike has lost all but 1/e of its height one decay length after the turn.
-    const Effect spike = linear_reversal_spike(*physics.setup.machine.chain.find(Axis::Y));
+    const effects::Effect spike =
+        effects::linear_reversal_spike(*physics.setup.machine.chain.find(Axis::Y));
     const auto after = [&](double way_mm, double run_up = 1.0, bool unknown = false) {
         AxisSample sample;
         sample.run_up_unknown[index_of(Axis::Y)] = unknown;
         sample.travel[index_of(Axis::Y)] = 1;
         sample.since_reversal[index_of(Axis::Y)] = way_mm;
-        Contact contact;
-        contact.device = Device::ballbar;
-        Perturbation out;
+        emulator::Contact contact;
+        contact.device = records::Device::ballbar;
+        kinematics::Perturbation out;
         spike.add(sample, contact, std::vector<double>{0.006, 2.0, 1.0, run_up}, out);
         return out.axis[Axis::Y];
     };
     CHECK(after(0.0) == Approx(-0.006));
     CHECK(after(2.0) == Approx(-0.006 * std::exp(-1.0)));
-    CHECK(after(no_reversal_seen * 2.0) == 0.0);
+    CHECK(after(records::no_reversal_seen * 2.0) == 0.0);
     // A circle begun at the quadrant: reached through it (a run-up arc), or not.
     CHECK(after(2.0, 1.0, true) == after(2.0));
     CHECK(after(2.0, 0.0, true) == 0.0);
@@ -85,15 +88,15 @@ TEST_CASE("time constants, pitches and decays at their limits", "[effects]") {
             sample.travel[index_of(Axis::Y)] = -1;
             sample.velocity[Axis::X] = speed * std::cos(angle);
             sample.velocity[Axis::Y] = -speed * std::sin(angle);
-            Contact contact;
-            contact.device = Device::ballbar;
+            emulator::Contact contact;
+            contact.device = records::Device::ballbar;
             sample.acceleration[Axis::Y] = -std::cos(angle);
-            Perturbation out;
+            kinematics::Perturbation out;
             spike.add(sample, contact, std::vector<double>{0.006, 2.0, 0.0, 1.0}, out);
             CHECK(out.axis[Axis::Y] == Approx(0.006 * std::exp(-angle / 0.02)).margin(1e-15));
         }
     // Rounding never moves an axis by more than half the increment.
-    const Effect rounding = control_rounding(physics.setup.machine.chain);
+    const effects::Effect rounding = effects::control_rounding(physics.setup.machine.chain);
     for (double q = -1.0; q < 1.0; q += 0.0137)
         CHECK(std::abs(shift(rounding, {1.0, 0.0, 0.02}, Axis::X, q)) <= 0.01 + 1e-12);
 }

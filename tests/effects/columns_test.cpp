@@ -2,33 +2,34 @@
 #include <catch2/catch.hpp>
 
 #include "identification/base_model.h"
-#include "tests/support/campaign.h"
 #include "records/samples.h"
+#include "tests/support/campaign.h"
 
 namespace trunnion {
 namespace {
 
 struct Bench {
-    Setup setup = campaign::bc_setup();
-    ReadingTable table = campaign::empty_table(setup);
+    setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
     Bench() {
         campaign::add_sphere_map(table, setup, 12, 5);
         campaign::add_ballbar(table, setup, 36);
     }
     /// Change of all readings when the effect is switched on, mm.
     std::vector<double> change(const std::string& injection) const {
-        const ReadingTable off = predicted(setup, table, {});
-        const Setup on_setup = campaign::with_effect(setup, injection);
-        const ReadingTable on = predicted(on_setup, table, active_models(on_setup));
+        const records::ReadingTable off = emulator::predicted(setup, table, {});
+        const setup::Setup on_setup = campaign::with_effect(setup, injection);
+        const records::ReadingTable on =
+            emulator::predicted(on_setup, table, effects::active_models(on_setup));
         std::vector<double> result;
         for (std::size_t i = 0; i < table.rows.size(); ++i)
             result.push_back(off.rows[i].value_mm ? *on.rows[i].value_mm - *off.rows[i].value_mm
                                                   : 0.0);
         return result;
     }
-    Vector3 bar_M(const Reading& row) const {
-        const MachinePose poses = setup.machine.poses(row.commanded);
-        const Artefact& pivot = *setup.find_artefact("P1");
+    Vector3 bar_M(const records::Reading& row) const {
+        const kinematics::MachinePose poses = setup.machine.poses(row.commanded);
+        const setup::Artefact& pivot = *setup.find_artefact("P1");
         return (poses.pose_MS * setup.ballbar->cup_S_mm - poses.pose_MW * pivot.center_W_mm)
             .normalized();
     }
@@ -41,7 +42,7 @@ TEST_CASE("squareness on an XY circle is -(R beta / 2) sin 2 theta up to set-up"
     const double beta = 4e-5;
     const auto change = bench.change("XY.squareness: angle_rad=4e-5");
     for (std::size_t i = 0; i < bench.table.rows.size(); ++i) {
-        const Reading& row = bench.table.rows[i];
+        const records::Reading& row = bench.table.rows[i];
         if (row.test.rfind("plane0", 0) != 0) continue;
         const Vector3 bar = bench.bar_M(row);
         // Y leans towards -X by beta about Z: the cup moves by -beta y along X.
@@ -54,7 +55,7 @@ TEST_CASE("servo mismatch flips with the sense of travel and grows with the feed
     const auto change = bench.change("servo.mismatch: tau_x_s=1e-3, tau_y_s=0.5e-3");
     double slow = 0.0, fast = 0.0;
     for (std::size_t i = 0; i < bench.table.rows.size(); ++i) {
-        const Reading& row = bench.table.rows[i];
+        const records::Reading& row = bench.table.rows[i];
         if (row.test.rfind("plane0_ccw", 0) != 0) continue;
         const Vector3 bar = bench.bar_M(row);
         // s F (tau_x - tau_y) / 2 sin 2 theta along the bar, measured outwards.
@@ -73,7 +74,7 @@ TEST_CASE("contour lag shrinks circles with the square of the feed", "[effects]"
     const Bench bench;
     const auto change = bench.change("servo.contour: lag2_s2=1e-4");
     for (std::size_t i = 0; i < bench.table.rows.size(); ++i) {
-        const Reading& row = bench.table.rows[i];
+        const records::Reading& row = bench.table.rows[i];
         if (row.test.rfind("plane", 0) != 0) continue;
         const double feed = row.feed_mm_min / 60.0;
         REQUIRE(change[i] == Approx(-1e-4 * feed * feed / 100.0).epsilon(0.08));
@@ -84,8 +85,8 @@ TEST_CASE("backlash shifts by half the gap on the side it comes from", "[effects
     const Bench bench;
     const auto change = bench.change("X.backlash=6um");
     for (std::size_t i = 0; i < bench.table.rows.size(); ++i) {
-        const Reading& row = bench.table.rows[i];
-        if (row.device == Device::sphere) REQUIRE(change[i] == 0.0);
+        const records::Reading& row = bench.table.rows[i];
+        if (row.device == records::Device::sphere) REQUIRE(change[i] == 0.0);
         if (row.test.rfind("plane0", 0) != 0) continue;
         const Vector3 bar = bench.bar_M(row);
         REQUIRE(std::abs(change[i]) <= 0.003 * std::abs(bar.x()) + 1e-6);
@@ -95,10 +96,10 @@ TEST_CASE("backlash shifts by half the gap on the side it comes from", "[effects
 TEST_CASE("rotary backlash moves the found sphere tangentially", "[effects]") {
     const Bench bench;
     const auto change = bench.change("C.backlash=60urad");
-    const auto samples = samples_of(bench.table);
+    const auto samples = records::samples_of(bench.table);
     for (std::size_t i = 0; i < bench.table.rows.size(); ++i) {
-        const Reading& row = bench.table.rows[i];
-        if (row.device != Device::sphere) continue;
+        const records::Reading& row = bench.table.rows[i];
+        if (row.device != records::Device::sphere) continue;
         AxisPositions turned = row.commanded;
         turned[Axis::C] += 3e-5 * samples[i].travel[index_of(Axis::C)];
         const Vector3 center = bench.setup.find_artefact(row.feature)->center_W_mm;
@@ -115,8 +116,8 @@ TEST_CASE("wrong stores move the axes by -e_G and -e_P in their modes only", "[e
         bench.change("pivot.p1970x: dp_mm=[0.01, 0.02, -0.01], dd_mm=[0.02, 0, 0.01]");
     const Vector3 dg(0.01, -0.02, 0.03), dp(0.01, 0.02, -0.01), dd(0.02, 0, 0.01);
     for (std::size_t i = 0; i < bench.table.rows.size(); ++i) {
-        const Reading& row = bench.table.rows[i];
-        if (row.device != Device::sphere) continue;
+        const records::Reading& row = bench.table.rows[i];
+        if (row.device != records::Device::sphere) continue;
         const Matrix3 rb = rotation_about(-Vector3::UnitY(), row.commanded[Axis::B]);
         const Matrix3 rc = rotation_about(-Vector3::UnitZ(), row.commanded[Axis::C]);
         const Vector3 eg = rb * rc * dg - dg;
@@ -129,20 +130,22 @@ TEST_CASE("wrong stores move the axes by -e_G and -e_P in their modes only", "[e
 
 TEST_CASE("every column of the catalogue is what the emulator does", "[effects]") {
     const Bench bench;
-    const Replay replay(bench.setup, bench.table);
-    const Catalogue catalogue = make_catalogue(bench.setup, extent_of(bench.setup, bench.table));
-    const ForwardModel forward(bench.setup.machine);
-    std::vector<Perturbation> gradient;
+    const emulator::Replay replay(bench.setup, bench.table);
+    const effects::Catalogue catalogue =
+        effects::make_catalogue(bench.setup, effects::extent_of(bench.setup, bench.table));
+    const kinematics::ForwardModel forward(bench.setup.machine);
+    std::vector<kinematics::Perturbation> gradient;
     for (std::size_t i = 0; i < replay.size(); ++i)
         gradient.push_back(replay.gradient(i, forward, {}));
     const std::vector<double> off = replay.predict({});
-    for (const Effect& effect : catalogue) {
+    for (const effects::Effect& effect : catalogue) {
         for (std::size_t j = 0; j < effect.parameters.size(); ++j) {
             if (effect.parameters[j].is_key()) continue;
             std::vector<double> values = effect.zeros();
-            const Eigen::VectorXd column = effect_column(replay, gradient, effect, values, j);
+            const Eigen::VectorXd column =
+                identification::effect_column(replay, gradient, effect, values, j);
             values[j] = effect.parameters[j].typical;
-            const std::vector<double> on = replay.predict({make_model(effect, values)});
+            const std::vector<double> on = replay.predict({effects::make_model(effect, values)});
             double worst = 0.0, largest = 1e-6;
             for (std::size_t i = 0; i < on.size(); ++i) {
                 worst = std::max(worst, std::abs(on[i] - off[i] - column(static_cast<long>(i))));

@@ -5,9 +5,10 @@
 
 namespace trunnion {
 
-TEST_CASE("the own forward model and the emulator read the same without effects", "[.known][effects]") {
+TEST_CASE("the own forward model and the emulator read the same without effects",
+          "[.known][effects]") {
     const Physics physics;
-    const ReadingTable read = predicted(physics.setup, physics.table, {});
+    const records::ReadingTable read = emulator::predicted(physics.setup, physics.table, {});
     for (std::size_t i = 0; i < read.rows.size(); ++i)
         if (read.rows[i].value_mm)
             REQUIRE(*read.rows[i].value_mm == Approx(reading(physics.seen[i], {})).margin(1e-9));

@@ -10,7 +10,7 @@
 namespace trunnion {
 
 TEST_CASE("the catalogue has every name of the contract", "[effects]") {
-    const Catalogue catalogue = make_catalogue(campaign::bc_setup());
+    const effects::Catalogue catalogue = effects::make_catalogue(campaign::bc_setup());
     std::vector<std::string> names{
         "location",          "pivot.g54",         "pivot.p1970x",   "XY.squareness",
         "YZ.squareness",     "ZX.squareness",     "servo.mismatch", "servo.contour",
@@ -28,7 +28,7 @@ TEST_CASE("the catalogue has every name of the contract", "[effects]") {
             names.push_back(std::string(axis) + what);
     for (const std::string& name : names) {
         INFO(name);
-        const Effect* effect = find_effect(catalogue, name);
+        const effects::Effect* effect = effects::find_effect(catalogue, name);
         REQUIRE(effect != nullptr);
         REQUIRE(effect->what.size() > 10);
         REQUIRE(effect->cause.size() > 5);
@@ -38,9 +38,9 @@ TEST_CASE("the catalogue has every name of the contract", "[effects]") {
 }
 
 TEST_CASE("injections with names, vectors and units", "[effects]") {
-    const Catalogue catalogue = make_catalogue(campaign::bc_setup());
+    const effects::Catalogue catalogue = effects::make_catalogue(campaign::bc_setup());
     const auto value = [&](const std::string& text, const std::string& name) {
-        return parse_injection(text, catalogue).parameters.at(name);
+        return effects::parse_injection(text, catalogue).parameters.at(name);
     };
     REQUIRE(value("C.backlash: gap_rad=6e-5", "gap_rad").front() == 6e-5);
     REQUIRE(value("C.backlash=60urad", "gap_rad").front() == Approx(6e-5));
@@ -53,14 +53,14 @@ TEST_CASE("injections with names, vectors and units", "[effects]") {
 }
 
 TEST_CASE("injections that mean nothing are refused with their place", "[effects]") {
-    const Catalogue catalogue = make_catalogue(campaign::bc_setup());
+    const effects::Catalogue catalogue = effects::make_catalogue(campaign::bc_setup());
     for (const char* text :
          {"C.wobble=3", "C.backlash: gap=3", "C.backlash=", "C.backlash=3 um",
           "C.backlash: gap_rad", "C.backlash=1e-5 rest", "", "pivot.g54: dg_mm=[1, 2]",
           "A.backlash=1urad", "C.backlash=nan", "C.backlash=infurad", "X.backlash=1e308m"}) {
         INFO(text);
         try {
-            parse_injection(text, catalogue);
+            effects::parse_injection(text, catalogue);
             FAIL("taken");
         } catch (const InputError& error) {
             CHECK(error.where.program == "--inject");
@@ -71,13 +71,13 @@ TEST_CASE("injections that mean nothing are refused with their place", "[effects
 }
 
 TEST_CASE("values and settings are each other's inverse", "[effects]") {
-    const Catalogue catalogue = make_catalogue(campaign::bc_setup());
-    for (const Effect& effect : catalogue) {
+    const effects::Catalogue catalogue = effects::make_catalogue(campaign::bc_setup());
+    for (const effects::Effect& effect : catalogue) {
         std::vector<double> values = effect.zeros();
         for (std::size_t j = 0; j < values.size(); ++j)
             if (!effect.parameters[j].is_key()) values[j] = 0.1 * static_cast<double>(j + 1);
         INFO(effect.name);
-        REQUIRE(values_of(effect, setting_of(effect, values)) == values);
+        REQUIRE(effects::values_of(effect, effects::setting_of(effect, values)) == values);
     }
 }
 
@@ -90,7 +90,7 @@ std::string effects_page() {
            "results. Typical sizes are prior standard deviations; q is the axis position (mm, "
            "rad), "
            "keys are searched. Written by `test_effects '[docs]'`.\n\n" +
-           describe_catalogue(make_catalogue(campaign::bc_setup()));
+           effects::describe_catalogue(effects::make_catalogue(campaign::bc_setup()));
 }
 
 const char* page_path = TRUNNION_SOURCE_DIR "/docs/effects.md";

@@ -32,7 +32,7 @@ TEST_CASE("time, temperature, load, clamps", "[effects]") {
 
 TEST_CASE("probe, bar and artefacts", "[effects]") {
     Physics physics;
-    const auto touching = [](const Seen& s) { return s.row->device == Device::touch; };
+    const auto touching = [](const Seen& s) { return s.row->device == records::Device::touch; };
     CHECK(physics.miss(
               "probe.radius: radius_mm=3um, delay_s=2ms",
               [](const Seen& s) {
@@ -73,7 +73,7 @@ TEST_CASE("probe, bar and artefacts", "[effects]") {
                   w.reading = 3e-3;
                   return w;
               },
-              [](const Seen& s) { return s.row->device == Device::ballbar; }) < 1e-6);
+              [](const Seen& s) { return s.row->device == records::Device::ballbar; }) < 1e-6);
     CHECK(physics.miss(
               "artefact.form: q1_mm=1um, q3_mm=0.5um, artefact=0",
               [](const Seen& s) {

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/random.h"
+#include "base/units.h"
 #include "controller/controller.h"
 #include "emulator/run.h"
 #include "setup/setup.h"
-#include "base/random.h"
-#include "base/units.h"
 
 namespace trunnion {
 
@@ -26,50 +26,54 @@ std::vector<std::string> machine_files() {
 }
 
 /// The setup without errors, its control told the truth. Nothing for machines without two rotaries.
-std::optional<Setup> truthful(const std::string& path) {
+std::optional<setup::Setup> truthful(const std::string& path) {
     std::vector<std::string> notes;
-    Setup setup = load_setup(path, notes);
+    setup::Setup setup = setup::load_setup(path, notes);
     setup.machine.errors = {};
     setup.effects.clear();
     for (int number = 19666; number <= 19744; ++number) setup.stores.parameters.entry.erase(number);
-    if (!derive_pivot_parameters(setup.machine, setup.stores.parameters).empty())
+    if (!setup::derive_pivot_parameters(setup.machine, setup.stores.parameters).empty())
         return std::nullopt;
     setup.stores.tools.tool[1] = {};
     setup.stores.tools.tool[1].length_geometry_mm = 137.5;
     setup.stores.work = {};
-    for (AxisGeometry& axis : setup.machine.chain.work) axis.min = axis.max = std::nullopt;
-    for (AxisGeometry& axis : setup.machine.chain.tool) axis.min = axis.max = std::nullopt;
+    for (kinematics::AxisGeometry& axis : setup.machine.chain.work)
+        axis.min = axis.max = std::nullopt;
+    for (kinematics::AxisGeometry& axis : setup.machine.chain.tool)
+        axis.min = axis.max = std::nullopt;
     return setup;
 }
 
 /// Looks at the physical tip at seven places of each move.
-struct TipWatcher : MotionSink {
-    explicit TipWatcher(const Machine& machine) : machine(machine) {}
-    MoveResult move(const AxisMove& m) override {
+struct TipWatcher : motion::MotionSink {
+    explicit TipWatcher(const kinematics::Machine& machine) : machine(machine) {}
+    motion::MoveResult move(const motion::AxisMove& m) override {
         seen.clear();
         for (int k = 0; k <= 6; ++k) seen.push_back(machine.tip_W(m.at(k / 6.0), {0, 0, -137.5}));
         last = m.to;
         return {};
     }
     Vector3 direction_W() const {
-        const MachinePose pose = machine.poses(last);
+        const kinematics::MachinePose pose = machine.poses(last);
         return pose.pose_MW.rotation.transpose() * pose.pose_MS.rotation * Vector3::UnitZ();
     }
-    const Machine& machine;
+    const kinematics::Machine& machine;
     std::vector<Vector3> seen;
     AxisPositions last;
 };
 
-RunResult run_text(const Setup& setup, Stores& stores, MotionSink& sink, const std::string& text) {
-    ProgramsInMemory programs;
-    Controller control(control_config(setup), stores, programs, sink, [](std::string_view) {});
+controller::RunResult run_text(const setup::Setup& setup, offsets::Stores& stores,
+                               motion::MotionSink& sink, const std::string& text) {
+    interpreter::ProgramsInMemory programs;
+    controller::Controller control(emulator::control_config(setup), stores, programs, sink,
+                                   [](std::string_view) {});
     const auto owner = std::make_shared<std::string>(text);
-    return control.run(ProgramText{"test", *owner, owner});
+    return control.run(interpreter::ProgramText{"test", *owner, owner});
 }
 
-std::vector<Axis> rotaries(const Setup& setup) {
+std::vector<Axis> rotaries(const setup::Setup& setup) {
     std::vector<Axis> out;
-    for (const AxisGeometry& axis : setup.machine.chain.axes())
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
         if (axis.rotary) out.push_back(axis.axis);
     return out;
 }
@@ -95,9 +99,9 @@ TEST_CASE("G43.4 on every machine: the physical tip runs straight to the program
                                    140 * (noise.uniform() - 0.5), letter_of(turn[1]),
                                    300 * (noise.uniform() - 0.5));
             TipWatcher observer(setup->machine);
-            Stores stores = setup->stores;
-            const RunResult result = run_text(*setup, stores, observer, program);
-            REQUIRE(result.status == RunStatus::ok);
+            offsets::Stores stores = setup->stores;
+            const controller::RunResult result = run_text(*setup, stores, observer, program);
+            REQUIRE(result.status == controller::RunStatus::ok);
             REQUIRE(observer.seen.size() == 7);
             CHECK((observer.seen.back() - target).norm() < 1e-9);
             const Vector3 start = observer.seen.front();
@@ -125,8 +129,8 @@ TEST_CASE("G68.2 and G53.1 on every machine: the physical tool stands square on 
                                   rotation_about(Vector3::UnitX(), rad_from_deg(j)) *
                                   rotation_about(Vector3::UnitZ(), rad_from_deg(turn));
             TipWatcher observer(setup->machine);
-            Stores stores = setup->stores;
-            const RunResult result = run_text(
+            offsets::Stores stores = setup->stores;
+            const controller::RunResult result = run_text(
                 *setup, stores, observer,
                 fmt::format("G90 G21 G54\nG68.2 X{:.3f} Y{:.3f} Z{:.3f} I{:.3f} J{:.3f} K{:.3f}\n"
                             "G53.1 P{}\nG43 H1 G0 X11. Y-7. Z3.5\n",
@@ -134,7 +138,7 @@ TEST_CASE("G68.2 and G53.1 on every machine: the physical tool stands square on 
             INFO((result.alarm ? fmt::format("{} {} line {}", result.alarm->number,
                                              result.alarm->text, result.alarm->where.line)
                                : ""));
-            REQUIRE(result.status == RunStatus::ok);
+            REQUIRE(result.status == controller::RunStatus::ok);
             ++reached;
             CHECK((observer.seen.back() - origin - frame * point).norm() < 1e-9);
             CHECK(observer.direction_W().cross(frame.col(2)).norm() < 1e-12);
@@ -148,10 +152,10 @@ namespace {
 
 /// What a post-processor knows: the true machine, a point of the table, and where to bring it.
 struct Post {
-    const Setup& setup;
+    const setup::Setup& setup;
     AxisPositions angles;
 
-    MachinePose pose() const { return setup.machine.poses(angles); }
+    kinematics::MachinePose pose() const { return setup.machine.poses(angles); }
     /// Gauge point that puts the tip on q_W.
     Vector3 gauge(const Vector3& q_W) const {
         return pose().pose_MW * q_W - pose().pose_MS * Vector3(0, 0, -137.5);
@@ -169,9 +173,9 @@ std::string at(const Vector3& v) {
 }
 
 /// Where the axes stand after a program.
-Vector3 reached(const Setup& setup, const std::string& program, PositioningMode mode) {
-    struct Last : MotionSink {
-        MoveResult move(const AxisMove& m) override {
+Vector3 reached(const setup::Setup& setup, const std::string& program, PositioningMode mode) {
+    struct Last : motion::MotionSink {
+        motion::MoveResult move(const motion::AxisMove& m) override {
             to = m.to;
             mode = m.mode;
             return {};
@@ -179,11 +183,12 @@ Vector3 reached(const Setup& setup, const std::string& program, PositioningMode 
         AxisPositions to;
         PositioningMode mode = PositioningMode::none;
     } last;
-    Stores stores = setup.stores;
-    const RunResult result = run_text(setup, stores, last, "G90 G21 G94 G0\n" + program);
+    offsets::Stores stores = setup.stores;
+    const controller::RunResult result =
+        run_text(setup, stores, last, "G90 G21 G94 G0\n" + program);
     INFO((result.alarm ? fmt::format("{} line {}", result.alarm->number, result.alarm->where.line)
                        : ""));
-    REQUIRE(result.status == RunStatus::ok);
+    REQUIRE(result.status == controller::RunStatus::ok);
     CHECK(last.mode == mode);
     return {last.to[Axis::X], last.to[Axis::Y], last.to[Axis::Z]};
 }
@@ -194,7 +199,7 @@ std::string by_tcp(const Post& post, const Vector3& q) {
 
 /// The plane square to the tool as it stands, from two vectors.
 std::string by_plane(const Post& post, const Vector3& q) {
-    const MachinePose pose = post.pose();
+    const kinematics::MachinePose pose = post.pose();
     const Vector3 n = pose.pose_MW.rotation.transpose() * pose.pose_MS.rotation.col(2);
     const Vector3 x = n.unitOrthogonal(), origin(1, 2, 3);
     Matrix3 frame;
@@ -207,9 +212,9 @@ std::string by_plane(const Post& post, const Vector3& q) {
 }
 
 /// The table's rotaries meet in one point and each turns in a plane of the axes: G54.2 can do it.
-std::optional<Vector3> fixture_centre(const Setup& setup) {
+std::optional<Vector3> fixture_centre(const setup::Setup& setup) {
     std::optional<Vector3> centre;
-    for (const AxisGeometry& axis : setup.machine.chain.work) {
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.work) {
         if (!axis.rotary) continue;
         if (axis.direction.cwiseAbs().maxCoeff() < 1 - 1e-12) return std::nullopt;
         if (centre && *centre != axis.point_mm) return std::nullopt;
@@ -268,7 +273,7 @@ TEST_CASE("one point by DPP, G54.2, G43.4 and G68.2/G53.1: one place of the axes
 TEST_CASE("heads and mixed machines whose stores are wrong move by the closed forms") {
     SeededNoise noise(10);
     const Vector3 dp(0.08, 0.06, -0.07), dt(0.15, -0.12, 0.16), ds(-0.15, 0.11, 0.06);
-    const auto add = [](Setup& setup, int number, const Vector3& d) {
+    const auto add = [](setup::Setup& setup, int number, const Vector3& d) {
         for (int i = 0; i < 3; ++i)
             setup.stores.parameters.set(number + i, setup.stores.parameters.get(number + i) + d[i]);
     };
@@ -279,7 +284,7 @@ TEST_CASE("heads and mixed machines whose stores are wrong move by the closed fo
         INFO(file);
         ++machines;
         const bool mixed = setup->stores.parameters.get(19680) == 21;
-        Setup wrong = *setup;
+        setup::Setup wrong = *setup;
         add(wrong, 19709, dt);
         add(wrong, mixed ? 19700 : 19712, mixed ? dp : ds);
         for (int k = 0; k < 40; ++k) {
@@ -288,7 +293,7 @@ TEST_CASE("heads and mixed machines whose stores are wrong move by the closed fo
             post.angles[turn[0]] = rad_from_deg(std::round(140 * (noise.uniform() - 0.5)));
             post.angles[turn[1]] = rad_from_deg(std::round(300 * (noise.uniform() - 0.5)));
             const Vector3 q(30 * noise.uniform(), 20, -10);
-            const MachinePose pose = post.pose();
+            const kinematics::MachinePose pose = post.pose();
             // The head whole, and its first axis alone (the second at zero).
             const Matrix3 whole = pose.pose_MS.rotation, unit = Matrix3::Identity();
             AxisPositions first = post.angles;
@@ -310,12 +315,12 @@ TEST_CASE("heads and mixed machines whose stores are wrong move by the closed fo
 
 TEST_CASE("the setup says to what the frame of G43.4 is tied, and says it again") {
     std::vector<std::string> notes;
-    Setup setup = load_setup(TRUNNION_SOURCE_DIR "/machines/bc_table.toml", notes);
-    CHECK(setup.tcp_frame == TcpFrame::start);
-    setup.tcp_frame = TcpFrame::rotary_zero;
-    const Setup again = parse_setup(format_setup(setup), "again.toml", notes);
-    CHECK(again.tcp_frame == TcpFrame::rotary_zero);
-    CHECK(control_config(again).tcp_frame == TcpFrame::rotary_zero);
+    setup::Setup setup = setup::load_setup(TRUNNION_SOURCE_DIR "/machines/bc_table.toml", notes);
+    CHECK(setup.tcp_frame == positioning::TcpFrame::start);
+    setup.tcp_frame = positioning::TcpFrame::rotary_zero;
+    const setup::Setup again = setup::parse_setup(setup::format_setup(setup), "again.toml", notes);
+    CHECK(again.tcp_frame == positioning::TcpFrame::rotary_zero);
+    CHECK(emulator::control_config(again).tcp_frame == positioning::TcpFrame::rotary_zero);
 }
 
 }  // namespace trunnion

@@ -17,23 +17,24 @@ struct Row {
     Vector3 true_mm;
 };
 
-Setup setup_of(int exercise) {
+setup::Setup setup_of(int exercise) {
     std::vector<std::string> notes;
-    return load_setup(
+    return setup::load_setup(
         TRUNNION_SOURCE_DIR "/machines/htm_exercise_" + std::to_string(exercise) + ".toml", notes);
 }
 
 /// Every G1 row of the exercise's program on this setup.
-std::vector<Row> run(const Setup& setup, int exercise) {
+std::vector<Row> run(const setup::Setup& setup, int exercise) {
     const std::string path =
         TRUNNION_SOURCE_DIR "/programs/papers/htm_exercise_" + std::to_string(exercise) + ".nc";
     std::stringstream text;
     text << std::ifstream(path).rdbuf();
-    RunOptions options;
+    emulator::RunOptions options;
     options.trace = options.truth = true;
-    ProgramsInMemory none;
-    const RunLog log = run_program(setup, none, ProgramText{path, text.str(), nullptr}, options);
-    REQUIRE(log.result.status == RunStatus::ok);
+    interpreter::ProgramsInMemory none;
+    const emulator::RunLog log = emulator::run_program(
+        setup, none, interpreter::ProgramText{path, text.str(), nullptr}, options);
+    REQUIRE(log.result.status == controller::RunStatus::ok);
     std::istringstream lines(log.trace_csv);
     std::string header, line;
     std::getline(lines, header);
@@ -46,7 +47,7 @@ std::vector<Row> run(const Setup& setup, int exercise) {
             cell[column] = value;
         if (cell["motion"] != "G1") continue;
         Row row;
-        for (const AxisGeometry& axis : setup.machine.chain.axes())
+        for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
             row.at[axis.axis] =
                 std::stod(cell[std::string(1, char(letter_of(axis.axis) - 'A' + 'a')) + "_mm"]);
         row.true_mm = {std::stod(cell["true_x_mm"]), std::stod(cell["true_y_mm"]),
@@ -61,7 +62,7 @@ Vector3 slides(const Row& row) {
 }
 
 /// Eq. 19: six errors as a matrix of first order, here applied to a point of the slide.
-Vector3 eq_19(const std::array<ErrorCurve, 6>& e, double q, const Vector3& p) {
+Vector3 eq_19(const std::array<kinematics::ErrorCurve, 6>& e, double q, const Vector3& p) {
     const Vector3 tilt(e[3](q), e[4](q), e[5](q));
     return p + tilt.cross(p) + Vector3(e[0](q), e[1](q), e[2](q));
 }
@@ -84,7 +85,7 @@ TEST_CASE("exercise 1: lateral and Abbe error along the beam") {
 }
 
 TEST_CASE("exercise 2: the matrix from the z slide to the y slide, eq. 29") {
-    const Setup setup = setup_of(2);
+    const setup::Setup setup = setup_of(2);
     const auto& e = setup.machine.errors.axis[index_of(Axis::Z)].motion;
     const Vector3 tip(0, 60, -120), offset(0, 35, 70);  // a and b drop out
     const auto rows = run(setup, 2);
@@ -99,7 +100,7 @@ TEST_CASE("exercise 2: the matrix from the z slide to the y slide, eq. 29") {
 
 TEST_CASE("exercise 3: the tool point's errors are those of the paper's Table 2") {
     const double table_2_um[] = {0, 8, 60, 81, 76, 17, -18, -47, -54};
-    const Setup post = setup_of(3);
+    const setup::Setup post = setup_of(3);
     const auto& e = post.machine.errors.axis[index_of(Axis::Y)].motion;
     const Vector3 b(300, 400, 500);
     const auto rows = run(post, 3);
@@ -112,8 +113,8 @@ TEST_CASE("exercise 3: the tool point's errors are those of the paper's Table 2"
 }
 
 TEST_CASE("exercise 3 with the offset run by the slides: what Y carries follows its errors") {
-    const Setup post = setup_of(3);
-    Setup slides_reach = post;
+    const setup::Setup post = setup_of(3);
+    setup::Setup slides_reach = post;
     slides_reach.probe->tip_S_mm = {0, 400, 0};
     const auto rows = run(post, 3);
     for (const Row& row : rows) {

@@ -13,9 +13,9 @@ using namespace trunnion;
 
 namespace {
 
-Setup bc_setup() {
+setup::Setup bc_setup() {
     std::vector<std::string> notes;
-    Setup setup = load_setup(TRUNNION_SOURCE_DIR "/machines/bc_table.toml", notes);
+    setup::Setup setup = setup::load_setup(TRUNNION_SOURCE_DIR "/machines/bc_table.toml", notes);
     setup.probe->repeatability_um = 0.0;
     setup.ballbar->noise_um = 0.0;
     return setup;
@@ -28,9 +28,9 @@ AxisPositions at(double x, double y, double z, double b_deg = 0.0, double c_deg 
     return q;
 }
 
-AxisMove line(const AxisPositions& from, const AxisPositions& to, bool skip = false) {
-    AxisMove move;
-    move.kind = skip ? MotionKind::linear : MotionKind::rapid;
+motion::AxisMove line(const AxisPositions& from, const AxisPositions& to, bool skip = false) {
+    motion::AxisMove move;
+    move.kind = skip ? motion::MotionKind::linear : motion::MotionKind::rapid;
     move.until_skip = skip;
     move.from = from;
     move.to = to;
@@ -42,11 +42,11 @@ AxisMove line(const AxisPositions& from, const AxisPositions& to, bool skip = fa
     return move;
 }
 
-AxisMove circle_xy(const Vector3& centre, double radius, double turns, double feed_mm_min) {
-    AxisMove move;
-    move.kind = turns > 0 ? MotionKind::arc_ccw : MotionKind::arc_cw;
+motion::AxisMove circle_xy(const Vector3& centre, double radius, double turns, double feed_mm_min) {
+    motion::AxisMove move;
+    move.kind = turns > 0 ? motion::MotionKind::arc_ccw : motion::MotionKind::arc_cw;
     move.from = move.to = at(centre.x() + radius, centre.y(), centre.z());
-    move.arc = ArcPath{centre, Vector3::UnitZ(), turns, 2 * pi * turns};
+    move.arc = motion::ArcPath{centre, Vector3::UnitZ(), turns, 2 * pi * turns};
     move.length_mm = 2 * pi * radius * std::abs(turns);
     move.feed_mm_min = feed_mm_min;
     move.duration_s = move.length_mm / feed_mm_min * 60.0;
@@ -54,26 +54,29 @@ AxisMove circle_xy(const Vector3& centre, double radius, double turns, double fe
 }
 
 /// Every simulated reading against what the replay predicts for its row.
-double worst_prediction_mm(const Setup& setup, const ReadingTable& table,
-                           const EffectModels& models) {
+double worst_prediction_mm(const setup::Setup& setup, const records::ReadingTable& table,
+                           const emulator::EffectModels& models) {
     std::vector<std::string> notes;
-    const ReadingTable read = parse_readings(format_readings(table), "r.csv", notes);
-    const ReadingTable said = predicted(setup, read, models);
+    const records::ReadingTable read =
+        records::parse_readings(records::format_readings(table), "r.csv", notes);
+    const records::ReadingTable said = emulator::predicted(setup, read, models);
     double worst = 0.0;
     for (std::size_t i = 0; i < table.rows.size(); ++i)
-        if (table.rows[i].device != Device::none)
+        if (table.rows[i].device != records::Device::none)
             worst = std::max(worst, std::abs(*table.rows[i].value_mm - *said.rows[i].value_mm));
     return worst;
 }
 
-struct Pretravel : EffectModel {
-    void perturb(const AxisSample&, const Contact&, Perturbation& out) const override {
+struct Pretravel : emulator::EffectModel {
+    void perturb(const AxisSample&, const emulator::Contact&,
+                 kinematics::Perturbation& out) const override {
         out.reading_mm += 0.005;
     }
 };
 
-struct Backlash : EffectModel {
-    void perturb(const AxisSample& sample, const Contact&, Perturbation& out) const override {
+struct Backlash : emulator::EffectModel {
+    void perturb(const AxisSample& sample, const emulator::Contact&,
+                 kinematics::Perturbation& out) const override {
         out.axis[Axis::X] += 0.004 * sample.travel[index_of(Axis::X)];
         out.axis[Axis::C] += 3e-5 * sample.travel[index_of(Axis::C)];
     }
@@ -82,18 +85,18 @@ struct Backlash : EffectModel {
 }  // namespace
 
 TEST_CASE("G31 stops where the stylus ball meets the sphere") {
-    const Setup setup = bc_setup();  // sphere 25.4 at (120, 0, 80), ball 6, stylus 150
-    MachineSink sink(setup, {}, {});
+    const setup::Setup setup = bc_setup();  // sphere 25.4 at (120, 0, 80), ball 6, stylus 150
+    emulator::MachineSink sink(setup, {}, {});
     sink.place(at(170, 0, 230));
-    const MoveResult result = sink.move(line(at(170, 0, 230), at(120, 0, 230), true));
+    const motion::MoveResult result = sink.move(line(at(170, 0, 230), at(120, 0, 230), true));
     REQUIRE(result.skipped);
     CHECK(std::abs(result.stopped[Axis::X] - (120 + 12.7 + 3)) < 1e-9);
     CHECK(sink.clock_s() == Approx(170 - 135.7));
-    const ReadingTable table = sink.take_readings();
+    const records::ReadingTable table = sink.take_readings();
     REQUIRE(table.rows.size() == 2);
-    CHECK(table.rows[0].device == Device::none);
+    CHECK(table.rows[0].device == records::Device::none);
     CHECK(table.rows[0].commanded == at(170, 0, 230));
-    CHECK(table.rows[1].device == Device::touch);
+    CHECK(table.rows[1].device == records::Device::touch);
     CHECK(table.rows[1].commanded == at(120, 0, 230));
     CHECK(table.rows[1].direction_M == Vector3(-1, 0, 0));
     CHECK(std::abs(*table.rows[1].value_mm + 15.7) < 1e-9);
@@ -101,25 +104,25 @@ TEST_CASE("G31 stops where the stylus ball meets the sphere") {
 }
 
 TEST_CASE("a path that misses runs to its end, and another tool feels nothing") {
-    const Setup setup = bc_setup();
-    MachineSink sink(setup, {}, {});
+    const setup::Setup setup = bc_setup();
+    emulator::MachineSink sink(setup, {}, {});
     CHECK_FALSE(sink.move(line(at(170, 0, 280), at(120, 0, 280), true)).skipped);
-    AxisMove move = line(at(170, 0, 230), at(120, 0, 230), true);
+    motion::AxisMove move = line(at(170, 0, 230), at(120, 0, 230), true);
     move.tool = 2;
     CHECK_FALSE(sink.move(move).skipped);
     CHECK(sink.take_readings().rows.empty());
 }
 
 TEST_CASE("pretravel comes on top along the approach, repeatability is seeded") {
-    Setup setup = bc_setup();
-    const AxisMove move = line(at(170, 0, 230), at(120, 0, 230), true);
-    const EffectModels later{std::make_shared<Pretravel>()};
-    MachineSink one(setup, later, {});
+    setup::Setup setup = bc_setup();
+    const motion::AxisMove move = line(at(170, 0, 230), at(120, 0, 230), true);
+    const emulator::EffectModels later{std::make_shared<Pretravel>()};
+    emulator::MachineSink one(setup, later, {});
     CHECK(std::abs(one.move(move).stopped[Axis::X] - (135.7 - 0.005)) < 1e-9);
     setup.probe->repeatability_um = 0.5;
-    SinkOptions options;
+    emulator::SinkOptions options;
     options.seed = 9;
-    MachineSink a(setup, later, options), b(setup, later, options);
+    emulator::MachineSink a(setup, later, options), b(setup, later, options);
     const double x = a.move(move).stopped[Axis::X];
     CHECK(x == b.move(move).stopped[Axis::X]);
     CHECK(std::abs(x - 135.695) > 1e-9);
@@ -127,9 +130,9 @@ TEST_CASE("pretravel comes on top along the approach, repeatability is seeded") 
 }
 
 TEST_CASE("rows know the function that placed the axes, and the approach of every axis") {
-    const Setup setup = bc_setup();
-    MachineSink sink(setup, {}, {});
-    AxisMove turn = line(at(0, 0, 300), at(0, 0, 300, 20, 5));
+    const setup::Setup setup = bc_setup();
+    emulator::MachineSink sink(setup, {}, {});
+    motion::AxisMove turn = line(at(0, 0, 300), at(0, 0, 300, 20, 5));
     turn.mode = PositioningMode::rtcp;
     sink.move(turn);
     sink.move(line(at(0, 0, 300, 20, 5), at(-60, 0, 300, 20, 0)));  // turns without a function: dpp
@@ -140,10 +143,10 @@ TEST_CASE("rows know the function that placed the axes, and the approach of ever
     sink.move(
         line(at(-60, 0, 400, 0, 90), at(0, -100, 300, 0, 90)));  // cancelled, no turn: still tw
     sink.move(line(at(0, -100, 300, 0, 90), at(0, -120, 200, 0, 90), true));
-    const ReadingTable table = sink.take_readings();
-    REQUIRE(table.rows.back().device == Device::touch);
+    const records::ReadingTable table = sink.take_readings();
+    REQUIRE(table.rows.back().device == records::Device::touch);
     CHECK(table.rows.back().mode == PositioningMode::tw);
-    const AxisSample sample = samples_of(table).back();
+    const AxisSample sample = records::samples_of(table).back();
     CHECK(sample.travel[index_of(Axis::X)] == 1);
     CHECK(sample.travel[index_of(Axis::Y)] == -1);
     CHECK(sample.travel[index_of(Axis::Z)] == -1);
@@ -152,30 +155,30 @@ TEST_CASE("rows know the function that placed the axes, and the approach of ever
 }
 
 TEST_CASE("the ballbar reads along a circle, by time, and out of range it says so") {
-    Setup setup = bc_setup();
+    setup::Setup setup = bc_setup();
     setup.ballbar->sample_hz = 10.0;
-    setup.machine.errors.location(*parse_error_name("EC0Y")) = 1e-4;  // squareness
-    MachineSink sink(setup, {}, {});
+    setup.machine.errors.location(*kinematics::parse_error_name("EC0Y")) = 1e-4;  // squareness
+    emulator::MachineSink sink(setup, {}, {});
     const Vector3 centre(75, 0, 230);
-    const AxisMove move = circle_xy(centre, 100, 1, 1000);
+    const motion::AxisMove move = circle_xy(centre, 100, 1, 1000);
     sink.printed("BALLBAR ON XY CCW 1000\n");
     sink.move(move);
     sink.printed("BALLBAR OFF\n");
     sink.move(move);
-    ReadingTable table = sink.take_readings();
+    records::ReadingTable table = sink.take_readings();
     const auto expected = static_cast<std::size_t>(std::ceil(move.duration_s * 10.0));
     REQUIRE(table.rows.size() == expected);
-    for (const Reading& row : table.rows) {
+    for (const records::Reading& row : table.rows) {
         CHECK(row.test == "xy_ccw_1000");
         const double x = row.commanded[Axis::X] - 75, y = row.commanded[Axis::Y];
         CHECK(*row.value_mm == Approx(-1e-4 * x * y / 100).margin(2e-6));
     }
     setup.ballbar->length_mm = 98.5;
-    MachineSink other(setup, {}, {});
+    emulator::MachineSink other(setup, {}, {});
     other.printed("BALLBAR ON RADIAL A POS\n");
     other.move(move);
     table = other.take_readings();
-    for (const Reading& row : table.rows) CHECK(row.device == Device::none);
+    for (const records::Reading& row : table.rows) CHECK(row.device == records::Device::none);
     const auto notes = other.take_notes();
     REQUIRE(notes.size() == 1);
     CHECK_THAT(notes[0],
@@ -184,12 +187,12 @@ TEST_CASE("the ballbar reads along a circle, by time, and out of range it says s
 
 TEST_CASE(
     "a ballbar reads when it is asked: by the program, or along feed moves that stay in range") {
-    Setup setup = bc_setup();
+    setup::Setup setup = bc_setup();
     setup.ballbar->sample_hz = 10.0;
     const auto table_of = [&](bool automatic) {
-        SinkOptions options;
+        emulator::SinkOptions options;
         options.automatic_ballbar = automatic;
-        MachineSink sink(setup, {}, options);
+        emulator::MachineSink sink(setup, {}, options);
         sink.move(line(at(0, 0, 400), at(300, 0, 400)));
         sink.move(circle_xy(Vector3(75, 0, 230), 100, 1, 2000));
         sink.move(line(at(175, 0, 230), at(0, 0, 400)));
@@ -198,39 +201,39 @@ TEST_CASE(
         return sink.take_readings();
     };
     CHECK(table_of(false).rows.empty());
-    const ReadingTable table = table_of(true);
+    const records::ReadingTable table = table_of(true);
     CHECK(worst_prediction_mm(setup, table, {}) < 1e-12);
     std::map<std::string, int> tests;
-    for (const Reading& row : table.rows)
-        if (row.device == Device::ballbar) ++tests[row.test];
+    for (const records::Reading& row : table.rows)
+        if (row.device == records::Device::ballbar) ++tests[row.test];
     CHECK(tests.size() == 2);
     CHECK(tests["bar1"] == tests["bar2"]);
 }
 
 TEST_CASE("sampling by angle") {
-    Setup setup = bc_setup();
+    setup::Setup setup = bc_setup();
     setup.ballbar->sample_deg = 1.5;
-    MachineSink sink(setup, {}, {});
+    emulator::MachineSink sink(setup, {}, {});
     sink.printed("BALLBAR ON XY\r\n");
     sink.move(circle_xy(Vector3(75, 0, 230), 100, 0.999, 2000));
     CHECK(sink.take_readings().rows.size() == 240);
 }
 
 TEST_CASE("what a run reads is what the replay predicts from its rows") {
-    Setup setup = bc_setup();
+    setup::Setup setup = bc_setup();
     setup.ballbar->sample_hz = 50.0;
     for (const char* name : {"EX0B", "EZ0B", "EX0C", "EY0C"})
-        setup.machine.errors.location(*parse_error_name(name)) = 0.02;
+        setup.machine.errors.location(*kinematics::parse_error_name(name)) = 0.02;
     for (const char* name : {"EA0B", "EC0B", "EA0C", "EB0C"})
-        setup.machine.errors.location(*parse_error_name(name)) = 5e-5;
+        setup.machine.errors.location(*kinematics::parse_error_name(name)) = 5e-5;
     for (const bool with_effect : {false, true}) {
-        EffectModels models;
+        emulator::EffectModels models;
         if (with_effect) models.push_back(std::make_shared<Backlash>());
-        MachineSink sink(setup, models, {});
+        emulator::MachineSink sink(setup, models, {});
         AxisPositions here = at(0, 0, 400);
         sink.place(here);
         const auto go = [&](const AxisPositions& to, bool skip = false) {
-            const MoveResult result = sink.move(line(here, to, skip));
+            const motion::MoveResult result = sink.move(line(here, to, skip));
             here = result.skipped ? result.stopped : to;
             return result.skipped;
         };
@@ -253,21 +256,21 @@ TEST_CASE("what a run reads is what the replay predicts from its rows") {
         sink.printed("BALLBAR ON XY\n");
         go(at(175, 0, 230));
         sink.move(circle_xy(Vector3(75, 0, 230), 100, 1, 3000));
-        const ReadingTable table = sink.take_readings();
+        const records::ReadingTable table = sink.take_readings();
         CHECK(touches == 16);
         CHECK(worst_prediction_mm(setup, table, models) < 1e-12);
     }
 }
 
 TEST_CASE("trace rows hold the contract's columns and the physical tip") {
-    Setup setup = bc_setup();
-    setup.machine.errors.location(*parse_error_name("EX0C")) = 0.02;
-    SinkOptions options;
+    setup::Setup setup = bc_setup();
+    setup.machine.errors.location(*kinematics::parse_error_name("EX0C")) = 0.02;
+    emulator::SinkOptions options;
     options.trace = options.truth = true;
     options.trace_step_mm = 10.0;
-    MachineSink sink(setup, {}, options);
-    AxisMove move = line(at(0, 0, 200), at(35, 0, 200));
-    move.kind = MotionKind::linear;
+    emulator::MachineSink sink(setup, {}, options);
+    motion::AxisMove move = line(at(0, 0, 200), at(35, 0, 200));
+    move.kind = motion::MotionKind::linear;
     move.tool_vector_mm = Vector3(0, 0, 150);
     const std::string name = "o1.nc";
     move.program = &name;
@@ -291,19 +294,20 @@ TEST_CASE("trace rows hold the contract's columns and the physical tip") {
 }
 
 TEST_CASE("trace rows follow a curve while the tip rests, by step or by chord") {
-    const Setup setup = bc_setup();
-    ProgramsInMemory none;
+    const setup::Setup setup = bc_setup();
+    interpreter::ProgramsInMemory none;
     const auto rows = [&](double step_mm, double chord_mm) {
-        RunOptions options;
+        emulator::RunOptions options;
         options.trace = true;
         options.trace_step_mm = step_mm;
         options.trace_chord_mm = chord_mm;
         // The tip stays at X80 of the table, so the axes run a quarter circle of 80 mm or so.
-        const RunLog log = run_program(
+        const emulator::RunLog log = emulator::run_program(
             setup, none,
-            ProgramText{"c.nc", "G90 G21 G54\nG0 B0 C0\nG43.4 H1 X80. Y0 Z0\nC90.\nM30\n", nullptr},
+            interpreter::ProgramText{
+                "c.nc", "G90 G21 G54\nG0 B0 C0\nG43.4 H1 X80. Y0 Z0\nC90.\nM30\n", nullptr},
             options);
-        REQUIRE(log.result.status == RunStatus::ok);
+        REQUIRE(log.result.status == controller::RunStatus::ok);
         return std::count(log.trace_csv.begin(), log.trace_csv.end(), '\n') - 1;
     };
     const auto plain = rows(0, 0);

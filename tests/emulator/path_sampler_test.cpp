@@ -10,8 +10,8 @@ using namespace trunnion;
 
 namespace {
 
-AxisMove line(MotionKind kind, double x_mm) {
-    AxisMove move;
+motion::AxisMove line(motion::MotionKind kind, double x_mm) {
+    motion::AxisMove move;
     move.kind = kind;
     move.to[Axis::X] = x_mm;
     move.length_mm = x_mm;
@@ -19,16 +19,16 @@ AxisMove line(MotionKind kind, double x_mm) {
     return move;
 }
 
-double velocity(const AxisMove& move, double s) {
-    const TravelHistory tracker;
-    return PathSampler{move, tracker}.at(s).velocity[Axis::X];
+double velocity(const motion::AxisMove& move, double s) {
+    const records::TravelHistory tracker;
+    return emulator::PathSampler{move, tracker}.at(s).velocity[Axis::X];
 }
 
-AxisMove full_circle(double radius_mm) {
-    AxisMove move;
-    move.kind = MotionKind::arc_ccw;
+motion::AxisMove full_circle(double radius_mm) {
+    motion::AxisMove move;
+    move.kind = motion::MotionKind::arc_ccw;
     move.from[Axis::X] = move.to[Axis::X] = radius_mm;
-    move.arc = ArcPath{Vector3::Zero(), Vector3::UnitZ(), 1.0, 2.0 * pi};
+    move.arc = motion::ArcPath{Vector3::Zero(), Vector3::UnitZ(), 1.0, 2.0 * pi};
     move.duration_s = 10.0;
     return move;
 }
@@ -36,11 +36,11 @@ AxisMove full_circle(double radius_mm) {
 }  // namespace
 
 TEST_CASE("axes stand where positioning, G31 and exact stops end: nothing lags there") {
-    const AxisMove rapid = line(MotionKind::rapid, 100.0);
+    const motion::AxisMove rapid = line(motion::MotionKind::rapid, 100.0);
     CHECK(velocity(rapid, 0.0) == 0.0);
     CHECK(velocity(rapid, 0.5) == Approx(50.0));
     CHECK(velocity(rapid, 1.0) == 0.0);
-    AxisMove feed = line(MotionKind::linear, 100.0);
+    motion::AxisMove feed = line(motion::MotionKind::linear, 100.0);
     CHECK(velocity(feed, 0.0) == Approx(50.0));
     CHECK(velocity(feed, 1.0) == Approx(50.0));  // runs on into the next block
     feed.gap_free = false;
@@ -50,11 +50,17 @@ TEST_CASE("axes stand where positioning, G31 and exact stops end: nothing lags t
 }
 
 TEST_CASE("the smallest step tells a direction, rounding does not") {
-    const TravelHistory tracker;
-    CHECK(PathSampler{line(MotionKind::linear, 1e-7), tracker}.at(1.0).travel[0] == 1);
-    CHECK(PathSampler{line(MotionKind::linear, -1e-7), tracker}.at(1.0).travel[0] == -1);
-    CHECK(PathSampler{line(MotionKind::linear, 1e-13), tracker}.at(1.0).travel[0] == 0);
-    TravelHistory axes;
+    const records::TravelHistory tracker;
+    CHECK(
+        emulator::PathSampler{line(motion::MotionKind::linear, 1e-7), tracker}.at(1.0).travel[0] ==
+        1);
+    CHECK(
+        emulator::PathSampler{line(motion::MotionKind::linear, -1e-7), tracker}.at(1.0).travel[0] ==
+        -1);
+    CHECK(
+        emulator::PathSampler{line(motion::MotionKind::linear, 1e-13), tracker}.at(1.0).travel[0] ==
+        0);
+    records::TravelHistory axes;
     AxisPositions q;
     axes.place(q);
     q[Axis::X] = 1.0;
@@ -65,11 +71,11 @@ TEST_CASE("the smallest step tells a direction, rounding does not") {
 }
 
 TEST_CASE("a full circle leaves the axes with the travel of its end") {
-    TravelHistory tracker;
+    records::TravelHistory tracker;
     AxisPositions start;
     start[Axis::X] = 60.0;
     tracker.place(start);
-    follow(tracker, full_circle(60.0));
+    emulator::follow(tracker, full_circle(60.0));
     CHECK(tracker.travel()[0] == 1);  // from the quadrant at Y -60 back to X +60
     CHECK(tracker.travel()[1] == 1);
     AxisSample sample;
@@ -81,7 +87,7 @@ TEST_CASE("a full circle leaves the axes with the travel of its end") {
 TEST_CASE("on arcs the axes turn where small steps show it") {
     SeededNoise random(4);
     for (int k = 0; k < 2000; ++k) {
-        AxisMove move;
+        motion::AxisMove move;
         const int plane = k % 3;
         const bool round = k % 4 == 0;  // begins, and may end, at a quadrant
         const double start_rad = round ? 0.5 * pi * (k % 5) : 2.0 * pi * random.uniform();
@@ -99,10 +105,10 @@ TEST_CASE("on arcs the axes turn where small steps show it") {
             move.from.value[i] = from[static_cast<Eigen::Index>(i)];
             move.to.value[i] = to[static_cast<Eigen::Index>(i)];
         }
-        move.arc = ArcPath{centre, normal, turns_of(sweep_rad), sweep_rad};
-        TravelHistory at_once, in_steps;
-        for (TravelHistory* tracker : {&at_once, &in_steps}) tracker->place(move.from);
-        follow(at_once, move);
+        move.arc = motion::ArcPath{centre, normal, motion::turns_of(sweep_rad), sweep_rad};
+        records::TravelHistory at_once, in_steps;
+        for (records::TravelHistory* tracker : {&at_once, &in_steps}) tracker->place(move.from);
+        emulator::follow(at_once, move);
         for (int s = 1; s <= 20000; ++s) in_steps.advance(move.at(s / 20000.0));
         AxisSample is, should;
         at_once.describe(is);
@@ -111,7 +117,7 @@ TEST_CASE("on arcs the axes turn where small steps show it") {
             INFO(k << " axis " << i << " sweep " << sweep_rad);
             if (is.since_reversal[i] < 1e-5) continue;  // the turn lies within the last step
             CHECK(is.travel[i] == should.travel[i]);
-            if (should.since_reversal[i] < no_reversal_seen)
+            if (should.since_reversal[i] < records::no_reversal_seen)
                 CHECK(is.since_reversal[i] == Approx(should.since_reversal[i]).margin(1e-3));
         }
     }

@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
+#include "base/alarm.h"
 #include "effects/settings.h"
 #include "emulator/run.h"
-#include "base/alarm.h"
 
 using namespace trunnion;
 
@@ -23,9 +23,9 @@ tool = 9
 [machine.errors]
 )";
 
-Setup setup_of(const std::string& text, std::vector<std::string>* notes = nullptr) {
+setup::Setup setup_of(const std::string& text, std::vector<std::string>* notes = nullptr) {
     std::vector<std::string> own;
-    return parse_setup(text, "mill.toml", notes ? *notes : own);
+    return setup::parse_setup(text, "mill.toml", notes ? *notes : own);
 }
 
 /// Believed and true tip of the last row of a program's trace.
@@ -34,13 +34,14 @@ struct Ends {
     double length_mm = 0.0, path_mm = 0.0, time_s = 0.0;
 };
 
-Ends run_to_end(const Setup& setup, const std::string& program) {
-    RunOptions options;
+Ends run_to_end(const setup::Setup& setup, const std::string& program) {
+    emulator::RunOptions options;
     options.trace = options.truth = true;
-    options.effects = active_models(setup);
-    ProgramsInMemory none;
-    const RunLog log = run_program(setup, none, ProgramText{"t.nc", program, nullptr}, options);
-    REQUIRE(log.result.status == RunStatus::ok);
+    options.effects = effects::active_models(setup);
+    interpreter::ProgramsInMemory none;
+    const emulator::RunLog log = emulator::run_program(
+        setup, none, interpreter::ProgramText{"t.nc", program, nullptr}, options);
+    REQUIRE(log.result.status == controller::RunStatus::ok);
     std::istringstream lines(log.trace_csv);
     std::string header, line, last;
     std::getline(lines, header);
@@ -65,7 +66,7 @@ const std::string head = "O1\nG21 G90 G94 G17 G54\n";
 }  // namespace
 
 TEST_CASE("the true tip is that of the tool in the spindle, whatever H says") {
-    const Setup setup = setup_of(mill);
+    const setup::Setup setup = setup_of(mill);
     const Ends right = run_to_end(setup, head + "T1 M06\nG43 H1 Z50.\nG1 X10. F500.\nM30\n");
     CHECK((right.true_mm - right.believed_mm).norm() < 1e-12);
     CHECK(right.true_mm.z() == Approx(50.0));
@@ -83,7 +84,7 @@ TEST_CASE("the true tip is that of the tool in the spindle, whatever H says") {
 }
 
 TEST_CASE("effects of the tool act on its true tip") {
-    Setup setup = setup_of(mill);
+    setup::Setup setup = setup_of(mill);
     setup.effects = {{"tool.length", {{"error_mm", {0.05}}}}};
     const std::string cut = "G43 H1 Z50.\nG1 X10. F500.\nM30\n";
     CHECK(run_to_end(setup, head + "T1 M06\n" + cut).true_mm.z() == Approx(49.95).epsilon(1e-12));
@@ -96,7 +97,7 @@ TEST_CASE("effects of the tool act on its true tip") {
 }
 
 TEST_CASE("errors of the spindle: by its angle while it stands, their mean while it turns") {
-    const Setup setup = setup_of(
+    const setup::Setup setup = setup_of(
         mill +
         "EXS_mm = { constant = 0.002, harmonics = [[1, 0.01, 0.003]] }\nEBS_rad = 1e-5\nEY0S_mm = "
         "0.02\n");
@@ -128,7 +129,7 @@ TEST_CASE("what is no error of a spindle is refused with its place") {
 
 TEST_CASE("an extra axis W moves the believed tip as the true one") {
     std::vector<std::string> notes;
-    const Setup setup = setup_of(mill, &notes);
+    const setup::Setup setup = setup_of(mill, &notes);
     CHECK_THAT(notes.front(), Catch::Contains("1022"));
     const auto& numbers = setup.stores.parameters.entry.at(1022).by_axis;
     CHECK(numbers == std::map<int, double>{{1, 1}, {2, 2}, {3, 3}, {4, 7}});  // X Y Z W
@@ -144,7 +145,7 @@ TEST_CASE("an extra axis W moves the believed tip as the true one") {
 
 TEST_CASE("an extra axis that runs against the basic one, or obliquely, is not believed") {
     std::vector<std::string> notes;
-    const Setup setup =
+    const setup::Setup setup =
         setup_of(mill + "[machine.axis.W]\ndirection = [0, 0, 1]\n", &notes);  // of the table
     CHECK(setup.stores.parameters.entry.at(1022).by_axis.at(4) == 0.0);
     CHECK_THAT(notes.front(), Catch::Contains("how W runs"));
@@ -164,7 +165,7 @@ point_mm = [12, 1, -50]
 [control.tools]
 1 = { length_mm = 150 }
 )";
-    const Setup setup = setup_of(five);
+    const setup::Setup setup = setup_of(five);
     CHECK(setup.stores.parameters.entry.at(1022).by_axis.at(6) == 7.0);
     const Ends tcp = run_to_end(setup, head +
                                            "T1 M06\nG0 W-20.\nG43.4 H1 X30. Y0 Z40.\nG1 X30. Y10. "

@@ -13,31 +13,32 @@
 namespace trunnion {
 
 TEST_CASE("distribution tails", "[estimation]") {
-    CHECK(chi_squared_tail(3.841458820694124, 1) == Approx(0.05));
-    CHECK(chi_squared_tail(124.342113404004, 100) == Approx(0.05));
-    CHECK(f_tail(4.102821015, 2, 10) == Approx(0.05));
-    CHECK(f_tail(1.0, 7, 7) == Approx(0.5));
-    CHECK(normal_tail(1.959963984540054) == Approx(0.025));
-    CHECK(student_probability(2.131846786326649, 4) == Approx(0.95));
-    CHECK(student_probability(-2.131846786326649, 4) == Approx(0.05));
-    CHECK(chi_squared_tail(1e6, 0) == 1.0);
-    CHECK(chi_squared_tail(1e9, 3) == 0.0);
-    CHECK(quantile({4, 1, 3, 2}, 0.5) == Approx(2.5));
-    CHECK(robust_deviation({}) == 0.0);
+    CHECK(estimation::chi_squared_tail(3.841458820694124, 1) == Approx(0.05));
+    CHECK(estimation::chi_squared_tail(124.342113404004, 100) == Approx(0.05));
+    CHECK(estimation::f_tail(4.102821015, 2, 10) == Approx(0.05));
+    CHECK(estimation::f_tail(1.0, 7, 7) == Approx(0.5));
+    CHECK(estimation::normal_tail(1.959963984540054) == Approx(0.025));
+    CHECK(estimation::student_probability(2.131846786326649, 4) == Approx(0.95));
+    CHECK(estimation::student_probability(-2.131846786326649, 4) == Approx(0.05));
+    CHECK(estimation::chi_squared_tail(1e6, 0) == 1.0);
+    CHECK(estimation::chi_squared_tail(1e9, 3) == 0.0);
+    CHECK(estimation::quantile({4, 1, 3, 2}, 0.5) == Approx(2.5));
+    CHECK(estimation::robust_deviation({}) == 0.0);
 }
 
 TEST_CASE("a direction that no reading sees is named and stays at zero", "[estimation]") {
     Eigen::MatrixXd a(4, 3);  // columns 0 and 1 move all readings alike
     a << 1, 1, 0, 2, 2, 1, 3, 3, 0, 4, 4, 5;
     const Eigen::VectorXd y = a * Eigen::Vector3d(0.5, 0.5, -2.0);
-    const LinearFit fit = solve_ranked(a.transpose() * a, a.transpose() * y);
+    const estimation::LinearFit fit =
+        estimation::solve_ranked(a.transpose() * a, a.transpose() * y);
     REQUIRE(fit.null_space.size() == 1);
     CHECK(fit.null_space[0](0) == Approx(-fit.null_space[0](1)));
     CHECK(fit.value(0) == Approx(0.5));
     CHECK(fit.value(2) == Approx(-2.0));
     CHECK(std::isnan(fit.sigma(0)));
     CHECK(std::isfinite(fit.sigma(2)));
-    CHECK(solve_ranked(Eigen::MatrixXd(0, 0), Eigen::VectorXd(0)).value.size() == 0);
+    CHECK(estimation::solve_ranked(Eigen::MatrixXd(0, 0), Eigen::VectorXd(0)).value.size() == 0);
 }
 
 TEST_CASE("what columns explain beside others is the fall of the squared sum", "[estimation]") {
@@ -51,14 +52,15 @@ TEST_CASE("what columns explain beside others is the fall of the squared sum", "
         own(i, 1) = known(i, 2);  // nothing beside the known
         y(i) = random.normal();
     }
-    const Projection projection(known);
+    const estimation::Projection projection(known);
     CHECK(projection.rank() == 3);
     Eigen::MatrixXd both(30, 5);
     both << known, own.col(0);
     const double fall =
-        projection.beside(y).squaredNorm() - Projection(both).beside(y).squaredNorm();
-    CHECK(explained_beside(projection, own, y) == Approx(fall));
-    CHECK(explained_beside(Projection(Eigen::MatrixXd(30, 0)), Eigen::MatrixXd(30, 0), y) == 0.0);
+        projection.beside(y).squaredNorm() - estimation::Projection(both).beside(y).squaredNorm();
+    CHECK(estimation::explained_beside(projection, own, y) == Approx(fall));
+    CHECK(estimation::explained_beside(estimation::Projection(Eigen::MatrixXd(30, 0)),
+                                       Eigen::MatrixXd(30, 0), y) == 0.0);
 }
 
 TEST_CASE("pure error is the scatter inside settings", "[estimation]") {
@@ -69,36 +71,36 @@ TEST_CASE("pure error is the scatter inside settings", "[estimation]") {
         setting[static_cast<std::size_t>(i)] = static_cast<int>(i % 300);
         v(i) = 50.0 * std::sin(static_cast<double>(i % 300)) + 0.7 * random.normal();
     }
-    const PureError e = pure_error(v, setting);
+    const estimation::PureError e = estimation::pure_error(v, setting);
     CHECK(e.freedom == 600.0);
     CHECK(std::sqrt(e.variance) == Approx(0.7).epsilon(0.08));
     v(17) += 100.0;  // a wild reading does not set the noise
-    CHECK(std::sqrt(pure_error(v, setting).variance) == Approx(0.7).epsilon(0.15));
-    CHECK(pure_error(v, std::vector<int>(900, -1)).freedom == 0.0);
+    CHECK(std::sqrt(estimation::pure_error(v, setting).variance) == Approx(0.7).epsilon(0.15));
+    CHECK(estimation::pure_error(v, std::vector<int>(900, -1)).freedom == 0.0);
 }
 
 TEST_CASE("free forms leave out what the textbook owns and follow any smooth curve",
           "[estimation]") {
     std::vector<double> places;
     for (int k = 0; k <= 30; ++k) places.push_back(10.0 * k);
-    const std::vector<double> knots = knots_of(places, 40);
+    const std::vector<double> knots = estimation::knots_of(places, 40);
     REQUIRE(knots.size() == 31);
-    CHECK(knots_of(places, 12).size() == 12);
-    CHECK(knots_of({3.0, 3.0}, 12).empty());
-    const auto [before, weight] = place_between(knots, 104.0);
+    CHECK(estimation::knots_of(places, 12).size() == 12);
+    CHECK(estimation::knots_of({3.0, 3.0}, 12).empty());
+    const auto [before, weight] = estimation::place_between(knots, 104.0);
     CHECK(before == 10);
     CHECK(weight == Approx(0.4));
-    CHECK(place_between(knots, 900.0).second == 1.0);
-    const Eigen::MatrixXd line = polynomials_at(knots, 2);
-    const auto lengths = correlation_lengths(knots);
+    CHECK(estimation::place_between(knots, 900.0).second == 1.0);
+    const Eigen::MatrixXd line = estimation::polynomials_at(knots, 2);
+    const auto lengths = estimation::correlation_lengths(knots);
     REQUIRE(lengths.size() == 4);
-    const Eigen::MatrixXd shape = smooth_shapes(knots, lengths[2], line, 24);
+    const Eigen::MatrixXd shape = estimation::smooth_shapes(knots, lengths[2], line, 24);
     CHECK((line.transpose() * shape).cwiseAbs().maxCoeff() < 1e-9);
     Eigen::VectorXd curve(31);
     for (Eigen::Index k = 0; k < 31; ++k)
         curve(k) = std::sin(0.02 * knots[static_cast<std::size_t>(k)] + 1.0);
-    const Eigen::VectorXd bent = Projection(line).beside(curve);
-    CHECK(Projection(shape).beside(bent).norm() < 0.02 * bent.norm());
+    const Eigen::VectorXd bent = estimation::Projection(line).beside(curve);
+    CHECK(estimation::Projection(shape).beside(bent).norm() < 0.02 * bent.norm());
 }
 
 }  // namespace trunnion

@@ -25,8 +25,8 @@ struct Bench {
     Eigen::VectorXd data = normals(40, 1, random);
     std::vector<Eigen::Index> size{2, 1, 5};
 
-    GroupEquations equations() const {
-        const Projection known(flat);
+    estimation::GroupEquations equations() const {
+        const estimation::Projection known(flat);
         const Eigen::MatrixXd a = known.beside(columns);
         const Eigen::VectorXd y = known.beside(data);
         return {a.transpose() * a, a.transpose() * y, y.squaredNorm(), 40.0 - 3.0, size};
@@ -39,7 +39,7 @@ struct Bench {
             v += tau[g] * tau[g] * columns.middleCols(at, size[g]) *
                  columns.middleCols(at, size[g]).transpose();
         const Eigen::FullPivLU<Eigen::MatrixXd> null(flat.transpose());
-        const Eigen::MatrixXd k = Projection(null.kernel()).basis();  // K'flat = 0
+        const Eigen::MatrixXd k = estimation::Projection(null.kernel()).basis();  // K'flat = 0
         const Eigen::MatrixXd inside = k.transpose() * v * k;
         const Eigen::VectorXd y = k.transpose() * data;
         return -0.5 * (std::log(inside.determinant()) + y.dot(inside.inverse() * y));
@@ -50,10 +50,10 @@ struct Bench {
 
 TEST_CASE("the restricted likelihood agrees with the whole covariance matrix", "[estimation]") {
     const Bench bench;
-    const NoisePrior none{0.0, 1e9};
-    const GroupEquations equations = bench.equations();
+    const estimation::NoisePrior none{0.0, 1e9};
+    const estimation::GroupEquations equations = bench.equations();
     const auto mine = [&](std::vector<double> tau, double nu) {
-        return restricted_likelihood(equations, {std::move(tau), nu}, none);
+        return estimation::restricted_likelihood(equations, {std::move(tau), nu}, none);
     };
     const double start = mine({0, 0, 0}, 1.0) - bench.brute({0, 0, 0}, 1.0);
     for (const double nu : {0.5, 1.0, 3.0})
@@ -64,63 +64,66 @@ TEST_CASE("the restricted likelihood agrees with the whole covariance matrix", "
 
 TEST_CASE("the gain of a group is the likelihood with it less that without", "[estimation]") {
     const Bench bench;
-    const NoisePrior none{0.0, 1e9};
-    const GroupEquations all = bench.equations();
-    GroupEquations two{
+    const estimation::NoisePrior none{0.0, 1e9};
+    const estimation::GroupEquations all = bench.equations();
+    estimation::GroupEquations two{
         all.gram.topLeftCorner(3, 3), all.product.head(3), all.square, all.rows, {2, 1}};
-    const Variances given{{0.7, 1.3}, 0.9};
-    const GroupInformation left = GivenMembers(two, given)
-                                      .leave(all.gram.topRightCorner(3, 5),
-                                             all.gram.bottomRightCorner(5, 5), all.product.tail(5));
+    const estimation::Variances given{{0.7, 1.3}, 0.9};
+    const estimation::GroupInformation left =
+        estimation::GivenMembers(two, given)
+            .leave(all.gram.topRightCorner(3, 5), all.gram.bottomRightCorner(5, 5),
+                   all.product.tail(5));
     for (const double tau : {0.02, 0.5, 7.0})
-        CHECK(gain_at(left, tau) ==
-              Approx(restricted_likelihood(all, {{0.7, 1.3, tau}, 0.9}, none) -
-                     restricted_likelihood(two, given, none))
+        CHECK(estimation::gain_at(left, tau) ==
+              Approx(estimation::restricted_likelihood(all, {{0.7, 1.3, tau}, 0.9}, none) -
+                     estimation::restricted_likelihood(two, given, none))
                   .margin(1e-9));
-    const GroupGain gain = group_gain(left);
+    const estimation::GroupGain gain = estimation::group_gain(left);
     CHECK(gain.best >= gain.mean);
     for (const double tau : {0.02, 0.1, 0.5, 2.0, 7.0})
-        CHECK(gain.best >= gain_at(left, tau) - 1e-6);
+        CHECK(gain.best >= estimation::gain_at(left, tau) - 1e-6);
 }
 
 TEST_CASE("one factorisation says what each group is beside the others", "[estimation]") {
     const Bench bench;
-    const GroupEquations all = bench.equations();
-    const Variances v{{0.7, 1.3, 0.2}, 0.9};
-    const auto each = each_beside_others(all, v);
-    GroupEquations two{
+    const estimation::GroupEquations all = bench.equations();
+    const estimation::Variances v{{0.7, 1.3, 0.2}, 0.9};
+    const auto each = estimation::each_beside_others(all, v);
+    estimation::GroupEquations two{
         all.gram.topLeftCorner(3, 3), all.product.head(3), all.square, all.rows, {2, 1}};
-    const GroupInformation last = GivenMembers(two, {{0.7, 1.3}, 0.9})
-                                      .leave(all.gram.topRightCorner(3, 5),
-                                             all.gram.bottomRightCorner(5, 5), all.product.tail(5));
+    const estimation::GroupInformation last =
+        estimation::GivenMembers(two, {{0.7, 1.3}, 0.9})
+            .leave(all.gram.topRightCorner(3, 5), all.gram.bottomRightCorner(5, 5),
+                   all.product.tail(5));
     CHECK((each[2].information - last.information).norm() < 1e-9 * last.information.norm());
     CHECK((each[2].product - last.product).norm() < 1e-9 * last.product.norm());
 }
 
 TEST_CASE("the likelihood is at its maximum", "[estimation]") {
     const Bench bench;
-    const GroupEquations all = bench.equations();
-    const NoisePrior prior{0.0, 0.5};
-    const Variances best = maximise_likelihood(all, {{1, 1, 1}, 1.0}, prior, 60);
-    const double most = restricted_likelihood(all, best, prior);
+    const estimation::GroupEquations all = bench.equations();
+    const estimation::NoisePrior prior{0.0, 0.5};
+    const estimation::Variances best =
+        estimation::maximise_likelihood(all, {{1, 1, 1}, 1.0}, prior, 60);
+    const double most = estimation::restricted_likelihood(all, best, prior);
     for (std::size_t g = 0; g < 3; ++g)
         for (const double factor : {0.8, 1.25}) {
-            Variances other = best;
+            estimation::Variances other = best;
             other.tau[g] *= factor;
-            CHECK(restricted_likelihood(all, other, prior) < most + 0.05);
+            CHECK(estimation::restricted_likelihood(all, other, prior) < most + 0.05);
         }
     for (const double factor : {0.95, 1.05}) {
-        Variances other = best;
+        estimation::Variances other = best;
         other.nu *= factor;
-        CHECK(restricted_likelihood(all, other, prior) < most + 0.05);
+        CHECK(estimation::restricted_likelihood(all, other, prior) < most + 0.05);
     }
 }
 
 TEST_CASE("mean and covariance are those of the ridge fit", "[estimation]") {
     const Bench bench;
-    const GroupEquations equations = bench.equations();
-    const Variances v{{0.7, 1.3, 0.2}, 0.9};
-    const GivenMembers given(equations, v);
+    const estimation::GroupEquations equations = bench.equations();
+    const estimation::Variances v{{0.7, 1.3, 0.2}, 0.9};
+    const estimation::GivenMembers given(equations, v);
     Eigen::VectorXd precision(8);
     precision << 1 / 0.49, 1 / 0.49, 1 / 1.69, 25, 25, 25, 25, 25;
     const Eigen::MatrixXd information =
@@ -141,12 +144,13 @@ TEST_CASE("the variance of 200 offsets and of the noise is found", "[estimation]
             y(k) = zero + 1.4 * random.normal();
         }
     }
-    const GroupEquations equations{a.transpose() * a,
-                                   a.transpose() * y,
-                                   y.squaredNorm(),
-                                   static_cast<double>(tests * each),
-                                   {tests}};
-    const Variances found = maximise_likelihood(equations, {{1.0}, 1.0}, {std::log(1.0), 0.7}, 10);
+    const estimation::GroupEquations equations{a.transpose() * a,
+                                               a.transpose() * y,
+                                               y.squaredNorm(),
+                                               static_cast<double>(tests * each),
+                                               {tests}};
+    const estimation::Variances found =
+        estimation::maximise_likelihood(equations, {{1.0}, 1.0}, {std::log(1.0), 0.7}, 10);
     CHECK(found.tau[0] == Approx(2.5).epsilon(0.15));
     CHECK(found.nu == Approx(1.4).epsilon(0.05));
 }
@@ -155,7 +159,8 @@ TEST_CASE("a group that is not there gets next to nothing", "[estimation]") {
     SeededNoise random(11);
     const Eigen::MatrixXd a = normals(300, 4, random);
     const Eigen::VectorXd y = normals(300, 1, random);
-    const GroupGain gain = group_gain({a.transpose() * a, a.transpose() * y});
+    const estimation::GroupGain gain =
+        estimation::group_gain({a.transpose() * a, a.transpose() * y});
     CHECK(gain.mean < 1.0);
     CHECK(gain.tau < 0.3);
 }

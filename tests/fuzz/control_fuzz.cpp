@@ -13,9 +13,9 @@ namespace {
 using namespace trunnion;
 
 /// Reads every move half way, as a trace does, and lets each third skip come early.
-class Looker : public MotionSink {
+class Looker : public motion::MotionSink {
   public:
-    MoveResult move(const AxisMove& m) override {
+    motion::MoveResult move(const motion::AxisMove& m) override {
         const AxisPositions middle = m.at(0.5);
         if (m.until_skip && ++skips_ % 3 == 0) return {true, middle};
         return {};
@@ -25,12 +25,13 @@ class Looker : public MotionSink {
     int skips_ = 0;
 };
 
-ControlConfig config_of(std::uint8_t choice) {
-    ControlConfig config;
-    config.dialect = choice & 1U ? hurco_dialect() : fanuc_dialect();
-    if (choice & 2U) config.dialect = fanuc_dialect(ControlGeneration::fanuc_16i);
+controller::ControlConfig config_of(std::uint8_t choice) {
+    controller::ControlConfig config;
+    config.dialect = choice & 1U ? interpreter::hurco_dialect() : interpreter::fanuc_dialect();
+    if (choice & 2U)
+        config.dialect = interpreter::fanuc_dialect(interpreter::ControlGeneration::fanuc_16i);
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z, Axis::B, Axis::C}) {
-        ControlAxis entry;
+        controller::ControlAxis entry;
         entry.axis = axis;
         entry.rotary = is_rotary(axis);
         config.axes.push_back(entry);
@@ -39,8 +40,8 @@ ControlConfig config_of(std::uint8_t choice) {
     return config;
 }
 
-Stores stores_of(std::uint8_t choice) {
-    Stores stores;
+offsets::Stores stores_of(std::uint8_t choice) {
+    offsets::Stores stores;
     constexpr std::pair<int, double> table[] = {{19680, 12}, {19681, 4}, {19682, 2}, {19684, 1},
                                                 {19686, 5},  {19687, 3}, {19689, 1}, {19697, 3}};
     for (const auto& [number, value] : table) stores.parameters.set(number, value);
@@ -62,17 +63,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size == 0) return 0;
     const std::uint8_t choice = data[0];
     const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
-    Stores stores = stores_of(choice);
-    ProgramsInMemory none;
+    offsets::Stores stores = stores_of(choice);
+    interpreter::ProgramsInMemory none;
     Looker sink;
-    Controller control(config_of(choice), stores, none, sink, [](std::string_view) {});
-    const RunResult result = control.run(ProgramText{"fuzz", text, nullptr});
+    controller::Controller control(config_of(choice), stores, none, sink, [](std::string_view) {});
+    const controller::RunResult result =
+        control.run(interpreter::ProgramText{"fuzz", text, nullptr});
     if (result.alarm && result.alarm->where.line < 1) std::abort();
-    CheckOptions options;
-    options.dialect = fanuc_dialect();
+    check::CheckOptions options;
+    options.dialect = interpreter::fanuc_dialect();
     options.knows_g = [](int code10) { return code10 < 1000; };
     options.finds_program = [](int) { return false; };
-    for (const Finding& finding : check_program({"fuzz", text, nullptr}, options))
+    for (const check::Finding& finding : check::check_program({"fuzz", text, nullptr}, options))
         if (finding.line < 1 || finding.column < 1) std::abort();
     return 0;
 }

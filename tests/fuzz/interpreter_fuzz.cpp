@@ -10,25 +10,25 @@ namespace {
 
 using namespace trunnion;
 
-struct AnySystem : SystemVariables {
+struct AnySystem : interpreter::SystemVariables {
     double get(int number) override { return number % 7; }
     void set(int, double, const char*) override {}
     double parameter(int number, int bit, int axis) override { return number + bit + axis; }
 };
 
 void run(std::string_view text) {
-    ProgramsInMemory none;
+    interpreter::ProgramsInMemory none;
     AnySystem system;
-    InterpreterOptions options;
+    interpreter::InterpreterOptions options;
     options.max_blocks = 2000;
     options.skip_switches[2] = true;
     options.calls.m[6] = {9001, false, false};
     options.calls.g[1000] = {9010, true, true};
     options.calls.t_calls_9000 = true;
-    Interpreter nc(none, options, system, [](std::string_view) {});
+    interpreter::Interpreter nc(none, options, system, [](std::string_view) {});
     try {
-        nc.open(ProgramText{"fuzz", text, nullptr});
-        while (const BlockWords* words = nc.next())
+        nc.open(interpreter::ProgramText{"fuzz", text, nullptr});
+        while (const interpreter::BlockWords* words = nc.next())
             if (words->count > 1) nc.block_moved();
     } catch (const Alarm& alarm) {
         if (alarm.where.line < 1) std::abort();
@@ -36,12 +36,12 @@ void run(std::string_view text) {
 }
 
 void check_fixpoint(std::string_view text) {
-    const ParsedProgram a = parse_program({"a", text, nullptr}, {});
-    const std::string once = print_program(a);
-    const ParsedProgram b = parse_program({"b", once, nullptr}, {});
+    const interpreter::ParsedProgram a = interpreter::parse_program({"a", text, nullptr}, {});
+    const std::string once = interpreter::print_program(a);
+    const interpreter::ParsedProgram b = interpreter::parse_program({"b", once, nullptr}, {});
     if (!b.faults.empty() || a.blocks.size() != b.blocks.size()) std::abort();
     for (std::size_t i = 0; i < a.blocks.size(); ++i)
-        if (!same_block(a, a.blocks[i], b, b.blocks[i])) std::abort();
+        if (!interpreter::same_block(a, a.blocks[i], b, b.blocks[i])) std::abort();
 }
 
 }  // namespace

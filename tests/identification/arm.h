@@ -67,10 +67,10 @@ inline std::string setup_text(const DenavitHartenberg& dh, double noise_um,
                       instrument_free, vector(tool), noise_um);
 }
 
-inline Setup setup(const DenavitHartenberg& dh, double noise_um,
-                   const std::string& instrument_free = "[\"pose\"]") {
+inline setup::Setup setup(const DenavitHartenberg& dh, double noise_um,
+                          const std::string& instrument_free = "[\"pose\"]") {
     std::vector<std::string> notes;
-    return parse_setup(setup_text(dh, noise_um, instrument_free), "arm.toml", notes);
+    return setup::parse_setup(setup_text(dh, noise_um, instrument_free), "arm.toml", notes);
 }
 
 struct Pose {
@@ -79,8 +79,8 @@ struct Pose {
 };
 
 /// Three `point` rows a pose: value = dir . (measured - forward kinematics of the nominal arm).
-inline ReadingTable table(const Setup& setup, const DenavitHartenberg& dh,
-                          const std::vector<Pose>& poses) {
+inline records::ReadingTable table(const setup::Setup& setup, const DenavitHartenberg& dh,
+                                   const std::vector<Pose>& poses) {
     std::string text =
         "# schema = trunnion.readings/1\nindex,time_s,test,device,feature,j1_deg,j2_deg,j3_deg,"
         "j4_deg,j5_deg,j6_deg,dir_x,dir_y,dir_z,value_mm\n";
@@ -93,7 +93,7 @@ inline ReadingTable table(const Setup& setup, const DenavitHartenberg& dh,
             text += fmt::format(",{},{},{},{}\n", int(d == 0), int(d == 1), int(d == 2), off(d));
         }
     std::vector<std::string> notes;
-    return parse_readings(text, "arm.csv", notes, setup.machine.chain.names());
+    return records::parse_readings(text, "arm.csv", notes, setup.machine.chain.names());
 }
 
 /// Kinematic parameters of any arm: two positions and two tilts a joint, and its zero offset.
@@ -104,8 +104,10 @@ inline std::vector<std::string> kinematic_effects() {
 }
 
 /// Distances between measured points and those that a fitted setup predicts.
-inline std::vector<double> misses_mm(const Setup& fitted, const ReadingTable& table) {
-    const ReadingTable read = predicted(fitted, table, active_models(fitted));
+inline std::vector<double> misses_mm(const setup::Setup& fitted,
+                                     const records::ReadingTable& table) {
+    const records::ReadingTable read =
+        emulator::predicted(fitted, table, effects::active_models(fitted));
     std::vector<double> misses;
     for (std::size_t i = 0; i + 2 < table.rows.size(); i += 3) {
         Vector3 off;

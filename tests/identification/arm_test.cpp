@@ -75,13 +75,14 @@ std::vector<arm::Pose> published(const std::string& path) {
 }  // namespace
 
 TEST_CASE("an arm reads what its Denavit-Hartenberg matrices say", "[identification][arm]") {
-    const Setup setup = arm::setup(arm::ur5, 100);
+    const setup::Setup setup = arm::setup(arm::ur5, 100);
     auto poses = random_poses(30, 4);
     for (arm::Pose& pose : poses) pose.measured_mm = arm::target_mm(arm::ur5, pose.joints_deg);
-    const ReadingTable table = arm::table(setup, arm::ur5, poses);
+    const records::ReadingTable table = arm::table(setup, arm::ur5, poses);
     CHECK(arm::mean(arm::misses_mm(setup, table)) < 1e-10);
-    Setup turned = setup;
-    turned.effects.push_back(parse_injection("J3.zero=1mrad", make_catalogue(setup)));
+    setup::Setup turned = setup;
+    turned.effects.push_back(
+        effects::parse_injection("J3.zero=1mrad", effects::make_catalogue(setup)));
     for (arm::Pose& pose : poses) {
         auto q = pose.joints_deg;
         q[2] += deg_from_rad(1e-3);
@@ -92,35 +93,37 @@ TEST_CASE("an arm reads what its Denavit-Hartenberg matrices say", "[identificat
 
 TEST_CASE("kinematic parameters of an arm: 27 are seen by points, the rest is named",
           "[identification][arm]") {
-    const Setup setup = arm::setup(beside(), 20);
-    const ReadingTable table = arm::table(
+    const setup::Setup setup = arm::setup(beside(), 20);
+    const records::ReadingTable table = arm::table(
         setup, beside(), measured_by(worn(), zeros_deg, tracker, 1.0, random_poses(200, 5), 0.0));
-    const Identification fit = identify(setup, table, arm::kinematic_effects());
+    const identification::Identification fit =
+        identification::identify(setup, table, arm::kinematic_effects());
     // Six lines in space and a point: 6 * 4 + 3. Base pose and zero offsets name the same again.
     CHECK(fit.parameters.size() == 24 + 6 + 6 + 3);
     CHECK(fit.inseparable.size() == fit.parameters.size() - 27);
     // A target on the last axis does not tell the direction of that axis.
-    const Setup on_axis = arm::setup(arm::ur5, 20);
-    const Identification less = identify(
+    const setup::Setup on_axis = arm::setup(arm::ur5, 20);
+    const identification::Identification less = identification::identify(
         on_axis,
         arm::table(on_axis, arm::ur5,
                    measured_by(arm::ur5, zeros_deg, tracker, 1.0, random_poses(200, 5), 0.0)),
         arm::kinematic_effects());
     CHECK(less.inseparable.size() == less.parameters.size() - 25);
-    const ReadingTable other = arm::table(
+    const records::ReadingTable other = arm::table(
         setup, beside(), measured_by(worn(), zeros_deg, tracker, 1.0, random_poses(100, 6), 0.0));
     CHECK(arm::mean(arm::misses_mm(setup, other)) > 1.0);
     CHECK(arm::mean(arm::misses_mm(fit.setup, other)) < 1e-5);
 }
 
 TEST_CASE("noise shows in the residual and hardly in the prediction", "[identification][arm]") {
-    const Setup setup = arm::setup(beside(), 20, "[\"pose\", \"scale\"]");
-    const ReadingTable table =
+    const setup::Setup setup = arm::setup(beside(), 20, "[\"pose\", \"scale\"]");
+    const records::ReadingTable table =
         arm::table(setup, beside(),
                    measured_by(worn(), zeros_deg, tracker, 1.0 + 2e-5, random_poses(200, 5), 0.02));
-    const Identification fit = identify(setup, table, arm::kinematic_effects());
+    const identification::Identification fit =
+        identification::identify(setup, table, arm::kinematic_effects());
     CHECK(fit.rms_after_um == Approx(20.0).epsilon(0.1));
-    const ReadingTable other =
+    const records::ReadingTable other =
         arm::table(setup, beside(),
                    measured_by(worn(), zeros_deg, tracker, 1.0 + 2e-5, random_poses(100, 6), 0.0));
     CHECK(arm::mean(arm::misses_mm(fit.setup, other)) < 0.015);
@@ -135,14 +138,17 @@ TEST_CASE("a real UR5 measured by a laser tracker: fitted on 1,000 poses, judged
         WARN("skipped: TRUNNION_UR5 does not name the folder of the data set");
         return;
     }
-    const Setup setup = arm::setup(arm::ur5, 100);
+    const setup::Setup setup = arm::setup(arm::ur5, 100);
     const std::string name = std::string(folder) + "/3D_UR5_uncalibrated_";
-    const ReadingTable grid = arm::table(setup, arm::ur5, published(name + "grid_cleaned.csv"));
-    const ReadingTable fresh = arm::table(setup, arm::ur5, published(name + "random_cleaned.csv"));
+    const records::ReadingTable grid =
+        arm::table(setup, arm::ur5, published(name + "grid_cleaned.csv"));
+    const records::ReadingTable fresh =
+        arm::table(setup, arm::ur5, published(name + "random_cleaned.csv"));
     REQUIRE(grid.rows.size() == 3000);
     REQUIRE(fresh.rows.size() == 60);
     CHECK(arm::mean(arm::misses_mm(setup, fresh)) == Approx(2.57).margin(0.01));
-    const Identification fit = identify(setup, grid, arm::kinematic_effects());
+    const identification::Identification fit =
+        identification::identify(setup, grid, arm::kinematic_effects());
     const double judged_mm = arm::mean(arm::misses_mm(fit.setup, fresh));
     WARN("mean error " << judged_mm << " mm on the 20, "
                        << arm::mean(arm::misses_mm(fit.setup, grid)) << " mm on the 1,000");

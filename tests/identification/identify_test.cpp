@@ -10,8 +10,8 @@
 namespace trunnion {
 namespace {
 
-double found(const Identification& result, const std::string& name) {
-    for (const FitParameter& p : result.parameters)
+double found(const identification::Identification& result, const std::string& name) {
+    for (const identification::FitParameter& p : result.parameters)
         if (p.name == name) return p.value;
     FAIL("no parameter " + name);
     return 0.0;
@@ -20,20 +20,22 @@ double found(const Identification& result, const std::string& name) {
 }  // namespace
 
 TEST_CASE("eight location errors come back as they went in", "[identification]") {
-    const Setup setup = campaign::bc_setup(), truth = campaign::real_machine(setup);
-    ReadingTable table = campaign::empty_table(setup);
+    const setup::Setup setup = campaign::bc_setup(), truth = campaign::real_machine(setup);
+    records::ReadingTable table = campaign::empty_table(setup);
     campaign::add_sphere_map(table, setup, 60, 3);
-    const Identification exact = identify(setup, campaign::measured(truth, table, 1, 0.0), {});
+    const identification::Identification exact =
+        identification::identify(setup, campaign::measured(truth, table, 1, 0.0), {});
     REQUIRE(exact.inseparable.empty());
     REQUIRE(exact.rms_after_um < 1e-4);
     for (const char* name : {"EX0B", "EZ0B", "EA0B", "EC0B", "EX0C", "EY0C", "EA0C", "EB0C"}) {
-        const double expected = truth.machine.errors.location(*parse_error_name(name));
+        const double expected = truth.machine.errors.location(*kinematics::parse_error_name(name));
         const std::string key = std::string(name) + (name[1] < 'D' ? "_rad" : "_mm");
         INFO(name);
         REQUIRE(found(exact, key) == Approx(expected).margin(name[1] < 'D' ? 1e-9 : 1e-7));
     }
-    const Identification noisy = identify(setup, campaign::measured(truth, table, 1), {});
-    for (const FitParameter& p : noisy.parameters) {
+    const identification::Identification noisy =
+        identification::identify(setup, campaign::measured(truth, table, 1), {});
+    for (const identification::FitParameter& p : noisy.parameters) {
         INFO(p.name);
         REQUIRE(std::abs(p.value - found(exact, p.name)) < 4.5 * p.sigma);
     }
@@ -41,20 +43,20 @@ TEST_CASE("eight location errors come back as they went in", "[identification]")
 }
 
 TEST_CASE("simulated repetitions scatter as the covariance says", "[identification]") {
-    const Setup setup = campaign::bc_setup(), truth = campaign::real_machine(setup);
-    ReadingTable table = campaign::empty_table(setup);
+    const setup::Setup setup = campaign::bc_setup(), truth = campaign::real_machine(setup);
+    records::ReadingTable table = campaign::empty_table(setup);
     campaign::add_sphere_map(table, setup, 24, 3);
-    const ReadingTable readings = campaign::measured(truth, table, 1);
-    Identification a = identify(setup, readings, {}), b = a, c = a;
-    add_monte_carlo(setup, readings, {}, 60, 5, a);
-    add_monte_carlo(setup, readings, {}, 60, 5, b);
-    add_monte_carlo(setup, readings, {}, 60, 6, c);
-    Identification cut = a, few = a, short_run = a;
+    const records::ReadingTable readings = campaign::measured(truth, table, 1);
+    identification::Identification a = identification::identify(setup, readings, {}), b = a, c = a;
+    identification::add_monte_carlo(setup, readings, {}, 60, 5, a);
+    identification::add_monte_carlo(setup, readings, {}, 60, 5, b);
+    identification::add_monte_carlo(setup, readings, {}, 60, 6, c);
+    identification::Identification cut = a, few = a, short_run = a;
     const auto until = [](int last) { return [last](int done) { return done < last; }; };
-    CHECK(add_monte_carlo(setup, readings, {}, 60, 5, cut, until(9)) == 9);
-    CHECK(add_monte_carlo(setup, readings, {}, 9, 5, few) == 9);
+    CHECK(identification::add_monte_carlo(setup, readings, {}, 60, 5, cut, until(9)) == 9);
+    CHECK(identification::add_monte_carlo(setup, readings, {}, 9, 5, few) == 9);
     CHECK(cut.parameters[0].sigma_monte_carlo == few.parameters[0].sigma_monte_carlo);
-    CHECK(add_monte_carlo(setup, readings, {}, 60, 5, short_run, until(1)) == 1);
+    CHECK(identification::add_monte_carlo(setup, readings, {}, 60, 5, short_run, until(1)) == 1);
     CHECK(short_run.parameters[0].sigma_monte_carlo == a.parameters[0].sigma_monte_carlo);
     for (std::size_t k = 0; k < a.parameters.size(); ++k) {
         INFO(a.parameters[k].name);
@@ -66,15 +68,17 @@ TEST_CASE("simulated repetitions scatter as the covariance says", "[identificati
 }
 
 TEST_CASE("an identified setup loads again and predicts the readings", "[identification]") {
-    const Setup setup = campaign::bc_setup(), truth = campaign::real_machine(setup);
-    ReadingTable table = campaign::empty_table(setup);
+    const setup::Setup setup = campaign::bc_setup(), truth = campaign::real_machine(setup);
+    records::ReadingTable table = campaign::empty_table(setup);
     campaign::add_sphere_map(table, setup, 40, 3);
     campaign::add_ballbar(table, setup);
-    const ReadingTable readings = campaign::measured(truth, table, 1, 0.0);
-    const Identification result = identify(setup, readings, {});
+    const records::ReadingTable readings = campaign::measured(truth, table, 1, 0.0);
+    const identification::Identification result = identification::identify(setup, readings, {});
     std::vector<std::string> notes;
-    const Setup again = parse_setup(format_setup(result.setup), "again.toml", notes);
-    const ReadingTable prediction = predicted(again, table, active_models(again));
+    const setup::Setup again =
+        setup::parse_setup(setup::format_setup(result.setup), "again.toml", notes);
+    const records::ReadingTable prediction =
+        emulator::predicted(again, table, effects::active_models(again));
     for (std::size_t i = 0; i < table.rows.size(); ++i)
         if (readings.rows[i].value_mm)
             REQUIRE(*prediction.rows[i].value_mm ==
@@ -82,28 +86,29 @@ TEST_CASE("an identified setup loads again and predicts the readings", "[identif
 }
 
 TEST_CASE("a ballbar alone cannot place axes and cup: three groups are named", "[identification]") {
-    const Setup setup = campaign::bc_setup(), truth = campaign::real_machine(setup);
-    ReadingTable table = campaign::empty_table(setup);
+    const setup::Setup setup = campaign::bc_setup(), truth = campaign::real_machine(setup);
+    records::ReadingTable table = campaign::empty_table(setup);
     campaign::add_ballbar(table, setup);
-    const Identification result = identify(setup, campaign::measured(truth, table, 1), {});
+    const identification::Identification result =
+        identification::identify(setup, campaign::measured(truth, table, 1), {});
     REQUIRE(result.inseparable.size() == 3);
     REQUIRE(result.rms_after_um == Approx(0.3).epsilon(0.1));
-    for (const Inseparable& group : result.inseparable)
+    for (const identification::Inseparable& group : result.inseparable)
         REQUIRE(group.names.size() == group.direction.size());
 }
 
 TEST_CASE("a wrong 1970x store shows four of its six numbers", "[identification]") {
-    Setup setup = campaign::bc_setup();
+    setup::Setup setup = campaign::bc_setup();
     setup.model.modelled = {};
-    const Setup truth = campaign::with_effect(
+    const setup::Setup truth = campaign::with_effect(
         setup, "pivot.p1970x: dp_mm=[0.02, 0.01, -0.03], dd_mm=[0.015, -0.02, 0.01]");
-    ReadingTable table = campaign::empty_table(setup);
+    records::ReadingTable table = campaign::empty_table(setup);
     campaign::add_sphere_map(table, setup, 60, 8);
-    const Identification result =
-        identify(setup, campaign::measured(truth, table, 2), {"pivot.p1970x"});
+    const identification::Identification result =
+        identification::identify(setup, campaign::measured(truth, table, 2), {"pivot.p1970x"});
     REQUIRE(result.inseparable.size() == 2);
     double dp_x = 0.0, sum_y = 0.0;
-    for (const FitParameter& p : result.parameters) {
+    for (const identification::FitParameter& p : result.parameters) {
         if (p.name == "dp_mm" && p.component == 0) dp_x = p.value;
         if ((p.name == "dp_mm" || p.name == "dd_mm") && p.component == 1) sum_y += p.value;
     }
@@ -112,43 +117,44 @@ TEST_CASE("a wrong 1970x store shows four of its six numbers", "[identification]
 }
 
 TEST_CASE("a calibrated value enters as a prior", "[identification]") {
-    Setup setup = campaign::bc_setup();
-    const Setup truth = campaign::real_machine(setup);
+    setup::Setup setup = campaign::bc_setup();
+    const setup::Setup truth = campaign::real_machine(setup);
     setup.model.calibration["EX0B"] = {0.012, 1e-5};
-    ReadingTable table = campaign::empty_table(setup);
+    records::ReadingTable table = campaign::empty_table(setup);
     campaign::add_ballbar(table, setup);
-    const Identification result = identify(setup, campaign::measured(truth, table, 1), {});
+    const identification::Identification result =
+        identification::identify(setup, campaign::measured(truth, table, 1), {});
     REQUIRE(found(result, "EX0B_mm") == Approx(0.012).margin(5e-5));
     REQUIRE(result.inseparable.size() == 2);
 }
 
 TEST_CASE("keys are searched: time constant of a drift", "[identification]") {
-    const Setup setup = campaign::bc_setup();
-    const Setup truth = campaign::with_effect(campaign::real_machine(setup),
-                                              "thermal.drift: d_mm=[0.01, 0, 0.03], tau_s=700");
-    ReadingTable table = campaign::empty_table(setup);
+    const setup::Setup setup = campaign::bc_setup();
+    const setup::Setup truth = campaign::with_effect(
+        campaign::real_machine(setup), "thermal.drift: d_mm=[0.01, 0, 0.03], tau_s=700");
+    records::ReadingTable table = campaign::empty_table(setup);
     campaign::add_sphere_map(table, setup, 120, 3);
-    const Identification result =
-        identify(setup, campaign::measured(truth, table, 1), {"location", "thermal.drift"});
+    const identification::Identification result = identification::identify(
+        setup, campaign::measured(truth, table, 1), {"location", "thermal.drift"});
     REQUIRE(found(result, "tau_s") == Approx(700).epsilon(0.1));
     REQUIRE(result.rms_after_um == Approx(0.8).epsilon(0.1));
 }
 
 TEST_CASE("readings of another machine or in other units are refused", "[identification]") {
-    const Setup setup = campaign::bc_setup();
-    ReadingTable table = campaign::empty_table(setup);
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
     campaign::add_sphere_map(table, setup, 20, 3);
-    ReadingTable readings = campaign::measured(setup, table, 1);
-    ReadingTable far = readings;
+    records::ReadingTable readings = campaign::measured(setup, table, 1);
+    records::ReadingTable far = readings;
     far.rows[5].value_mm = 100.0;
-    REQUIRE_THROWS_AS(identify(setup, far, {}), InputError);
-    ReadingTable other = readings;
+    REQUIRE_THROWS_AS(identification::identify(setup, far, {}), InputError);
+    records::ReadingTable other = readings;
     other.axes = {Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::C};
-    REQUIRE_THROWS_AS(identify(setup, other, {}), InputError);
-    ReadingTable blank = readings;
+    REQUIRE_THROWS_AS(identification::identify(setup, other, {}), InputError);
+    records::ReadingTable blank = readings;
     blank.rows[5].value_mm.reset();
-    REQUIRE_THROWS_AS(identify(setup, blank, {}), InputError);
-    REQUIRE_THROWS_AS(identify(setup, readings, {"C.wobble"}), InputError);
+    REQUIRE_THROWS_AS(identification::identify(setup, blank, {}), InputError);
+    REQUIRE_THROWS_AS(identification::identify(setup, readings, {"C.wobble"}), InputError);
 }
 
 }  // namespace trunnion

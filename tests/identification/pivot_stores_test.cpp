@@ -14,9 +14,9 @@ namespace {
 const std::string root = TRUNNION_SOURCE_DIR;
 
 /// The machine of the paper's kind, told the truth.
-Setup paper_machine(double repeatability_um) {
+setup::Setup paper_machine(double repeatability_um) {
     std::vector<std::string> notes;
-    Setup setup = load_setup(root + "/machines/bc_table.toml", notes);
+    setup::Setup setup = setup::load_setup(root + "/machines/bc_table.toml", notes);
     setup.probe->repeatability_um = repeatability_um;
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) setup.stores.work.standard[0][axis] = 0.0;
     for (int n = 19700; n <= 19705; ++n) setup.stores.parameters.set(n, 0.0);
@@ -24,29 +24,29 @@ Setup paper_machine(double repeatability_um) {
     return setup;
 }
 
-RunLog run(const Setup& machine, int program, std::uint64_t seed) {
-    ProgramFolders folders({root + "/programs", root + "/programs/pivot"});
-    RunOptions options;
+emulator::RunLog run(const setup::Setup& machine, int program, std::uint64_t seed) {
+    interpreter::ProgramFolders folders({root + "/programs", root + "/programs/pivot"});
+    emulator::RunOptions options;
     options.seed = seed;
-    options.effects = active_models(machine);
-    RunLog log = run_program(machine, folders, program, options);
-    REQUIRE(log.result.status == RunStatus::ok);
+    options.effects = effects::active_models(machine);
+    emulator::RunLog log = emulator::run_program(machine, folders, program, options);
+    REQUIRE(log.result.status == controller::RunStatus::ok);
     return log;
 }
 
-ReadingTable four_programs(const Setup& machine, std::uint64_t seed) {
-    std::vector<ReadingTable> tables;
+records::ReadingTable four_programs(const setup::Setup& machine, std::uint64_t seed) {
+    std::vector<records::ReadingTable> tables;
     for (int program = 8001; program <= 8004; ++program)
         tables.push_back(
             run(machine, program, seed + static_cast<std::uint64_t>(program)).readings);
-    return join_readings(std::move(tables));
+    return records::join_readings(std::move(tables));
 }
 
 struct StoreErrors {
     Vector3 dg, dp, dd;
 };
 
-Setup with_stores(Setup setup, const StoreErrors& s) {
+setup::Setup with_stores(setup::Setup setup, const StoreErrors& s) {
     const auto numbers = [](const Vector3& v) { return std::vector<double>(v.begin(), v.end()); };
     if (!s.dg.isZero()) setup.effects.push_back({"pivot.g54", {{"dg_mm", numbers(s.dg)}}});
     if (!s.dp.isZero() || !s.dd.isZero())
@@ -55,18 +55,19 @@ Setup with_stores(Setup setup, const StoreErrors& s) {
     return setup;
 }
 
-const FitParameter& found(const Identification& result, const std::string& name, int component) {
-    for (const FitParameter& p : result.parameters)
+const identification::FitParameter& found(const identification::Identification& result,
+                                          const std::string& name, int component) {
+    for (const identification::FitParameter& p : result.parameters)
         if (p.name == name && p.component == component) return p;
     FAIL(name);
     return result.parameters.front();
 }
 
 /// What the readings see of six numbers: dp_x, dp_z, dd_x and dp_y + dd_y.
-void require_stores(const Identification& result, const StoreErrors& truth, double margin_mm,
-                    double sigmas) {
-    const auto near = [&](const FitParameter& p, double expected) {
-        INFO(full_name(p));
+void require_stores(const identification::Identification& result, const StoreErrors& truth,
+                    double margin_mm, double sigmas) {
+    const auto near = [&](const identification::FitParameter& p, double expected) {
+        INFO(identification::full_name(p));
         CHECK(std::abs(p.value - expected) < margin_mm + sigmas * p.sigma);
     };
     for (int d = 0; d < 3; ++d) near(found(result, "dg_mm", d), truth.dg(d));
@@ -81,7 +82,7 @@ void require_stores(const Identification& result, const StoreErrors& truth, doub
     CHECK(std::isnan(found(result, "dd_mm", 2).sigma));
     // Rank 4 of 6: the null space is dd_z alone, and dp_y against dd_y.
     REQUIRE(result.inseparable.size() == 2);
-    for (const Inseparable& group : result.inseparable) {
+    for (const identification::Inseparable& group : result.inseparable) {
         if (group.names.size() == 1) {
             CHECK(group.names[0] == "pivot.p1970x.dd_mm[z]");
         } else {
@@ -102,23 +103,23 @@ const StoreErrors cases[] = {
 }  // namespace
 
 TEST_CASE("which store is wrong, and by what vector, from the four programs", "[identification]") {
-    const Setup exact = paper_machine(0.0), noisy = paper_machine(0.5);
+    const setup::Setup exact = paper_machine(0.0), noisy = paper_machine(0.5);
     for (const StoreErrors& truth : cases) {
         INFO("dg " << truth.dg.transpose() << " dp " << truth.dp.transpose() << " dd "
                    << truth.dd.transpose());
-        require_stores(identify(exact, four_programs(with_stores(exact, truth), 1),
-                                {"pivot.g54", "pivot.p1970x"}),
+        require_stores(identification::identify(exact, four_programs(with_stores(exact, truth), 1),
+                                                {"pivot.g54", "pivot.p1970x"}),
                        truth, 1e-6, 0.0);
-        require_stores(identify(noisy, four_programs(with_stores(noisy, truth), 5),
-                                {"pivot.g54", "pivot.p1970x"}),
+        require_stores(identification::identify(noisy, four_programs(with_stores(noisy, truth), 5),
+                                                {"pivot.g54", "pivot.p1970x"}),
                        truth, 0.0, 4.0);
     }
 }
 
 TEST_CASE("an error in the null space changes no reading", "[identification]") {
-    const Setup setup = paper_machine(0.0);
-    const ReadingTable right = four_programs(setup, 1),
-                       wrong = four_programs(with_stores(setup, cases[3]), 1);
+    const setup::Setup setup = paper_machine(0.0);
+    const records::ReadingTable right = four_programs(setup, 1),
+                                wrong = four_programs(with_stores(setup, cases[3]), 1);
     REQUIRE(right.rows.size() == wrong.rows.size());
     for (std::size_t i = 0; i < right.rows.size(); ++i)
         if (right.rows[i].value_mm)
@@ -127,9 +128,10 @@ TEST_CASE("an error in the null space changes no reading", "[identification]") {
 
 TEST_CASE("with the axes' location free only the difference of the stores is seen",
           "[identification]") {
-    const Setup setup = paper_machine(0.5);
-    const Identification result = identify(setup, four_programs(with_stores(setup, cases[0]), 3),
-                                           {"location", "pivot.g54", "pivot.p1970x"});
+    const setup::Setup setup = paper_machine(0.5);
+    const identification::Identification result =
+        identification::identify(setup, four_programs(with_stores(setup, cases[0]), 3),
+                                 {"location", "pivot.g54", "pivot.p1970x"});
     // Three more directions: both stores and the axes moved together.
     REQUIRE(result.inseparable.size() == 5);
     for (int d = 0; d < 3; ++d) {
@@ -139,27 +141,28 @@ TEST_CASE("with the axes' location free only the difference of the stores is see
         CHECK(std::isnan(found(result, "dg_mm", d).sigma));
     }
     // Telling where the axes are tells which store is wrong.
-    Setup calibrated = setup;
+    setup::Setup calibrated = setup;
     for (const char* name : {"EX0B", "EZ0B", "EX0C", "EY0C"})
         calibrated.model.calibration[name] = {0.0, 1e-3};
-    const Identification known =
-        identify(calibrated, four_programs(with_stores(setup, cases[0]), 3),
-                 {"location", "pivot.g54", "pivot.p1970x"});
+    const identification::Identification known =
+        identification::identify(calibrated, four_programs(with_stores(setup, cases[0]), 3),
+                                 {"location", "pivot.g54", "pivot.p1970x"});
     CHECK(known.inseparable.size() == 2);
     for (int d = 0; d < 3; ++d)
         CHECK(found(known, "dg_mm", d).value == Approx(cases[0].dg(d)).margin(4e-3));
 }
 
-TEST_CASE("an injected store error is what a control with that store does", "[.known][identification]") {
-    const Setup setup = paper_machine(0.0);
-    Setup wrong = setup;
+TEST_CASE("an injected store error is what a control with that store does",
+          "[.known][identification]") {
+    const setup::Setup setup = paper_machine(0.0);
+    setup::Setup wrong = setup;
     const StoreErrors& s = cases[1];
     for (int d = 0; d < 3; ++d) {
         wrong.stores.work.standard[0][all_axes[static_cast<std::size_t>(d)]] = cases[0].dg(d);
         wrong.stores.parameters.set(19700 + d, s.dp(d));
         wrong.stores.parameters.set(19703 + d, s.dd(d));
     }
-    const Setup injected = with_stores(setup, {cases[0].dg, s.dp, s.dd});
+    const setup::Setup injected = with_stores(setup, {cases[0].dg, s.dp, s.dd});
     const auto numbers = [](const std::string& text) {
         std::vector<double> list;
         std::istringstream lines(text);

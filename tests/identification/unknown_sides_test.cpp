@@ -10,18 +10,18 @@ namespace trunnion {
 namespace {
 
 /// Circles before which B and C came from sides that the table does not tell, then turns of both.
-ReadingTable circles(const Setup& truth, signed char side_of_c) {
-    ReadingTable table = campaign::empty_table(truth);
+records::ReadingTable circles(const setup::Setup& truth, signed char side_of_c) {
+    records::ReadingTable table = campaign::empty_table(truth);
     campaign::add_ballbar(table, truth);
     table.side_before[index_of(Axis::C)] = side_of_c;
     table.side_before[index_of(Axis::B)] = 1;
-    ReadingTable read = campaign::measured(truth, table, 3);
+    records::ReadingTable read = campaign::measured(truth, table, 3);
     read.side_before = {};
     return read;
 }
 
-double value_of(const Identification& result, const std::string& name) {
-    for (const FitParameter& p : result.parameters)
+double value_of(const identification::Identification& result, const std::string& name) {
+    for (const identification::FitParameter& p : result.parameters)
         if (p.name == name) return p.value;
     FAIL("no parameter " + name);
     return 0.0;
@@ -30,9 +30,9 @@ double value_of(const Identification& result, const std::string& name) {
 }  // namespace
 
 TEST_CASE("a side that no row tells is found with the gap it belongs to", "[identification]") {
-    const Setup truth = campaign::with_effect(campaign::bc_setup(), "C.backlash=60urad");
+    const setup::Setup truth = campaign::with_effect(campaign::bc_setup(), "C.backlash=60urad");
     for (const int side : {-1, 1}) {
-        const Identification result = identify(
+        const identification::Identification result = identification::identify(
             campaign::bc_setup(), circles(truth, static_cast<signed char>(side)), {"C.backlash"});
         CHECK(value_of(result, "gap_rad") == Approx(6e-5).margin(1e-6));
         REQUIRE(result.notes.size() == 1);  // B has no gap, nothing asks for its side
@@ -43,14 +43,14 @@ TEST_CASE("a side that no row tells is found with the gap it belongs to", "[iden
 }
 
 TEST_CASE("nothing free is a model too", "[identification]") {
-    Setup setup = campaign::bc_setup();
+    setup::Setup setup = campaign::bc_setup();
     setup.model.modelled.clear();
-    for (Artefact& artefact : setup.artefacts) artefact.free_center = false;
+    for (setup::Artefact& artefact : setup.artefacts) artefact.free_center = false;
     setup.ballbar->free_cup = setup.ballbar->free_length = false;
-    ReadingTable table = campaign::empty_table(setup);
+    records::ReadingTable table = campaign::empty_table(setup);
     campaign::add_sphere_map(table, setup, 6, 5);
-    const ReadingTable read = campaign::measured(setup, table, 4);
-    const Identification result = identify(setup, read, {});
+    const records::ReadingTable read = campaign::measured(setup, table, 4);
+    const identification::Identification result = identification::identify(setup, read, {});
     CHECK(result.parameters.empty());
     CHECK(result.dof == 18);
     CHECK(result.rms_after_um == result.rms_before_um);
@@ -58,17 +58,17 @@ TEST_CASE("nothing free is a model too", "[identification]") {
 }
 
 TEST_CASE("a large gap is refused as a slip of units unless it is meant", "[identification]") {
-    Setup setup = campaign::bc_setup();
-    ReadingTable table = campaign::empty_table(setup);
+    setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
     campaign::add_sphere_map(table, setup, 20, 5);
-    ReadingTable read = campaign::measured(setup, table, 4);
+    records::ReadingTable read = campaign::measured(setup, table, 4);
     *read.rows.back().value_mm += 5.6 * 1.5;
-    CHECK_THROWS_AS(identify(setup, read, {}), InputError);
+    CHECK_THROWS_AS(identification::identify(setup, read, {}), InputError);
     setup.model.allow_large = true;
-    CHECK_FALSE(identify(setup, read, {}).notes.empty());
+    CHECK_FALSE(identification::identify(setup, read, {}).notes.empty());
     setup.model.allow_large = false;
     read.rows.back().sigma_mm = 1.0;
-    const Identification meant = identify(setup, read, {});
+    const identification::Identification meant = identification::identify(setup, read, {});
     REQUIRE_FALSE(meant.notes.empty());
     CHECK_THAT(meant.notes[0],
                Catch::Contains("a residual of 8.") && Catch::Contains("taken as meant"));

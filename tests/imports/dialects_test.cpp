@@ -8,7 +8,7 @@ using namespace trunnion;
 using import_bench::Case;
 
 TEST_CASE("one servo log in many dialects gives the same readings") {
-    const Setup setup = import_bench::setup();
+    const setup::Setup setup = import_bench::setup();
     const std::string texts[] = {
         "time [s],X cmd [mm],X act [mm]\n0,1.5,1.501\n0.1,2.5,2.5015\n",
         "\xEF\xBB\xBFtime [s],X cmd [mm],X act [mm]\r\n0,1.5,1.501\r\n0.1,2.5,2.5015\r\n",
@@ -26,7 +26,8 @@ TEST_CASE("one servo log in many dialects gives the same readings") {
         "[mm]\"\n\"0\",\"1.5\",\"1.501\"\n\"0.1\",\"2.5\",\"2.5015\"\n"};
     for (const std::string& text : texts) {
         INFO(text);
-        const auto rows = import_bench::read_rows(setup, {ImportKind::axis_log, text, {}, ""});
+        const auto rows =
+            import_bench::read_rows(setup, {imports::ImportKind::axis_log, text, {}, ""});
         REQUIRE(rows.size() == 2);
         CHECK(rows[0].time_s == 0.0);
         CHECK(rows[1].time_s == Approx(0.1).margin(2e-7));
@@ -37,32 +38,32 @@ TEST_CASE("one servo log in many dialects gives the same readings") {
 }
 
 TEST_CASE("times as files write them") {
-    const double day = *seconds_of("2024-03-01");
+    const double day = *imports::seconds_of("2024-03-01");
     CHECK(day == 1709251200.0);  // date -u -d 2024-03-01 +%s
-    CHECK(*seconds_of("2024-03-01T08:15:30Z") - day == 29730.0);
-    CHECK(*seconds_of("2024-03-01 08:15:30.25") - day == 29730.25);
-    CHECK(*seconds_of("2024-03-01T08:15:30+01:00") - day == 26130.0);
-    CHECK(*seconds_of("01.03.2024 08:15:30") - day == 29730.0);
-    CHECK(*seconds_of("03/25/2024 8:15 PM") - day == 24 * 86400 + 72900.0);
-    CHECK(*seconds_of("08:15:30,5") == 29730.5);
+    CHECK(*imports::seconds_of("2024-03-01T08:15:30Z") - day == 29730.0);
+    CHECK(*imports::seconds_of("2024-03-01 08:15:30.25") - day == 29730.25);
+    CHECK(*imports::seconds_of("2024-03-01T08:15:30+01:00") - day == 26130.0);
+    CHECK(*imports::seconds_of("01.03.2024 08:15:30") - day == 29730.0);
+    CHECK(*imports::seconds_of("03/25/2024 8:15 PM") - day == 24 * 86400 + 72900.0);
+    CHECK(*imports::seconds_of("08:15:30,5") == 29730.5);
     for (const char* bad : {"", "noon", "2024-02-30 08:00:00", "01/02/2024 08:00:00", "25:99",
                             "2024-03-01T", "08:15:30 CET", "2024-03-01T08:15:3x"})
-        CHECK_FALSE(seconds_of(bad));
+        CHECK_FALSE(imports::seconds_of(bad));
 }
 
 TEST_CASE("units in lower and upper case, and every micro") {
     for (const char* um : {"um", "\xC2\xB5m", "\xCE\xBCm", "\xB5m", "UM", "micron"})
-        CHECK(find_unit(um)->factor == 1e-3);
-    CHECK(find_unit("arcsec")->factor == Approx(4.848136811e-6));
-    CHECK(find_unit("mm/min")->factor == Approx(1.0 / 60));
-    CHECK_FALSE(find_unit("furlong"));
-    CHECK_FALSE(find_unit(""));
+        CHECK(imports::find_unit(um)->factor == 1e-3);
+    CHECK(imports::find_unit("arcsec")->factor == Approx(4.848136811e-6));
+    CHECK(imports::find_unit("mm/min")->factor == Approx(1.0 / 60));
+    CHECK_FALSE(imports::find_unit("furlong"));
+    CHECK_FALSE(imports::find_unit(""));
 }
 
 TEST_CASE("what is no table is refused with its line") {
     const auto refused = [](const std::string& text, const std::string& part, int line) {
-        import_bench::refuses(import_bench::setup(), {ImportKind::axis_log, text, {}, ""}, part,
-                              line);
+        import_bench::refuses(import_bench::setup(), {imports::ImportKind::axis_log, text, {}, ""},
+                              part, line);
     };
     const std::string head = "time [s],X cmd [mm],X act [mm]\n";
     refused("", "empty", 1);
@@ -90,9 +91,11 @@ TEST_CASE("what is no table is refused with its line") {
 }
 
 TEST_CASE("a row remembers the file and the line that it came from") {
-    const auto rows = import_bench::read_rows(
-        import_bench::setup(),
-        {ImportKind::axis_log, "made by hand\n\ntime,X cmd,X act\n0,1,1\n1,2,2\n", {}, ""});
+    const auto rows = import_bench::read_rows(import_bench::setup(),
+                                              {imports::ImportKind::axis_log,
+                                               "made by hand\n\ntime,X cmd,X act\n0,1,1\n1,2,2\n",
+                                               {},
+                                               ""});
     REQUIRE(rows.size() == 2);
     CHECK(rows[0].source == "f.txt:4");
     CHECK(rows[1].source == "f.txt:5");

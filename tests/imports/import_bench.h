@@ -13,14 +13,14 @@ namespace import_bench {
 
 using namespace trunnion;
 
-inline Setup setup(const std::string& chain = "w C B b X Y Z t") {
+inline setup::Setup setup(const std::string& chain = "w C B b X Y Z t") {
     const std::string rotary =
         chain.find('C') == std::string::npos
             ? ""
             : "[machine.axis.B]\ndirection = [0, -1, 0]\npoint_mm = [0, 0, 0]\n"
               "[machine.axis.C]\ndirection = [0, 0, -1]\npoint_mm = [0, 0, 0]\n";
     std::vector<std::string> notes;
-    return parse_setup(
+    return setup::parse_setup(
         "[machine]\nname = \"m\"\nchain = \"" + chain + "\"\n" + rotary +
             "[ballbar]\ncup_mm = [0, 0, -120]\nlength_mm = 100\n"
             "[[artefact]]\nname = \"P1\"\nkind = \"center_pivot\"\n"
@@ -30,35 +30,36 @@ inline Setup setup(const std::string& chain = "w C B b X Y Z t") {
 }
 
 struct Case {
-    ImportKind kind;
+    imports::ImportKind kind;
     std::string text;
     std::vector<std::string> told;
     std::string map;
 };
 
-inline Imported imported(const Setup& setup, const Case& c) {
-    const std::vector<ImportFile> files{{"dir/f.txt", c.text}};
-    ImportRequest request{setup, files, Facts(c.told), {}};
+inline imports::Imported imported(const setup::Setup& setup, const Case& c) {
+    const std::vector<imports::ImportFile> files{{"dir/f.txt", c.text}};
+    imports::ImportRequest request{setup, files, imports::Facts(c.told), {}};
     if (!c.map.empty()) request.map = {"m.toml", c.map};
-    return import_readings(c.kind, request);
+    return imports::import_readings(c.kind, request);
 }
 
-inline ReadingTable rows(const Setup& setup, const Case& c) {
+inline records::ReadingTable rows(const setup::Setup& setup, const Case& c) {
     std::vector<std::string> notes;
-    ReadingTable table = parse_readings(imported(setup, c).readings, "r.csv", notes);
+    records::ReadingTable table =
+        records::parse_readings(imported(setup, c).readings, "r.csv", notes);
     CHECK(notes.empty());
     return table;
 }
 
 /// The rows that a device read.
-inline std::vector<Reading> read_rows(const Setup& setup, const Case& c) {
-    std::vector<Reading> list;
-    for (Reading& row : rows(setup, c).rows)
-        if (row.device != Device::none) list.push_back(std::move(row));
+inline std::vector<records::Reading> read_rows(const setup::Setup& setup, const Case& c) {
+    std::vector<records::Reading> list;
+    for (records::Reading& row : rows(setup, c).rows)
+        if (row.device != records::Device::none) list.push_back(std::move(row));
     return list;
 }
 
-inline void refuses(const Setup& setup, const Case& c, const std::string& part, int line) {
+inline void refuses(const setup::Setup& setup, const Case& c, const std::string& part, int line) {
     INFO(c.text);
     try {
         imported(setup, c);

@@ -13,7 +13,7 @@ using import_bench::refuses;
 TEST_CASE("a servo log of a mill: command and actual, speeds, columns that are not ours") {
     const auto rows =
         read_rows(import_bench::setup(),
-                  {ImportKind::axis_log,
+                  {imports::ImportKind::axis_log,
                    "X1_ActualPosition,X1_ActualVelocity,X1_CommandPosition,X1_CommandVelocity,"
                    "X1_CurrentFeedback,S1_CommandPosition,B_cmd,B_act\n"
                    "10.5,99,10.25,20,3.1,0,30,30.002\n11,98,10.75,21,3.2,0,31,31.002\n",
@@ -32,10 +32,10 @@ TEST_CASE("a servo log of a mill: command and actual, speeds, columns that are n
 
 TEST_CASE("the sign of a following error is told, never guessed") {
     const std::string text = "time [s],X command [mm],X following error [um]\n0,1,5\n";
-    const Setup setup = import_bench::setup();
-    CHECK(*read_rows(setup, {ImportKind::axis_log, text, {"sign=-"}, ""})[0].value_mm ==
+    const setup::Setup setup = import_bench::setup();
+    CHECK(*read_rows(setup, {imports::ImportKind::axis_log, text, {"sign=-"}, ""})[0].value_mm ==
           Approx(-0.005));
-    CHECK(*read_rows(setup, {ImportKind::axis_log, text, {"sign=+"}, ""})[0].value_mm ==
+    CHECK(*read_rows(setup, {imports::ImportKind::axis_log, text, {"sign=+"}, ""})[0].value_mm ==
           Approx(0.005));
 }
 
@@ -48,7 +48,7 @@ const std::string matrix =
 }  // namespace
 
 TEST_CASE("an ISO 230-2 table comes in from each of its forms") {
-    const Setup setup = import_bench::setup();
+    const setup::Setup setup = import_bench::setup();
     const std::string list =
         "position [mm],run,direction,deviation [um]\n0,1,+,0\n100,1,+,1\n200,1,+,2\n200,1,-,4\n"
         "100,1,-,5\n0,1,-,3\n0,2,+,0.4\n100,2,+,1.4\n200,2,+,2.4\n200,2,-,4.4\n100,2,-,5.4\n"
@@ -56,23 +56,24 @@ TEST_CASE("an ISO 230-2 table comes in from each of its forms") {
     const std::string order =
         "target [mm],measured [mm]\n0,0\n100,100.001\n200,200.002\n200,200.004\n100,100.005\n"
         "0,0.003\n0,0.0004\n100,100.0014\n200,200.0024\n200,200.0044\n100,100.0054\n0,0.0034\n";
-    for (const Case& c : {Case{ImportKind::iso230_2, matrix, {}, ""},
-                          Case{ImportKind::iso230_2, list, {"axis=X"}, ""},
-                          Case{ImportKind::iso230_2, order, {"axis=X"}, ""}}) {
+    for (const Case& c : {Case{imports::ImportKind::iso230_2, matrix, {}, ""},
+                          Case{imports::ImportKind::iso230_2, list, {"axis=X"}, ""},
+                          Case{imports::ImportKind::iso230_2, order, {"axis=X"}, ""}}) {
         INFO(c.text);
         const auto rows = read_rows(setup, c);
         REQUIRE(rows.size() == 12);
         const double um[] = {0, 1, 2, 4, 5, 3, 0.4, 1.4, 2.4, 4.4, 5.4, 3.4};
         const double at[] = {0, 100, 200, 200, 100, 0};
         for (std::size_t k = 0; k < 12; ++k) {
-            CHECK(rows[k].device == Device::linear);
+            CHECK(rows[k].device == records::Device::linear);
             CHECK(rows[k].feature == "R1");
             CHECK(rows[k].direction_M == Vector3(1, 0, 0));
             CHECK(rows[k].commanded[Axis::X] == at[k % 6]);
             CHECK(*rows[k].value_mm == Approx(1e-3 * um[k]).margin(1e-9));
         }
         const auto table = import_bench::rows(setup, c);
-        const Iso230Figures f = iso230_2_figures(deviation_points(table, "X"));
+        const records::Iso230Figures f =
+            records::iso230_2_figures(records::deviation_points(table, "X"));
         CHECK(f.reversal_B == Approx(-0.004));
         CHECK(f.mean_reversal == Approx(-0.003));
         CHECK(f.mean_deviation_M == Approx(0.0017).margin(0.0003));
@@ -82,11 +83,12 @@ TEST_CASE("an ISO 230-2 table comes in from each of its forms") {
 TEST_CASE("figures of ISO 230-2 against sums by hand") {
     // Two runs: means 0.2 and 3.2, 1.2 and 5.2, 2.2 and 4.2; every s = 0.4 / sqrt 2 = 0.28284.
     const auto table =
-        import_bench::rows(import_bench::setup(), {ImportKind::iso230_2, matrix, {}, ""});
-    const Iso230Figures f = iso230_2_figures(deviation_points(table, "X"));
+        import_bench::rows(import_bench::setup(), {imports::ImportKind::iso230_2, matrix, {}, ""});
+    const records::Iso230Figures f =
+        records::iso230_2_figures(records::deviation_points(table, "X"));
     const double s = 0.4e-3 / std::sqrt(2.0);
     REQUIRE(f.targets.size() == 3);
-    for (const TargetFigures& t : f.targets) CHECK(t.s_up == Approx(s).epsilon(1e-6));
+    for (const records::TargetFigures& t : f.targets) CHECK(t.s_up == Approx(s).epsilon(1e-6));
     CHECK(f.reversal_B == Approx(-4e-3).epsilon(1e-6));
     CHECK(f.mean_reversal == Approx(-3e-3).epsilon(1e-6));
     CHECK(f.mean_deviation_M == Approx(1.5e-3).epsilon(1e-6));  // 1.7, 3.2, 3.2
@@ -102,8 +104,9 @@ TEST_CASE("figures of ISO 230-2 against sums by hand") {
 TEST_CASE("one run one way has no repeatability and no reversal") {
     const auto table = import_bench::rows(
         import_bench::setup(),
-        {ImportKind::iso230_2, "target [mm],1+ [um]\n0,0\n10,1\n20,3\n", {"axis=X"}, ""});
-    const Iso230Figures f = iso230_2_figures(deviation_points(table, "X"));
+        {imports::ImportKind::iso230_2, "target [mm],1+ [um]\n0,0\n10,1\n20,3\n", {"axis=X"}, ""});
+    const records::Iso230Figures f =
+        records::iso230_2_figures(records::deviation_points(table, "X"));
     CHECK(f.systematic_E_up == Approx(3e-3));
     CHECK(std::isnan(f.repeatability_R));
     CHECK(std::isnan(f.reversal_B * 0 + f.mean_reversal));
@@ -112,12 +115,12 @@ TEST_CASE("one run one way has no repeatability and no reversal") {
 
 TEST_CASE("a rotary axis against an autocollimator, and a table that moves the work") {
     const auto rows =
-        read_rows(import_bench::setup(), {ImportKind::iso230_2,
+        read_rows(import_bench::setup(), {imports::ImportKind::iso230_2,
                                           "target [deg],1+ [arcsec],1- [arcsec]\n0,0,1\n90,2,3\n",
                                           {"axis=C", "at=B=30"},
                                           ""});
     REQUIRE(rows.size() == 4);
-    CHECK(rows[0].device == Device::angle);
+    CHECK(rows[0].device == records::Device::angle);
     CHECK(rows[0].direction_M == Vector3(0, 0, 1));  // the tool against the table, C turns about -Z
     CHECK(rows[1].commanded[Axis::C] == Approx(pi / 2));
     CHECK(rows[1].commanded[Axis::B] == Approx(pi / 6));
@@ -125,10 +128,10 @@ TEST_CASE("a rotary axis against an autocollimator, and a table that moves the w
 }
 
 TEST_CASE("ISO 230-2 tables that say too little or too much are refused") {
-    const Setup setup = import_bench::setup();
+    const setup::Setup setup = import_bench::setup();
     const auto refused = [&](const std::string& text, std::vector<std::string> told,
                              const std::string& part, int line) {
-        refuses(setup, {ImportKind::iso230_2, text, std::move(told), ""}, part, line);
+        refuses(setup, {imports::ImportKind::iso230_2, text, std::move(told), ""}, part, line);
     };
     refused("target [mm],1+ [um]\n0,0\n1,1\n", {}, "which axis", 1);
     refused("target [mm],1+ [um]\n0,0\n1,1\n", {"axis=A"}, "has no axis 'A'", 1);
@@ -143,9 +146,9 @@ TEST_CASE("ISO 230-2 tables that say too little or too much are refused") {
 }
 
 TEST_CASE("points of a tracker: axis positions from the nominal point, three rows each") {
-    const Setup setup = import_bench::setup();
+    const setup::Setup setup = import_bench::setup();
     const auto rows =
-        read_rows(setup, {ImportKind::points,
+        read_rows(setup, {imports::ImportKind::points,
                           "x nominal;y nominal;z nominal;x measured;y measured;z measured\n"
                           "10;20;-140;10,002;19,999;-140,003\n",
                           {},
@@ -159,25 +162,26 @@ TEST_CASE("points of a tracker: axis positions from the nominal point, three row
         CHECK(*rows[std::size_t(d)].value_mm == Approx(1e-3 * um[d]).margin(1e-10));
     }
     const auto turned =
-        read_rows(setup, {ImportKind::points,
+        read_rows(setup, {imports::ImportKind::points,
                           "machine x,machine y,machine z,B,x,y,z\n1,2,3,30,1,2,-147.001\n",
                           {},
                           ""});
     CHECK(turned[0].commanded[Axis::B] == Approx(pi / 6));
     CHECK(*turned[2].value_mm == Approx(-0.001).margin(1e-10));
-    refuses(setup, {ImportKind::points, "x nominal,y nominal\n1,2\n", {}, ""}, "measured x", 1);
-    refuses(setup, {ImportKind::points, "x,y,z\n1,2,3\n", {}, ""}, "nominal x", 1);
+    refuses(setup, {imports::ImportKind::points, "x nominal,y nominal\n1,2\n", {}, ""},
+            "measured x", 1);
+    refuses(setup, {imports::ImportKind::points, "x,y,z\n1,2,3\n", {}, ""}, "nominal x", 1);
 }
 
 TEST_CASE("a plate that the table carried, read by a CMM in W") {
     const std::string text = "xnom,ynom,znom,xact,yact,zact\n10,20,-140,10,20.005,-140\n";
-    Setup setup = import_bench::setup("w X Y b Z t");
-    refuses(setup, {ImportKind::points, text, {}, ""}, "do not move this target", 1);
-    Instrument cmm;
+    setup::Setup setup = import_bench::setup("w X Y b Z t");
+    refuses(setup, {imports::ImportKind::points, text, {}, ""}, "do not move this target", 1);
+    setup::Instrument cmm;
     cmm.name = "CMM";
     cmm.sees_table = true;
     setup.instruments.push_back(cmm);
-    const auto rows = read_rows(setup, {ImportKind::points, text, {}, ""});
+    const auto rows = read_rows(setup, {imports::ImportKind::points, text, {}, ""});
     CHECK(rows[0].instrument == "CMM");
     const Vector3 tip = setup.machine.tip_W(rows[0].commanded, Vector3(0, 0, -150));
     CHECK((tip - Vector3(10, 20, -140)).norm() < 1e-9);
@@ -185,9 +189,9 @@ TEST_CASE("a plate that the table carried, read by a CMM in W") {
 }
 
 TEST_CASE("a ballbar's circle: cup positions from angles, times from the feed") {
-    const Setup setup = import_bench::setup();
+    const setup::Setup setup = import_bench::setup();
     const auto rows =
-        read_rows(setup, {ImportKind::ballbar,
+        read_rows(setup, {imports::ImportKind::ballbar,
                           "Plane: XY\nFeed: 1200\nDirection: CCW\n"
                           "angle [deg],deviation [um]\n0,1\n90,2\n180,3\n270,-1\n359,0\n",
                           {},
@@ -199,7 +203,7 @@ TEST_CASE("a ballbar's circle: cup positions from angles, times from the feed") 
     CHECK(*rows[1].value_mm == Approx(0.002));
     CHECK(rows[1].time_s == Approx(0.25 * 2 * pi * 100 / 20));
     CHECK(rows[1].feed_mm_min == 1200);
-    const auto lengths = read_rows(setup, {ImportKind::ballbar,
+    const auto lengths = read_rows(setup, {imports::ImportKind::ballbar,
                                            "time [s],radius [mm]\n0,100.001\n1,100.002\n2,100\n",
                                            {"plane=ZX", "sense=cw", "end_deg=-180"},
                                            ""});
@@ -207,17 +211,20 @@ TEST_CASE("a ballbar's circle: cup positions from angles, times from the feed") 
     CHECK(*lengths[1].value_mm == Approx(0.002).margin(1e-12));
     CHECK(lengths[0].commanded[Axis::Z] == Approx(110 + 100 + 120));
     CHECK(lengths[1].commanded[Axis::X] == Approx(75 - 100));
-    refuses(setup, {ImportKind::ballbar, "angle,dev [um]\n0,1\n", {}, ""}, "which plane", 1);
-    refuses(setup, {ImportKind::ballbar, "angle,dev [um]\n0,1\n", {"plane=XY"}, ""}, "which sense",
+    refuses(setup, {imports::ImportKind::ballbar, "angle,dev [um]\n0,1\n", {}, ""}, "which plane",
             1);
-    refuses(
-        setup,
-        {ImportKind::ballbar, "angle,dev [um]\n0,1\n1,1\n0.5,1\n", {"plane=XY", "sense=ccw"}, ""},
-        "does not rise", 4);
+    refuses(setup, {imports::ImportKind::ballbar, "angle,dev [um]\n0,1\n", {"plane=XY"}, ""},
+            "which sense", 1);
+    refuses(setup,
+            {imports::ImportKind::ballbar,
+             "angle,dev [um]\n0,1\n1,1\n0.5,1\n",
+             {"plane=XY", "sense=ccw"},
+             ""},
+            "does not rise", 4);
 }
 
 TEST_CASE("any table by a map of its columns") {
-    const Setup setup = import_bench::setup();
+    const setup::Setup setup = import_bench::setup();
     const std::string map =
         "[columns]\ntime_s = \"when\"\nx_mm = { column = \"pos\", unit = \"um\" }\nb_deg = 30\n"
         "[[reading]]\ndevice = \"linear\"\nfeature = \"R1\"\ndir_x = 1\n"
@@ -225,7 +232,7 @@ TEST_CASE("any table by a map of its columns") {
         "[[reading]]\ndevice = \"angle\"\nfeature = \"R1\"\ndir_z = 1\n"
         "value_deg = { column = \"yaw [arcsec]\", unit = \"arcsec\", factor = -1 }\n";
     const std::string text = "when,pos,laser,yaw [arcsec]\n0,1000,1002,1\n1,2000,2003,2\n";
-    Case c{ImportKind::table, text, {}, map};
+    Case c{imports::ImportKind::table, text, {}, map};
     c.map.replace(c.map.find("yaw [arcsec]\""), 13, "yaw\"");
     const auto rows = read_rows(setup, c);
     REQUIRE(rows.size() == 4);
@@ -236,7 +243,7 @@ TEST_CASE("any table by a map of its columns") {
     CHECK(rows[3].source == "f.txt:3");
     const auto refused = [&](const std::string& bad, const std::string& part) {
         try {
-            import_bench::imported(setup, {ImportKind::table, text, {}, bad});
+            import_bench::imported(setup, {imports::ImportKind::table, text, {}, bad});
             FAIL("no error: " + part);
         } catch (const InputError& error) {
             CHECK_THAT(error.message, Catch::Contains(part));
@@ -253,10 +260,11 @@ TEST_CASE("any table by a map of its columns") {
 }
 
 TEST_CASE("facts are checked") {
-    CHECK_THROWS_AS(Facts({"unit"}), InputError);
-    CHECK_THROWS_AS(Facts({"colour=red"}), InputError);
-    CHECK_THROWS_AS(Facts({"unit=um", "unit=mm"}), InputError);
-    CHECK_THROWS_AS(positions_told(import_bench::setup(), "A=3"), InputError);
-    CHECK_THROWS_AS(positions_told(import_bench::setup(), "X=abc"), InputError);
-    CHECK(positions_told(import_bench::setup(), "X=3 B=-90")[Axis::B] == rad_from_deg(-90));
+    CHECK_THROWS_AS(imports::Facts({"unit"}), InputError);
+    CHECK_THROWS_AS(imports::Facts({"colour=red"}), InputError);
+    CHECK_THROWS_AS(imports::Facts({"unit=um", "unit=mm"}), InputError);
+    CHECK_THROWS_AS(imports::positions_told(import_bench::setup(), "A=3"), InputError);
+    CHECK_THROWS_AS(imports::positions_told(import_bench::setup(), "X=abc"), InputError);
+    CHECK(imports::positions_told(import_bench::setup(), "X=3 B=-90")[Axis::B] ==
+          rad_from_deg(-90));
 }

@@ -54,18 +54,18 @@ TEST_CASE("every alarm of the language is reached by a program") {
         CHECK(alarm_of(program) == number);
         reached.insert(number);
     }
-    for (const AlarmInfo& row : language_alarms()) {
+    for (const interpreter::AlarmInfo& row : interpreter::language_alarms()) {
         INFO(row.number);
         CHECK(reached.count(row.number) == 1);
         CHECK(std::string(row.cause).size() > 5);
         CHECK(std::string(row.remedy).size() > 5);
-        CHECK(language_alarm(row.number) == &row);
+        CHECK(interpreter::language_alarm(row.number) == &row);
     }
-    CHECK(language_alarm(1) == nullptr);
+    CHECK(interpreter::language_alarm(1) == nullptr);
 }
 
 TEST_CASE("an alarm inside a called program shows that program's place") {
-    ProgramsInMemory folder;
+    interpreter::ProgramsInMemory folder;
     folder.add(50, "O0050\nX1.\n  #1=1/0\nM99\n");
     const Run r = run_on(folder, "X0.\nM98P50\n");
     REQUIRE(r.alarm);

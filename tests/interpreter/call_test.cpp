@@ -16,7 +16,7 @@ TEST_CASE("G65 passes arguments to a new level and returns to the old one") {
     CHECK(r[103] == 7.0);
     CHECK(r[104] == 10.0);
     CHECK(r[105] == 3.0);
-    InterpreterOptions increments;
+    interpreter::InterpreterOptions increments;
     increments.whole_arguments_as_written = false;
     CHECK(run("G65P9X10T5\nM30\nO9\n#100=#24\n#101=#20\nM99\n", increments)[100] == 0.01);
     CHECK(run("G65P9X10T5\nM30\nO9\n#100=#24\n#101=#20\nM99\n", increments)[101] == 5.0);
@@ -28,11 +28,11 @@ TEST_CASE("argument specification II counts I J K sets") {
             "M30\nO9735\n#100=#1\n#101=#2\n#102=#4\n#103=#5\n#104=#6\n#105=#7\n#106=#8\n"
             "#107=#9\n#108=#10\nM99\n");
     CHECK(r[100] == 7.0);
-    CHECK(is_vacant(r[101]));
+    CHECK(interpreter::is_vacant(r[101]));
     CHECK(r[102] == 1.0);
     CHECK(r[103] == 2.0);
     CHECK(r[104] == 3.0);
-    CHECK(is_vacant(r[105]));
+    CHECK(interpreter::is_vacant(r[105]));
     CHECK(r[106] == 0.5);
     CHECK(r[107] == 0.6);
     CHECK(r[108] == 0.7);
@@ -83,8 +83,8 @@ TEST_CASE("nesting limits") {
     const Run r =
         run("#100=0\nM98P9\nM30\nO9\n#100=#100+1\nIF[#100LT10]GOTO1\nM99\nN1M98P9\nM99\n");
     CHECK_FALSE(r.alarm);
-    InterpreterOptions old;
-    old.dialect = fanuc_dialect(ControlGeneration::fanuc_16i);
+    interpreter::InterpreterOptions old;
+    old.dialect = interpreter::fanuc_dialect(interpreter::ControlGeneration::fanuc_16i);
     const std::string four =
         "#100=0\nG65P9\nM30\nO9\n#100=#100+1\nIF[#100LT5]GOTO1\nM99\nN1G65P9\nM99\n";
     CHECK(alarm_of(four) == 0);
@@ -92,7 +92,7 @@ TEST_CASE("nesting limits") {
 }
 
 TEST_CASE("programs come from the source, M198 only from there") {
-    ProgramsInMemory folder;
+    interpreter::ProgramsInMemory folder;
     folder.add(50, "O0050\nX50.\nM99\n");
     folder.add(51, "X51.\nM99\n");
     folder.add(60, "O60\nX60.\nM99\nO61\nX61.\nM99\n");
@@ -123,7 +123,7 @@ TEST_CASE("G66.1 passes whole blocks as arguments") {
 }
 
 TEST_CASE("codes mapped to programs by parameters") {
-    InterpreterOptions options;
+    interpreter::InterpreterOptions options;
     options.calls.m[6] = {9001, false, false};
     options.calls.g[1000] = {9010, true, false};
     options.calls.g[1010] = {9011, true, true};
@@ -135,7 +135,7 @@ TEST_CASE("codes mapped to programs by parameters") {
     CHECK(run("G101\nX1.\nG67\nX2.\n" + subs, options).blocks == Blocks{"X1", "Z9", "X2", "M30"});
     CHECK(run("M50X4.\n" + subs, options).blocks == Blocks{"B4", "M30"});
     CHECK(run("#1=94\nG[#1+6]A8.\n" + subs, options).blocks == Blocks{"Y8", "M30"});
-    InterpreterOptions tools;
+    interpreter::InterpreterOptions tools;
     tools.calls.t_calls_9000 = true;
     CHECK(run("T7M6\nM30\nO9000\nS#149\nT#149\nM99\n", tools).blocks ==
           Blocks{"M6", "S7", "T7", "M30"});
@@ -157,7 +157,7 @@ TEST_CASE("MACRO.TXT lines set variables and names") {
             "G10L85P502(3FF8000000000000)\nSETVN500[LEN,,RAD]\n#[#RAD]=#[#RAD]*2\nM02\n%\n");
     CHECK_FALSE(r.alarm);
     CHECK(r[500] == 2.933500000000002);
-    CHECK(is_vacant(r[501]));
+    CHECK(interpreter::is_vacant(r[501]));
     CHECK(r[502] == 3.0);
     CHECK(r.blocks == Blocks{"M2"});
     CHECK(alarm_of("G10L85P500(12)\n") == 1144);

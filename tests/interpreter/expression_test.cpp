@@ -46,7 +46,7 @@ TEST_CASE("functions") {
 }
 
 TEST_CASE("arc functions and their ranges by parameter 6004#0") {
-    InterpreterOptions nat;
+    interpreter::InterpreterOptions nat;
     nat.asin_0_to_minus_90 = true;
     CHECK(value_of("ATAN[-1]/[1]") == Approx(315.0));
     CHECK(value_of("ATAN[-1]/[1]", nat) == Approx(-45.0));
@@ -102,11 +102,11 @@ TEST_CASE("vacant is not zero, but counts 0 in arithmetic") {
     CHECK(holds("#101=0", "#101EQ0"));
     CHECK(holds("#101=0", "#101NE#0"));
     const Run r = run("#100=#1\n#101=#1*5\n#102=#1+#1\n#103=[#1]\n#104=5\n#104=#0\n");
-    CHECK(is_vacant(r[100]));
+    CHECK(interpreter::is_vacant(r[100]));
     CHECK(r[101] == 0.0);
     CHECK(r[102] == 0.0);
-    CHECK(is_vacant(r[103]));
-    CHECK(is_vacant(r[104]));
+    CHECK(interpreter::is_vacant(r[103]));
+    CHECK(interpreter::is_vacant(r[104]));
     CHECK(run("G0X#1Y2.Z-#1\n").blocks == Blocks{"G0 Y2"});
     CHECK(run("X[#1+1.]\n").blocks == Blocks{"X1"});
 }
@@ -118,8 +118,8 @@ TEST_CASE("indirect variables and system variables") {
     CHECK(r[104] == 3.5);
     CHECK(alarm_of("#1=#5999\n") == 115);
     CHECK(run("#98000=4.\n#100=#98000\n")[100] == Approx(4.0));
-    InterpreterOptions thirty;
-    thirty.dialect = fanuc_dialect();
+    interpreter::InterpreterOptions thirty;
+    thirty.dialect = interpreter::fanuc_dialect();
     CHECK(run("#98499=4.\n#100=#98499\n", thirty)[98499] == 4.0);
 }
 
@@ -149,7 +149,7 @@ TEST_CASE("computed G and M words") {
     CHECK(run("#4012=54.\n").blocks.empty());
     Run start;
     start.system.values[4012] = 55.0;
-    ProgramsInMemory none;
+    interpreter::ProgramsInMemory none;
     CHECK(run_on(none, "#1=26\n#33=8\nG#4012X1.\nG[59+[#1-6]/10]\nM#33\n", {}, start).blocks ==
           Blocks{"G55 X1", "G61", "M8"});
 }
@@ -158,7 +158,7 @@ TEST_CASE("DPRNT prints with Fanuc's spacing") {
     const std::string set = "#102=128.47398\n#105=-91.2\n#130=123.456\n";
     CHECK(run(set + "POPEN\nDPRNT[X#102[53] Y#105[53] T#130[20]]\nPCLOS\n").printed ==
           "X   128.474Y-   91.200T 23\n");
-    InterpreterOptions suppress;
+    interpreter::InterpreterOptions suppress;
     suppress.print_suppresses_blanks = true;
     CHECK(run(set + "DPRNT[X#102[53]Y#105[53]T#130[20]]\n", suppress).printed ==
           "X128.474Y-91.200T23\n");

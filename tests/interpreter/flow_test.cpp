@@ -98,7 +98,7 @@ TEST_CASE("what is not Fanuc's is refused and named") {
 }
 
 TEST_CASE("the block limit stops an endless loop") {
-    InterpreterOptions options;
+    interpreter::InterpreterOptions options;
     options.max_blocks = 1000;
     const Run r = run("N1GOTO1\n", options);
     CHECK(r.limit);
@@ -108,7 +108,7 @@ TEST_CASE("the block limit stops an endless loop") {
 
 TEST_CASE("a watcher is asked now and then and may stop the run; the block limit still counts") {
     std::vector<std::uint64_t> asked;
-    InterpreterOptions options;
+    interpreter::InterpreterOptions options;
     options.max_blocks = 20000;
     options.go_on = [&](std::uint64_t blocks) {
         asked.push_back(blocks);
@@ -129,7 +129,7 @@ TEST_CASE("a watcher is asked now and then and may stop the run; the block limit
 TEST_CASE("the block limit also stops loops over empty lines and searches over many numbers") {
     std::string text;
     for (int i = 0; i < 310000; ++i) text += "N2\n";
-    InterpreterOptions options;
+    interpreter::InterpreterOptions options;
     options.max_blocks = 1000;
     const Run looped = run("N1\n" + text + "GOTO1\n", options);
     CHECK(looped.limit);
@@ -155,7 +155,7 @@ TEST_CASE("a loop larger than the block cache runs right") {
     std::string text = "#1=0\n#100=0\nWHILE[#1LT3]DO1\n";
     for (int i = 0; i < 40000; ++i) text += i % 4000 == 0 ? "#100=#100+1\n" : "X1.\n";
     text += "#1=#1+1\nEND1\n#1=0\nWHILE[#1LT50]DO1\n#1=#1+1\nEND1\n";
-    InterpreterOptions options;
+    interpreter::InterpreterOptions options;
     options.max_blocks = 1000000;
     const Run r = run(text, options);
     CHECK_FALSE(r.alarm);

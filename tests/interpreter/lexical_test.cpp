@@ -16,7 +16,7 @@ TEST_CASE("numbers are read exactly as the library reads them") {
         std::string text = std::to_string(seed).substr(0, static_cast<std::size_t>(digits));
         if (seed & 4) text.insert((seed >> 40) % (text.size() + 1), ".");
         const char* p = text.data();
-        const Number n = read_number(p, text.data() + text.size());
+        const interpreter::Number n = interpreter::read_number(p, text.data() + text.size());
         REQUIRE(p == text.data() + text.size());
         REQUIRE(n.value == std::strtod(text.c_str(), nullptr));
     }
@@ -31,11 +31,11 @@ TEST_CASE("words without blanks, in any order, lower case, signs and blanks anyw
 }
 
 TEST_CASE("a whole number is told from one with a point") {
-    ProgramsInMemory none;
+    interpreter::ProgramsInMemory none;
     PlainSystem system;
-    Interpreter nc(none, {}, system, {});
-    nc.open(ProgramText{"p", "N12G90X58Y58.Z[5]X#1(c)\n", nullptr});
-    const BlockWords* words = nc.next();
+    interpreter::Interpreter nc(none, {}, system, {});
+    nc.open(interpreter::ProgramText{"p", "N12G90X58Y58.Z[5]X#1(c)\n", nullptr});
+    const interpreter::BlockWords* words = nc.next();
     REQUIRE(words);
     REQUIRE(words->count == 5);
     CHECK(words->sequence_number == 12);
@@ -78,7 +78,7 @@ TEST_CASE("comments of any encoding end at the first bracket") {
     CHECK(run("(2D Chamfer (2)\nX1.\n").blocks == Blocks{"X1"});
     CHECK(alarm_of("(2D Chamfer (2))\n") == 9);
     CHECK(alarm_of("X1.(open\nX2.)\n") == 9);
-    InterpreterOptions nested;
+    interpreter::InterpreterOptions nested;
     nested.dialect.comment_nesting = true;
     CHECK(run("(2D Chamfer (2))X1.\n", nested).blocks == Blocks{"X1"});
     CHECK(run("#100=1(a)+(b)2(c)\nX#100\n").blocks == Blocks{"X3"});
@@ -92,7 +92,7 @@ TEST_CASE("program numbers, names and folders") {
 }
 
 TEST_CASE("block skip by its switch, also in mid-block") {
-    InterpreterOptions off, on, second;
+    interpreter::InterpreterOptions off, on, second;
     on.skip_switches[1] = true;
     second.skip_switches[2] = true;
     const std::string text = "/X1.\nZ-1.0/M08\n/2X2.\n/\nX#1/2Y3.\n/IF[1EQ1]GOTO9\nN9M30\n";

@@ -10,23 +10,24 @@ using namespace trunnion::test;
 namespace {
 
 std::string printed(const std::string& text) {
-    std::string out = print_program(parse_program({"p", text, nullptr}, {}));
+    std::string out =
+        interpreter::print_program(interpreter::parse_program({"p", text, nullptr}, {}));
     if (!out.empty()) out.pop_back();
     return out;
 }
 
 /// Law 3: parse, print, parse gives the same blocks, and printing again the same text.
 void check_fixpoint(const std::string& text) {
-    const ParsedProgram a = parse_program({"a", text, nullptr}, {});
-    const std::string once = print_program(a);
-    const ParsedProgram b = parse_program({"b", once, nullptr}, {});
+    const interpreter::ParsedProgram a = interpreter::parse_program({"a", text, nullptr}, {});
+    const std::string once = interpreter::print_program(a);
+    const interpreter::ParsedProgram b = interpreter::parse_program({"b", once, nullptr}, {});
     INFO(text);
     INFO(once);
     REQUIRE(b.faults.empty());
     REQUIRE(a.blocks.size() == b.blocks.size());
     for (std::size_t i = 0; i < a.blocks.size(); ++i)
-        REQUIRE(same_block(a, a.blocks[i], b, b.blocks[i]));
-    CHECK(print_program(b) == once);
+        REQUIRE(interpreter::same_block(a, a.blocks[i], b, b.blocks[i]));
+    CHECK(interpreter::print_program(b) == once);
 }
 
 }  // namespace
@@ -68,7 +69,7 @@ TEST_CASE("parse, print, parse is a fixpoint") {
 }
 
 TEST_CASE("a parsed program knows its structure and keeps faults with their places") {
-    const ParsedProgram p = parse_program(
+    const interpreter::ParsedProgram p = interpreter::parse_program(
         {"f.nc", "%\r\nO10(T)\r\nN5G1X1.\r\nX?\r\nIF[#1EQ1]GOTO5\r\nGOTO[7]\r\n%", nullptr}, {});
     REQUIRE(p.faults.size() == 1);
     CHECK(p.faults[0].number == 5);
@@ -76,8 +77,8 @@ TEST_CASE("a parsed program knows its structure and keeps faults with their plac
     CHECK(p.faults[0].where.line == 4);
     CHECK(p.faults[0].block == "X?");
     REQUIRE(p.blocks.size() == 6);
-    CHECK(p.blocks[0].kind == BlockKind::end_of_record);
-    CHECK(p.blocks[1].kind == BlockKind::program);
+    CHECK(p.blocks[0].kind == interpreter::BlockKind::end_of_record);
+    CHECK(p.blocks[1].kind == interpreter::BlockKind::program);
     CHECK(p.blocks[1].o_number == 10);
     CHECK(p.text(p.comments(p.blocks[1])[0]) == "T");
     CHECK(p.blocks[2].sequence_number == 5);
@@ -85,8 +86,8 @@ TEST_CASE("a parsed program knows its structure and keeps faults with their plac
     const auto jump = p.items(p.blocks[3]);
     CHECK(p.blocks[3].line == 5);
     REQUIRE(jump.size() == 2);
-    CHECK(jump[0].kind == ItemKind::if_goto);
-    CHECK(jump[1].kind == ItemKind::go_to);
-    CHECK(constant_value(p, jump[1]) == 5.0);
-    CHECK(constant_value(p, p.items(p.blocks[4])[0]) == 7.0);
+    CHECK(jump[0].kind == interpreter::ItemKind::if_goto);
+    CHECK(jump[1].kind == interpreter::ItemKind::go_to);
+    CHECK(interpreter::constant_value(p, jump[1]) == 5.0);
+    CHECK(interpreter::constant_value(p, p.items(p.blocks[4])[0]) == 7.0);
 }

@@ -37,7 +37,7 @@ TEST_CASE("the user's folders are searched whole before the shipped ones") {
     const Folder folder;
     folder.write("b/O100.nc", "O100 (OURS)\nM99\n");
     folder.write("b/O777.nc", "O777\nM99\n");
-    ProgramFolders programs({folder.path.string()}, {(folder.path / "b").string()});
+    interpreter::ProgramFolders programs({folder.path.string()}, {(folder.path / "b").string()});
     CHECK_THAT(programs.find(100)->name, Catch::EndsWith("many.txt"));  // by content before names
     CHECK(programs.announcements().empty());
     CHECK(programs.find(777));
@@ -48,7 +48,7 @@ TEST_CASE("the user's folders are searched whole before the shipped ones") {
 
 TEST_CASE("programs are found by file name, then by what the files hold") {
     const Folder folder;
-    ProgramFolders programs({folder.path.string(), (folder.path / "b").string()});
+    interpreter::ProgramFolders programs({folder.path.string(), (folder.path / "b").string()});
     REQUIRE(programs.find(12));
     CHECK_THAT(programs.find(12)->name, Catch::EndsWith("O0012.nc"));
     CHECK(programs.find(34)->text == "M30\n");
@@ -61,7 +61,7 @@ TEST_CASE("programs are found by file name, then by what the files hold") {
     CHECK(programs.find("empty")->text.empty());
     programs.add_file({"main.nc", "O12\nM99\n", nullptr});
     CHECK(programs.find(12)->name == "main.nc");
-    CHECK_THROWS_AS(ProgramFolders({"/no/such/folder"}), InputError);
-    CHECK_THROWS_AS(read_program("/no/such/file"), InputError);
-    CHECK_THROWS_AS(read_program(folder.path.string()), InputError);
+    CHECK_THROWS_AS(interpreter::ProgramFolders({"/no/such/folder"}), InputError);
+    CHECK_THROWS_AS(interpreter::read_program("/no/such/file"), InputError);
+    CHECK_THROWS_AS(interpreter::read_program(folder.path.string()), InputError);
 }

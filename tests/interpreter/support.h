@@ -13,10 +13,10 @@
 
 namespace trunnion::test {
 
-struct PlainSystem : SystemVariables {
+struct PlainSystem : interpreter::SystemVariables {
     double get(int number) override {
         const auto it = values.find(number);
-        if (it == values.end()) raise_language_alarm(115);
+        if (it == values.end()) interpreter::raise_language_alarm(115);
         return it->second;
     }
     void set(int number, double value, const char* comment) override {
@@ -42,13 +42,13 @@ struct Run {
 
     double operator[](int number) const {
         const auto it = common.find(number);
-        return it == common.end() ? vacant : it->second;
+        return it == common.end() ? interpreter::vacant : it->second;
     }
 };
 
-inline std::string text_of(const BlockWords& words) {
+inline std::string text_of(const interpreter::BlockWords& words) {
     std::string out;
-    for (const WordValue& w : words) {
+    for (const interpreter::WordValue& w : words) {
         if (w.vacant) continue;
         if (!out.empty()) out += ' ';
         out += fmt::format("{}{:.10g}", w.letter, w.value);
@@ -56,23 +56,23 @@ inline std::string text_of(const BlockWords& words) {
     return out;
 }
 
-inline bool moves(const BlockWords& words) {
-    for (const WordValue& w : words)
+inline bool moves(const interpreter::BlockWords& words) {
+    for (const interpreter::WordValue& w : words)
         if (std::string("XYZABC").find(w.letter) != std::string::npos && !w.vacant) return true;
     return false;
 }
 
-inline Run run_on(ProgramSource& source, const std::string& text, InterpreterOptions options = {},
-                  Run run = {}) {
+inline Run run_on(interpreter::ProgramSource& source, const std::string& text,
+                  interpreter::InterpreterOptions options = {}, Run run = {}) {
     if (options.max_blocks == 0) options.max_blocks = 100000;
-    Interpreter nc(source, options, run.system,
-                   [&](std::string_view line) { run.printed += line; });
+    interpreter::Interpreter nc(source, options, run.system,
+                                [&](std::string_view line) { run.printed += line; });
     try {
-        nc.open(ProgramText{"main.nc", text, nullptr});
-        while (const BlockWords* words = nc.next()) {
+        nc.open(interpreter::ProgramText{"main.nc", text, nullptr});
+        while (const interpreter::BlockWords* words = nc.next()) {
             run.blocks.push_back(text_of(*words));
             if (moves(*words)) nc.block_moved();
-            for (const WordValue& w : *words)
+            for (const interpreter::WordValue& w : *words)
                 if (w.letter == 'M' && (w.value == 30 || w.value == 2)) nc.end_program();
         }
     } catch (const Alarm& alarm) {
@@ -84,19 +84,20 @@ inline Run run_on(ProgramSource& source, const std::string& text, InterpreterOpt
     return run;
 }
 
-inline Run run(const std::string& text, InterpreterOptions options = {}) {
-    ProgramsInMemory none;
+inline Run run(const std::string& text, interpreter::InterpreterOptions options = {}) {
+    interpreter::ProgramsInMemory none;
     return run_on(none, text, options);
 }
 
 /// Number of the alarm, 0 when there was none.
-inline int alarm_of(const std::string& text, InterpreterOptions options = {}) {
+inline int alarm_of(const std::string& text, interpreter::InterpreterOptions options = {}) {
     const Run r = run(text, options);
     return r.alarm ? r.alarm->number : 0;
 }
 
 /// Value of #100 after the program.
-inline double value_of(const std::string& expression, InterpreterOptions options = {}) {
+inline double value_of(const std::string& expression,
+                       interpreter::InterpreterOptions options = {}) {
     const Run r = run("#100=" + expression + "\n", options);
     if (r.alarm) throw *r.alarm;
     return r[100];

@@ -27,15 +27,15 @@ constexpr Post table_1[] = {{0, 0, 0, 0, 0, 0, 0},
                             {7, -0.9, 0.8, -0.3, 19, -17, -1},
                             {8, -0.4, 0.5, 0, 17, -23, -9}};
 
-Machine tool_post() {
-    Machine machine;
-    machine.chain = parse_chain("w b Y t");
+kinematics::Machine tool_post() {
+    kinematics::Machine machine;
+    machine.chain = kinematics::parse_chain("w b Y t");
     for (const Post& row : table_1) {
         const double value[6] = {mm_from_um(row.dx),      mm_from_um(row.dy),
                                  mm_from_um(row.dz),      rad_from_arcsec(row.ex),
                                  rad_from_arcsec(row.ey), rad_from_arcsec(row.ez)};
         for (std::size_t k = 0; k < 6; ++k) {
-            ErrorCurve& curve = machine.errors.axis[index_of(Axis::Y)].motion[k];
+            kinematics::ErrorCurve& curve = machine.errors.axis[index_of(Axis::Y)].motion[k];
             curve.at.push_back(row.y);
             curve.value.push_back(value[k]);
         }
@@ -51,8 +51,8 @@ TEST_CASE("exercise 1: lateral and Abbe error of a probe on a bending beam") {
     const double slope = load_N * length_m * length_m / (2 * e_Pa * i_m4);
     near_um(sag_mm, 9.5238, 1e-4);
     CHECK(slope == Approx(57.143e-6).epsilon(1e-5));
-    Machine machine;
-    machine.chain = parse_chain("w b X t");
+    kinematics::Machine machine;
+    machine.chain = kinematics::parse_chain("w b X t");
     machine.errors.motion({'Z', false, Axis::X}).constant = -sag_mm;
     machine.errors.motion({'B', false, Axis::X}).constant = slope;
     AxisPositions q;
@@ -63,8 +63,8 @@ TEST_CASE("exercise 1: lateral and Abbe error of a probe on a bending beam") {
 }
 
 TEST_CASE("exercise 2: transform of the z slide in the frame of the y slide") {
-    Machine machine;
-    machine.chain = parse_chain("w b Z t");
+    kinematics::Machine machine;
+    machine.chain = kinematics::parse_chain("w b Z t");
     const Vector3 delta(1e-3, -2e-3, 3e-3), epsilon(1e-5, 2e-5, -3e-5);
     for (std::size_t k = 0; k < 3; ++k) {
         machine.errors.axis[index_of(Axis::Z)].motion[k].constant = delta[Eigen::Index(k)];
@@ -84,7 +84,7 @@ TEST_CASE("exercise 3: tool point errors over a grid of slide positions") {
     const double x_um[] = {0, 29.00, 17.97, 9.96, 22.51, -2.19, -34.54, -40.17, -38.70};
     const double y_um[] = {0, 7.94, 60.00, 81.25, 76.32, 17.38, -17.99, -46.71, -53.80};
     const double z_um[] = {0, -23.56, -58.06, -69.31, -72.34, -11.55, 35.38, 61.27, 66.42};
-    const Machine machine = tool_post();
+    const kinematics::Machine machine = tool_post();
     const Vector3 b(300, 400, 500);
     for (int i = 0; i <= 8; ++i) {
         AxisPositions q;
@@ -97,8 +97,8 @@ TEST_CASE("exercise 3: tool point errors over a grid of slide positions") {
 }
 
 TEST_CASE("the correction vector takes the tool point back onto the work") {
-    Machine machine = tool_post();
-    machine.chain = parse_chain("w b X Y Z t");
+    kinematics::Machine machine = tool_post();
+    machine.chain = kinematics::parse_chain("w b X Y Z t");
     machine.errors.location({'C', true, Axis::Y}) = 3e-5;
     machine.errors.motion({'Y', false, Axis::X}).slope = 2e-5;
     const Vector3 tip(300, 400, 500), wanted(310, 405.5, 490);

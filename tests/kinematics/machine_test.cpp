@@ -17,9 +17,9 @@ double apart(const Vector3& a, const Vector3& b) {
     return (a - b).norm();
 }
 
-Machine bc_table() {
-    Machine machine;
-    machine.chain = parse_chain("w C B b X Y Z t");
+kinematics::Machine bc_table() {
+    kinematics::Machine machine;
+    machine.chain = kinematics::parse_chain("w C B b X Y Z t");
     machine.chain.work[0].direction = {0, -1, 0};
     machine.chain.work[0].point_mm = {10, -3, 40};
     machine.chain.work[1].direction = {0, 0, -1};
@@ -48,13 +48,13 @@ AxisPositions random_positions(SeededNoise& noise) {
     return q;
 }
 
-void set_all_errors(Machine& machine, SeededNoise& noise) {
-    for (const AxisGeometry& axis : machine.chain.axes()) {
-        AxisErrors& errors = machine.errors.axis[index_of(axis.axis)];
+void set_all_errors(kinematics::Machine& machine, SeededNoise& noise) {
+    for (const kinematics::AxisGeometry& axis : machine.chain.axes()) {
+        kinematics::AxisErrors& errors = machine.errors.axis[index_of(axis.axis)];
         for (std::size_t k = 0; k < 6; ++k) {
             const double size = k < 3 ? 0.01 : 5e-5;
             errors.location[k] = size * noise.normal();
-            ErrorCurve& curve = errors.motion[k];
+            kinematics::ErrorCurve& curve = errors.motion[k];
             curve.constant = size * noise.normal();
             curve.slope = size * noise.normal() / (axis.rotary ? 1.0 : 100.0);
             curve.period_mm = axis.rotary ? 0.0 : 40.0;
@@ -62,8 +62,8 @@ void set_all_errors(Machine& machine, SeededNoise& noise) {
                                {2.0, 0.0, size * noise.normal()}};
             curve.at = {-300, -100, 0, 120, 300};
             curve.value = {0.0, size, -size, 0.5 * size, 0.0};
-            curve.interpolation =
-                k % 2 ? ErrorCurve::Interpolation::cubic : ErrorCurve::Interpolation::linear;
+            curve.interpolation = k % 2 ? kinematics::ErrorCurve::Interpolation::cubic
+                                        : kinematics::ErrorCurve::Interpolation::linear;
         }
     }
 }
@@ -71,27 +71,27 @@ void set_all_errors(Machine& machine, SeededNoise& noise) {
 }  // namespace
 
 TEST_CASE("chain text is read from the bed outwards") {
-    const Chain chain = parse_chain("w C B b X Y Z t");
+    const kinematics::Chain chain = kinematics::parse_chain("w C B b X Y Z t");
     REQUIRE(chain.work.size() == 2);
     CHECK(chain.work[0].axis == Axis::B);
     CHECK(chain.work[1].axis == Axis::C);
     CHECK(chain.tool[2].axis == Axis::Z);
     CHECK(chain.work[1].direction == Vector3(0, 0, -1));
-    CHECK(parse_chain("w b X t").work.empty());
+    CHECK(kinematics::parse_chain("w b X t").work.empty());
     for (const char* bad : {"", "w t", "w X Y t", "w b X X t", "w 1Q b X t", "b X t", "w X-Y b t"})
-        CHECK_THROWS_AS(parse_chain(bad), InputError);
+        CHECK_THROWS_AS(kinematics::parse_chain(bad), InputError);
 }
 
 TEST_CASE("error names go both ways") {
     for (const char* text : {"EXX", "EC0A", "EX0C", "EBZ", "EC0Y"})
-        CHECK(to_string(parse_error_name(text).value()) == text);
+        CHECK(to_string(kinematics::parse_error_name(text).value()) == text);
     for (const char* bad : {"EX", "FXX", "EX1C", "EDX", "EXD", "EXXX", "exx"})
-        CHECK_FALSE(parse_error_name(bad));
+        CHECK_FALSE(kinematics::parse_error_name(bad));
 }
 
 TEST_CASE("error-free table-table machine obeys the independent closed form") {
     // P - r = Rz(kC) [ Ry(kB) (J - r - D) + D ], D from a point of C to a point of B (issue 4)
-    const Machine machine = bc_table();
+    const kinematics::Machine machine = bc_table();
     SeededNoise noise(1);
     const Vector3 r(12, 5, 60), d = Vector3(10, -3, 40) - r, tip(1, 2, -150);
     for (int i = 0; i < 200; ++i) {
@@ -103,8 +103,8 @@ TEST_CASE("error-free table-table machine obeys the independent closed form") {
 }
 
 TEST_CASE("head-table, head-head and inclined axes turn about their own points") {
-    Machine machine;
-    machine.chain = parse_chain("w C b X Y Z B t");
+    kinematics::Machine machine;
+    machine.chain = kinematics::parse_chain("w C b X Y Z B t");
     machine.chain.work[0].point_mm = {3, 4, 0};
     machine.chain.tool[3].point_mm = {0, 0, 50};
     const Vector3 tip(0, 0, -100);
@@ -115,7 +115,7 @@ TEST_CASE("head-table, head-head and inclined axes turn about their own points")
     CHECK(apart(machine.tip_W(at(10, 20, 30, 0, b, c), tip), point + rz(c) * (tip_M - point)) <
           tiny * 1e3);
 
-    machine.chain = parse_chain("w b X Y Z C B t");
+    machine.chain = kinematics::parse_chain("w b X Y Z C B t");
     machine.chain.tool[4].direction = Vector3(0, 1, 1).normalized();
     machine.chain.tool[4].point_mm = {0, 0, -20};
     const Vector3 p(0, 0, -20);
@@ -123,13 +123,13 @@ TEST_CASE("head-table, head-head and inclined axes turn about their own points")
     const Vector3 expected = Vector3(1, 2, 3) + rz(c) * (p + nutate * (tip - p));
     CHECK(apart(machine.tip_W(at(1, 2, 3, 0, b, c), tip), expected) < tiny * 1e3);
     // 180 degrees about an axis at 45 degrees turns the spindle from vertical to horizontal
-    const MachinePose poses = machine.poses(at(0, 0, 0, 0, pi, 0));
+    const kinematics::MachinePose poses = machine.poses(at(0, 0, 0, 0, pi, 0));
     CHECK(apart(poses.pose_MS.rotation * Vector3::UnitZ(), Vector3::UnitY()) < tiny);
 }
 
 TEST_CASE("axes on the work side and extra axes move the right body") {
-    Machine machine;
-    machine.chain = parse_chain("w X b Y Z W t");
+    kinematics::Machine machine;
+    machine.chain = kinematics::parse_chain("w X b Y Z W t");
     AxisPositions q = at(10, 20, 30, 0, 0, 0);
     q[Axis::W] = -5;
     CHECK(apart(machine.tip_W(q, Vector3(0, 0, -100)), Vector3(10, 20, -75)) < tiny);
@@ -138,7 +138,7 @@ TEST_CASE("axes on the work side and extra axes move the right body") {
 
 TEST_CASE("location errors follow the formula of the contract") {
     // x' = q + delta + exp([eps]x) Rot(u, word) (x - q), C carried by B
-    Machine machine = bc_table();
+    kinematics::Machine machine = bc_table();
     const Vector3 qb(10, -3, 40), qc(12, 5, 60), w(50, -40, 80);
     auto& eb = machine.errors.axis[index_of(Axis::B)].location;
     auto& ec = machine.errors.axis[index_of(Axis::C)].location;
@@ -153,7 +153,7 @@ TEST_CASE("location errors follow the formula of the contract") {
 }
 
 TEST_CASE("error motions of a carried rotary axis are along its carrier's axes") {
-    Machine machine = bc_table();
+    kinematics::Machine machine = bc_table();
     machine.errors.motion({'X', false, Axis::C}).constant = 0.01;
     machine.errors.motion({'A', false, Axis::C}).constant = 1e-4;
     const double b = 0.8, c = -2.1;
@@ -164,8 +164,8 @@ TEST_CASE("error motions of a carried rotary axis are along its carrier's axes")
 }
 
 TEST_CASE("linear axes: squareness leans the path, angular errors turn all that the axis carries") {
-    Machine machine;
-    machine.chain = parse_chain("w b X Y Z t");
+    kinematics::Machine machine;
+    machine.chain = kinematics::parse_chain("w b X Y Z t");
     machine.errors.location({'C', true, Axis::Y}) = 1e-4;  // Y leans towards -X
     const Vector3 tip(0, 0, -150);
     Vector3 error = machine.tip_W(at(10, 200, 30, 0, 0, 0), tip) - Vector3(10, 200, -120);
@@ -182,18 +182,19 @@ TEST_CASE("the prepared model is the machine, with and without perturbation") {
     SeededNoise noise(5);
     for (const char* text :
          {"w C B b X Y Z t", "w C b X Y Z B t", "w X A b Y Z W C t", "w Y X b Z t"}) {
-        Machine machine;
-        machine.chain = parse_chain(text);
+        kinematics::Machine machine;
+        machine.chain = kinematics::parse_chain(text);
         for (int errors = 0; errors < 2; ++errors) {
             if (errors) set_all_errors(machine, noise);
             machine.errors.spindle.location[3] = errors ? 1e-5 : 0.0;
-            const ForwardModel model(machine);
+            const kinematics::ForwardModel model(machine);
             for (int i = 0; i < 20; ++i) {
                 const AxisPositions q = random_positions(noise);
-                Perturbation extra;
+                kinematics::Perturbation extra;
                 extra.axis[Axis::X] = 0.01;
                 extra.motion[index_of(Axis::Y)].tilt_rad.x() = 1e-4;
-                const MachinePose a = machine.poses(q, extra), b = model.poses(q, extra);
+                const kinematics::MachinePose a = machine.poses(q, extra),
+                                              b = model.poses(q, extra);
                 CHECK(a.pose_MW.rotation == b.pose_MW.rotation);
                 CHECK(a.pose_MS.translation_mm == b.pose_MS.translation_mm);
                 CHECK(machine.tip_W(q, Vector3(1, 2, 3)) == model.tip_W(q, Vector3(1, 2, 3)));
@@ -205,21 +206,22 @@ TEST_CASE("the prepared model is the machine, with and without perturbation") {
 }
 
 TEST_CASE("error curves: tables hit their points, stay flat beyond, and derivatives are true") {
-    ErrorCurve curve;
+    kinematics::ErrorCurve curve;
     curve.constant = 0.001;
     curve.slope = 1e-5;
     curve.period_mm = 10.0;
     curve.harmonics = {{2.0, 0.003, -0.002}};
     curve.at = {-300, -50, 0, 300};
     curve.value = {0.003, 0.001, 0.0, -0.002};
-    for (const auto kind : {ErrorCurve::Interpolation::linear, ErrorCurve::Interpolation::cubic}) {
+    for (const auto kind : {kinematics::ErrorCurve::Interpolation::linear,
+                            kinematics::ErrorCurve::Interpolation::cubic}) {
         curve.interpolation = kind;
         for (const double q : {-400.0, -299.0, -51.0, -49.0, 10.0, 123.4, 299.0, 350.0}) {
             const double h = 1e-4;
             const double numeric = (curve(q + h) - curve(q - h)) / (2 * h);
             CHECK(curve.derivative(q) == Approx(numeric).margin(1e-9));
         }
-        ErrorCurve bare;
+        kinematics::ErrorCurve bare;
         bare.at = curve.at;
         bare.value = curve.value;
         bare.interpolation = kind;
@@ -228,7 +230,7 @@ TEST_CASE("error curves: tables hit their points, stay flat beyond, and derivati
         CHECK(bare(1e4) == -0.002);
         CHECK(bare(-1e4) == 0.003);
     }
-    curve.interpolation = ErrorCurve::Interpolation::cubic;
+    curve.interpolation = kinematics::ErrorCurve::Interpolation::cubic;
     curve.at = {0, 1, 3, 4};
     curve.value = {0, 1, 9, 16};  // a parabola: three-point slopes follow it between inner points
     curve.constant = curve.slope = 0.0;

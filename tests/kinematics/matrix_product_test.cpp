@@ -40,7 +40,8 @@ Matrix4 turn(Real x, Real y, Real z) {
 }
 
 /// One axis of the chain, as the contract writes it (Frames; HTM 2022, eq. 20).
-Matrix4 axis_matrix(const AxisGeometry& axis, const AxisErrors& errors, double position) {
+Matrix4 axis_matrix(const kinematics::AxisGeometry& axis, const kinematics::AxisErrors& errors,
+                    double position) {
     const auto& e = errors.location;
     std::array<Real, 6> m{};
     for (std::size_t k = 0; k < 6; ++k)
@@ -61,16 +62,17 @@ Matrix4 axis_matrix(const AxisGeometry& axis, const AxisErrors& errors, double p
            shift(-p.x(), -p.y(), -p.z());
 }
 
-Matrix4 side_matrix(const std::vector<AxisGeometry>& side, const GeometricErrors& errors,
-                    const AxisPositions& q) {
+Matrix4 side_matrix(const std::vector<kinematics::AxisGeometry>& side,
+                    const kinematics::GeometricErrors& errors, const AxisPositions& q) {
     Matrix4 m = Matrix4::Identity();
-    for (const AxisGeometry& axis : side)
+    for (const kinematics::AxisGeometry& axis : side)
         m = m * axis_matrix(axis, errors.axis[index_of(axis.axis)], q[axis.axis]);
     return m;
 }
 
 /// The tip in the table's frame: inverse of the rigid W matrix times the S matrix times the tip.
-Vector3 plain_tip_W(const Machine& machine, const AxisPositions& q, const Vector3& tip) {
+Vector3 plain_tip_W(const kinematics::Machine& machine, const AxisPositions& q,
+                    const Vector3& tip) {
     const Matrix4 w = side_matrix(machine.chain.work, machine.errors, q);
     const Eigen::Matrix<Real, 4, 1> tip_M = side_matrix(machine.chain.tool, machine.errors, q) *
                                             Eigen::Matrix<Real, 4, 1>(tip.x(), tip.y(), tip.z(), 1);
@@ -99,15 +101,15 @@ class Draw {
 };
 
 /// X Y Z and two rotary axes in any order, the bed anywhere among them.
-Chain random_chain(Draw& draw) {
+kinematics::Chain random_chain(Draw& draw) {
     static constexpr const char* rotaries[] = {"AB", "AC", "BC"};
     std::string text = "w";
     for (const char letter :
          draw.shuffled(std::string("XYZb") + rotaries[static_cast<int>(1.5 + draw(1.49))]))
         text += std::string(" ") + letter;
-    Chain chain = parse_chain(text + " t");
+    kinematics::Chain chain = kinematics::parse_chain(text + " t");
     for (auto* side : {&chain.work, &chain.tool})
-        for (AxisGeometry& axis : *side) {
+        for (kinematics::AxisGeometry& axis : *side) {
             axis.direction = (axis.direction + draw.vector(0.3)).normalized();
             if (axis.rotary) axis.point_mm = draw.vector(60);
         }
@@ -115,9 +117,9 @@ Chain random_chain(Draw& draw) {
 }
 
 /// 30 error motions, 8 location errors of the rotary axes (6 of each here), 3 squarenesses.
-void draw_errors(Machine& machine, Draw& draw) {
-    for (const AxisGeometry& axis : machine.chain.axes()) {
-        AxisErrors& errors = machine.errors.axis[index_of(axis.axis)];
+void draw_errors(kinematics::Machine& machine, Draw& draw) {
+    for (const kinematics::AxisGeometry& axis : machine.chain.axes()) {
+        kinematics::AxisErrors& errors = machine.errors.axis[index_of(axis.axis)];
         for (std::size_t k = 0; k < 6; ++k) {
             errors.motion[k].constant = draw(k < 3 ? 0.02 : 1e-4);
             errors.motion[k].slope = draw(k < 3 ? 1e-4 : 1e-6);
@@ -126,9 +128,10 @@ void draw_errors(Machine& machine, Draw& draw) {
     }
 }
 
-AxisPositions draw_positions(const Chain& chain, Draw& draw) {
+AxisPositions draw_positions(const kinematics::Chain& chain, Draw& draw) {
     AxisPositions q;
-    for (const AxisGeometry& axis : chain.axes()) q[axis.axis] = draw(axis.rotary ? 3.1 : 250);
+    for (const kinematics::AxisGeometry& axis : chain.axes())
+        q[axis.axis] = draw(axis.rotary ? 3.1 : 250);
     return q;
 }
 
@@ -138,34 +141,36 @@ TEST_CASE("1,000 random machines with all errors are the product of their 4x4 ma
     Draw draw(2026);
     double worst_mm = 0.0;
     for (int i = 0; i < 1000; ++i) {
-        Machine machine;
+        kinematics::Machine machine;
         machine.chain = random_chain(draw);
         draw_errors(machine, draw);
         const AxisPositions q = draw_positions(machine.chain, draw);
         const Vector3 tip = draw.vector(120);
         const Vector3 plain = plain_tip_W(machine, q, tip);
         worst_mm = std::max(worst_mm, (machine.tip_W(q, tip) - plain).norm());
-        worst_mm = std::max(worst_mm, (tip_jacobian(machine, q, tip).tip_W_mm - plain).norm());
+        worst_mm =
+            std::max(worst_mm, (kinematics::tip_jacobian(machine, q, tip).tip_W_mm - plain).norm());
     }
     CHECK(worst_mm < 1e-12);
 }
 
 TEST_CASE("a slide's angular error carries the slides on it: EBY with X at 300 sinks the tip") {
-    Machine machine;
-    machine.chain = parse_chain("w b Y X Z t");
+    kinematics::Machine machine;
+    machine.chain = kinematics::parse_chain("w b Y X Z t");
     machine.errors.motion({'B', false, Axis::Y}).constant = 1e-4;
     AxisPositions q;
     q[Axis::X] = 300;
     const Vector3 error = machine.tip_W(q, Vector3::Zero()) - Vector3(300, 0, 0);
     CHECK(error.z() == Approx(-0.03).epsilon(1e-8));
     CHECK(std::abs(error.x()) < 2e-6);
-    machine.chain = parse_chain("w b X Y Z t");  // here Y carries no X
+    machine.chain = kinematics::parse_chain("w b X Y Z t");  // here Y carries no X
     CHECK(machine.tip_W(q, Vector3::Zero()).z() == 0.0);
 }
 
 TEST_CASE("on the work side too: the table that X carries follows the angular error of Y") {
-    Machine machine;
-    machine.chain = parse_chain("w X Y b Z t");  // Y on the bed carries X, X the workpiece
+    kinematics::Machine machine;
+    machine.chain =
+        kinematics::parse_chain("w X Y b Z t");  // Y on the bed carries X, X the workpiece
     machine.errors.motion({'B', false, Axis::Y}).constant = 1e-4;
     AxisPositions q;
     q[Axis::X] = 300;

@@ -9,10 +9,10 @@ using namespace trunnion;
 
 namespace {
 
-Machine mill() {
-    Machine machine;
-    machine.chain = parse_chain("w Y X b Z t");
-    AxisErrors& spindle = machine.errors.spindle;
+kinematics::Machine mill() {
+    kinematics::Machine machine;
+    machine.chain = kinematics::parse_chain("w Y X b Z t");
+    kinematics::AxisErrors& spindle = machine.errors.spindle;
     spindle.motion[0] = {0.002, 0.0, 0.0, {{1.0, 0.010, 0.004}}, {}, {}};  // EXS
     spindle.motion[1] = {0.0, 0.0, 0.0, {{1.0, -0.004, 0.010}}, {}, {}};   // EYS
     spindle.motion[2] = {0.003, 0.0, 0.0, {{2.0, 0.001, 0.0}}, {}, {}};    // EZS
@@ -24,8 +24,8 @@ Machine mill() {
 }  // namespace
 
 TEST_CASE("error motions of the spindle move the tip by its angle") {
-    const Machine machine = mill();
-    const ForwardModel model(machine);
+    const kinematics::Machine machine = mill();
+    const kinematics::ForwardModel model(machine);
     const double length_mm = 150.0;
     for (const double angle : {0.0, 0.7, pi, 4.0}) {
         const double c = std::cos(angle), s = std::sin(angle);
@@ -42,7 +42,7 @@ TEST_CASE("error motions of the spindle move the tip by its angle") {
 }
 
 TEST_CASE("of a turning spindle the constants remain") {
-    const Machine machine = mill();
+    const kinematics::Machine machine = mill();
     const Vector3 tip(0, 0, -150);
     const Vector3 turning = machine.tip_W({}, tip, std::nullopt);
     CHECK((turning - Vector3(0.002 - 150.0 * 1e-5, 0, -149.997)).norm() < 1e-7);
@@ -52,10 +52,10 @@ TEST_CASE("of a turning spindle the constants remain") {
 }
 
 TEST_CASE("the location of the spindle's axis carries its motions") {
-    Machine machine = mill();
+    kinematics::Machine machine = mill();
     machine.errors.spindle.location = {0.01, 0.02, 0.03, 0.001, 0.0, 0.0};
     const Vector3 tip(0, 0, -150);
-    Machine motion = mill();
+    kinematics::Machine motion = mill();
     const Vector3 moved = motion.tip_W({}, tip, 0.7);
     const Vector3 closed = rotation_about(Vector3::UnitX(), 0.001) * moved + Vector3(.01, .02, .03);
     CHECK((machine.tip_W({}, tip, 0.7) - closed).norm() < 1e-12);
@@ -64,10 +64,10 @@ TEST_CASE("the location of the spindle's axis carries its motions") {
 TEST_CASE("names of the spindle's errors") {
     for (const char* name : {"EXS", "EYS", "EZS", "EAS", "EBS", "EX0S", "EY0S", "EA0S", "EB0S"}) {
         INFO(name);
-        const auto parsed = parse_spindle_error_name(name);
+        const auto parsed = kinematics::parse_spindle_error_name(name);
         REQUIRE(parsed);
         CHECK(to_string(*parsed) == name);
     }
     for (const char* name : {"ECS", "EC0S", "EXX", "EX1S", "XS", "EQS", "EX0SS"})
-        CHECK_FALSE(parse_spindle_error_name(name));
+        CHECK_FALSE(kinematics::parse_spindle_error_name(name));
 }

@@ -14,19 +14,19 @@ namespace {
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-SpeedLink link(double way, double speed, double acceleration, double entry = no_limit) {
+motion::SpeedLink link(double way, double speed, double acceleration, double entry = no_limit) {
     return {way, speed, acceleration, entry};
 }
 
-double time_of(const std::vector<SpeedLink>& links) {
-    SpeedChain chain;
+double time_of(const std::vector<motion::SpeedLink>& links) {
+    motion::SpeedChain chain;
     double sum_s = 0.0;
-    for (const SpeedLink& l : links) sum_s += chain.add(l);
+    for (const motion::SpeedLink& l : links) sum_s += chain.add(l);
     return sum_s;
 }
 
 /// The same by the phase plane: squared speed at many places, limited from both ends, summed up.
-double integrated(const std::vector<SpeedLink>& links, int steps_a_link) {
+double integrated(const std::vector<motion::SpeedLink>& links, int steps_a_link) {
     std::vector<double> top, step, acceleration;
     for (std::size_t k = 0; k < links.size(); ++k)
         for (int i = 0; i < steps_a_link; ++i) {
@@ -63,7 +63,7 @@ TEST_CASE("one move: short of its speed, just reaching it, running at it") {
 
 TEST_CASE("a stop between two moves costs v / a, a joint with entry u costs (v - u)^2 / (v a)") {
     const double v = 40.0, a = 800.0;
-    SpeedChain stopped;
+    motion::SpeedChain stopped;
     double sum_s = stopped.add(link(100.0, v, a));
     stopped.stop();
     sum_s += stopped.add(link(60.0, v, a));
@@ -87,7 +87,7 @@ TEST_CASE("other feed behind the joint: one ramp between the two speeds") {
 TEST_CASE("a line in any number of pieces takes the time of the line") {
     SeededNoise noise(31);
     for (const int pieces : {2, 7, 100, 400}) {
-        std::vector<SpeedLink> links;
+        std::vector<motion::SpeedLink> links;
         double way = 0.0;
         for (int i = 0; i < pieces; ++i) {
             links.push_back(link(20.0 / pieces * (0.1 + noise.uniform()), 100.0, 600.0));
@@ -100,7 +100,7 @@ TEST_CASE("a line in any number of pieces takes the time of the line") {
 TEST_CASE("400 random chains against the phase plane") {
     SeededNoise noise(32);
     for (int k = 0; k < 400; ++k) {
-        std::vector<SpeedLink> links;
+        std::vector<motion::SpeedLink> links;
         const int count = 1 + k % 12;
         const bool one_acceleration = k % 2 == 0;
         const double acceleration = 300.0 + 2000.0 * noise.uniform();
@@ -119,7 +119,7 @@ TEST_CASE("400 random chains against the phase plane") {
 }
 
 TEST_CASE("the clock never runs backwards, even when a strong axis follows a weak one") {
-    SpeedChain chain;
+    motion::SpeedChain chain;
     double sum_s = chain.add(link(100.0, 50.0, 50.0));
     const double growth_s = chain.add(link(0.05, 50.0, 50000.0));
     CHECK(growth_s == 0.0);

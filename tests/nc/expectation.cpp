@@ -89,8 +89,8 @@ void read_expect(Expectation& e, std::istringstream& in) {
     throw std::runtime_error("EXPECT " + what + "?");
 }
 
-ControlAxis& axis_named(Expectation& e, char letter) {
-    for (ControlAxis& axis : e.config.axes)
+controller::ControlAxis& axis_named(Expectation& e, char letter) {
+    for (controller::ControlAxis& axis : e.config.axes)
         if (letter_of(axis.axis) == letter) return axis;
     throw std::runtime_error("no such axis");
 }
@@ -98,7 +98,7 @@ ControlAxis& axis_named(Expectation& e, char letter) {
 void set_tool(Expectation& e, std::istringstream& in) {
     std::size_t number = 0;
     std::string equals;
-    ToolOffset tool;
+    offsets::ToolOffset tool;
     in >> number >> equals >> tool.length_geometry_mm >> tool.radius_geometry_mm;
     e.stores.tools.tool.at(number) = tool;
 }
@@ -107,7 +107,7 @@ void set_limit(Expectation& e, std::istringstream& in) {
     char letter = 0;
     double min = 0.0, max = 0.0;
     in >> letter >> min >> max;
-    ControlAxis& axis = axis_named(e, letter);
+    controller::ControlAxis& axis = axis_named(e, letter);
     axis.min = axis.rotary ? rad_from_deg(min) : min;
     axis.max = axis.rotary ? rad_from_deg(max) : max;
 }
@@ -175,15 +175,17 @@ void read_set(Expectation& e, std::istringstream& in) {
         set_reference(e, in);
     } else if (what == "CLAMP") {
         char letter = 0;
-        ClampCode clamp;
+        controller::ClampCode clamp;
         in >> letter >> clamp.m_clamp >> clamp.m_release;
         clamp.axis = axis_named(e, letter).axis;
         clamp.alarm = true;
         e.config.clamps.push_back(clamp);
     } else if (what == "DIALECT") {
         const std::string name = rest_of(in);
-        if (name == "HURCO") e.config.dialect = hurco_dialect();
-        if (name == "16I") e.config.dialect = fanuc_dialect(ControlGeneration::fanuc_16i);
+        if (name == "HURCO") e.config.dialect = interpreter::hurco_dialect();
+        if (name == "16I")
+            e.config.dialect =
+                interpreter::fanuc_dialect(interpreter::ControlGeneration::fanuc_16i);
     } else if (what == "SWITCH") {
         in >> number;
         e.config.skip_switches.at(static_cast<std::size_t>(number)) = true;
@@ -201,7 +203,7 @@ void read_set(Expectation& e, std::istringstream& in) {
     } else if (what == "TABLE" || what == "HEAD" || what == "MIXED") {
         set_machine(e, what, in);
     } else if (what == "TCP") {
-        e.config.tcp_frame = TcpFrame::rotary_zero;
+        e.config.tcp_frame = positioning::TcpFrame::rotary_zero;
     } else if (what == "POSITIONS") {
         e.config.work_positions_with_length = false;
     } else {
@@ -209,11 +211,11 @@ void read_set(Expectation& e, std::istringstream& in) {
     }
 }
 
-ControlConfig five_axes() {
-    ControlConfig config;
-    config.dialect = fanuc_dialect();
+controller::ControlConfig five_axes() {
+    controller::ControlConfig config;
+    config.dialect = interpreter::fanuc_dialect();
     for (const Axis axis : {Axis::X, Axis::Y, Axis::Z, Axis::B, Axis::C}) {
-        ControlAxis entry;
+        controller::ControlAxis entry;
         entry.axis = axis;
         entry.rotary = is_rotary(axis);
         config.axes.push_back(entry);

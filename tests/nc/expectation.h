@@ -43,8 +43,8 @@ struct Expectation {
     std::optional<double> time_s;
     std::size_t count = 0;  ///< of EXPECT comments: a program without any tests nothing
 
-    ControlConfig config;
-    Stores stores;
+    controller::ControlConfig config;
+    offsets::Stores stores;
     std::map<int, double> preset;
     std::vector<int> outside;  ///< the file stands in the program folder under these numbers too
     double skip_at = -1.0;

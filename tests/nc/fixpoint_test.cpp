@@ -17,15 +17,15 @@ TEST_CASE("parse print parse is a fixpoint on the whole corpus") {
         bytes << std::ifstream(entry.path(), std::ios::binary).rdbuf();
         const std::string text = bytes.str();
         INFO(entry.path().string());
-        const ParsedProgram a = parse_program({"a", text, nullptr}, {});
-        const std::string once = print_program(a);
-        const ParsedProgram b = parse_program({"b", once, nullptr}, {});
+        const interpreter::ParsedProgram a = interpreter::parse_program({"a", text, nullptr}, {});
+        const std::string once = interpreter::print_program(a);
+        const interpreter::ParsedProgram b = interpreter::parse_program({"b", once, nullptr}, {});
         INFO(once);
         CHECK(b.faults.empty());
         REQUIRE(a.blocks.size() == b.blocks.size());
         for (std::size_t i = 0; i < a.blocks.size(); ++i)
-            REQUIRE(same_block(a, a.blocks[i], b, b.blocks[i]));
-        CHECK(print_program(b) == once);
+            REQUIRE(interpreter::same_block(a, a.blocks[i], b, b.blocks[i]));
+        CHECK(interpreter::print_program(b) == once);
         ++programs;
     }
     CHECK(programs > 400);

@@ -6,9 +6,9 @@
 #include <set>
 #include <sstream>
 
+#include "base/units.h"
 #include "controller/alarms.h"
 #include "expectation.h"
-#include "base/units.h"
 
 namespace trunnion::nc {
 
@@ -16,10 +16,10 @@ namespace {
 
 constexpr double tolerance = 1e-6;  // mm, deg; a few places more than anybody writes
 
-class Recorder : public MotionSink {
+class Recorder : public motion::MotionSink {
   public:
     explicit Recorder(double skip_at) : skip_at_(skip_at) {}
-    MoveResult move(const AxisMove& m) override {
+    motion::MoveResult move(const motion::AxisMove& m) override {
         moves.push_back(m);
         halfway = m;  // looked at now: the curve lives only as long as the call
         halfway.to = m.at(0.5);
@@ -30,15 +30,15 @@ class Recorder : public MotionSink {
     }
     void m_code(int code) override { m_codes.push_back(code); }
 
-    std::vector<AxisMove> moves;
-    AxisMove halfway;
+    std::vector<motion::AxisMove> moves;
+    motion::AxisMove halfway;
     std::vector<int> m_codes;
 
   private:
     double skip_at_;
 };
 
-double word_of(const AxisMove& m, char letter) {
+double word_of(const motion::AxisMove& m, char letter) {
     if (letter == 'F') return m.feed_mm_min;
     if (letter == 'S') return m.spindle_rpm;
     if (letter >= 'I' && letter <= 'K')
@@ -47,7 +47,7 @@ double word_of(const AxisMove& m, char letter) {
     return is_rotary(axis) ? deg_from_rad(m.to[axis]) : m.to[axis];
 }
 
-std::string describe(const AxisMove& m) {
+std::string describe(const motion::AxisMove& m) {
     std::ostringstream out;
     out << "G" << static_cast<int>(m.kind);
     for (const char letter : {'X', 'Y', 'Z', 'B', 'C'}) out << " " << letter << word_of(m, letter);
@@ -57,7 +57,7 @@ std::string describe(const AxisMove& m) {
     return out.str();
 }
 
-bool matches(const AxisMove& m, const ExpectedMove& expected) {
+bool matches(const motion::AxisMove& m, const ExpectedMove& expected) {
     static const char* const kinds[] = {"G0", "G1", "G2", "G3"};
     if (!expected.kind.empty() && expected.kind != kinds[static_cast<int>(m.kind)]) return false;
     for (const auto& [letter, value] : expected.words)
@@ -67,9 +67,9 @@ bool matches(const AxisMove& m, const ExpectedMove& expected) {
 }
 
 struct Outcome {
-    RunResult result;
-    std::vector<AxisMove> moves;
-    AxisMove halfway;  ///< of the last move
+    controller::RunResult result;
+    std::vector<motion::AxisMove> moves;
+    motion::AxisMove halfway;  ///< of the last move
     std::vector<int> m_codes;
     std::string printed;
     std::map<int, double> variables;
@@ -78,13 +78,13 @@ struct Outcome {
 Outcome run(const std::string& name, const std::string& text, Expectation& e) {
     Outcome out;
     Recorder sink(e.skip_at);
-    ProgramsInMemory programs;
+    interpreter::ProgramsInMemory programs;
     for (const int number : e.outside) programs.add(number, text);
-    Controller control(e.config, e.stores, programs, sink,
-                       [&](std::string_view printed) { out.printed += printed; });
+    controller::Controller control(e.config, e.stores, programs, sink,
+                                   [&](std::string_view printed) { out.printed += printed; });
     for (const auto& [number, value] : e.preset) control.set_variable(number, value);
     const auto owner = std::make_shared<const std::string>(text);
-    out.result = control.run(ProgramText{name, *owner, owner});
+    out.result = control.run(interpreter::ProgramText{name, *owner, owner});
     for (const auto& [number, value] : e.variables)
         out.variables[number] = control.variable(number);
     out.moves = std::move(sink.moves);
@@ -109,10 +109,10 @@ bool one_contains(const std::vector<std::string>& texts, const std::string& part
     return false;
 }
 
-void check_alarm(const Expectation& e, const RunResult& result) {
+void check_alarm(const Expectation& e, const controller::RunResult& result) {
     if (!e.alarm) {
         if (result.alarm)
-            FAIL_CHECK(alarm_title(result.alarm->number, result.alarm->text)
+            FAIL_CHECK(controller::alarm_title(result.alarm->number, result.alarm->text)
                        << " at line " << result.alarm->where.line);
         return;
     }
@@ -127,7 +127,7 @@ void check_alarm(const Expectation& e, const RunResult& result) {
     CHECK(result.alarm->text.find(e.alarm_text) != std::string::npos);
 }
 
-void check_moves(const Expectation& e, const std::vector<AxisMove>& moves) {
+void check_moves(const Expectation& e, const std::vector<motion::AxisMove>& moves) {
     if (e.move_count) CHECK(moves.size() == *e.move_count);
     if (e.last) {
         REQUIRE_FALSE(moves.empty());
@@ -151,7 +151,7 @@ void check_rest(const Expectation& e, const Outcome& out) {
         INFO("#" << number);
         const double is = out.variables.at(number);
         if (!value)
-            CHECK(is_vacant(is));
+            CHECK(interpreter::is_vacant(is));
         else
             CHECK(is == Approx(*value).margin(1e-9).epsilon(1e-9));
     }
@@ -171,7 +171,7 @@ void check_rest(const Expectation& e, const Outcome& out) {
         CHECK(std::find(out.m_codes.begin(), out.m_codes.end(), code) != out.m_codes.end());
     }
     if (e.time_s) CHECK(out.result.time_s == Approx(*e.time_s));
-    if (e.limit) CHECK(out.result.status == RunStatus::limit);
+    if (e.limit) CHECK(out.result.status == controller::RunStatus::limit);
 }
 
 std::vector<std::filesystem::path> programs_in_corpus() {
@@ -218,8 +218,8 @@ TEST_CASE("every alarm of the tables is reached by a program of the corpus") {
     for (const auto& path : programs_in_corpus())
         if (const Expectation e = read_expectation(text_of(path)); e.alarm)
             reached.insert(*e.alarm);
-    for (const AlarmRow& row : alarm_table()) {
-        INFO(alarm_title(row.number, row.text));
+    for (const controller::AlarmRow& row : controller::alarm_table()) {
+        INFO(controller::alarm_title(row.number, row.text));
         CHECK(reached.count(row.number) == 1);
     }
 }

@@ -12,8 +12,8 @@ namespace trunnion {
 
 namespace {
 
-Parameters bc_table() {
-    Parameters p;
+offsets::Parameters bc_table() {
+    offsets::Parameters p;
     p.set(19680, 12);
     p.set(19681, 4);
     p.set(19682, 2);
@@ -31,9 +31,9 @@ Parameters bc_table() {
 
 const std::vector<Axis> bc_order{Axis::X, Axis::Y, Axis::Z, Axis::B, Axis::C};
 
-int alarm_of(const Parameters& p) {
+int alarm_of(const offsets::Parameters& p) {
     try {
-        decode_pivot(p, bc_order);
+        offsets::decode_pivot(p, bc_order);
     } catch (const Alarm& alarm) {
         return alarm.number;
     }
@@ -43,9 +43,9 @@ int alarm_of(const Parameters& p) {
 }  // namespace
 
 TEST_CASE("pivot parameters of a BC table") {
-    const auto pivot = decode_pivot(bc_table(), bc_order);
+    const auto pivot = offsets::decode_pivot(bc_table(), bc_order);
     REQUIRE(pivot);
-    CHECK(pivot->unit == MechanicalUnit::table_table);
+    CHECK(pivot->unit == offsets::MechanicalUnit::table_table);
     CHECK(pivot->first.axis == Axis::B);
     CHECK(pivot->first.direction() == Vector3(0, -1, 0));
     CHECK(pivot->second.axis == Axis::C);
@@ -57,15 +57,15 @@ TEST_CASE("pivot parameters of a BC table") {
 }
 
 TEST_CASE("axis numbers follow 1020, then the control's order, then the letters") {
-    Parameters p = bc_table();
-    CHECK(decode_pivot(p)->first.axis == Axis::A);
+    offsets::Parameters p = bc_table();
+    CHECK(offsets::decode_pivot(p)->first.axis == Axis::A);
     p.entry[1020].by_axis[4] = 'B';
     p.entry[1020].by_axis[5] = 'A';
-    CHECK(decode_pivot(p, bc_order)->second.axis == Axis::A);
+    CHECK(offsets::decode_pivot(p, bc_order)->second.axis == Axis::A);
 }
 
 TEST_CASE("inclined axes, limits, hypothetical axis, reference tool direction") {
-    Parameters p = bc_table();
+    offsets::Parameters p = bc_table();
     p.set(19682, 5);  // YZ plane
     p.set(19683, -45.0);
     p.set(19741, 180.0);
@@ -76,7 +76,7 @@ TEST_CASE("inclined axes, limits, hypothetical axis, reference tool direction") 
     p.set(19690, 15.0);
     p.set(19697, 1);
     p.set(19698, 90.0);  // about Y
-    const auto pivot = decode_pivot(p, bc_order);
+    const auto pivot = offsets::decode_pivot(p, bc_order);
     CHECK((pivot->first.direction() - Vector3(0, -std::sqrt(0.5), std::sqrt(0.5))).norm() < 1e-15);
     CHECK(*pivot->first.max_rad == Approx(pi));
     CHECK(*pivot->first.min_rad == Approx(-pi / 6));
@@ -89,7 +89,7 @@ TEST_CASE("inclined axes, limits, hypothetical axis, reference tool direction") 
 TEST_CASE("values that cannot be are alarm 5459") {
     CHECK(alarm_of(bc_table()) == 0);
     const auto with = [](int number, double value) {
-        Parameters p = bc_table();
+        offsets::Parameters p = bc_table();
         p.set(number, value);
         return alarm_of(p);
     };
@@ -106,18 +106,19 @@ TEST_CASE("values that cannot be are alarm 5459") {
     CHECK(with(19700, std::numeric_limits<double>::infinity()) == 5459);
     CHECK(with(19742, 10) == 5459);  // lower limit above the upper one
     CHECK(with(19696, 3) == 5459);   // both axes hypothetical
-    Parameters none = bc_table();
+    offsets::Parameters none = bc_table();
     none.set(19680, 0);
-    CHECK_FALSE(decode_pivot(none, bc_order));
-    CHECK_FALSE(decode_pivot(Parameters{}));
+    CHECK_FALSE(offsets::decode_pivot(none, bc_order));
+    CHECK_FALSE(offsets::decode_pivot(offsets::Parameters{}));
 }
 
 TEST_CASE("encode and decode give the same geometry") {
     SeededNoise noise(4);
     for (int k = 0; k < 300; ++k) {
-        PivotParameters pivot;
-        pivot.unit = std::array{MechanicalUnit::tool_tool, MechanicalUnit::table_table,
-                                MechanicalUnit::mixed}[static_cast<std::size_t>(k % 3)];
+        offsets::PivotParameters pivot;
+        pivot.unit =
+            std::array{offsets::MechanicalUnit::tool_tool, offsets::MechanicalUnit::table_table,
+                       offsets::MechanicalUnit::mixed}[static_cast<std::size_t>(k % 3)];
         const double angle = 2 * pi * noise.uniform();
         Vector3 inclined = Vector3::Zero();
         inclined[k % 3] = std::cos(angle);
@@ -131,9 +132,9 @@ TEST_CASE("encode and decode give the same geometry") {
         pivot.tool_offset_mm = vector();
         pivot.tool_second_offset_mm = vector();
         pivot.holder_offset_mm = noise.normal();
-        Parameters p;
-        encode_pivot(pivot, p, bc_order);
-        const auto back = decode_pivot(p, bc_order);
+        offsets::Parameters p;
+        offsets::encode_pivot(pivot, p, bc_order);
+        const auto back = offsets::decode_pivot(p, bc_order);
         REQUIRE(back);
         CHECK(back->unit == pivot.unit);
         CHECK((back->first.direction() - pivot.first.direction()).norm() < 1e-14);
@@ -144,11 +145,11 @@ TEST_CASE("encode and decode give the same geometry") {
         CHECK(back->tool_second_offset_mm == pivot.tool_second_offset_mm);
         CHECK(back->holder_offset_mm == pivot.holder_offset_mm);
     }
-    PivotParameters askew;
-    askew.unit = MechanicalUnit::table_table;
+    offsets::PivotParameters askew;
+    askew.unit = offsets::MechanicalUnit::table_table;
     askew.first.line = Vector3(1, 1, 1).normalized();
-    Parameters p;
-    CHECK_THROWS_AS(encode_pivot(askew, p), InputError);
+    offsets::Parameters p;
+    CHECK_THROWS_AS(offsets::encode_pivot(askew, p), InputError);
 }
 
 }  // namespace trunnion

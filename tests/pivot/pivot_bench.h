@@ -13,9 +13,9 @@ namespace trunnion::pivot_bench {
 inline const std::string root = TRUNNION_SOURCE_DIR;
 inline const std::vector<std::string> folders{root + "/programs"};
 
-inline Setup load(const std::string& file, double repeatability_um = 0.0) {
+inline setup::Setup load(const std::string& file, double repeatability_um = 0.0) {
     std::vector<std::string> notes;
-    Setup setup = load_setup(root + "/machines/" + file, notes);
+    setup::Setup setup = setup::load_setup(root + "/machines/" + file, notes);
     setup.probe->repeatability_um = repeatability_um;
     setup.machine.errors = {};
     return setup;
@@ -26,40 +26,44 @@ inline Vector3 random_vector(SeededNoise& noise, double size) {
 }
 
 /// Stores that hold the truth for a machine: its numbers, G54 at the centre.
-inline RotaryStores true_stores(const Setup& setup) {
-    return right_stores(setup.machine, *rotary_stores(setup.machine.chain, setup.stores));
+inline setup::RotaryStores true_stores(const setup::Setup& setup) {
+    return setup::right_stores(setup.machine,
+                               *setup::rotary_stores(setup.machine.chain, setup.stores));
 }
 
-inline void enter(const RotaryStores& stores, Setup& setup) {
-    for (const StoreNumber& n : store_numbers(stores))
+inline void enter(const setup::RotaryStores& stores, setup::Setup& setup) {
+    for (const setup::StoreNumber& n : setup::store_numbers(stores))
         if (n.parameter != 0)
             setup.stores.parameters.set(n.parameter, n.value_mm);
         else
             setup.stores.work.standard[0].value[static_cast<std::size_t>(n.component)] = n.value_mm;
 }
 
-inline PivotDemonstration demonstrate(const Setup& setup, unsigned long long seed = 1) {
-    return demonstrate_pivot(setup, pivot_programs(plan_pivot_test(setup)), folders, seed);
+inline pivot::PivotDemonstration demonstrate(const setup::Setup& setup,
+                                             unsigned long long seed = 1) {
+    return pivot::demonstrate_pivot(setup, pivot::pivot_programs(pivot::plan_pivot_test(setup)),
+                                    folders, seed);
 }
 
 /// What the programs would print: the model's errors with noise and scatter of the zeroings.
-inline std::string prints_of(const PivotPlan& plan, const Machine& machine, const Vector3& tip_S_mm,
-                             double noise_um, double zero_um, std::uint64_t seed) {
+inline std::string prints_of(const pivot::PivotPlan& plan, const kinematics::Machine& machine,
+                             const Vector3& tip_S_mm, double noise_um, double zero_um,
+                             std::uint64_t seed) {
     SeededNoise noise(seed);
-    const PivotModel model(machine, plan.stores, plan.sphere_mm, tip_S_mm);
+    const pivot::PivotModel model(machine, plan.stores, plan.sphere_mm, tip_S_mm);
     const char a = letter_of(plan.first()), b = letter_of(plan.second());
     std::string text;
-    for (const PivotFunction& f : plan.functions) {
+    for (const pivot::PivotFunction& f : plan.functions) {
         text += fmt::format("PIVOT {} AXES {} {} MAPS {} TO {}\n", f.name, a, b, plan.first_map(f),
                             plan.maps.size());
         text += fmt::format("STORE G54 X{:.7f} Y{:.7f} Z{:.7f}\n", plan.stores.g54.x(),
                             plan.stores.g54.y(), plan.stores.g54.z());
-        for (const StoreNumber& n : store_numbers(plan.stores))
+        for (const setup::StoreNumber& n : setup::store_numbers(plan.stores))
             if (n.parameter != 0)
                 text += fmt::format("STORE N{} V{:.7f}\n", n.parameter, n.value_mm);
         for (std::size_t m = static_cast<std::size_t>(plan.first_map(f)); m <= plan.maps.size();
              ++m) {
-            const PlannedMap& map = plan.maps[m - 1];
+            const pivot::PlannedMap& map = plan.maps[m - 1];
             const Vector3 zero = random_vector(noise, 1e-3 * zero_um);
             const Vector3 found = plan.sphere_mm + zero;
             text += fmt::format("{} ZERO{} X{:.7f} Y{:.7f} Z{:.7f}\n", f.name, m, found.x(),

@@ -13,67 +13,69 @@ constexpr Vector3::Scalar length_mm = 150.0;
 const Vector3 tip(0, 0, -length_mm);
 
 struct Case {
-    Setup setup;
-    PivotPlan plan;
+    setup::Setup setup;
+    pivot::PivotPlan plan;
     std::string printed;
 };
 
 /// A machine whose axes lie and lean a little elsewhere, one store wrong.
-Case random_case(const std::string& file, SeededNoise& noise, PivotGroup wrong, double size_mm) {
-    Setup setup = load(file);
-    auto stores = *rotary_stores(setup.machine.chain, setup.stores);
+Case random_case(const std::string& file, SeededNoise& noise, pivot::PivotGroup wrong,
+                 double size_mm) {
+    setup::Setup setup = load(file);
+    auto stores = *setup::rotary_stores(setup.machine.chain, setup.stores);
     for (const Axis axis : {stores.pivot.first.axis, stores.pivot.second.axis})
         for (std::size_t i = 0; i < 6; ++i)
             setup.machine.errors.axis[index_of(axis)].location[i] =
                 noise.normal() * (i < 3 ? 0.02 : 1e-5);
     // A zero position of a head's axis reads as its pivot length: not part of this law.
-    if (stores.pivot.unit != MechanicalUnit::table_table)
-        for (const PivotAxis& axis : {stores.pivot.first, stores.pivot.second}) {
+    if (stores.pivot.unit != offsets::MechanicalUnit::table_table)
+        for (const offsets::PivotAxis& axis : {stores.pivot.first, stores.pivot.second}) {
             Eigen::Index along = 0;
             axis.line.cwiseAbs().maxCoeff(&along);
             setup.machine.errors.axis[index_of(axis.axis)]
                 .location[static_cast<std::size_t>(along) + 3] = 0.0;
         }
     // A head hangs otherwise under its axis than the setup says: its pivot length is off.
-    if (stores.pivot.unit != MechanicalUnit::table_table)
+    if (stores.pivot.unit != offsets::MechanicalUnit::table_table)
         for (const std::size_t i : {0U, 1U, 2U})
             setup.machine.errors.spindle.location[i] = 0.02 * noise.normal();
-    RotaryStores right = right_stores(setup.machine, stores);
+    setup::RotaryStores right = setup::right_stores(setup.machine, stores);
     // The centre of DPP and G54.2 exists only where the axes meet.
-    const Vector3 step = step_between_axes_mm(right);
+    const Vector3 step = setup::step_between_axes_mm(right);
     for (int i = 0; i < 3; ++i)
         setup.machine.errors.axis[index_of(stores.pivot.second.axis)]
             .location[static_cast<std::size_t>(i)] -= step[i];
-    right = rounded(right_stores(setup.machine, stores), 1e-3);
-    for (const StoreNumber& n : store_numbers(right))
-        if ((n.parameter == 0) == (wrong == PivotGroup::g54))
-            set_number(right, n, n.value_mm + size_mm * noise.normal());
-    enter(rounded(right, 1e-3), setup);
-    Case out{setup, plan_pivot_test(setup), {}};
+    right = setup::rounded(setup::right_stores(setup.machine, stores), 1e-3);
+    for (const setup::StoreNumber& n : setup::store_numbers(right))
+        if ((n.parameter == 0) == (wrong == pivot::PivotGroup::g54))
+            setup::set_number(right, n, n.value_mm + size_mm * noise.normal());
+    enter(setup::rounded(right, 1e-3), setup);
+    Case out{setup, pivot::plan_pivot_test(setup), {}};
     out.printed = prints_of(out.plan, setup.machine, tip, 0.5, 1.0,
                             static_cast<std::uint64_t>(1e9 * noise.uniform()));
     return out;
 }
 
-PivotVerdict judge(const Case& c) {
-    const PivotPrints prints =
-        parse_pivot_prints({{"print.txt", c.printed}}, c.plan.first(), c.plan.second());
-    Machine nominal = c.setup.machine;
+pivot::PivotVerdict judge(const Case& c) {
+    const pivot::PivotPrints prints =
+        pivot::parse_pivot_prints({{"print.txt", c.printed}}, c.plan.first(), c.plan.second());
+    kinematics::Machine nominal = c.setup.machine;
     nominal.errors = {};
     std::vector<std::string> notes;
-    return judge_pivot({nominal, stores_in_force(prints, c.plan.stores, notes), prints.sphere_mm(),
-                        tip, 1e-3, 3.0},
-                       prints.maps);
+    return pivot::judge_pivot({nominal, pivot::stores_in_force(prints, c.plan.stores, notes),
+                               prints.sphere_mm(), tip, 1e-3, 3.0},
+                              prints.maps);
 }
 
 /// Largest error over the maps that the store in force causes beside the right one, um.
-double visible_um(const Case& c, PivotGroup group) {
-    const PivotModel now(c.setup.machine, c.plan.stores, c.plan.sphere_mm, tip),
-        right(c.setup.machine, right_stores(c.setup.machine, c.plan.stores), c.plan.sphere_mm, tip);
+double visible_um(const Case& c, pivot::PivotGroup group) {
+    const pivot::PivotModel now(c.setup.machine, c.plan.stores, c.plan.sphere_mm, tip),
+        right(c.setup.machine, setup::right_stores(c.setup.machine, c.plan.stores),
+              c.plan.sphere_mm, tip);
     double worst = 0.0;
-    for (const PlannedMap& map : c.plan.maps)
+    for (const pivot::PlannedMap& map : c.plan.maps)
         for (int k = 0; k < map.count; ++k)
-            if (group == PivotGroup::p1970x || map.turns_table_only)
+            if (group == pivot::PivotGroup::p1970x || map.turns_table_only)
                 worst = std::max(
                     worst, um_from_mm((now.error_mm(group, map.first_deg(k), map.second_deg(k)) -
                                        right.error_mm(group, map.first_deg(k), map.second_deg(k)))
@@ -82,24 +84,24 @@ double visible_um(const Case& c, PivotGroup group) {
 }
 
 /// Largest difference of two functions once the printed numbers are typed, um.
-double apart_um(const Case& c, const RotaryStores& typed) {
-    const PivotModel model(c.setup.machine, typed, c.plan.sphere_mm, tip);
+double apart_um(const Case& c, const setup::RotaryStores& typed) {
+    const pivot::PivotModel model(c.setup.machine, typed, c.plan.sphere_mm, tip);
     double worst = 0.0;
-    for (const PlannedMap& map : c.plan.maps)
+    for (const pivot::PlannedMap& map : c.plan.maps)
         for (int k = 0; k < map.count; ++k)
             if (map.turns_table_only)
                 worst = std::max(
-                    worst,
-                    um_from_mm(
-                        (model.error_mm(PivotGroup::g54, map.first_deg(k), map.second_deg(k)) -
-                         model.error_mm(PivotGroup::p1970x, map.first_deg(k), map.second_deg(k)))
-                            .norm()));
+                    worst, um_from_mm((model.error_mm(pivot::PivotGroup::g54, map.first_deg(k),
+                                                      map.second_deg(k)) -
+                                       model.error_mm(pivot::PivotGroup::p1970x, map.first_deg(k),
+                                                      map.second_deg(k)))
+                                          .norm()));
     return worst;
 }
 
 std::string refusal(const std::string& printed) {
     try {
-        parse_pivot_prints({{"print.txt", printed}}, Axis::B, Axis::C);
+        pivot::parse_pivot_prints({{"print.txt", printed}}, Axis::B, Axis::C);
     } catch (const InputError& error) {
         return fmt::format("{}:{}: {}", error.where.program, error.where.line, error.message);
     }
@@ -121,15 +123,17 @@ TEST_CASE("the stale store is named and the printed numbers mend it: five kinds 
                              "head_head.toml", "nutating_table.toml"}) {
         for (int k = 0; k < 40; ++k) {
             const bool table = std::string(file) != "head_head.toml";
-            const PivotGroup wrong = table && k % 2 ? PivotGroup::g54 : PivotGroup::p1970x;
+            const pivot::PivotGroup wrong =
+                table && k % 2 ? pivot::PivotGroup::g54 : pivot::PivotGroup::p1970x;
             const Case c = random_case(file, noise, wrong, k % 4 < 2 ? 0.03 : 0.15);
             if (visible_um(c, wrong) < 20.0) continue;
             CAPTURE(file, k, c.printed.size());
-            const PivotVerdict v = judge(c);
+            const pivot::PivotVerdict v = judge(c);
             ++cases;
             named += v.find(wrong)->stale;
-            const PivotGroup right =
-                wrong == PivotGroup::g54 ? PivotGroup::p1970x : PivotGroup::g54;
+            const pivot::PivotGroup right = wrong == pivot::PivotGroup::g54
+                                                ? pivot::PivotGroup::p1970x
+                                                : pivot::PivotGroup::g54;
             other += v.find(right) && v.find(right)->stale;
             worst_apart_um = std::max(worst_apart_um, apart_um(c, v.typed));
             CHECK(v.unobservable.size() >= 3);
@@ -151,11 +155,12 @@ TEST_CASE("sigma is honest: the true numbers lie where it says") {
     int count = 0;
     for (int k = 0; k < 30; ++k) {
         const Case c = random_case(k % 2 ? "bc_table.toml" : "head_table.toml", noise,
-                                   PivotGroup::p1970x, 0.05);
-        const PivotVerdict v = judge(c);
-        const auto truth = store_numbers(right_stores(c.setup.machine, c.plan.stores));
-        for (const StoreVerdict& s : v.stores)
-            for (const StoreNumber& n : truth)
+                                   pivot::PivotGroup::p1970x, 0.05);
+        const pivot::PivotVerdict v = judge(c);
+        const auto truth =
+            setup::store_numbers(setup::right_stores(c.setup.machine, c.plan.stores));
+        for (const pivot::StoreVerdict& s : v.stores)
+            for (const setup::StoreNumber& n : truth)
                 if (n.name == s.in_force.name && s.sigma_mm > 1e-6) {
                     square += std::pow((s.exact_mm - n.value_mm) / s.sigma_mm, 2);
                     ++count;
@@ -167,12 +172,13 @@ TEST_CASE("sigma is honest: the true numbers lie where it says") {
 
 TEST_CASE("stores in force come from the prints, and a difference is said") {
     SeededNoise noise(9);
-    const Case c = random_case("bc_table.toml", noise, PivotGroup::g54, 0.1);
-    const PivotPrints prints = parse_pivot_prints({{"p", c.printed}}, Axis::B, Axis::C);
-    RotaryStores declared = c.plan.stores;
+    const Case c = random_case("bc_table.toml", noise, pivot::PivotGroup::g54, 0.1);
+    const pivot::PivotPrints prints =
+        pivot::parse_pivot_prints({{"p", c.printed}}, Axis::B, Axis::C);
+    setup::RotaryStores declared = c.plan.stores;
     declared.pivot.table_offset_mm.y() += 0.5;
     std::vector<std::string> notes;
-    const RotaryStores used = stores_in_force(prints, declared, notes);
+    const setup::RotaryStores used = pivot::stores_in_force(prints, declared, notes);
     CHECK(used.pivot.table_offset_mm.y() ==
           Approx(c.plan.stores.pivot.table_offset_mm.y()).margin(1e-6));
     REQUIRE(notes.size() == 1);
@@ -181,7 +187,8 @@ TEST_CASE("stores in force come from the prints, and a difference is said") {
 
 TEST_CASE("prints that do not suit are refused with their place") {
     SeededNoise noise(10);
-    const std::string good = random_case("bc_table.toml", noise, PivotGroup::g54, 0.1).printed;
+    const std::string good =
+        random_case("bc_table.toml", noise, pivot::PivotGroup::g54, 0.1).printed;
     const auto has = [](const std::string& text, const std::string& part) {
         CAPTURE(text);
         CHECK(text.find(part) != std::string::npos);

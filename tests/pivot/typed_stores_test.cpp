@@ -20,9 +20,9 @@ namespace {
 
 const std::string machines = std::string(TRUNNION_SOURCE_DIR) + "/machines/";
 
-Setup load(const std::string& name) {
+setup::Setup load(const std::string& name) {
     std::vector<std::string> notes;
-    return load_setup(machines + name, notes);
+    return setup::load_setup(machines + name, notes);
 }
 
 std::vector<std::string> machine_files() {
@@ -39,11 +39,11 @@ Vector3 random_vector(SeededNoise& noise, double size) {
 
 /// Axis lines elsewhere than the stores say, no tilt; only its C table under a head keeps X and Y
 /// travel free.
-void displace(Setup& setup, SeededNoise& noise) {
+void displace(setup::Setup& setup, SeededNoise& noise) {
     setup.machine.errors = {};
     setup.effects.clear();
     for (auto* side : {&setup.machine.chain.work, &setup.machine.chain.tool})
-        for (AxisGeometry& axis : *side) {
+        for (kinematics::AxisGeometry& axis : *side) {
             axis.min = axis.max = std::nullopt;
             if (!axis.rotary) continue;
             const Vector3 shift = random_vector(noise, 0.5);
@@ -52,11 +52,11 @@ void displace(Setup& setup, SeededNoise& noise) {
                     .location[static_cast<std::size_t>(i)] = shift[i];
         }
     for (int number = 19666; number <= 19744; ++number) setup.stores.parameters.entry.erase(number);
-    REQUIRE(derive_pivot_parameters(setup.machine, setup.stores.parameters).empty());
+    REQUIRE(setup::derive_pivot_parameters(setup.machine, setup.stores.parameters).empty());
 }
 
-void enter(const RotaryStores& stores, Setup& setup) {
-    for (const StoreNumber& number : store_numbers(stores))
+void enter(const setup::RotaryStores& stores, setup::Setup& setup) {
+    for (const setup::StoreNumber& number : setup::store_numbers(stores))
         if (number.parameter != 0)
             setup.stores.parameters.set(number.parameter, number.value_mm);
         else
@@ -70,8 +70,8 @@ std::string xyz(const Vector3& v) {
 
 /// The machine's rotary axes as the control knows them, and a point that the tip is to keep.
 struct Functions {
-    Setup setup;
-    RotaryStores stores;
+    setup::Setup setup;
+    setup::RotaryStores stores;
     Vector3 point_M;  ///< of the tip, rotaries at zero, as the control reads it
     double length_mm = 150.0;
 
@@ -87,7 +87,9 @@ struct Functions {
     }
     /// A postprocessor's table: turned about G54.
     Matrix3 table(double first_deg, double second_deg) const {
-        return RotaryTransform(stores.pivot).pose_MW(angles(first_deg, second_deg)).rotation;
+        return positioning::RotaryTransform(stores.pivot)
+            .pose_MW(angles(first_deg, second_deg))
+            .rotation;
     }
     std::string dpp(double first, double second) const {
         return "G54 G43 H1 G0" + xyz(table(first, second) * (point_M - stores.g54)) +
@@ -100,7 +102,8 @@ struct Functions {
         return "G55 G0" + turn(0, 0) + "\nG43.4 H1 X0 Y0 Z0\nX0 Y0 Z0" + turn(first, second);
     }
     std::string tw(double first, double second) const {
-        const Vector3 n = RotaryTransform(stores.pivot).tool_direction_W(angles(first, second));
+        const Vector3 n =
+            positioning::RotaryTransform(stores.pivot).tool_direction_W(angles(first, second));
         const double i = deg_from_rad(std::atan2(n.x(), -n.y())),
                      j = deg_from_rad(std::atan2(std::hypot(n.x(), n.y()), n.z()));
         return "G55 G0" + turn(first, second) +
@@ -113,12 +116,12 @@ struct Functions {
 Vector3 true_tip(const Functions& f, const std::string& text) {
     const auto owner =
         std::make_shared<std::string>("G90 G21 G17 G94 G40 G49 G80\nT1 M6\n" + text + "\nM30\n");
-    ProgramFolders programs({});
-    const ProgramText program{"law.nc", *owner, owner};
+    interpreter::ProgramFolders programs({});
+    const interpreter::ProgramText program{"law.nc", *owner, owner};
     programs.add_file(program);
-    RunOptions options;
+    emulator::RunOptions options;
     options.trace = options.truth = true;
-    const RunLog log = run_program(f.setup, programs, program, options);
+    const emulator::RunLog log = emulator::run_program(f.setup, programs, program, options);
     if (log.result.alarm) FAIL(log.result.alarm->number << log.result.alarm->text << text);
     std::istringstream lines(log.trace_csv);
     std::string head, last;
@@ -141,8 +144,8 @@ Vector3 true_tip(const Functions& f, const std::string& text) {
     return tip;
 }
 
-Functions functions_of(const Setup& setup, SeededNoise& noise) {
-    Functions f{setup, *rotary_stores(setup.machine.chain, setup.stores), {}};
+Functions functions_of(const setup::Setup& setup, SeededNoise& noise) {
+    Functions f{setup, *setup::rotary_stores(setup.machine.chain, setup.stores), {}};
     f.setup.stores.tools.tool[1] = {};
     f.setup.stores.tools.tool[1].length_geometry_mm = f.length_mm;
     f.point_M = Vector3(20, 30, 60) + random_vector(noise, 100.0);
@@ -154,7 +157,7 @@ Functions functions_of(const Setup& setup, SeededNoise& noise) {
     return f;
 }
 
-bool inclined(const PivotParameters& pivot) {
+bool inclined(const offsets::PivotParameters& pivot) {
     return pivot.first.line.cwiseAbs().maxCoeff() < 0.999 ||
            pivot.second.line.cwiseAbs().maxCoeff() < 0.999;
 }
@@ -164,8 +167,8 @@ constexpr std::pair<double, double> poses[] = {{30, 0}, {-60, 75}, {0, 200}, {80
 /// How far the tip wanders from its place at home, mm: G43.4 and G68.2 first, then DPP and G54.2
 /// (of machines with a rotary table, a head standing at zero).
 std::pair<double, double> wander_mm(const Functions& f) {
-    const bool head = f.stores.pivot.unit != MechanicalUnit::table_table;
-    const bool table = f.stores.pivot.unit != MechanicalUnit::tool_tool;
+    const bool head = f.stores.pivot.unit != offsets::MechanicalUnit::table_table;
+    const bool table = f.stores.pivot.unit != offsets::MechanicalUnit::tool_tool;
     const Vector3 home = true_tip(f, f.rtcp(0, 0));
     double tcp = 0.0, g54 = 0.0;
     for (const auto& [first, second] : poses) {
@@ -181,12 +184,13 @@ std::pair<double, double> wander_mm(const Functions& f) {
 }
 
 /// The second table axis moved so that it meets the first.
-void let_axes_meet(Setup& setup) {
-    if (rotary_stores(setup.machine.chain, setup.stores)->pivot.unit != MechanicalUnit::table_table)
+void let_axes_meet(setup::Setup& setup) {
+    if (setup::rotary_stores(setup.machine.chain, setup.stores)->pivot.unit !=
+        offsets::MechanicalUnit::table_table)
         return;
-    RotaryStores right =
-        right_stores(setup.machine, *rotary_stores(setup.machine.chain, setup.stores));
-    const Vector3 step = step_between_axes_mm(right);
+    setup::RotaryStores right = setup::right_stores(
+        setup.machine, *setup::rotary_stores(setup.machine.chain, setup.stores));
+    const Vector3 step = setup::step_between_axes_mm(right);
     auto& location = setup.machine.errors.axis[index_of(right.pivot.second.axis)].location;
     for (const int i : {0, 1, 2}) location[static_cast<std::size_t>(i)] -= step[i];
 }
@@ -197,21 +201,23 @@ TEST_CASE("right stores keep the tip on its point in all functions, on every mac
     SeededNoise noise(41);
     int tested = 0;
     for (const std::string& file : machine_files()) {
-        Setup setup = load(file);
+        setup::Setup setup = load(file);
         std::vector<std::string> notes;
-        if (!derive_pivot_parameters(setup.machine, setup.stores.parameters).empty()) continue;
+        if (!setup::derive_pivot_parameters(setup.machine, setup.stores.parameters).empty())
+            continue;
         for (int k = 0; k < 3; ++k) {
             CAPTURE(file, k);
             displace(setup, noise);
             if (k > 0) let_axes_meet(setup);
             const auto before = wander_mm(functions_of(setup, noise));
             CHECK(before.first > 0.02);
-            enter(right_stores(setup.machine, *rotary_stores(setup.machine.chain, setup.stores)),
+            enter(setup::right_stores(setup.machine,
+                                      *setup::rotary_stores(setup.machine.chain, setup.stores)),
                   setup);
             const Functions f = functions_of(setup, noise);
             const auto after = wander_mm(f);
             CHECK(after.first < 1e-6);
-            const double apart_mm = step_between_axes_mm(f.stores).norm();
+            const double apart_mm = setup::step_between_axes_mm(f.stores).norm();
             if (k > 0) CHECK(apart_mm < 1e-9);
             CHECK(after.second < 2.0 * apart_mm + 1e-6);
             if (apart_mm > 1e-6) CHECK(after.second > 0.2 * apart_mm);
@@ -226,22 +232,23 @@ TEST_CASE("right stores hold on random chains, linear axes on either side") {
     const char* files[] = {"ac_trunnion.toml", "bc_table.toml",       "head_table.toml",
                            "head_head.toml",   "nutating_table.toml", "nutating_head.toml"};
     for (int k = 0; k < 18; ++k) {
-        Setup setup = load(files[k % 6]);
+        setup::Setup setup = load(files[k % 6]);
         CAPTURE(k, files[k % 6]);
-        Chain& chain = setup.machine.chain;
+        kinematics::Chain& chain = setup.machine.chain;
         for (auto* side : {&chain.work, &chain.tool})
-            for (AxisGeometry& axis : *side)
+            for (kinematics::AxisGeometry& axis : *side)
                 if (axis.rotary) axis.point_mm += random_vector(noise, 80.0);
         if (k % 2) {  // X carries the work and all that is under it
             const auto x = std::find_if(chain.tool.begin(), chain.tool.end(),
                                         [](auto& a) { return a.axis == Axis::X; });
-            AxisGeometry slide = *x;
+            kinematics::AxisGeometry slide = *x;
             slide.direction = -slide.direction;
             chain.tool.erase(x);
             chain.work.insert(chain.work.begin(), slide);
         }
         displace(setup, noise);
-        enter(right_stores(setup.machine, *rotary_stores(chain, setup.stores)), setup);
+        enter(setup::right_stores(setup.machine, *setup::rotary_stores(chain, setup.stores)),
+              setup);
         CHECK(wander_mm(functions_of(setup, noise)).first < 1e-6);
     }
 }
@@ -250,13 +257,13 @@ TEST_CASE("what ballbar prints to type keeps the tip on its point") {
     SeededNoise noise(43);
     for (const std::string file : {"ac_trunnion.toml", "bc_table.toml"}) {
         CAPTURE(file);
-        Setup setup = load(file);
+        setup::Setup setup = load(file);
         setup.ballbar->noise_um = 0.0;
         setup.ballbar->sample_hz = 4.0;
         displace(setup, noise);
         let_axes_meet(setup);
         // What no reading sees: the axes along themselves. The home pose is the table's own.
-        const BallbarResult result = run_ballbar(setup, {});
+        const ballbar::test::BallbarResult result = ballbar::test::run_ballbar(setup, {});
         REQUIRE(result.stores);
         CHECK(result.stores->tilts_um < 1e-3);
         CHECK(result.stores->rounding_um < 3.0);
@@ -268,24 +275,24 @@ TEST_CASE("what ballbar prints to type keeps the tip on its point") {
 }
 
 TEST_CASE("the shipped A-C table: 19704 is the C axis against the A axis") {
-    Setup setup = load("ac_trunnion.toml");
-    const auto list = stores_to_type(setup, setup.machine, {75, 0, 110}, {0, 0, -120});
+    setup::Setup setup = load("ac_trunnion.toml");
+    const auto list = setup::stores_to_type(setup, setup.machine, {75, 0, 110}, {0, 0, -120});
     REQUIRE(list);
     CHECK(list->exact.pivot.table_offset_mm.y() == Approx(0.1041).margin(1e-12));
     CHECK(list->exact.pivot.table_offset_mm.x() == Approx(0.0283).margin(1e-12));
     CHECK(list->now_um > 100.0);
     CHECK(list->tilts_um < 60.0);
     enter(list->exact, setup);
-    for (AxisErrors& axis : setup.machine.errors.axis)
+    for (kinematics::AxisErrors& axis : setup.machine.errors.axis)
         for (const std::size_t tilt : {3U, 4U, 5U}) axis.location[tilt] = 0.0;
     SeededNoise noise(44);
     CHECK(wander_mm(functions_of(setup, noise)).first < 1e-6);
 }
 
 TEST_CASE("a G54.2 set is counted from G54, so it changes with it") {
-    Setup setup = load("bc_table.toml");
+    setup::Setup setup = load("bc_table.toml");
     setup.stores.fixture.set[0].offset[Axis::X] = 120.0;
-    const auto list = stores_to_type(setup, setup.machine, {75, 0, 110}, {0, 0, -120});
+    const auto list = setup::stores_to_type(setup, setup.machine, {75, 0, 110}, {0, 0, -120});
     REQUIRE(list);
     REQUIRE(list->fixture.size() == 3);
     CHECK(list->fixture[0].exact_mm == Approx(120.1443).margin(1e-12));

@@ -19,17 +19,17 @@ const std::vector<Axis> bc_order{Axis::X, Axis::Y, Axis::Z, Axis::B, Axis::C};
 
 TEST_CASE("G54.2 vector is R(theta) R(theta0)^-1 f0 of the table") {
     SeededNoise noise(6);
-    const RotaryTransform belief(bc_table());
-    Parameters p;
-    const FixtureSettings settings = decode_fixture_settings(p, bc_order);
+    const positioning::RotaryTransform belief(bc_table());
+    offsets::Parameters p;
+    const positioning::FixtureSettings settings = positioning::decode_fixture_settings(p, bc_order);
     CHECK(settings.assumed);
     for (int k = 0; k < 500; ++k) {
-        FixtureOffset fixture;
+        offsets::FixtureOffset fixture;
         const Vector3 f0 = random_vector(noise, 300);
         fixture.offset[Axis::X] = f0.x();
         fixture.offset[Axis::Y] = f0.y();
         fixture.offset[Axis::Z] = f0.z();
-        OffsetVector now;
+        offsets::OffsetVector now;
         AxisPositions q, q0;
         for (const Axis axis : {Axis::B, Axis::C}) {
             fixture.reference_angles[axis] = 400 * (noise.uniform() - 0.5);
@@ -39,34 +39,34 @@ TEST_CASE("G54.2 vector is R(theta) R(theta0)^-1 f0 of the table") {
         }
         const Vector3 expected =
             belief.pose_MW(q).rotation * belief.pose_MW(q0).rotation.transpose() * f0;
-        const OffsetVector f = turned_fixture_offset(settings, fixture, now);
+        const offsets::OffsetVector f = positioning::turned_fixture_offset(settings, fixture, now);
         CHECK((Vector3(f[Axis::X], f[Axis::Y], f[Axis::Z]) - expected).norm() < 1e-10);
         CHECK(f[Axis::B] == 0.0);
     }
 }
 
 TEST_CASE("G54.2 groups and FAX as typed") {
-    Parameters p;
+    offsets::Parameters p;
     p.set(7580, 5);  // C carries +X to +Y: a right-handed table
     p.set(7581, 1);
     p.set(7582, 2);
     p.entry[7575].by_axis = {{1, 1.0}, {2, 0.0}};
-    const FixtureSettings settings = decode_fixture_settings(p, bc_order);
+    const positioning::FixtureSettings settings = positioning::decode_fixture_settings(p, bc_order);
     CHECK_FALSE(settings.assumed);
-    FixtureOffset fixture;
+    offsets::FixtureOffset fixture;
     fixture.offset[Axis::X] = 10;
     fixture.offset[Axis::Z] = 7;
-    OffsetVector now;
+    offsets::OffsetVector now;
     now[Axis::C] = 60;
     now[Axis::B] = 45;  // no group: does not turn the offset
-    const OffsetVector f = turned_fixture_offset(settings, fixture, now);
+    const offsets::OffsetVector f = positioning::turned_fixture_offset(settings, fixture, now);
     CHECK(f[Axis::X] == Approx(5));
     CHECK(f[Axis::Y] == 0.0);  // 7575#0 of Y is off
     CHECK(f[Axis::Z] == 0.0);
     p.set(7581, 4);
-    CHECK(alarm_of([&] { decode_fixture_settings(p, bc_order); }) == 5459);
+    CHECK(alarm_of([&] { positioning::decode_fixture_settings(p, bc_order); }) == 5459);
     p.set(7581, 2);
-    CHECK(alarm_of([&] { decode_fixture_settings(p, bc_order); }) == 5459);
+    CHECK(alarm_of([&] { positioning::decode_fixture_settings(p, bc_order); }) == 5459);
 }
 
 }  // namespace trunnion

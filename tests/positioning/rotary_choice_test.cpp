@@ -15,26 +15,27 @@ constexpr double deg = pi / 180.0;
 }  // namespace
 
 TEST_CASE("G53.1 takes the least move of the master, then of the slave, then nearest 0") {
-    const RotaryTransform belief(bc_table());
+    const positioning::RotaryTransform belief(bc_table());
     AxisPositions q;
     q[Axis::B] = 30 * deg;
     q[Axis::C] = 50 * deg;
     const Vector3 n = belief.tool_direction_W(q);
-    const auto chosen = [&](RotarySolution present, RotaryTravel travel = {},
-                            Branch branch = Branch::nearest) {
-        const auto choice = choose_rotaries(belief, n, present, travel, branch);
-        return choice.chosen.value_or(RotarySolution{99, 99});
+    const auto chosen = [&](positioning::RotarySolution present,
+                            positioning::RotaryTravel travel = {},
+                            positioning::Branch branch = positioning::Branch::nearest) {
+        const auto choice = positioning::choose_rotaries(belief, n, present, travel, branch);
+        return choice.chosen.value_or(positioning::RotarySolution{99, 99});
     };
-    const auto is = [](const RotarySolution& s, double b, double c) {
+    const auto is = [](const positioning::RotarySolution& s, double b, double c) {
         return std::abs(s.first_rad - b * deg) < 1e-12 && std::abs(s.second_rad - c * deg) < 1e-11;
     };
     CHECK(is(chosen({0, 0}), 30, 50));                 // equal B, less C
     CHECK(is(chosen({0, -100 * deg}), -30, -130));     // equal B, less C
     CHECK(is(chosen({1 * deg, -100 * deg}), 30, 50));  // less B wins over less C
-    CHECK(is(chosen({0, 0}, {}, Branch::negative), -30, -130));
-    CHECK(is(chosen({-20 * deg, 0}, {}, Branch::positive), 30, 50));
+    CHECK(is(chosen({0, 0}, {}, positioning::Branch::negative), -30, -130));
+    CHECK(is(chosen({-20 * deg, 0}, {}, positioning::Branch::positive), 30, 50));
     CHECK(is(chosen({0, 5000 * deg}), 30, 5090));  // nearest turn of C
-    RotaryTravel narrow;
+    positioning::RotaryTravel narrow;
     narrow.first = {-5 * deg, 110 * deg};
     CHECK(is(chosen({-4 * deg, -130 * deg}, narrow), 30, 50));
     narrow.second = {60 * deg, 400 * deg};
@@ -43,14 +44,14 @@ TEST_CASE("G53.1 takes the least move of the master, then of the slave, then nea
     CHECK(is(chosen({0, 70 * deg}, narrow), 30, 410));  // rewound inside the travel
     narrow.first = {0.0, 20 * deg};
     CHECK(is(chosen({0, 0}, narrow), 99 / deg, 99 / deg));
-    CHECK(choose_rotaries(belief, n, {0, 0}, {}).all.size() == 2);
+    CHECK(positioning::choose_rotaries(belief, n, {0, 0}, {}).all.size() == 2);
 }
 
 TEST_CASE("a rotary that already stands right is not stirred, at any number of turns") {
-    const RotaryTransform belief(bc_table());
-    RotarySolution stands{-33.3 * deg, -145318.181 * deg};
+    const positioning::RotaryTransform belief(bc_table());
+    positioning::RotarySolution stands{-33.3 * deg, -145318.181 * deg};
     const auto n = belief.tool_direction_W(belief.with_rotaries({}, stands));
-    const auto choice = choose_rotaries(belief, n, stands, {});
+    const auto choice = positioning::choose_rotaries(belief, n, stands, {});
     REQUIRE(choice.chosen);
     CHECK(choice.chosen->first_rad == Approx(stands.first_rad).margin(1e-12));
     CHECK(std::abs(deg_from_rad(choice.chosen->second_rad) + 145318.181) < 1e-9);

@@ -15,9 +15,9 @@ Vector3 random_vector(SeededNoise& noise, double size) {
     return Vector3(noise.uniform() - 0.5, noise.uniform() - 0.5, noise.uniform() - 0.5) * size;
 }
 
-PivotParameters table(Axis tilt, double sign) {
-    PivotParameters pivot;
-    pivot.unit = MechanicalUnit::table_table;
+offsets::PivotParameters table(Axis tilt, double sign) {
+    offsets::PivotParameters pivot;
+    pivot.unit = offsets::MechanicalUnit::table_table;
     pivot.first.axis = tilt;
     pivot.first.line = tilt == Axis::A ? Vector3::UnitX() : Vector3::UnitY();
     pivot.second.axis = Axis::C;
@@ -25,9 +25,9 @@ PivotParameters table(Axis tilt, double sign) {
     return pivot;
 }
 
-PivotParameters head(Axis tilt) {
-    PivotParameters pivot = table(tilt, 1.0);
-    pivot.unit = MechanicalUnit::tool_tool;
+offsets::PivotParameters head(Axis tilt) {
+    offsets::PivotParameters pivot = table(tilt, 1.0);
+    pivot.unit = offsets::MechanicalUnit::tool_tool;
     std::swap(pivot.first, pivot.second);
     return pivot;
 }
@@ -60,11 +60,11 @@ TEST_CASE("table-table tip against P - r = Rz(kC)[R(kT)(J - r - D) + D]") {
     for (int i = 0; i < 2000; ++i) {
         const Axis tilt = i % 2 == 0 ? Axis::A : Axis::B;
         const double sign = i % 4 < 2 ? 1.0 : -1.0;
-        PivotParameters pivot = table(tilt, sign);
+        offsets::PivotParameters pivot = table(tilt, sign);
         const Vector3 r = random_vector(noise, 300), offset = random_vector(noise, 200);
         pivot.table_point_mm = r + offset;
         pivot.table_offset_mm = -offset;
-        const RotaryTransform belief(pivot);
+        const positioning::RotaryTransform belief(pivot);
         const double length_mm = 200 * noise.uniform();
         const Vector3 along_z(0, 0, length_mm);
         const Vector3 J = random_vector(noise, 500);
@@ -87,12 +87,13 @@ TEST_CASE("closed orientation inverse of BC and AC tables, both branches") {
     SeededNoise noise(2);
     for (int i = 0; i < 500; ++i) {
         const Vector3 n = random_vector(noise, 2).normalized();
-        const RotaryTransform bc(table(Axis::B, 1.0)), ac(table(Axis::A, 1.0));
+        const positioning::RotaryTransform bc(table(Axis::B, 1.0)), ac(table(Axis::A, 1.0));
         const double tilt = std::acos(n.z());
-        const auto check = [&](const RotaryTransform& belief, double c_plus, double c_minus) {
+        const auto check = [&](const positioning::RotaryTransform& belief, double c_plus,
+                               double c_minus) {
             const auto found = belief.orient(n, {});
             REQUIRE(found.size() == 2);
-            for (const RotarySolution& s : found) {
+            for (const positioning::RotarySolution& s : found) {
                 CHECK(std::abs(s.first_rad) == Approx(tilt).margin(1e-9));
                 const double c = s.first_rad > 0 ? c_plus : c_minus;
                 CHECK(std::abs(std::remainder(s.second_rad - c, 2 * pi)) < 1e-9);
@@ -104,34 +105,36 @@ TEST_CASE("closed orientation inverse of BC and AC tables, both branches") {
 }
 
 TEST_CASE("the tool along an axis leaves that axis where it is") {
-    const RotarySolution keep{0.3, 1.25};
+    const positioning::RotarySolution keep{0.3, 1.25};
     for (const Axis tilt : {Axis::A, Axis::B}) {
-        const auto of_table = RotaryTransform(table(tilt, -1.0)).orient(Vector3::UnitZ(), keep);
+        const auto of_table =
+            positioning::RotaryTransform(table(tilt, -1.0)).orient(Vector3::UnitZ(), keep);
         REQUIRE(of_table.size() == 1);
-        CHECK(of_table[0] == RotarySolution{0.0, 1.25});
-        const auto of_head = RotaryTransform(head(tilt)).orient(Vector3::UnitZ(), keep);
+        CHECK(of_table[0] == positioning::RotarySolution{0.0, 1.25});
+        const auto of_head =
+            positioning::RotaryTransform(head(tilt)).orient(Vector3::UnitZ(), keep);
         REQUIRE(of_head.size() == 1);
-        CHECK(of_head[0] == RotarySolution{0.3, 0.0});
+        CHECK(of_head[0] == positioning::RotarySolution{0.3, 0.0});
     }
 }
 
 TEST_CASE("directions a hair from the singular one keep 1e-12 rad") {
     SeededNoise noise(5);
-    PivotParameters nutating = table(Axis::B, 1.0);
+    offsets::PivotParameters nutating = table(Axis::B, 1.0);
     nutating.first.line = Vector3(0, std::sqrt(0.5), std::sqrt(0.5));
-    PivotParameters mixed = head(Axis::B);
-    mixed.unit = MechanicalUnit::mixed;
+    offsets::PivotParameters mixed = head(Axis::B);
+    mixed.unit = offsets::MechanicalUnit::mixed;
     std::swap(mixed.first, mixed.second);
-    for (const PivotParameters& pivot :
+    for (const offsets::PivotParameters& pivot :
          {table(Axis::B, -1.0), table(Axis::A, 1.0), head(Axis::B), nutating, mixed}) {
-        const RotaryTransform belief(pivot);
+        const positioning::RotaryTransform belief(pivot);
         for (double tilt = 1.0; tilt > 1e-14; tilt *= 0.1) {
             const double turn = 2 * pi * noise.uniform();
             const Vector3 n(std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn),
                             std::cos(tilt));
             const auto found = belief.orient(n, {});
             REQUIRE_FALSE(found.empty());
-            for (const RotarySolution& s : found)
+            for (const positioning::RotarySolution& s : found)
                 CHECK(angle_between(belief.tool_direction_W(belief.with_rotaries({}, s)), n) <
                       (tilt < 1e-10 ? 2e-11 : 1e-12));
         }
@@ -139,10 +142,10 @@ TEST_CASE("directions a hair from the singular one keep 1e-12 rad") {
 }
 
 TEST_CASE("a nutating table reaches its limit of travel and nothing beyond") {
-    PivotParameters nutating = table(Axis::B, 1.0);
+    offsets::PivotParameters nutating = table(Axis::B, 1.0);
     nutating.first.line =
         Vector3(0, std::cos(0.6), std::sin(0.6));  // tilts by at most 2 (90 - 34.4)
-    const RotaryTransform belief(nutating);
+    const positioning::RotaryTransform belief(nutating);
     const double most = pi - 2 * 0.6;
     const auto at = [&](double tilt) {
         return belief.orient(Vector3(std::sin(tilt), 0, std::cos(tilt)), {}).size();
@@ -153,17 +156,17 @@ TEST_CASE("a nutating table reaches its limit of travel and nothing beyond") {
 }
 
 TEST_CASE("parallel axes orient nothing") {
-    PivotParameters pivot = table(Axis::B, 1.0);
+    offsets::PivotParameters pivot = table(Axis::B, 1.0);
     pivot.second.line = Vector3::UnitY();
-    CHECK(RotaryTransform(pivot).orient(Vector3::UnitX(), {}).empty());
+    CHECK(positioning::RotaryTransform(pivot).orient(Vector3::UnitX(), {}).empty());
 }
 
 TEST_CASE("a hypothetical axis stands where 19685 or 19690 says") {
-    PivotParameters wedge = table(Axis::B, 1.0);  // C on a fixed wedge of 30 deg about Y
+    offsets::PivotParameters wedge = table(Axis::B, 1.0);  // C on a fixed wedge of 30 deg about Y
     wedge.first.hypothetical = true;
     wedge.first.hypothetical_rad = pi / 6;
     wedge.table_offset_mm = {0, 0, 100};
-    const RotaryTransform belief(wedge);
+    const positioning::RotaryTransform belief(wedge);
     CHECK(belief.pose_MW({}).rotation.isIdentity(1e-15));
     CHECK(belief.pose_MW({}).translation_mm.norm() < 1e-13);
     AxisPositions q;
@@ -177,10 +180,11 @@ TEST_CASE("a hypothetical axis stands where 19685 or 19690 says") {
     REQUIRE(found.size() == 1);
     CHECK(found[0].second_rad == Approx(1.0).margin(1e-12));
 
-    PivotParameters angle_head = head(Axis::B);  // C spindle with a fixed 90 deg angle head
+    offsets::PivotParameters angle_head =
+        head(Axis::B);  // C spindle with a fixed 90 deg angle head
     angle_head.second.hypothetical = true;
     angle_head.second.hypothetical_rad = pi / 2;
-    const RotaryTransform angled(angle_head);
+    const positioning::RotaryTransform angled(angle_head);
     CHECK((angled.tool_direction_W({}) - Vector3::UnitX()).norm() < 1e-15);
     const auto sideways = angled.orient(Vector3(0, -1, 0), angled.rotaries({}));
     REQUIRE(sideways.size() == 1);
@@ -190,20 +194,20 @@ TEST_CASE("a hypothetical axis stands where 19685 or 19690 says") {
 
 TEST_CASE("derivatives against central differences") {
     SeededNoise noise(9);
-    PivotParameters mixed = head(Axis::B);
-    mixed.unit = MechanicalUnit::mixed;
+    offsets::PivotParameters mixed = head(Axis::B);
+    mixed.unit = offsets::MechanicalUnit::mixed;
     std::swap(mixed.first, mixed.second);
-    for (PivotParameters pivot : {table(Axis::B, -1.0), head(Axis::A), mixed}) {
+    for (offsets::PivotParameters pivot : {table(Axis::B, -1.0), head(Axis::A), mixed}) {
         pivot.first.line = random_vector(noise, 2).normalized();
         pivot.table_point_mm = random_vector(noise, 200);
         pivot.table_offset_mm = random_vector(noise, 200);
         pivot.tool_offset_mm = random_vector(noise, 200);
         pivot.tool_second_offset_mm = random_vector(noise, 200);
-        const RotaryTransform belief(pivot);
+        const positioning::RotaryTransform belief(pivot);
         const Vector3 tool = random_vector(noise, 200);
         AxisPositions q;
         for (double& value : q.value) value = 3 * noise.normal();
-        const TipDerivative analytic = belief.derivative(q, tool);
+        const positioning::TipDerivative analytic = belief.derivative(q, tool);
         const Axis axes[5] = {Axis::X, Axis::Y, Axis::Z, pivot.first.axis, pivot.second.axis};
         for (int i = 0; i < 5; ++i) {
             const double h = 1e-5;

@@ -13,31 +13,31 @@ namespace {
 
 constexpr double deg = pi / 180.0;
 
-PlaneWords angles(double i, double j, double k) {
-    PlaneWords w;
+positioning::PlaneWords angles(double i, double j, double k) {
+    positioning::PlaneWords w;
     w.i = i;
     w.j = j;
     w.k = k;
     return w;
 }
 
-PlaneWords block(double p, double q) {
-    PlaneWords w;
+positioning::PlaneWords block(double p, double q) {
+    positioning::PlaneWords w;
     w.p = p;
     w.q = q;
     return w;
 }
 
-PlaneWords point(double q, double x, double y, double z) {
-    PlaneWords w = block(2, q);
+positioning::PlaneWords point(double q, double x, double y, double z) {
+    positioning::PlaneWords w = block(2, q);
     w.x = x;
     w.y = y;
     w.z = z;
     return w;
 }
 
-Pose complete(const PlaneWords& w) {
-    return *PlaneDefinition().add(w);
+Pose complete(const positioning::PlaneWords& w) {
+    return *positioning::PlaneDefinition().add(w);
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ TEST_CASE("G68.2 P0 Euler angles about moved axes") {
                              rotation_about(Vector3::UnitX(), 50 * deg) *
                              rotation_about(Vector3::UnitZ(), 70 * deg);
     CHECK((frame.rotation - expected).norm() < 1e-15);
-    PlaneWords w = angles(30, 50, 70);
+    positioning::PlaneWords w = angles(30, 50, 70);
     w.q = 232;
     CHECK((complete(w).rotation - rotation_about(Vector3::UnitY(), 30 * deg) *
                                       rotation_about(Vector3::UnitZ(), 50 * deg) *
@@ -67,7 +67,7 @@ TEST_CASE("G68.2 P1 roll, pitch, yaw about the work frame's axes") {
     const Matrix3 x = rotation_about(Vector3::UnitX(), 10 * deg);
     const Matrix3 y = rotation_about(Vector3::UnitY(), 20 * deg);
     const Matrix3 z = rotation_about(Vector3::UnitZ(), 30 * deg);
-    PlaneWords w = angles(10, 20, 30);
+    positioning::PlaneWords w = angles(10, 20, 30);
     w.p = 1;
     CHECK((complete(w).rotation - z * y * x).norm() < 1e-15);
     w.q = 312;  // about Z first, then X, then Y; I stays the angle about X
@@ -77,8 +77,8 @@ TEST_CASE("G68.2 P1 roll, pitch, yaw about the work frame's axes") {
 }
 
 TEST_CASE("G68.2 P2 three points and P3 two vectors") {
-    PlaneDefinition plane;
-    PlaneWords shift = block(2, 0);
+    positioning::PlaneDefinition plane;
+    positioning::PlaneWords shift = block(2, 0);
     shift.x = 1;
     shift.y = 2;
     shift.z = 3;
@@ -95,12 +95,12 @@ TEST_CASE("G68.2 P2 three points and P3 two vectors") {
     CHECK((frame->rotation.col(2) - Vector3::UnitX()).norm() < 1e-15);
 
     const auto vector = [](double q, double i, double j, double k) {
-        PlaneWords w = angles(i, j, k);
+        positioning::PlaneWords w = angles(i, j, k);
         w.p = 3;
         w.q = q;
         return w;
     };
-    PlaneWords origin = vector(1, 0, 2, 0);
+    positioning::PlaneWords origin = vector(1, 0, 2, 0);
     origin.x = 4;
     REQUIRE_FALSE(plane.add(origin));
     const auto made = plane.add(vector(2, 1, 0.05, 0));  // 2.9 deg off square: made square
@@ -109,14 +109,14 @@ TEST_CASE("G68.2 P2 three points and P3 two vectors") {
     CHECK((made->rotation.col(0) - Vector3::UnitY()).norm() < 1e-15);
     CHECK((made->rotation.col(2) - Vector3::UnitX()).norm() < 1e-15);
     CHECK(alarm_of([&] {
-              PlaneDefinition crooked;
+              positioning::PlaneDefinition crooked;
               crooked.add(origin);
               crooked.add(vector(2, 1, 0.09, 0));
           }) == 5457);
 }
 
 TEST_CASE("G68.2 P4 projection angles") {
-    PlaneWords w = angles(30, 20, 0);
+    positioning::PlaneWords w = angles(30, 20, 0);
     w.p = 4;
     const Pose frame = complete(w);
     const Vector3 x = frame.rotation.col(0), z = frame.rotation.col(2);
@@ -127,13 +127,13 @@ TEST_CASE("G68.2 P4 projection angles") {
 }
 
 TEST_CASE("G68.2 format errors are alarm 5457") {
-    const auto alarm = [](const PlaneWords& w) {
-        return alarm_of([&] { PlaneDefinition().add(w); });
+    const auto alarm = [](const positioning::PlaneWords& w) {
+        return alarm_of([&] { positioning::PlaneDefinition().add(w); });
     };
-    CHECK(alarm(PlaneWords{}) == 5457);  // no angle at all
+    CHECK(alarm(positioning::PlaneWords{}) == 5457);  // no angle at all
     CHECK(alarm(block(5, 1)) == 5457);
     CHECK(alarm(block(2.5, 1)) == 5457);
-    PlaneWords w = block(2, 1);
+    positioning::PlaneWords w = block(2, 1);
     CHECK(alarm(w) == 5457);  // a point without X Y Z
     w.q.reset();
     CHECK(alarm(w) == 5457);
@@ -141,7 +141,7 @@ TEST_CASE("G68.2 format errors are alarm 5457") {
     CHECK(alarm(block(3, 1)) == 5457);  // no vector
     const auto points = [](Vector3 second, Vector3 third) {
         return alarm_of([&] {
-            PlaneDefinition plane;
+            positioning::PlaneDefinition plane;
             plane.add(point(1, 1, 1, 1));
             plane.add(point(2, second.x(), second.y(), second.z()));
             plane.add(point(3, third.x(), third.y(), third.z()));
@@ -151,32 +151,32 @@ TEST_CASE("G68.2 format errors are alarm 5457") {
     CHECK(points({1, 1, 1}, {3, 3, 4}) == 5457);
     CHECK(points({2, 2, 2}, {3, 3, 4}) == 0);
     CHECK(alarm_of([] {
-              PlaneDefinition plane;
+              positioning::PlaneDefinition plane;
               plane.add(point(1, 0, 0, 0));
               plane.add(point(1, 0, 0, 0));
           }) == 5457);
     CHECK(alarm_of([] {
-              PlaneDefinition plane;
+              positioning::PlaneDefinition plane;
               plane.add(point(1, 0, 0, 0));
               plane.add(angles(0, 0, 0));
           }) == 5457);
 }
 
 TEST_CASE("a format error tells the address and what is wrong") {
-    const auto fault = [](std::vector<PlaneWords> blocks) {
+    const auto fault = [](std::vector<positioning::PlaneWords> blocks) {
         try {
-            PlaneDefinition plane;
-            for (const PlaneWords& w : blocks) plane.add(w);
-        } catch (const PlaneFormatError& error) {
-            CHECK(error.text == plane_format_error_text);
+            positioning::PlaneDefinition plane;
+            for (const positioning::PlaneWords& w : blocks) plane.add(w);
+        } catch (const positioning::PlaneFormatError& error) {
+            CHECK(error.text == positioning::plane_format_error_text);
             return std::string(1, error.letter == 0 ? '-' : error.letter) + " " +
                    error.what_is_wrong;
         }
         return std::string();
     };
-    PlaneWords no_q = block(2, 1);
+    positioning::PlaneWords no_q = block(2, 1);
     no_q.q.reset();
-    CHECK(fault({PlaneWords{}}) == "- I, J and K are missing");
+    CHECK(fault({positioning::PlaneWords{}}) == "- I, J and K are missing");
     CHECK(fault({block(5, 1)}) == "P P is 0 to 4");
     CHECK(fault({block(2.5, 1)}) == "P P is a whole number");
     CHECK(fault({block(2, 1)}) == "- a point needs X, Y and Z");
@@ -192,13 +192,13 @@ TEST_CASE("a format error tells the address and what is wrong") {
 
 TEST_CASE("G68.3: Z along the tool, X square to the vertical") {
     const Vector3 tool = Vector3(1, 2, 3).normalized();
-    const Pose frame = plane_of_tool(tool, {7, 8, 9}, 0, {});
+    const Pose frame = positioning::plane_of_tool(tool, {7, 8, 9}, 0, {});
     CHECK((frame.rotation.col(2) - tool).norm() < 1e-15);
     CHECK((frame.rotation.col(0) - Vector3::UnitZ().cross(tool).normalized()).norm() < 1e-15);
     CHECK(frame.translation_mm == Vector3(7, 8, 9));
     CHECK(frame.rotation.determinant() == Approx(1.0));
-    CHECK(plane_of_tool(Vector3::UnitZ(), {}, 0, {}).rotation.isIdentity(1e-15));
-    const Matrix3 turned = plane_of_tool(Vector3::UnitZ(), {}, 30, {}).rotation;
+    CHECK(positioning::plane_of_tool(Vector3::UnitZ(), {}, 0, {}).rotation.isIdentity(1e-15));
+    const Matrix3 turned = positioning::plane_of_tool(Vector3::UnitZ(), {}, 30, {}).rotation;
     CHECK((turned - rotation_about(Vector3::UnitZ(), 30 * deg)).norm() < 1e-15);
 }
 

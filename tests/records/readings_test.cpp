@@ -17,9 +17,9 @@ namespace {
 const std::string header =
     "index,time_s,test,mode,device,feature,x_mm,b_deg,dir_x,dir_y,dir_z,value_mm\n";
 
-ReadingTable read(const std::string& text) {
+records::ReadingTable read(const std::string& text) {
     std::vector<std::string> notes;
-    return parse_readings(text, "r.csv", notes);
+    return records::parse_readings(text, "r.csv", notes);
 }
 
 void check_fault(const std::string& text, const std::string& part, int line, int column) {
@@ -49,7 +49,7 @@ std::string circle(double start_rad, double turns, int n) {
 
 TEST_CASE("a table is read with units, comments and unknown columns noted") {
     std::vector<std::string> notes;
-    const ReadingTable table = parse_readings(
+    const records::ReadingTable table = records::parse_readings(
         "# schema = trunnion.readings/1\n# touches = "
         "9\n\nindex,time_s,test,device,feature,x_mm,b_deg,odd,"
         "value_mm,sigma_mm\r\n1,0.5,map,,S1,1.5,-30,9,,\r\n2,0.5,\"a,b\",ballbar,S1,1.5,-30,,0."
@@ -57,7 +57,7 @@ TEST_CASE("a table is read with units, comments and unknown columns noted") {
         "r.csv", notes);
     REQUIRE(table.rows.size() == 2);
     CHECK(table.comment.at("touches") == "9");
-    CHECK(table.rows[0].device == Device::none);
+    CHECK(table.rows[0].device == records::Device::none);
     CHECK_FALSE(table.rows[0].value_mm);
     CHECK(table.rows[1].test == "a,b");
     CHECK(table.rows[1].commanded[Axis::B] == rad_from_deg(-30));
@@ -88,16 +88,16 @@ TEST_CASE("bad tables name the place") {
 }
 
 TEST_CASE("text reads back to the same values") {
-    ReadingTable table;
+    records::ReadingTable table;
     table.axes = {Axis::X, Axis::C};
     table.optional_columns = {"mode", "spindle_deg", "temperature_c"};
     table.comment["seed"] = "7";
     for (int i = 0; i < 300; ++i) {
-        Reading row;
+        records::Reading row;
         row.index = i;
         row.time_s = 0.1 * i;
         row.test = "map";
-        row.device = i % 2 ? Device::sphere : Device::none;
+        row.device = i % 2 ? records::Device::sphere : records::Device::none;
         row.mode = PositioningMode::tw;
         row.commanded[Axis::X] = 1.0 / (i + 1);
         row.commanded[Axis::C] = rad_from_deg(0.1 * i);
@@ -106,8 +106,8 @@ TEST_CASE("text reads back to the same values") {
         if (i % 3) row.value_mm = -0.001 / (i + 1);
         table.rows.push_back(row);
     }
-    const std::string text = format_readings(table);
-    const ReadingTable again = read(text);
+    const std::string text = records::format_readings(table);
+    const records::ReadingTable again = read(text);
     REQUIRE(again.rows.size() == table.rows.size());
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         CHECK(again.rows[i].commanded == table.rows[i].commanded);
@@ -115,7 +115,7 @@ TEST_CASE("text reads back to the same values") {
         CHECK(again.rows[i].spindle_rad == table.rows[i].spindle_rad);
         CHECK(again.rows[i].mode == PositioningMode::tw);
     }
-    CHECK(format_readings(again) == text);
+    CHECK(records::format_readings(again) == text);
     CHECK(again.comment.at("seed") == "7");
 }
 
@@ -135,12 +135,12 @@ const std::string instrument_table =
 }  // namespace
 
 TEST_CASE("rows of laser, autocollimator, tracker and servo log carry their units") {
-    const ReadingTable table = read(instrument_table);
+    const records::ReadingTable table = read(instrument_table);
     REQUIRE(table.rows.size() == 6);
     CHECK(table.side_before[index_of(Axis::X)] == 1);
     CHECK(table.side_before[index_of(Axis::C)] == -1);
     CHECK(table.side_before[index_of(Axis::Y)] == 0);
-    CHECK(table.rows[0].device == Device::linear);
+    CHECK(table.rows[0].device == records::Device::linear);
     CHECK(*table.rows[0].point_W_mm == Vector3(1, 2, 3));
     CHECK_FALSE(table.rows[1].point_W_mm);
     CHECK(table.rows[0].source == "laser.csv:7");
@@ -154,9 +154,10 @@ TEST_CASE("rows of laser, autocollimator, tracker and servo log carry their unit
     CHECK(*table.rows[4].velocity_mm_s == rad_from_deg(6));
     CHECK(table.rows[5].test == "a \"b\", c");
     CHECK(table.rows[5].angular);  // without a value, too
-    CHECK(format_readings(table) == format_readings(read(format_readings(table))));
-    CHECK(read(format_readings(table)).rows[4].value_mm == table.rows[4].value_mm);
-    CHECK(read(format_readings(table)).side_before == table.side_before);
+    CHECK(records::format_readings(table) ==
+          records::format_readings(read(records::format_readings(table))));
+    CHECK(read(records::format_readings(table)).rows[4].value_mm == table.rows[4].value_mm);
+    CHECK(read(records::format_readings(table)).side_before == table.side_before);
 }
 
 TEST_CASE("rows that do not fit their device name the place") {
@@ -186,8 +187,8 @@ TEST_CASE("numbers are strict and short") {
 }
 
 TEST_CASE("ballbar rows: central velocity, one-sided at the ends, sign of travel") {
-    const ReadingTable table = read(circle(0.2, 1.0, 60));
-    const auto samples = samples_of(table);
+    const records::ReadingTable table = read(circle(0.2, 1.0, 60));
+    const auto samples = records::samples_of(table);
     const auto& rows = table.rows;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const std::size_t a = i ? i - 1 : 0, b = std::min(i + 1, rows.size() - 1);
@@ -201,7 +202,7 @@ TEST_CASE("ballbar rows: central velocity, one-sided at the ends, sign of travel
 }
 
 TEST_CASE("an exact turning point says nothing about reversal") {
-    const auto samples = samples_of(read(circle(0.0, 1.0, 40)));
+    const auto samples = records::samples_of(read(circle(0.0, 1.0, 40)));
     CHECK(samples[20].travel[index_of(Axis::X)] == 0);  // x = -100
     CHECK(samples[10].travel[index_of(Axis::Y)] == 0);
     CHECK(samples[19].travel[index_of(Axis::X)] == -1);
@@ -210,8 +211,8 @@ TEST_CASE("an exact turning point says nothing about reversal") {
 
 TEST_CASE("distance since reversal counts from the true turning point") {
     for (const double start : {0.0, 0.2, -0.013}) {
-        const ReadingTable table = read(circle(start, 1.0, 120));
-        const auto samples = samples_of(table);
+        const records::ReadingTable table = read(circle(start, 1.0, 120));
+        const auto samples = records::samples_of(table);
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const double x = table.rows[i].commanded[Axis::X];
             const double t = start + 2 * pi * static_cast<double>(i) / 120;
@@ -220,7 +221,7 @@ TEST_CASE("distance since reversal counts from the true turning point") {
             if (start >= 0.0)
                 CHECK(samples[i].run_up_unknown[index_of(Axis::X)] == (start == 0.0 && t < pi));
             if (start > 0 && t < pi)
-                CHECK(since > no_reversal_seen);
+                CHECK(since > records::no_reversal_seen);
             else if (t > 0 && t < pi && start == 0.0)
                 CHECK(since == Approx(100 - x).margin(1e-3));
             else if (t > pi + 1e-3 && t < 2 * pi)
@@ -230,14 +231,15 @@ TEST_CASE("distance since reversal counts from the true turning point") {
 }
 
 TEST_CASE("sphere and touch rows: last non-zero move, device-less rows included") {
-    const ReadingTable table = read(header +
-                                    "0,0,m,,sphere,S,0,5,1,0,0,0\n"  // before the first move of b
-                                    "1,1,m,,,S,10,5,,,,\n"
-                                    "2,2,m,,sphere,S,10,0,1,0,0,0\n"
-                                    "3,3,n,,sphere,S,-7,3,1,0,0,0\n"  // another test: a move too
-                                    "4,4,m,,,S,10,-6,,,,\n"
-                                    "5,5,m,,touch,S,9,2,1,0,0,0\n");
-    const auto samples = samples_of(table);
+    const records::ReadingTable table =
+        read(header +
+             "0,0,m,,sphere,S,0,5,1,0,0,0\n"  // before the first move of b
+             "1,1,m,,,S,10,5,,,,\n"
+             "2,2,m,,sphere,S,10,0,1,0,0,0\n"
+             "3,3,n,,sphere,S,-7,3,1,0,0,0\n"  // another test: a move too
+             "4,4,m,,,S,10,-6,,,,\n"
+             "5,5,m,,touch,S,9,2,1,0,0,0\n");
+    const auto samples = records::samples_of(table);
     const auto travel = [&](int i, Axis axis) {
         return int(samples[std::size_t(i)].travel[index_of(axis)]);
     };
@@ -250,17 +252,18 @@ TEST_CASE("sphere and touch rows: last non-zero move, device-less rows included"
     CHECK(travel(3, Axis::X) == -1);
     CHECK(travel(5, Axis::X) == -1);
     CHECK(travel(5, Axis::B) == 1);
-    CHECK(samples[4].since_reversal[index_of(Axis::B)] > no_reversal_seen);  // n to m: untold
+    CHECK(samples[4].since_reversal[index_of(Axis::B)] >
+          records::no_reversal_seen);  // n to m: untold
     CHECK(samples[5].velocity[Axis::X] == 0.0);
 }
 
 TEST_CASE("the head line tells sides before the first motion of the first session") {
     const std::string columns = "index,time_s,test,device,feature,x_mm,c_deg,session,value_mm\n";
-    const auto samples = samples_of(read("# side = C-\n" + columns +
-                                         "0,0,m,ballbar,P,0,5,,0\n"
-                                         "1,1,n,ballbar,P,3,5,,0\n"
-                                         "2,2,n,ballbar,P,3,5,late,0\n"
-                                         "3,3,n,ballbar,P,3,6,late,0\n"));
+    const auto samples = records::samples_of(read("# side = C-\n" + columns +
+                                                  "0,0,m,ballbar,P,0,5,,0\n"
+                                                  "1,1,n,ballbar,P,3,5,,0\n"
+                                                  "2,2,n,ballbar,P,3,5,late,0\n"
+                                                  "3,3,n,ballbar,P,3,6,late,0\n"));
     const auto c = [&](std::size_t i) { return int(samples[i].travel[index_of(Axis::C)]); };
     CHECK(c(0) == -1);
     CHECK(c(1) == -1);  // stands, in another test too

@@ -13,50 +13,54 @@ using namespace trunnion::testing;
 
 namespace {
 
-std::vector<PassPair> aligned(const Keys& a, const Keys& b, AlignLimits limits) {
-    const AlignSource source{
+std::vector<regression::PassPair> aligned(const regression::Keys& a, const regression::Keys& b,
+                                          regression::AlignLimits limits) {
+    const regression::AlignSource source{
         a.size(), b.size(), [&](std::uint64_t i, std::uint64_t j) { return a[i] == b[j]; },
-        [&](PassRange in_a, PassRange in_b, Keys& keys_a, Keys& keys_b) {
+        [&](regression::PassRange in_a, regression::PassRange in_b, regression::Keys& keys_a,
+            regression::Keys& keys_b) {
             const auto at = [](std::uint64_t k) { return static_cast<std::ptrdiff_t>(k); };
             keys_a.assign(a.begin() + at(in_a.first), a.begin() + at(in_a.last));
             keys_b.assign(b.begin() + at(in_b.first), b.begin() + at(in_b.last));
         }};
-    std::vector<PassPair> pairs;
-    align(source, limits, [&](const PassPair& pair) { pairs.push_back(pair); });
+    std::vector<regression::PassPair> pairs;
+    regression::align(source, limits,
+                      [&](const regression::PassPair& pair) { pairs.push_back(pair); });
     return pairs;
 }
 
-AlignLimits windows(std::uint64_t size) {
-    AlignLimits limits;
+regression::AlignLimits windows(std::uint64_t size) {
+    regression::AlignLimits limits;
     limits.window = size;
     limits.most_window = 4 * size;
     return limits;
 }
 
 /// Every item of both sides stands in exactly one pairing, and what is called alike is.
-void check_complete(const Keys& a, const Keys& b, const std::vector<PassPair>& pairs) {
+void check_complete(const regression::Keys& a, const regression::Keys& b,
+                    const std::vector<regression::PassPair>& pairs) {
     std::vector<int> seen_a(a.size()), seen_b(b.size());
-    for (const PassPair& p : pairs) {
+    for (const regression::PassPair& p : pairs) {
         for (std::uint64_t k = p.a.first; k < p.a.last; ++k) ++seen_a[k];
         for (std::uint64_t k = p.b.first; k < p.b.last; ++k) ++seen_b[k];
-        if (p.pairing == Pairing::same || p.pairing == Pairing::reordered)
+        if (p.pairing == regression::Pairing::same || p.pairing == regression::Pairing::reordered)
             REQUIRE(a[p.a.first] == b[p.b.first]);
-        REQUIRE((p.pairing == Pairing::only_a) == (p.b.size() == 0));
-        REQUIRE((p.pairing == Pairing::only_b) == (p.a.size() == 0));
+        REQUIRE((p.pairing == regression::Pairing::only_a) == (p.b.size() == 0));
+        REQUIRE((p.pairing == regression::Pairing::only_b) == (p.a.size() == 0));
     }
     REQUIRE(std::count(seen_a.begin(), seen_a.end(), 1) == static_cast<long>(a.size()));
     REQUIRE(std::count(seen_b.begin(), seen_b.end(), 1) == static_cast<long>(b.size()));
 }
 
-std::size_t count_of(const std::vector<PassPair>& pairs, Pairing pairing) {
+std::size_t count_of(const std::vector<regression::PassPair>& pairs, regression::Pairing pairing) {
     std::size_t count = 0;
-    for (const PassPair& p : pairs)
+    for (const regression::PassPair& p : pairs)
         if (p.pairing == pairing) count += std::max(p.a.size(), p.b.size());
     return count;
 }
 
-Keys numbers(std::size_t count) {
-    Keys keys(count);
+regression::Keys numbers(std::size_t count) {
+    regression::Keys keys(count);
     for (std::size_t k = 0; k < count; ++k) keys[k] = 1000 + k;
     return keys;
 }
@@ -70,9 +74,9 @@ TEST_CASE("random edits leave every item in exactly one pairing, in windows of a
         return static_cast<std::size_t>(noise.bits() % count);
     };
     for (int round = 0; round < 300; ++round) {
-        Keys a(40 + pick(400));
+        regression::Keys a(40 + pick(400));
         for (auto& key : a) key = pick(round % 2 == 0 ? 100000 : 30);  // unique, or often repeated
-        Keys b = a;
+        regression::Keys b = a;
         for (std::size_t edits = pick(12); edits > 0 && !b.empty(); --edits) {
             const auto at = b.begin() + static_cast<std::ptrdiff_t>(pick(b.size()));
             const std::uint64_t key = *at;
@@ -90,46 +94,46 @@ TEST_CASE("random edits leave every item in exactly one pairing, in windows of a
 
 TEST_CASE("an item that moved farther than a window is reordered when the window holds both",
           "[compare]") {
-    const Keys a = numbers(1000);
-    Keys b = a;
+    const regression::Keys a = numbers(1000);
+    regression::Keys b = a;
     b.erase(b.begin() + 100);
     b.insert(b.begin() + 190, a[100]);
     const auto near = aligned(a, b, windows(128));
     check_complete(a, b, near);
-    CHECK(count_of(near, Pairing::reordered) == 1);
-    CHECK(count_of(near, Pairing::same) == 999);
+    CHECK(count_of(near, regression::Pairing::reordered) == 1);
+    CHECK(count_of(near, regression::Pairing::same) == 999);
     // Beyond the window it is missing here and added there: the verdict is the same.
     const auto far = aligned(a, b, windows(16));
     check_complete(a, b, far);
-    CHECK(count_of(far, Pairing::reordered) == 0);
-    CHECK(count_of(far, Pairing::only_a) == 1);
-    CHECK(count_of(far, Pairing::only_b) == 1);
-    CHECK(count_of(far, Pairing::same) == 999);
+    CHECK(count_of(far, regression::Pairing::reordered) == 0);
+    CHECK(count_of(far, regression::Pairing::only_a) == 1);
+    CHECK(count_of(far, regression::Pairing::only_b) == 1);
+    CHECK(count_of(far, regression::Pairing::same) == 999);
 }
 
 TEST_CASE("an insertion longer than the largest window leaves the rest to be compared in detail",
           "[compare]") {
-    const Keys a = numbers(100);
+    const regression::Keys a = numbers(100);
     for (const std::size_t inserted : {40, 63, 64, 65, 500}) {
-        Keys b = a;
-        const Keys more(inserted, 7);
+        regression::Keys b = a;
+        const regression::Keys more(inserted, 7);
         b.insert(b.begin() + 50, more.begin(), more.end());
         const auto pairs = aligned(a, b, windows(16));
         check_complete(a, b, pairs);
         INFO(inserted);
-        CHECK(count_of(pairs, Pairing::same) == (inserted < 64 ? 100 : 50));
-        CHECK(count_of(pairs, Pairing::changed) == (inserted < 64 ? 0 : 50 + inserted));
+        CHECK(count_of(pairs, regression::Pairing::same) == (inserted < 64 ? 100 : 50));
+        CHECK(count_of(pairs, regression::Pairing::changed) == (inserted < 64 ? 0 : 50 + inserted));
     }
 }
 
 TEST_CASE("a spilled array gives back what went in, across the border of memory and disk",
           "[compare]") {
-    using Array = SpilledArray<KeyedLine>;
+    using Array = regression::SpilledArray<regression::KeyedLine>;
     Array array;
     const std::uint64_t count = Array::kept_in_memory * 3 + 17;
     for (std::uint64_t k = 0; k < count; ++k) array.append({k * k, static_cast<std::uint32_t>(k)});
     REQUIRE(array.size() == count);
-    SpilledWindow<KeyedLine> window(array);
+    regression::SpilledWindow<regression::KeyedLine> window(array);
     SeededNoise noise(2);
     bool right = true;
     for (std::uint64_t k = 0; k < count; ++k) right = right && window[k].key == k * k;
@@ -158,9 +162,9 @@ TEST_CASE("beyond the resync window the verdict stays right and the search goes 
         if (inserts) cut(b, 1000, 1060, 50);
         cut(a, 200, 400, 0);
         cut(b, 200, 400, 0);
-        WalkOptions options;
+        regression::WalkOptions options;
         options.resync_segments = window;
-        const PathComparison r = compare(a, b, options);
+        const regression::PathComparison r = compare(a, b, options);
         INFO("window " << window);
         CHECK(r.clusters.empty() == !inserts);
         if (inserts && window >= 61) {

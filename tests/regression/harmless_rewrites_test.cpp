@@ -267,7 +267,7 @@ struct Counts {
 };
 
 Counts run_rewrites(std::uint64_t first_seed, int wanted) {
-    Setup setup = bc_table();
+    setup::Setup setup = bc_table();
     for (std::size_t k = 1; k <= 3; ++k) {
         setup.stores.tools.tool[k].length_geometry_mm = 100.0 + 10.0 * static_cast<double>(k);
         setup.stores.tools.tool[k].radius_geometry_mm = 3.0 + static_cast<double>(k);
@@ -284,7 +284,7 @@ Counts run_rewrites(std::uint64_t first_seed, int wanted) {
             names += std::string(rewrite.name) + ", ";
         }
         if (names.empty()) continue;
-        const Comparison r = compare_texts(a, joined(lines), setup);
+        const regression::Comparison r = compare_texts(a, joined(lines), setup);
         ++n.compared;
         if (r.equal) continue;
         if (++n.different < 20) WARN("seed " << seed << ": " << names << r.verdict);

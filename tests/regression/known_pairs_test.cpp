@@ -41,22 +41,22 @@ std::vector<Slot> grid(int count) {
 }  // namespace
 
 TEST_CASE("what does not change machining is equal at its layer", "[compare]") {
-    const Setup setup = bc_table();
+    const setup::Setup setup = bc_table();
     const std::string a = milling(grid(10));
     SECTION("the same") {
-        CHECK(compare_texts(a, a, setup).by == Layer::text);
+        CHECK(compare_texts(a, a, setup).by == regression::Layer::text);
     }
     SECTION("line ends and trailing blanks") {
         std::string b;
         for (const char c : a) b += c == '\n' ? std::string("  \r\n") : std::string(1, c);
-        const Comparison r = compare_texts(a, b, setup);
+        const regression::Comparison r = compare_texts(a, b, setup);
         CHECK(r.equal);
-        CHECK(r.by == Layer::text);
+        CHECK(r.by == regression::Layer::text);
     }
     SECTION("header date only") {
-        const Comparison r = compare_texts(a, milling(grid(10), "(DATE 2026)"), setup);
+        const regression::Comparison r = compare_texts(a, milling(grid(10), "(DATE 2026)"), setup);
         CHECK(r.equal);
-        CHECK(r.by == Layer::words);
+        CHECK(r.by == regression::Layer::words);
         CHECK(r.layers.front().equal == false);
     }
     SECTION("renumbered, without blanks, other number forms, other word order") {
@@ -76,18 +76,18 @@ TEST_CASE("what does not change machining is equal at its layer", "[compare]") {
             at = end + 1;
         }
         b = replaced(b, "Z-0.500F300.", "F300.00Z-.5");
-        const Comparison r = compare_texts(a, b, setup);
+        const regression::Comparison r = compare_texts(a, b, setup);
         CHECK(r.equal);
-        CHECK(r.by == Layer::words);
+        CHECK(r.by == regression::Layer::words);
     }
     SECTION("long hand and subprogram are equal blocks") {
         const std::string head = "%\nO1\nG90 G21 G17 G94 G54\nT1 M6\nS500 M3\nG0 X0. Y0. Z5.\n";
         const std::string body = "G91 G1 X10. F100.\nY5.\nG90\n";
-        const Comparison r =
+        const regression::Comparison r =
             compare_texts(head + body + body + "M30\n%\n",
                           head + "M98 P2 L2\nM30\nO2\n" + body + "M99\n%\n", setup);
         CHECK(r.equal);
-        CHECK(r.by == Layer::blocks);
+        CHECK(r.by == regression::Layer::blocks);
     }
     SECTION("inch") {
         std::string b = replaced(a, "G21", "G20");
@@ -108,28 +108,28 @@ TEST_CASE("what does not change machining is equal at its layer", "[compare]") {
             inch += "\n";
             at = end + 1;
         }
-        const Comparison r = compare_texts(a, inch, setup);
+        const regression::Comparison r = compare_texts(a, inch, setup);
         CHECK(r.equal);
-        CHECK(r.by == Layer::path);
+        CHECK(r.by == regression::Layer::path);
     }
 }
 
 TEST_CASE("every change of machining is named with its place", "[compare]") {
-    const Setup setup = bc_table();
+    const setup::Setup setup = bc_table();
     const std::vector<Slot> passes = grid(400);
     const std::string a = milling(passes);
-    const auto first = [](const Comparison& r) {
+    const auto first = [](const regression::Comparison& r) {
         REQUIRE_FALSE(r.equal);
-        REQUIRE(r.by == Layer::path);
+        REQUIRE(r.by == regression::Layer::path);
         REQUIRE_FALSE(r.differences.empty());
         return r.differences.front();
     };
     SECTION("one clearance of 2,800 lines") {
         const std::string b = replaced(a, "N2016 G0 Z10.", "N2016 G0 Z9.906");
-        const Comparison r = compare_texts(a, b, setup);
-        const Difference d = first(r);
+        const regression::Comparison r = compare_texts(a, b, setup);
+        const regression::Difference d = first(r);
         CHECK(r.differences.size() == 1);
-        CHECK(d.kind == DifferenceKind::moved);
+        CHECK(d.kind == regression::DifferenceKind::moved);
         CHECK(d.shift_mm[2] == Approx(-0.094));
         CHECK(d.a.line == line_with(a, "N2016 "));
         CHECK(d.b.line == d.a.line);
@@ -138,8 +138,8 @@ TEST_CASE("every change of machining is named with its place", "[compare]") {
     }
     SECTION("one arc reversed") {
         const std::string b = replaced(a, "N1014 G3", "N1014 G2");
-        const Difference d = first(compare_texts(a, b, setup));
-        CHECK(d.kind == DifferenceKind::path);
+        const regression::Difference d = first(compare_texts(a, b, setup));
+        CHECK(d.kind == regression::DifferenceKind::path);
         CHECK(d.a.line == line_with(a, "N1014 "));
         CHECK(d.b.line == line_with(a, "N1014 "));
         CHECK(d.a.last_line == d.a.line);
@@ -147,10 +147,10 @@ TEST_CASE("every change of machining is named with its place", "[compare]") {
     SECTION("feed by one percent in one block") {
         const std::string b = replaced(a, "N1003 X89.500 F500.", "N1003 X89.500 F505.");
         // Modal: it holds until the next F.
-        const Comparison r = compare_texts(a, b, setup);
-        const Difference d = first(r);
+        const regression::Comparison r = compare_texts(a, b, setup);
+        const regression::Difference d = first(r);
         CHECK(r.differences.size() == 1);
-        CHECK(d.kind == DifferenceKind::feed);
+        CHECK(d.kind == regression::DifferenceKind::feed);
         CHECK(d.value_a == Approx(500));
         CHECK(d.value_b == Approx(505));
         CHECK(d.a.line == line_with(a, "N1003 "));
@@ -160,10 +160,10 @@ TEST_CASE("every change of machining is named with its place", "[compare]") {
     SECTION("a pass missing") {
         std::vector<Slot> fewer = passes;
         fewer.erase(fewer.begin() + 100);
-        const Comparison r = compare_texts(a, milling(fewer), setup);
-        const Difference d = first(r);
+        const regression::Comparison r = compare_texts(a, milling(fewer), setup);
+        const regression::Difference d = first(r);
         CHECK(r.differences.size() == 1);
-        CHECK(d.kind == DifferenceKind::only_a);
+        CHECK(d.kind == regression::DifferenceKind::only_a);
         CHECK(d.a.line == line_with(a, "N1012 "));
         CHECK(d.a.last_line == line_with(a, "N1015 "));
         CHECK(d.b.line == d.a.line);  // before the pass that follows there
@@ -173,10 +173,10 @@ TEST_CASE("every change of machining is named with its place", "[compare]") {
     SECTION("passes reordered") {
         std::vector<Slot> other = passes;
         std::swap(other[50], other[51]);
-        const Comparison r = compare_texts(a, milling(other), setup);
-        const Difference d = first(r);
+        const regression::Comparison r = compare_texts(a, milling(other), setup);
+        const regression::Difference d = first(r);
         CHECK(r.differences.size() == 1);
-        CHECK(d.kind == DifferenceKind::reordered);
+        CHECK(d.kind == regression::DifferenceKind::reordered);
         // The same plunge, ten numbers and a pass of seven lines apart.
         CHECK(d.a.block.substr(d.a.block.find(' ')) == d.b.block.substr(d.b.block.find(' ')));
         CHECK(std::abs(d.a.line - d.b.line) == 7);
@@ -185,49 +185,51 @@ TEST_CASE("every change of machining is named with its place", "[compare]") {
     }
     SECTION("merge markers in one file") {
         const std::string b = replaced(a, "N1014 G3", "<<<<<<< HEAD\nN1014 G3");
-        const Comparison r = compare_texts(a, b, setup);
-        CHECK(r.status == CompareStatus::alarm);
-        CHECK(r.differences.front().kind == DifferenceKind::alarm);
+        const regression::Comparison r = compare_texts(a, b, setup);
+        CHECK(r.status == regression::CompareStatus::alarm);
+        CHECK(r.differences.front().kind == regression::DifferenceKind::alarm);
         CHECK(r.differences.front().b.line == line_with(b, "<<<<<<<"));
         CHECK(r.differences.front().b.block == "<<<<<<< HEAD");
         CHECK(r.differences.front().a.line == 0);
-        CHECK(exit_code({"", true, {r}}) == 3);
+        CHECK(regression::exit_code({"", true, {r}}) == 3);
     }
 }
 
 TEST_CASE("C by 360 degrees is the same machining and another axis motion", "[compare]") {
-    const Setup setup = bc_table();
+    const setup::Setup setup = bc_table();
     const std::string a =
         "%\nO1\nG90 G21 G17 G94 G54\nT1 M6\nS500 M3\nG0 X10. Y0. Z5.\nG0 C30.\nG1 X20. "
         "F100.\nM30\n%\n";
     const std::string b = replaced(a, "C30.", "C390.");
     CHECK(compare_texts(a, b, setup).equal);
-    CHECK(compare_texts(a, b, setup).by == Layer::path);
-    const Comparison axes = compare_texts(a, b, setup, only(Layer::axes));
+    CHECK(compare_texts(a, b, setup).by == regression::Layer::path);
+    const regression::Comparison axes = compare_texts(a, b, setup, only(regression::Layer::axes));
     CHECK_FALSE(axes.equal);
     CHECK(axes.differences.front().direction_deg == Approx(360.0));
     CHECK_FALSE(compare_texts(a, replaced(a, "C30.", "C30.02"), setup).equal);
 }
 
 TEST_CASE("a program of offsets alone is compared by its effects", "[compare]") {
-    const Setup setup = bc_table();
+    const setup::Setup setup = bc_table();
     const std::string a = "%\nO1\nG90 G10 L2 P1 X10. Y20. Z30.\n#100=3.5\nM30\n%\n";
     CHECK(compare_texts(a, replaced(a, "X10. Y20.", "Y20.0 X10."), setup).equal);
-    const Comparison r = compare_texts(a, replaced(a, "Y20.", "Y20.1"), setup);
+    const regression::Comparison r = compare_texts(a, replaced(a, "Y20.", "Y20.1"), setup);
     CHECK_FALSE(r.equal);
-    CHECK(r.by == Layer::effects);
+    CHECK(r.by == regression::Layer::effects);
     CHECK(r.differences.front().what == "G54 Y: 20 -> 20.1");
 }
 
 TEST_CASE("U V W count with the axis that they run beside", "[compare]") {
     std::vector<std::string> notes;
-    const Setup setup = parse_setup("[machine]\nchain = \"w W b X Y Z t\"\n", "mill.toml", notes);
+    const setup::Setup setup =
+        setup::parse_setup("[machine]\nchain = \"w W b X Y Z t\"\n", "mill.toml", notes);
     const std::string head = "O1\nG21 G90 G94 G54\nG0 X0 Y0 Z50. W0\n", end = "M30\n";
     const std::string by_z = head + "G1 Z20. F500.\nX40.\n" + end;
     CHECK(compare_texts(by_z, head + "G1 W-30. F500.\nX40.\n" + end, setup).equal);
-    const Comparison without = compare_texts(by_z, head + "X40. F500.\n" + end, setup);
+    const regression::Comparison without = compare_texts(by_z, head + "X40. F500.\n" + end, setup);
     CHECK_FALSE(without.equal);
-    const Comparison less = compare_texts(by_z, head + "G1 W-29. F500.\nX40.\n" + end, setup);
+    const regression::Comparison less =
+        compare_texts(by_z, head + "G1 W-29. F500.\nX40.\n" + end, setup);
     CHECK_FALSE(less.equal);
     CHECK(less.position_mm == Approx(1.0));
 }

@@ -17,7 +17,7 @@ using namespace trunnion::testing;
 
 namespace {
 
-const std::string base = R"(%
+const std::string part_text = R"(%
 O1000
 G21 G90 G17 G94 G40 G49 G80
 G54
@@ -81,14 +81,14 @@ struct Stretch2 {
     std::vector<double> lengths;
 };
 
-class Sampler : public MotionSink {
+class Sampler : public motion::MotionSink {
   public:
-    MoveResult move(const AxisMove& m) override {
+    motion::MoveResult move(const motion::AxisMove& m) override {
         const auto tip = [&](double s) -> Vector3 {
             const AxisPositions at = m.at(s);
             return Vector3(at[Axis::X], at[Axis::Y], at[Axis::Z]) - m.tool_vector_mm;
         };
-        const bool rapid = m.kind == MotionKind::rapid;
+        const bool rapid = m.kind == motion::MotionKind::rapid;
         std::vector<Vector3> points{tip(0.0)};
         const int count = m.arc ? 300 : 1;
         for (int k = 1; k <= count; ++k) points.push_back(tip(static_cast<double>(k) / count));
@@ -135,14 +135,14 @@ Vector3 at_fraction(const Stretch2& s, double fraction) {
     return s.points[k - 1] + t * (s.points[k] - s.points[k - 1]);
 }
 
-Sampler sampled(const std::string& program, const Setup& setup) {
+Sampler sampled(const std::string& program, const setup::Setup& setup) {
     Sampler sink;
-    Stores stores = setup.stores;
-    ProgramsInMemory programs;
-    ControlConfig config = control_config(setup);
+    offsets::Stores stores = setup.stores;
+    interpreter::ProgramsInMemory programs;
+    controller::ControlConfig config = emulator::control_config(setup);
     config.max_blocks = 3000;
-    Controller controller(config, stores, programs, sink, [](std::string_view) {});
-    sink.stopped = controller.run(text_of("b.nc", program)).status != RunStatus::ok;
+    controller::Controller controller(config, stores, programs, sink, [](std::string_view) {});
+    sink.stopped = controller.run(text_of("b.nc", program)).status != controller::RunStatus::ok;
     return sink;
 }
 
@@ -163,8 +163,8 @@ double apart(const Sampler& a, const Sampler& b) {
 }
 
 /// The plain reader's run; nothing where it is not sure.
-std::optional<Sampler> plainly_sampled(const std::string& program, const Setup& setup) {
-    const OffsetVector& g54 = setup.stores.work.standard[0];
+std::optional<Sampler> plainly_sampled(const std::string& program, const setup::Setup& setup) {
+    const offsets::OffsetVector& g54 = setup.stores.work.standard[0];
     PlainInterpreter reader({g54[Axis::X], g54[Axis::Y], g54[Axis::Z]}, {{1, 100.0}, {2, 80.0}});
     reader.run(program);
     if (reader.unsure) return std::nullopt;
@@ -287,30 +287,31 @@ std::string edited(const std::string& program, SeededNoise& noise, std::size_t& 
 }  // namespace
 
 TEST_CASE("500 random edits: found when machining changes, silent when it does not", "[compare]") {
-    Setup setup = bc_table();
+    setup::Setup setup = bc_table();
     setup.stores.tools.tool[1].length_geometry_mm = 100.0;
     setup.stores.tools.tool[2].length_geometry_mm = 80.0;
-    const Sampler truth = sampled(base, setup);
+    const Sampler truth = sampled(part_text, setup);
     REQUIRE_FALSE(truth.stopped);
     REQUIRE(truth.stretches.size() > 20);
     SeededNoise noise(20260101);
     int changed = 0, same = 0, near_tolerance = 0;
     for (int k = 0; k < 500; ++k) {
         std::size_t line = 0;
-        const std::string b = edited(base, noise, line);
+        const std::string b = edited(part_text, noise, line);
         const double distance = apart(truth, sampled(b, setup));
-        CompareOptions options = only(Layer::path);
+        regression::CompareOptions options = only(regression::Layer::path);
         options.max_blocks = 3000;
         if (distance > 0.0025 && distance < 0.01) {
             ++near_tolerance;
             continue;
         }
-        const Comparison r = compare_texts(base, b, setup, options);
+        const regression::Comparison r = compare_texts(part_text, b, setup, options);
         const bool differs = distance > 0.005;
         INFO("edit " << k << " line " << line + 1 << ": '" << lines_of(b)[line] << "' was '"
-                     << lines_of(base)[line] << "', " << distance << " mm apart: " << r.verdict);
+                     << lines_of(part_text)[line] << "', " << distance
+                     << " mm apart: " << r.verdict);
         CHECK(r.equal != differs);
-        if (differs && r.status == CompareStatus::differs)
+        if (differs && r.status == regression::CompareStatus::differs)
             CHECK(std::max(r.differences.front().a.line, r.differences.front().b.line) >=
                   static_cast<int>(line));
         ++(differs ? changed : same);
@@ -323,7 +324,7 @@ TEST_CASE("500 random edits: found when machining changes, silent when it does n
 
 TEST_CASE("500 random edits judged by a plain reader that shares no code with the control",
           "[compare]") {
-    Setup setup = bc_table();
+    setup::Setup setup = bc_table();
     setup.stores.tools.tool[1].length_geometry_mm = 100.0;
     setup.stores.tools.tool[2].length_geometry_mm = 80.0;
     const auto truth = plainly_sampled(plain_base, setup);
@@ -343,9 +344,9 @@ TEST_CASE("500 random edits judged by a plain reader that shares no code with th
                 ++unsure;
                 continue;
             }
-            CompareOptions options = only(Layer::path);
+            regression::CompareOptions options = only(regression::Layer::path);
             options.max_blocks = 3000;
-            const Comparison r = compare_texts(plain_base, b, setup, options);
+            const regression::Comparison r = compare_texts(plain_base, b, setup, options);
             const bool differs = distance > 0.005;
             INFO("seed " << seed << " line " << line + 1 << ": '" << lines_of(b)[line] << "' was '"
                          << lines_of(plain_base)[line] << "', " << distance
@@ -353,7 +354,7 @@ TEST_CASE("500 random edits judged by a plain reader that shares no code with th
             CHECK(r.equal != differs);
             // The edited line is the first or second of the block that is named, or before it
             // where it only sets what a later block uses.
-            if (differs && r.status == CompareStatus::differs &&
+            if (differs && r.status == regression::CompareStatus::differs &&
                 std::max(r.differences.front().a.line, r.differences.front().b.line) <
                     static_cast<int>(line) + 1)
                 ++wrong_place;

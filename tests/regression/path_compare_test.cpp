@@ -30,7 +30,7 @@ TEST_CASE("a path equals itself", "[compare]") {
     Pen a, b;
     part(a, 20);
     part(b, 20);
-    const PathComparison r = compare(a, b);
+    const regression::PathComparison r = compare(a, b);
     CHECK(r.clusters.empty());
     CHECK(r.totals.compared == 160);
     CHECK(r.totals.position_mm == 0.0);
@@ -51,7 +51,7 @@ TEST_CASE("cutting a line into pieces changes nothing", "[compare]") {
             b.cut(x0 + s * 7.0, y_from + s * (y - y_from), 0);
         b.cut(x, y, 0);
     }
-    const PathComparison r = compare(a, b);
+    const regression::PathComparison r = compare(a, b);
     CHECK(r.clusters.empty());
     CHECK(r.totals.position_mm < 1e-9);
 }
@@ -59,7 +59,7 @@ TEST_CASE("cutting a line into pieces changes nothing", "[compare]") {
 TEST_CASE("0.9 of the tolerance is equal and 1.1 differs, at corners, flanks, reversals, arcs",
           "[compare]") {
     const double tolerance = GENERATE(0.001, 0.005, 0.1);
-    WalkOptions options;
+    regression::WalkOptions options;
     options.tolerances.position_mm = tolerance;
     const double part_of = GENERATE(0.9, 1.1);
     const double d = part_of * tolerance;
@@ -101,7 +101,7 @@ TEST_CASE("0.9 of the tolerance is equal and 1.1 differs, at corners, flanks, re
 
 TEST_CASE("0.9 of the direction tolerance is equal and 1.1 differs", "[compare]") {
     const double part_of = GENERATE(0.9, 1.1);
-    const double turn = part_of * Tolerances{}.direction_rad;
+    const double turn = part_of * regression::Tolerances{}.direction_rad;
     Pen a, b;
     a.at(0, 0, 0).cut(10, 0, 0).cut(20, 0, 0);
     b.at(0, 0, 0);
@@ -123,11 +123,11 @@ TEST_CASE("a clearance changed once in 3000 lines is found at its line", "[compa
             pen->cut(k + 0.5, 0, -1);
             pen->rapid(k + 0.5, 0, clearance).rapid(k + 1, 0, clearance);
         }
-    const PathComparison r = compare(a, b);
+    const regression::PathComparison r = compare(a, b);
     REQUIRE(r.clusters.size() == 1);
-    CHECK(r.clusters[0].kind == DifferenceKind::moved);
+    CHECK(r.clusters[0].kind == regression::DifferenceKind::moved);
     CHECK(r.clusters[0].first.shift_mm.z() == Approx(-0.094));
-    SegmentWindow segments_a(a.record.segments()), segments_b(b.record.segments());
+    regression::SegmentWindow segments_a(a.record.segments()), segments_b(b.record.segments());
     CHECK(segments_a[r.clusters[0].first.a.first].line == 300 * 7 + 1 + 6);
     CHECK(segments_b[r.clusters[0].first.b.first].line == 300 * 7 + 1 + 6);
     CHECK(r.totals.position_mm == Approx(0.094));
@@ -146,24 +146,24 @@ TEST_CASE("passes removed, inserted, reordered are named as such and the rest is
     path(a, {0, 5, 10, 15, 20});
     SECTION("missing") {
         path(b, {0, 5, 15, 20});
-        const PathComparison r = compare(a, b);
+        const regression::PathComparison r = compare(a, b);
         REQUIRE(r.clusters.size() == 1);
-        CHECK(r.clusters[0].kind == DifferenceKind::only_a);
+        CHECK(r.clusters[0].kind == regression::DifferenceKind::only_a);
         CHECK(r.clusters[0].cut_a_mm == Approx(41));
         CHECK(r.tools.at(0).only_a == 1);
         CHECK(r.tools.at(0).equal == 5);  // the last is the retract behind the last cut
     }
     SECTION("inserted") {
         path(b, {0, 5, 10, 12, 15, 20});
-        const PathComparison r = compare(a, b);
+        const regression::PathComparison r = compare(a, b);
         REQUIRE(r.clusters.size() == 1);
-        CHECK(r.clusters[0].kind == DifferenceKind::only_b);
+        CHECK(r.clusters[0].kind == regression::DifferenceKind::only_b);
     }
     SECTION("reordered") {
         path(b, {0, 10, 15, 5, 20});
-        const PathComparison r = compare(a, b);
+        const regression::PathComparison r = compare(a, b);
         REQUIRE(r.clusters.size() == 1);
-        CHECK(r.clusters[0].kind == DifferenceKind::reordered);
+        CHECK(r.clusters[0].kind == regression::DifferenceKind::reordered);
         CHECK(r.tools.at(0).reordered == 1);
         CHECK(r.tools.at(0).equal == 5);
     }
@@ -173,9 +173,9 @@ TEST_CASE("an arc the other way round has the same ends and differs", "[compare]
     Pen a, b;
     a.at(10, 0, 0).arc(-10, 0, 0, {0, 0, 0}, pi).cut(-20, 0, 0);
     b.at(10, 0, 0).arc(-10, 0, 0, {0, 0, 0}, -pi).cut(-20, 0, 0);
-    const PathComparison r = compare(a, b);
+    const regression::PathComparison r = compare(a, b);
     REQUIRE(r.clusters.size() == 1);
-    CHECK(r.clusters[0].kind == DifferenceKind::path);
+    CHECK(r.clusters[0].kind == regression::DifferenceKind::path);
     CHECK(r.clusters[0].position_mm == Approx(std::sqrt(200.0)).epsilon(0.01));
     CHECK(r.clusters[0].first.a.last - r.clusters[0].first.a.first == 1);
 }
@@ -196,9 +196,9 @@ TEST_CASE("a feed changed by one percent is one difference", "[compare]") {
     part(a, 5);
     b.feed = 505.0;
     part(b, 5);
-    const PathComparison r = compare(a, b);
+    const regression::PathComparison r = compare(a, b);
     REQUIRE(r.clusters.size() == 1);
-    CHECK(r.clusters[0].kind == DifferenceKind::feed);
+    CHECK(r.clusters[0].kind == regression::DifferenceKind::feed);
     CHECK(r.clusters[0].first.value_b == Approx(505));
     CHECK(r.clusters[0].count == 5);
 }
@@ -223,9 +223,9 @@ TEST_CASE("a whole tool moved is one cluster with its shift", "[compare]") {
             pen->rapid(k + 0.5, 30, 10);
         }
     }
-    const PathComparison r = compare(a, b);
+    const regression::PathComparison r = compare(a, b);
     REQUIRE(r.clusters.size() == 1);
-    CHECK(r.clusters[0].kind == DifferenceKind::moved);
+    CHECK(r.clusters[0].kind == regression::DifferenceKind::moved);
     CHECK(r.clusters[0].tool == 2);
     CHECK(r.clusters[0].first.shift_mm.z() == Approx(-0.05));
     CHECK(r.tools.at(0).moved == 0);
@@ -244,7 +244,7 @@ TEST_CASE("a stretch inserted into a long cut is found and the rest is equal", "
             for (int n = 0; n < 3000; ++n) b.cut(x + noise.uniform(), 5 + noise.uniform(), 3);
         b.cut(x, y, 0);
     }
-    const PathComparison r = compare(a, b);
+    const regression::PathComparison r = compare(a, b);
     REQUIRE(r.clusters.size() == 1);
     CHECK(r.clusters[0].first.a.last - r.clusters[0].first.a.first <= 1);
     CHECK(r.clusters[0].first.b.last - r.clusters[0].first.b.first <= 3001);
@@ -264,7 +264,7 @@ TEST_CASE("a million segments each side take seconds", "[compare]") {
         pen->done();
     }
     const auto start = std::chrono::steady_clock::now();
-    const PathComparison r = compare_paths(a.record, b.record, {});
+    const regression::PathComparison r = regression::compare_paths(a.record, b.record, {});
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     CHECK(r.clusters.empty());
     CHECK(took.count() < 5.0);

@@ -5,28 +5,30 @@
 #include <stdexcept>
 #include <string>
 
-#include "setup/setup.h"
 #include "regression/compare_programs.h"
+#include "setup/setup.h"
 
 namespace trunnion::testing {
 
-inline ProgramText text_of(const std::string& name, const std::string& text) {
+inline interpreter::ProgramText text_of(const std::string& name, const std::string& text) {
     const auto owner = std::make_shared<const std::string>(text);
     return {name, *owner, owner};
 }
 
-inline Setup bc_table() {
+inline setup::Setup bc_table() {
     std::vector<std::string> notes;
-    return load_setup(std::string(TRUNNION_SOURCE_DIR) + "/machines/bc_table.toml", notes);
+    return setup::load_setup(std::string(TRUNNION_SOURCE_DIR) + "/machines/bc_table.toml", notes);
 }
 
-inline Comparison compare_texts(const std::string& a, const std::string& b, const Setup& setup,
-                                CompareOptions options = {}) {
-    return compare_programs(text_of("a.nc", a), setup, text_of("b.nc", b), setup, options);
+inline regression::Comparison compare_texts(const std::string& a, const std::string& b,
+                                            const setup::Setup& setup,
+                                            regression::CompareOptions options = {}) {
+    return regression::compare_programs(text_of("a.nc", a), setup, text_of("b.nc", b), setup,
+                                        options);
 }
 
-inline CompareOptions only(Layer layer) {
-    CompareOptions options;
+inline regression::CompareOptions only(regression::Layer layer) {
+    regression::CompareOptions options;
     options.by = layer;
     return options;
 }

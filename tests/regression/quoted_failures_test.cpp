@@ -49,8 +49,8 @@ M30
 %
 )";
 
-Setup mill() {
-    Setup setup = bc_table();
+setup::Setup mill() {
+    setup::Setup setup = bc_table();
     setup.stores.tools.tool[1].length_geometry_mm = 100.0;
     setup.stores.tools.tool[1].radius_geometry_mm = 5.0;
     setup.stores.tools.tool[2].length_geometry_mm = 80.0;
@@ -58,12 +58,12 @@ Setup mill() {
 }
 
 /// The one difference of functions between `part` and an edit of it.
-Comparison by_function(const std::string& what, const std::string& with) {
-    const Setup setup = mill();
-    const Comparison r = compare_texts(part, replaced(part, what, with), setup);
+regression::Comparison by_function(const std::string& what, const std::string& with) {
+    const setup::Setup setup = mill();
+    const regression::Comparison r = compare_texts(part, replaced(part, what, with), setup);
     INFO(what << " became " << with << ": " << r.verdict);
     CHECK_FALSE(r.equal);
-    CHECK(r.by == Layer::functions);
+    CHECK(r.by == regression::Layer::functions);
     REQUIRE_FALSE(r.differences.empty());
     CHECK(r.differences.size() == 1);
     return r;
@@ -72,14 +72,15 @@ Comparison by_function(const std::string& what, const std::string& with) {
 }  // namespace
 
 TEST_CASE("words that repeat a number are not the same words where a mode changed", "[compare]") {
-    const Setup setup = mill();
+    const setup::Setup setup = mill();
     const auto differ = [&](const std::string& a, const std::string& b) {
-        const Comparison r = compare_texts("O1\n" + a + "M30\n", "O1\n" + b + "M30\n", setup);
+        const regression::Comparison r =
+            compare_texts("O1\n" + a + "M30\n", "O1\n" + b + "M30\n", setup);
         INFO(b << r.verdict);
         CHECK_FALSE(r.equal);
-        CHECK_FALSE(
-            compare_texts("O1\n" + a + "M30\n", "O1\n" + b + "M30\n", setup, only(Layer::words))
-                .equal);
+        CHECK_FALSE(compare_texts("O1\n" + a + "M30\n", "O1\n" + b + "M30\n", setup,
+                                  only(regression::Layer::words))
+                        .equal);
     };
     differ("G90 G21 G94\nG41 D1 G1 X10. F100.\nX20.\nG40 X30.\nX40. Y5.\n",
            "G90 G21 G94\nG41 D1 G1 X10. F100.\nX20.\nX30.\nX40. Y5.\n");  // a forgotten G40
@@ -92,14 +93,14 @@ TEST_CASE("words that repeat a number are not the same words where a mode change
 }
 
 TEST_CASE("a mode that is repeated is the same words", "[compare]") {
-    const Setup setup = mill();
+    const setup::Setup setup = mill();
     const std::string a = "O1\nG90 G21 G94 G40\nG1 X10. F100.\nX20. Y5.\nG0 Z5.\nM30\n";
     const std::string b =
         "O1\nG90 G21 G94 G40\nG1 X10.0 F100\nG1 X20. Y5.0 F100. (here)\nG90 G0 Z5. X20.\nM30\n";
-    const Comparison r = compare_texts(a, b, setup);
+    const regression::Comparison r = compare_texts(a, b, setup);
     INFO(r.verdict);
     CHECK(r.equal);
-    CHECK(r.by == Layer::words);
+    CHECK(r.by == regression::Layer::words);
 }
 
 TEST_CASE("a called program that differs is a difference", "[compare]") {
@@ -114,22 +115,23 @@ TEST_CASE("a called program that differs is a difference", "[compare]") {
     write("a/O2.nc", "O2\nG1 X10. F100.\nX20.\nM99\n");
     write("b/O2.nc", "O2\nG1 X10. F100.\nX21.\nM99\n");
     write("c/O2.nc", "O2\n(a remark)\nG1 X10. F100.\nX20.0\nM99\n");
-    const Setup setup = mill();
-    const auto compare = [&](const char* b, CompareOptions options = {}) {
-        return compare_programs(read_program((folder / "a/main.nc").string()), setup,
-                                read_program((folder / b / "main.nc").string()), setup, options);
+    const setup::Setup setup = mill();
+    const auto compare = [&](const char* b, regression::CompareOptions options = {}) {
+        return regression::compare_programs(
+            interpreter::read_program((folder / "a/main.nc").string()), setup,
+            interpreter::read_program((folder / b / "main.nc").string()), setup, options);
     };
-    const Comparison r = compare("b");
+    const regression::Comparison r = compare("b");
     INFO(r.verdict);
     CHECK_FALSE(r.equal);
     CHECK_FALSE(r.layers.front().equal);
-    CHECK_FALSE(compare("b", only(Layer::text)).equal);
-    CHECK_FALSE(compare("b", only(Layer::words)).equal);
-    CHECK(compare("b", only(Layer::words)).differences.front().b.program ==
+    CHECK_FALSE(compare("b", only(regression::Layer::text)).equal);
+    CHECK_FALSE(compare("b", only(regression::Layer::words)).equal);
+    CHECK(compare("b", only(regression::Layer::words)).differences.front().b.program ==
           (folder / "b/O2.nc").string());
     CHECK(compare("c").equal);
-    CHECK(compare("c").by == Layer::words);
-    CHECK(compare("a").by == Layer::text);
+    CHECK(compare("c").by == regression::Layer::words);
+    CHECK(compare("a").by == regression::Layer::text);
     fs::remove_all(folder);
 }
 
@@ -141,9 +143,9 @@ TEST_CASE("functions are part of the verdict, each at its place", "[compare]") {
         by_function("G82 X10. Y10. Z-6. R2. P500", "G81 X10. Y10. Z-6. R2.").differences[0].what ==
         "dwell 0.5 s is missing in B");
     for (const char* code : {"M10", "M29", "M88", "M0"}) {
-        const Comparison r = by_function("Z2.\n", std::string("Z2.\n") + code + "\n");
+        const regression::Comparison r = by_function("Z2.\n", std::string("Z2.\n") + code + "\n");
         CHECK(r.differences[0].b.block == code);
-        CHECK(r.differences[0].kind == DifferenceKind::function);
+        CHECK(r.differences[0].kind == regression::DifferenceKind::function);
     }
     CHECK(by_function("G1 X-45. F800.\n", "G9 G1 X-45. F800.\n").differences[0].what ==
           "exact stop (G9, G61) is only in B");
@@ -155,11 +157,11 @@ TEST_CASE("functions are part of the verdict, each at its place", "[compare]") {
 
 TEST_CASE("M3 is missing behind a tool change although the emulated spindle turns on",
           "[compare]") {
-    const Setup setup = mill();
+    const setup::Setup setup = mill();
     const std::string a = replaced(part, "M9\nM5\nT2", "M9\nT2");
-    const Comparison r = compare_texts(a, replaced(a, "S3000 M3\n", "S3000\n"), setup);
+    const regression::Comparison r = compare_texts(a, replaced(a, "S3000 M3\n", "S3000\n"), setup);
     INFO(r.verdict);
-    CHECK(r.by == Layer::functions);
+    CHECK(r.by == regression::Layer::functions);
     REQUIRE(r.differences.size() == 1);
     CHECK(r.differences[0].what == "M3 is missing in B");
     CHECK(r.differences[0].a.block == "S3000 M3");
@@ -167,16 +169,16 @@ TEST_CASE("M3 is missing behind a tool change although the emulated spindle turn
 
 TEST_CASE("a function at another place of the path is a difference, one block or two is not",
           "[compare]") {
-    const Comparison r = by_function("G0 Z20.\nM9\n", "M9\nG0 Z20.\n");
+    const regression::Comparison r = by_function("G0 Z20.\nM9\n", "M9\nG0 Z20.\n");
     CHECK(r.differences[0].what == "M9 stands at another place of the path");
     CHECK(r.differences[0].a.block == "M9");
-    const Setup setup = mill();
+    const setup::Setup setup = mill();
     for (const auto& [what, with] :
          std::vector<std::pair<std::string, std::string>>{{"S8000 M3", "S8000\nM3"},
                                                           {"T1 M6", "T1\nM6"},
                                                           {"G43 H1 Z20. M8", "G43 H1 Z20. M8\nM8"},
                                                           {"G43 H1 Z20. M8", "M8\nG43 H1 Z20."}}) {
-        const Comparison same = compare_texts(part, replaced(part, what, with), setup);
+        const regression::Comparison same = compare_texts(part, replaced(part, what, with), setup);
         INFO(with << ": " << same.verdict);
         CHECK(same.equal);
     }
@@ -184,22 +186,23 @@ TEST_CASE("a function at another place of the path is a difference, one block or
 
 TEST_CASE("the retract before an indexing counts where both sides use the same functions",
           "[compare]") {
-    const Setup setup = bc_table();
+    const setup::Setup setup = bc_table();
     const std::string a =
         "O1\nG90 G21 G94 G54\nT1 M6\nS500 M3\nG43.4 H1\nG0 X0. Y0. Z150.\n"
         "G1 Z140. F200.\nX20.\nG0 Z200.\nG49\nG0 B20. C45.\nG43.4 H1\nG0 X10. Y0. "
         "Z150.\nG1 Z140.\nX30.\nG0 Z200.\nG49\nM30\n";
-    const Comparison r = compare_texts(a, replaced(a, "X20.\nG0 Z200.\n", "X20.\n"), setup);
+    const regression::Comparison r =
+        compare_texts(a, replaced(a, "X20.\nG0 Z200.\n", "X20.\n"), setup);
     INFO(r.verdict);
     CHECK_FALSE(r.equal);
 }
 
 TEST_CASE("a lost decimal point is no equal program while parameter 3401 is not known",
           "[compare]") {
-    Setup setup = mill();
+    setup::Setup setup = mill();
     setup.stores.parameters.entry.erase(3401);
     const std::string b = replaced(part, "X-30.", "X-30");
-    const Comparison r = compare_texts(part, b, setup);
+    const regression::Comparison r = compare_texts(part, b, setup);
     INFO(r.verdict);
     CHECK_FALSE(r.equal);
     CHECK(r.differences.back().b.line == line_with(part, "X-30."));
@@ -212,33 +215,33 @@ TEST_CASE("a lost decimal point is no equal program while parameter 3401 is not 
 
 TEST_CASE("programs that stop for want of arguments are compared by words, and with --call",
           "[compare]") {
-    const Setup setup = mill();
+    const setup::Setup setup = mill();
     const std::string a =
         "O9814\n(bore)\nIF[#7EQ#0]GOTO90\nG91 G1 X[#7/2.] F#9\nX-#7\nG90\nGOTO99\nN90 "
         "#3000=91(DIAMETER "
         "MISSING)\nN99 M99\n";
     const std::string b = replaced(a, "X-#7", "X[-#7+0.2]");
-    const Comparison r = compare_texts(a, b, setup);
+    const regression::Comparison r = compare_texts(a, b, setup);
     INFO(r.verdict);
     CHECK_FALSE(r.equal);
-    CHECK(r.by == Layer::words);
-    CHECK(r.status == CompareStatus::differs);
+    CHECK(r.by == regression::Layer::words);
+    CHECK(r.status == regression::CompareStatus::differs);
     CHECK(r.differences.front().a.block == "X-#7");
     CHECK(r.alarm_a == r.alarm_b);
     CHECK_FALSE(r.alarm_a.empty());
     CHECK(compare_texts(a, replaced(a, "(bore)", "(a bore)"), setup).equal);
-    CompareOptions called;
+    regression::CompareOptions called;
     called.call = "G65 P9814 D25.4 F100.";
-    const Comparison by_call = compare_texts(a, b, setup, called);
+    const regression::Comparison by_call = compare_texts(a, b, setup, called);
     INFO(by_call.verdict);
     CHECK_FALSE(by_call.equal);
-    CHECK(by_call.by == Layer::path);
+    CHECK(by_call.by == regression::Layer::path);
     CHECK(by_call.position_mm == Approx(0.2));
     CHECK(compare_texts(a, replaced(a, "X-#7", "X[0-#7]"), setup, called).equal);
 }
 
 TEST_CASE("rounding of short chords is no other feed, 2 percent more is", "[compare]") {
-    const Setup setup = bc_table();
+    const setup::Setup setup = bc_table();
     const auto program = [](int decimals, double feed) {
         std::string text =
             "O1\nG90 G21 G94 G54\nT1 M6\nS500 M3\nG0 B20. C0.\nG43.4 H1\nG0 X30. Y0. "
@@ -250,17 +253,17 @@ TEST_CASE("rounding of short chords is no other feed, 2 percent more is", "[comp
         }
         return text + "G0 Z200.\nM30\n";
     };
-    const Comparison r = compare_texts(program(3, 1000), program(4, 1000), setup);
+    const regression::Comparison r = compare_texts(program(3, 1000), program(4, 1000), setup);
     INFO(r.verdict);
     CHECK(r.equal);
-    const Comparison faster = compare_texts(program(3, 1000), program(4, 1020), setup);
+    const regression::Comparison faster = compare_texts(program(3, 1000), program(4, 1020), setup);
     INFO(faster.verdict);
     CHECK_FALSE(faster.equal);
-    CHECK(faster.differences.front().kind == DifferenceKind::feed);
+    CHECK(faster.differences.front().kind == regression::DifferenceKind::feed);
 }
 
 TEST_CASE("a feed along 2.5 um between two others is noise", "[compare]") {
-    const Setup setup = bc_table();
+    const setup::Setup setup = bc_table();
     const std::string head = "O1\nG90 G21 G94 G54\nT1 M6\nS500 M3\nG0 X0. Y0. Z150.\n";
     const std::string a = head +
                           "G1 Z140. F200.\nX20. F800.\nG0 Z150.\nX50.\nG1 Z140. F200.\nX60. "
@@ -268,7 +271,7 @@ TEST_CASE("a feed along 2.5 um between two others is noise", "[compare]") {
     const std::string b = head +
                           "G1 Z140.0025 F200.\nZ140. F300.\nX20. F800.\nG0 Z149.9975\nG1 "
                           "Z150. F5000.\nG0 X50.\nG1 Z140. F200.\nX60. F800.\nG0 Z150.\nM30\n";
-    const Comparison r = compare_texts(a, b, setup);
+    const regression::Comparison r = compare_texts(a, b, setup);
     INFO(r.verdict);
     CHECK(r.equal);
     CHECK_FALSE(
@@ -279,24 +282,25 @@ TEST_CASE("a feed along 2.5 um between two others is noise", "[compare]") {
 
 TEST_CASE("a clearance plane is compared where the run starts from Z0", "[compare]") {
     std::vector<std::string> notes;
-    const Setup setup = parse_setup("[machine]\nchain = \"w b X Y Z t\"\n", "mill.toml", notes);
+    const setup::Setup setup =
+        setup::parse_setup("[machine]\nchain = \"w b X Y Z t\"\n", "mill.toml", notes);
     const std::string a =
         "O1\nG90 G21 G94 G54\nT1 M6\nS500 M3\nG0 X0. Y0.\nG43 H1 Z50.\nZ2.\nG1 Z-1. "
         "F200.\nX20.\nG0 Z50.\nM30\n";
-    const Comparison r = compare_texts(a, replaced(a, "H1 Z50.", "H1 Z5."), setup);
+    const regression::Comparison r = compare_texts(a, replaced(a, "H1 Z50.", "H1 Z5."), setup);
     INFO(r.verdict);
     CHECK_FALSE(r.equal);
     CHECK(r.differences.front().a.line == 6);
 }
 
 TEST_CASE("no number of a report is NaN where an arc is programmed in another plane", "[compare]") {
-    const Setup setup = mill();
+    const setup::Setup setup = mill();
     for (const char* arc :
          {"G18 G2 X20. Y20. I10. J0.", "G2 X20. Z5. I10. J0.", "G2 X20. I5. J5."}) {
         const std::string a = fmt::format(
             "O1\nG90 G21 G94 G54 G18\nS500 M3\nG41 D1 G1 X10. Z10. F100.\n{}\nG40 X40.\nM30\n",
             arc);
-        const Comparison r = compare_texts(a, replaced(a, "X40.", "X41."), setup);
+        const regression::Comparison r = compare_texts(a, replaced(a, "X40.", "X41."), setup);
         INFO(arc << ": " << r.verdict);
         CHECK(std::isfinite(r.time_a_s));
         CHECK(std::isfinite(r.position_mm));

@@ -161,8 +161,8 @@ struct Judged {
     std::vector<PlainFunction> functions;
 };
 
-Judged judged(const std::string& program, const Setup& setup) {
-    const OffsetVector& g54 = setup.stores.work.standard[0];
+Judged judged(const std::string& program, const setup::Setup& setup) {
+    const offsets::OffsetVector& g54 = setup.stores.work.standard[0];
     PlainInterpreter reader({g54[Axis::X], g54[Axis::Y], g54[Axis::Z]}, {{1, 100.0}, {2, 80.0}},
                             g55_mm);
     reader.run(program);
@@ -263,7 +263,7 @@ struct Counts {
 };
 
 Counts run_edits(std::uint64_t seed, int wanted) {
-    Setup setup = bc_table();
+    setup::Setup setup = bc_table();
     setup.stores.tools.tool[1].length_geometry_mm = 100.0;
     setup.stores.tools.tool[2].length_geometry_mm = 80.0;
     for (std::size_t k = 0; k < 3; ++k) setup.stores.work.standard[1][all_axes[k]] = 0.0;
@@ -275,7 +275,7 @@ Counts run_edits(std::uint64_t seed, int wanted) {
     REQUIRE_FALSE(truth.stopped);
     SeededNoise noise(seed);
     Counts n;
-    CompareOptions options;
+    regression::CompareOptions options;
     options.max_blocks = 3000;
     while (n.changed + n.same < wanted) {
         std::string what;
@@ -285,7 +285,7 @@ Counts run_edits(std::uint64_t seed, int wanted) {
             ++n.not_judged;
             continue;
         }
-        const Comparison r = compare_texts(base, b, setup, options);
+        const regression::Comparison r = compare_texts(base, b, setup, options);
         const bool changed = o == Opinion::changed;
         ++(changed ? n.changed : n.same);
         if (changed == !r.equal) continue;

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "geometry/pose.h"
 #include "base/units.h"
+#include "geometry/pose.h"
 
 namespace trunnion::testing {
 

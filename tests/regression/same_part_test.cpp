@@ -10,11 +10,12 @@ using namespace trunnion::testing;
 
 namespace {
 
-Setup machine_of(const PartOnTable& part) {
+setup::Setup machine_of(const PartOnTable& part) {
     std::vector<std::string> notes;
-    Setup setup = load_setup(std::string(TRUNNION_SOURCE_DIR) + "/machines/" +
-                                 (part.tilt == 'B' ? "bc_table.toml" : "ac_trunnion.toml"),
-                             notes);
+    setup::Setup setup =
+        setup::load_setup(std::string(TRUNNION_SOURCE_DIR) + "/machines/" +
+                              (part.tilt == 'B' ? "bc_table.toml" : "ac_trunnion.toml"),
+                          notes);
     setup.stores.tools.tool[1].length_geometry_mm = 120.0;
     for (int k = 0; k < 3; ++k) {
         setup.stores.parameters.set(19700 + k, part.pivot_mm[k]);
@@ -23,9 +24,10 @@ Setup machine_of(const PartOnTable& part) {
     return setup;
 }
 
-Comparison compare_on(const std::string& a, const Setup& setup_a, const std::string& b,
-                      const Setup& setup_b) {
-    return compare_programs(text_of("a.nc", a), setup_a, text_of("b.nc", b), setup_b, {});
+regression::Comparison compare_on(const std::string& a, const setup::Setup& setup_a,
+                                  const std::string& b, const setup::Setup& setup_b) {
+    return regression::compare_programs(text_of("a.nc", a), setup_a, text_of("b.nc", b), setup_b,
+                                        {});
 }
 
 }  // namespace
@@ -34,15 +36,15 @@ TEST_CASE("the same part by own kinematics, G43.4, G68.2 and G54.2 is equal, all
           "[compare]") {
     PartOnTable part;
     part.tilt = GENERATE('B', 'A');
-    const Setup setup = machine_of(part);
+    const setup::Setup setup = machine_of(part);
     for (const Post p : {Post::dpp, Post::tcp, Post::plane, Post::fixture})
         for (const Post q : {Post::dpp, Post::tcp, Post::plane, Post::fixture}) {
             const std::string a = part.program(p), b = part.program(q);
-            const Comparison r = compare_texts(a, b, setup);
+            const regression::Comparison r = compare_texts(a, b, setup);
             INFO(part.tilt << "C, " << post_names[static_cast<std::size_t>(p)] << " and "
                            << post_names[static_cast<std::size_t>(q)] << ": " << r.verdict);
             CHECK(r.equal);
-            CHECK(r.by == (p == q ? Layer::text : Layer::path));
+            CHECK(r.by == (p == q ? regression::Layer::text : regression::Layer::path));
             CHECK(r.position_mm < 0.002);
             CHECK(r.direction_deg < 1e-5);
             // Four sections, in each 3 lines and a half circle of radius 5.
@@ -53,7 +55,7 @@ TEST_CASE("the same part by own kinematics, G43.4, G68.2 and G54.2 is equal, all
             moved.shift_mm = Vector3(0, 0, 0.004);
             CHECK(compare_texts(a, moved.program(q), setup).equal);
             moved.shift_mm = Vector3(0, 0, 0.02);
-            const Comparison differs = compare_texts(a, moved.program(q), setup);
+            const regression::Comparison differs = compare_texts(a, moved.program(q), setup);
             CHECK_FALSE(differs.equal);
             CHECK(differs.position_mm == Approx(0.02).margin(0.002));
             CHECK(differs.differences.front().a.line >=
@@ -65,12 +67,13 @@ TEST_CASE("the same part posted for a BC and for an AC machine is equal across b
           "[compare]") {
     PartOnTable bc, ac;
     ac.tilt = 'A';
-    const Setup setup_bc = machine_of(bc), setup_ac = machine_of(ac);
+    const setup::Setup setup_bc = machine_of(bc), setup_ac = machine_of(ac);
     for (const Post p : {Post::dpp, Post::tcp, Post::plane, Post::fixture}) {
-        const Comparison r = compare_on(bc.program(p), setup_bc, ac.program(p), setup_ac);
+        const regression::Comparison r =
+            compare_on(bc.program(p), setup_bc, ac.program(p), setup_ac);
         INFO(post_names[static_cast<std::size_t>(p)] << ": " << r.verdict);
         CHECK(r.equal);
-        CHECK(r.by == Layer::path);
+        CHECK(r.by == regression::Layer::path);
         // Different posts on different machines too.
         CHECK(compare_on(bc.program(p), setup_bc, ac.program(Post::tcp), setup_ac).equal);
         // C of the wrong machine: 90 degrees off.
@@ -80,8 +83,9 @@ TEST_CASE("the same part posted for a BC and for an AC machine is equal across b
         CHECK(compare_on(bc.program(p), setup_bc, wrong.program(p), setup_ac).equal ==
               (p == Post::plane));
         // The program of the other machine does not run: there is no such axis.
-        const Comparison other = compare_on(bc.program(p), setup_bc, ac.program(p), setup_bc);
-        CHECK(other.status == CompareStatus::alarm);
+        const regression::Comparison other =
+            compare_on(bc.program(p), setup_bc, ac.program(p), setup_bc);
+        CHECK(other.status == regression::CompareStatus::alarm);
         CHECK_FALSE(other.equal);
         // A full turn of C is the same machining.
         PartOnTable turned = ac;
@@ -91,13 +95,14 @@ TEST_CASE("the same part posted for a BC and for an AC machine is equal across b
 }
 
 TEST_CASE("what a part loses when nobody updates P1970x is the closed form", "[compare]") {
-    // Closed form of docs/notation.md: |(R - I) (dp + dd) - (R1 - I) dd|, R1 the tilting axis alone.
+    // Closed form of docs/notation.md: |(R - I) (dp + dd) - (R1 - I) dd|, R1 the tilting axis
+    // alone.
     PartOnTable part;
     part.tilt = GENERATE('B', 'A');
     const Vector3 dp = GENERATE(values<Vector3>({{0.08, 0, 0}, {0.05, -0.03, 0.07}, {0, 0, 0}}));
     const Vector3 dd = GENERATE(values<Vector3>({{0, 0, 0}, {-0.02, 0.04, 0.03}}));
-    const Setup now = machine_of(part);
-    Setup stale = now;
+    const setup::Setup now = machine_of(part);
+    setup::Setup stale = now;
     for (int k = 0; k < 3; ++k) {
         stale.stores.parameters.set(19700 + k, part.pivot_mm[k] + dp[k]);
         stale.stores.parameters.set(19703 + k, dd[k]);
@@ -113,13 +118,13 @@ TEST_CASE("what a part loses when nobody updates P1970x is the closed form", "[c
     }
     for (const Post p : {Post::tcp, Post::plane}) {
         const std::string program = part.program(p);
-        const Comparison r = compare_on(program, now, program, stale);
+        const regression::Comparison r = compare_on(program, now, program, stale);
         INFO(part.tilt << "C " << post_names[static_cast<std::size_t>(p)] << ", dp "
                        << dp.transpose() << ", dd " << dd.transpose() << ": " << r.verdict);
         CHECK(r.equal == expected.empty());
         std::vector<double> moved;
-        for (const Difference& d : r.differences) {
-            CHECK(d.kind == DifferenceKind::moved);
+        for (const regression::Difference& d : r.differences) {
+            CHECK(d.kind == regression::DifferenceKind::moved);
             moved.push_back(d.position_mm);
             CHECK(d.a.line == d.b.line);
         }
@@ -134,11 +139,11 @@ TEST_CASE("what a part loses when nobody updates P1970x is the closed form", "[c
 
 TEST_CASE("a tool length that nobody updated moves the part along the tool", "[compare]") {
     PartOnTable part;
-    const Setup now = machine_of(part);
-    Setup stale = now;
+    const setup::Setup now = machine_of(part);
+    setup::Setup stale = now;
     stale.stores.tools.tool[1].length_geometry_mm += 0.05;
     const std::string program = part.program(Post::tcp);
-    const Comparison r = compare_on(program, now, program, stale);
+    const regression::Comparison r = compare_on(program, now, program, stale);
     REQUIRE_FALSE(r.equal);
     CHECK(r.position_mm == Approx(0.05).margin(1e-6));
 }
@@ -147,7 +152,7 @@ TEST_CASE("five axes at once: G43.4 in long blocks equals own kinematics in shor
           "[compare]") {
     PartOnTable part;
     part.tilt = GENERATE('B', 'A');
-    const Setup setup = machine_of(part);
+    const setup::Setup setup = machine_of(part);
     const double length = Vector3(30, -12, 0).norm();
     const auto program = [&](bool own, double step, double z) {
         const Vector3 g54 = own ? part.pivot_mm : part.zero_W_mm;
@@ -171,7 +176,8 @@ TEST_CASE("five axes at once: G43.4 in long blocks equals own kinematics in shor
         }
         return s + "M30\n%\n";
     };
-    const Comparison r = compare_texts(program(true, 0.002, 4), program(false, 0.5, 4), setup);
+    const regression::Comparison r =
+        compare_texts(program(true, 0.002, 4), program(false, 0.5, 4), setup);
     INFO(r.verdict);
     CHECK(r.equal);
     CHECK_FALSE(compare_texts(program(true, 0.002, 4), program(false, 0.5, 4.02), setup).equal);

@@ -72,8 +72,8 @@ std::string filled(std::string text, const SmallPart& p) {
     return text;
 }
 
-Setup bench_mill() {
-    Setup setup = bc_table();
+setup::Setup bench_mill() {
+    setup::Setup setup = bc_table();
     for (std::size_t k = 1; k <= 4; ++k) {
         setup.stores.tools.tool[k].length_geometry_mm = 100.0 + 10.0 * static_cast<double>(k);
         setup.stores.tools.tool[k].radius_geometry_mm = 3.0 + static_cast<double>(k);
@@ -91,25 +91,26 @@ int first_edited(const std::string& a, const std::string& b) {
     return 0;
 }
 
-bool names(const Comparison& r, int line) {
+bool names(const regression::Comparison& r, int line) {
     if (r.differences.empty()) return false;
-    const Difference& d = r.differences.front();
+    const regression::Difference& d = r.differences.front();
     return d.a.line == line || d.b.line == line;
 }
 
-bool says(const Comparison& r, const std::string& words) {
-    return std::any_of(r.differences.begin(), r.differences.end(), [&](const Difference& d) {
-        return d.what.find(words) != std::string::npos;
-    });
+bool says(const regression::Comparison& r, const std::string& words) {
+    return std::any_of(
+        r.differences.begin(), r.differences.end(),
+        [&](const regression::Difference& d) { return d.what.find(words) != std::string::npos; });
 }
 
 }  // namespace
 
 TEST_CASE("the small post's parts run, and each is its own machining again", "[compare]") {
-    const Setup setup = bench_mill();
+    const setup::Setup setup = bench_mill();
     for (const std::uint64_t seed : {1, 2, 3}) {
         const std::string text = small_post(small_part(seed));
-        const Comparison r = compare_texts(text, text, setup, only(Layer::path));
+        const regression::Comparison r =
+            compare_texts(text, text, setup, only(regression::Layer::path));
         INFO(r.verdict << "\n" << text);
         CHECK(r.equal);
         CHECK(r.compared > 30);
@@ -118,14 +119,14 @@ TEST_CASE("the small post's parts run, and each is its own machining again", "[c
 
 TEST_CASE("40 seeded faults: all are found, 95 percent by block, 80 percent by cause",
           "[compare]") {
-    const Setup setup = bench_mill();
+    const setup::Setup setup = bench_mill();
     int count = 0, found = 0, placed = 0, caused = 0;
     std::string missed;
     for (const Fault& fault : faults) {
         const SmallPart p = small_part(static_cast<std::uint64_t>(++count));
         const std::string a = small_post(p);
         const std::string b = replaced(a, filled(fault.what, p), filled(fault.with, p));
-        const Comparison r = compare_texts(a, b, setup);
+        const regression::Comparison r = compare_texts(a, b, setup);
         INFO(fault.name << ": " << r.verdict);
         CHECK_FALSE(r.equal);
         const bool place = names(r, first_edited(a, b));
@@ -145,13 +146,13 @@ TEST_CASE("40 seeded faults: all are found, 95 percent by block, 80 percent by c
 }
 
 TEST_CASE("one cause is one difference", "[compare]") {
-    const Setup setup = bench_mill();
+    const setup::Setup setup = bench_mill();
     const std::string a = small_post(small_part(7));
     for (const auto& [what, with] : std::vector<std::pair<std::string, std::string>>{
              {"G43 H2", "G43 H1"}, {"G41 D1", "G42 D1"}, {"G55\n", "G54.1 P1\n"}}) {
-        const Comparison r = compare_texts(a, replaced(a, what, with), setup);
+        const regression::Comparison r = compare_texts(a, replaced(a, what, with), setup);
         std::string all;
-        for (const Difference& d : r.differences)
+        for (const regression::Difference& d : r.differences)
             all += fmt::format("\n  {} (A {}, B {})", d.what, d.a.line, d.b.line);
         INFO(with << ": " << r.verdict << all);
         CHECK(r.differences.size() == 1);
@@ -159,12 +160,12 @@ TEST_CASE("one cause is one difference", "[compare]") {
 }
 
 TEST_CASE("five shifts are one pivot that moved, or one length", "[compare]") {
-    const Setup setup = bc_table();
+    const setup::Setup setup = bc_table();
     const Vector3 true_pivot = Vector3::Zero();
     const std::string a = own_kinematics_post(true_pivot, 0.0);
     const Vector3 moved(0.25, -0.18, 0.31);
-    const Comparison r =
-        compare_texts(a, own_kinematics_post(true_pivot + moved, 0.0), setup, only(Layer::path));
+    const regression::Comparison r = compare_texts(a, own_kinematics_post(true_pivot + moved, 0.0),
+                                                   setup, only(regression::Layer::path));
     INFO(r.verdict);
     CHECK_FALSE(r.equal);
     CHECK(says(r, "one pivot moved by (0.2500, -0.1800, 0.31"));

@@ -10,18 +10,19 @@ using namespace trunnion;
 
 TEST_CASE("the general identification finds what the ballbar fit finds") {
     std::vector<std::string> notes;
-    Setup setup =
-        load_setup(std::string(TRUNNION_SOURCE_DIR) + "/machines/ac_trunnion.toml", notes);
+    setup::Setup setup =
+        setup::load_setup(std::string(TRUNNION_SOURCE_DIR) + "/machines/ac_trunnion.toml", notes);
     setup.ballbar->sample_hz = 5.0;
     setup.ballbar->free_cup = false;
-    const BallbarResult result = run_ballbar(setup, {});
-    Setup declared = setup;
+    const ballbar::test::BallbarResult result = ballbar::test::run_ballbar(setup, {});
+    setup::Setup declared = setup;
     declared.machine.errors = {};
-    const Identification found = identify(declared, result.before.readings, {"location"});
+    const identification::Identification found =
+        identification::identify(declared, result.before.readings, {"location"});
     CHECK(found.inseparable.empty());
     int compared = 0;
-    for (const BallbarErrorRow& row : result.errors)
-        for (const FitParameter& p : found.parameters) {
+    for (const ballbar::test::BallbarErrorRow& row : result.errors)
+        for (const identification::FitParameter& p : found.parameters) {
             if (p.name.rfind(to_string(row.name), 0) != 0) continue;
             ++compared;
             CAPTURE(p.name, p.value, row.before, row.sigma_before, p.sigma);

@@ -14,17 +14,18 @@ using namespace trunnion;
 
 namespace {
 
-Setup ac_setup(double noise_um) {
+setup::Setup ac_setup(double noise_um) {
     std::vector<std::string> notes;
-    Setup setup =
-        load_setup(std::string(TRUNNION_SOURCE_DIR) + "/machines/ac_trunnion.toml", notes);
+    setup::Setup setup =
+        setup::load_setup(std::string(TRUNNION_SOURCE_DIR) + "/machines/ac_trunnion.toml", notes);
     setup.ballbar->noise_um = noise_um;
     setup.ballbar->sample_hz = 8.0;
     return setup;
 }
 
-const BallbarErrorRow& row(const std::vector<BallbarErrorRow>& rows, const std::string& name) {
-    for (const BallbarErrorRow& r : rows)
+const ballbar::test::BallbarErrorRow& row(const std::vector<ballbar::test::BallbarErrorRow>& rows,
+                                          const std::string& name) {
+    for (const ballbar::test::BallbarErrorRow& r : rows)
         if (to_string(r.name) == name) return r;
     FAIL("no row " + name);
     return rows.front();
@@ -33,10 +34,10 @@ const BallbarErrorRow& row(const std::vector<BallbarErrorRow>& rows, const std::
 }  // namespace
 
 TEST_CASE("run, identify, compensate, run again - every error within three sigma of zero") {
-    const Setup setup = ac_setup(0.5);
-    const BallbarResult result = run_ballbar(setup, {});
+    const setup::Setup setup = ac_setup(0.5);
+    const ballbar::test::BallbarResult result = ballbar::test::run_ballbar(setup, {});
     REQUIRE(result.errors.size() == 8);
-    for (const BallbarErrorRow& r : result.errors) {
+    for (const ballbar::test::BallbarErrorRow& r : result.errors) {
         CAPTURE(to_string(r.name), r.before, r.after, r.sigma);
         CHECK(r.sigma_before > 0.0);
         CHECK(r.sigma > r.sigma_before);
@@ -54,19 +55,19 @@ TEST_CASE("run, identify, compensate, run again - every error within three sigma
 }
 
 TEST_CASE("noise-free the procedure is exact and the tilts are compensated too") {
-    const BallbarResult result = run_ballbar(ac_setup(0.0), {});
-    for (const BallbarErrorRow& r : result.errors) {
+    const ballbar::test::BallbarResult result = ballbar::test::run_ballbar(ac_setup(0.0), {});
+    for (const ballbar::test::BallbarErrorRow& r : result.errors) {
         CAPTURE(to_string(r.name), r.after);
         CHECK(std::abs(r.after) < (r.name.angular() ? 1e-9 : 1e-6));
     }
-    for (const BallbarErrorRow& r : result.at_intersection)
+    for (const ballbar::test::BallbarErrorRow& r : result.at_intersection)
         CHECK(std::abs(r.after) < (r.name.angular() ? 1e-9 : 1e-6));
     // 19700-19702 hold a point of the A axis, 19703-19705 lead from there to the C axis.
     CHECK(*result.true_tip_um < 1e-3);
     CHECK(result.sphere_check->after_um < 1e-3);
     CHECK(result.sphere_check->before_um > 50.0);
     REQUIRE(result.stores);
-    const PivotParameters& p = result.stores->exact.pivot;
+    const offsets::PivotParameters& p = result.stores->exact.pivot;
     CHECK(p.table_point_mm.y() == Approx(0.0726).margin(1e-6));
     CHECK(p.table_point_mm.z() == Approx(-0.0202).margin(1e-6));
     CHECK(p.table_offset_mm.x() == Approx(0.0283).margin(1e-6));
@@ -74,9 +75,9 @@ TEST_CASE("noise-free the procedure is exact and the tilts are compensated too")
 }
 
 TEST_CASE("a wrong tool length reads as EZ0A and is named as what cannot be told apart") {
-    Setup setup = ac_setup(0.0);
+    setup::Setup setup = ac_setup(0.0);
     setup.ballbar->cup_S_mm.z() -= 0.01;  // the tool is 10 um longer than its offset says
-    const BallbarResult result = run_ballbar(setup, {});
+    const ballbar::test::BallbarResult result = ballbar::test::run_ballbar(setup, {});
     CHECK(row(result.errors, "EZ0A").before - (-0.0202) == Approx(0.01).margin(1e-5));
     CHECK(std::abs(row(result.errors, "EZ0A").after) < 1e-6);
     // What the bar's own re-test misses, another instrument shows.
@@ -85,34 +86,34 @@ TEST_CASE("a wrong tool length reads as EZ0A and is named as what cannot be told
     REQUIRE(result.true_tip_um);
     CHECK(*result.true_tip_um > 9.0);
     bool named = false;
-    for (const InseparableGroup& group : result.open_fit.inseparable)
+    for (const ballbar::test::InseparableGroup& group : result.open_fit.inseparable)
         named |= std::count(group.names.begin(), group.names.end(), "EZ0A") == 1 &&
                  std::count(group.names.begin(), group.names.end(), "ballbar.cup.z") == 1;
     CHECK(named);
     setup.stores.tools.tool[2].length_geometry_mm += 0.01;  // told the truth
-    const BallbarResult known = run_ballbar(setup, {});
+    const ballbar::test::BallbarResult known = ballbar::test::run_ballbar(setup, {});
     CHECK(row(known.errors, "EZ0A").before == Approx(-0.0202).margin(1e-6));
 }
 
 TEST_CASE("errors of the linear axes are handed to diagnosis") {
-    Setup setup = ac_setup(0.3);
-    setup.machine.errors.location(*parse_error_name("EC0Y")) = 4e-5;
-    const BallbarResult result = run_ballbar(setup, {});
+    setup::Setup setup = ac_setup(0.3);
+    setup.machine.errors.location(*kinematics::parse_error_name("EC0Y")) = 4e-5;
+    const ballbar::test::BallbarResult result = ballbar::test::run_ballbar(setup, {});
     CHECK(result.verdict.structured);
-    const std::string text = ballbar_table(result);
+    const std::string text = report::ballbar_table(result);
     CHECK_THAT(text, Catch::Contains("trunnion diagnose R.csv --setup"));
-    for (const PlanarResult& planar : result.planar) {
-        if (planar.test.plane != BallbarTestKind::xy) continue;
-        const CircularCause& first = planar.diagnosis.causes.front();
+    for (const ballbar::test::PlanarResult& planar : result.planar) {
+        if (planar.test.plane != ballbar::test::BallbarTestKind::xy) continue;
+        const ballbar::test::CircularCause& first = planar.diagnosis.causes.front();
         CHECK(first.name == "squareness XY");
         CHECK(first.value == Approx(40.0).margin(4.0 * first.sigma));
     }
 }
 
 TEST_CASE("a bar out of its range is said with the pass") {
-    Setup setup = ac_setup(0.0);
-    setup.machine.errors.location(*parse_error_name("EX0C")) = 3.0;
-    CHECK_THROWS_MATCHES(run_ballbar(setup, {}), InputError,
+    setup::Setup setup = ac_setup(0.0);
+    setup.machine.errors.location(*kinematics::parse_error_name("EX0C")) = 3.0;
+    CHECK_THROWS_MATCHES(ballbar::test::run_ballbar(setup, {}), InputError,
                          Catch::Matchers::Predicate<InputError>([](const InputError& e) {
                              return e.message.find("out of its range of 1 mm") !=
                                         std::string::npos &&
@@ -122,8 +123,8 @@ TEST_CASE("a bar out of its range is said with the pass") {
 }
 
 TEST_CASE("ballbar JSON holds the keys of the contract") {
-    const BallbarResult result = run_ballbar(ac_setup(0.5), {});
-    const auto json = nlohmann::json::parse(ballbar_json(result));
+    const ballbar::test::BallbarResult result = ballbar::test::run_ballbar(ac_setup(0.5), {});
+    const auto json = nlohmann::json::parse(report::ballbar_json(result));
     CHECK(json["schema"] == "trunnion.ballbar/1");
     REQUIRE(json["errors"].size() == 8);
     for (const auto& e : json["errors"])
@@ -140,33 +141,35 @@ TEST_CASE("ballbar JSON holds the keys of the contract") {
 }
 
 TEST_CASE("same seed, same report") {
-    const Setup setup = ac_setup(0.5);
-    CHECK(ballbar_json(run_ballbar(setup, {})) == ballbar_json(run_ballbar(setup, {})));
-    BallbarProcedureOptions other;
+    const setup::Setup setup = ac_setup(0.5);
+    CHECK(report::ballbar_json(ballbar::test::run_ballbar(setup, {})) ==
+          report::ballbar_json(ballbar::test::run_ballbar(setup, {})));
+    ballbar::test::BallbarProcedureOptions other;
     other.seed = 2;
-    CHECK(ballbar_json(run_ballbar(setup, {})) != ballbar_json(run_ballbar(setup, other)));
+    CHECK(report::ballbar_json(ballbar::test::run_ballbar(setup, {})) !=
+          report::ballbar_json(ballbar::test::run_ballbar(setup, other)));
 }
 
 TEST_CASE("polar plots have a scale, both directions and the fitted circle") {
-    PolarPlot plot;
+    report::PolarPlot plot;
     plot.title = "XY";
-    PolarTrace trace{"ccw", {}, {}};
+    report::PolarTrace trace{"ccw", {}, {}};
     for (int i = 0; i < 360; ++i) {
         trace.angle_rad.push_back(rad_from_deg(i));
         trace.radial_um.push_back(3.0 + 6.5 * std::cos(rad_from_deg(i)) -
                                   2.0 * std::sin(rad_from_deg(i)));
     }
     plot.traces = {trace, trace};
-    plot.fitted_um = fit_eccentric_circle(plot.traces);
+    plot.fitted_um = report::fit_eccentric_circle(plot.traces);
     REQUIRE(plot.fitted_um.size() == 3);
     CHECK(plot.fitted_um[0] == Approx(3.0));
     CHECK(plot.fitted_um[1] == Approx(6.5));
     CHECK(plot.fitted_um[2] == Approx(-2.0));
-    CHECK(um_per_division(plot) == 5.0);  // 9.8 um within four divisions
-    const std::string svg = polar_svg(plot);
+    CHECK(report::um_per_division(plot) == 5.0);  // 9.8 um within four divisions
+    const std::string svg = report::polar_svg(plot);
     CHECK_THAT(svg, Catch::Contains("5 µm/div") && Catch::Contains("fitted circle"));
     CHECK(svg.find("nan") == std::string::npos);
-    const auto pictures = ballbar_pictures(run_ballbar(ac_setup(0.5), {}));
+    const auto pictures = report::ballbar_pictures(ballbar::test::run_ballbar(ac_setup(0.5), {}));
     CHECK(pictures.size() == 7);
     CHECK(pictures.count("radial_A.svg") == 1);
     CHECK(pictures.count("xy_2000.svg") == 1);

@@ -9,15 +9,15 @@
 namespace trunnion {
 namespace {
 
-Diagnosis one_cause() {
-    Diagnosis d;
-    d.verdict = Verdict::ambiguous;
+diagnosis::Diagnosis one_cause() {
+    diagnosis::Diagnosis d;
+    d.verdict = diagnosis::Verdict::ambiguous;
     d.rms_um = 2.0;
     d.noise_um = 0.5;
     d.readings = 4;
     d.before_um = {2.0, -2.0, 2.0, -2.0};
     d.after_um = {0.5, -0.5, 0.4, -0.4};
-    Cause cause;
+    diagnosis::Cause cause;
     cause.effect = "C.backlash";
     cause.share = 0.93;
     cause.rivals = {"C.zero & co"};
@@ -42,21 +42,21 @@ std::size_t count(const std::string& text, const std::string& word) {
 }  // namespace
 
 TEST_CASE("values stand in the units of the shop, digits as sure as sigma") {
-    const Diagnosis d = one_cause();
-    const ShopValue gap = shop_value(d.causes[0].parameters[0]);
+    const diagnosis::Diagnosis d = one_cause();
+    const report::ShopValue gap = report::shop_value(d.causes[0].parameters[0]);
     CHECK(gap.name == "gap");
     CHECK(gap.value == "81.23");
     CHECK(gap.sigma == "0.90");
     CHECK(gap.unit == "µrad");
-    const ShopValue dp = shop_value(d.causes[0].parameters[1]);
+    const report::ShopValue dp = report::shop_value(d.causes[0].parameters[1]);
     CHECK(dp.name == "dp y");
     CHECK(dp.value == "41.2");
     CHECK(dp.unit == "µm");
-    CHECK(main_size(d.causes[0]) == "gap 81.23 ± 0.90 µrad");
+    CHECK(report::main_size(d.causes[0]) == "gap 81.23 ± 0.90 µrad");
 }
 
 TEST_CASE("the page says size, cause, rivals and shrink, and is whole") {
-    const std::string page = diagnosis_page(one_cause(), "a <b>.csv");
+    const std::string page = report::diagnosis_page(one_cause(), "a <b>.csv");
     for (const char* text :
          {"2.00 µm rms", "C.backlash", "93 %", "C.zero &amp; co", "a &lt;b&gt;.csv", "90 %",
           "85 to 95 %", "worn worm gear", "readjust the preload", "gap 81.23"})
@@ -69,9 +69,9 @@ TEST_CASE("the page says size, cause, rivals and shrink, and is whole") {
 }
 
 TEST_CASE("a page without a gap says so and shows no cause") {
-    Diagnosis d;
+    diagnosis::Diagnosis d;
     d.rms_um = d.noise_um = 0.8;
-    const std::string page = diagnosis_page(d, "x.csv");
+    const std::string page = report::diagnosis_page(d, "x.csv");
     CHECK_THAT(page, Catch::Contains("No gap.") && !Catch::Contains("Which effect"));
 }
 

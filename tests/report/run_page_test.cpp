@@ -1,20 +1,21 @@
+#include "report/run_page.h"
+
 #include <catch2/catch.hpp>
 
 #include "report/packed_columns.h"
 #include "report/page.h"
-#include "report/run_page.h"
 
 using namespace trunnion;
 
 TEST_CASE("a page names the script and the style that it runs by their hashes and no other") {
-    Page page;
+    report::Page page;
     page.title = "A <title>";
     page.verdict = "equal & more";
-    page.script = PageScript::chart;
+    page.script = report::PageScript::chart;
     page.data_json = R"({"text": "</script><script>alert(1)</script>"})";
     page.origin.command = "trunnion run \"a.nc\"";
     page.origin.version = "1.2.3";
-    const std::string html = page_html(page);
+    const std::string html = report::page_html(page);
     CHECK(html.find("default-src 'none'; script-src 'sha256-") != std::string::npos);
     CHECK(html.find("unsafe") == std::string::npos);
     CHECK(html.find("A &lt;title&gt;") != std::string::npos);
@@ -24,18 +25,18 @@ TEST_CASE("a page names the script and the style that it runs by their hashes an
 }
 
 TEST_CASE("a page without a script allows none") {
-    CHECK(page_html(Page{}).find("script-src 'none'") != std::string::npos);
-    CHECK(page_html(Page{}).find("<script") == std::string::npos);
+    CHECK(report::page_html(report::Page{}).find("script-src 'none'") != std::string::npos);
+    CHECK(report::page_html(report::Page{}).find("<script") == std::string::npos);
 }
 
 TEST_CASE("packed columns: the same columns give the same text, and an even slope costs nothing") {
-    PackedColumn even{"X", 1e-4, {}}, same{"Y", 1e-4, {}};
+    report::PackedColumn even{"X", 1e-4, {}}, same{"Y", 1e-4, {}};
     for (int i = 0; i < 200'000; ++i) {
         even.number.push_back(25 * i - 7);
         same.number.push_back(-3);
     }
-    const std::string text = packed_base64({even, same});
-    CHECK(text == packed_base64({even, same}));
+    const std::string text = report::packed_base64({even, same});
+    CHECK(text == report::packed_base64({even, same}));
     CHECK(text.size() < 2000);
 }
 
@@ -46,7 +47,7 @@ TEST_CASE("the path of a run is read from its trace in any pieces") {
         "0,\"a,b\"\"c.nc\",3,G0,1,0,10,90,1,2,3,0,0,1,10,0.5,1,2,3.25\n"
         "1,\"a,b\"\"c.nc\",4,G1,1,100,20,90,1,2,4,0,0,1,20,1.5,1,2,4\n";
     for (const std::size_t piece : {std::size_t{1}, std::size_t{7}, trace.size()}) {
-        RunPath path;
+        report::RunPath path;
         for (std::size_t i = 0; i < trace.size(); i += piece) path.add(trace.substr(i, piece));
         REQUIRE(path.points().size() == 2);
         CHECK(path.programs() == std::vector<std::string>{"a,b\"c.nc"});
@@ -61,12 +62,12 @@ TEST_CASE("a path beyond the limit keeps every second point and says so") {
     std::string trace =
         "seq,program,line,motion,tool,feed_mm_min,x_mm,tip_x_mm,tip_y_mm,tip_z_mm,time_s,"
         "true_x_mm,true_y_mm,true_z_mm\n";
-    RunPath path;
+    report::RunPath path;
     path.add(trace);
-    for (std::size_t i = 0; i < RunPath::most + 10; ++i)
+    for (std::size_t i = 0; i < report::RunPath::most + 10; ++i)
         path.add(std::to_string(i) + ",a,1,G1,1,0," + std::to_string(i) + ",0,0,0,0,0,0,0\n");
     CHECK(path.stride() == 2);
-    CHECK(path.points().size() == RunPath::most / 2 + 5);
+    CHECK(path.points().size() == report::RunPath::most / 2 + 5);
     for (std::size_t i = 0; i < path.points().size(); ++i)
         REQUIRE(path.points()[i].axes[0] == 2.0 * static_cast<double>(i));
 }

@@ -63,12 +63,12 @@ const std::string program =
     "G1 Z-1. F200.\nX50.\nG3 X60. Y10. I0. J10.\nG0 Z10.\nX0.\nG1 Z-2.\nX40.\nG0 Z10.\nM30\n%\n";
 
 std::string sarif_of(const std::string& a, const std::string& b) {
-    const Comparison r = compare_texts(a, b, bc_table());
-    return format_comparison({"", true, {r}}, ReportFormat::sarif);
+    const regression::Comparison r = compare_texts(a, b, bc_table());
+    return report::format_comparison({"", true, {r}}, report::ReportFormat::sarif);
 }
 
-std::vector<ReportItem> many(std::size_t count, std::size_t notes) {
-    std::vector<ReportItem> items(count);
+std::vector<report::ReportItem> many(std::size_t count, std::size_t notes) {
+    std::vector<report::ReportItem> items(count);
     for (std::size_t k = 0; k < count; ++k) {
         items[k].rule = "moved";
         items[k].level = k < notes ? "note" : "error";
@@ -88,9 +88,9 @@ TEST_CASE("the SARIF of a comparison and of a check has the required structure",
     b = replaced(b, "Z-2.", "Z-2.2");
     check_structure(sarif_of(program, b));
     check_structure(sarif_of(program, replaced(program, "G3", "<<<<<<< HEAD\nG3")));
-    check_structure(format_findings(
-        {{"jump-target", Severity::error, "a b.nc", 3, 1, "GOTO 50: no N50", "add N50"},
-         {"jump-target", Severity::error, "a b.nc", 4, 1, "GOTO 50: no N50", "add N50"}},
+    check_structure(report::format_findings(
+        {{"jump-target", check::Severity::error, "a b.nc", 3, 1, "GOTO 50: no N50", "add N50"},
+         {"jump-target", check::Severity::error, "a b.nc", 4, 1, "GOTO 50: no N50", "add N50"}},
         {"a b.nc"}, "sarif"));
 }
 
@@ -115,17 +115,19 @@ TEST_CASE("fingerprints stay when lines are inserted above, removed below, renum
     }
     // Findings of check name lines in their text.
     const auto finding = [](const char* text, int line) {
-        return fingerprints_in(format_findings(
-            {{"jump-target", Severity::error, "a.nc", line, 1, text, ""}}, {"a.nc"}, "sarif"));
+        return fingerprints_in(report::format_findings(
+            {{"jump-target", check::Severity::error, "a.nc", line, 1, text, ""}}, {"a.nc"},
+            "sarif"));
     };
     CHECK(finding("N5 stands again at line 17", 3) == finding("N5 stands again at line 19", 5));
     CHECK(finding("N5 stands again at line 17", 3) != finding("N6 stands again at line 17", 3));
 }
 
 TEST_CASE("results at, below and above the limits of count and size", "[sarif]") {
-    const std::vector<ReportRule> rules{{"moved", "The same path, shifted"}};
-    const auto run_of = [&](const std::vector<ReportItem>& items, const SarifLimits& limits) {
-        return Json::parse(format_sarif(rules, items, limits))["runs"][0];
+    const std::vector<report::ReportRule> rules{{"moved", "The same path, shifted"}};
+    const auto run_of = [&](const std::vector<report::ReportItem>& items,
+                            const report::SarifLimits& limits) {
+        return Json::parse(report::format_sarif(rules, items, limits))["runs"][0];
     };
     for (const std::size_t count : {4999, 5000, 5001, 25001}) {
         const Json run = run_of(many(count, 0), {});
@@ -139,12 +141,12 @@ TEST_CASE("results at, below and above the limits of count and size", "[sarif]")
     CHECK(mixed["results"][0]["level"] == "error");
     CHECK(mixed["results"][5]["level"] == "note");
     // Size: long texts, so that the count is not what stops it.
-    std::vector<ReportItem> items = many(3000, 0);
-    for (ReportItem& item : items) item.text.assign(5000, 'x');
-    const std::string text = format_sarif(rules, items);
+    std::vector<report::ReportItem> items = many(3000, 0);
+    for (report::ReportItem& item : items) item.text.assign(5000, 'x');
+    const std::string text = report::format_sarif(rules, items);
     CHECK(text.size() < 10'000'000);
     CHECK(text.size() > 8'000'000);
-    check_structure(format_sarif(rules, many(5001, 0)));
+    check_structure(report::format_sarif(rules, many(5001, 0)));
     const std::size_t one = run_of(many(1, 0), {})["results"][0].dump(2).size();
     CHECK(run_of(many(1, 0), {10, one})["results"].size() == 1);
     CHECK(run_of(many(1, 0), {10, one - 1})["results"].empty());

@@ -21,9 +21,9 @@ const std::string arm = "[machine]\nname = \"arm\"\nchain = \"w b J1 J2 Q3 J4 t\
                         "EAQ3_rad = { slope = 1e-7 }\n"
                         "[model.calibration]\nEB0J4 = { value_rad = 0, sigma_rad = 1e-4 }\n";
 
-Setup read(const std::string& text) {
+setup::Setup read(const std::string& text) {
     std::vector<std::string> notes;
-    return parse_setup(text, "arm.toml", notes);
+    return setup::parse_setup(text, "arm.toml", notes);
 }
 
 std::string with(std::string text, const std::string& from, const std::string& to) {
@@ -33,8 +33,8 @@ std::string with(std::string text, const std::string& from, const std::string& t
 }  // namespace
 
 TEST_CASE("a chain with names of its own: slots, kinds, errors, and the way back to text") {
-    const Setup setup = read(arm);
-    const Chain& chain = setup.machine.chain;
+    const setup::Setup setup = read(arm);
+    const kinematics::Chain& chain = setup.machine.chain;
     REQUIRE(chain.tool.size() == 4);
     CHECK(chain.tool[2].name == "Q3");
     CHECK_FALSE(chain.tool[2].rotary);
@@ -43,24 +43,25 @@ TEST_CASE("a chain with names of its own: slots, kinds, errors, and the way back
     CHECK(names.column(chain.tool[0].axis) == "j1_deg");
     CHECK(names.column(chain.tool[2].axis) == "q3_mm");
     CHECK_FALSE(chain.find(Axis::X));  // letters that the chain does not have stay free
-    CHECK(setup.machine.errors.location(*parse_error_name("EX0J1", names)) == 0.5);
-    CHECK(to_string(*parse_error_name("EAQ3", names), names) == "EAQ3");
-    CHECK_FALSE(parse_error_name("EX0C", names));
+    CHECK(setup.machine.errors.location(*kinematics::parse_error_name("EX0J1", names)) == 0.5);
+    CHECK(to_string(*kinematics::parse_error_name("EAQ3", names), names) == "EAQ3");
+    CHECK_FALSE(kinematics::parse_error_name("EX0C", names));
     CHECK(setup.model.calibration.count("EB0J4") == 1);
-    const Setup again = read(format_setup(setup));
-    CHECK(format_setup(again) == format_setup(setup));
+    const setup::Setup again = read(setup::format_setup(setup));
+    CHECK(setup::format_setup(again) == setup::format_setup(setup));
     AxisPositions q;
-    for (const AxisGeometry& axis : chain.axes()) q[axis.axis] = axis.rotary ? 0.7 : 120.0;
+    for (const kinematics::AxisGeometry& axis : chain.axes())
+        q[axis.axis] = axis.rotary ? 0.7 : 120.0;
     CHECK((setup.machine.tip_W(q, {1, 2, 3}) - again.machine.tip_W(q, {1, 2, 3})).norm() == 0.0);
 }
 
 TEST_CASE("letters keep their own slots beside other names") {
-    const Chain chain = parse_chain("w C Tilt b X Y Z Quill t");
+    const kinematics::Chain chain = kinematics::parse_chain("w C Tilt b X Y Z Quill t");
     CHECK(chain.find(Axis::X)->name == "X");
     CHECK(chain.find(Axis::C)->name == "C");
     CHECK(chain.work[0].name == "Tilt");
     CHECK_FALSE(is_letter(chain.work[0]));
-    CHECK(parse_chain("w b J1 J2 J3 J4 J5 J6 J7 J8 J9 t").tool.size() == 9);
+    CHECK(kinematics::parse_chain("w b J1 J2 J3 J4 J5 J6 J7 J8 J9 t").tool.size() == 9);
 }
 
 TEST_CASE("chains and axis tables that are refused, each with its place") {

@@ -10,9 +10,9 @@ using namespace trunnion;
 
 namespace {
 
-Setup setup_with(const std::string& control) {
+setup::Setup setup_with(const std::string& control) {
     std::vector<std::string> notes;
-    return parse_setup(
+    return setup::parse_setup(
         "schema = \"trunnion.setup/1\"\n[machine]\nname = \"t\"\n"
         "chain = \"w C B b X Y Z t\"\n"
         "axis.B = { direction = [0, -1, 0], point_mm = [0, 0, 0] }\n"
@@ -23,22 +23,25 @@ Setup setup_with(const std::string& control) {
         "t.toml", notes);
 }
 
-RunLog run_text(const Setup& setup, const std::string& text) {
-    ProgramFolders none({});
-    return run_program(setup, none, ProgramText{"t.nc", text, nullptr}, {});
+emulator::RunLog run_text(const setup::Setup& setup, const std::string& text) {
+    interpreter::ProgramFolders none({});
+    return emulator::run_program(setup, none, interpreter::ProgramText{"t.nc", text, nullptr}, {});
 }
 
 }  // namespace
 
 TEST_CASE("a clamped axis alarms when the setup says so") {
     const std::string program = "G90G21\nM68\nG0C10.\nM30\n";
-    const Setup strict = setup_with("clamps.C = { clamp = 68, release = 69, alarm = true }\n");
-    const RunLog log = run_text(strict, program);
+    const setup::Setup strict =
+        setup_with("clamps.C = { clamp = 68, release = 69, alarm = true }\n");
+    const emulator::RunLog log = run_text(strict, program);
     REQUIRE(log.result.alarm);
     CHECK(log.result.alarm->where.line == 3);
-    CHECK(run_text(strict, "G90G21\nM68\nM69\nG0C10.\nM30\n").result.status == RunStatus::ok);
-    const Setup lenient = setup_with("clamps.C = { clamp = 68, release = 69, alarm = false }\n");
-    CHECK(run_text(lenient, program).result.status == RunStatus::ok);
+    CHECK(run_text(strict, "G90G21\nM68\nM69\nG0C10.\nM30\n").result.status ==
+          controller::RunStatus::ok);
+    const setup::Setup lenient =
+        setup_with("clamps.C = { clamp = 68, release = 69, alarm = false }\n");
+    CHECK(run_text(lenient, program).result.status == controller::RunStatus::ok);
     CHECK_THROWS_AS(setup_with("clamps.A = { clamp = 10 }\n"), InputError);
     CHECK_THROWS_AS(setup_with("clamps.C = { clamp = 1000 }\n"), InputError);
 }
@@ -46,7 +49,7 @@ TEST_CASE("a clamped axis alarms when the setup says so") {
 TEST_CASE("block skip switches and generation come from the setup") {
     const std::string program = "#100=1\n/#100=2\n/3#101=5\nM30\n";
     CHECK(run_text(setup_with(""), program).variables.at(100) == 2.0);
-    const RunLog skipped = run_text(setup_with("block_skip = [1]\n"), program);
+    const emulator::RunLog skipped = run_text(setup_with("block_skip = [1]\n"), program);
     CHECK(skipped.variables.at(100) == 1.0);
     CHECK(skipped.variables.at(101) == 5.0);
     CHECK_THROWS_AS(setup_with("block_skip = [10]\n"), InputError);
@@ -65,12 +68,12 @@ TEST_CASE("whether #5043 includes the tool length is a switch of the setup") {
 }
 
 TEST_CASE("control keys survive a formatted setup") {
-    const Setup first = setup_with(
+    const setup::Setup first = setup_with(
         "generation = \"0i-F\"\nblock_skip = [1, 4]\nclamps.C = { clamp = 68, release = 69, alarm "
         "= false }\n");
     std::vector<std::string> notes;
-    const Setup again = parse_setup(format_setup(first), "t.toml", notes);
-    CHECK(again.dialect.generation == ControlGeneration::fanuc_0i_f);
+    const setup::Setup again = setup::parse_setup(setup::format_setup(first), "t.toml", notes);
+    CHECK(again.dialect.generation == interpreter::ControlGeneration::fanuc_0i_f);
     CHECK(again.block_skip == std::vector<int>{1, 4});
     REQUIRE(again.clamps.size() == 1);
     CHECK(again.clamps[0].m_release == 69);
@@ -82,11 +85,12 @@ TEST_CASE("a builder's codes and variables, and G33 where the control has it") {
         "threading = true\nbuilder = { g_codes = [313.5], m_codes = [60], m_codes_after = [62], "
         "variables = [[150000, 150010]] }\n";
     std::vector<std::string> notes;
-    const Setup setup = parse_setup(format_setup(setup_with(keys)), "t.toml", notes);
+    const setup::Setup setup =
+        setup::parse_setup(setup::format_setup(setup_with(keys)), "t.toml", notes);
     const std::string program =
         "G21G90S600M3\nG33Z-10.F1.5\nG313.5\nM60\nM62\n#150003=#150004\nIF[#150004EQ#0]THEN"
         "#100=1\n#150003=4.5\n#101=#150003\nM30\n";
-    const RunLog log = run_text(setup, program);
+    const emulator::RunLog log = run_text(setup, program);
     REQUIRE_FALSE(log.result.alarm);
     CHECK(log.variables.at(100) == 1.0);
     CHECK(log.variables.at(101) == 4.5);
@@ -98,21 +102,21 @@ TEST_CASE("a builder's codes and variables, and G33 where the control has it") {
 }
 
 TEST_CASE("running a backup's G10 files gives the stores that loading them gives") {
-    ControlBackup backup{"stick", {}};
+    backup::ControlBackup backup{"stick", {}};
     backup.files["EXT_WKZ.TXT"] =
         "%\nG90\nG10L2P0X1.0Y0.5Z0.0B0.0C0.0\nG10L2P1X-100.5Y2.0Z-250.125B0.0C12.5\n"
         "G10L2P6X6.0Y5.0Z4.0B3.0C2.0\nG10L20P3X1.0Y2.0Z3.0B4.0C5.0\nM02\n%\n";
     backup.files["TOOLOFST.TXT"] =
         "%\nG10G90L10P1R185.676\nG10G90L11P1R-0.01\nG10G90L12P1R3.0\nG10G90L13P1R0.002\nM02\n%\n";
-    const Setup setup = setup_with("");
-    Stores loaded = setup.stores;
-    apply_backup(backup, loaded);
-    const Stores work = run_text(setup, backup.files["EXT_WKZ.TXT"]).stores;
+    const setup::Setup setup = setup_with("");
+    offsets::Stores loaded = setup.stores;
+    backup::apply_backup(backup, loaded);
+    const offsets::Stores work = run_text(setup, backup.files["EXT_WKZ.TXT"]).stores;
     CHECK(work.work.external == loaded.work.external);
     CHECK(work.work.standard == loaded.work.standard);
     CHECK(work.work.additional == loaded.work.additional);
-    const RunLog tools = run_text(setup, backup.files["TOOLOFST.TXT"]);
-    REQUIRE(tools.result.status == RunStatus::ok);
+    const emulator::RunLog tools = run_text(setup, backup.files["TOOLOFST.TXT"]);
+    REQUIRE(tools.result.status == controller::RunStatus::ok);
     CHECK(tools.stores.tools.tool[1].length_mm() == loaded.tools.tool[1].length_mm());
     CHECK(tools.stores.tools.tool[1].radius_mm() == loaded.tools.tool[1].radius_mm());
     CHECK(loaded.tools.tool[1].length_wear_mm == -0.01);
@@ -120,21 +124,22 @@ TEST_CASE("running a backup's G10 files gives the stores that loading them gives
 
 TEST_CASE("pivots of an inch machine are typed in inches and kept in mm") {
     const std::string pivots = "19700 = 0.5\n19705 = -2.0\n19680 = 12\n5114 = 3\n";
-    const Setup metric = setup_with("[control.parameters]\n" + pivots);
+    const setup::Setup metric = setup_with("[control.parameters]\n" + pivots);
     CHECK(metric.stores.parameters.get(19700) == 0.5);
     // 1001 may stand behind what it rules; 0000#2 (the unit of programs) rules nothing here.
-    const Setup inch = setup_with("[control.parameters]\n" + pivots + "1001 = \"00000001\"\n");
+    const setup::Setup inch =
+        setup_with("[control.parameters]\n" + pivots + "1001 = \"00000001\"\n");
     CHECK(inch.stores.parameters.get(19700) == Approx(12.7));
     CHECK(inch.stores.parameters.get(19705) == Approx(-50.8));
     CHECK(inch.stores.parameters.get(19680) == 12);
     CHECK(inch.stores.parameters.get(5114) == 3);
-    const Setup typed = setup_with("[control.parameters]\n" + pivots + "0 = \"00000100\"\n");
+    const setup::Setup typed = setup_with("[control.parameters]\n" + pivots + "0 = \"00000100\"\n");
     CHECK(typed.stores.parameters.get(19700) == 0.5);
     std::vector<std::string> notes;
-    const Setup again = parse_setup(format_setup(inch), "again.toml", notes);
+    const setup::Setup again = setup::parse_setup(setup::format_setup(inch), "again.toml", notes);
     CHECK(again.stores.parameters.get(19700) == Approx(12.7).epsilon(1e-15));
-    CHECK_THAT(format_setup(inch), Catch::Contains("19700 = 0.5\n"));
+    CHECK_THAT(setup::format_setup(inch), Catch::Contains("19700 = 0.5\n"));
     // A program under G20 (also by 0000#2) on the metric machine.
-    const RunLog log = run_text(typed, "G90 G54\nG0 X1.\nM30\n");
+    const emulator::RunLog log = run_text(typed, "G90 G54\nG0 X1.\nM30\n");
     CHECK(log.result.machine[Axis::X] == Approx(25.4));
 }

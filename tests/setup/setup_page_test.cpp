@@ -55,7 +55,7 @@ std::set<std::string> keys_of_reader() {
 
 TEST_CASE("the examples of docs/setup_file.md load as one file without an unknown key") {
     std::vector<std::string> notes;
-    const Setup setup = parse_setup(examples(), "docs/setup_file.md", notes);
+    const setup::Setup setup = setup::parse_setup(examples(), "docs/setup_file.md", notes);
     CHECK(setup.name == "Example");
     CHECK(setup.artefacts.size() >= 2);
     for (const std::string& note : notes) {

@@ -23,9 +23,9 @@ const std::string head =
     "schema = \"trunnion.setup/1\"\n[machine]\nname = \"m\"\nchain = \"w C B b X Y Z t\"\n";
 const std::string sided = head + "side = { C = \"-\", X = \"+\" }\n";
 
-Setup read(const std::string& text, std::vector<std::string>* notes = nullptr) {
+setup::Setup read(const std::string& text, std::vector<std::string>* notes = nullptr) {
     std::vector<std::string> own;
-    return parse_setup(text, "s.toml", notes ? *notes : own);
+    return setup::parse_setup(text, "s.toml", notes ? *notes : own);
 }
 
 void check_fault(const std::string& text, const std::string& part, int line) {
@@ -125,7 +125,7 @@ EX0C = { value_mm = 0.012, sigma_mm = 0.001 }
 
 TEST_CASE("every key of the contract arrives") {
     std::vector<std::string> notes;
-    const Setup s = read(everything, &notes);
+    const setup::Setup s = read(everything, &notes);
     CHECK(s.machine.chain.find(Axis::B)->direction == Vector3(0, -1, 0));
     CHECK(*s.machine.chain.find(Axis::B)->max == rad_from_deg(110));
     CHECK(*s.machine.chain.find(Axis::B)->max_speed == Approx(rad_from_deg(150)));
@@ -133,7 +133,7 @@ TEST_CASE("every key of the contract arrives") {
     CHECK(s.machine.errors.location({'X', true, Axis::C}) == 0.012);
     const auto& of_x = s.machine.errors.axis[index_of(Axis::X)].motion;
     CHECK(of_x[0](300.0) == -0.002);
-    CHECK(of_x[0].interpolation == ErrorCurve::Interpolation::cubic);
+    CHECK(of_x[0].interpolation == kinematics::ErrorCurve::Interpolation::cubic);
     CHECK(of_x[1](2.5) == Approx(0.001 + 2.5e-5 + 0.001));
     CHECK(s.machine.errors.axis[index_of(Axis::C)].motion[4](pi) == Approx(2e-5));
     CHECK(s.machine.errors.spindle.location[3] == 1e-5);
@@ -144,7 +144,7 @@ TEST_CASE("every key of the contract arrives") {
     CHECK(s.effects[0].parameters.at("radius_mm") == std::vector<double>{-0.003});
     CHECK(s.effects[1].name == "C.backlash");
     CHECK(s.effects[2].parameters.at("dg_mm") == std::vector<double>{0.1, 0.2, 0.3});
-    CHECK(s.dialect.family == DialectFamily::hurco);
+    CHECK(s.dialect.family == interpreter::DialectFamily::hurco);
     CHECK(s.stores.work.standard[0][Axis::Z] == -250.5);
     CHECK(s.stores.work.standard[0][Axis::B] == 30);
     CHECK(s.stores.work.additional[299][Axis::Y] == 7);
@@ -161,13 +161,13 @@ TEST_CASE("every key of the contract arrives") {
     CHECK(s.ballbar->free_length);
     CHECK(s.ballbar->sample_hz == 250);
     REQUIRE(s.find_artefact("P1"));
-    CHECK(s.find_artefact("P1")->kind == Artefact::Kind::center_pivot);
+    CHECK(s.find_artefact("P1")->kind == setup::Artefact::Kind::center_pivot);
     CHECK(s.find_artefact("S1")->free_center);
     CHECK(s.side_before[index_of(Axis::C)] == -1);
     CHECK(s.side_before[index_of(Axis::Y)] == 1);
     CHECK(s.scale_encoder[index_of(Axis::X)]);
     CHECK_FALSE(s.scale_encoder[index_of(Axis::Y)]);
-    CHECK(s.find_artefact("R1")->kind == Artefact::Kind::target);
+    CHECK(s.find_artefact("R1")->kind == setup::Artefact::Kind::target);
     CHECK(*s.find_artefact("R1")->tool_S_mm == Vector3(0, 0, -150));
     CHECK(s.find_artefact("R1")->free_tool);
     CHECK_FALSE(s.find_artefact("R2")->tool_S_mm);
@@ -186,7 +186,7 @@ TEST_CASE("every key of the contract arrives") {
 
 TEST_CASE("absent pivot parameters are those of the machine, with a note") {
     std::vector<std::string> notes;
-    const Setup s = read(everything, &notes);
+    const setup::Setup s = read(everything, &notes);
     CHECK(s.stores.parameters.get(19700) == 1.5);  // the file's own stays
     CHECK(s.stores.parameters.get(19701) == 2);
     CHECK(s.stores.parameters.get(19705) == 37);
@@ -208,15 +208,15 @@ TEST_CASE("unknown keys are noted with their place") {
 TEST_CASE("a formatted setup loads again to the same value") {
     const auto same = [](const std::string& text, const std::string& path) {
         std::vector<std::string> notes;
-        const Setup first = parse_setup(text, path, notes);
-        const std::string once = format_setup(first);
+        const setup::Setup first = setup::parse_setup(text, path, notes);
+        const std::string once = setup::format_setup(first);
         notes.clear();
-        const Setup second = parse_setup(once, path, notes);
+        const setup::Setup second = setup::parse_setup(once, path, notes);
         INFO(once);
         CHECK(notes.empty());
-        CHECK(format_setup(second) == once);
-        for (const AxisGeometry& axis : first.machine.chain.axes()) {
-            const AxisGeometry& other = *second.machine.chain.find(axis.axis);
+        CHECK(setup::format_setup(second) == once);
+        for (const kinematics::AxisGeometry& axis : first.machine.chain.axes()) {
+            const kinematics::AxisGeometry& other = *second.machine.chain.find(axis.axis);
             CHECK(axis.direction == other.direction);
             CHECK(axis.min == other.min);
             CHECK(axis.max_speed == other.max_speed);
@@ -237,9 +237,10 @@ TEST_CASE("the machines that ship load, and format to themselves") {
         if (entry.path().extension() != ".toml") continue;
         INFO(entry.path());
         std::vector<std::string> notes, again;
-        const Setup setup = load_setup(entry.path().string(), notes);
+        const setup::Setup setup = setup::load_setup(entry.path().string(), notes);
         for (const std::string& note : notes) CHECK_THAT(note, Catch::Contains("derived"));
-        CHECK(format_setup(parse_setup(format_setup(setup), "x", again)) == format_setup(setup));
+        CHECK(setup::format_setup(setup::parse_setup(setup::format_setup(setup), "x", again)) ==
+              setup::format_setup(setup));
         CHECK(again.empty());
         ++count;
     }
@@ -296,14 +297,14 @@ TEST_CASE("a bad setup names its place") {
 TEST_CASE("a backup is read before the file's own keys") {
     std::vector<std::string> notes;
     std::string folder;
-    const BackupReader reader = [&](const std::string& name, Stores& stores) {
+    const setup::BackupReader reader = [&](const std::string& name, offsets::Stores& stores) {
         folder = name;
         stores.parameters.set(19700, 9.0);
         stores.parameters.set(3410, 0.02);
     };
-    const Setup s =
-        parse_setup(head + axes + "[control]\nbackup = \"b\"\n[control.parameters]\n19700 = 4\n",
-                    "dir/s.toml", notes, reader);
+    const setup::Setup s = setup::parse_setup(
+        head + axes + "[control]\nbackup = \"b\"\n[control.parameters]\n19700 = 4\n", "dir/s.toml",
+        notes, reader);
     CHECK(folder == "dir/b");
     CHECK(s.stores.parameters.get(19700) == 4);
     CHECK(s.stores.parameters.get(3410) == 0.02);
@@ -315,16 +316,16 @@ TEST_CASE("keys for backlash and pretravel are effects") {
         "[machine.axis.C]\ndirection = [0, 0, -1]\npoint_mm = [0, 0, 0]\n"
         "backlash_rad = 2e-5\n"
         "[machine.axis.X]\nbacklash_mm = 0.004\n[probe]\npretravel_um = 5\n";
-    const Setup s = read(head);
+    const setup::Setup s = read(head);
     REQUIRE(s.effects.size() == 3);
     CHECK(s.side_before[index_of(Axis::C)] == -1);
     CHECK(s.side_before[index_of(Axis::X)] == 1);
-    const std::string text = format_setup(s);
+    const std::string text = setup::format_setup(s);
     CHECK_THAT(text, Catch::Contains("\"C.backlash\" = { gap_rad = 2e-05 }") &&
                          Catch::Contains("\"X.backlash\" = { gap_mm = 0.004 }") &&
                          Catch::Contains("\"probe.radius\" = { radius_mm = -0.005 }") &&
                          Catch::Contains("side = { C = \"-\" }"));
-    CHECK(format_setup(read(text)) == text);
+    CHECK(setup::format_setup(read(text)) == text);
     check_fault(head + "[effects]\n\"X.backlash\" = { gap_mm = 0.001 }\n", "say it once", 9);
     check_fault(head + "[effects]\n\"probe.radius\" = { delay_s = 1 }\n", "say it once", 11);
 }

@@ -18,12 +18,13 @@ using namespace trunnion;
 
 namespace {
 
-RunLog run_once(const Setup& setup, const std::string& program, const char* name) {
-    RunOptions options;
+emulator::RunLog run_once(const setup::Setup& setup, const std::string& program, const char* name) {
+    emulator::RunOptions options;
     options.trace = options.truth = true;
     options.budget.blocks = 3000;
-    ProgramsInMemory none;
-    return run_program(setup, none, ProgramText{name, program, nullptr}, options);
+    interpreter::ProgramsInMemory none;
+    return emulator::run_program(setup, none, interpreter::ProgramText{name, program, nullptr},
+                                 options);
 }
 
 using Row = std::vector<std::string>;
@@ -74,16 +75,17 @@ void check_laws(std::uint64_t seed) {
     const std::string program = random_program(noise);
     INFO("TRUNNION_SOAK_SEED=" << seed << "\n" << machine << "\n" << program);
     std::vector<std::string> notes;
-    const Setup setup = parse_setup(machine, "soak.toml", notes);
-    const RunLog log = run_once(setup, program, "soak");
-    const RunLog again = run_once(setup, program, "soak");
+    const setup::Setup setup = setup::parse_setup(machine, "soak.toml", notes);
+    const emulator::RunLog log = run_once(setup, program, "soak");
+    const emulator::RunLog again = run_once(setup, program, "soak");
     REQUIRE(log.trace_csv == again.trace_csv);
     REQUIRE(log.printed == again.printed);
     const auto rows = rows_of(log.trace_csv);
     CHECK(largest_gap_mm(rows) < 1e-8);
-    const ParsedProgram parsed = parse_program({"soak", program, nullptr}, setup.dialect);
+    const interpreter::ParsedProgram parsed =
+        interpreter::parse_program({"soak", program, nullptr}, setup.dialect);
     REQUIRE(parsed.faults.empty());
-    const RunLog printed = run_once(setup, print_program(parsed), "soak");
+    const emulator::RunLog printed = run_once(setup, interpreter::print_program(parsed), "soak");
     CHECK(without_lines(rows_of(printed.trace_csv)) == without_lines(rows));
     CHECK(printed.result.alarm.has_value() == log.result.alarm.has_value());
     if (log.result.alarm) CHECK(log.result.alarm->where.line > 0);

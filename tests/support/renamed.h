@@ -10,8 +10,9 @@
 namespace trunnion::campaign {
 
 /// `names` by letter; in the chain, the axis tables, the errors and the calibration.
-inline Setup renamed(const Setup& setup, const std::map<std::string, std::string>& names) {
-    std::string text = format_setup(setup);
+inline setup::Setup renamed(const setup::Setup& setup,
+                            const std::map<std::string, std::string>& names) {
+    std::string text = setup::format_setup(setup);
     const auto cut = [&](const std::string& title) {
         const auto at = text.find("\n[" + title + "]");
         if (at != std::string::npos) text.erase(at, text.find("\n[", at + 1) - at);
@@ -37,19 +38,21 @@ inline Setup renamed(const Setup& setup, const std::map<std::string, std::string
                          std::string("\nE") + direction + zero + name + unit);
     }
     std::vector<std::string> notes;
-    return parse_setup(text, "renamed.toml", notes);
+    return setup::parse_setup(text, "renamed.toml", notes);
 }
 
 /// The table of a machine for the same machine under other names.
-inline ReadingTable renamed(const ReadingTable& table, const Setup& setup, const Setup& other,
-                            const std::map<std::string, std::string>& names) {
-    ReadingTable out = table;
+inline records::ReadingTable renamed(const records::ReadingTable& table, const setup::Setup& setup,
+                                     const setup::Setup& other,
+                                     const std::map<std::string, std::string>& names) {
+    records::ReadingTable out = table;
     out.names = other.machine.chain.names();
     out.axes.clear();
-    for (const AxisGeometry& axis : other.machine.chain.axes()) out.axes.push_back(axis.axis);
+    for (const kinematics::AxisGeometry& axis : other.machine.chain.axes())
+        out.axes.push_back(axis.axis);
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         out.rows[i].commanded = {};
-        for (const AxisGeometry& axis : setup.machine.chain.axes()) {
+        for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes()) {
             const auto it = names.find(axis.name);
             const auto slot = out.names.find(it == names.end() ? axis.name : it->second);
             out.rows[i].commanded[slot.value()] = table.rows[i].commanded[axis.axis];

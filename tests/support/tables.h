@@ -11,9 +11,9 @@ inline Vector3 random_vector(SeededNoise& noise, double size) {
     return Vector3(noise.uniform() - 0.5, noise.uniform() - 0.5, noise.uniform() - 0.5) * size;
 }
 
-inline PivotParameters bc_table() {
-    PivotParameters pivot;
-    pivot.unit = MechanicalUnit::table_table;
+inline offsets::PivotParameters bc_table() {
+    offsets::PivotParameters pivot;
+    pivot.unit = offsets::MechanicalUnit::table_table;
     pivot.first.line = Vector3::UnitY();
     pivot.second.axis = Axis::C;
     pivot.first.sign = pivot.second.sign = -1.0;
