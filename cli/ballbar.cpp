@@ -39,10 +39,26 @@ int write_programs(const setup::Setup& setup, const BallbarOptions& o) {
     return exit_done;
 }
 
+/// Location errors among the effects: the table counts what is truly left from them too.
+std::vector<ballbar::test::NamedError> injected_errors(const setup::Setup& setup) {
+    const effects::Catalogue catalogue = effects::make_catalogue(setup);
+    std::vector<ballbar::test::NamedError> errors;
+    for (const setup::EffectSetting& setting : setup.effects) {
+        const effects::Effect* effect = effects::find_effect(catalogue, setting.name);
+        if (!effect) continue;
+        const std::vector<double> values = effects::values_of(*effect, setting);
+        for (std::size_t k = 0; k < values.size(); ++k)
+            if (effect->parameters[k].location)
+                errors.push_back({*effect->parameters[k].location, values[k]});
+    }
+    return errors;
+}
+
 ballbar::test::BallbarResult simulate(const BallbarOptions& o, const setup::Setup& setup) {
     ballbar::test::BallbarProcedureOptions options;
     options.seed = o.seed;
     options.effects = effects::active_models(setup);
+    options.injected_errors = injected_errors(setup);
     options.times = o.times;
     options.inside = o.inside;
     if (!o.pivot_offset_mm.empty())

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -21,5 +22,7 @@ CLI::Option* not_negative(CLI::Option* option);
 void check_numbers(CLI::App& app);
 /// Throws InputError when the options given would write a file that another reads or writes too.
 void refuse_clashing_files(const CLI::App& app);
+/// What the command line names to be read, in the order of the help; folders and "-" included.
+std::vector<std::string> files_read(const CLI::App& command);
 
 }  // namespace trunnion::cli

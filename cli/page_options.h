@@ -28,4 +28,14 @@ std::string command_text(const CLI::App& command);
 report::PageOrigin page_origin(const CLI::App& command, const PageOptions& options,
                                std::vector<report::PageInput> inputs);
 
+/// Path and SHA-256 of each file that the command line names to be read, and of `also_read` (a
+/// setup that is there by default). Folders, standard input and files that cannot be read are left
+/// out.
+std::vector<report::PageInput> page_inputs(const CLI::App& command,
+                                           const std::vector<std::string>& also_read = {});
+
+/// The file: the page with its foot.
+std::string finished_page(report::Page page, const CLI::App& command, const PageOptions& options,
+                          const std::vector<std::string>& also_read = {});
+
 }  // namespace trunnion::cli

@@ -12,12 +12,14 @@
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/options.h"
+#include "cli/page_options.h"
 #include "cli/readings_command.h"
 #include "cli/setups.h"
+#include "pivot/mixed_functions.h"
 #include "pivot/pivot_program.h"
 #include "pivot/pivot_readings.h"
 #include "pivot/pivot_run.h"
-#include "report/pivot_report.h"
+#include "report/pivot_page.h"
 #include "setup/control_machine.h"
 
 namespace trunnion::cli {
@@ -28,7 +30,9 @@ namespace fs = std::filesystem;
 
 struct PivotOptions {
     std::vector<std::string> readings;
-    std::string setup, control, svg_folder, html, programs_folder, print, shop_programs, command;
+    std::string setup, control, svg_folder, programs_folder, print, shop_programs;
+    PageOptions page;
+    const CLI::App* command = nullptr;
     unsigned long long seed = 1;
     double limit_um = 3.0;
     bool json = false, stores_alone = false;
@@ -103,13 +107,17 @@ std::vector<std::pair<std::string, std::vector<std::string>>> shop_programs(
     return found;
 }
 
+bool is_hurco(const setup::Setup& setup) {
+    return setup.dialect.family == interpreter::DialectFamily::hurco;
+}
+
 report::PivotResult result_of(const PivotOptions& o, const setup::Setup& setup,
                               pivot::PivotVerdict verdict, std::vector<pivot::PivotMap> maps) {
     report::PivotResult result;
     result.machine = setup.name;
     result.first = verdict.in_force.pivot.first.axis;
     result.second = verdict.in_force.pivot.second.axis;
-    result.hurco = setup.dialect.family == interpreter::DialectFamily::hurco;
+    result.hurco = is_hurco(setup);
     std::vector<pivot::PivotFunction> functions;
     for (const pivot::PivotFunction& f : pivot::pivot_functions())
         for (const pivot::PivotMap& map : maps)
@@ -123,6 +131,17 @@ report::PivotResult result_of(const PivotOptions& o, const setup::Setup& setup,
     result.maps = std::move(maps);
     result.verdict = std::move(verdict);
     return result;
+}
+
+void refuse_mixed_functions(const PivotOptions& o, const pivot::PivotEvidence& evidence,
+                            const std::vector<pivot::PivotMap>& maps, const pivot::PivotFit& fit) {
+    const auto mixed = pivot::mixed_functions(evidence, maps, fit);
+    if (mixed.empty()) return;
+    throw InputError(
+        fmt::format("functions are mixed up: no machine fits these readings ({:.0f} µm left), but "
+                    "one does when {} took the other store",
+                    fit.noise_um, fmt::join(mixed, " and ")),
+        {o.readings.front()});
 }
 
 report::PivotResult judge_readings(const PivotOptions& o, const setup::Setup& setup) {
@@ -139,11 +158,14 @@ report::PivotResult judge_readings(const PivotOptions& o, const setup::Setup& se
     evidence.tip_S_mm = stylus_of(setup);
     evidence.increment_mm = setup::least_increment_mm(setup.stores.parameters);
     evidence.limit_um = o.limit_um;
+    evidence.hurco = is_hurco(setup);
     pivot::PivotVerdict verdict = pivot::judge_pivot(evidence, prints.maps);
+    refuse_mixed_functions(o, evidence, prints.maps, verdict.fit);
     pivot::add_expected(
         {verdict.fit.machine, evidence.in_force, evidence.sphere_mm, evidence.tip_S_mm},
         evidence.in_force.pivot, prints.maps);
     report::PivotResult result = result_of(o, setup, std::move(verdict), std::move(prints.maps));
+    result.date = prints.date;
     result.source =
         "measured: " + o.readings.front() +
         (o.readings.size() > 1 ? fmt::format(" and {} more", o.readings.size() - 1) : "");
@@ -162,6 +184,7 @@ report::PivotResult from_known_machine(const PivotOptions& o, const setup::Setup
     evidence.tip_S_mm = setup.probe->tip_S_mm;
     evidence.increment_mm = setup::least_increment_mm(setup.stores.parameters);
     evidence.limit_um = o.limit_um;
+    evidence.hurco = is_hurco(setup);
     pivot::PivotVerdict verdict = pivot::judge_pivot(evidence, maps);
     pivot::add_expected({setup.machine, plan.stores, plan.sphere_mm, evidence.tip_S_mm},
                         plan.stores.pivot, maps);
@@ -191,14 +214,11 @@ int write_programs(const PivotOptions& o, const setup::Setup& setup) {
     return exit_done;
 }
 
-report::PageOrigin origin_of(const PivotOptions& o) {
-    report::PageOrigin origin;
-    origin.command = "trunnion pivot";
-    for (const std::string& path : o.readings) origin.command += " " + path;
-    if (!o.setup.empty()) origin.command += " --setup " + o.setup;
-    if (!o.control.empty()) origin.command += " --control " + o.control;
-    if (o.readings.empty()) origin.seed = o.seed;
-    return origin;
+std::string page_of(const PivotOptions& o, const setup::Setup& setup,
+                    const report::PivotResult& result) {
+    report::Page page = report::pivot_page(result);
+    if (o.readings.empty() && !o.stores_alone) page.origin.seed = o.seed;
+    return finished_page(std::move(page), *o.command, o.page, {setup.path});
 }
 
 int run_pivot(const PivotOptions& o) {
@@ -212,7 +232,7 @@ int run_pivot(const PivotOptions& o) {
                                        : o.stores_alone    ? from_known_machine(o, setup)
                                                            : simulate(o, setup, files);
     files.add("-", o.json ? report::pivot_json(result) : report::pivot_table(result));
-    if (!o.html.empty()) files.add(o.html, report::pivot_page(result, origin_of(o)));
+    if (!o.page.html.empty()) files.add(o.page.html, page_of(o, setup, result));
     if (!o.svg_folder.empty()) {
         make_folder(o.svg_folder);
         for (const auto& [name, text] : report::pivot_pictures(result))
@@ -246,10 +266,11 @@ void add_pivot(CLI::App& app, Run& run) {
     not_negative(command->add_option("--limit-um", o->limit_um,
                                      "a store that causes less error is not stale (3)"));
     writes_file(command->add_option("--svg", o->svg_folder, "folder for the pictures"));
-    writes_file(command->add_option("--html", o->html, "the result as a page"));
     command->add_flag("--stores", o->stores_alone,
                       "run nothing: judge the stores by the machine that the setup knows");
     command->add_flag("--json", o->json, "one JSON object on stdout");
+    add_page_options(*command, o->page);
+    o->command = command;
     command->callback([o, &run] { run = [o] { return run_pivot(*o); }; });
 }
 

@@ -74,14 +74,15 @@ Effect probe_runout() {
 
 Effect tool_length() {
     return {"tool.length",
-            "The probe is longer or shorter than the control believes",
+            "The tool, probe or ballbar cup is longer or shorter than the control believes",
             "tool length measured with another reference, stylus changed",
-            "measure the probe's length again",
-            "tip lower by error_mm (probe rows; run --truth: any tool)",
+            "measure the tool's length again",
+            "tip lower by error_mm (probe and ballbar rows; run --truth: any tool)",
             {{"error_mm", "mm", 15e-3, -1, {}, true}},
             [](const AxisSample&, const emulator::Contact& contact, std::span<const double> value,
                kinematics::Perturbation& out) {
-                if (is_probe(contact) || contact.tip) out.tip_shift_mm.z() -= value[0];
+                const bool cup = contact.device == records::Device::ballbar;
+                if (is_probe(contact) || cup || contact.tip) out.tip_shift_mm.z() -= value[0];
             }};
 }
 

@@ -58,6 +58,19 @@ std::vector<std::string_view> words_of(std::string_view text) {
     return words;
 }
 
+/// #3011 as a date. A clock that was never set (1970) and a number that is no date tell nothing.
+std::string date_of(double yyyymmdd) {
+    if (!(yyyymmdd > 19800101.0 && yyyymmdd < 30000000.0)) return {};
+    const int n = static_cast<int>(yyyymmdd), month = n / 100 % 100, day = n % 100;
+    if (month < 1 || month > 12 || day < 1 || day > 31) return {};
+    return fmt::format("{:04}-{:02}-{:02}", n / 10000, month, day);
+}
+
+std::string days(const std::set<std::string>& dates) {
+    if (dates.empty()) return {};
+    return dates.size() == 1 ? *dates.begin() : *dates.begin() + " to " + *dates.rbegin();
+}
+
 /// A run of one function while its lines come.
 struct FunctionRun {
     PrintedLine head;
@@ -94,6 +107,7 @@ class PrintReader {
 
     Axis first_, second_;
     double unit_mm_ = 1.0;
+    std::set<std::string> dates_;
     std::map<std::string, FunctionRun> runs_;
     PivotPrints prints_;
 };
@@ -143,9 +157,14 @@ void PrintReader::store(const PrintedLine& line, const std::vector<std::string_v
         prints_.g54_mm = g54;
         return;
     }
+    if (words[1] == "DATE") {
+        if (const std::string date = date_of(line.value('V', 10)); !date.empty())
+            dates_.insert(date);
+        return;
+    }
     const int number = std::atoi(std::string(words[1].substr(1)).c_str());
     if (words[1][0] != 'N' || number < 19700 || number > 19714)
-        line.refuse("STORE wants G54, INCH or N19700 to N19714");
+        line.refuse("STORE wants G54, INCH, DATE or N19700 to N19714");
     const double value_mm = unit_mm_ * line.value('V', 6);
     const auto [old, fresh] = prints_.parameters_mm.try_emplace(number, value_mm);
     if (!fresh && std::abs(old->second - value_mm) > 1e-6)
@@ -233,6 +252,7 @@ PivotPrints PrintReader::take(const std::string& path) {
         name_map(map, first_, second_);
         prints_.maps.push_back(std::move(map));
     }
+    prints_.date = days(dates_);
     return std::move(prints_);
 }
 

@@ -17,6 +17,8 @@ struct PivotPrints {
     std::optional<Vector3> g54_mm;              ///< with the external offset, as printed
     std::map<int, double> parameters_mm;        ///< 19700.., as printed
     int zeroings = 0;
+    std::string date;  ///< of the measurement, "2024-03-12", of several days "first to last";
+                       ///< empty: not told
 
     Vector3 sphere_mm() const;  ///< mean of those found
 };
@@ -27,7 +29,7 @@ struct PrintedFile {
 
 /// Lines in any order of the files:
 ///     PIVOT RTCP AXES B C MAPS 1 TO 4      head of a run
-///     STORE G54 X.. Y.. Z..   STORE N19700 V..   STORE INCH 0
+///     STORE G54 X.. Y.. Z..   STORE N19700 V..   STORE INCH 0   STORE DATE V20240312
 ///     RTCP ZERO1 X.. Y.. Z..               sphere found at home before map 1
 ///     RTCP MAP1 B.. C.. X.. Y.. Z..        found minus expected centre
 ///     RTCP END

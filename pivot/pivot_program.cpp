@@ -251,7 +251,7 @@ std::string stores_text(const PivotPlan& plan) {
     for (const setup::StoreNumber& n : setup::store_numbers(plan.stores))
         if (n.parameter != 0)
             text += fmt::format("#7=PRM[{0}]\nDPRNT[STORE*N{0}*V#7[47]]\n", n.parameter);
-    return text;
+    return text + "#7=#3011\nDPRNT[STORE*DATE*V#7[80]]\n";
 }
 
 std::string common_program(const PivotPlan& plan) {

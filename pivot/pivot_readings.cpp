@@ -121,6 +121,8 @@ void check_directions(const records::ReadingTable& table, const Finding& finding
 PivotPrints pivot_readings(const records::ReadingTable& table, Axis first, Axis second,
                            double radii_mm, const Vector3& tip_S_mm) {
     PivotPrints out;
+    if (const auto date = table.comment.find("date"); date != table.comment.end())
+        out.date = date->second;
     std::map<std::string, int> number_of_map;
     std::map<int, PivotMap> maps;
     for (const Finding& finding : findings_of(table, first, second)) {

@@ -68,9 +68,13 @@ PivotDemonstration demonstrate_pivot(const setup::Setup& setup,
     const PivotPrints prints =
         parse_pivot_prints({{"print", demo.printed}}, demo.plan.first(), demo.plan.second());
     demo.maps = prints.maps;
-    const PivotEvidence evidence{nominal_of(setup), demo.plan.stores, prints.sphere_mm(),
+    const PivotEvidence evidence{nominal_of(setup),
+                                 demo.plan.stores,
+                                 prints.sphere_mm(),
                                  setup.probe->tip_S_mm,
-                                 setup::least_increment_mm(setup.stores.parameters)};
+                                 setup::least_increment_mm(setup.stores.parameters),
+                                 3.0,
+                                 demo.plan.hurco};
     demo.verdict = judge_pivot(evidence, demo.maps);
     demo.true_right = setup::right_stores(setup.machine, demo.plan.stores);
     add_expected({setup.machine, demo.plan.stores, evidence.sphere_mm, evidence.tip_S_mm},

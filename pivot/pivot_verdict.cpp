@@ -103,9 +103,18 @@ void add_stores(PivotVerdict& verdict, bool with_g54) {
                                       now[i].value_mm - right[i].value_mm, sigma[i], false});
 }
 
-std::string along(const char* numbers, const offsets::PivotAxis& axis) {
+std::string along(const std::string& numbers, const offsets::PivotAxis& axis) {
     return fmt::format("{}: its part along the {} axis (any point of the line serves)", numbers,
                        letter_of(axis.axis));
+}
+
+/// Both axes under the table: the numbers of the dialect.
+std::vector<std::string> along_table_axes(const offsets::PivotParameters& pivot, bool hurco) {
+    if (!hurco) return {along("19700-19702", pivot.first), along("19703-19705", pivot.second)};
+    const auto line = [](const offsets::PivotAxis& axis) {
+        return along(fmt::format("{} centreline", letter_of(axis.axis)), axis);
+    };
+    return {line(pivot.first), line(pivot.second)};
 }
 
 bool moves_a_store(const PivotVerdict& verdict, const LineUnknown& unknown) {
@@ -117,12 +126,12 @@ bool moves_a_store(const PivotVerdict& verdict, const LineUnknown& unknown) {
     return false;
 }
 
-std::vector<std::string> unobservable(const PivotVerdict& verdict, bool with_g54) {
+std::vector<std::string> unobservable(const PivotVerdict& verdict, bool with_g54, bool hurco) {
     const offsets::PivotParameters& pivot = verdict.in_force.pivot;
     std::vector<std::string> out;
     switch (pivot.unit) {
         case offsets::MechanicalUnit::table_table:
-            out = {along("19700-19702", pivot.first), along("19703-19705", pivot.second)};
+            out = along_table_axes(pivot, hurco);
             break;
         case offsets::MechanicalUnit::mixed:
             out = {along("19700-19702", pivot.second), along("19709-19711", pivot.first)};
@@ -176,7 +185,7 @@ PivotVerdict judge_pivot(const PivotEvidence& evidence, const std::vector<PivotM
             verdict.find(group)->stale &&
             std::abs(store.error_mm) > std::max(3.0 * store.sigma_mm, 0.51 * verdict.increment_mm);
     }
-    verdict.unobservable = unobservable(verdict, with_g54);
+    verdict.unobservable = unobservable(verdict, with_g54, evidence.hurco);
     verdict.agree_um = agreement_um(models.typed, maps);
     return verdict;
 }

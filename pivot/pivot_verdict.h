@@ -74,6 +74,7 @@ struct PivotEvidence {
     Vector3 sphere_mm = Vector3::Zero(), tip_S_mm = Vector3(0, 0, -150);
     double increment_mm = 0.001;
     double limit_um = 3.0;  ///< a store that causes less is no stale one
+    bool hurco = false;     ///< what cannot be told is said in the words of its part set-up
 };
 
 PivotFit fit_pivot_machine(const PivotEvidence& evidence, const std::vector<PivotMap>& maps);

@@ -33,6 +33,7 @@ Json rows_json(const std::vector<ballbar::test::BallbarErrorRow>& rows, bool aft
                       {"sigma_before", row.sigma_before},
                       {"unit", unit_of(row.name)},
                       {"change_percent", after ? Json(row.change_percent()) : Json()}};
+        entry["truly_left"] = row.truly_left ? Json(*row.truly_left) : Json();
         entry["published_before"] = row.published_before ? Json(*row.published_before) : Json();
         list.push_back(entry);
     }
@@ -122,7 +123,8 @@ std::string ballbar_json(const ballbar::test::BallbarResult& r) {
         {"reference_mm", r.reference_mm}, {"error_mm", bar.error_mm}, {"sigma_mm", bar.sigma_mm}};
     const Vector3 pivot = ballbar::test::pivot_found_mm(r);
     out["pivot_found_mm"] = {pivot.x(), pivot.y(), pivot.z()};
-    out["true_tip_um"] = r.true_tip_um ? Json(*r.true_tip_um) : Json();
+    out["true_tip_um"] = r.true_tip ? Json(r.true_tip->stated_um) : Json();
+    out["true_cup_um"] = r.true_tip ? Json(r.true_tip->cup_um) : Json();
     out["sphere_check"] = r.sphere_check ? Json{{"poses", r.sphere_check->poses},
                                                 {"before_um", r.sphere_check->before_um},
                                                 {"after_um", r.sphere_check->after_um}}

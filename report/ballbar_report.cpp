@@ -20,25 +20,22 @@ double small(const kinematics::ErrorName& name, double value) {
 
 std::string error_table(const std::vector<ballbar::test::BallbarErrorRow>& rows, bool after) {
     std::string text =
-        after ? fmt::format("{:6} {:>11} {:>10} {:>9} {:>11} {:>9}  {:>9}  {}\n", "error", "before",
-                            "u(before)", "after", "change", "u(after)", "published", "unit")
-              : fmt::format("{:6} {:>11} {:>10}  {:>9}  {}\n", "error", "found", "u(found)",
+        after ? fmt::format("{:6} {:>10} {:>9} {:>10} {:>9} {:>11} {:>10}  {}\n", "error", "before",
+                            "u(before)", "after", "u(after)", "truly left", "published", "unit")
+              : fmt::format("{:6} {:>10} {:>9} {:>10}  {}\n", "error", "found", "u(found)",
                             "published", "unit");
     for (const ballbar::test::BallbarErrorRow& row : rows) {
         const auto n = [&](double v) { return small(row.name, v); };
-        if (!after) {
-            text += fmt::format(
-                "{:6} {:11.3f} {:10.3f}  {:>9}  {}\n", to_string(row.name), n(row.before),
-                n(row.sigma_before),
-                row.published_before ? fmt::format("{:.3f}", n(*row.published_before)) : "-",
-                row.name.angular() ? "urad" : "um");
-            continue;
-        }
-        text += fmt::format(
-            "{:6} {:11.3f} {:10.3f} {:9.3f} {:9.2f} % {:9.3f}  {:>9}  {}\n", to_string(row.name),
-            n(row.before), n(row.sigma_before), n(row.after), row.change_percent(), n(row.sigma),
-            row.published_before ? fmt::format("{:.3f}", n(*row.published_before)) : "-",
-            row.name.angular() ? "urad" : "um");
+        const auto known = [&](const std::optional<double>& v) {
+            return v ? fmt::format("{:.3f}", n(*v)) : std::string("-");
+        };
+        const char* unit = row.name.angular() ? "urad" : "um";
+        text += fmt::format("{:6} {:10.3f} {:9.3f} ", to_string(row.name), n(row.before),
+                            n(row.sigma_before));
+        if (after)
+            text += fmt::format("{:10.3f} {:9.3f} {:>11} ", n(row.after), n(row.sigma),
+                                known(row.truly_left));
+        text += fmt::format("{:>10}  {}\n", known(row.published_before), unit);
     }
     return text;
 }
@@ -136,18 +133,20 @@ std::string cell(double value) {
 std::string csv_rows(const char* where, const std::vector<ballbar::test::BallbarErrorRow>& rows) {
     std::string text;
     for (const ballbar::test::BallbarErrorRow& row : rows)
-        text += fmt::format("{},{},{},{},{},{},{},{},{}\n", where, to_string(row.name),
-                            cell(row.before), cell(row.sigma_before), cell(row.after),
-                            cell(row.sigma), cell(row.change_percent()),
-                            row.published_before ? shortest(*row.published_before) : "",
-                            row.name.angular() ? "rad" : "mm");
+        text +=
+            fmt::format("{},{},{},{},{},{},{},{},{},{}\n", where, to_string(row.name),
+                        cell(row.before), cell(row.sigma_before), cell(row.after), cell(row.sigma),
+                        cell(row.change_percent()), row.truly_left ? cell(*row.truly_left) : "",
+                        row.published_before ? shortest(*row.published_before) : "",
+                        row.name.angular() ? "rad" : "mm");
     return text;
 }
 
 }  // namespace
 
 std::string ballbar_csv(const ballbar::test::BallbarResult& r) {
-    return "where,name,before,u_before,after,u_after,change_percent,published_before,unit\n" +
+    return "where,name,before,u_before,after,u_after,change_percent,truly_left,published_before,"
+           "unit\n" +
            csv_rows("point_mm", r.errors) + csv_rows("intersection", r.at_intersection);
 }
 
@@ -155,19 +154,21 @@ namespace {
 
 std::string proof_text(const ballbar::test::BallbarResult& r) {
     std::string text;
-    if (r.true_tip_um)
+    if (r.true_tip)
         text += fmt::format(
-            "true error of the tip after compensation (the simulator knows it): {:.2f} um\n",
-            *r.true_tip_um);
+            "true error of the tip after compensation (the simulator knows it): {:.2f} um with a "
+            "tool\nas long as its offset says, {:.2f} um at the cup as it hangs\n",
+            r.true_tip->stated_um, r.true_tip->cup_um);
     if (r.sphere_check)
         text += fmt::format(
-            "second check, sphere and probe, no part of the fit: {} poses off by up to {:.2f} um "
+            "second check, sphere and probe, no part of the fit: {} poses off by up to {:.2f} um\n"
             "before, {:.2f} um after\n",
             r.sphere_check->poses, r.sphere_check->before_um, r.sphere_check->after_um);
-    if (r.sphere_check || r.true_tip_um)
+    if (r.true_tip)
         text +=
-            "the ballbar's own \"after\" cannot show a cup that is not where its offset says: the "
-            "two lines above do\n";
+            "\"after\" comes from the same cup: a cup that is not where its offset says shows in\n"
+            "\"truly left\" and in the true error alone, and in the sphere unless its stylus is "
+            "off alike\n";
     return text;
 }
 

@@ -45,16 +45,16 @@ std::size_t style_of(const pivot::PivotArc& arc) {
     return static_cast<std::size_t>(at - all.begin());
 }
 
-void draw_legend(Svg& svg, Point2 at, const std::vector<pivot::PivotMap>& maps) {
+void draw_legend(Svg& svg, Point2 at, const PivotResult& r) {
     std::vector<pivot::PivotArc> named;
-    for (const pivot::PivotMap& map : maps)
+    for (const pivot::PivotMap& map : r.maps)
         if (map.arcs.size() > named.size()) named = map.arcs;
     for (std::size_t k = 0; k < named.size(); ++k) {
         const double x = at.x + 150.0 * static_cast<double>(k);
         const std::size_t style = style_of(named[k]);
         svg.mark({x, at.y - 4}, static_cast<int>(style), plot_colours[style], 4.0);
-        svg.text({x + 10, at.y}, fmt::format("{} ({})", named[k].function, name_of(named[k].group)),
-                 12);
+        svg.text({x + 10, at.y},
+                 fmt::format("{} ({})", named[k].function, group_words(r, named[k].group)), 12);
     }
 }
 
@@ -77,9 +77,12 @@ void draw_distances(Plot& plot, Svg& svg, const pivot::PivotMap& map, const pivo
 
 std::string distances_picture(const PivotResult& r) {
     Panels page{r.maps.size()};
+    page.svg.describe("Distance of each found sphere from its map's mean error",
+                      "One panel a map: angle of the moving axis in degrees, distance in µm, for "
+                      "each positioning function. Marks are measured, lines expected.");
     page.svg.text({470, 28}, "Distance from each map's mean error: marks measured, lines expected",
                   16, "middle");
-    draw_legend(page.svg, {170, 54}, r.maps);
+    draw_legend(page.svg, {170, 54}, r);
     double highest = 0.1;
     for (const pivot::PivotMap& map : r.maps)
         for (const pivot::PivotArc& arc : map.arcs)
@@ -155,9 +158,13 @@ double reach_um(const std::vector<pivot::PivotMap>& maps) {
 
 std::string circles_picture(const PivotResult& r) {
     Panels page{r.maps.size()};
+    page.svg.describe("Eccentric circle of each map",
+                      "One panel a map, in the plane across the moving axis, µm. Measured points, "
+                      "fitted circle and centre of each positioning function; dashed circles are "
+                      "expected.");
     page.svg.text({470, 28}, "Eccentric circle of each map: measured points, circle and centre", 16,
                   "middle");
-    draw_legend(page.svg, {170, 54}, r.maps);
+    draw_legend(page.svg, {170, 54}, r);
     const double reach = reach_um(r.maps);
     for (std::size_t m = 0; m < r.maps.size(); ++m) {
         const pivot::PivotMap& map = r.maps[m];

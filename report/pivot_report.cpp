@@ -10,6 +10,18 @@
 
 namespace trunnion::report {
 
+std::string group_words(const PivotResult& r, pivot::PivotGroup group) {
+    return r.hurco && group == pivot::PivotGroup::p1970x ? "set-up" : name_of(group);
+}
+
+std::string store_name(const PivotResult& r, const setup::StoreNumber& n) {
+    if (n.parameter == 0) return n.name;
+    if (!r.hurco) return fmt::format("No.{} ({})", n.name, "XYZ"[n.component]);
+    const char axis = letter_of(n.place == 1 ? r.first : r.second);
+    return fmt::format("{} centreline {}{}", axis, "XYZ"[n.component],
+                       n.place == 2 ? " - first" : "");
+}
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -41,21 +53,12 @@ std::string map_text(const PivotResult& r, const pivot::PivotMap& map) {
         "     Y         Z / µm\n";
     for (const pivot::PivotArc& arc : map.arcs)
         if (const pivot::PivotPoint* worst = worst_point(arc))
-            out += fmt::format("  {:<9} {:<7} {:10.2f} µm {:8.2f} µm   {}{:<7g} {}{:<7g} {}\n",
-                               arc.function, name_of(arc.group), um_from_mm(arc.circle.radius_mm()),
-                               um_from_mm(arc.expected.radius_mm()), letter_of(r.first),
-                               worst->first_deg, letter_of(r.second), worst->second_deg,
-                               um_vector(worst->error_mm));
+            out += fmt::format(
+                "  {:<9} {:<7} {:10.2f} µm {:8.2f} µm   {}{:<7g} {}{:<7g} {}\n", arc.function,
+                group_words(r, arc.group), um_from_mm(arc.circle.radius_mm()),
+                um_from_mm(arc.expected.radius_mm()), letter_of(r.first), worst->first_deg,
+                letter_of(r.second), worst->second_deg, um_vector(worst->error_mm));
     return out + "\n";
-}
-
-/// Name of a number in the words of the dialect.
-std::string number_name(const PivotResult& r, const setup::StoreNumber& n) {
-    if (n.parameter == 0) return n.name;
-    if (!r.hurco) return fmt::format("No.{} ({})", n.name, "XYZ"[n.component]);
-    const char axis = letter_of(n.place == 1 ? r.first : r.second);
-    return fmt::format("{} centreline {}{}", axis, "XYZ"[n.component],
-                       n.place == 2 ? " - first" : "");
 }
 
 std::string stores_table(const PivotResult& r) {
@@ -66,8 +69,8 @@ std::string stores_table(const PivotResult& r) {
     std::vector<setup::StoreNumber> right;
     if (r.true_right) right = setup::store_numbers(*r.true_right);
     for (const pivot::StoreVerdict& s : v.stores) {
-        out += fmt::format("  {:<18} {:12.4f} {:12.4f} {:11.2f} {:8.2f}",
-                           number_name(r, s.in_force), s.in_force.value_mm + 0.0, s.type_mm + 0.0,
+        out += fmt::format("  {:<18} {:12.4f} {:12.4f} {:11.2f} {:8.2f}", store_name(r, s.in_force),
+                           s.in_force.value_mm + 0.0, s.type_mm + 0.0,
                            plain(um_from_mm(s.error_mm), 0.005), um_from_mm(s.sigma_mm));
         for (const setup::StoreNumber& n : right)
             if (n.name == s.in_force.name)
@@ -79,14 +82,15 @@ std::string stores_table(const PivotResult& r) {
     return out + "\n";
 }
 
-std::string quality_text(const pivot::PivotVerdict& v) {
+std::string quality_text(const PivotResult& r) {
+    const pivot::PivotVerdict& v = r.verdict;
     std::string out = fmt::format(
         "found from these readings: one centre scatters by {:.2f} µm an axis, {} "
         "zeroings of the sphere by {:.2f} µm\n",
         v.fit.noise_um, v.fit.zeroings, v.fit.zero_scatter_um);
     for (const pivot::GroupVerdict& g : v.groups)
         out += fmt::format("after typing ({:g} mm steps) {} functions are off by up to {:.2f} µm\n",
-                           v.increment_mm, name_of(g.group), g.left_um);
+                           v.increment_mm, group_words(r, g.group), g.left_um);
     const double apart_um = um_from_mm(setup::step_between_axes_mm(v.right).norm());
     if (v.groups.size() > 1 && apart_um > 0.05)
         out += fmt::format(
@@ -167,7 +171,7 @@ Json stores_json(const PivotResult& r) {
                         {"error_mm", s.error_mm},
                         {"sigma_mm", s.sigma_mm},
                         {"stale", s.stale},
-                        {"words", number_name(r, s.in_force)}});
+                        {"words", store_name(r, s.in_force)}});
     return list;
 }
 
@@ -186,10 +190,12 @@ Json affected_json(const PivotResult& r) {
 }  // namespace
 
 std::string pivot_table(const PivotResult& r) {
-    std::string out = fmt::format("{} ({})\n\n", r.machine, r.source) + stores_table(r);
+    std::string out = fmt::format("{} ({}{})\n\n", r.machine, r.source,
+                                  r.date.empty() ? "" : ", measured " + r.date) +
+                      stores_table(r);
     for (const pivot::PivotMap& map : r.maps) out += map_text(r, map);
-    return out + quality_text(r.verdict) + affected_text(r) + "\n" +
-           pivot::sentence(r.verdict, r.hurco) + "\n";
+    return out + quality_text(r) + affected_text(r) + "\n" + pivot::sentence(r.verdict, r.hurco) +
+           "\n";
 }
 
 std::string pivot_json(const PivotResult& r) {
@@ -207,6 +213,7 @@ std::string pivot_json(const PivotResult& r) {
                  {"verdict", pivot::sentence(r.verdict, r.hurco)},
                  {"machine", r.machine},
                  {"source", r.source},
+                 {"date", r.date.empty() ? Json() : Json(r.date)},
                  {"maps", maps},
                  {"stores", stores_json(r)},
                  {"groups", groups},
@@ -218,46 +225,6 @@ std::string pivot_json(const PivotResult& r) {
                  {"agree_after_typing_um", r.verdict.agree_um}})
                .dump(1) +
            "\n";
-}
-
-std::string pivot_page(const PivotResult& r, const PageOrigin& origin) {
-    Page page;
-    page.title = "Pivot stores";
-    page.subject = r.machine + ", " + r.source;
-    const bool stale = std::any_of(r.verdict.groups.begin(), r.verdict.groups.end(),
-                                   [](const pivot::GroupVerdict& g) { return g.stale; });
-    page.tone = stale ? Tone::bad : Tone::good;
-    page.verdict = pivot::sentence(r.verdict, r.hurco);
-    PageTable stores{"What to type",
-                     {"number", "in force / mm", "to type / mm", "error / µm", "u / µm", ""},
-                     "lrrrrl",
-                     {}};
-    for (const pivot::StoreVerdict& s : r.verdict.stores)
-        stores.rows.push_back(
-            {number_name(r, s.in_force), fmt::format("{:.4f}", s.in_force.value_mm + 0.0),
-             fmt::format("{:.4f}", s.type_mm + 0.0),
-             fmt::format("{:.1f}", plain(um_from_mm(s.error_mm), 0.05)),
-             fmt::format("{:.1f}", um_from_mm(s.sigma_mm)), s.stale ? "stale" : ""});
-    page.body_html = section_html("Stores", table_html(stores));
-    std::string figures;
-    for (const auto& [name, svg] : pivot_pictures(r))
-        figures += figure_html(svg, name == "circles.svg"
-                                        ? "Measured points with circle and centre; dashed: expected"
-                                        : "Distance from each map's mean; lines: expected");
-    page.body_html += section_html("Maps", figures);
-    PageTable affected{
-        "Who is affected", {"what", "function", "codes", "off by up to / µm"}, "lllr", {}};
-    for (const pivot::AffectedPart& part : r.affected)
-        affected.rows.push_back(
-            {part.path.empty() ? "all parts" : part.path, part.function,
-             pivot::codes_of(part.function, r.hurco),
-             fmt::format("{:.1f}{}", part.error_um, part.stale ? "" : " (right)")});
-    page.body_html += section_html("Programs", table_html(affected));
-    std::string unseen;
-    for (const std::string& line : r.verdict.unobservable) unseen += paragraph_html(line);
-    page.body_html += section_html("What these readings cannot tell", unseen);
-    page.origin = origin;
-    return page_html(page);
 }
 
 }  // namespace trunnion::report

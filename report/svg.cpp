@@ -73,13 +73,22 @@ void Svg::text(Point2 at, const std::string& text, double size, const std::strin
         px(at.x), px(at.y), px(size), anchor, colour, turn, escape_xml(text));
 }
 
+void Svg::describe(const std::string& title, const std::string& description) {
+    title_ = title;
+    description_ = description;
+}
+
 std::string Svg::str() const {
-    return fmt::format(
-               "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
-               "viewBox=\"0 0 {0} {1}\" font-family=\"Helvetica, Arial, sans-serif\">\n"
-               "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
-               px(width_), px(height_)) +
-           body_ + "</svg>\n";
+    std::string out = fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+        "viewBox=\"0 0 {0} {1}\" font-family=\"Helvetica, Arial, sans-serif\"",
+        px(width_), px(height_));
+    const std::string title = escape_xml(title_), description = escape_xml(description_);
+    if (!title.empty()) out += fmt::format(" role=\"img\" aria-label=\"{}\"", title);
+    out += ">\n";
+    if (!title.empty()) out += fmt::format("<title>{}</title>\n", title);
+    if (!description.empty()) out += fmt::format("<desc>{}</desc>\n", description);
+    return out + "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" + body_ + "</svg>\n";
 }
 
 PlotRange round_range(double low, double high, int about_ticks) {

@@ -36,10 +36,14 @@ class Svg {
               const std::string& anchor = "start", const std::string& colour = "#222",
               double turn_deg = 0.0);
 
+    /// What a screen reader says of the drawing; `description` may be empty.
+    void describe(const std::string& title, const std::string& description = {});
+
     std::string str() const;  ///< the whole file
 
   private:
     double width_, height_;
+    std::string title_, description_;
     std::string body_;
 };
 

@@ -27,6 +27,7 @@ std::vector<BallbarErrorRow> rows_of(const std::vector<ErrorEstimate>& before,
                             after[i].value,
                             before[i].sigma,
                             std::hypot(before[i].sigma, after[i].sigma),
+                            std::nullopt,
                             std::nullopt};
         for (const NamedError& p : published)
             if (p.name == row.name) row.published_before = p.value;

@@ -58,6 +58,40 @@ std::vector<ErrorEstimate> left_over(std::vector<ErrorEstimate> now,
     return now;
 }
 
+/// The machine as it is, with the location errors that effects add.
+kinematics::Machine true_machine(const setup::Setup& setup,
+                                 const std::vector<NamedError>& injected) {
+    kinematics::Machine machine = setup.machine;
+    for (const NamedError& e : injected) machine.errors.location(e.name) += e.value;
+    return machine;
+}
+
+/// What the re-test cannot know: the true errors that compensation leaves, in both tables.
+void add_what_is_left(BallbarResult& result, const kinematics::Machine& nominal,
+                      const kinematics::Machine& truth) {
+    for (BallbarErrorRow& row : result.errors)
+        row.truly_left = truth.errors.location(row.name) - row.before;
+    const std::vector<NamedError> lines = lines_at_intersection(nominal, truth);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        result.at_intersection[i].truly_left = lines[i].value - result.at_intersection[i].before;
+}
+
+/// Proofs in which the bar's own second run has no part.
+void add_proofs(BallbarResult& result, const setup::Setup& setup, const BallbarLayout& layout,
+                const emulator::EffectModels& effects, const kinematics::Machine& known) {
+    const kinematics::Machine nominal = nominal_of(setup);
+    const auto compensation_of = [&](const Vector3& tip_S_mm) {
+        return [&nominal, &known, tip_S_mm](const AxisPositions& q) {
+            return compensated(q, nominal, known, tip_S_mm);
+        };
+    };
+    result.true_tip = true_tip(setup, layout, effects, compensation_of(layout.cup_S_mm));
+    // The stylus has its own length: its place is compensated, not the cup's.
+    if (setup.probe)
+        result.sphere_check =
+            check_by_sphere(setup, layout, effects, compensation_of(setup.probe->tip_S_mm));
+}
+
 }  // namespace
 
 double BallbarErrorRow::change_percent() const {
@@ -172,12 +206,8 @@ BallbarResult run_ballbar(const setup::Setup& stated, const BallbarProcedureOpti
                 result.published.intersection);
     add_circles(result);
     result.stores = setup::stores_to_type(stated, known, layout.pivot_W_mm, layout.cup_S_mm);
-    result.true_tip_um = true_tip_um(setup, layout, compensate);
-    // The stylus has its own length: its place is compensated, not the cup's.
-    const emulator::Compensation for_stylus = [&](const AxisPositions& q) {
-        return compensated(q, nominal, known, setup.probe->tip_S_mm);
-    };
-    result.sphere_check = check_by_sphere(setup, layout, options.effects, for_stylus);
+    add_what_is_left(result, nominal, true_machine(setup, options.injected_errors));
+    add_proofs(result, setup, layout, options.effects, known);
     return result;
 }
 

@@ -22,6 +22,7 @@ struct BallbarErrorRow {
     double sigma_before = 0.0;
     double sigma = 0.0;  ///< of `after`: noise of both runs, so the larger one
     std::optional<double> published_before;
+    std::optional<double> truly_left;  ///< a simulator knows: true error minus `before`
 
     double change_percent() const;  ///< of the size; 0 when there was no error before
 };
@@ -44,9 +45,16 @@ struct BallbarRun {
     double time_s = 0.0;
 };
 
+/// Largest true way of a tip from its place at home, by the compensated control; only a simulator
+/// knows it. The re-test with the same cup sees `cup_um` alone.
+struct TrueTip {
+    double stated_um = 0.0;  ///< of a tool exactly as long as its offset says
+    double cup_um = 0.0;     ///< of the cup as it hangs, wrong length included
+};
+
 /// What a check says that took no part in the fit: a sphere found by the probe in poses of the
-/// compensated control. Cup and bar have no say in it, so it shows what the bar cannot: a tool
-/// length that is not what the offset says.
+/// compensated control. Cup and bar have no say in it, so it shows what the bar cannot: a cup
+/// that is not where its offset says. An error that stylus and cup share it cannot show.
 struct SphereCheck {
     int poses = 0;
     double before_um = 0.0,
@@ -72,9 +80,9 @@ struct BallbarResult {
     std::vector<PlanarResult> planar;
     std::optional<setup::StoresToType> stores;  ///< what to type for the positions found
     SetupTimes times;
-    bool simulated = true;              ///< false: the passes are of a real machine
-    bool has_after = true;              ///< `after` was run or given
-    std::optional<double> true_tip_um;  ///< largest true error of the tip after compensation
+    bool simulated = true;            ///< false: the passes are of a real machine
+    bool has_after = true;            ///< `after` was run or given
+    std::optional<TrueTip> true_tip;  ///< after compensation; of a simulated test
     std::optional<SphereCheck> sphere_check;
     std::vector<std::string> notes;
 
@@ -90,6 +98,8 @@ struct BallbarProcedureOptions {
     bool inside = false;  ///< bar turned round where it lies flat
     /// Where the pivot really stands, from where the setup says: an error of the set-up, in W.
     Vector3 pivot_offset_mm = Vector3::Zero();
+    /// Location errors that `effects` add to the setup's: what is truly left counts from both.
+    std::vector<NamedError> injected_errors;
 };
 
 /// Length of the bar that the exact fit found, minus the reference length.

@@ -6,6 +6,7 @@
 #include "ballbar/test/ballbar_evaluation.h"
 #include "base/units.h"
 #include "emulator/replay.h"
+#include "emulator/tool_tip.h"
 
 namespace trunnion::ballbar::test {
 
@@ -44,8 +45,7 @@ const setup::Artefact* sphere_of(const setup::Setup& setup) {
 records::ReadingTable sphere_rows(const setup::Setup& setup, const BallbarLayout& layout,
                                   const setup::Artefact& sphere,
                                   const emulator::Compensation& compensate) {
-    kinematics::Machine nominal = setup.machine;
-    nominal.errors = {};
+    const kinematics::Machine nominal = nominal_of(setup);
     records::ReadingTable table;
     for (const kinematics::AxisGeometry& axis : nominal.chain.axes())
         table.axes.push_back(axis.axis);
@@ -71,8 +71,7 @@ double largest_miss_um(const setup::Setup& setup, const BallbarLayout& layout,
                        const emulator::Compensation& compensate) {
     const records::ReadingTable found =
         emulator::predicted(setup, sphere_rows(setup, layout, sphere, compensate), effects);
-    kinematics::Machine nominal = setup.machine;
-    nominal.errors = {};
+    const kinematics::Machine nominal = nominal_of(setup);
     std::optional<Vector3> home_W;
     double worst_mm = 0.0;
     for (std::size_t i = 0; i + 2 < found.rows.size(); i += 3) {
@@ -87,21 +86,26 @@ double largest_miss_um(const setup::Setup& setup, const BallbarLayout& layout,
 
 }  // namespace
 
-double true_tip_um(const setup::Setup& setup, const BallbarLayout& layout,
-                   const emulator::Compensation& compensate) {
-    kinematics::Machine nominal = setup.machine;
-    nominal.errors = {};
-    const Vector3 tip = layout.cup_S_mm;
-    std::optional<Vector3> home;
-    double worst_mm = 0.0;
-    for (const AxisPositions& pose : judged_poses(nominal, layout)) {
-        const AxisPositions q =
-            compensate(aimed(nominal, pose, layout.pivot_W_mm, layout.cup_S_mm));
-        const Vector3 off = setup.machine.tip_W(q, tip) - layout.pivot_W_mm;
-        if (!home) home = off;
-        worst_mm = std::max(worst_mm, (off - *home).norm());
-    }
-    return um_from_mm(worst_mm);
+TrueTip true_tip(const setup::Setup& setup, const BallbarLayout& layout,
+                 const emulator::EffectModels& effects, const emulator::Compensation& compensate) {
+    const emulator::Observer observer(setup, effects);
+    const kinematics::Machine nominal = nominal_of(setup);
+    const auto largest_um = [&](const Vector3& tip_S_mm, const emulator::Contact& contact) {
+        std::optional<Vector3> home_W;
+        double worst_mm = 0.0;
+        for (const AxisPositions& pose : judged_poses(nominal, layout)) {
+            AxisSample sample;
+            sample.position = compensate(aimed(nominal, pose, layout.pivot_W_mm, layout.cup_S_mm));
+            sample.travel.fill(1);
+            const Vector3 at_W = emulator::physical_tip_W(observer.at(sample, contact), tip_S_mm);
+            if (!home_W) home_W = at_W;
+            worst_mm = std::max(worst_mm, (at_W - *home_W).norm());
+        }
+        return um_from_mm(worst_mm);
+    };
+    emulator::Contact cup;  // effects of the tool's length act on it
+    cup.tip = true;
+    return {largest_um(layout.cup_S_mm, {}), largest_um(setup.ballbar->cup_S_mm, cup)};
 }
 
 std::optional<SphereCheck> check_by_sphere(const setup::Setup& setup, const BallbarLayout& layout,

@@ -6,10 +6,10 @@
 
 namespace trunnion::ballbar::test {
 
-/// A simulator knows where the tip of a tool really is that is as long as its offset says: its
-/// largest way from its place at home, over poses every 30 degrees of the tested ranges, um.
-double true_tip_um(const setup::Setup& setup, const BallbarLayout& layout,
-                   const emulator::Compensation& compensate);
+/// A simulator knows where a tip really is: its largest way from its place at home, over poses
+/// every 30 degrees of the tested ranges, effects included, axes coming from the - side.
+TrueTip true_tip(const setup::Setup& setup, const BallbarLayout& layout,
+                 const emulator::EffectModels& effects, const emulator::Compensation& compensate);
 
 /// The setup's sphere found by its probe in the same poses; nothing without probe or sphere.
 std::optional<SphereCheck> check_by_sphere(const setup::Setup& setup, const BallbarLayout& layout,

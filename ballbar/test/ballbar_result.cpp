@@ -3,14 +3,12 @@
 #include <cmath>
 
 namespace trunnion::ballbar::test {
-namespace {
 
-std::vector<NamedError> lines_of(const kinematics::Machine& nominal, const BallbarFit& fit) {
-    const auto [first, second] = axis_lines(machine_of(nominal, fit));
+std::vector<NamedError> lines_at_intersection(const kinematics::Machine& nominal,
+                                              const kinematics::Machine& machine) {
+    const auto [first, second] = axis_lines(machine);
     return intersection_errors(first, second, nominal);
 }
-
-}  // namespace
 
 kinematics::Machine machine_of(const kinematics::Machine& nominal, const BallbarFit& fit) {
     kinematics::Machine machine = nominal;
@@ -34,7 +32,10 @@ std::vector<ErrorEstimate> chain_estimates(const BallbarFit& fit, double reading
 
 std::vector<ErrorEstimate> intersection_estimates(const kinematics::Machine& nominal,
                                                   const BallbarFit& fit, double reading_sigma_mm) {
-    const std::vector<NamedError> value = lines_of(nominal, fit);
+    const auto lines_of = [&](const BallbarFit& f) {
+        return lines_at_intersection(nominal, machine_of(nominal, f));
+    };
+    const std::vector<NamedError> value = lines_of(fit);
     Eigen::MatrixXd slope =
         Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(value.size()), fit.value.size());
     const double step = 1e-5;  // mm or rad: the map is smooth
@@ -42,7 +43,7 @@ std::vector<ErrorEstimate> intersection_estimates(const kinematics::Machine& nom
         BallbarFit up = fit, down = fit;
         up.value(k) += step;
         down.value(k) -= step;
-        const auto high = lines_of(nominal, up), low = lines_of(nominal, down);
+        const auto high = lines_of(up), low = lines_of(down);
         for (std::size_t i = 0; i < value.size(); ++i)
             slope(static_cast<Eigen::Index>(i), k) = (high[i].value - low[i].value) / (2.0 * step);
     }

@@ -20,7 +20,12 @@ kinematics::Machine machine_of(const kinematics::Machine& nominal, const Ballbar
 /// As the setup file means them: at point_mm, in the frame of the carrier.
 std::vector<ErrorEstimate> chain_estimates(const BallbarFit& fit, double reading_sigma_mm);
 
-/// As the paper means them: of the axis lines in M, all axes at zero, at the nominal intersection.
+/// Lines of both axes of a machine with errors as the paper means them: in M, all axes at zero, at
+/// the nominal intersection.
+std::vector<NamedError> lines_at_intersection(const kinematics::Machine& nominal,
+                                              const kinematics::Machine& machine);
+
+/// The fitted ones with their uncertainty.
 std::vector<ErrorEstimate> intersection_estimates(const kinematics::Machine& nominal,
                                                   const BallbarFit& fit, double reading_sigma_mm);
 

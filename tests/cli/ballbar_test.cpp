@@ -49,9 +49,11 @@ TEST_CASE("ballbar writes table, JSON, CSV, readings and one plot a test") {
     std::istringstream csv(bench.read("t.csv"));
     std::string line;
     std::getline(csv, line);
-    CHECK(line == "where,name,before,u_before,after,u_after,change_percent,published_before,unit");
+    CHECK(line ==
+          "where,name,before,u_before,after,u_after,change_percent,truly_left,"
+          "published_before,unit");
     int lines = 0;
-    for (; std::getline(csv, line); ++lines) CHECK(std::count(line.begin(), line.end(), ',') == 8);
+    for (; std::getline(csv, line); ++lines) CHECK(std::count(line.begin(), line.end(), ',') == 9);
     CHECK(lines == 16);
     int plots = 0;
     for (const auto& entry : fs::directory_iterator(bench.path / "svg/new")) {
@@ -66,6 +68,31 @@ TEST_CASE("ballbar writes table, JSON, CSV, readings and one plot a test") {
     CHECK(plots == 7);
     CHECK(bench.read("r.csv").find("device") != std::string::npos);
     CHECK(bench.read("r.csv") != bench.read("a.csv"));
+}
+
+TEST_CASE("an injected tool length acts on the bar - the re-test misses it and the table says so") {
+    const Bench bench;
+    const std::string quiet = "ballbar --json --setup " +
+                              bench.setup("noise_um  = 0.5", "noise_um  = 0.0") + " --inject ";
+    REQUIRE(bench.trunnion(quiet + "'tool.length: error_mm=0.010'") == 0);
+    const Json json = Json::parse(bench.read("out.txt"));
+    const Json ez0a = json["errors"][1];
+    REQUIRE(ez0a["name"] == "EZ0A");
+    CHECK(ez0a["before"].get<double>() == Approx(-0.0202 + 0.010).margin(1e-5));
+    CHECK(std::abs(ez0a["after"].get<double>()) < 1e-5);  // the same cup again: nothing to see
+    CHECK(ez0a["truly_left"].get<double>() == Approx(-0.010).margin(1e-5));
+    // (R - 1) times 10 um over A -30 to 90 degrees: the way of a tool of the right length.
+    CHECK(json["true_tip_um"].get<double>() == Approx(10.0 * std::sqrt(2.0)).margin(0.05));
+    CHECK(json["true_cup_um"].get<double>() < 0.05);
+    // The injected length is the stylus's too, so the sphere agrees with the bar.
+    CHECK(json["sphere_check"]["after_um"].get<double>() < 2.0);
+    REQUIRE(bench.trunnion(quiet + "'location: EX0C_mm=0.02'") == 0);
+    const Json moved = Json::parse(bench.read("out.txt"));
+    REQUIRE(moved["errors"][4]["name"] == "EX0C");
+    CHECK(moved["errors"][4]["before"].get<double>() == Approx(0.0483).margin(1e-5));
+    CHECK(std::abs(moved["errors"][4]["truly_left"].get<double>()) < 1e-5);
+    REQUIRE(bench.trunnion(quiet + "'X.scale: scale_ppm=50'") == 0);
+    CHECK(Json::parse(bench.read("out.txt"))["true_tip_um"].get<double>() > 1.0);
 }
 
 TEST_CASE("a bar out of its range is said with line and test, and nothing is written") {

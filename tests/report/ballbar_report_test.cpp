@@ -63,7 +63,12 @@ TEST_CASE("noise-free the procedure is exact and the tilts are compensated too")
     for (const ballbar::test::BallbarErrorRow& r : result.at_intersection)
         CHECK(std::abs(r.after) < (r.name.angular() ? 1e-9 : 1e-6));
     // 19700-19702 hold a point of the A axis, 19703-19705 lead from there to the C axis.
-    CHECK(*result.true_tip_um < 1e-3);
+    CHECK(result.true_tip->stated_um < 1e-3);
+    CHECK(result.true_tip->cup_um < 1e-3);
+    for (const ballbar::test::BallbarErrorRow& r : result.errors)
+        CHECK(std::abs(*r.truly_left) < (r.name.angular() ? 1e-9 : 1e-6));
+    for (const ballbar::test::BallbarErrorRow& r : result.at_intersection)
+        CHECK(std::abs(*r.truly_left) < (r.name.angular() ? 1e-9 : 1e-6));
     CHECK(result.sphere_check->after_um < 1e-3);
     CHECK(result.sphere_check->before_um > 50.0);
     REQUIRE(result.stores);
@@ -83,8 +88,10 @@ TEST_CASE("a wrong tool length reads as EZ0A and is named as what cannot be told
     // What the bar's own re-test misses, another instrument shows.
     REQUIRE(result.sphere_check);
     CHECK(result.sphere_check->after_um > 9.0);
-    REQUIRE(result.true_tip_um);
-    CHECK(*result.true_tip_um > 9.0);
+    REQUIRE(result.true_tip);
+    CHECK(result.true_tip->stated_um > 9.0);
+    CHECK(result.true_tip->cup_um < 1e-3);
+    CHECK(*row(result.errors, "EZ0A").truly_left == Approx(-0.01).margin(1e-5));
     bool named = false;
     for (const ballbar::test::InseparableGroup& group : result.open_fit.inseparable)
         named |= std::count(group.names.begin(), group.names.end(), "EZ0A") == 1 &&
