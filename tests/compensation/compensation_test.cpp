@@ -174,8 +174,7 @@ TEST_CASE("five axes under tool centre point control land where they meant") {
     CHECK(c.after.turned_rad <= c.before.turned_rad);  // it begins in the singular direction
 }
 
-TEST_CASE("the tool's direction: corrected where the rotaries work, kept where they stand",
-          "[.known]") {
+TEST_CASE("the tool's direction: corrected where the rotaries work, kept where they stand") {
     const setup::Setup setup = setup_with_errors();
     // A positioned plane first: its rotaries keep their words; then a swarf cut.
     const std::string program =
@@ -184,7 +183,7 @@ TEST_CASE("the tool's direction: corrected where the rotaries work, kept where t
         "X80. Y-20. Z45. B35. C90.\nG49\nG53 G0 Z400.\nM30\n";
     const compensation::CompensatedProgram c = compensate(setup, program);
     REQUIRE(c.executed.status == controller::RunStatus::ok);
-    CHECK(c.notes.empty());
+    CHECK(c.notes == c.original.notes);
     CHECK(c.after.tip_mm < 1e-4);
     CHECK(c.after.turned_rad < 5e-8);
     CHECK(c.after.kept_rad == Approx(c.before.kept_rad).epsilon(0.05));
@@ -264,8 +263,7 @@ TEST_CASE("what cannot be compensated says so") {
     CHECK(c.program.empty());
 }
 
-TEST_CASE("backlash of the rotaries follows the corrected axes: the tip lands where it meant",
-          "[.known]") {
+TEST_CASE("backlash of the rotaries follows the corrected axes: the tip lands where it meant") {
     const compensation::CompensatedProgram plain =
         compensate(setup_with_backlash(0.0, 0.0, false), rotary_reversals);
     CHECK(plain.after.tip_mm < 2e-6);
@@ -274,7 +272,7 @@ TEST_CASE("backlash of the rotaries follows the corrected axes: the tip lands wh
         const setup::Setup setup = setup_with_backlash(0.0, gap_rad, false);
         const compensation::CompensatedProgram c = compensate(setup, rotary_reversals);
         REQUIRE(c.executed.status == controller::RunStatus::ok);
-        CHECK(c.notes.empty());
+        CHECK(c.notes == c.original.notes);
         CHECK(c.before.tip_mm > 0.002);
         CHECK(c.after.tip_mm < 1e-4);
         CHECK(c.after.turned_rad < 5e-8);

@@ -6,7 +6,7 @@
 namespace trunnion {
 
 TEST_CASE("linear axes: scale, straightness, angles, ripple, squareness move the tip",
-          "[.known][effects]") {
+          "[effects]") {
     const Physics physics;
     for (int d = 0; d < 3; ++d) {
         const std::string name(1, "XYZ"[d]);

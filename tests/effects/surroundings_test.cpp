@@ -100,7 +100,7 @@ TEST_CASE("probe, bar and artefacts", "[effects]") {
     }) < 1e-6);
 }
 
-TEST_CASE("belief: wrong stores and rounded words", "[.known][effects]") {
+TEST_CASE("belief: wrong stores and rounded words", "[effects]") {
     const Physics physics;
     const auto turned = [](const Seen& s, const Vector3& v) {
         return about_y(about_z(v, s.c), s.b);
