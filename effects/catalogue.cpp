@@ -75,7 +75,7 @@ Catalogue make_catalogue(const setup::Setup& setup, const DataExtent& extent) {
     const kinematics::Chain& chain = setup.machine.chain;
     const bool basic = has_basic_axes(chain);
     Catalogue list{location_effect(chain)};
-    if (basic) {
+    if (basic && tilting_axis(chain)) {  // the tables of other machines turn nothing
         list.push_back(pivot_g54(chain));
         list.push_back(pivot_p1970x(chain));
     }
