@@ -29,6 +29,8 @@ class Plan:
     touch_azimuth_deg: float = 0.0
     overtravel_mm: float = 2.0    # commanded end point beyond nominal contact
     rotary_deg_s: float = 6.0
+    side_before: tuple = (1, 1, 1, 1, 1)   # from which X Y Z and the rotary axes came before their first move
+    side_told: bool = True                 # the table's head says so
 
     def columns(self):
         """Optional CSV columns of this campaign."""
@@ -39,8 +41,9 @@ class Plan:
 class Builder:
     """Appends records while a clock runs."""
 
-    def __init__(self, rng, machine, plan, start_s=0.0, session_s=7200.0):
+    def __init__(self, rng, machine, plan, start_s=0.0, session_s=7200.0, side_before=None):
         self.rng, self.machine, self.plan = rng, machine, plan
+        self.side_before = plan.side_before if side_before is None else side_before
         self.time_s, self.session_s, self.records, self.visit = start_s, session_s, [], 0
 
     def turned(self, words_deg):
@@ -70,7 +73,7 @@ class Builder:
 
     def rows(self):
         """Finished table."""
-        return Rows(self.records)
+        return Rows(self.records, self.side_before)
 
     # --- probing -------------------------------------------------------------------------------------
     def poses(self, count, grid):
@@ -231,11 +234,12 @@ def build(rng, machine, plan):
             run("map" if device == "sphere" else "touch_map", train.with_repeats(poses) if plan.repeats else poses)
     if "ballbar" in plan.devices:
         train.bar_tests()
-    hold = Builder(rng, machine, plan, train.time_s + 300.0, length)
+    rows = train.rows()
+    hold = Builder(rng, machine, plan, train.time_s + 300.0, length, rows.last_side)
     if "sphere" in plan.devices:
         hold.sphere_map("map", hold.poses(max(40, plan.poses // 3), False))
     if "touch" in plan.devices:
         hold.touch_map("touch_map", hold.poses(16, False))
     if "ballbar" in plan.devices:
         hold.bar_holdout()
-    return train.rows(), hold.rows()
+    return rows, hold.rows()

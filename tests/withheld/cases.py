@@ -98,7 +98,8 @@ def draw_plan(rng, needs, kind_of_noise):
                 calibrated=bool(rng.random() < (0.5 if "modes" in needs else 0.06)),
                 spindle="spindle" in needs or (probe and rng.random() < 0.3),
                 touch_azimuth_deg=float(rng.integers(0, 30)), overtravel_mm=float(rng.choice([0.0, 2.0])),
-                rotary_deg_s=float(rng.choice([4.0, 6.0, 10.0])))
+                rotary_deg_s=float(rng.choice([4.0, 6.0, 10.0])),
+                side_before=tuple(int(side) for side in rng.choice([-1, 1], 5)), side_told=bool(rng.random() < 0.5))
 
 
 def set_noise(rng, case):

@@ -75,7 +75,21 @@ class Scene:
         return frames.apply(chain, arm_mm)
 
     def readings(self, values, effects=(), amplitudes=None):
-        """value_mm of every row (0 for device-less ones) for base values and effects in force."""
+        """value_mm of every row (0 for device-less ones) for base values and effects in force.
+
+        Touches: the axes go on to the contact, and what the effects do there is what counts.
+        """
+        first, touch = self.read(values, effects, amplitudes), self.rows.device == "touch"
+        if not touch.any() or not len(effects):
+            return first
+        end = self.rows.pos_mm
+        self.rows.pos_mm = end + (first * touch)[:, None] * self.rows.dir
+        second = self.read(values, effects, amplitudes)
+        self.rows.pos_mm = end
+        return np.where(touch, first + second, first)
+
+    def read(self, values, effects, amplitudes):
+        """The same with the axes where `pos_mm` says."""
         rows, machine = self.rows, self.machine
         errors = Errors(rows.n)
         for k, effect in enumerate(effects):

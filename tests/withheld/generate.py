@@ -27,8 +27,11 @@ def write_set(folder, truth_folder, name, case):
             out.write(case.base.calibration_text())
     letters = case.machine.letters
     case.train.sigma_mm, case.hold.sigma_mm = case.sigma_train, case.sigma_hold
-    write_csv(place("readings.csv"), case.train, letters, case.values, optional, comments)
-    write_csv(place("holdout.csv"), case.hold, letters, None, optional, comments)
+    side = lambda rows: {"side": " ".join(f"{axis}{'+' if way > 0 else '-'}"
+                                          for axis, way in zip("XYZ" + "".join(letters), rows.side_before))}
+    told = side(case.train) if case.plan.side_told else {}
+    write_csv(place("readings.csv"), case.train, letters, case.values, optional, comments | told)
+    write_csv(place("holdout.csv"), case.hold, letters, None, optional, comments | side(case.hold))
     with open(os.path.join(truth_folder, name + ".json"), "w") as out:
         json.dump(describe(name, case), out)
         out.write("\n")

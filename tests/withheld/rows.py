@@ -17,8 +17,9 @@ class Rows:
     TEXTS = ("test", "mode", "device", "feature")
     VECTORS = {"pos_mm": 3, "ang_deg": 2, "dir": 3, "path_center_mm": 3, "path_axis": 3}
 
-    def __init__(self, records):
-        """records: list of dicts, absent fields are 0 or empty."""
+    def __init__(self, records, side_before=(1, 1, 1, 1, 1)):
+        """records: list of dicts, absent fields are 0 or empty; side_before: of each axis before its first move."""
+        self.side_before = tuple(side_before)
         for name in self.NUMBERS:
             setattr(self, name, np.array([r.get(name, 0.0) for r in records], float))
         for name in self.TEXTS:
@@ -39,44 +40,37 @@ class Rows:
         self.bar = self.device == "ballbar"
         axes = np.hstack([self.pos_mm, self.ang_deg])
         self.velocity = np.zeros((self.n, 5))       # mm/s, deg/s; ballbar rows only
-        self.sign = np.zeros((self.n, 5))           # travel (ballbar) or approach (probe)
         self.turning = np.zeros((self.n, 5), bool)  # an exact turning point: velocity 0 although the axis moves
-        for name in np.unique(self.test):
+        self.sign = approach_sign(axes, self.side_before)   # travel of a moving axis, else the side it came from
+        self.last_side = tuple(int(side) for side in self.sign[-1]) if self.n else self.side_before
+        for name in np.unique(self.test[self.bar]):
             index = np.flatnonzero(self.test == name)
-            if self.bar[index].any():
-                self._travel(index, axes[index])
-            else:
-                self.sign[index] = approach_sign(axes[index])
+            self._travel(index, axes[index])
         return self
 
     def _travel(self, index, axes):
         """Central differences within one test, one-sided at its ends."""
-        step = np.zeros_like(axes)
-        span = np.zeros(len(index))
-        time = self.time_s[index]
-        step[1:-1], span[1:-1] = axes[2:] - axes[:-2], time[2:] - time[:-2]
-        step[0], span[0] = axes[1] - axes[0], time[1] - time[0]
-        step[-1], span[-1] = axes[-1] - axes[-2], time[-1] - time[-2]
+        last = len(index) - 1
+        before, after = np.maximum(np.arange(last + 1) - 1, 0), np.minimum(np.arange(last + 1) + 1, last)
+        step, span = axes[after] - axes[before], self.time_s[index][after] - self.time_s[index][before]
         still = np.abs(step) < ROUNDING
-        moves = np.ptp(axes, axis=0) > ROUNDING
         self.velocity[index] = np.where(still, 0.0, step / span[:, None])
-        self.sign[index] = np.sign(self.velocity[index])
-        self.turning[index] = still & moves
+        self.turning[index] = still & (np.abs(axes[after] - axes) > ROUNDING)
+        travel = np.where(still, self.sign[index], np.sign(step))
+        self.sign[index] = np.where(self.turning[index], 0.0, travel)
 
     def weighted(self):
         """Rows that say something about reversal: read, and no moving axis exactly at its turning point."""
         return self.read & ~self.turning.any(axis=1)
 
 
-def approach_sign(axes):
-    """Sign of each axis's last non-zero move; rows before the first move take that first move's sign."""
+def approach_sign(axes, side_before):
+    """Sign of each axis's last non-zero move; before the first one the side that it came from."""
     moves = np.diff(axes, axis=0, prepend=axes[:1])
     signs = np.where(np.abs(moves) < ROUNDING, 0.0, np.sign(moves))
-    for column in signs.T:
-        hit = np.flatnonzero(column)
-        if len(hit):
-            last = np.maximum.accumulate(np.where(column != 0, np.arange(len(column)), -1))
-            column[:] = column[np.where(last < 0, hit[0], last)]
+    for column, side in zip(signs.T, side_before):
+        last = np.maximum.accumulate(np.where(column != 0, np.arange(len(column)), -1))
+        column[:] = np.where(last < 0, side, column[last])
     return signs
 
 

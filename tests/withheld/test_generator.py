@@ -142,8 +142,17 @@ class Physics(unittest.TestCase):
 
     def test_approach_rule(self):
         axes = np.array([[0.0, 5], [0, 4], [1, 4], [1, 6], [0.5, 6]])
-        np.testing.assert_array_equal(approach_sign(axes)[:, 0], [1, 1, 1, 1, -1])
-        np.testing.assert_array_equal(approach_sign(axes)[:, 1], [-1, -1, -1, 1, 1])
+        signs = approach_sign(axes, (-1, 1))
+        np.testing.assert_array_equal(signs[:, 0], [-1, -1, 1, 1, -1])
+        np.testing.assert_array_equal(signs[:, 1], [1, -1, -1, 1, 1])
+
+    def test_an_axis_that_stands_keeps_its_side(self):
+        _, _, _, train, _ = small_case(("B", "C"), ("ballbar",), side_before=(1, 1, 1, 1, -1))
+        circle = train.test == "xy_ccw_1000"
+        self.assertEqual(set(train.sign[circle, 4]), {-1.0})
+        self.assertEqual(set(train.sign[circle, 0]), {-1.0, 0.0, 1.0})
+        later = train.test == "radial_B_pos"
+        self.assertEqual(set(train.sign[later, 4]), {-1.0})       # C has not moved yet
 
     def test_commands_put_devices_on_their_nominal_value(self):
         for letters in (("B", "C"), ("A", "C")):
