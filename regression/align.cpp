@@ -2,59 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <unordered_map>
 
 namespace trunnion::regression {
 
 namespace {
 
-// Ids ------------------------------------------------------------------------------------------
-
 bool close(const std::array<double, 3>& p, const std::array<double, 3>& q, double tolerance) {
     return std::abs(p[0] - q[0]) <= tolerance && std::abs(p[1] - q[1]) <= tolerance &&
            std::abs(p[2] - q[2]) <= tolerance;
 }
-
-/// Gives out ids, found again by the cells of a grid that the centroid may lie in.
-class PassIds {
-  public:
-    explicit PassIds(const Tolerances& tolerances)
-        : tolerances_(tolerances), cell_mm_(64.0 * tolerances.position_mm) {}
-
-    std::uint32_t id_of(const Pass& pass) {
-        for (int corner = 0; corner < 8; ++corner) {
-            const auto range = by_cell_.equal_range(cell(pass, corner));
-            int looked = 0;
-            for (auto k = range.first; k != range.second && looked < 64; ++k, ++looked)
-                if (alike(*known_[k->second], pass, tolerances_)) return k->second;
-        }
-        const auto id = static_cast<std::uint32_t>(known_.size());
-        known_.push_back(&pass);
-        by_cell_.emplace(cell(pass, -1), id);
-        return id;
-    }
-
-  private:
-    std::uint64_t cell(const Pass& pass, int corner) const {
-        std::uint64_t h = pass.tool + 1;
-        if (!pass.cuts()) return ~h;
-        const auto mix = [&h](std::int64_t n) {
-            h = (h ^ static_cast<std::uint64_t>(n)) * 0xBF58476D1CE4E5B9ULL;
-            h ^= h >> 29;
-        };
-        for (std::size_t d = 0; d < 3; ++d) {
-            const double shift = corner < 0 ? 0.0 : ((corner >> d) & 1 ? 0.05 : -0.05);
-            mix(static_cast<std::int64_t>(std::floor(pass.centroid_mm[d] / cell_mm_ + shift)));
-        }
-        return h;
-    }
-
-    Tolerances tolerances_;
-    double cell_mm_;
-    std::vector<const Pass*> known_;
-    std::unordered_multimap<std::uint64_t, std::uint32_t> by_cell_;
-};
 
 // Sequences ------------------------------------------------------------------------------------
 
@@ -129,20 +85,6 @@ class MyersWalk {
     std::vector<std::vector<std::int32_t>> trace_;  ///< [d]: furthest x of the diagonals -d..d
 };
 
-/// The n-th occurrence of an id on one side goes with the n-th on the other.
-std::vector<IndexPair> nth_with_nth(const Keys& a, IndexPair from, const Keys& b, IndexPair to) {
-    std::unordered_map<std::uint64_t, std::deque<std::size_t>> places;
-    for (std::size_t j = from.b; j < to.b; ++j) places[b[j]].push_back(j);
-    std::vector<IndexPair> pairs;
-    for (std::size_t i = from.a; i < to.a; ++i) {
-        const auto found = places.find(a[i]);
-        if (found == places.end() || found->second.empty()) continue;
-        pairs.push_back({i, found->second.front()});
-        found->second.pop_front();
-    }
-    return pairs;
-}
-
 /// The longest part of `pairs` (rising in a) that rises in b too.
 std::vector<IndexPair> longest_rising(const std::vector<IndexPair>& pairs) {
     std::vector<std::size_t> tails, before(pairs.size(), pairs.size());
@@ -175,13 +117,58 @@ bool alike(const Pass& p, const Pass& q, const Tolerances& t) {
            std::abs(p.cut_mm - q.cut_mm) <= 1e-3 * p.cut_mm + 4.0 * t.position_mm;
 }
 
-void identify_passes(const std::vector<Pass>& a, const std::vector<Pass>& b,
-                     const Tolerances& tolerances, Keys& ids_a, Keys& ids_b) {
-    PassIds ids(tolerances);
-    ids_a.clear();
-    ids_b.clear();
-    for (const Pass& pass : a) ids_a.push_back(ids.id_of(pass));
-    for (const Pass& pass : b) ids_b.push_back(ids.id_of(pass));
+PassIds::PassIds(const Tolerances& tolerances)
+    : tolerances_(tolerances), cell_mm_(64.0 * tolerances.position_mm) {}
+
+/// Found again by the cells of a grid that the centroid may lie in.
+std::uint32_t PassIds::id_of(const Pass& pass) {
+    for (int corner = 0; corner < 8; ++corner) {
+        const auto range = by_cell_.equal_range(cell(pass, corner));
+        int looked = 0;
+        for (auto k = range.first; k != range.second && looked < 64; ++k, ++looked)
+            if (alike(known_[k->second], pass, tolerances_)) return k->second;
+    }
+    const auto id = static_cast<std::uint32_t>(known_.size());
+    known_.push_back(pass);
+    by_cell_.emplace(cell(pass, -1), id);
+    return id;
+}
+
+/// corner: -1 the centroid's own cell, 0 to 7 that of a point a little beside it.
+std::uint64_t PassIds::cell(const Pass& pass, int corner) const {
+    std::uint64_t h = pass.tool + 1;
+    if (!pass.cuts()) return ~h;
+    const auto mix = [&h](std::int64_t n) {
+        h = (h ^ static_cast<std::uint64_t>(n)) * 0xBF58476D1CE4E5B9ULL;
+        h ^= h >> 29;
+    };
+    for (std::size_t d = 0; d < 3; ++d) {
+        const double shift = corner < 0 ? 0.0 : ((corner >> d) & 1 ? 0.05 : -0.05);
+        mix(static_cast<std::int64_t>(std::floor(pass.centroid_mm[d] / cell_mm_ + shift)));
+    }
+    return h;
+}
+
+std::vector<IndexPair> nth_with_nth(const Keys& a, IndexPair from, const Keys& b, IndexPair to) {
+    using Places = std::vector<std::pair<std::uint64_t, std::size_t>>;
+    const auto sorted = [](const Keys& keys, std::size_t first, std::size_t last) {
+        Places places;
+        places.reserve(last - first);
+        for (std::size_t k = first; k < last; ++k) places.emplace_back(keys[k], k);
+        std::sort(places.begin(), places.end());
+        return places;
+    };
+    const Places in_a = sorted(a, from.a, to.a), in_b = sorted(b, from.b, to.b);
+    std::vector<IndexPair> pairs;
+    for (std::size_t i = 0, j = 0; i < in_a.size() && j < in_b.size();) {
+        if (in_a[i].first == in_b[j].first)
+            pairs.push_back({in_a[i++].second, in_b[j++].second});
+        else
+            ++(in_a[i].first < in_b[j].first ? i : j);
+    }
+    std::sort(pairs.begin(), pairs.end(),
+              [](const IndexPair& p, const IndexPair& q) { return p.a < q.a; });
+    return pairs;
 }
 
 std::vector<IndexPair> match_sequences(const Keys& a, const Keys& b, std::size_t most_edits) {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <unordered_set>
+#include <unordered_map>
 #include <vector>
 
 #include "regression/path_record.h"
@@ -22,7 +22,7 @@ using Keys = std::vector<std::uint64_t>;
 
 enum class Pairing : std::uint8_t {
     same,       ///< one pass each, alike by length, place and tool: still to be compared in detail
-    reordered,  ///< alike, but at another place in the order
+    reordered,  ///< as many on both sides, alike one by one, but at another place in the order
     changed,    ///< what stands between two pairs on both sides
     only_a,
     only_b,
@@ -34,21 +34,26 @@ struct PassPair {
 };
 
 struct AlignLimits {
-    std::uint64_t window = 1U << 14U;       ///< items looked at on each side where the two part
-    std::uint64_t most_window = 1U << 16U;  ///< and where nothing in that window matches
-    std::size_t most_edits = 1000;          ///< Myers' walk; beyond, a longest run of matches
-    bool reordering = true;                 ///< look for items at another place in the order
+    std::uint64_t window = 1U << 14U;  ///< items looked at on each side where the two part
+    std::uint64_t most_window = std::uint64_t{1}
+                                << 62U;  ///< and where nothing in smaller windows matches
+    std::size_t most_edits = 1000;       ///< Myers' walk; beyond, a longest run of matches
+    bool reordering = true;  ///< look, in all that is left over, for items at another place
 };
 
-/// The two sequences: `alike(i, j)` where they run together, `keys` of two ranges where they part.
+using PassRanges = std::vector<PassRange>;
+
+/// The two sequences: `alike(i, j)` where they run together, `keys` of all items of some ranges of
+/// both sides where they part.
 struct AlignSource {
     std::uint64_t size_a = 0, size_b = 0;
     std::function<bool(std::uint64_t, std::uint64_t)> alike;
-    std::function<void(PassRange, PassRange, Keys&, Keys&)> keys;
+    std::function<void(const PassRanges&, const PassRanges&, Keys&, Keys&)> keys;
 };
 
 /// Calls `found` for each pairing, in the order of A, what is only in B where it stands in B.
-/// Where nothing matches in the largest window the rest of both sides is one `changed`.
+/// Where nothing matches in the largest window the rest of both sides is one `changed`. Reordered
+/// items are found at any distance; memory grows with the number of items that are left over.
 void align(const AlignSource& source, const AlignLimits& limits,
            const std::function<void(const PassPair&)>& found);
 
@@ -56,15 +61,28 @@ void align(const AlignSource& source, const AlignLimits& limits,
 /// only: the way to it may differ).
 bool alike(const Pass& p, const Pass& q, const Tolerances& tolerances);
 
-/// One number for each pass, equal for passes that are alike.
-void identify_passes(const std::vector<Pass>& a, const std::vector<Pass>& b,
-                     const Tolerances& tolerances, Keys& ids_a, Keys& ids_b);
+/// Numbers for passes, equal for passes that are alike.
+class PassIds {
+  public:
+    explicit PassIds(const Tolerances& tolerances);
+    std::uint32_t id_of(const Pass& pass);
 
-/// The matched index pairs of two sequences, rising on both sides (Myers 1986; a longest rising
-/// run of unique matches beyond `most_edits`). Time O(n + edits^2).
+  private:
+    std::uint64_t cell(const Pass& pass, int corner) const;
+
+    Tolerances tolerances_;
+    double cell_mm_;
+    std::vector<Pass> known_;
+    std::unordered_multimap<std::uint64_t, std::uint32_t> by_cell_;
+};
+
 struct IndexPair {
     std::size_t a = 0, b = 0;
 };
+/// The n-th occurrence of a key on one side goes with the n-th on the other; rising in a.
+std::vector<IndexPair> nth_with_nth(const Keys& a, IndexPair from, const Keys& b, IndexPair to);
+/// The matched index pairs of two sequences, rising on both sides (Myers 1986; a longest rising
+/// run of unique matches beyond `most_edits`). Time O(n + edits^2).
 std::vector<IndexPair> match_sequences(const Keys& a, const Keys& b, std::size_t most_edits = 1000);
 
 }  // namespace trunnion::regression

@@ -81,10 +81,9 @@ bool can_lie_hidden(const std::string& name, bool arc) {
            name == "feed";
 }
 
-/// What is only on one side, or elsewhere, needs no cause: its block is its place.
+/// What is only on one side needs no state as a cause: its block is its place.
 bool says_all(DifferenceKind kind) {
-    return kind == DifferenceKind::only_a || kind == DifferenceKind::only_b ||
-           kind == DifferenceKind::reordered;
+    return kind == DifferenceKind::only_a || kind == DifferenceKind::only_b;
 }
 
 class Explainer {
@@ -131,8 +130,11 @@ class Explainer {
     }
 
     Found cause_of(const PathCluster& c) {
-        if (says_all(c.kind) || a_.empty() || b_.empty()) return {};
         const std::uint64_t i = c.first.a.first, j = c.first.b.first;
+        if (c.kind == DifferenceKind::reordered)
+            return {"passes reordered", fmt::format("reordered T{}", c.tool), {}, {}};
+        if (says_all(c.kind)) return by_own_block(c.kind == DifferenceKind::only_a, i, j);
+        if (a_.empty() || b_.empty()) return {};
         const Fields now = differing(i, j, explaining(c.kind));
         Fields fresh = now;
         if (i > 1 && j > 1) {
@@ -254,13 +256,41 @@ class Explainer {
         return found;
     }
 
+    /// The block of a pass that one side alone has, where the other side has it with other words
+    /// (K2 instead of K3).
+    Found by_own_block(bool in_a, std::uint64_t i, std::uint64_t j) {
+        if (in_.gaps == nullptr) return {};
+        const CausePlace a = place(path_a_, i), b = place(path_b_, j);
+        const auto cause =
+            in_.gaps->at(in_a ? static_cast<int>(a.line) : 0, in_a ? 0 : static_cast<int>(b.line));
+        return cause ? found_at(*cause, a, b) : Found{};
+    }
+
+    /// G41 or G42 at one of both: the next blocks turn the end of this one.
+    bool beside_contour(std::uint64_t i, std::uint64_t j) {
+        if (a_.empty() || b_.empty()) return false;
+        constexpr std::size_t cutter = 7;
+        return a_.row(a_.at(i)).state.modal10[cutter] > 400 ||
+               b_.row(b_.at(j)).state.modal10[cutter] > 400;
+    }
+
+    /// The change written last before these lines; under G41 and G42, or where there is none, one
+    /// that follows close.
+    std::optional<WrittenCause> written_near(int line_a, int line_b, bool read_ahead) {
+        constexpr int ahead = 3;
+        auto behind = in_.gaps->before(line_a, line_b);
+        const bool here = behind && behind->line_a == line_a && behind->line_b == line_b;
+        if (here || (behind && !behind->what.empty() && !read_ahead)) return behind;
+        auto next = in_.gaps->before(line_a + ahead, line_b + ahead);
+        const bool follows = next && (next->line_a > line_a || next->line_b > line_b);
+        return follows && !next->what.empty() ? next : behind;
+    }
+
     Found by_blocks(const PathCluster& c, std::uint64_t i, std::uint64_t j) {
         if (in_.gaps == nullptr) return {};
         const CausePlace a = place(path_a_, i), b = place(path_b_, j);
         const int line_a = static_cast<int>(a.line), line_b = static_cast<int>(b.line);
-        auto cause = in_.gaps->before(line_a, line_b);
-        constexpr int read_ahead = 3;  // under G41 the next block turns the end of this one
-        if (!cause) cause = in_.gaps->before(line_a + read_ahead, line_b + read_ahead);
+        const auto cause = written_near(line_a, line_b, beside_contour(i, j));
         if (!cause || cause->what.empty()) return {};
         Found found = found_at(*cause, a, b);
         const std::size_t name = found.cause.find(": ");

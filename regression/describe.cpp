@@ -97,7 +97,9 @@ std::string sentence(const PathCluster& c, PathSpace space, const Tolerances& to
                        : fmt::format("only in B: moves, up to {:.4f} mm away", c.position_mm) +
                              tool;
         case DifferenceKind::reordered:
-            return "reordered: the same pass stands at another place" + times(c.count, "passes") +
+            return fmt::format("{} {:.3f} mm of cut at another place in the order",
+                               c.count > 1 ? fmt::format("{} passes with", c.count) : "a pass with",
+                               c.cut_a_mm) +
                    tool;
         case DifferenceKind::feed:
             return fmt::format("feed {:g} -> {:g} mm/min", c.first.value_a, c.first.value_b) +

@@ -59,16 +59,19 @@ class PathComparer {
                 [this, &t](std::uint64_t i, std::uint64_t j) {
                     return alike(passes_a_[i], passes_b_[j], t);
                 },
-                [this, &t](PassRange a, PassRange b, Keys& keys_a, Keys& keys_b) {
-                    identify_passes(loaded(passes_a_, a), loaded(passes_b_, b), t, keys_a, keys_b);
+                [this, &t](const PassRanges& a, const PassRanges& b, Keys& keys_a, Keys& keys_b) {
+                    PassIds ids(t);
+                    identify(passes_a_, a, ids, keys_a);
+                    identify(passes_b_, b, ids, keys_b);
                 }};
     }
 
-    static std::vector<Pass> loaded(SpilledWindow<Pass>& passes, PassRange range) {
-        std::vector<Pass> result;
-        result.reserve(range.size());
-        for (std::uint64_t k = range.first; k < range.last; ++k) result.push_back(passes[k]);
-        return result;
+    static void identify(SpilledWindow<Pass>& passes, const PassRanges& ranges, PassIds& ids,
+                         Keys& keys) {
+        keys.clear();
+        for (const PassRange& range : ranges)
+            for (std::uint64_t k = range.first; k < range.last; ++k)
+                keys.push_back(ids.id_of(passes[k]));
     }
 
     void compare(const PassPair& pair) {
@@ -80,7 +83,8 @@ class PathComparer {
                 compare_changed(pair);
                 break;
             case Pairing::reordered:
-                compare_cut(pair.a.first, pair.b.first);
+                for (std::uint64_t k = 0; k < pair.a.size(); ++k)
+                    compare_cut(pair.a.first + k, pair.b.first + k);
                 add_whole(DifferenceKind::reordered, pair);
                 break;
             case Pairing::only_a:
@@ -171,7 +175,7 @@ class PathComparer {
             const Pass pass = passes_a_[k];
             const bool final = k + 1 == range.last;
             for (; added < regions.size() && (final || regions[added].a.first < pass.last); ++added)
-                add(kind_of(regions[added].kind), regions[added], pass.tool, 0.0, 0.0);
+                add(kind_of(regions[added].kind), regions[added], pass.tool, {});
             while (next < regions.size() && ends(regions[next]) <= pass.first) ++next;
             bool moved = false, other = false;
             for (std::size_t r = next; r < added; ++r)
@@ -197,16 +201,23 @@ class PathComparer {
         region.a = {at_a, pair.a.size() > 0 ? std::max(at_a, a[pair.a.last - 1].last) : at_a};
         region.b = {at_b, pair.b.size() > 0 ? std::max(at_b, b[pair.b.last - 1].last) : at_b};
         const int tool = pair.a.size() > 0 ? a[pair.a.first].tool : b[pair.b.first].tool;
-        double cut_a = 0.0, cut_b = 0.0;
-        for (std::uint64_t k = pair.a.first; k < pair.a.last; ++k) cut_a += a[k].cut_mm;
-        for (std::uint64_t k = pair.b.first; k < pair.b.last; ++k) cut_b += b[k].cut_mm;
+        Amount amount;
+        for (std::uint64_t k = pair.a.first; k < pair.a.last; ++k) amount.cut_a_mm += a[k].cut_mm;
+        for (std::uint64_t k = pair.b.first; k < pair.b.last; ++k) amount.cut_b_mm += b[k].cut_mm;
+        if (kind == DifferenceKind::reordered) amount.count = pair.a.size();
         ToolRow& row = rows_[tool];
         row.only_a += kind == DifferenceKind::only_a ? pair.a.size() : 0;
         row.only_b += kind == DifferenceKind::only_b ? pair.b.size() : 0;
-        row.reordered += kind == DifferenceKind::reordered ? 1 : 0;
+        row.reordered += kind == DifferenceKind::reordered ? pair.a.size() : 0;
         if (kind != DifferenceKind::reordered) ++result_.totals.compared;
-        add(kind, region, tool, cut_a, cut_b);
+        add(kind, region, tool, amount);
     }
+
+    /// What a region adds to its cluster.
+    struct Amount {
+        double cut_a_mm = 0.0, cut_b_mm = 0.0;
+        std::uint64_t count = 1;
+    };
 
     /// What makes two regions the same change.
     using Key = std::tuple<DifferenceKind, int, long, long, long, long, long>;
@@ -223,7 +234,7 @@ class PathComparer {
                 r.value_a == 0.0 ? n(r.value_b) : 0};
     }
 
-    void add(DifferenceKind kind, const PathRegion& region, int tool, double cut_a, double cut_b) {
+    void add(DifferenceKind kind, const PathRegion& region, int tool, const Amount& amount) {
         const bool joins = kind != DifferenceKind::path && kind != DifferenceKind::only_a &&
                            kind != DifferenceKind::only_b && kind != DifferenceKind::reordered;
         PathCluster* cluster = nullptr;
@@ -247,11 +258,11 @@ class PathComparer {
             cluster = &result_.clusters.back();
             if (kind == DifferenceKind::path) by_tool_[tool].push_back(result_.clusters.size() - 1);
         }
-        ++cluster->count;
+        cluster->count += amount.count;
         cluster->position_mm = std::max(cluster->position_mm, region.position_mm);
         cluster->direction_rad = std::max(cluster->direction_rad, region.direction_rad);
-        cluster->cut_a_mm += cut_a;
-        cluster->cut_b_mm += cut_b;
+        cluster->cut_a_mm += amount.cut_a_mm;
+        cluster->cut_b_mm += amount.cut_b_mm;
         cluster->last_a = region.a;
         cluster->last_b = region.b;
     }

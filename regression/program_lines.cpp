@@ -114,18 +114,20 @@ KeyedLines all_keys(LineKeys& keys) {
 void key_gaps(const KeyedLines& a, const KeyedLines& b,
               const std::function<void(const KeyGap&)>& found) {
     SpilledWindow<KeyedLine> p(a), q(b);
-    const auto keys_in = [](SpilledWindow<KeyedLine>& lines, PassRange range, Keys& keys) {
+    const auto keys_in = [](SpilledWindow<KeyedLine>& lines, const PassRanges& ranges, Keys& keys) {
         keys.clear();
-        for (std::uint64_t k = range.first; k < range.last; ++k) keys.push_back(lines[k].key);
+        for (const PassRange& range : ranges)
+            for (std::uint64_t k = range.first; k < range.last; ++k) keys.push_back(lines[k].key);
     };
-    const AlignSource source{a.size(), b.size(),
-                             [&](std::uint64_t i, std::uint64_t j) { return p[i].key == q[j].key; },
-                             [&](PassRange in_a, PassRange in_b, Keys& keys_a, Keys& keys_b) {
-                                 keys_in(p, in_a, keys_a);
-                                 keys_in(q, in_b, keys_b);
-                             }};
+    const AlignSource source{
+        a.size(), b.size(), [&](std::uint64_t i, std::uint64_t j) { return p[i].key == q[j].key; },
+        [&](const PassRanges& in_a, const PassRanges& in_b, Keys& keys_a, Keys& keys_b) {
+            keys_in(p, in_a, keys_a);
+            keys_in(q, in_b, keys_b);
+        }};
     AlignLimits limits;
     limits.reordering = false;
+    limits.most_window = 1U << 16U;  // two unlike texts: memory does not grow with their length
     align(source, limits, [&](const PassPair& pair) {
         if (pair.pairing != Pairing::same)
             found({pair.a.first, pair.a.last, pair.b.first, pair.b.last});

@@ -29,6 +29,14 @@ int group_of(int code) {
     return 0;
 }
 
+/// Groups outside the table whose codes may stand in any order beside others: G49, G80, G54-G59.
+int order_group_of(int code) {
+    constexpr int length = 20, cycle = 21, work = 22;
+    if (code == 490) return length;
+    if (code == 800) return cycle;
+    return code >= 540 && code <= 590 && code % 10 == 0 ? work : 0;
+}
+
 std::uint64_t bits_of(double value) {
     const double plain = value + 0.0;  // -0 is 0
     std::uint64_t bits = 0;
@@ -87,9 +95,10 @@ WordMemory::BlockLook look_at(const interpreter::Item* items, std::size_t count)
         const interpreter::Item& item = items[k];
         if (item.letter == 'G') {
             const int code = g_code(item), group = group_of(code);
-            if (group > 0 && (groups & (1U << group)) != 0) look.order_counts = true;
-            groups |= 1U << group;
-            if (group == 0) look.order_counts = look.order_counts || look.other_g;
+            // Codes of no known group count as one group (bit 0).
+            const std::uint32_t bit = 1U << (group > 0 ? group : order_group_of(code));
+            if ((groups & bit) != 0) look.order_counts = true;
+            groups |= bit;
             look.other_g = look.other_g || group == 0;
             look.calls = look.calls || (code >= 650 && code < 680);
         } else if (item.letter == 'M') {

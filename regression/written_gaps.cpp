@@ -56,6 +56,17 @@ std::optional<WrittenCause> WrittenGaps::before(int line_a, int line_b) {
     return said(*std::prev(behind), line_a, line_b);
 }
 
+std::optional<WrittenCause> WrittenGaps::at(int line_a, int line_b) {
+    if (!gaps_) find_gaps();
+    for (const WrittenGap& gap : *gaps_) {
+        if (gap.count_a == 0 || gap.count_a != gap.count_b) continue;
+        const int behind = line_a > 0 ? line_a - gap.line_a : line_b - gap.line_b;
+        const bool inside = line_a > 0 ? line_a <= gap.last_a : line_b <= gap.last_b;
+        if (behind >= 0 && inside) return pair(gap.line_a + behind, gap.line_b + behind);
+    }
+    return std::nullopt;
+}
+
 std::optional<WrittenCause> WrittenGaps::block_missing(int line_a, int line_b) {
     if (!gaps_) find_gaps();
     for (const WrittenGap& gap : *gaps_) {

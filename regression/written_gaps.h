@@ -33,6 +33,9 @@ class WrittenGaps {
 
     /// The last gap at or before these lines (0: that side says nothing), said in words.
     std::optional<WrittenCause> before(int line_a, int line_b);
+    /// What the block at `line_a` of A (or at `line_b` of B, the other 0) says otherwise, where a
+    /// block of the other side stands for it.
+    std::optional<WrittenCause> at(int line_a, int line_b);
     /// One of these lines stands in a gap that only one side has.
     std::optional<WrittenCause> block_missing(int line_a, int line_b);
     /// The first gap with a block that writes a store or variable: G10, #.
