@@ -7,48 +7,13 @@
 #include <map>
 
 #include "regression/moved_pivot.h"
+#include "regression/run_states.h"
 
 namespace trunnion::regression {
 
 namespace {
 
 using Fields = std::vector<std::size_t>;
-
-bool same(const std::array<double, 3>& p, const std::array<double, 3>& q) {
-    for (std::size_t k = 0; k < 3; ++k)
-        if (std::abs(p[k] - q[k]) > 1e-3 + 1e-6 * std::abs(p[k])) return false;
-    return true;
-}
-
-/// The states of one run by segment.
-class States {
-  public:
-    explicit States(const RecordedRun& run) : rows_(run.states) {}
-
-    /// Row in force at a segment.
-    std::uint64_t at(std::uint64_t segment) {
-        std::uint64_t low = 0, high = rows_.size();
-        while (low + 1 < high) {
-            const std::uint64_t middle = (low + high) / 2;
-            (rows_[middle].first_segment <= segment ? low : high) = middle;
-        }
-        return low;
-    }
-    StateRow row(std::uint64_t index) { return rows_[index]; }
-
-    /// The row where a field took the value that it has at `index`.
-    std::uint64_t entry(const SnapshotField& field, std::uint64_t index) {
-        const auto value = field.value(rows_[index].state);
-        constexpr std::uint64_t farthest = 20000;
-        const std::uint64_t stop = index > farthest ? index - farthest : 0;
-        while (index > stop && same(field.value(rows_[index - 1].state), value)) --index;
-        return index;
-    }
-    bool empty() const { return rows_.size() == 0; }
-
-  private:
-    SpilledWindow<StateRow> rows_;
-};
 
 unsigned explaining(DifferenceKind kind) {
     switch (kind) {
@@ -97,8 +62,7 @@ class Explainer {
 
     std::vector<ExplainedCluster> run(const std::vector<PathCluster>& clusters) {
         for (const PathCluster& cluster : clusters) add(cause_of(cluster), cluster);
-        if (const auto moved = moved_pivot(clusters, {in_.a, in_.transform, in_.tolerances}))
-            return one_pivot(*moved);
+        if (const auto moved = moved_pivot(clusters, pivot_input())) return one_pivot(*moved);
         return std::move(result_);
     }
 
@@ -169,7 +133,7 @@ class Explainer {
         Fields fields;
         const auto all = snapshot_fields();
         for (std::size_t f = 0; f < all.size(); ++f)
-            if ((all[f].explains & explains) != 0 && !same(all[f].value(p), all[f].value(q)))
+            if ((all[f].explains & explains) != 0 && !same_value(all[f].value(p), all[f].value(q)))
                 fields.push_back(f);
         return fields;
     }
@@ -205,8 +169,10 @@ class Explainer {
         const std::uint64_t entry_a = a_.entry(field, at_a), entry_b = b_.entry(field, at_b);
         const StateRow row_a = a_.row(entry_a), row_b = b_.row(entry_b);
         const auto value_a = field.value(row_a.state), value_b = field.value(row_b.state);
-        const bool a_changed = entry_a > 0 && same(field.value(a_.row(entry_a - 1).state), value_b);
-        const bool b_changed = entry_b > 0 && same(field.value(b_.row(entry_b - 1).state), value_a);
+        const bool a_changed =
+            entry_a > 0 && same_value(field.value(a_.row(entry_a - 1).state), value_b);
+        const bool b_changed =
+            entry_b > 0 && same_value(field.value(b_.row(entry_b - 1).state), value_a);
         if (places) {
             found.a = {row_a.line, row_a.program};
             found.b = {row_b.line, row_b.program};
@@ -305,31 +271,38 @@ class Explainer {
         return {s.line, s.program};
     }
 
+    MovedPivotInput pivot_input() const { return {in_.a, in_.b, in_.transform, in_.tolerances}; }
+
     std::vector<ExplainedCluster> one_pivot(const MovedPivot& moved) {
         std::vector<ExplainedCluster> left;
-        std::optional<std::size_t> first;
+        const auto is_moved = [](const ExplainedCluster& e) {
+            return e.cluster.kind == DifferenceKind::moved;
+        };
+        const auto first = std::find_if(result_.begin(), result_.end(), is_moved);
+        first->cause = moved.text;
         double largest_mm = 0.0;
         for (const ExplainedCluster& e : result_)
-            if (e.cluster.kind == DifferenceKind::moved)
-                largest_mm = std::max(largest_mm, e.cluster.position_mm);
+            if (is_moved(e)) largest_mm = std::max(largest_mm, e.cluster.position_mm);
         for (ExplainedCluster& e : result_) {
             const bool between =  // the ways from one shifted section to the next
-                e.cluster.kind == DifferenceKind::path && e.cluster.position_mm < 1.5 * largest_mm;
-            if (e.cluster.kind != DifferenceKind::moved && !between) {
+                e.cluster.kind == DifferenceKind::path &&
+                (e.cluster.position_mm < 1.5 * largest_mm ||
+                 explains(moved, e.cluster, pivot_input()));
+            if (&e == &*first) continue;
+            if (is_moved(e) || between)
+                join(first->cluster, e.cluster);
+            else
                 left.push_back(std::move(e));
-            } else if (first) {
-                join(left[*first].cluster, e.cluster);
-            } else {
-                first = left.size();
-                e.cause = moved.text;
-                left.push_back(std::move(e));
-            }
         }
+        const auto behind = [&](const ExplainedCluster& e) {
+            return e.cluster.first.a.first > first->cluster.first.a.first;
+        };
+        left.insert(std::find_if(left.begin(), left.end(), behind), *first);
         return left;
     }
 
     const CauseInput& in_;
-    States a_, b_;
+    RunStates a_, b_;
     SegmentWindow path_a_, path_b_;
     std::vector<ExplainedCluster> result_;
     std::map<std::string, std::size_t> groups_;

@@ -11,6 +11,7 @@
 #include "regression/describe.h"
 #include "regression/effects_layer.h"
 #include "regression/function_compare.h"
+#include "regression/left_aside.h"
 #include "regression/run_notes.h"
 #include "regression/verdict.h"
 #include "regression/written_layers.h"
@@ -69,6 +70,7 @@ class ProgramComparer {
         result_.differences_left_out = 0;
         result_.compared = 0;
         result_.notes.clear();
+        left_.clear();
         switch (layer) {
             case Layer::text:
             case Layer::words:
@@ -76,7 +78,7 @@ class ProgramComparer {
                 break;
             case Layer::blocks:
                 record(PathSpace::tip);
-                gaps(run_a_->blocks, run_b_->blocks);
+                moves(run_a_->blocks, run_b_->blocks);
                 break;
             case Layer::path:
                 paths(PathSpace::tip);
@@ -104,11 +106,10 @@ class ProgramComparer {
     void written(Layer layer) {
         const WrittenSide a = written_side(a_, setup_a_, run_a_),
                           b = written_side(b_, setup_b_, run_b_);
-        if (only_verdict()) {
+        if (only_verdict())
             equal_so_far_ = written_alike(layer, a, b, result_.compared);
-        } else {
+        else
             describe_written(layer, a, b, options_.most_differences, result_);
-        }
     }
 
     /// A program that may call others is what it is together with them: only a run tells which.
@@ -121,11 +122,9 @@ class ProgramComparer {
         return {&program, &run->opened, &setup};
     }
 
-    void gaps(const KeyedLines& a, const KeyedLines& b) {
-        if (only_verdict())
-            equal_so_far_ = same_keys(a, b, result_.compared);
-        else
-            describe_gaps(a, b, lines_a_, lines_b_, options_.most_differences, result_);
+    void moves(const KeyedLines& a, const KeyedLines& b) {
+        if (only_verdict()) return void(equal_so_far_ = same_keys(a, b, result_.compared));
+        describe_gaps(a, b, lines_a_, lines_b_, options_.most_differences, result_);
     }
 
     void paths(PathSpace space) {
@@ -178,13 +177,7 @@ class ProgramComparer {
     }
 
     /// Two states of the stores of one machine: both are seen through A's.
-    bool one_machine() const {
-        const auto &p = setup_a_.machine.chain.axes(), &q = setup_b_.machine.chain.axes();
-        if (&setup_a_ == &setup_b_ || p.size() != q.size()) return false;
-        return std::equal(p.begin(), p.end(), q.begin(), [](const auto& a, const auto& b) {
-            return a.axis == b.axis && a.direction == b.direction && a.point_mm == b.point_mm;
-        });
-    }
+    bool one_machine() const { return &setup_a_ != &setup_b_ && same_machine(setup_a_, setup_b_); }
 
     /// An alarm or a limit: no deeper layer can say more.
     bool stopped() const { return run_a_ && !ran_to_the_end() && result_.by == Layer::path; }
@@ -207,9 +200,10 @@ class ProgramComparer {
     /// Path and functions together are the machining.
     bool by_path() {
         const bool equal = by_layer(Layer::path);
-        if (!ran_to_the_end()) return false;
-        if (equal) return by_functions();
-        if (one_control()) functions(false);
+        if (ran_to_the_end() && equal) return by_functions();
+        if (ran_to_the_end() && one_control()) functions(false);
+        if (!ran_to_the_end() || !one_control())
+            left_.emplace_back("M codes, dwells and modes (another machine, or a program stopped)");
         return false;
     }
 
@@ -218,7 +212,7 @@ class ProgramComparer {
     /// Adds the layer `functions` to an equal one before it.
     bool by_functions() {
         if (!one_control()) {
-            result_.notes.push_back("M codes, dwells and modes were not compared: another machine");
+            left_.emplace_back("M codes, dwells and modes (another machine)");
             return true;
         }
         functions(true);
@@ -242,9 +236,9 @@ class ProgramComparer {
         for (std::size_t k = before; k < result_.differences.size(); ++k)
             place_value(result_.differences[k]);
         if (!stores)
-            result_.notes.push_back(
-                "stores that G10 writes were not compared: the sides position by other functions, "
-                "or start from other stores");
+            left_.emplace_back(
+                "stores that G10 writes (the sides position by other functions, or start from "
+                "other stores)");
     }
 
     /// The first block that writes stores or variables and is written differently.
@@ -321,13 +315,20 @@ class ProgramComparer {
         }
         result_.equal = result_.status == CompareStatus::equal;
         result_.verdict = verdict_of(result_, options_.tolerances);
-        if (run_b_ && result_.by != Layer::text && result_.by != Layer::words) add_notes();
+        if (result_.by != Layer::text && result_.by != Layer::words)
+            add_notes();
+        else if (options_.by)
+            result_.notes.emplace_back("not compared: what the programs do (--by)");
         add_fingerprints(result_);
     }
 
     void add_notes() {
-        for (const std::string& note : notes_of(run_a_ ? &*run_a_ : nullptr, *run_b_, options_))
-            result_.notes.push_back(note);
+        const RecordedRun* const a = run_a_ ? &*run_a_ : nullptr;
+        for (std::string& note : notes_of(a, *run_b_)) result_.notes.push_back(std::move(note));
+        if (a == nullptr) left_.emplace_back("M codes, dwells and modes (a golden has none)");
+        const auto& first = a == nullptr ? b_ : a_;
+        const std::string left = left_aside(a, *run_b_, {first, b_}, options_, left_);
+        if (!left.empty()) result_.notes.push_back(left);
     }
 
     void take_end(const controller::RunResult& run, std::string& alarm, const char* side,
@@ -377,7 +378,8 @@ class ProgramComparer {
     std::optional<RecordedRun> run_a_, run_b_;
     std::optional<WrittenGaps> gaps_;
     std::optional<positioning::RotaryTransform> transform_;
-    bool equal_so_far_ = true;  ///< of the layer at hand, where it keeps no differences
+    std::vector<std::string> left_;  ///< what was not compared
+    bool equal_so_far_ = true;       ///< of the layer at hand, where it keeps no differences
     Comparison result_;
 };
 

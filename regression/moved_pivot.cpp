@@ -87,13 +87,42 @@ std::optional<MovedPivot> moved_pivot(const std::vector<PathCluster>& clusters,
     for (const SeenShift& s : seen)
         length_mm += s.shift_mm.dot(s.direction) / static_cast<double>(seen.size());
     if (all([&](const SeenShift& s) { return (s.shift_mm - length_mm * s.direction).norm(); }))
-        return MovedPivot{fmt::format("the length along the tool differs by {:.4f} mm", length_mm)};
+        return MovedPivot{fmt::format("the length along the tool differs by {:.4f} mm", length_mm),
+                          Vector3::Zero(), length_mm};
     const Vector3 p = fitted_pivot(seen);
     if (all([&](const SeenShift& s) { return (s.shift_mm - s.turned * p).norm(); }))
         return MovedPivot{
             fmt::format("all {} shifts are one pivot moved by ({:.4f}, {:.4f}, {:.4f}) mm",
-                        seen.size(), p.x(), p.y(), p.z())};
+                        seen.size(), p.x(), p.y(), p.z()),
+            p, 0.0};
     return std::nullopt;
+}
+
+bool explains(const MovedPivot& moved, const PathCluster& cluster, const MovedPivotInput& in) {
+    constexpr std::uint64_t longest = 200;
+    const Stretch a = cluster.first.a, b = cluster.first.b;
+    if (cluster.count > 1 || std::max(a.last - a.first, b.last - b.first) > longest) return false;
+    SpilledWindow<RotaryRow> rows(in.a.rotaries);
+    SegmentWindow path_a(in.a.path.segments()), path_b(in.b.path.segments());
+    const double allowed_mm = 2.0 * in.tolerances.position_mm;
+    const auto in_b = [&](const Vector3& place) {
+        for (std::uint64_t j = std::max<std::uint64_t>(b.first, 1) - 1;
+             j <= std::min(b.last, path_b.size() - 1); ++j)
+            if ((path_b[j].end().position_mm - place).norm() <= allowed_mm) return true;
+        return false;
+    };
+    std::size_t shifted = 0;
+    for (std::uint64_t i = a.first; i < a.last; ++i) {
+        const Vector3 corner = path_a[i].end().position_mm;
+        const Matrix3 turned =
+            in.transform->pose_MW(rotary_at(rows, i)).rotation.transpose() - Matrix3::Identity();
+        const Vector3 direction(path_a[i].end_orientation.data());
+        if (in_b(corner + turned * moved.pivot_mm + moved.length_mm * direction))
+            ++shifted;
+        else if (!in_b(corner))
+            return false;
+    }
+    return shifted > 0;
 }
 
 }  // namespace trunnion::regression

@@ -1,5 +1,6 @@
 #include "regression/recorded_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -153,6 +154,13 @@ std::optional<positioning::RotaryTransform> believed_transform(const setup::Setu
     const auto pivot = offsets::decode_pivot(setup.stores.parameters, order);
     if (!pivot) return std::nullopt;
     return positioning::RotaryTransform(*pivot);
+}
+
+bool same_machine(const setup::Setup& a, const setup::Setup& b) {
+    const auto &p = a.machine.chain.axes(), &q = b.machine.chain.axes();
+    return std::equal(p.begin(), p.end(), q.begin(), q.end(), [](const auto& x, const auto& y) {
+        return x.axis == y.axis && x.direction == y.direction && x.point_mm == y.point_mm;
+    });
 }
 
 constexpr std::size_t most_printed_bytes = 100'000'000;  ///< an endless DPRNT ends here

@@ -55,6 +55,9 @@ struct RecordOptions {
 /// The kinematics that the setup's control believes in; nothing without parameters.
 std::optional<positioning::RotaryTransform> believed_transform(const setup::Setup& setup);
 
+/// The same axes in the same places: the setups are states of one machine's stores.
+bool same_machine(const setup::Setup& a, const setup::Setup& b);
+
 /// Without `devices` G31 runs to its end. NC alarms are in the result. With `seen_through` the
 /// path is where the tip goes when that setup's pivot parameters and tool lengths are the true
 /// ones.

@@ -8,9 +8,8 @@
 
 namespace trunnion::regression {
 
-/// The runs' own notes, with the side where only one has it, and one line about what was not
-/// compared. `a` is nullptr where a golden stands for it.
-std::vector<std::string> notes_of(const RecordedRun* a, const RecordedRun& b,
-                                  const CompareOptions& options);
+/// The runs' own notes, with the side where only one has it. `a` is nullptr where a golden stands
+/// for it.
+std::vector<std::string> notes_of(const RecordedRun* a, const RecordedRun& b);
 
 }  // namespace trunnion::regression

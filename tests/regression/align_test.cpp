@@ -129,8 +129,7 @@ TEST_CASE("two halves that changed places are one run, however long", "[compare]
     CHECK(count_of(pairs, regression::Pairing::same) == 35000);
 }
 
-TEST_CASE("an insertion longer than a window leaves the rest paired one by one",
-          "[compare]") {
+TEST_CASE("an insertion longer than a window leaves the rest paired one by one", "[compare]") {
     const regression::Keys a = numbers(100);
     for (const std::size_t inserted : {40, 63, 64, 65, 500}) {
         regression::Keys b = a;

@@ -109,8 +109,9 @@ class Writer:
 
 
 def shared(lines):
-    """Only words that mean the same on both controls: G41, G42 without D and G43 without H, and
-    codes that one of both does not know or uses otherwise (G8, G38, G92.1), are left out."""
+    """Only words that mean the same on both controls: G41, G42 without D, G43 without H or with H0
+    (LinuxCNC: the loaded tool) and codes that one of both does not know or uses otherwise (G8, G38,
+    G92.1) are left out."""
     known = set(CODES) | {"G4", "G10", "G43", "G52", "G92", "M2", "M6", "M30"}
     for line in lines:
         words = line.split()
@@ -119,7 +120,7 @@ def shared(lines):
         plain = {re.sub(r"^([GM])0+(?=\d)", r"\1", w) for w in codes}
         if plain - known or ({"G41", "G42"} & plain and "D" not in letters):
             return False
-        if "G43" in plain and "H" not in letters or "G4" in plain and letters != {"G", "P"}:
+        if "G43" in plain and ("H" not in letters or "H0" in words) or "G4" in plain and letters != {"G", "P"}:
             return False
     return True
 

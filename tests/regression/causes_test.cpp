@@ -1,0 +1,96 @@
+// Causes that several differences share: one length, one frame.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/regression/programs.h"
+#include "tests/regression/small_post.h"
+
+using namespace trunnion;
+using namespace trunnion::testing;
+
+TEST_CASE("shifts along the tool in five poses are one length", "[compare]") {
+    const setup::Setup setup = bc_table();
+    const std::string a = own_kinematics_post(Vector3::Zero(), 0.0);
+    for (const double length_mm : {22.756, -3.5, 0.05}) {
+        const regression::Comparison r =
+            compare_texts(a, own_kinematics_post(Vector3::Zero(), length_mm), setup,
+                          only(regression::Layer::path));
+        INFO(r.verdict);
+        REQUIRE_FALSE(r.equal);
+        const std::string said =
+            fmt::format("the length along the tool differs by {:.4f} mm", length_mm);
+        CHECK(r.differences.front().what.find(said) != std::string::npos);
+        CHECK(r.differences.size() == 1);
+    }
+}
+
+TEST_CASE("shifts that no length and no pivot explains are said one by one", "[compare]") {
+    const setup::Setup setup = bc_table();
+    const std::string a = own_kinematics_post(Vector3::Zero(), 0.0);
+    // The third section alone is shifted, by a fault of its own.
+    const std::size_t at = a.find("B20.000 C60.000");
+    std::string b = a;
+    for (std::size_t k = b.find("X", at), n = 0; n < 5; k = b.find("X", k + 1), ++n) {
+        const std::size_t end = b.find(' ', k);
+        b.replace(k, end - k, fmt::format("X{:.4f}", std::stod(b.substr(k + 1, end - k)) + 0.4));
+    }
+    const regression::Comparison r = compare_texts(a, b, setup, only(regression::Layer::path));
+    INFO(r.verdict);
+    REQUIRE_FALSE(r.equal);
+    for (const regression::Difference& d : r.differences) {
+        CHECK(d.what.find("one pivot") == std::string::npos);
+        CHECK(d.what.find("length along the tool") == std::string::npos);
+    }
+}
+
+TEST_CASE("a side that indexes before G43.4 gets the hint of the frame, the other does not",
+          "[compare]") {
+    const setup::Setup setup = bc_table();
+    const std::string cut = "G0 X10. Y0. Z60.\nG1 Z50. F300.\nX20. B{0} C{1}\nG0 Z150.\nG49\nM30\n";
+    const std::string head = "O1\nG90 G21 G94 G54 G40 G49\nT2 M6\nS5000 M3\nG0 X0. Y0. Z300.\n";
+    const std::string turned =
+        head + "G0 B20. C30.\nG43.4 H2 Z150.\n" + fmt::format(fmt::runtime(cut), "25.", "40.");
+    const std::string straight =
+        head + "G43.4 H2 Z150.\nG0 B20. C30.\n" + fmt::format(fmt::runtime(cut), "25.", "40.");
+    const auto hints = [](const regression::Comparison& r) {
+        std::string all;
+        for (const std::string& note : r.notes)
+            if (note.find("begins with the rotary axes at") != std::string::npos) all += note;
+        return all;
+    };
+    const regression::Comparison r = compare_texts(turned, straight, setup);
+    INFO(r.verdict);
+    CHECK_FALSE(r.equal);
+    CHECK(hints(r).starts_with(fmt::format(
+        "A line {}: G43.4 begins with the rotary axes at A0 B20 C30", line_with(turned, "G43.4"))));
+    CHECK(hints(r).find("tcp_frame") != std::string::npos);
+    CHECK(hints(r).find("B line") == std::string::npos);
+    CHECK(hints(compare_texts(straight, replaced(straight, "X20.", "X21."), setup)).empty());
+}
+
+TEST_CASE("operations in another order are one difference with both places", "[compare]") {
+    const setup::Setup setup = bc_table();
+    // 400 pockets; the last twenty move to the front.
+    const auto pocket = [](int n) {
+        return fmt::format("G0 X{0}. Y{1}.\nZ5.\nG1 Z-1. F200.\nX{2}. F500.\nY{3}.\nG0 Z30.\n",
+                           n % 20 * 10, n / 20 * 10, n % 20 * 10 + 6, n / 20 * 10 + 6);
+    };
+    const auto program = [&](bool other_order) {
+        std::string text = "O1\nG90 G21 G94 G54\nT1 M6\nS500 M3\nG0 X0. Y0. Z30.\n";
+        for (int k = 0; k < 400; ++k) text += pocket(other_order ? (k + 380) % 400 : k);
+        return text + "M30\n";
+    };
+    const std::string a = program(false), b = program(true);
+    regression::CompareOptions options = only(regression::Layer::path);
+    const regression::Comparison r = compare_texts(a, b, setup, options);
+    INFO(r.verdict);
+    CHECK_FALSE(r.equal);
+    REQUIRE(r.differences.size() == 1);
+    const regression::Difference& d = r.differences.front();
+    CHECK(d.kind == regression::DifferenceKind::reordered);
+    CHECK(d.what.starts_with("passes reordered: 20 passes"));
+    CHECK(d.count == 20);
+    CHECK(d.a.line == line_with(a, pocket(380)) + 2);
+    CHECK(d.b.line == line_with(b, pocket(380)) + 2);
+    CHECK(r.tools.front().reordered == 20);
+}
