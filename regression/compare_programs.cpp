@@ -62,7 +62,7 @@ class ProgramComparer {
     }
 
   private:
-    /// Compares by one layer, which replaces what an earlier one found; true when it decides.
+    /// Replaces what an earlier layer found; true when this one decides.
     bool by_layer(Layer layer) {
         result_.by = layer;
         equal_so_far_ = true;
@@ -102,7 +102,6 @@ class ProgramComparer {
 
     /// A deeper layer will say what differs, so these only have to say that something does.
     bool only_verdict() const { return !options_.by; }
-
     void written(Layer layer) {
         const WrittenSide a = written_side(a_, setup_a_, run_a_),
                           b = written_side(b_, setup_b_, run_b_);

@@ -17,7 +17,7 @@ double gravity(const Difference& d) {
         case DifferenceKind::tool:
             return 1e6 + d.position_mm;
         case DifferenceKind::function:
-            return 1e3;  // M3 or a dwell that is missing: no distance tells how bad it is
+            return 10.0;  // M3 or a dwell that is missing: no distance tells; as bad as 10 mm
         case DifferenceKind::reordered:
             return 1e-6;
         default:
