@@ -20,11 +20,10 @@ struct Options {
     std::vector<std::string> files, told;
 };
 
-const std::map<std::string, imports::ImportKind> kinds{{"ballbar", imports::ImportKind::ballbar},
-                                                       {"iso230-2", imports::ImportKind::iso230_2},
-                                                       {"points", imports::ImportKind::points},
-                                                       {"axis-log", imports::ImportKind::axis_log},
-                                                       {"table", imports::ImportKind::table}};
+const std::map<std::string, imports::ImportKind> kinds{
+    {"ballbar", imports::ImportKind::ballbar}, {"iso230-2", imports::ImportKind::iso230_2},
+    {"points", imports::ImportKind::points},   {"axis-log", imports::ImportKind::axis_log},
+    {"table", imports::ImportKind::table},     {"dprnt", imports::ImportKind::dprnt}};
 
 int import_command(const Options& options) {
     const setup::Setup setup = load_setup_option(options.setup);

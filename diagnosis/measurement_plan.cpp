@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "base/units.h"
@@ -12,11 +11,6 @@ namespace trunnion::diagnosis {
 namespace {
 
 constexpr double move_s = 2.0;
-
-std::string upper(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return text;
-}
 
 std::string with(std::string text, char from, char to) {
     std::replace(text.begin(), text.end(), from, to);
@@ -41,19 +35,12 @@ MeasurementPlan::MeasurementPlan(const setup::Setup& setup, std::string name, st
         result_.table.axes.push_back(axis.axis);
         if (axis.rotary) rotary_.push_back(axis);
     }
-    for (const setup::Artefact& a : setup.artefacts)
-        (a.kind == setup::Artefact::Kind::sphere ? spheres_ : pivots_).push_back(a);
+    for (const setup::Artefact& a : setup.artefacts) {
+        if (a.kind == setup::Artefact::Kind::sphere) spheres_.push_back(a);
+        if (a.kind == setup::Artefact::Kind::center_pivot) pivots_.push_back(a);
+    }
     state_.test = result_.name;
     result_.table.side_before = setup.side_before;
-    std::string zeros;
-    for (const Axis axis : result_.table.axes) zeros += fmt::format(" {}0.", letter_of(axis));
-    result_.program = fmt::format(
-        "%\nO8900 ({})\n({})\n(POSITIONS ARE MACHINE COORDINATES: G59 IS SET TO MACHINE ZERO.)\n"
-        "(NEEDS O8100, SPHERE CENTRE FROM NINE TOUCHES. NO TOOL LENGTH IN FORCE.)\n"
-        "G90 G17 G21 G40 G49 G80 G94\nG10 L2 P6{}\nG59\nPOPEN\nDPRNT[POSITIONS*DIRECT]\n"
-        "DPRNT[TEST*{}]\n",
-        with(upper(result_.name), '_', ' '), upper(result_.text), zeros,
-        with(upper(result_.name), '_', '*'));
 }
 
 std::pair<double, double> MeasurementPlan::range_deg(std::size_t k) const {
@@ -70,6 +57,7 @@ void MeasurementPlan::tell(const std::string& words) {
 
 void MeasurementPlan::stop(const std::string& what) {
     result_.program += "M0 (" + what + ")\n";
+    if (std::find(stops_.begin(), stops_.end(), what) == stops_.end()) stops_.push_back(what);
 }
 
 void MeasurementPlan::spindle(double degrees) {
@@ -159,6 +147,11 @@ double MeasurementPlan::clear_mm() const {
     return z->max ? std::min(wanted, *z->max - 1.0) : wanted;
 }
 
+/// The PC is told where the axes stand.
+void MeasurementPlan::print_place() {
+    result_.program += "M98P8102\n";
+}
+
 /// A device-less row where the axes stand.
 void MeasurementPlan::pass_through(const AxisPositions& at) {
     records::Reading row = state_;
@@ -173,12 +166,14 @@ void MeasurementPlan::go(const AxisPositions& at, bool linear) {
     for (const Axis axis : result_.table.axes)
         if (is_rotary(axis) != linear) to[axis] = at[axis];
     result_.program += "G0" + words(to, linear) + '\n';
+    print_place();
     pass_through(to);
 }
 
 void MeasurementPlan::go_clear() {
     last_[Axis::Z] = clear_mm();
     result_.program += fmt::format("G53 G0 Z{:.4f}\n", last_[Axis::Z]);
+    print_place();
     pass_through(last_);
 }
 
@@ -199,7 +194,9 @@ void MeasurementPlan::define_sides() {
 
 Measurement MeasurementPlan::done() {
     result_.minutes = (time_s_ - start_s_) / 60.0 + 5.0;  // five minutes to get ready
-    result_.program += fmt::format("G53 G0 Z{:.4f}\nPCLOS\nM30\n%\n", clear_mm());
+    result_.program =
+        head_text() + result_.program +
+        fmt::format("G53 G0 Z{:.4f}\n#149=#0\nDPRNT[MEASUREMENT*END]\nPCLOS\nM30\n%\n", clear_mm());
     int index = 0;
     for (records::Reading& row : result_.table.rows) row.index = index++;
     return std::move(result_);

@@ -69,6 +69,9 @@ class MeasurementPlan {
     void go_clear();
     /// Machine Z for changing the rotary angles, as far up as the axis allows.
     double clear_mm() const;
+    void print_place();
+    std::string head_text() const;
+    std::string sheet() const;
     void tell(const std::string& words);
     void stop(const std::string& what);
     /// Rows of the nine touches of O8100, begun `above` over the sphere at `center`.
@@ -94,6 +97,8 @@ class MeasurementPlan {
     std::vector<kinematics::AxisGeometry> rotary_;
     std::vector<setup::Artefact> spheres_, pivots_;
     double time_s_, start_s_;
+    std::vector<std::string> stops_;  ///< what the operator is asked for
+    std::string overwrites_ = "G59";
 };
 
 }  // namespace trunnion::diagnosis

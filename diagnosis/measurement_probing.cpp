@@ -106,6 +106,7 @@ void MeasurementPlan::keep_home(bool dpp) {
             above_mm);
         return;
     }
+    overwrites_ = "G55, G59, tool offset 99, #520 to #522";
     const double tip_z = tip_S().z();
     std::string zeros;
     for (const kinematics::AxisGeometry& axis : rotary_)
@@ -130,8 +131,8 @@ void MeasurementPlan::lead_by_g54(const AxisPositions& rotary) {
         return fmt::format("{}[{:.7f}*#520{:+.7f}*#521{:+.7f}*#522{:+.4f}]", "XYZ"[d], a(d, 0),
                            a(d, 1), a(d, 2), c(d) + lift);
     };
-    result_.program += fmt::format("G54\nG0 {} {}\nG0 {}\nG59\n", point(0, 0.0), point(1, 0.0),
-                                   point(2, above_mm));
+    result_.program += fmt::format("G54\nG0 {} {}\nM98P8102\nG0 {}\nM98P8102\nG59\n", point(0, 0.0),
+                                   point(1, 0.0), point(2, above_mm));
 }
 
 /// The same by tool centre point control; the control turns the point about 19700-19705.
@@ -139,13 +140,16 @@ void MeasurementPlan::lead_by_tcp(const AxisPositions& before, const AxisPositio
     const Vector3 over_W =
         setup_.machine.poses(rotary).pose_MW.rotation.transpose() * (above_mm * Vector3::UnitZ());
     const auto lead = [&](const AxisPositions& at) {
-        return fmt::format("G0 X{:.4f} Y{:.4f} Z{:.4f}{}\n", plan_rounded(over_W.x(), 1e-4),
-                           plan_rounded(over_W.y(), 1e-4), plan_rounded(over_W.z(), 1e-4),
-                           words(at, false));
+        return fmt::format("G0 X{:.4f} Y{:.4f} Z{:.4f}{}\nM98P8102\n",
+                           plan_rounded(over_W.x(), 1e-4), plan_rounded(over_W.y(), 1e-4),
+                           plan_rounded(over_W.z(), 1e-4), words(at, false));
     };
-    result_.program +=
-        fmt::format("G0{}\nG55\nG43.4 H99 X0. Y0. Z{:.1f}\n", words({}, false), above_mm + 60.0) +
-        lead(before) + lead(rotary) + "#7=#5021\n#8=#5022\n#9=#5023\nG49 G53 G0 X#7 Y#8 Z#9\nG59\n";
+    result_.program += fmt::format(
+                           "DPRNT[MODE*DIRECT]\nG0{}\nM98P8102\nG55\nDPRNT[MODE*RTCP]\n"
+                           "G43.4 H99 X0. Y0. Z{:.1f}\nM98P8102\n",
+                           words({}, false), above_mm + 60.0) +
+                       lead(before) + lead(rotary) +
+                       "#7=#5021\n#8=#5022\n#9=#5023\nG49 G53 G0 X#7 Y#8 Z#9\nM98P8102\nG59\n";
     const Vector3 center_W = spheres_.front().center_W_mm;
     pass_through(aim({}, center_W + (above_mm + 60.0) * Vector3::UnitZ(), tip_S()).at);
     pass_through(aim(before, center_W + over_W, tip_S()).at);
@@ -213,10 +217,14 @@ void MeasurementPlan::azimuth_touches(const std::vector<double>& angles_deg, int
         const AxisPositions off = at(reach + stand_off_mm), end = at(reach - overtravel_mm);
         AxisPositions up = off;
         up[Axis::Z] = over[Axis::Z];
-        result_.program += "G0" + words(up, true) + "\nG0" + words(off, true) + "\nG31" +
-                           words(end, true) + fmt::format(" F{:.0f}\nG0", probing_feed) +
-                           words(off, true) + "\nG0" + words(up, true) + '\n';
         const Vector3 way(end[Axis::X] - off[Axis::X], end[Axis::Y] - off[Axis::Y], 0.0);
+        const std::string here = "\nM98P8102\n";
+        result_.program +=
+            "G0" + words(up, true) + here + "G0" + words(off, true) + here +
+            "#7=#5041\n#8=#5042\n#9=#5043\nG31" + words(end, true) +
+            fmt::format(" F{0:.0f}\nG65P8101X#7Y#8Z#9I{1:.4f}J{2:.4f}K0.F{0:.0f}\nG0", probing_feed,
+                        way.x(), way.y()) +
+            words(off, true) + here + "G0" + words(up, true) + here;
         touch(off, end, way.normalized(), sphere.name);
     }
 }

@@ -1,7 +1,6 @@
 #include "emulator/machine_sink.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "base/numbers.h"
@@ -20,12 +19,6 @@ std::vector<Axis> axes_of(const kinematics::Chain& chain) {
     for (const kinematics::AxisGeometry& axis : chain.axes())
         if (is_letter(axis)) axes.push_back(axis.axis);
     return axes;
-}
-
-std::string_view trimmed(std::string_view text) {
-    while (text.starts_with(' ')) text.remove_prefix(1);
-    while (text.ends_with(' ')) text.remove_suffix(1);
-    return text;
 }
 
 bool turns(const motion::AxisMove& move) {
@@ -56,22 +49,6 @@ double longer_way_mm(const motion::AxisMove& move) {
         before = now;
     }
     return std::max(move.length_mm, way_mm);
-}
-
-/// RADIAL A POS -> radial_A_pos
-std::string test_name(std::string_view words) {
-    std::string name, word;
-    for (std::size_t i = 0; i <= words.size(); ++i) {
-        if (i < words.size() && words[i] != ' ') {
-            word += words[i];
-            continue;
-        }
-        if (word.size() > 1)
-            for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-        if (!word.empty()) name += (name.empty() ? "" : "_") + word;
-        word.clear();
-    }
-    return name;
 }
 
 }  // namespace
@@ -125,32 +102,26 @@ void MachineSink::obey(std::string_view line) {
     constexpr std::string_view test = "TEST ", on = "BALLBAR ON", off = "BALLBAR OFF";
     if (line.starts_with(off)) end_pass();
     if (line.starts_with(test)) {
-        test_ = test_name(line.substr(test.size()));
+        test_ = records::told_name(line.substr(test.size()));
         end_pass();
     }
     if (line.starts_with(on)) {
         end_pass();
-        log_.set_pass(test_name(line.substr(on.size())));
+        log_.set_pass(records::told_name(line.substr(on.size())));
         bar_.start(clock_s_);
     }
     set_shop(line);
 }
 
 void MachineSink::set_shop(std::string_view line) {
-    const std::size_t space = line.find(' ');
-    if (space == std::string_view::npos) return;
-    const std::string_view word = line.substr(0, space);
-    if (word == "POSITIONS" && has_rotary_)
-        plain_mode_ = mode_ = line.substr(space + 1).starts_with("DIRECT") ? PositioningMode::none
-                                                                           : PositioningMode::dpp;
-    const auto value = parse_number(trimmed(line.substr(space + 1)));
-    if (!value) return;
-    if (word == "SPINDLE") shop_.spindle_rad = rad_from_deg(*value);
-    if (word == "LOAD") shop_.load_kg = *value;
-    if (word == "TEMPERATURE") shop_.temperature_c = *value;
-    if (word == "CLAMPED") shop_.clamped = *value != 0.0;
-    if (word == "SAMPLE" && *value > 0.0) bar_.sample_every(*value);
-    if (word == "EXTENSION") shop_.extension_mm = *value;
+    records::take_told(line, shop_);
+    if (const auto mode = records::told_mode(line); mode && has_rotary_) mode_ = *mode;
+    if (const auto words = records::told_words(line, "POSITIONS"); words && has_rotary_)
+        plain_mode_ = mode_ =
+            words->starts_with("DIRECT") ? PositioningMode::none : PositioningMode::dpp;
+    if (const auto words = records::told_words(line, "SAMPLE"))
+        if (const auto degrees = parse_number(*words); degrees && *degrees > 0.0)
+            bar_.sample_every(*degrees);
 }
 
 /// A move under a function sets the mode; a turn without any function is the program's own
@@ -197,11 +168,7 @@ records::Reading MachineSink::row_now() const {
     records::Reading row;
     row.time_s = clock_s_;
     row.mode = mode_;
-    row.spindle_rad = shop_.spindle_rad;
-    row.load_kg = shop_.load_kg;
-    row.temperature_c = shop_.temperature_c;
-    row.clamped = shop_.clamped;
-    row.extension_mm = shop_.extension_mm;
+    records::put_shop(shop_, row);
     return row;
 }
 

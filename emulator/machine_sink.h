@@ -34,7 +34,8 @@ struct SinkOptions {
 /// operator set up is told the same way: SPINDLE 180, LOAD 80, TEMPERATURE 24, CLAMPED 1, EXTENSION
 /// 60 (deg, kg, deg C, 0 or 1, mm). SAMPLE 5: the ballbar reads every 5 degrees of the swept angle.
 /// POSITIONS DIRECT: turns without a function come from no store (empty mode); POSITIONS STORE ends
-/// that. Readings are those of the rows that are written: device_row and Observer, as predict asks.
+/// that. MODE RTCP (DPP, RTDFO, TW, DIRECT): so the axes are placed until a move says otherwise.
+/// Readings are those of the rows that are written: device_row and Observer, as predict asks.
 class MachineSink : public motion::MotionSink {
   public:
     /// `setup` must outlive the sink.
@@ -76,7 +77,7 @@ class MachineSink : public motion::MotionSink {
     bool can_read_ = false;  ///< there is a device, so the way to its readings counts
     PositioningMode mode_ = PositioningMode::none;  ///< function that positioned the rotary axes
     PositioningMode plain_mode_ = PositioningMode::none;  ///< of turns without a function
-    ShopState shop_;
+    records::ShopState shop_;
     std::string test_;  ///< of readings outside passes
     std::string line_;
 };

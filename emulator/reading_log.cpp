@@ -5,24 +5,8 @@
 namespace trunnion::emulator {
 namespace {
 
-/// Moves kept between two readings before those that say nothing about a side are dropped.
-constexpr std::size_t kept_stops = 64;
 /// Between rows of different positions, even where a move takes no time.
 constexpr double shortest_time_s = 1e-6;
-
-int sign_of(double v) {
-    return (v > 0.0) - (v < 0.0);
-}
-
-/// True when a -> c says the same about every axis's last direction as a -> b -> c.
-bool passes_through(const AxisPositions& a, const AxisPositions& b, const AxisPositions& c) {
-    for (std::size_t i = 0; i < axis_count; ++i) {
-        const int last = sign_of(c.value[i] - b.value[i]);
-        const int whole = sign_of(c.value[i] - a.value[i]);
-        if (whole != (last != 0 ? last : sign_of(b.value[i] - a.value[i]))) return false;
-    }
-    return true;
-}
 
 }  // namespace
 
@@ -38,15 +22,8 @@ ReadingLog::ReadingLog(std::vector<Axis> axes, const AxisSides& sides, std::stri
 }
 
 records::ReadingTable ReadingLog::take() {
-    const auto column = [&](const char* name, const auto& differs) {
-        if (std::any_of(table_.rows.begin(), table_.rows.end(), differs))
-            table_.optional_columns.emplace_back(name);
-    };
-    column("spindle_deg", [](const records::Reading& r) { return r.spindle_rad != 0.0; });
-    column("temperature_c", [](const records::Reading& r) { return r.temperature_c != 20.0; });
-    column("load_kg", [](const records::Reading& r) { return r.load_kg != 0.0; });
-    column("clamped", [](const records::Reading& r) { return r.clamped; });
-    column("extension_mm", [](const records::Reading& r) { return r.extension_mm != 0.0; });
+    for (std::string& name : records::shop_columns(table_.rows))
+        table_.optional_columns.push_back(std::move(name));
     return std::move(table_);
 }
 
@@ -61,46 +38,18 @@ void ReadingLog::set_pass(const std::string& test) {
 }
 
 void ReadingLog::passed(const AxisPositions& to, double time_s, PositioningMode mode) {
-    const std::size_t n = stops_.size();
-    if (n > 0 && stops_.back().at == to) return;
-    if (n == 0 && !table_.rows.empty() && table_.rows.back().commanded == to) return;
-    if (n >= 2 && stops_[n - 2].test == test_ &&
-        passes_through(stops_[n - 2].at, stops_[n - 1].at, to))
-        stops_.pop_back();
-    stops_.push_back({to, time_s, mode, test_});
-    if (stops_.size() > kept_stops) prune();
-}
-
-/// Keeps the last motion of every axis, and where they stand.
-void ReadingLog::prune() {
-    std::vector<bool> needed(stops_.size(), false);
-    needed.back() = true;
-    for (std::size_t i = 0; i < axis_count; ++i)
-        for (std::size_t k = stops_.size() - 1; k > 0; --k)
-            if (stops_[k].at.value[i] != stops_[k - 1].at.value[i]) {
-                needed[k] = needed[k - 1] = true;
-                break;
-            }
-    std::vector<Stop> kept;
-    for (std::size_t k = 0; k < stops_.size(); ++k)
-        if (k == 0 || needed[k]) kept.push_back(std::move(stops_[k]));
-    stops_ = std::move(kept);
-}
-
-records::Reading ReadingLog::row_of(const Stop& stop) {
-    records::Reading row;
-    row.commanded = stop.at;
-    row.time_s = stop.time_s;
-    row.mode = stop.mode;
-    row.test = stop.test;
-    return row;
+    records::Reading stop;
+    stop.commanded = to;
+    stop.time_s = time_s;
+    stop.mode = mode;
+    stop.test = test_;
+    stops_.pass(stop, table_.rows.empty() ? nullptr : &table_.rows.back().commanded);
 }
 
 AxisSample ReadingLog::sample_of(records::Reading row) const {
     std::vector<records::Reading> rows;
     if (!table_.rows.empty()) rows.push_back(table_.rows.back());
-    for (const Stop& stop : stops_) rows.push_back(row_of(stop));
-    if (!stops_.empty() && stops_.back().at == row.commanded) rows.pop_back();
+    for (records::Reading& stop : stops_.before(row.commanded)) rows.push_back(std::move(stop));
     row.test = test_;
     rows.push_back(std::move(row));
     return records::samples_of(rows, table_.axes, history_).back();
@@ -123,9 +72,7 @@ void ReadingLog::append(records::Reading row) {
 }
 
 void ReadingLog::add(records::Reading row) {
-    if (!stops_.empty() && stops_.back().at == row.commanded) stops_.pop_back();
-    for (const Stop& stop : stops_) {
-        records::Reading passing = row_of(stop);
+    for (records::Reading& passing : stops_.before(row.commanded)) {
         passing.feature = row.feature;
         append(std::move(passing));
     }

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "records/samples.h"
+#include "records/stops.h"
+#include "records/told_lines.h"
 
 namespace trunnion::emulator {
 
@@ -40,21 +42,13 @@ class ReadingLog {
     records::ReadingTable take();
 
   private:
-    struct Stop {
-        AxisPositions at;
-        double time_s = 0.0;
-        PositioningMode mode = PositioningMode::none;
-        std::string test;
-    };
-    void prune();
-    static records::Reading row_of(const Stop& stop);
     void append(records::Reading row);
     std::size_t pass_begin() const;
 
     records::ReadingTable table_;
     std::string test_;
     std::set<std::string> names_;     ///< given so far
-    std::vector<Stop> stops_;         ///< since the last row
+    records::Stops stops_;            ///< since the last row
     records::TravelHistory history_;  ///< of all rows
     /// Where the way before is not known: the first row of this stretch, and the history there.
     std::size_t stretch_ = 0;

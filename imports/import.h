@@ -9,7 +9,7 @@
 
 namespace trunnion::imports {
 
-enum class ImportKind : unsigned char { ballbar, iso230_2, points, axis_log, table };
+enum class ImportKind : unsigned char { ballbar, iso230_2, points, axis_log, table, dprnt };
 
 struct ImportFile {
     std::string path, text;
@@ -38,5 +38,6 @@ Imported import_iso230_2(const ImportRequest& request);
 Imported import_points(const ImportRequest& request);
 Imported import_axis_log(const ImportRequest& request);
 Imported import_table(const ImportRequest& request);
+Imported import_dprnt(const ImportRequest& request);
 
 }  // namespace trunnion::imports

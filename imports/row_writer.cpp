@@ -35,8 +35,8 @@ RowWriter::RowWriter(const setup::Setup& setup, const std::string& kind,
     text_ = writer_.head_text();
 }
 
-void RowWriter::begin_file(const TextTable& table, const Facts& facts) {
-    path_ = table.path();
+void RowWriter::begin_file(const std::string& path, const Facts& facts) {
+    path_ = path;
     name_ = file_name_of(path_);
     session_ = facts.text("session");
     begins_ = true;

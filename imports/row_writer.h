@@ -20,7 +20,8 @@ class RowWriter {
 
     /// Rows that follow come from this file. A clock that starts at zero again goes on a minute
     /// after the last row.
-    void begin_file(const TextTable& table, const Facts& facts);
+    void begin_file(const std::string& path, const Facts& facts);
+    void begin_file(const TextTable& table, const Facts& facts) { begin_file(table.path(), facts); }
     /// `row.time_s` is the file's; throws InputError when it runs back within the session.
     /// `line`: of the file, 0 for a row that no line says.
     void add(records::Reading row, int line);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "setup/store_prints.h"
+
 namespace trunnion::pivot {
 
 namespace {
@@ -88,9 +90,11 @@ G65P8130A#590B#591
 #8=#5022
 #9=#5023
 {CANCEL}G90G49G53G0X#7Y#8Z#9
+M98P8102
 G65P8100D#503S#504H#510{TILT}
 DPRNT[{NAME}*MAP#590[10]*{1}#530[44]*{2}#531[44]*X#100[17]*Y#101[17]*Z#102[17]]
 G90G53G0Z#505
+M98P8102
 #591=#591+1
 IF[#591GT#532]THEN#591=#0
 END2
@@ -99,35 +103,44 @@ END1
 G53G0Z#505
 G0{1}0{2}0
 DPRNT[{NAME}*END]
+#149=#0
 PCLOS
 M30
 %
 )";
 
 struct FunctionText {
-    const char *title, *note, *begin, *lead, *cancel;
+    std::string title, note, begin, lead, cancel;
 };
 
-/// Texts by name of the function; lead: the tip #510 above the sphere, seen along the tool.
+/// Texts by name of the function. O8102 prints each move for the PC, MODE what placed the axes.
+/// lead: the tip #510 above the sphere, seen along the tool.
 FunctionText text_of(const std::string& name, bool hurco) {
     if (name == "DPP")
         return {"DPP: DIRECT PIVOT POINT, KINEMATICS IN THE PROGRAM",
                 "(G54 HOLDS THE PIVOT. THE PROGRAM TURNS THE POINT AS A POSTPROCESSOR WOULD.)\n",
-                "", "G54\nG0{1}#530{2}#531\n{TURNED}G0X#545Y#546\nG43H#506Z[#547+#510]\n", ""};
+                "",
+                "G54\nDPRNT[MODE*DPP]\nG0{1}#530{2}#531\nM98P8102\n{TURNED}G0X#545Y#546\nM98P8102\n"
+                "G43H#506Z[#547+#510]\nM98P8102\n",
+                ""};
     if (name == "RTDFO")
         return {"RTDFO: ROTARY TABLE DYNAMIC FIXTURE OFFSET, G54 AND G54.2",
                 "(G54 HOLDS THE PIVOT, FIXTURE OFFSET 1 THE SPHERE WITH BOTH ROTARIES AT 0.)\n",
                 "G90G10L21P1X#520Y#521Z#522{1}0{2}0\n",
-                "G54\nG0{1}#530{2}#531\nG54.2P1\nG0X0Y0\nG43H#506Z#510\n", "G54.2P0\n"};
+                "G54\nDPRNT[MODE*DPP]\nG0{1}#530{2}#531\nM98P8102\nDPRNT[MODE*RTDFO]\nG54.2P1\n"
+                "M98P8102\nG0X0Y0\nM98P8102\nG43H#506Z#510\nM98P8102\n",
+                "G54.2P0\n"};
     if (name == "TW")
         return {
             "TW: TILTED WORKING PLANE, G68.2 AND G53.1",
             "(G55 HOLDS THE SPHERE WITH BOTH ROTARIES AT 0. THE PIVOT COMES FROM 19700-19714.)\n"
             "(EULER ANGLES LAY Z OF THE PLANE ALONG THE TOOL.)\n",
             "G90G10L2P2X[#5221+#520]Y[#5222+#521]Z[#5223+#522]{1}0{2}0\n",
-            "G55\nG0{1}#530{2}#531\n{TOOL}#7=SQRT[#545*#545+#546*#546]\n#8=0\n"
+            "G55\nDPRNT[MODE*DPP]\nG0{1}#530{2}#531\nM98P8102\n{TOOL}#7=SQRT[#545*#545+#546*#546]"
+            "\n#8=0\n"
             "IF[#7GT.0000001]THEN#8=ATAN[#545]/[0-#546]\n"
-            "G68.2X0Y0Z0I#8J[ATAN[#7]/[#547]]K0\nG53.1\nG43H#506X0Y0Z[#510+60.]\nZ#510\n",
+            "G68.2X0Y0Z0I#8J[ATAN[#7]/[#547]]K0\nDPRNT[MODE*TW]\nG53.1\nM98P8102\n"
+            "G43H#506X0Y0Z[#510+60.]\nM98P8102\nZ#510\nM98P8102\n",
             "G69\n"};
     return {
         hurco ? "RTCP: TOOL CENTRE POINT MANAGEMENT, M128"
@@ -135,10 +148,10 @@ FunctionText text_of(const std::string& name, bool hurco) {
         "(G55 HOLDS THE SPHERE WITH BOTH ROTARIES AT 0. THE PIVOT COMES FROM THE CONTROL.)\n"
         "(THE TIP IS LED TO A POINT ABOVE THE SPHERE, ALONG THE TOOL, THEN PROBES WITHOUT IT.)\n",
         "G90G10L2P2X[#5221+#520]Y[#5222+#521]Z[#5223+#522]{1}0{2}0\n",
-        hurco ? "G55\nG0{1}0{2}0\nG43H#506X0Y0Z[#510+60.]\nM128\n{TOOL}"
-                "G0X[#510*#545]Y[#510*#546]Z[#510*#547]{1}#530{2}#531\n"
-              : "G55\nG0{1}0{2}0\nG43.4H#506X0Y0Z[#510+60.]\n{TOOL}"
-                "G0X[#510*#545]Y[#510*#546]Z[#510*#547]{1}#530{2}#531\n",
+        std::string("G55\nDPRNT[MODE*DPP]\nG0{1}0{2}0\nM98P8102\n") +
+            (hurco ? "G43H#506X0Y0Z[#510+60.]\nM98P8102\nDPRNT[MODE*RTCP]\nM128\n"
+                   : "DPRNT[MODE*RTCP]\nG43.4H#506X0Y0Z[#510+60.]\nM98P8102\n") +
+            "{TOOL}G0X[#510*#545]Y[#510*#546]Z[#510*#547]{1}#530{2}#531\nM98P8102\n",
         hurco ? "M129\n" : ""};
 }
 
@@ -163,6 +176,9 @@ std::string main_program(const PivotPlan& plan, const PivotFunction& function) {
 
 const char* const common_text = R"(%
 O8110 (PIVOT TESTS: OPERATOR'S DATA AND SAFE STATE)
+(MOUNT THE TOUCH PROBE IN THE SPINDLE AND ONE SPHERE ON THE TABLE, WHERE ALL MAPS REACH IT)
+(SET THE PC TO KEEP ALL THAT IS PRINTED, FROM THE FIRST LINE TO END)
+(TYPE WHAT DIFFERS FROM THE NUMBERS BELOW, OR SET #500 TO #506 BEFORE THE RUN)
 (#500 #501 #502 STYLUS BALL ROUGHLY AT THE SPHERE, ROTARIES AT 0, MACHINE COORDINATES OF THE TIP)
 (#503 SPHERE DIAMETER, #504 STYLUS BALL DIAMETER)
 (#505 MACHINE Z THAT CLEARS EVERYTHING, #506 TOOL OFFSET NUMBER OF THE PROBE)
@@ -173,6 +189,8 @@ IF[#503EQ#0]THEN#503={D}
 IF[#504EQ#0]THEN#504={S}
 IF[#505EQ#0]THEN#505={SAFE}
 IF[#506EQ#0]THEN#506={H}
+(#149 O8101 AND O8102 PRINT EVERY MOVE AND TOUCH FOR THE PC, TRUNNION IMPORT DPRNT)
+#149=1
 #510=40.(HEIGHT ABOVE THE SPHERE'S CENTRE BEFORE PROBING)
 #540=0
 #541=0
@@ -181,24 +199,26 @@ G21G17G40G49G80G90G94
 M99
 
 O8115 (PIVOT TESTS: PRINT THE STORES IN FORCE)
-#7=#5201+#5221
-#8=#5202+#5222
-#9=#5203+#5223
-DPRNT[STORE*G54*X#7[47]*Y#8[47]*Z#9[47]]
-#7=PRM[1001,0]
-DPRNT[STORE*INCH*#7[10]]
 {STORES}M99
 
 O8120 (PIVOT TESTS: ZERO THE SPHERE AT HOME)
 (BACK: #500 #501 #502 SPHERE CENTRE AS THE TIP FOUND IT, #520 #521 #522 THE SAME IN G54)
 (EVERY AXIS COMES FROM A KNOWN SIDE: TRAVELLING +)
+M98P8102
 G90G53G0Z#505
+M98P8102
 G54
+DPRNT[MODE*DPP]
 G0{1}-1.{2}-1.
+M98P8102
 G0{1}0{2}0
+M98P8102
 G0X[#500-#5201-#5221-1.]Y[#501-#5202-#5222-1.]
+M98P8102
 G0X[#500-#5201-#5221]Y[#501-#5202-#5222]
+M98P8102
 G43H#506Z[#502-#5203-#5223+#510]
+M98P8102
 G65P8100D#503S#504H#510
 #500=#500+#100
 #501=#501+#101
@@ -207,6 +227,7 @@ G65P8100D#503S#504H#510
 #521=#501-#5202-#5222
 #522=#502-#5203-#5223
 G90G49G53G0Z#505
+M98P8102
 M99
 
 O8130 (PIVOT TESTS: THE ERROR MAPS)
@@ -244,16 +265,6 @@ std::string maps_text(const PivotPlan& plan) {
     return text;
 }
 
-/// What a Hurco keeps in its part set-up has no number to read.
-std::string stores_text(const PivotPlan& plan) {
-    std::string text;
-    if (plan.hurco) return text;
-    for (const setup::StoreNumber& n : setup::store_numbers(plan.stores))
-        if (n.parameter != 0)
-            text += fmt::format("#7=PRM[{0}]\nDPRNT[STORE*N{0}*V#7[47]]\n", n.parameter);
-    return text + "#7=#3011\nDPRNT[STORE*DATE*V#7[80]]\n";
-}
-
 std::string common_program(const PivotPlan& plan) {
     return filled(common_text, {{"X", number(plan.sphere_mm.x())},
                                 {"Y", number(plan.sphere_mm.y())},
@@ -264,7 +275,7 @@ std::string common_program(const PivotPlan& plan) {
                                 {"H", fmt::format("{}", plan.tool_offset)},
                                 {"1", std::string(1, letter_of(plan.first()))},
                                 {"2", std::string(1, letter_of(plan.second()))},
-                                {"STORES", stores_text(plan)},
+                                {"STORES", setup::store_prints(plan.stores, plan.hurco)},
                                 {"MAPS", maps_text(plan)}});
 }
 
