@@ -25,7 +25,7 @@ namespace {
 
 struct Options {
     std::string program, setup, control, trace, readings, print, variables;
-    std::vector<std::string> folders, sets, injections;
+    std::vector<std::string> folders, sets, injections, measure;
     std::uint64_t seed = 1;
     BudgetOptions limits;
     double trace_step_mm = 0.0, trace_chord_mm = 0.0;
@@ -94,6 +94,7 @@ emulator::RunOptions run_options(const Options& o, const setup::Setup& setup) {
     options.trace_chord_mm = o.trace_chord_mm;
     options.truth = o.truth;
     options.automatic_ballbar = o.ballbar;
+    options.measure = o.measure;
     options.budget = budget_of(o.limits);
     options.variables = parse_sets(o.sets);
     options.wanted_variables = parse_variables(o.variables);
@@ -213,8 +214,7 @@ void add_run(CLI::App& app, Run& run) {
                      "also SAMPLE rows that follow arcs and G43.4 within so many mm")
         ->check(CLI::Range(1e-6, 1e6, "1e-6 to 1e6"));
     command->add_flag("--truth", o->truth, "also where the physical tip was");
-    writes_file(
-        command->add_option("--readings", o->readings, "CSV of what probe and ballbar read"));
+    writes_file(command->add_option("--readings", o->readings, "CSV of what the devices read"));
     writes_file(command->add_option("--print", o->print, "file for what DPRNT prints"));
     command->add_option("--set", o->sets, "variable before the run, '#100=3.5'")
         ->allow_extra_args(false);
@@ -223,6 +223,11 @@ void add_run(CLI::App& app, Run& run) {
         ->allow_extra_args(false);
     command->add_flag("--ballbar", o->ballbar,
                       "the ballbar also reads feed moves in its range, without BALLBAR ON");
+    command
+        ->add_option("--measure", o->measure,
+                     "device beside the program: 'linear R1 X' reads at each dwell (G4), "
+                     "'axis X 250' logs (docs/readings.md)")
+        ->allow_extra_args(false);
     add_budget(*command, o->limits);
     command->add_flag("--json", o->json, "one JSON object on stdout");
     add_page_options(*command, o->page);

@@ -61,10 +61,13 @@ MachineSink::MachineSink(const setup::Setup& setup, EffectModels effects,
       touch_(setup, options.seed),
       bar_(setup, options.seed ^ 0x5bd1e995u,  // another stream than the probe's
            options.automatic_ballbar),
+      measure_(setup),
       log_(axes_of(setup.machine.chain), setup.side_before, options.test),
       history_(setup.side_before),
       test_(options.test) {
-    can_read_ = setup.probe || setup.ballbar;
+    for (const std::string& words : options.measure) measure_.obey(words, 0.0);
+    can_read_ =
+        setup.probe || setup.ballbar || !setup.artefacts.empty() || !options.measure.empty();
     for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
         has_rotary_ |= axis.rotary;
     if (has_rotary_) mode_ = plain_mode_ = PositioningMode::dpp;
@@ -74,6 +77,7 @@ MachineSink::MachineSink(const setup::Setup& setup, EffectModels effects,
 
 void MachineSink::place(const AxisPositions& machine) {
     history_.place(machine);
+    at_ = machine;
 }
 
 void MachineSink::printed(std::string_view text) {
@@ -109,6 +113,10 @@ void MachineSink::obey(std::string_view line) {
         end_pass();
         log_.set_pass(records::told_name(line.substr(on.size())));
         bar_.start(clock_s_);
+    }
+    if (const auto words = records::told_words(line, "MEASURE")) {
+        measure_.obey(*words, clock_s_);
+        can_read_ = true;
     }
     set_shop(line);
 }
@@ -172,6 +180,13 @@ records::Reading MachineSink::row_now() const {
     return row;
 }
 
+void MachineSink::dwell(double duration_s) {
+    records::Reading row = row_now();
+    row.commanded = at_;
+    measure_.dwell(row, duration_s, log_);
+    clock_s_ += duration_s;
+}
+
 std::optional<Touch> MachineSink::probe(const motion::AxisMove& move) {
     if (!move.until_skip || !touch_.mounted(move)) return std::nullopt;
     if (!bar_.commanded()) end_pass();
@@ -187,9 +202,13 @@ motion::MoveResult MachineSink::move(const motion::AxisMove& move) {
     const std::optional<Touch> touch = probe(move);
     const double end_s = touch ? touch->s : 1.0;
     if (trace_) write_trace({move, history_, clock_s_, mode_, shop_}, end_s);
-    const bool read = bar_.listens() && !move.until_skip && bar_.record(move, row_now(), log_);
+    bool read = bar_.listens() && !move.until_skip && bar_.record(move, row_now(), log_);
+    if (!read && measure_.logs() && !touch) {
+        measure_.record(move, row_now(), log_);
+        read = true;
+    }
     if (!read && bar_.running() && !bar_.commanded()) end_pass();
-    const AxisPositions end = touch ? touch->stopped : move.to;
+    const AxisPositions end = at_ = touch ? touch->stopped : move.to;
     clock_s_ += end_s * move.duration_s;
     if (!read && !touch && can_read_) log_.passed(end, clock_s_, mode_);
     if (options_.truth && !touch) follow(history_, move);

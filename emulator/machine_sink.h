@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "emulator/ballbar_station.h"
+#include "emulator/measure_station.h"
 #include "emulator/path_sampler.h"
 #include "emulator/tool_tip.h"
 #include "emulator/touch_station.h"
@@ -22,9 +23,10 @@ struct SinkOptions {
     double trace_chord_mm = 0.0;  ///< above 0: SAMPLE rows so close that X Y Z stay within this of
                                   ///< the straight lines between rows
     bool truth = false;
-    bool automatic_ballbar = false;  ///< the bar reads without being told to
-    TraceChunk trace_chunk;          ///< empty: the trace waits for take_trace
-    std::string test = "run";        ///< name of the test until the program names one
+    bool automatic_ballbar = false;    ///< the bar reads without being told to
+    std::vector<std::string> measure;  ///< words for MeasureStation, before the program begins
+    TraceChunk trace_chunk;            ///< empty: the trace waits for take_trace
+    std::string test = "run";          ///< name of the test until the program names one
 };
 
 /// Advances the clock, follows the axes, answers G31 from the probe, reads the ballbar, writes the
@@ -34,8 +36,9 @@ struct SinkOptions {
 /// operator set up is told the same way: SPINDLE 180, LOAD 80, TEMPERATURE 24, CLAMPED 1, EXTENSION
 /// 60 (deg, kg, deg C, 0 or 1, mm). SAMPLE 5: the ballbar reads every 5 degrees of the swept angle.
 /// POSITIONS DIRECT: turns without a function come from no store (empty mode); POSITIONS STORE ends
-/// that. MODE RTCP (DPP, RTDFO, TW, DIRECT): so the axes are placed until a move says otherwise.
-/// Readings are those of the rows that are written: device_row and Observer, as predict asks.
+/// that. MEASURE LINEAR R1 X: other devices (MeasureStation). MODE RTCP (DPP, RTDFO, TW, DIRECT):
+/// so the axes are placed until a move says otherwise. Readings are those of the rows that are
+/// written: device_row and Observer, as predict asks.
 class MachineSink : public motion::MotionSink {
   public:
     /// `setup` must outlive the sink.
@@ -43,7 +46,7 @@ class MachineSink : public motion::MotionSink {
 
     void place(const AxisPositions& machine);
     motion::MoveResult move(const motion::AxisMove& move) override;
-    void dwell(double duration_s) override { clock_s_ += duration_s; }
+    void dwell(double duration_s) override;
     void printed(std::string_view text);
 
     double clock_s() const { return clock_s_; }
@@ -69,9 +72,11 @@ class MachineSink : public motion::MotionSink {
     Observer machine_;
     TouchStation touch_;
     BallbarStation bar_;
+    MeasureStation measure_;
     ReadingLog log_;
     std::optional<TraceWriter> trace_;
     records::TravelHistory history_;  ///< of the path itself, for the true tip
+    AxisPositions at_;
     double clock_s_ = 0.0;
     bool has_rotary_ = false;
     bool can_read_ = false;  ///< there is a device, so the way to its readings counts

@@ -1,6 +1,7 @@
 #include "emulator/run.h"
 
 #include "emulator/machine_sink.h"
+#include "emulator/measure_station.h"
 
 namespace trunnion::emulator {
 namespace {
@@ -13,6 +14,7 @@ SinkOptions sink_options(const RunOptions& options, const ProgramChoice& program
     sink.trace_chord_mm = options.trace_chord_mm;
     sink.truth = options.truth;
     sink.automatic_ballbar = options.automatic_ballbar;
+    sink.measure = options.measure;
     sink.trace_chunk = options.trace_chunk;
     if (const auto* number = std::get_if<int>(&program)) {
         sink.test = "O" + std::to_string(*number);
@@ -89,6 +91,7 @@ RunLog run_program(const setup::Setup& setup, interpreter::ProgramSource& progra
         log.limit = meter.reached() == BudgetLimit::none ? BudgetLimit::blocks : meter.reached();
     log.variables = report_variables(controller, options);
     log.readings = sink.take_readings();
+    fill_readings(setup, options.effects, options.seed ^ 0x9e3779b9u, log.readings);
     log.readings.comment["seed"] = std::to_string(options.seed);
     log.trace_csv = sink.take_trace();
     if (options.trace_chunk) {

@@ -19,13 +19,14 @@ namespace trunnion::emulator {
 struct RunOptions {
     std::uint64_t seed = 1;
     bool trace = false;
-    double trace_step_mm = 0.0;       ///< above 0: SAMPLE rows at this distance along the path
-    double trace_chord_mm = 0.0;      ///< above 0: SAMPLE rows that follow curves this closely
-    bool truth = false;               ///< physical tip in the trace
-    bool automatic_ballbar = false;   ///< the bar reads where it can, without BALLBAR ON
-    TraceChunk trace_chunk;           ///< receives the trace as it grows; empty: RunLog::trace_csv
-    Budget budget;                    ///< used up: the run ends with `limit`
-    std::map<int, double> variables;  ///< set before the run
+    double trace_step_mm = 0.0;        ///< above 0: SAMPLE rows at this distance along the path
+    double trace_chord_mm = 0.0;       ///< above 0: SAMPLE rows that follow curves this closely
+    bool truth = false;                ///< physical tip in the trace
+    bool automatic_ballbar = false;    ///< the bar reads where it can, without BALLBAR ON
+    std::vector<std::string> measure;  ///< words for MeasureStation
+    TraceChunk trace_chunk;            ///< receives the trace as it grows; empty: RunLog::trace_csv
+    Budget budget;                     ///< used up: the run ends with `limit`
+    std::map<int, double> variables;   ///< set before the run
     std::vector<int> wanted_variables;  ///< reported after it; none: all common ones in use
     AxisPositions start;                ///< where the axes stand before the run
     EffectModels effects;

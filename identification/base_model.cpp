@@ -8,6 +8,7 @@
 
 #include "base/alarm.h"
 #include "effects/settings.h"
+#include "emulator/device_noise.h"
 #include "estimation/ranked_least_squares.h"
 #include "identification/unknowns.h"
 
@@ -158,42 +159,15 @@ std::string to_string(const Inseparable& group) {
     return text;
 }
 
-namespace {
-
-/// One sigma of a device where nothing tells it, um or urad.
-double usual_noise(records::Device device) {
-    static const std::map<records::Device, double> usual{
-        {records::Device::sphere, 1.0},  {records::Device::touch, 1.0},
-        {records::Device::ballbar, 0.5}, {records::Device::point, 10.0},
-        {records::Device::linear, 0.5},  {records::Device::angle, 2.0},
-        {records::Device::axis, 1.0}};
-    return usual.at(device);
-}
-
-/// The setup's sigma of a device, mm or rad; nothing where it tells none.
-std::optional<double> told_noise(const setup::ModelSettings& model, const records::Reading& row) {
-    const auto& list = row.angular ? model.noise_urad : model.noise_um;
-    const auto it = list.find(std::string(name_of(row.device)));
-    const double unit = row.angular ? 1e-6 : 1e-3;
-    return it == list.end() ? std::nullopt : std::optional(unit * it->second);
-}
-
-}  // namespace
-
 RowNoise row_noise(const setup::Setup& setup, const records::ReadingTable& table,
                    const emulator::Replay& replay) {
     RowNoise noise;
     noise.sigma_mm.resize(static_cast<Eigen::Index>(replay.size()));
     for (std::size_t i = 0; i < replay.size(); ++i) {
         const records::Reading& row = table.rows[replay.table_row(i)];
-        const auto told = told_noise(setup.model, row);
-        const double unit = row.angular ? 1e-6 : 1e-3;
-        double sigma = told.value_or(unit * usual_noise(row.device));
-        if (row.sigma_mm && *row.sigma_mm > 0.0)
-            sigma = *row.sigma_mm;
-        else if (!told)
-            noise.given = false;
-        noise.sigma_mm(static_cast<Eigen::Index>(i)) = std::max(sigma, 1e-3 * unit);
+        const emulator::DeviceNoise of_row = emulator::device_noise(setup.model, row);
+        noise.sigma_mm(static_cast<Eigen::Index>(i)) = of_row.sigma_mm;
+        noise.given = noise.given && of_row.given;
     }
     return noise;
 }

@@ -34,6 +34,7 @@ constexpr ShopColumn shop_list[] = {
     {"load_kg", [](const Reading& r) { return r.load_kg != 0.0; }},
     {"clamped", [](const Reading& r) { return r.clamped; }},
     {"extension_mm", [](const Reading& r) { return r.extension_mm != 0.0; }},
+    {"instrument", [](const Reading& r) { return !r.instrument.empty(); }},
 };
 
 }  // namespace
