@@ -216,4 +216,10 @@ void make_folder(const std::string& path) {
     if (error) throw InputError("this folder cannot be made: " + error.message(), {path, 0, 0});
 }
 
+void write_output(const std::string& path, std::string text) {
+    OutputFiles files;
+    files.add(path, std::move(text));
+    files.write();
+}
+
 }  // namespace trunnion::inline base

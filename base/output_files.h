@@ -50,4 +50,7 @@ class OutputFiles {
 /// Throws InputError with the path.
 void make_folder(const std::string& path);
 
+/// One file alone, or stdout for "-". Throws InputError as OutputFiles.
+void write_output(const std::string& path, std::string text);
+
 }  // namespace trunnion::inline base

@@ -17,6 +17,7 @@
 #include "cli/long_work.h"
 #include "cli/options.h"
 #include "cli/setups.h"
+#include "cli/shards.h"
 #include "interpreter/program_folders.h"
 #include "regression/suite.h"
 #include "report/comparison_report.h"
@@ -36,12 +37,6 @@ struct CompareCommand {
     std::uint64_t max_blocks = 100'000'000;  ///< an endless loop ends here, exit code 4
     bool json = false, update = false, devices = false;
 };
-
-void put(const std::string& path, std::string text) {
-    OutputFiles files;
-    files.add(path, std::move(text));
-    files.write();
-}
 
 regression::SuiteCase case_of(const CompareCommand& c) {
     if (!(c.tol_lin_mm > 0.0) || !(c.tol_ang_deg > 0.0) || !(c.tol_feed >= 0.0) ||
@@ -103,27 +98,11 @@ int update(const CompareCommand& c, const regression::Suite& suite) {
     return exit_done;
 }
 
-/// `{i}` in a file name is the number of the shard.
-std::string shard_path(std::string path, const regression::Shard& shard) {
-    if (const std::size_t at = path.find("{i}"); at != std::string::npos)
-        path.replace(at, 3, std::to_string(shard.index));
-    return path;
-}
-
-std::optional<regression::Shard> shard_of(const CompareCommand& c) {
-    if (!c.shard.empty()) return regression::parse_shard(c.shard);
-    const auto shard = regression::shard_of_environment();
-    if (shard)
-        print_notes({fmt::format("shard {}/{} by the environment (--shard 1/1 for all of it)",
-                                 shard->index, shard->count)});
-    return shard;
-}
-
 int compare_many(const CompareCommand& c, const regression::SuiteCase& like,
                  report::ReportFormat format) {
     const regression::Suite suite = suite_of(c, like);
     if (c.update) return update(c, suite);
-    const auto shard = shard_of(c);
+    const auto shard = shard_of(c.shard);
     const unsigned threads = c.threads > 0 ? c.threads : std::thread::hardware_concurrency();
     const Interruption interruption;
     Progress progress;
@@ -138,11 +117,11 @@ int compare_many(const CompareCommand& c, const regression::SuiteCase& like,
                                                      open_setup, threads, watch);
     const int code = regression::exit_code(run.report);
     if (shard)
-        put(shard_path(c.out, *shard),
-            report::format_part(
-                {std::move(run.report), std::move(run.places), suite.cases.size()}));
+        write_output(shard_path(c.out, *shard),
+                     report::format_part(
+                         {std::move(run.report), std::move(run.places), suite.cases.size()}));
     else
-        put(c.out, report::format_comparison(run.report, format));
+        write_output(c.out, report::format_comparison(run.report, format));
     return code;
 }
 
@@ -157,18 +136,7 @@ int compare(const CompareCommand& c) {
         return compare_many(c, like, format);
     if (!c.shard.empty()) throw InputError("--shard cuts folders and suites, not two programs");
     const regression::CompareReport report = compare_two(c, like);
-    put(c.out, report::format_comparison(report, format));
-    return regression::exit_code(report);
-}
-
-int merge(const std::vector<std::string>& paths, const std::string& format_name,
-          const std::string& out) {
-    const report::ReportFormat format = report::report_format(format_name);
-    std::vector<report::ComparePart> parts;
-    for (const std::string& path : paths)
-        parts.push_back(report::parse_part(read_file(path), path));
-    const regression::CompareReport report = report::merge_parts(parts);
-    put(out, report::format_comparison(report, format));
+    write_output(c.out, report::format_comparison(report, format));
     return regression::exit_code(report);
 }
 
@@ -208,22 +176,6 @@ void add_compare(CLI::App& app, Run& run) {
     command->add_flag("--update", c->update, "write the goldens of the suite that differ");
     command->add_option("--reason", c->reason, "why they changed; stands in the golden");
     command->callback([c, &run] { run = [c] { return compare(*c); }; });
-}
-
-void add_merge(CLI::App& app, Run& run) {
-    struct Options {
-        std::vector<std::string> parts;
-        std::string format = "text", out = "-";
-    };
-    const auto o = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("merge", "one report from the parts of 'compare --shard'");
-    reads_file(command->add_option("PART", o->parts, "parts, in any order"))->required();
-    command->add_option("--format", o->format, "text, json, junit, sarif, github, html, markdown");
-    command->add_flag_callback(
-        "--json", [o] { o->format = "json"; }, "the same as --format json");
-    writes_file(command->add_option("--out", o->out, "file for the report"));
-    command->callback([o, &run] { run = [o] { return merge(o->parts, o->format, o->out); }; });
 }
 
 }  // namespace trunnion::cli

@@ -10,13 +10,13 @@
 #include "base/console.h"
 #include "base/output_files.h"
 #include "cli/command.h"
-#include "cli/json_output.h"
 #include "cli/long_work.h"
 #include "cli/options.h"
 #include "cli/readings_command.h"
 #include "diagnosis/diagnosis.h"
 #include "report/diagnosis_page.h"
 #include "report/diagnosis_words.h"
+#include "report/parameters_json.h"
 
 namespace trunnion::cli {
 namespace {
@@ -51,8 +51,8 @@ Json to_json(const diagnosis::Cause& cause) {
     Json json{{"effect", cause.effect},
               {"probability", cause.probability},
               {"rivals", cause.rivals},
-              {"parameters", json_parameters(cause.parameters)},
-              {"inseparable", json_inseparable(cause.unseen)},
+              {"parameters", report::json_parameters(cause.parameters)},
+              {"inseparable", report::json_inseparable(cause.unseen)},
               {"share", cause.share},
               {"heldout", to_json(cause.heldout)},
               {"what", cause.what},
@@ -108,7 +108,7 @@ Json to_json(const diagnosis::Diagnosis& d) {
                      {"ballbar", to_json(d.noise.ballbar)},
                      {"doubt", d.noise.doubt}};
     json["unseen"] = d.unseen;
-    json["inseparable"] = json_inseparable(d.inseparable);
+    json["inseparable"] = report::json_inseparable(d.inseparable);
     json["readings"] = d.readings;
     json["outliers"] = d.outliers;
     return json;
@@ -121,7 +121,7 @@ void print_cause(const diagnosis::Cause& cause) {
     if (!cause.usual_cause.empty())
         print_out("  Usual cause: {}. What to do: {}.\n", cause.usual_cause, cause.remedy);
     for (const identification::FitParameter& p : cause.parameters)
-        print_out("  {:<20} {:>12.4g} {} {}\n", with_component(p), p.value, p.unit,
+        print_out("  {:<20} {:>12.4g} {} {}\n", report::with_component(p), p.value, p.unit,
                   std::isfinite(p.sigma) ? fmt::format("(sigma {:.2g})", p.sigma)
                                          : std::string("(no sigma of its own)"));
     for (const identification::Inseparable& group : cause.unseen)

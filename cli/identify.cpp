@@ -5,19 +5,21 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <mutex>
+#include <thread>
 
 #include "base/console.h"
 #include "base/output_files.h"
+#include "base/sha256.h"
 #include "cli/command.h"
 #include "cli/files.h"
-#include "cli/json_output.h"
 #include "cli/long_work.h"
 #include "cli/options.h"
 #include "cli/readings_command.h"
+#include "cli/shards.h"
 #include "identification/monte_carlo.h"
+#include "report/identification_report.h"
 #include "report/stores_text.h"
 
 namespace trunnion::cli {
@@ -25,37 +27,22 @@ namespace {
 
 struct Options {
     std::vector<std::string> readings;
-    std::string setup, effects, out;
+    std::string setup, effects, out, shard;
     int runs = 0;
     std::uint64_t seed = 1;
     bool json = false, allow_large = false;
 };
 
-nlohmann::ordered_json to_json(const identification::Identification& result) {
-    nlohmann::ordered_json json;
-    json["schema"] = "trunnion.identification/1";
-    json["parameters"] = json_parameters(result.parameters);
-    json["inseparable"] = json_inseparable(result.inseparable);
-    json["covariance"] = json_covariance(result.parameters, result.covariance);
-    json["rms_before_um"] = result.rms_before_um;
-    json["rms_after_um"] = result.rms_after_um;
-    json["dof"] = result.dof;
-    return json;
-}
+/// What is fitted, and to what.
+struct Inputs {
+    setup::Setup setup;
+    records::ReadingTable table;
+    std::vector<std::string> effects;
+};
 
-void print_table(const identification::Identification& result, bool monte_carlo) {
-    const auto number = [](double v) {
-        return std::isfinite(v) ? fmt::format("{:.2g}", v) : std::string("-");
-    };
-    print_out("{:<18} {:<22} {:>14} {:>12} {:>12} {}\n", "effect", "parameter", "value", "sigma",
-              monte_carlo ? "Monte Carlo" : "", "unit");
-    for (const identification::FitParameter& p : result.parameters)
-        print_out("{:<18} {:<22} {:>14.7g} {:>12} {:>12} {}\n", p.effect, with_component(p),
-                  p.value, number(p.sigma), monte_carlo ? number(p.sigma_monte_carlo) : "", p.unit);
-    for (const identification::Inseparable& group : result.inseparable)
-        print_out("no reading here sees: {}\n", to_string(group));
-    print_out("rms {:.3f} um before, {:.3f} um after, {} degrees of freedom\n",
-              result.rms_before_um, result.rms_after_um, result.dof);
+/// How many repetitions of `runs` a shard does.
+int planned(int runs, const regression::Shard& shard) {
+    return (runs - shard.index + shard.count) / shard.count;
 }
 
 /// What to type for the axes' places, where they were fitted and the control has a place for them.
@@ -73,42 +60,82 @@ void print_stores(const setup::Setup& identified, const identification::Identifi
 }
 
 /// Shows how far it is; Ctrl-C leaves what the repetitions done so far say.
-int repeat(const setup::Setup& setup, const records::ReadingTable& table,
-           const std::vector<std::string>& effects, const Options& options,
-           identification::Identification& result) {
+std::vector<identification::Repetition> repeat(const Inputs& in, const Options& options,
+                                               const identification::Identification& fitted,
+                                               const regression::Shard& shard) {
     const Interruption interruption;
     Progress progress;
-    return identification::add_monte_carlo(
-        setup, table, effects, options.runs, options.seed, result, [&](int done) {
-            progress.show([&] { return fmt::format("repetition {} of {}", done, options.runs); });
-            return !Interruption::asked();
-        });
+    std::mutex showing;
+    identification::RepetitionPlan plan{options.runs,
+                                        options.seed,
+                                        shard.index - 1,
+                                        shard.count,
+                                        std::max(1U, std::thread::hardware_concurrency()),
+                                        {}};
+    const int mine = planned(options.runs, shard);
+    plan.go_on = [&](int done) {
+        const std::lock_guard lock(showing);
+        progress.show([&] { return fmt::format("repetition {} of {}", done, mine); });
+        return !Interruption::asked();
+    };
+    return identification::repeat_identification(in.setup, in.table, in.effects, plan, fitted);
+}
+
+/// One hash of everything that a repetition depends on.
+std::string hash_of(const Inputs& in) {
+    std::string text = setup::format_setup(in.setup);
+    for (const std::string& effect : in.effects) text += effect + '\n';
+    return sha256(text + records::format_readings(in.table));
+}
+
+int report_interrupted(std::size_t done, int planned) {
+    print_error("trunnion: interrupted: {} of {} repetitions are done\n", done, planned);
+    return exit_limit;
+}
+
+/// A shard of the repetitions: its part alone is written, for 'merge'.
+int identify_part(const Inputs& in, const Options& options,
+                  const identification::Identification& fitted, const regression::Shard& shard) {
+    report::RepetitionPart part{hash_of(in), options.runs, options.seed, fitted, {}};
+    part.repetitions = repeat(in, options, fitted, shard);
+    write_output(shard_path(options.out.empty() ? "-" : options.out, shard),
+                 report::format_part(part));
+    const int mine = planned(options.runs, shard);
+    return part.repetitions.size() == static_cast<std::size_t>(mine)
+               ? exit_done
+               : report_interrupted(part.repetitions.size(), mine);
 }
 
 int identify_command(const Options& options) {
-    setup::Setup setup = load_setup_option(options.setup);
-    setup.model.allow_large = options.allow_large;
-    const records::ReadingTable table = load_readings(options.readings, setup);
-    const std::vector<std::string> effects = split_names(options.effects);
+    if (!options.shard.empty() && options.runs == 0)
+        throw InputError("--shard cuts the repetitions of --monte-carlo");
+    Inputs in{load_setup_option(options.setup), {}, split_names(options.effects)};
+    in.setup.model.allow_large = options.allow_large;
+    in.table = load_readings(options.readings, in.setup);
     identification::Identification result = [&] {
         Progress progress;
-        progress.stage(fmt::format("fit to {} rows", table.rows.size()));
-        return identification::identify(setup, table, effects);
+        progress.stage(fmt::format("fit to {} rows", in.table.rows.size()));
+        return identification::identify(in.setup, in.table, in.effects);
     }();
     print_notes(result.notes);
-    const int repetitions = options.runs > 0 ? repeat(setup, table, effects, options, result) : 0;
+    std::vector<identification::Repetition> repetitions;
+    if (options.runs > 0) {
+        if (const auto shard = shard_of(options.shard))
+            return identify_part(in, options, result, *shard);
+        repetitions = repeat(in, options, result, {});
+        identification::enter_spread(repetitions, result);
+    }
     OutputFiles files;
     if (!options.out.empty()) files.add(options.out, setup::format_setup(result.setup));
-    if (options.json) files.add("-", to_json(result).dump(1) + "\n");
+    if (options.json) files.add("-", report::identification_json(result));
     files.write();
     if (!options.json) {
-        print_table(result, repetitions > 1);
+        print_out("{}", report::identification_text(result, repetitions.size() > 1));
         print_stores(result.setup, result);
     }
-    if (repetitions == options.runs) return exit_done;
-    print_error("trunnion: interrupted: {} of {} repetitions are done\n", repetitions,
-                options.runs);
-    return exit_limit;
+    return repetitions.size() == static_cast<std::size_t>(options.runs)
+               ? exit_done
+               : report_interrupted(repetitions.size(), options.runs);
 }
 
 }  // namespace
@@ -122,11 +149,15 @@ void add_identify(CLI::App& app, Run& run) {
     reads_file(command->add_option("--setup", options->setup, "setup file (TOML), needed"));
     command->add_option("--effects", options->effects,
                         "names, comma between; without it those of [model].modelled");
-    writes_file(command->add_option("--out", options->out, "setup with the values entered"));
+    writes_file(command->add_option("--out", options->out,
+                                    "setup with the values entered; with --shard: the part "
+                                    "({i}: the shard's number)"));
     command
         ->add_option("--monte-carlo", options->runs,
                      "also the uncertainty by so many simulated repetitions")
         ->check(CLI::Range(2, 100000));
+    command->add_option("--shard", options->shard,
+                        "i/n, /n or env: one part of the repetitions, for 'merge'");
     command->add_option("--seed", options->seed, "of the repetitions' noise (1)");
     command->add_flag("--allow-large", options->allow_large,
                       "residuals that no machine tool has are meant, no slip of units");

@@ -6,12 +6,12 @@
 #include "base/output_files.h"
 #include "base/random.h"
 #include "cli/command.h"
-#include "cli/json_output.h"
 #include "cli/options.h"
 #include "cli/readings_command.h"
 #include "effects/settings.h"
 #include "emulator/replay.h"
 #include "identification/base_model.h"
+#include "report/parameters_json.h"
 
 namespace trunnion::cli {
 namespace {
@@ -47,7 +47,7 @@ std::string jacobian_text(const setup::Setup& setup, const records::ReadingTable
         setup, replay, effects::make_catalogue(setup), effects, gradient);
     std::string out = "index";
     for (const identification::FitParameter& p : base.parameters)
-        out += ',' + p.effect + '.' + with_component(p) + " [" + p.unit + ']';
+        out += ',' + p.effect + '.' + report::with_component(p) + " [" + p.unit + ']';
     out += '\n';
     for (std::size_t i = 0; i < replay.size(); ++i) {
         out += std::to_string(table.rows[replay.table_row(i)].index);

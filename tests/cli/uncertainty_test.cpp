@@ -65,6 +65,32 @@ TEST_CASE("identify --json: variances are the squares of the sigmas, correlation
     CHECK(std::sqrt(c["matrix"][0][0].get<double>()) == Approx(first["sigma"].get<double>()));
 }
 
+TEST_CASE("shards of --monte-carlo merge to the bytes of one process") {
+    const Campaign bench;
+    const std::string call =
+        "identify " + bench.readings + " --setup " + bench.file_of_setup + " --monte-carlo 7 ";
+    REQUIRE(bench.trunnion(call + "--json") == 0);
+    const std::string whole = bench.read("out.txt");
+    for (const int count : {1, 2, 7, 9}) {
+        std::string parts;
+        for (int i = count; i >= 1; --i) {
+            REQUIRE(bench.trunnion(call + "--shard " + std::to_string(i) + "/" +
+                                   std::to_string(count) + " --out " + bench.file("p{i}.json")) ==
+                    0);
+            parts += " " + bench.file("p" + std::to_string(i) + ".json");
+        }
+        REQUIRE(bench.trunnion("merge --json" + parts) == 0);
+        CHECK(bench.read("out.txt") == whole);
+    }
+    CHECK(bench.trunnion("merge " + bench.file("p1.json") + " " + bench.file("p2.json")) == 2);
+    CHECK(bench.read("err.txt").find("repetition 3 of 7 stands in no part") != std::string::npos);
+    CHECK(bench.trunnion("merge " + bench.file("p1.json") + " " + bench.file("p1.json")) == 2);
+    bench.write("broken.json", bench.read("p1.json").replace(60, 4, "{}{}"));
+    CHECK(bench.trunnion("merge " + bench.file("broken.json")) == 2);
+    CHECK(bench.trunnion("identify " + bench.readings + " --setup " + bench.file_of_setup +
+                         " --shard 1/2") == 2);
+}
+
 TEST_CASE("predict --jacobian: the derivatives are differences of predictions") {
     const Campaign bench;
     REQUIRE(bench.trunnion("predict " + bench.readings + " --setup " + bench.file_of_setup +

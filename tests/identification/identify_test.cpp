@@ -1,6 +1,7 @@
 // Simulate with known errors, identify: the same numbers, and what cannot be told apart is named.
 #include "identification/identify.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "base/alarm.h"
@@ -48,15 +49,26 @@ TEST_CASE("simulated repetitions scatter as the covariance says", "[identificati
     campaign::add_sphere_map(table, setup, 24, 3);
     const records::ReadingTable readings = campaign::measured(truth, table, 1);
     identification::Identification a = identification::identify(setup, readings, {}), b = a, c = a;
-    identification::add_monte_carlo(setup, readings, {}, 60, 5, a);
-    identification::add_monte_carlo(setup, readings, {}, 60, 5, b);
-    identification::add_monte_carlo(setup, readings, {}, 60, 6, c);
-    identification::Identification cut = a, few = a, short_run = a;
-    const auto until = [](int last) { return [last](int done) { return done < last; }; };
-    CHECK(identification::add_monte_carlo(setup, readings, {}, 60, 5, cut, until(9)) == 9);
-    CHECK(identification::add_monte_carlo(setup, readings, {}, 9, 5, few) == 9);
-    CHECK(cut.parameters[0].sigma_monte_carlo == few.parameters[0].sigma_monte_carlo);
-    CHECK(identification::add_monte_carlo(setup, readings, {}, 60, 5, short_run, until(1)) == 1);
+    const auto repeated = [&](int runs, std::uint64_t seed, int first, int step, int last) {
+        const identification::RepetitionPlan plan{
+            runs, seed, first, step, 2U, [last](int done) { return done < last; }};
+        return identification::repeat_identification(setup, readings, {}, plan, a);
+    };
+    const auto all = repeated(60, 5, 0, 1, 60);
+    identification::enter_spread(all, a);
+    // Two shards, put together.
+    std::vector<identification::Repetition> halves = repeated(60, 5, 0, 2, 60);
+    for (const auto& r : repeated(60, 5, 1, 2, 60)) halves.push_back(r);
+    std::sort(halves.begin(), halves.end(),
+              [](const auto& x, const auto& y) { return x.index < y.index; });
+    identification::enter_spread(halves, b);
+    identification::enter_spread(repeated(60, 6, 0, 1, 60), c);
+    const auto cut = repeated(60, 5, 0, 1, 9);
+    CHECK(cut.size() >= 9);
+    CHECK(cut.size() <= 10);  // the other thread may end one more
+    CHECK(cut[3].off == all[3].off);
+    identification::Identification short_run = a;
+    identification::enter_spread({all[0]}, short_run);
     CHECK(short_run.parameters[0].sigma_monte_carlo == a.parameters[0].sigma_monte_carlo);
     for (std::size_t k = 0; k < a.parameters.size(); ++k) {
         INFO(a.parameters[k].name);

@@ -1,9 +1,9 @@
-#include "cli/json_output.h"
+#include "report/parameters_json.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace trunnion::cli {
+namespace trunnion::report {
 namespace {
 
 nlohmann::ordered_json number(double value) {
@@ -72,4 +72,4 @@ nlohmann::ordered_json json_inseparable(const std::vector<identification::Insepa
     return list;
 }
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::report

@@ -1,4 +1,4 @@
-// JSON pieces that several commands print.
+// Fitted parameters as JSON: identify, diagnose and predict print them alike.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,7 +7,7 @@
 
 #include "identification/base_model.h"
 
-namespace trunnion::cli {
+namespace trunnion::report {
 
 /// [{"effect", "name", "value", "sigma", "unit"}]: components of a vector parameter in one entry
 /// with arrays; a sigma that does not exist is null.
@@ -15,11 +15,11 @@ nlohmann::ordered_json json_parameters(const std::vector<identification::FitPara
 
 /// "dp_mm[y]"
 std::string with_component(const identification::FitParameter& parameter);
-/// [{"names": [...], "direction": [...]}]
 /// {"names", "matrix", "correlation"}: rows and columns in the order of names, units of the
 /// parameters; null where a parameter is not seen.
 nlohmann::ordered_json json_covariance(const std::vector<identification::FitParameter>& parameters,
                                        const Eigen::MatrixXd& covariance);
+/// [{"names": [...], "direction": [...]}]
 nlohmann::ordered_json json_inseparable(const std::vector<identification::Inseparable>& groups);
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::report
