@@ -28,7 +28,8 @@ Design::Design(Eigen::MatrixXd known, Eigen::VectorXd data, double rows)
       data_(std::move(data)),
       rows_(rows),
       projection_(known_),
-      data_coordinates_(projection_.coordinates(data_)) {}
+      data_coordinates_(projection_.coordinates(data_)),
+      known_coordinates_(projection_.coordinates(known_)) {}
 
 Eigen::Index Design::add_features(const Eigen::MatrixXd& white) {
     Block block;
@@ -41,17 +42,6 @@ Eigen::Index Design::add_features(const Eigen::MatrixXd& white) {
     features_ += white.cols();
     blocks_.push_back(std::move(block));
     return blocks_.back().first;
-}
-
-void Design::set_data(const Eigen::VectorXd& data) {
-    data_ = data;
-    data_coordinates_ = projection_.coordinates(data_);
-    for (Block& b : blocks_)
-        b.product = b.white.transpose() * data_ - b.coordinates.transpose() * data_coordinates_;
-    for (Entry& e : groups_) {
-        e.product = product_of(e.group.features);
-        if (e.group.shape.size() > 0) e.product = e.group.shape.transpose() * e.product;
-    }
 }
 
 const Design::Block& Design::block_of(Eigen::Index feature) const {
@@ -117,13 +107,22 @@ const Design::Products& Design::of_features(const std::vector<Eigen::Index>& fea
 
 std::size_t Design::add(ColumnGroup group) {
     const Products& p = of_features(group.features);
-    Entry entry{{}, p.gram, product_of(group.features), p.whole.sum(), false};
+    Entry entry{{}, p.gram, product_of(group.features), p.whole.sum(), false, 0, {}};
     if (group.shape.size() > 0) {
         entry.gram = group.shape.transpose() * p.gram * group.shape;
         entry.product = group.shape.transpose() * entry.product;
         entry.whole = p.whole.dot(group.shape.array().square().matrix().rowwise().sum());
     }
     entry.group = std::move(group);
+    return append(std::move(entry));
+}
+
+std::size_t Design::append(Entry entry) {
+    entry.first = columns_;
+    columns_ += entry.group.columns();
+    entry.reduced.emplace(entry.gram);
+    products_.conservativeResize(columns_);
+    products_.tail(entry.product.size()) = entry.product;
     groups_.push_back(std::move(entry));
     return groups_.size() - 1;
 }
@@ -149,8 +148,7 @@ std::size_t Design::add_beside(ColumnGroup group, Eigen::Index owned) {
     group.shape << -taken, Eigen::MatrixXd::Identity(own, own);
     group.features.insert(group.features.begin(), list.begin(), list.end());
     entry.group = std::move(group);
-    groups_.push_back(std::move(entry));
-    return groups_.size() - 1;
+    return append(std::move(entry));
 }
 
 double Design::outside(std::size_t k, const std::vector<Eigen::Index>& features) const {
@@ -165,41 +163,71 @@ double Design::outside(std::size_t k, const std::vector<Eigen::Index>& features)
 
 Eigen::MatrixXd Design::columns(std::size_t k) const {
     const ColumnGroup& group = groups_[k].group;
-    Eigen::MatrixXd m(data_.size(), static_cast<Eigen::Index>(group.features.size()));
-    for (std::size_t j = 0; j < group.features.size(); ++j) {
-        const Block& b = block_of(group.features[j]);
-        m.col(static_cast<Eigen::Index>(j)) = b.white.col(group.features[j] - b.first);
-    }
-    if (group.shape.size() == 0) return m;
-    return m * group.shape;
+    Eigen::MatrixXd storage;
+    const auto raw = gathered(group.features, &Block::white, storage);
+    return group.shape.size() > 0 ? Eigen::MatrixXd(raw * group.shape) : Eigen::MatrixXd(raw);
+}
+
+Eigen::VectorXd Design::combined(std::size_t k, const Eigen::VectorXd& coefficients) const {
+    const ColumnGroup& group = groups_[k].group;
+    Eigen::MatrixXd storage;
+    const auto raw = gathered(group.features, &Block::white, storage);
+    if (group.shape.size() == 0) return raw * coefficients;
+    return raw * (group.shape * coefficients);
 }
 
 const Eigen::MatrixXd& Design::products(std::size_t member) {
-    Eigen::MatrixXd& p = products_[member];
-    const Eigen::Index have = p.rows();
-    if (have == features_) return p;
+    Seen& seen = seen_[member];
+    if (seen.groups == groups_.size()) return seen.products;
     const Eigen::MatrixXd own = projection_.beside(columns(member));
-    p.conservativeResize(features_, own.cols());
-    for (const Block& b : blocks_)
-        if (b.first >= have)
-            p.middleRows(b.first, b.white.cols()).noalias() = b.white.transpose() * own;
-    return p;
+    std::map<Eigen::Index, Eigen::MatrixXd> by_block;
+    seen.products.conservativeResize(columns_, own.cols());
+    for (; seen.groups < groups_.size(); ++seen.groups) {
+        const Entry& entry = groups_[seen.groups];
+        const auto& features = entry.group.features;
+        Eigen::MatrixXd raw(static_cast<Eigen::Index>(features.size()), own.cols());
+        for (std::size_t k = 0; k < features.size(); ++k) {
+            const Block& b = block_of(features[k]);
+            Eigen::MatrixXd& with = by_block[b.first];
+            if (with.size() == 0) with.noalias() = b.white.transpose() * own;
+            raw.row(static_cast<Eigen::Index>(k)) = with.row(features[k] - b.first);
+        }
+        auto rows = seen.products.middleRows(entry.first, entry.group.columns());
+        if (entry.group.shape.size() > 0)
+            rows.noalias() = entry.group.shape.transpose() * raw;
+        else
+            rows = raw;
+    }
+    return seen.products;
 }
 
-Eigen::MatrixXd Design::cross(const std::vector<std::size_t>& members, std::size_t other) {
-    const ColumnGroup& group = groups_[other].group;
-    Eigen::Index rows = 0;
+const Eigen::MatrixXd& Design::coordinates(std::size_t member) {
+    Eigen::MatrixXd& own = seen_[member].coordinates;
+    const ColumnGroup& group = groups_[member].group;
+    if (own.cols() == group.columns()) return own;
+    Eigen::MatrixXd storage;
+    const auto raw = gathered(group.features, &Block::coordinates, storage);
+    own = group.shape.size() > 0 ? Eigen::MatrixXd(raw * group.shape) : Eigen::MatrixXd(raw);
+    return own;
+}
+
+Eigen::MatrixXd Design::cross(const std::vector<std::size_t>& members,
+                              const std::vector<std::size_t>& groups) {
+    Eigen::Index rows = 0, columns = 0;
     for (const std::size_t m : members) rows += groups_[m].group.columns();
-    Eigen::MatrixXd cross(rows, group.columns());
-    Eigen::Index at = 0;
+    for (const std::size_t g : groups) columns += groups_[g].group.columns();
+    Eigen::MatrixXd cross(rows, columns);
+    Eigen::Index row = 0;
     for (const std::size_t m : members) {
-        const Eigen::MatrixXd part = products(m)(group.features, Eigen::all);
-        const Eigen::Index count = part.cols();
-        if (group.shape.size() > 0)
-            cross.middleRows(at, count).noalias() = part.transpose() * group.shape;
-        else
-            cross.middleRows(at, count) = part.transpose();
-        at += count;
+        const Eigen::MatrixXd& own = products(m);
+        Eigen::Index column = 0;
+        for (const std::size_t g : groups) {
+            const Eigen::Index count = groups_[g].group.columns();
+            cross.block(row, column, own.cols(), count) =
+                own.middleRows(groups_[g].first, count).transpose();
+            column += count;
+        }
+        row += own.cols();
     }
     return cross;
 }
@@ -207,17 +235,39 @@ Eigen::MatrixXd Design::cross(const std::vector<std::size_t>& members, std::size
 estimation::GroupEquations Design::equations(const std::vector<std::size_t>& members) {
     estimation::GroupEquations e;
     for (const std::size_t m : members) e.size.push_back(groups_[m].group.columns());
-    const Eigen::Index all = e.first(members.size());
-    e.gram.resize(all, all);
-    e.product.resize(all);
-    for (std::size_t k = 0; k < members.size(); ++k) {
-        e.gram.middleCols(e.first(k), e.size[k]) = cross(members, members[k]);
+    e.product.resize(e.first(members.size()));
+    for (std::size_t k = 0; k < members.size(); ++k)
         e.product.segment(e.first(k), e.size[k]) = groups_[members[k]].product;
-    }
-    e.gram = (0.5 * (e.gram + e.gram.transpose())).eval();
+    const Eigen::MatrixXd gram = cross(members, members);
+    e.gram = 0.5 * (gram + gram.transpose());
     e.square = data_.squaredNorm() - data_coordinates_.squaredNorm();
     e.rows = freedom();
     return e;
+}
+
+Eigen::VectorXd Design::left(const std::vector<std::size_t>& members,
+                             const Eigen::VectorXd& coefficients) {
+    Eigen::VectorXd left = products_;
+    Eigen::Index at = 0;
+    for (const std::size_t m : members) {
+        const Eigen::MatrixXd& own = products(m);
+        left.noalias() -= own * coefficients.segment(at, own.cols());
+        at += own.cols();
+    }
+    return left;
+}
+
+Design::Normal Design::normal(const std::vector<std::size_t>& members) {
+    const estimation::GroupEquations beside = equations(members);
+    const Eigen::Index known = known_.cols(), own = beside.product.size();
+    Eigen::MatrixXd inside(projection_.rank(), known + own);
+    inside.leftCols(known) = known_coordinates_;
+    for (std::size_t k = 0; k < members.size(); ++k)
+        inside.middleCols(known + beside.first(k), beside.size[k]) = coordinates(members[k]);
+    Normal n{inside.transpose() * inside, inside.transpose() * data_coordinates_};
+    n.gram.bottomRightCorner(own, own) += beside.gram;
+    n.product.tail(own) += beside.product;
+    return n;
 }
 
 }  // namespace trunnion::diagnosis

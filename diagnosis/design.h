@@ -7,11 +7,13 @@
 //             A group combines features linearly (ColumnGroup::shape), so that all correlation
 //             lengths of a table share one set of knots.
 // Products    of features with the data and within one group are worked out when they are added;
-//             products of a member with all features when it first becomes a member.
+//             products of a member with the columns of all groups when it first becomes a member.
+//             Every later question (search, solution) is answered from these small matrices.
 #pragma once
 
 #include <Eigen/Core>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "diagnosis/column_group.h"
@@ -31,8 +33,6 @@ class Design {
     std::size_t add(ColumnGroup group);
     /// A group orthogonal to all features up to `owned` (those of the textbook effects).
     std::size_t add_beside(ColumnGroup group, Eigen::Index owned);
-    /// Other data for the same columns (large effects bend the readings).
-    void set_data(const Eigen::VectorXd& data);
 
     struct Entry {
         ColumnGroup group;
@@ -40,6 +40,8 @@ class Design {
         Eigen::VectorXd product;  ///< with the data
         double whole = 0.0;       ///< squared sum of its columns before the projection
         bool hidden = false;
+        Eigen::Index first = 0;  ///< of its columns among those of all groups
+        std::optional<estimation::ReducedGroup> reduced;  ///< its gram
         /// Set-up does not swallow it, and a usual change moves the readings.
         bool visible() const;
     };
@@ -53,10 +55,23 @@ class Design {
     double freedom() const { return rows_ - static_cast<double>(projection_.rank()); }
     /// Whitened columns of a group, set-up not projected out: rows x columns.
     Eigen::MatrixXd columns(std::size_t group) const;
+    /// Those columns times coefficients.
+    Eigen::VectorXd combined(std::size_t group, const Eigen::VectorXd& coefficients) const;
 
     estimation::GroupEquations equations(const std::vector<std::size_t>& members);
-    /// Products of the members' columns with those of another group.
-    Eigen::MatrixXd cross(const std::vector<std::size_t>& members, std::size_t group);
+    /// Products of the members' columns with those of other groups, side by side in their order.
+    Eigen::MatrixXd cross(const std::vector<std::size_t>& members,
+                          const std::vector<std::size_t>& groups);
+    /// Products of all groups' columns (Entry::first) with what members with these coefficients
+    /// leave of the data.
+    Eigen::VectorXd left(const std::vector<std::size_t>& members,
+                         const Eigen::VectorXd& coefficients);
+    /// Products of set-up (first) and members, none projected out, with each other and the data.
+    struct Normal {
+        Eigen::MatrixXd gram;
+        Eigen::VectorXd product;
+    };
+    Normal normal(const std::vector<std::size_t>& members);
     /// Features as they are, whatever groups make of them: information and product with the data.
     estimation::GroupInformation of(const std::vector<Eigen::Index>& features) const {
         return {gram_of(features, features), product_of(features)};
@@ -82,7 +97,9 @@ class Design {
                                                Eigen::MatrixXd Block::*part,
                                                Eigen::MatrixXd& storage) const;
     const Products& of_features(const std::vector<Eigen::Index>& features);
+    std::size_t append(Entry entry);
     const Eigen::MatrixXd& products(std::size_t member);
+    const Eigen::MatrixXd& coordinates(std::size_t member);
     Eigen::VectorXd product_of(const std::vector<Eigen::Index>& features) const;
     Eigen::MatrixXd gram_of(const std::vector<Eigen::Index>& a,
                             const std::vector<Eigen::Index>& b) const;
@@ -93,12 +110,21 @@ class Design {
     double rows_;
     estimation::Projection projection_;
     Eigen::VectorXd data_coordinates_;
-    Eigen::Index features_ = 0;
+    Eigen::MatrixXd known_coordinates_;
+    Eigen::Index features_ = 0, columns_ = 0;
+    Eigen::VectorXd products_;  ///< of all groups' columns with the data
     std::vector<Block> blocks_;
     std::vector<Entry> groups_;
     Products last_;
-    std::map<std::size_t, Eigen::MatrixXd> products_;  ///< features x columns, of members
-    mutable Eigen::MatrixXd inverse_;                  ///< of the owned features' gram
+    /// Of each member: with the columns of groups, from the first group to the latest one seen; its
+    /// part inside the set-up.
+    struct Seen {
+        Eigen::MatrixXd products;
+        std::size_t groups = 0;
+        Eigen::MatrixXd coordinates;
+    };
+    std::map<std::size_t, Seen> seen_;
+    mutable Eigen::MatrixXd inverse_;  ///< of the owned features' gram
 };
 
 }  // namespace trunnion::diagnosis

@@ -85,26 +85,49 @@ Design empty_design(const Prepared& p, const Whitener& whitener, const std::vect
 /// Settings of keyed effects that promise most beside a model.
 void add_keyed(Design& design, const Prepared& p, const Whitener& whitener, KeySearch& keys,
                const Model& beside, int count) {
-    const Eigen::VectorXd left = left_mm(p, design, beside, solved(design, beside));
-    const Eigen::MatrixXd fitted = fitted_mm(p, design, beside);
+    const KeySearch::Remainder left = keys.remainder(
+        left_mm(p, design, beside, solved(design, beside)), fitted_mm(p, design, beside));
     for (const effects::Effect& effect : p.catalogue) {
         if (modelled(p, effect) || !has_keys(effect)) continue;
-        for (auto& setting : keys.best(effect, left, p.base.sigma_mm, fitted, count))
+        for (auto& setting : keys.best(effect, left, count))
             add_ripple_or_other(design, p, whitener, effect, std::move(setting));
     }
 }
 
-/// Keys of members refined on what the others leave.
-void add_refined(Design& design, const Prepared& p, const Whitener& whitener, const Model& model) {
-    for (std::size_t k = 0; k < model.members.size(); ++k) {
-        const ColumnGroup group = design.group(model.members[k]);
-        if (group.kind != GroupKind::periodic) continue;
-        const Model rest = without(model, k);
-        add_ripple_or_other(
-            design, p, whitener, *group.effect,
-            identification::refine_keys(p.replay, p.base, *group.effect, group.keys,
-                                        left_mm(p, design, rest, solved(design, rest))));
+/// A group with the keys of one member refined on what the other causes leave.
+std::optional<std::size_t> refined_group(Design& design, const Prepared& p,
+                                         const Whitener& whitener, const Model& model,
+                                         std::size_t position) {
+    const ColumnGroup group = design.group(model.members[position]);
+    const Model rest = without(model, position);
+    return add_ripple_or_other(
+        design, p, whitener, *group.effect,
+        identification::refine_keys(p.replay, p.base, *group.effect, group.keys,
+                                    left_mm(p, design, rest, solved(design, rest))));
+}
+
+Model without_drivers(const Design& design, Model model) {
+    for (std::size_t k = model.members.size(); k-- > 0;)
+        if (design.group(model.members[k]).kind == GroupKind::driver) model = without(model, k);
+    return model;
+}
+
+/// Members whose keys are refined, and grown again from there. Drivers are left out meanwhile: they
+/// take what a wrong key leaves, and then hide that it is wrong. The better model.
+Model with_refined_keys(Design& design, const SearchSetting& setting, const Prepared& p,
+                        const Whitener& whitener, Model model) {
+    Model trial = without_drivers(design, model);
+    bool changed = false;
+    for (std::size_t k = 0; k < trial.members.size(); ++k) {
+        if (design.group(trial.members[k]).kind != GroupKind::periodic) continue;
+        const auto better = refined_group(design, p, whitener, trial, k);
+        if (!better) continue;
+        trial.members[k] = *better;
+        changed = true;
     }
+    if (!changed) return model;
+    trial = grown(design, setting, tuned(design, setting, std::move(trial), 2));
+    return trial.score > model.score ? trial : model;
 }
 
 /// Ripples of an axis in the place of its positioning in free form, which may follow them.
@@ -117,8 +140,9 @@ void add_ripples_instead(Design& design, const Prepared& p, const Whitener& whit
             effects::find_effect(p.catalogue, effects::effect_name(group.table.axis, ".cyclic"));
         if (!ripple || modelled(p, *ripple)) continue;
         const Model rest = without(model, k);
-        for (auto& setting : keys.best(*ripple, left_mm(p, design, rest, solved(design, rest)),
-                                       p.base.sigma_mm, fitted_mm(p, design, rest), first_keys))
+        const KeySearch::Remainder left = keys.remainder(
+            left_mm(p, design, rest, solved(design, rest)), fitted_mm(p, design, rest));
+        for (auto& setting : keys.best(*ripple, left, first_keys))
             add_ripple_or_other(design, p, whitener, *ripple, std::move(setting));
     }
 }
@@ -160,7 +184,10 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys,
     add_table_groups(design, p, whitener);
     add_offset_groups(design, p, whitener);
     add_driver_groups(design, p, whitener, owned);
-    const SearchSetting setting = search_setting(design, round.noise.prior);
+    SearchSetting setting = search_setting(design, round.noise.prior);
+    setting.refine = [&](const Model& m, std::size_t position) {
+        return refined_group(design, p, whitener, m, position);
+    };
     Model model;
     if (earlier) {
         model = tuned(design, setting, carried_over(*earlier, design, p, whitener), 2);
@@ -170,19 +197,20 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys,
     }
     for (int pass = 0; pass < 2; ++pass) {
         const double before = model.score;
-        add_refined(design, p, whitener, model);
+        model = with_refined_keys(design, setting, p, whitener, std::move(model));
         add_keyed(design, p, whitener, keys, model, 1);
         add_ripples_instead(design, p, whitener, keys, model);
         model = settled(design, setting, grown(design, setting, std::move(model)));
         if (model.score < before + 1.0) break;
     }
     model = without_idle_members(design, setting, p, std::move(model), round.used);
-    return {std::move(design), setting, std::move(model)};
+    setting.refine = {};  // what it refers to ends here
+    return {std::move(design), std::move(setting), std::move(model)};
 }
 
 /// Large effects bend the readings (a stylus that meets a sphere aside): what the emulator reads
 /// with the model takes the place of the straight line. False when that changed next to nothing.
-bool straighten(Prepared& p, const Searched& s) {
+bool straighten(Prepared& p, Searched& s) {
     const Solution solution = solved(s.design, s.model);
     const setup::Setup setup = setup_with(p, s.design, s.model, solution);
     const emulator::Replay replay(setup, p.table);

@@ -331,6 +331,16 @@ setup::Setup written_setup(const Outcome& f) {
     return setup_with(f.prepared, f.design, model, solved(f.design, model));
 }
 
+/// A named rival in all its forms: a measurement must tell the claim from each of them.
+const ColumnGroup& fullest_form(const Design& design, std::size_t rival) {
+    const ColumnGroup* fullest = &design.group(rival);
+    for (const auto& entry : design.groups())
+        if (entry.group.kind == GroupKind::textbook && entry.group.effect == fullest->effect &&
+            entry.group.columns() > fullest->columns())
+            fullest = &entry.group;
+    return *fullest;
+}
+
 std::vector<AmbiguousPair> pairs_of(const Outcome& f, const std::vector<Claim>& claims,
                                     const Solution& solution) {
     std::vector<AmbiguousPair> pairs;
@@ -339,7 +349,7 @@ std::vector<AmbiguousPair> pairs_of(const Outcome& f, const std::vector<Claim>& 
             pairs.push_back({&f.design.group(f.model.members[claim.position]),
                              solution.mean.segment(solution.first[claim.position],
                                                    solution.size[claim.position]),
-                             &f.design.group(claim.rival_groups[k])});
+                             &fullest_form(f.design, claim.rival_groups[k])});
     return pairs;
 }
 

@@ -43,63 +43,97 @@ Saving saving_of(const BlockLoss& without, const BlockLoss& with) {
     return result;
 }
 
-LeftOut::LeftOut(const Design& design, const Model& model, const Folds& folds,
+LeftOut::LeftOut(Design& design, const Model& model, const Folds& folds,
                  const std::vector<bool>& used)
-    : folds_(folds), used_(used), data_(design.data()), known_(design.known().cols()) {
+    : folds_(folds), used_(used), known_(design.known().cols()), fold_(Folds::count) {
     Eigen::Index count = known_;
     for (const std::size_t m : model.members) {
         first_.push_back(count);
         size_.push_back(design.group(m).columns());
         count += size_.back();
     }
-    all_.resize(data_.size(), count);
-    all_.leftCols(known_) = design.known();
-    precision_.resize(count);
-    precision_.head(known_).setConstant(1.0 / (set_up_range * set_up_range));
-    const double noise = model.variances.nu * model.variances.nu;
-    for (std::size_t k = 0; k < model.members.size(); ++k) {
-        all_.middleCols(first_[k], size_[k]) = design.columns(model.members[k]);
-        const double tau = std::max(1e-9, model.variances.tau[k]);
-        precision_.segment(first_[k], size_[k]).setConstant(noise / (tau * tau));
-    }
-    const Eigen::MatrixXd whole = all_.transpose() * all_;
-    const Eigen::VectorXd product = all_.transpose() * data_;
-    test_.resize(Folds::count);
+    Eigen::MatrixXd all(design.data().size(), count);
+    all.leftCols(known_) = design.known();
+    for (std::size_t k = 0; k < model.members.size(); ++k)
+        all.middleCols(first_[k], size_[k]) = design.columns(model.members[k]);
+    precision_.setConstant(count, 1.0 / (set_up_range * set_up_range));
+    retune(std::vector<bool>(model.members.size(), true), model.variances);
     for (std::size_t i = 0; i < folds_.group.size(); ++i)
         if (folds_.group[i] >= 0)
-            test_[static_cast<std::size_t>(folds_.fold[static_cast<std::size_t>(folds_.group[i])])]
-                .push_back(static_cast<Eigen::Index>(i));
-    for (const auto& rows : test_) {
-        const Eigen::MatrixXd out = all_(rows, Eigen::all);
-        gram_.push_back(whole - out.transpose() * out);
-        product_.push_back(product - out.transpose() * data_(rows));
+            fold_[static_cast<std::size_t>(folds_.fold[static_cast<std::size_t>(folds_.group[i])])]
+                .rows.push_back(static_cast<Eigen::Index>(i));
+    const Design::Normal whole = design.normal(model.members);
+    for (Fold& fold : fold_) {
+        fold.out = all(fold.rows, Eigen::all);
+        fold.data = design.data()(fold.rows);
+        fold.gram = whole.gram;
+        fold.gram.selfadjointView<Eigen::Lower>().rankUpdate(fold.out.transpose(), -1.0);
+        fold.gram.triangularView<Eigen::StrictlyUpper>() = fold.gram.transpose();
+        fold.product = whole.product - fold.out.transpose() * fold.data;
     }
 }
 
-std::vector<Eigen::Index> LeftOut::columns_of(const std::vector<bool>& members) const {
+void LeftOut::retune(const std::vector<bool>& fitted, const estimation::Variances& variances) {
+    const double noise = variances.nu * variances.nu;
+    std::size_t next = 0;
+    for (std::size_t m = 0; m < fitted.size(); ++m) {
+        if (!fitted[m]) continue;
+        const double tau = std::max(1e-9, variances.tau[next++]);
+        precision_.segment(first_[m], size_[m]).setConstant(noise / (tau * tau));
+    }
+    for (Fold& fold : fold_) fold.covariance.resize(0, 0);
+}
+
+/// Columns of the marked members, those of the set-up first where `known`.
+std::vector<Eigen::Index> LeftOut::columns_of(const std::vector<bool>& members, bool known) const {
     std::vector<Eigen::Index> columns;
-    for (Eigen::Index k = 0; k < known_; ++k) columns.push_back(k);
+    for (Eigen::Index k = 0; known && k < known_; ++k) columns.push_back(k);
     for (std::size_t m = 0; m < members.size(); ++m)
         for (Eigen::Index k = 0; members[m] && k < size_[m]; ++k) columns.push_back(first_[m] + k);
     return columns;
 }
 
+/// Coefficients without the fold's rows; zero for members that take no part. A few members less:
+/// the full fit under the condition that theirs are zero.
+Eigen::VectorXd LeftOut::fit(const Fold& fold, const std::vector<bool>& fitted) const {
+    std::vector<bool> absent = fitted;
+    absent.flip();
+    const std::vector<Eigen::Index> own = columns_of(fitted, true),
+                                    gone = columns_of(absent, false);
+    if (gone.size() > own.size()) {
+        Eigen::MatrixXd a = fold.gram(own, own);
+        a.diagonal() += precision_(own);
+        const Eigen::VectorXd right = fold.product(own), part = a.llt().solve(right);
+        Eigen::VectorXd x = Eigen::VectorXd::Zero(precision_.size());
+        x(own) = part;
+        return x;
+    }
+    if (fold.covariance.size() == 0) {
+        Eigen::MatrixXd a = fold.gram;
+        a.diagonal() += precision_;
+        const Eigen::LLT<Eigen::MatrixXd> llt(a);
+        fold.covariance = llt.solve(Eigen::MatrixXd::Identity(a.rows(), a.cols()));
+        fold.mean = llt.solve(fold.product);
+    }
+    if (gone.empty()) return fold.mean;
+    const Eigen::MatrixXd inside = fold.covariance(gone, gone);
+    const Eigen::VectorXd held = fold.mean(gone), force = inside.llt().solve(held);
+    Eigen::VectorXd x = fold.mean - fold.covariance(Eigen::all, gone) * force;
+    x(gone).setZero();
+    return x;
+}
+
 Eigen::VectorXd LeftOut::residual(const std::vector<bool>& fitted,
                                   const std::vector<bool>& predicting) const {
-    const std::vector<Eigen::Index> columns = columns_of(fitted);
-    std::vector<bool> both = fitted;
-    for (std::size_t k = 0; k < both.size(); ++k) both[k] = fitted[k] && predicting[k];
-    const std::vector<Eigen::Index> used = columns_of(both);
+    std::vector<bool> silent = predicting;
+    silent.flip();
+    const std::vector<Eigen::Index> quiet = columns_of(silent, false);
     Eigen::VectorXd left = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(folds_.group.size()));
-    for (std::size_t f = 0; f < test_.size(); ++f) {
-        if (test_[f].empty()) continue;
-        Eigen::MatrixXd a = gram_[f](columns, columns);
-        a.diagonal() += precision_(columns);
-        Eigen::VectorXd x = Eigen::VectorXd::Zero(all_.cols());
-        const Eigen::VectorXd right = product_[f](columns), own = a.ldlt().solve(right);
-        x(columns) = own;
-        const Eigen::VectorXd off = data_(test_[f]) - all_(test_[f], used) * x(used);
-        left(test_[f]) = off;
+    for (const Fold& fold : fold_) {
+        if (fold.rows.empty()) continue;
+        Eigen::VectorXd x = fit(fold, fitted);
+        x(quiet).setZero();
+        left(fold.rows) = fold.data - fold.out * x;
     }
     return left;
 }

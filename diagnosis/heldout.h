@@ -22,26 +22,35 @@ class LeftOut {
   public:
     /// `group` of each row (blocks; negative: never left out), `fold` of each group. The members'
     /// variances are those of `model`.
-    LeftOut(const Design& design, const Model& model, const Folds& folds,
-            const std::vector<bool>& used);
+    LeftOut(Design& design, const Model& model, const Folds& folds, const std::vector<bool>& used);
 
-    /// Positions of `fitted` take part in the fit, those of `predicting` also in the prediction.
+    /// Other variances of the members that `fitted` marks, in their order.
+    void retune(const std::vector<bool>& fitted, const estimation::Variances& variances);
+    /// Members of `fitted` take part in the fit, those of `predicting` also in the prediction.
     Eigen::VectorXd residual(const std::vector<bool>& fitted,
                              const std::vector<bool>& predicting) const;
     BlockLoss loss(const std::vector<bool>& fitted, const std::vector<bool>& predicting) const;
 
   private:
-    std::vector<Eigen::Index> columns_of(const std::vector<bool>& members) const;
+    /// One fold: its rows, and the normal equations of all others.
+    struct Fold {
+        std::vector<Eigen::Index> rows;
+        Eigen::MatrixXd out, gram;  ///< columns of its rows; products over all other rows
+        Eigen::VectorXd data, product;
+        /// With all members fitted: mean and covariance (over the noise), from which any smaller
+        /// fit follows. Empty until asked for.
+        mutable Eigen::MatrixXd covariance;
+        mutable Eigen::VectorXd mean;
+    };
+    Eigen::VectorXd fit(const Fold& fold, const std::vector<bool>& fitted) const;
+    std::vector<Eigen::Index> columns_of(const std::vector<bool>& members, bool known) const;
 
     Folds folds_;
     std::vector<bool> used_;
-    Eigen::MatrixXd all_;               ///< set-up, then members, whitened
-    Eigen::VectorXd data_, precision_;  ///< prior, over the noise
+    Eigen::VectorXd precision_;  ///< prior, over the noise
     Eigen::Index known_ = 0;
     std::vector<Eigen::Index> first_, size_;
-    std::vector<std::vector<Eigen::Index>> test_;  ///< rows by fold
-    std::vector<Eigen::MatrixXd> gram_;            ///< of all rows but the fold's
-    std::vector<Eigen::VectorXd> product_;
+    std::vector<Fold> fold_;
 };
 
 /// Whole places of an axis left out together, its ends never: does a table hold between places?

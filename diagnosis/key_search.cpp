@@ -3,12 +3,13 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr std::size_t rough_count = 1000, fine_count = 3200;  ///< rows at most
-constexpr std::size_t finalists = 16;
+constexpr std::size_t rough_count = 600, fine_count = 2400;  ///< rows at most
+constexpr std::size_t finalists = 12;
 /// Chi-squared by which a ripple of typical size differs from its alias; less is no difference.
 constexpr double alias_square = 4.0;
 
@@ -22,26 +23,32 @@ std::vector<std::size_t> scattered_rows(std::size_t all, std::size_t count) {
     return rows;
 }
 
-/// Fall of the weighted squared sum of `left` (already over its sigma) by columns fitted beside
-/// others; negative when the columns move nothing. `half`: Beside::half of the columns.
-double gain(const Eigen::MatrixXd& weighted, const Eigen::MatrixXd& half,
-            const Eigen::VectorXd& left, const Eigen::VectorXd& half_left) {
-    Eigen::MatrixXd information = weighted.transpose() * weighted;
-    if (information.trace() < 1e-9) return -1.0;
-    information -= half.transpose() * half;
-    information.diagonal().array() += 1.0;
-    const Eigen::VectorXd h = weighted.transpose() * left - half.transpose() * half_left;
-    return h.dot(information.ldlt().solve(h));
+/// Information of columns beside others (`half`: Beside::half of them), with a weak prior; nothing
+/// when they move no reading.
+std::optional<Eigen::LLT<Eigen::MatrixXd>> information(const Eigen::MatrixXd& weighted,
+                                                       const Eigen::MatrixXd& half) {
+    Eigen::MatrixXd square = weighted.transpose() * weighted;
+    if (square.trace() < 1e-9) return std::nullopt;
+    square -= half.transpose() * half;
+    square.diagonal().array() += 1.0;
+    return square.llt();
 }
 
-struct Weighted {
-    Eigen::VectorXd weight, left;
-    Weighted(const Eigen::VectorXd& left_mm, const Eigen::VectorXd& sigma_mm,
-             const std::vector<std::size_t>& rows) {
-        weight = sigma_mm(rows).cwiseInverse();
-        left = left_mm(rows).cwiseProduct(weight);
+/// Every combination of the grids of an effect's keys, the first key fastest.
+std::vector<std::vector<double>> grid_of(const effects::Effect& effect) {
+    std::vector<std::vector<double>> list{effect.zeros()};
+    for (std::size_t j = effect.parameters.size(); j-- > 0;) {
+        if (!effect.parameters[j].is_key()) continue;
+        std::vector<std::vector<double>> longer;
+        for (const std::vector<double>& values : list)
+            for (const double g : effect.parameters[j].grid) {
+                longer.push_back(values);
+                longer.back()[j] = g;
+            }
+        list = std::move(longer);
     }
-};
+    return list;
+}
 
 }  // namespace
 
@@ -60,19 +67,22 @@ KeySearch::KeySearch(const emulator::Replay& replay, const identification::BaseM
       base_(base),
       rough_rows_(scattered_rows(replay.size(), rough_count)),
       fine_rows_(scattered_rows(replay.size(), fine_count)),
-      weight_(base.sigma_mm(rough_rows_).cwiseInverse()),
-      beside_(weight_.asDiagonal() * base.columns(rough_rows_, Eigen::all)) {}
+      rough_weight_(base.sigma_mm(rough_rows_).cwiseInverse()),
+      fine_weight_(base.sigma_mm(fine_rows_).cwiseInverse()),
+      beside_(rough_weight_.asDiagonal() * base.columns(rough_rows_, Eigen::all)) {}
 
 Eigen::MatrixXd KeySearch::columns(const effects::Effect& effect, const std::vector<double>& keys,
-                                   const std::vector<std::size_t>& rows) const {
-    std::vector<Eigen::VectorXd> list;
+                                   const std::vector<std::size_t>& rows,
+                                   const Eigen::VectorXd& weight) const {
+    const auto count = std::count_if(effect.parameters.begin(), effect.parameters.end(),
+                                     [](const effects::EffectParameter& p) { return !p.is_key(); });
+    Eigen::MatrixXd a(static_cast<Eigen::Index>(rows.size()), count);
+    Eigen::Index at = 0;
     for (std::size_t j = 0; j < effect.parameters.size(); ++j)
         if (!effect.parameters[j].is_key())
-            list.push_back(
-                identification::effect_column(replay_, base_.gradient, effect, keys, j, rows));
-    Eigen::MatrixXd a(static_cast<Eigen::Index>(rows.size()),
-                      static_cast<Eigen::Index>(list.size()));
-    for (std::size_t c = 0; c < list.size(); ++c) a.col(static_cast<Eigen::Index>(c)) = list[c];
+            a.col(at++) =
+                identification::effect_column(replay_, base_.gradient, effect, keys, j, rows)
+                    .cwiseProduct(weight);
     return a;
 }
 
@@ -85,7 +95,7 @@ Eigen::MatrixXd KeySearch::first_orders(const effects::Effect& effect) const {
         for (const double order : {0.0, 1.0, 2.0}) {
             std::vector<double> values = effect.zeros();
             values[j] = order;
-            const Eigen::MatrixXd a = columns(effect, values, rough_rows_);
+            const Eigen::MatrixXd a = columns(effect, values, rough_rows_, rough_weight_);
             all.conservativeResize(Eigen::NoChange, all.cols() + a.cols());
             all.rightCols(a.cols()) = a;
         }
@@ -93,60 +103,65 @@ Eigen::MatrixXd KeySearch::first_orders(const effects::Effect& effect) const {
     return all;
 }
 
-/// Every point of the grid of the effect's keys, the first key fastest.
-std::vector<KeySearch::Setting>& KeySearch::settings_of(const effects::Effect& effect) {
-    std::vector<Setting>& list = settings_[&effect];
-    if (!list.empty()) return list;
-    std::vector<std::size_t> key;
-    for (std::size_t j = 0; j < effect.parameters.size(); ++j)
-        if (effect.parameters[j].is_key()) key.push_back(j);
+std::vector<KeySearch::Setting> KeySearch::worked_out(const effects::Effect& effect) const {
     const Eigen::MatrixXd orders = first_orders(effect);
-    const Beside first(weight_.asDiagonal() * orders);
-    std::vector<std::size_t> at(key.size(), 0);
-    for (std::size_t k = 0; k < key.size();) {
-        std::vector<double> values = effect.zeros();
-        for (std::size_t i = 0; i < key.size(); ++i)
-            values[key[i]] = effect.parameters[key[i]].grid[at[i]];
-        Eigen::MatrixXd rough = columns(effect, values, rough_rows_);
-        const Eigen::MatrixXd weighted = weight_.asDiagonal() * rough;
-        const bool alias =
-            orders.cols() > 0 &&
-            weighted.squaredNorm() - first.half(weighted).squaredNorm() <= alias_square;
-        if (!alias)
-            list.push_back({std::move(values), std::move(rough), beside_.half(weighted), {}});
-        for (k = 0; k < key.size() && ++at[k] == effect.parameters[key[k]].grid.size(); ++k)
-            at[k] = 0;
+    const Beside first(orders);
+    std::vector<Setting> list;
+    for (std::vector<double>& values : grid_of(effect)) {
+        Eigen::MatrixXd rough = columns(effect, values, rough_rows_, rough_weight_);
+        const bool alias = orders.cols() > 0 &&
+                           rough.squaredNorm() - first.half(rough).squaredNorm() <= alias_square;
+        Eigen::MatrixXd half = beside_.half(rough);
+        auto factor = information(rough, half);
+        if (alias || !factor) continue;
+        list.push_back(
+            {std::move(values), std::move(rough), std::move(half), std::move(*factor), {}});
     }
     return list;
 }
 
+std::vector<KeySearch::Setting>& KeySearch::settings_of(const effects::Effect& effect) {
+    const auto at = settings_.find(&effect);
+    return at != settings_.end() ? at->second : settings_[&effect] = worked_out(effect);
+}
+
+KeySearch::Remainder KeySearch::remainder(const Eigen::VectorXd& left_mm,
+                                          const Eigen::MatrixXd& fitted) const {
+    Remainder r{left_mm(rough_rows_).cwiseProduct(rough_weight_),
+                left_mm(fine_rows_).cwiseProduct(fine_weight_),
+                Beside(fine_weight_.asDiagonal() * fitted(fine_rows_, Eigen::all)),
+                {},
+                {}};
+    r.rough_half = beside_.half(r.rough);
+    r.fine_half = r.others.half(r.fine);
+    return r;
+}
+
 std::vector<std::vector<double>> KeySearch::best(const effects::Effect& effect,
-                                                 const Eigen::VectorXd& left_mm,
-                                                 const Eigen::VectorXd& sigma_mm,
-                                                 const Eigen::MatrixXd& fitted, int count) {
+                                                 const Remainder& remainder, int count) {
     struct Found {
         std::size_t order;
         double gain;
     };
     const auto better = [](const Found& a, const Found& b) { return a.gain > b.gain; };
     std::vector<Setting>& settings = settings_of(effect);
-    const Weighted rough(left_mm, sigma_mm, rough_rows_), fine(left_mm, sigma_mm, fine_rows_);
-    const Eigen::VectorXd rough_half = beside_.half(rough.left);
     std::vector<Found> found;
     for (std::size_t k = 0; k < settings.size(); ++k) {
         const Setting& s = settings[k];
-        const double g = gain(rough.weight.asDiagonal() * s.rough, s.half, rough.left, rough_half);
-        if (g >= 0.0) found.push_back({k, g});
+        const Eigen::VectorXd h =
+            s.rough.transpose() * remainder.rough - s.half.transpose() * remainder.rough_half;
+        found.push_back({k, s.factor.matrixL().solve(h).squaredNorm()});
     }
     std::stable_sort(found.begin(), found.end(), better);
     if (found.size() > finalists) found.resize(finalists);
-    const Beside others(fine.weight.asDiagonal() * fitted(fine_rows_, Eigen::all));
-    const Eigen::VectorXd fine_half = others.half(fine.left);
     for (Found& f : found) {
         Setting& s = settings[f.order];
-        if (s.fine.size() == 0) s.fine = columns(effect, s.values, fine_rows_);
-        const Eigen::MatrixXd weighted = fine.weight.asDiagonal() * s.fine;
-        f.gain = gain(weighted, others.half(weighted), fine.left, fine_half);
+        if (s.fine.size() == 0) s.fine = columns(effect, s.values, fine_rows_, fine_weight_);
+        const Eigen::MatrixXd half = remainder.others.half(s.fine);
+        const auto factor = information(s.fine, half);
+        const Eigen::VectorXd h =
+            s.fine.transpose() * remainder.fine - half.transpose() * remainder.fine_half;
+        f.gain = factor ? factor->matrixL().solve(h).squaredNorm() : 0.0;
     }
     std::stable_sort(found.begin(), found.end(), better);
     std::vector<std::vector<double>> best;

@@ -32,31 +32,40 @@ class KeySearch {
   public:
     KeySearch(const emulator::Replay& replay, const identification::BaseModel& base);
 
-    /// The best few settings of an effect's keys by weighted least squares on `left_mm`, which the
-    /// columns `fitted` left (mm, base first) and that are fitted anew beside the effect; best
+    /// A residual (mm) with the columns that left it (mm, base first) and that are fitted anew
+    /// beside an effect.
+    struct Remainder {
+        Eigen::VectorXd rough, fine;  ///< of the scattered rows, in sigma
+        Beside others;                ///< on the fine rows
+        Eigen::VectorXd rough_half, fine_half;
+    };
+    Remainder remainder(const Eigen::VectorXd& left_mm, const Eigen::MatrixXd& fitted) const;
+
+    /// The best few settings of an effect's keys by weighted least squares on a remainder; best
     /// first, none next to another on the grid.
-    std::vector<std::vector<double>> best(const effects::Effect& effect,
-                                          const Eigen::VectorXd& left_mm,
-                                          const Eigen::VectorXd& sigma_mm,
-                                          const Eigen::MatrixXd& fitted, int count);
+    std::vector<std::vector<double>> best(const effects::Effect& effect, const Remainder& remainder,
+                                          int count);
 
   private:
     struct Setting {
         std::vector<double> values;
-        Eigen::MatrixXd rough;  ///< columns (mm) on the rough scatter
-        Eigen::MatrixXd half;   ///< of these beside the base
-        Eigen::MatrixXd fine;   ///< columns (mm) on the fine scatter, empty until asked for
+        Eigen::MatrixXd rough;               ///< weighted columns on the rough scatter
+        Eigen::MatrixXd half;                ///< of these beside the base
+        Eigen::LLT<Eigen::MatrixXd> factor;  ///< of their information beside the base
+        Eigen::MatrixXd fine;                ///< on the fine scatter, empty until asked for
     };
     std::vector<Setting>& settings_of(const effects::Effect& effect);
+    std::vector<Setting> worked_out(const effects::Effect& effect) const;
     Eigen::MatrixXd first_orders(const effects::Effect& effect) const;
     Eigen::MatrixXd columns(const effects::Effect& effect, const std::vector<double>& keys,
-                            const std::vector<std::size_t>& rows) const;
+                            const std::vector<std::size_t>& rows,
+                            const Eigen::VectorXd& weight) const;
 
     const emulator::Replay& replay_;
     const identification::BaseModel& base_;
     std::vector<std::size_t> rough_rows_, fine_rows_;
-    Eigen::VectorXd weight_;  ///< 1 / sigma of the rough rows
-    Beside beside_;           ///< the base on them
+    Eigen::VectorXd rough_weight_, fine_weight_;  ///< 1 / sigma of those rows
+    Beside beside_;                               ///< the base on the rough ones
     std::map<const effects::Effect*, std::vector<Setting>> settings_;
 };
 

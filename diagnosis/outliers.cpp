@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "diagnosis/rules.h"
 #include "estimation/projection.h"
@@ -29,8 +30,27 @@ double largest_by_chance(double n) {
     return std::sqrt(2.0 * std::log(std::max(2.0, n))) + 1.0;
 }
 
-/// Do these rows of `all` crowd together? Rows at random leave less than a fifth of the mean
-/// distance between 18 of 100 neighbours.
+/// Do these rows lie in neighbouring blocks (poses, passes), three of them or more? One bad pose
+/// may spoil all its readings; blocks at random leave few neighbours side by side.
+bool crowded(const std::vector<std::size_t>& rows, const std::vector<NoiseBlock>& blocks) {
+    std::vector<std::size_t> block_of;
+    for (std::size_t b = 0; b < blocks.size(); ++b)
+        for (const Eigen::Index row : blocks[b].rows) {
+            block_of.resize(std::max(block_of.size(), static_cast<std::size_t>(row) + 1));
+            block_of[static_cast<std::size_t>(row)] = b;
+        }
+    std::set<std::size_t> hit;
+    for (const std::size_t row : rows) hit.insert(block_of[row]);
+    if (hit.size() < 3) return false;
+    const auto close = std::max<std::size_t>(1, blocks.size() / (5 * hit.size()));
+    std::size_t pairs = 0;
+    for (auto it = std::next(hit.begin()); it != hit.end(); ++it)
+        pairs += *it - *std::prev(it) <= close ? 1 : 0;
+    return 10 * pairs > 4 * hit.size();
+}
+
+/// The same along one pass, whose readings are one block: rows at random leave less than a fifth of
+/// the mean distance between 18 of 100 neighbours.
 bool crowded(const std::vector<std::size_t>& rows, std::size_t all) {
     if (rows.size() <= 8) return false;
     const std::size_t close = std::max<std::size_t>(2, all / (5 * rows.size()));
@@ -74,7 +94,8 @@ std::vector<std::size_t> lone_probe_readings(const Prepared& prepared,
         if (too_many(lone.size(), used.size())) return {};
     }
     std::sort(lone.begin(), lone.end());
-    return crowded(lone, used.size()) ? std::vector<std::size_t>{} : lone;
+    const bool keep = crowded(lone, used.size()) || crowded(lone, prepared.blocks);
+    return keep ? std::vector<std::size_t>{} : lone;
 }
 
 std::vector<std::size_t> wild_readings(const Eigen::VectorXd& left, const std::vector<bool>& used) {

@@ -8,9 +8,11 @@ namespace {
 
 constexpr std::size_t most_members = 12;
 constexpr std::size_t tried = 4;       ///< best offers that are tuned at each step
+constexpr std::size_t looked_at = 20;  ///< offers whose gain is worked out exactly
 constexpr double better = 0.5;         ///< nats by which a swap must be better
 constexpr std::size_t swap_tried = 3;  ///< offers tried in the place of a member
 constexpr int rounds = 2;
+constexpr double tuning_gain = 10.0;  ///< nats that new variances may add to a changed model
 
 bool in(const Model& model, std::size_t group) {
     return std::find(model.members.begin(), model.members.end(), group) != model.members.end();
@@ -28,6 +30,25 @@ Offer offer_of(const Design& design, std::size_t k, const estimation::GroupInfor
     return offer;
 }
 
+/// Of many groups those few that add most at least: the exact gain costs the square of the model.
+void keep_best(std::vector<std::size_t>& offered, Design& design, const Model& model,
+               const estimation::GivenMembers& given) {
+    if (offered.size() <= looked_at || model.members.empty()) return;
+    const double factor = 1.0 / (model.variances.nu * model.variances.nu);
+    const Eigen::VectorXd left = factor * design.left(model.members, given.mean());
+    std::vector<std::pair<double, std::size_t>> least;
+    for (const std::size_t k : offered) {
+        const auto& entry = design.groups()[k];
+        const estimation::GroupGain gain = estimation::group_gain(
+            *entry.reduced, left.segment(entry.first, entry.group.columns()), factor);
+        least.emplace_back(-gain.mean - entry.group.log_prior, k);
+    }
+    std::nth_element(least.begin(), least.begin() + static_cast<long>(looked_at), least.end());
+    offered.clear();
+    for (std::size_t k = 0; k < looked_at; ++k) offered.push_back(least[k].second);
+    std::sort(offered.begin(), offered.end());
+}
+
 /// The zeros of tests, which are always offered.
 std::vector<std::size_t> zeros(const Design& design) {
     std::vector<std::size_t> list;
@@ -35,6 +56,19 @@ std::vector<std::size_t> zeros(const Design& design) {
         if (design.group(k).kind == GroupKind::offset && design.groups()[k].visible())
             list.push_back(k);
     return list;
+}
+
+/// The member that joined last, with better keys where it has any.
+Model refined_last(Design& design, const SearchSetting& setting, Model model) {
+    const std::size_t last = model.members.size() - 1;
+    if (!setting.refine || design.group(model.members[last]).kind != GroupKind::periodic)
+        return model;
+    const auto better = setting.refine(model, last);
+    if (!better) return model;
+    Model trial = model;
+    trial.members[last] = *better;
+    trial = tuned(design, setting, std::move(trial), 1);
+    return trial.score > model.score ? trial : model;
 }
 
 /// One step: the best few offers are tuned, the best score stays.
@@ -45,11 +79,13 @@ bool grow(Design& design, const SearchSetting& setting, Model& model, bool with_
         if (count == tried || offer.gain.best + design.group(offer.group).log_prior < 0.0) break;
         if (!with_zeros && design.group(offer.group).kind == GroupKind::offset) continue;
         ++count;
+        const double hoped = offer.gain.best + design.group(offer.group).log_prior + tuning_gain;
+        if (model.score + hoped < best.score) continue;
         Model trial = tuned(design, setting, with(model, offer), 1);
         if (trial.score > best.score + 1e-6) best = std::move(trial);
     }
     if (best.members.size() == model.members.size()) return false;
-    model = tuned(design, setting, std::move(best), 2);
+    model = tuned(design, setting, refined_last(design, setting, std::move(best)), 2);
     return true;
 }
 
@@ -84,6 +120,15 @@ Model swapped(Design& design, const SearchSetting& setting, Model model) {
     return model;
 }
 
+/// The score with the variances as they are: tuning adds a few nats at most.
+double rough_score(Design& design, const SearchSetting& setting, const Model& model) {
+    double score = estimation::restricted_likelihood(design.equations(model.members),
+                                                     model.variances, setting.noise) -
+                   setting.empty;
+    for (const std::size_t m : model.members) score += design.group(m).log_prior;
+    return score;
+}
+
 bool named(GroupKind kind) {
     return kind == GroupKind::textbook || kind == GroupKind::periodic;
 }
@@ -103,6 +148,8 @@ Model paired(Design& design, const SearchSetting& setting, Model model) {
         for (const Model& start : starts) {
             const std::vector<Offer> best = offers(design, start, named);
             if (best.empty()) break;
+            if (rough_score(design, setting, with(start, best.front())) < model.score - tuning_gain)
+                continue;
             Model trial = tuned(design, setting, with(start, best.front()), 2);
             if (trial.score < model.score + better) continue;
             model = std::move(trial);
@@ -121,7 +168,7 @@ double Offer::explained() const {
 }
 
 SearchSetting search_setting(Design& design, const estimation::NoisePrior& noise) {
-    SearchSetting setting{noise, 0.0};
+    SearchSetting setting{noise, 0.0, {}};
     const estimation::GroupEquations e = design.equations({});
     setting.empty = estimation::restricted_likelihood(
         e, estimation::maximise_likelihood(e, {{}, std::exp(noise.log_mean)}, noise, 1), noise);
@@ -148,15 +195,24 @@ bool same_cause(const ColumnGroup& a, const ColumnGroup& b) {
 std::vector<Offer> offers(Design& design, const Model& model,
                           const std::function<bool(GroupKind)>& takes) {
     const estimation::GivenMembers given(design.equations(model.members), model.variances);
-    std::vector<Offer> list;
+    std::vector<std::size_t> offered;
     for (std::size_t k = 0; k < design.groups().size(); ++k) {
         const auto& entry = design.groups()[k];
         if (!entry.visible() || in(model, k) || (takes && !takes(entry.group.kind))) continue;
-        if (std::any_of(model.members.begin(), model.members.end(),
-                        [&](std::size_t m) { return same_cause(design.group(m), entry.group); }))
-            continue;
+        if (std::none_of(model.members.begin(), model.members.end(),
+                         [&](std::size_t m) { return same_cause(design.group(m), entry.group); }))
+            offered.push_back(k);
+    }
+    keep_best(offered, design, model, given);
+    const Eigen::MatrixXd taken = given.taken(design.cross(model.members, offered));
+    std::vector<Offer> list;
+    Eigen::Index at = 0;
+    for (const std::size_t k : offered) {
+        const auto& entry = design.groups()[k];
+        const Eigen::Index count = entry.group.columns();
         list.push_back(offer_of(
-            design, k, given.leave(design.cross(model.members, k), entry.gram, entry.product)));
+            design, k, given.leave_beside(taken.middleCols(at, count), entry.gram, entry.product)));
+        at += count;
     }
     std::stable_sort(list.begin(), list.end(),
                      [](const Offer& a, const Offer& b) { return a.value > b.value; });
@@ -223,7 +279,7 @@ Eigen::MatrixXd contributions(Design& design, const Model& model, const Fit& fit
     Eigen::MatrixXd parts(design.data().size(), static_cast<Eigen::Index>(model.members.size()));
     for (std::size_t k = 0; k < model.members.size(); ++k)
         parts.col(static_cast<Eigen::Index>(k)) =
-            design.columns(model.members[k]) * fit.mean.segment(fit.first[k], fit.size[k]);
+            design.combined(model.members[k], fit.mean.segment(fit.first[k], fit.size[k]));
     return design.projection().beside(parts);
 }
 

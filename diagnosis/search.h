@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "diagnosis/design.h"
@@ -19,6 +20,9 @@ struct Model {
 struct SearchSetting {
     estimation::NoisePrior noise;
     double empty = 0.0;  ///< likelihood without members, its own noise fitted
+    /// Better keys for a member that has just joined, as another group; nothing where there are
+    /// none. What a rough key leaves would call for members that are not there.
+    std::function<std::optional<std::size_t>(const Model& model, std::size_t position)> refine = {};
 };
 SearchSetting search_setting(Design& design, const estimation::NoisePrior& noise);
 Model empty_model(Design& design, const SearchSetting& setting);

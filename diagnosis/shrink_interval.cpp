@@ -94,43 +94,43 @@ std::vector<std::vector<Eigen::Index>> stretches_of(const std::vector<NoiseBlock
     return stretches;
 }
 
-ShrinkDraws::ShrinkDraws(const Design& design, const FreshReadings& fresh,
+ShrinkDraws::ShrinkDraws(Design& design, const FreshReadings& fresh,
                          std::vector<PossibleTruth> truths, DrawSetting setting)
     : design_(design), truths_(std::move(truths)), setting_(std::move(setting)) {
     setting_.independent = std::max(1.0, setting_.independent);
     take_places(fresh);
     draw_all();
-    for (const Eigen::MatrixXd& square : square_)
-        moved_.push_back((square * machines_).cwiseProduct(machines_).colwise().sum().transpose());
 }
 
 void ShrinkDraws::draw_all() {
     const double real = chance_of_remainder(setting_.missed);
-    std::vector<Solution> wide, narrow;
-    for (const PossibleTruth& t : truths_) {
-        wide.push_back(solved(design_, t.model));
-        narrow.push_back(solved(design_, sparse(t.model)));
-    }
+    std::map<std::pair<std::size_t, bool>, Solution> solutions;  // of truth, sparse; when drawn
+    const auto solution_of = [&](std::size_t truth, bool narrow) -> const Solution& {
+        const auto [at, is_new] = solutions.try_emplace({truth, narrow});
+        const Model& model = truths_[truth].model;
+        if (is_new) at->second = solved(design_, narrow ? sparse(model) : model);
+        return at->second;
+    };
     // What the set-up leaves open here (cup and pivot shifted together) the next one fits anew.
     const Eigen::MatrixXd open = open_set_up(design_);
     SeededNoise random(setting_.seed);
-    const auto count = static_cast<Eigen::Index>(square_.size());
-    machines_.resize(places_, draw_count);
+    const auto count = static_cast<Eigen::Index>(rows_.size());
+    Eigen::MatrixXd machines(places_, draw_count);
     weights_.resize(count, draw_count);
     for (Eigen::Index d = 0; d < draw_count; ++d) {
         const std::size_t k = pick(truths_, random.uniform());
         const double noise_factor = std::max(0.2, 1.0 + setting_.doubt * random.normal());
-        Eigen::VectorXd z(wide[k].mean.size());
+        const Solution& wide = solution_of(k, false);
+        Eigen::VectorXd z(wide.mean.size());
         for (double& v : z) v = std::sqrt(noise_factor) * random.normal();
         Draw draw;
-        const Solution& around = random.uniform() < sparse_chance ? narrow[k] : wide[k];
-        Eigen::VectorXd off = around.spread(z);
-        off.head(around.known) -= open * (open.transpose() * off.head(around.known));
-        machines_.col(d) = over_places(truths_[k].model, wide[k].mean + off);
+        Eigen::VectorXd off = solution_of(k, random.uniform() < sparse_chance).spread(z);
+        off.head(wide.known) -= open * (open.transpose() * off.head(wide.known));
+        machines.col(d) = over_places(truths_[k].model, wide.mean + off);
         double rows = 0.0;
         for (Eigen::Index b = 0; b < count; ++b) {
             weights_(b, d) = stretch_weight(random);
-            rows += weights_(b, d) * rows_[static_cast<std::size_t>(b)];
+            rows += weights_(b, d) * static_cast<double>(rows_[static_cast<std::size_t>(b)]);
         }
         const double remainder = rows * remainder_per_row(setting_.missed, noise_factor, random);
         if (random.uniform() < real) draw.remainder = std::max(0.0, remainder);
@@ -142,6 +142,7 @@ void ShrinkDraws::draw_all() {
         draw.along_after = random.normal();
         draws_.push_back(draw);
     }
+    read_.noalias() = columns_ * machines;
 }
 
 /// A mean square as noisy readings show it once the expected noise is taken off.
@@ -150,21 +151,22 @@ double ShrinkDraws::as_read(double square, const Draw& draw, double along) const
                              2.0 * std::sqrt(square * draw.noise / setting_.independent) * along);
 }
 
-/// Squares of what a prediction x misses of each drawn machine, weighted over the stretches:
-/// (m - x)' S (m - x) with the part of m alone known already.
+/// Squares of what a prediction x misses of each drawn machine, weighted over the stretches.
 std::vector<double> ShrinkDraws::squares_off(const Eigen::VectorXd& x) const {
-    Eigen::VectorXd sum = Eigen::VectorXd::Zero(draw_count);
-    for (std::size_t b = 0; b < square_.size(); ++b) {
-        const Eigen::VectorXd turned = square_[b] * x;
-        const Eigen::VectorXd off = moved_[b] - 2.0 * machines_.transpose() * turned +
-                                    Eigen::VectorXd::Constant(draw_count, turned.dot(x));
-        sum +=
-            off.cwiseMax(0.0).cwiseProduct(weights_.row(static_cast<Eigen::Index>(b)).transpose());
+    const Eigen::VectorXd said = columns_ * x;
+    std::vector<double> sums;
+    for (Eigen::Index d = 0; d < draw_count; ++d) {
+        const Eigen::VectorXd square = (read_.col(d) - said).array().square();
+        double sum = 0.0;
+        Eigen::Index at = 0;
+        for (std::size_t b = 0; b < rows_.size(); at += rows_[b++])
+            sum += weights_(static_cast<Eigen::Index>(b), d) * square.segment(at, rows_[b]).sum();
+        sums.push_back(sum);
     }
-    return {sum.begin(), sum.end()};
+    return sums;
 }
 
-/// The columns of all truths once, and their squares over each stretch of fresh readings.
+/// The columns of all truths once, in the order of the stretches of fresh readings.
 void ShrinkDraws::take_places(const FreshReadings& fresh) {
     places_ = fresh.base().cols();
     for (const PossibleTruth& t : truths_)
@@ -175,11 +177,12 @@ void ShrinkDraws::take_places(const FreshReadings& fresh) {
     all.leftCols(fresh.base().cols()) = fresh.base();
     for (const auto& [group, at] : place_)
         all.middleCols(at, design_.group(group).columns()) = fresh.columns(design_.group(group));
+    std::vector<Eigen::Index> order;
     for (const auto& rows : stretches_of(fresh.blocks())) {
-        const Eigen::MatrixXd a = all(rows, Eigen::all);
-        square_.push_back(a.transpose() * a);
-        rows_.push_back(static_cast<double>(rows.size()));
+        order.insert(order.end(), rows.begin(), rows.end());
+        rows_.push_back(static_cast<Eigen::Index>(rows.size()));
     }
+    columns_ = all(order, Eigen::all);
 }
 
 Eigen::VectorXd ShrinkDraws::over_places(const Model& model, const Eigen::VectorXd& x) const {

@@ -47,7 +47,7 @@ struct DrawSetting {
 /// something the catalogue lacks: a part of what they predict is wrong.
 class ShrinkDraws {
   public:
-    ShrinkDraws(const Design& design, const FreshReadings& fresh, std::vector<PossibleTruth> truths,
+    ShrinkDraws(Design& design, const FreshReadings& fresh, std::vector<PossibleTruth> truths,
                 DrawSetting setting);
 
     /// 95 % interval of the shrink that `model` gives against the set-up alone.
@@ -68,17 +68,16 @@ class ShrinkDraws {
     void draw_all();
     Eigen::VectorXd over_places(const Model& model, const Eigen::VectorXd& x) const;
 
-    const Design& design_;
+    Design& design_;
     std::vector<PossibleTruth> truths_;
     DrawSetting setting_;
     std::map<std::size_t, Eigen::Index> place_;  ///< first column of each group; set-up is first
     Eigen::Index places_ = 0;
-    std::vector<Eigen::MatrixXd> square_;  ///< of those columns, by stretch of fresh readings
-    std::vector<double> rows_;             ///< of those stretches
+    Eigen::MatrixXd columns_;  ///< of all places on the fresh readings, stretch after stretch
+    std::vector<Eigen::Index> rows_;  ///< of the stretches
     std::vector<Draw> draws_;
-    Eigen::MatrixXd machines_;            ///< a column a draw, over the places
-    Eigen::MatrixXd weights_;             ///< of the stretches, a column a draw
-    std::vector<Eigen::VectorXd> moved_;  ///< square of each draw's own readings, by stretch
+    Eigen::MatrixXd read_;     ///< what each drawn machine reads there, a column a draw
+    Eigen::MatrixXd weights_;  ///< of the stretches, a column a draw
 };
 
 /// Rows of stretches: every pass of the ballbar; the poses of the probe, in order, in parts.

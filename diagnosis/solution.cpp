@@ -64,29 +64,25 @@ Eigen::MatrixXd Solution::covariance() const {
     return half.transpose() * half;
 }
 
-Solution solved(const Design& design, const Model& model) {
+Solution solved(Design& design, const Model& model) {
     Solution s;
     s.known = design.known().cols();
-    Eigen::Index count = s.known;
-    for (const std::size_t m : model.members) {
-        s.first.push_back(count);
-        s.size.push_back(design.group(m).columns());
-        count += s.size.back();
-    }
-    Eigen::MatrixXd all(design.data().size(), count);
-    all.leftCols(s.known) = design.known();
-    Eigen::VectorXd precision(count);
+    Design::Normal normal = design.normal(model.members);
+    Eigen::VectorXd precision(normal.product.size());
     precision.head(s.known).setConstant(1.0 / (set_up_range * set_up_range));
+    Eigen::Index count = s.known;
     for (std::size_t k = 0; k < model.members.size(); ++k) {
-        all.middleCols(s.first[k], s.size[k]) = design.columns(model.members[k]);
+        s.first.push_back(count);
+        s.size.push_back(design.group(model.members[k]).columns());
         const double tau = std::max(1e-9, model.variances.tau[k]);
-        precision.segment(s.first[k], s.size[k]).setConstant(1.0 / (tau * tau));
+        precision.segment(count, s.size[k]).setConstant(1.0 / (tau * tau));
+        count += s.size[k];
     }
     const double noise = model.variances.nu * model.variances.nu;
-    Eigen::MatrixXd information = all.transpose() * all / noise;
-    information.diagonal() += precision;
-    const Eigen::LLT<Eigen::MatrixXd> llt(information);
-    s.mean = llt.solve(all.transpose() * design.data() / noise);
+    normal.gram /= noise;
+    normal.gram.diagonal() += precision;
+    const Eigen::LLT<Eigen::MatrixXd> llt(normal.gram);
+    s.mean = llt.solve(normal.product / noise);
     s.factor = llt.matrixL();
     return s;
 }

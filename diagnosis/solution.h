@@ -16,7 +16,7 @@ struct Solution {
     Eigen::VectorXd spread(const Eigen::VectorXd& z) const;
     Eigen::MatrixXd covariance() const;
 };
-Solution solved(const Design& design, const Model& model);
+Solution solved(Design& design, const Model& model);
 
 /// Readings less set-up and causes, mm; zeros of tests and drivers stay in.
 Eigen::VectorXd left_mm(const Prepared& prepared, const Design& design, const Model& model,

@@ -36,7 +36,7 @@ std::vector<bool> large_zeros(Design& design, const Model& model) {
 }
 
 /// Does a table predict at places of its axis that were left out?
-bool holds_between(const Design& design, const Prepared& prepared, const Model& model,
+bool holds_between(Design& design, const Prepared& prepared, const Model& model,
                    std::size_t position, const std::vector<bool>& used) {
     const ColumnGroup& group = design.group(model.members[position]);
     const LeftOut left(design, model, place_folds(prepared.replay, group.table), used);
@@ -119,28 +119,33 @@ Verdict verdict_of(const Judgement& j, const std::vector<Claim>& claims) {
 Model without_idle_members(Design& design, const SearchSetting& setting, const Prepared& prepared,
                            Model model, const std::vector<bool>& used) {
     constexpr double least_t = 1.0;
+    if (model.members.empty()) return model;
+    LeftOut left(design, model, prepared.folds, used);
+    const std::vector<std::size_t> first = model.members;
+    std::vector<bool> fitted(first.size(), true);
+    auto predicting = marked(design, model,
+                             [](GroupKind kind, std::size_t) { return kind != GroupKind::driver; });
     for (bool again = true; again && !model.members.empty();) {
         again = false;
-        const LeftOut left(design, model, prepared.folds, used);
-        const std::vector<bool> all(model.members.size(), true);
-        const auto predicting = marked(
-            design, model, [](GroupKind kind, std::size_t) { return kind != GroupKind::driver; });
-        const BlockLoss with = left.loss(all, predicting);
+        const BlockLoss with = left.loss(fitted, predicting);
         double weakest = least_t;
-        std::size_t position = 0;
-        for (std::size_t k = 0; k < model.members.size(); ++k) {
-            if (!is_cause(kind_of(design, model, k))) continue;
-            std::vector<bool> rest = all;
+        std::size_t member = 0;
+        for (std::size_t k = 0; k < first.size(); ++k) {
+            if (!fitted[k] || !is_cause(design.group(first[k]).kind)) continue;
+            std::vector<bool> rest = fitted;
             rest[k] = false;
-            std::vector<bool> rest_predicting = predicting;
-            rest_predicting[k] = false;
-            const double t = saving_of(left.loss(rest, rest_predicting), with).t;
+            const double t = saving_of(left.loss(rest, predicting), with).t;
             if (t >= weakest) continue;
             weakest = t;
-            position = k;
+            member = k;
             again = true;
         }
-        if (again) model = tuned(design, setting, without(model, position), 2);
+        if (!again) break;
+        const auto position =
+            std::count(fitted.begin(), fitted.begin() + static_cast<std::ptrdiff_t>(member), true);
+        model = tuned(design, setting, without(model, static_cast<std::size_t>(position)), 2);
+        fitted[member] = false;
+        left.retune(fitted, model.variances);
     }
     return model;
 }

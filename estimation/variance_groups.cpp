@@ -12,40 +12,34 @@ namespace {
 constexpr int sizes = 26;
 constexpr double smallest = 0.01, largest = 1000.0;
 
-/// A group in the eigenvectors of its information.
-struct Spectrum {
-    Eigen::ArrayXd value, product_square;
-
-    explicit Spectrum(const GroupInformation& group) {
-        if (group.product.size() == 1) {
-            value = group.information.diagonal().array().max(0.0);
-            product_square = group.product.array().square();
-            return;
-        }
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(group.information);
-        value = eigen.eigenvalues().array().max(0.0);
-        product_square = (eigen.eigenvectors().transpose() * group.product).array().square();
-    }
-    double gain(double tau) const {
-        const Eigen::ArrayXd grown = 1.0 + tau * tau * value;
-        return 0.5 * (tau * tau * product_square / grown - grown.log()).sum();
-    }
-};
-
 double size_at(double step) {
     return smallest * std::pow(largest / smallest, step / (sizes - 1));
 }
 
-/// The best size between the neighbours of the grid's best, by golden section in its logarithm.
-double refined(const Spectrum& spectrum, int at) {
-    constexpr double golden = 0.6180339887498949;
-    double low = at - 1.0, high = at + 1.0;
-    for (int k = 0; k < 9; ++k) {
-        const double a = high - golden * (high - low), b = low + golden * (high - low);
-        (spectrum.gain(size_at(a)) > spectrum.gain(size_at(b)) ? high : low) =
-            spectrum.gain(size_at(a)) > spectrum.gain(size_at(b)) ? b : a;
+/// A reduced group with one product: its gain by size.
+struct Chain {
+    const ReducedGroup& group;
+    Eigen::VectorXd turned;
+    double factor;
+    double gain(double tau) const { return group.gain(turned, factor, tau); }
+};
+
+struct Peak {
+    double step, gain;
+};
+
+/// The best size near the grid's best: two parabolas in the logarithm of the size.
+Peak refined(const Chain& chain, Peak at) {
+    for (const double h : {1.0, 0.25}) {
+        const double left = chain.gain(size_at(at.step - h)),
+                     right = chain.gain(size_at(at.step + h));
+        const double bend = left - 2.0 * at.gain + right;
+        if (bend >= 0.0) break;
+        const double step = at.step + std::clamp(0.5 * h * (left - right) / bend, -h, h);
+        const double gain = chain.gain(size_at(step));
+        if (gain > at.gain) at = {step, gain};
     }
-    return size_at(0.5 * (low + high));
+    return at;
 }
 
 Eigen::VectorXd by_column(const GroupEquations& equations, const Variances& variances) {
@@ -83,23 +77,78 @@ double best_noise(double square, double freedom, const NoisePrior& prior) {
 }
 
 /// The noise that the remainder asks for, all variances of groups as they are.
-double remaining_noise(const GroupEquations& equations, const Variances& variances,
+double remaining_noise(const GroupEquations& equations, const GivenMembers& given,
                        const NoisePrior& prior) {
     if (equations.product.size() == 0) return best_noise(equations.square, equations.rows, prior);
-    const GivenMembers given(equations, variances);
-    const Eigen::VectorXd tau = by_column(equations, variances), mean = given.mean();
-    const Eigen::MatrixXd half = given.half() * tau.cwiseInverse().asDiagonal();
-    const double used = static_cast<double>(tau.size()) - half.squaredNorm();
+    const Eigen::VectorXd mean = given.mean();
     const double left =
         equations.square - 2.0 * mean.dot(equations.product) + mean.dot(equations.gram * mean);
-    return best_noise(std::max(0.0, left), equations.rows - used, prior);
+    return best_noise(std::max(0.0, left), equations.rows - given.freedom_used(), prior);
 }
 
-Variances one_sweep(const GroupEquations& equations, Variances variances, const NoisePrior& prior) {
+double likelihood_of(const GroupEquations& equations, const GivenMembers& given, double nu,
+                     const NoisePrior& prior) {
+    const double nu2 = nu * nu, off = (std::log(nu) - prior.log_mean) / prior.spread;
+    return -0.5 * (equations.rows * std::log(nu2) + given.log_determinant() +
+                   (equations.square - given.fitted() / nu2) / nu2 - equations.square) -
+           0.5 * off * off;
+}
+
+/// Variances with the factorisation that belongs to them.
+struct Step {
+    Variances variances;
+    GivenMembers given;
+    double likelihood;
+    Step(const GroupEquations& equations, Variances v, const NoisePrior& prior)
+        : variances(std::move(v)),
+          given(equations, variances),
+          likelihood(likelihood_of(equations, given, variances.nu, prior)) {}
+};
+
+std::vector<GroupInformation> each_beside(const GroupEquations& equations,
+                                          const std::vector<double>& tau, const GivenMembers& all) {
+    std::vector<GroupInformation> list;
+    const Eigen::VectorXd mean = all.mean();
+    for (std::size_t g = 0; g < equations.groups(); ++g) {
+        const Eigen::Index first = equations.first(g), count = equations.size[g];
+        // R is lower triangular: rows above the group's first are zero in its columns.
+        const auto own = all.half().block(first, first, all.half().rows() - first, count);
+        const Eigen::LLT<Eigen::MatrixXd> covariance(own.transpose() * own);
+        GroupInformation alone;
+        alone.information = covariance.solve(Eigen::MatrixXd::Identity(count, count));
+        alone.product = covariance.solve(mean.segment(first, count));
+        alone.information.diagonal().array() -= 1.0 / (tau[g] * tau[g]);
+        list.push_back(std::move(alone));
+    }
+    return list;
+}
+
+Variances one_sweep(const GroupEquations& equations, const Step& from, const NoisePrior& prior) {
+    Variances next = from.variances;
+    const auto groups = each_beside(equations, from.variances.tau, from.given);
+    for (std::size_t g = 0; g < groups.size(); ++g) next.tau[g] = group_gain(groups[g]).tau;
+    next.nu = remaining_noise(equations, GivenMembers(equations, next), prior);
+    return next;
+}
+
+/// L becomes L^-1, half by half: the products are products of whole matrices.
+void invert_lower(Eigen::Ref<Eigen::MatrixXd> l) {
+    constexpr Eigen::Index small = 24;
+    const Eigen::Index n = l.rows(), top = n / 2, rest = n - top;
+    if (n <= small) {
+        const Eigen::MatrixXd inverse =
+            l.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(n, n));
+        l = inverse;
+        return;
+    }
+    invert_lower(l.topLeftCorner(top, top));
+    invert_lower(l.bottomRightCorner(rest, rest));
+    const Eigen::MatrixXd corner = l.bottomLeftCorner(rest, top) * l.topLeftCorner(top, top);
+    l.bottomLeftCorner(rest, top).noalias() = -l.bottomRightCorner(rest, rest) * corner;
+}
+
+Variances not_absent(Variances variances) {
     for (double& tau : variances.tau) tau = std::max(tau, least_size);
-    const std::vector<GroupInformation> groups = each_beside_others(equations, variances);
-    for (std::size_t g = 0; g < groups.size(); ++g) variances.tau[g] = group_gain(groups[g]).tau;
-    variances.nu = remaining_noise(equations, variances, prior);
     return variances;
 }
 
@@ -118,110 +167,122 @@ Eigen::Index GroupEquations::first(std::size_t group) const {
 
 double restricted_likelihood(const GroupEquations& equations, const Variances& variances,
                              const NoisePrior& prior) {
-    const double nu2 = variances.nu * variances.nu;
-    double log_det = 0.0, fitted = 0.0;
-    if (equations.product.size() > 0) {
-        const Eigen::VectorXd tau = by_column(equations, variances);
-        const Eigen::LLT<Eigen::MatrixXd> llt(scaled_gram(equations, tau, variances.nu));
-        log_det = 2.0 * llt.matrixLLT().diagonal().array().log().sum();
-        fitted = llt.matrixL().solve(tau.cwiseProduct(equations.product)).squaredNorm() / nu2;
-    }
-    const double off = (std::log(variances.nu) - prior.log_mean) / prior.spread;
-    return -0.5 * (equations.rows * std::log(nu2) + log_det + (equations.square - fitted) / nu2 -
-                   equations.square) -
-           0.5 * off * off;
+    return likelihood_of(equations, GivenMembers(equations, variances), variances.nu, prior);
 }
 
 GivenMembers::GivenMembers(const GroupEquations& equations, const Variances& variances)
-    : tau_(by_column(equations, variances)),
-      nu_(variances.nu),
-      factor_(scaled_gram(equations, tau_, variances.nu)),
-      z_(factor_.matrixL().solve(tau_.cwiseProduct(equations.product))) {}
+    : nu_(variances.nu) {
+    if (equations.product.size() == 0) return;
+    const Eigen::VectorXd tau = by_column(equations, variances);
+    const Eigen::LLT<Eigen::MatrixXd> factor(scaled_gram(equations, tau, nu_));
+    half_ = factor.matrixL();
+    log_determinant_ = 2.0 * half_.diagonal().array().log().sum();
+    invert_lower(half_);
+    used_ = static_cast<double>(tau.size()) - half_.squaredNorm();
+    half_ = half_ * tau.asDiagonal();
+    z_.noalias() = half_.triangularView<Eigen::Lower>() * equations.product;
+}
 
-GroupInformation GivenMembers::leave(const Eigen::MatrixXd& cross, const Eigen::MatrixXd& gram,
-                                     const Eigen::VectorXd& product) const {
+Eigen::MatrixXd GivenMembers::taken(const Eigen::MatrixXd& cross) const {
+    if (half_.size() == 0) return Eigen::MatrixXd(0, cross.cols());
+    Eigen::MatrixXd t = half_.triangularView<Eigen::Lower>() * cross;
+    return t / (nu_ * nu_);
+}
+
+GroupInformation GivenMembers::leave_beside(const Eigen::Ref<const Eigen::MatrixXd>& taken,
+                                            const Eigen::MatrixXd& gram,
+                                            const Eigen::VectorXd& product) const {
     const double nu2 = nu_ * nu_;
     GroupInformation left{gram / nu2, product / nu2};
-    if (tau_.size() == 0) return left;
-    const Eigen::MatrixXd t = factor_.matrixL().solve(tau_.asDiagonal() * cross) / nu2;
-    left.information.noalias() -= t.transpose() * t;
-    left.product.noalias() -= t.transpose() * z_ / nu2;
+    if (half_.size() == 0) return left;
+    left.information.noalias() -= taken.transpose() * taken;
+    left.product.noalias() -= taken.transpose() * z_ / nu2;
     return left;
 }
 
-Eigen::VectorXd GivenMembers::mean() const {
-    return tau_.cwiseProduct(factor_.matrixL().transpose().solve(z_)) / (nu_ * nu_);
+GroupInformation GivenMembers::leave(const Eigen::MatrixXd& cross, const Eigen::MatrixXd& gram,
+                                     const Eigen::VectorXd& product) const {
+    return leave_beside(taken(cross), gram, product);
 }
 
-Eigen::MatrixXd GivenMembers::half() const {
-    return factor_.matrixL().solve(Eigen::MatrixXd(tau_.asDiagonal()));
+Eigen::VectorXd GivenMembers::mean() const {
+    if (half_.size() == 0) return {};
+    return half_.triangularView<Eigen::Lower>().transpose() * z_ / (nu_ * nu_);
 }
 
 Eigen::MatrixXd GivenMembers::covariance() const {
-    const Eigen::MatrixXd r = half();
-    return r.transpose() * r;
+    return half_.transpose() * half_;
+}
+
+ReducedGroup::ReducedGroup(const Eigen::MatrixXd& information) : diagonal_(information.diagonal()) {
+    if (information.rows() < 2) return;
+    const Eigen::Tridiagonalization<Eigen::MatrixXd> reduced(information);
+    diagonal_ = reduced.diagonal();
+    beside_ = reduced.subDiagonal();
+    basis_ = reduced.matrixQ();
+}
+
+Eigen::VectorXd ReducedGroup::turned(Eigen::VectorXd product) const {
+    if (basis_.size() == 0) return product;
+    return basis_.transpose() * product;
+}
+
+double ReducedGroup::gain(const Eigen::VectorXd& turned, double factor, double tau) const {
+    const double t2 = tau * tau, own = t2 * factor;
+    double quadratic = 0.0, log_det = 0.0, product = 1.0, pivot = 1.0, forward = 0.0;
+    for (Eigen::Index i = 0; i < diagonal_.size(); ++i) {
+        const double side = i > 0 ? own * beside_(i - 1) : 0.0, part = side / pivot;
+        forward = turned(i) - part * forward;
+        // The exact pivots of I + something positive are never below 1.
+        pivot = std::max(1.0, 1.0 + own * diagonal_(i) - part * side);
+        quadratic += forward * forward / pivot;
+        product *= pivot;
+        if (product < 1e150) continue;
+        log_det += std::log(product);
+        product = 1.0;
+    }
+    return 0.5 * (t2 * quadratic - log_det - std::log(product));
 }
 
 double gain_at(const GroupInformation& group, double tau) {
-    return Spectrum(group).gain(tau);
+    const ReducedGroup reduced(group.information);
+    return reduced.gain(reduced.turned(group.product), 1.0, tau);
 }
 
 GroupGain group_gain(const GroupInformation& group) {
-    const Spectrum spectrum(group);
+    return group_gain(ReducedGroup(group.information), group.product, 1.0);
+}
+
+GroupGain group_gain(const ReducedGroup& group, const Eigen::VectorXd& product, double factor) {
+    const Chain chain{group, group.turned(product), factor};
     std::array<double, sizes> gain{};
-    int best = 0;
-    for (int k = 0; k < sizes; ++k) {
-        gain[static_cast<std::size_t>(k)] = spectrum.gain(size_at(k));
-        if (gain[static_cast<std::size_t>(k)] > gain[static_cast<std::size_t>(best)]) best = k;
-    }
-    GroupGain result;
-    const double most = gain[static_cast<std::size_t>(best)];
+    for (int k = 0; k < sizes; ++k) gain[static_cast<std::size_t>(k)] = chain.gain(size_at(k));
+    const auto best = std::max_element(gain.begin(), gain.end());
     double sum = 0.0;
-    for (const double g : gain) sum += std::exp(g - most);
-    result.mean = most + std::log(sum / sizes);
-    result.tau = refined(spectrum, best);
-    result.best = spectrum.gain(result.tau);
-    return result;
+    for (const double g : gain) sum += std::exp(g - *best);
+    const Peak peak = refined(chain, {static_cast<double>(best - gain.begin()), *best});
+    return {*best + std::log(sum / sizes), peak.gain, size_at(peak.step)};
 }
 
 std::vector<GroupInformation> each_beside_others(const GroupEquations& equations,
                                                  const Variances& variances) {
-    std::vector<GroupInformation> list;
-    if (equations.groups() == 0) return list;
-    Variances given = variances;
-    for (double& tau : given.tau) tau = std::max(tau, least_size);
-    const GivenMembers all(equations, given);
-    const Eigen::MatrixXd half = all.half();
-    const Eigen::VectorXd mean = all.mean();
-    for (std::size_t g = 0; g < equations.groups(); ++g) {
-        const Eigen::Index first = equations.first(g), count = equations.size[g];
-        const auto own = half.middleCols(first, count);
-        const Eigen::LLT<Eigen::MatrixXd> covariance(own.transpose() * own);
-        GroupInformation alone;
-        alone.information = covariance.solve(Eigen::MatrixXd::Identity(count, count));
-        alone.product = covariance.solve(mean.segment(first, count));
-        alone.information.diagonal().array() -= 1.0 / (given.tau[g] * given.tau[g]);
-        list.push_back(std::move(alone));
-    }
-    return list;
+    const Variances given = not_absent(variances);
+    return each_beside(equations, given.tau, GivenMembers(equations, given));
 }
 
 Variances maximise_likelihood(const GroupEquations& equations, Variances start,
                               const NoisePrior& prior, int sweeps) {
-    double before = restricted_likelihood(equations, start, prior);
+    Step now(equations, not_absent(std::move(start)), prior);
     for (int k = 0; k < sweeps; ++k) {
-        Variances next = one_sweep(equations, start, prior);
-        double now = restricted_likelihood(equations, next, prior);
-        for (int halved = 0; now < before && halved < 4; ++halved) {
-            next = between(start, std::move(next));
-            now = restricted_likelihood(equations, next, prior);
-        }
-        if (now < before) break;
-        start = std::move(next);
-        if (now - before < 0.01) break;
-        before = now;
+        Step next(equations, one_sweep(equations, now, prior), prior);
+        for (int halved = 0; next.likelihood < now.likelihood && halved < 4; ++halved)
+            next = Step(equations, between(now.variances, std::move(next.variances)), prior);
+        if (next.likelihood < now.likelihood) break;
+        const double gained = next.likelihood - now.likelihood;
+        now = std::move(next);
+        if (gained < 0.01) break;
     }
-    return start;
+    return now.variances;
 }
 
 }  // namespace trunnion::estimation

@@ -52,7 +52,8 @@ struct GroupInformation {
     Eigen::VectorXd product;      ///< k
 };
 
-/// Members with their variances, ready to say what they leave of another group.
+/// Members with their variances, ready to say what they leave of another group. One factorisation
+/// L L' = I + D G D / nu^2 and its inverse serve all questions.
 class GivenMembers {
   public:
     GivenMembers(const GroupEquations& equations, const Variances& variances);
@@ -60,15 +61,39 @@ class GivenMembers {
     /// `cross` = A_J'A_g (m x k), `gram` = A_g'A_g, `product` = A_g'y, all beside N.
     GroupInformation leave(const Eigen::MatrixXd& cross, const Eigen::MatrixXd& gram,
                            const Eigen::VectorXd& product) const;
-    Eigen::VectorXd mean() const;        ///< of b, m entries
-    Eigen::MatrixXd covariance() const;  ///< of b, m x m: D (I + D G D / nu^2)^-1 D
-    Eigen::MatrixXd half() const;        ///< R with R'R = covariance
+    /// The same in two steps, of which the first may serve many groups side by side:
+    /// L^-1 D cross / nu^2.
+    Eigen::MatrixXd taken(const Eigen::MatrixXd& cross) const;
+    GroupInformation leave_beside(const Eigen::Ref<const Eigen::MatrixXd>& taken,
+                                  const Eigen::MatrixXd& gram,
+                                  const Eigen::VectorXd& product) const;
+    Eigen::VectorXd mean() const;                                ///< of b, m entries
+    Eigen::MatrixXd covariance() const;                          ///< of b: D (L L')^-1 D
+    const Eigen::MatrixXd& half() const { return half_; }        ///< R = L^-1 D: R'R = covariance
+    double log_determinant() const { return log_determinant_; }  ///< of I + D G D / nu^2
+    double fitted() const { return z_.squaredNorm(); }           ///< z'z
+    double freedom_used() const { return used_; }                ///< m - trace (L L')^-1
 
   private:
-    Eigen::VectorXd tau_;  ///< of each column
     double nu_;
-    Eigen::LLT<Eigen::MatrixXd> factor_;  ///< of I + D G D / nu^2
+    double log_determinant_ = 0.0, used_ = 0.0;
+    Eigen::MatrixXd half_;
     Eigen::VectorXd z_;
+};
+
+/// The information of a group after Householder's reduction: tridiagonal in a basis of its own, so
+/// that the likelihood at any size costs one pass along the diagonal. May stand for many products.
+class ReducedGroup {
+  public:
+    explicit ReducedGroup(const Eigen::MatrixXd& information);
+    /// A product in that basis.
+    Eigen::VectorXd turned(Eigen::VectorXd product) const;
+    /// gain_at of `factor` times the information.
+    double gain(const Eigen::VectorXd& turned, double factor, double tau) const;
+
+  private:
+    Eigen::VectorXd diagonal_, beside_;
+    Eigen::MatrixXd basis_;
 };
 
 /// What one group adds to the log likelihood.
@@ -80,6 +105,9 @@ struct GroupGain {
 /// At one size: sum_i -1/2 ln(1 + tau^2 l_i) + 1/2 tau^2 q_i^2 / (1 + tau^2 l_i).
 double gain_at(const GroupInformation& group, double tau);
 GroupGain group_gain(const GroupInformation& group);
+/// The same for `factor` times a reduced information. What members take of the information makes
+/// the true gain larger: with all of it this is the least that the group can add.
+GroupGain group_gain(const ReducedGroup& group, const Eigen::VectorXd& product, double factor);
 
 /// Each group beside all the others at their variances, from one factorisation: with P the block
 /// of the covariance that belongs to group g, its information alone is P^-1 - I / tau_g^2.

@@ -199,8 +199,7 @@ void go_the_whole_way(const Bench& bench, const std::string& injection, const st
 
 }  // namespace
 
-TEST_CASE("the verdict is the same without the plan of the next measurement",
-          "[.known][diagnosis][next]") {
+TEST_CASE("the verdict is the same without the plan of the next measurement", "[diagnosis][next]") {
     const Bench bench(campaign::bc_setup(), false);
     const setup::Setup truth = campaign::with_effect(bench.real, "ZX.squareness: angle_rad=6e-5");
     const records::ReadingTable table = campaign::measured(truth, bench.table, 17);
@@ -213,7 +212,7 @@ TEST_CASE("the verdict is the same without the plan of the next measurement",
     options.plan_on = [&] { return ++asked < 3; };
     const diagnosis::Diagnosis cut = diagnosis::diagnose(bench.setup, table, options);
     CHECK(asked == 3);
-    CHECK(stages.size() == 5);
+    CHECK(stages.back().starts_with("the next measurement"));
     CHECK(cut.next.empty());
     CHECK(cut.verdict == whole.verdict);
     REQUIRE(cut.causes.size() == whole.causes.size());

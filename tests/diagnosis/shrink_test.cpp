@@ -135,8 +135,7 @@ TEST_CASE("held-out readings: the interval knows that their noise is a sample", 
     CHECK(inside >= 17);
 }
 
-TEST_CASE("a slip between two readings is said to lie in the middle between them",
-          "[.known][diagnosis]") {
+TEST_CASE("a slip between two readings is said to lie in the middle between them", "[diagnosis]") {
     const setup::Setup setup = campaign::bc_setup();
     records::ReadingTable table = campaign::empty_table(setup);
     campaign::add_sphere_map(table, setup, 50, 5);
