@@ -1,6 +1,7 @@
 #include "imports/row_writer.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/alarm.h"
 
@@ -10,6 +11,24 @@ namespace {
 constexpr double pause_s = 60.0;  ///< between two files whose clocks both began at zero
 /// Between rows of different positions that carry the same time stamp.
 constexpr double shortest_s = 1e-6;
+
+/// mm, rad, mm/s: what is read back may be 1e9 mm or degrees at most (records/table_line.h).
+constexpr double largest = 1e7;
+
+/// A number that no machine has is a slip of columns or units; a table with it would not be read.
+void refuse_huge(const records::Reading& row, const SourceRef& place) {
+    bool huge = false;
+    for (const double v :
+         {row.time_s, row.feed_mm_min, row.temperature_c, row.load_kg, row.extension_mm,
+          row.value_mm.value_or(0.0), row.velocity_mm_s.value_or(0.0), row.sigma_mm.value_or(0.0),
+          row.acceleration_mm_s2.value_or(0.0)})
+        huge = huge || std::abs(v) > largest;
+    if (row.point_W_mm) huge = huge || row.point_W_mm->cwiseAbs().maxCoeff() > largest;
+    for (const double q : row.commanded.value) huge = huge || std::abs(q) > largest;
+    if (huge)
+        throw InputError("a number beyond 1e7 mm, rad or s: is it the right column and unit?",
+                         place);
+}
 
 std::string file_name_of(const std::string& path) {
     return path.substr(path.find_last_of('/') + 1);
@@ -57,6 +76,7 @@ void RowWriter::add(records::Reading row, int line) {
     row.time_s = std::max(row.time_s + shift_s_, last_s_);
     if (index_ > 0 && row.time_s == last_s_ && row.commanded != last_at_)
         row.time_s = last_s_ + shortest_s;
+    refuse_huge(row, {path_, line, 1});
     row.index = index_++;
     if (line > 0) row.source = name_ + ':' + std::to_string(line);
     last_s_ = row.time_s;

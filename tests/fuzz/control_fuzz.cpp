@@ -7,6 +7,7 @@
 
 #include "check/check.h"
 #include "controller/controller.h"
+#include "fuzz/target.h"
 
 namespace {
 
@@ -69,6 +70,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     controller::Controller control(config_of(choice), stores, none, sink, [](std::string_view) {});
     const controller::RunResult result =
         control.run(interpreter::ProgramText{"fuzz", text, nullptr});
+    if (!result.alarm) ++fuzz::accepted;
     if (result.alarm && result.alarm->where.line < 1) std::abort();
     check::CheckOptions options;
     options.dialect = interpreter::fanuc_dialect();

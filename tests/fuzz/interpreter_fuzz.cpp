@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "fuzz/target.h"
 #include "interpreter/interpreter.h"
 #include "interpreter/print.h"
 
@@ -30,6 +31,7 @@ void run(std::string_view text) {
         nc.open(interpreter::ProgramText{"fuzz", text, nullptr});
         while (const interpreter::BlockWords* words = nc.next())
             if (words->count > 1) nc.block_moved();
+        ++fuzz::accepted;
     } catch (const Alarm& alarm) {
         if (alarm.where.line < 1) std::abort();
     }

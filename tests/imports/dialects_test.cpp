@@ -100,3 +100,16 @@ TEST_CASE("a row remembers the file and the line that it came from") {
     CHECK(rows[0].source == "f.txt:4");
     CHECK(rows[1].source == "f.txt:5");
 }
+
+TEST_CASE("numbers that no table of readings may hold are refused where they stand") {
+    const setup::Setup setup = import_bench::setup();
+    const auto log = [](const std::string& x) {
+        return Case{imports::ImportKind::axis_log,
+                    "time [s],X cmd [mm],X act [mm]\n0,1.5,1.501\n0.1," + x + ",2.5\n",
+                    {},
+                    ""};
+    };
+    CHECK(import_bench::read_rows(setup, log("9999999")).size() == 2);
+    import_bench::refuses(setup, log("10000001"), "beyond 1e7", 3);
+    import_bench::refuses(setup, log("19999999900"), "beyond 1e7", 3);
+}
