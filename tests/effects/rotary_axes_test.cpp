@@ -5,13 +5,13 @@
 
 namespace trunnion {
 
-TEST_CASE("the own forward model and the emulator read the same without effects",
-          "[effects]") {
+TEST_CASE("the own forward model and the emulator read the same without effects", "[effects]") {
     const Physics physics;
     const records::ReadingTable read = emulator::predicted(physics.setup, physics.table, {});
     for (std::size_t i = 0; i < read.rows.size(); ++i)
         if (read.rows[i].value_mm)
-            REQUIRE(*read.rows[i].value_mm == Approx(reading(physics.seen[i], nothing_wrong)).margin(1e-9));
+            REQUIRE(*read.rows[i].value_mm ==
+                    Approx(reading(physics.seen[i], nothing_wrong)).margin(1e-9));
 }
 
 TEST_CASE("rotary axes: zero, positioning, ripple, backlash turn the work about the axis",

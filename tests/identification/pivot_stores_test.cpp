@@ -152,8 +152,7 @@ TEST_CASE("with the axes' location free only the difference of the stores is see
         CHECK(found(known, "dg_mm", d).value == Approx(cases[0].dg(d)).margin(4e-3));
 }
 
-TEST_CASE("an injected store error is what a control with that store does",
-          "[identification]") {
+TEST_CASE("an injected store error is what a control with that store does", "[identification]") {
     const setup::Setup setup = paper_machine(0.0);
     setup::Setup wrong = setup;
     const StoreErrors& s = cases[1];
