@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <filesystem>
 #include <initializer_list>
@@ -13,8 +14,10 @@
 
 #include "base/alarm.h"
 #include "base/console.h"
+#include "base/nearest.h"
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/help_text.h"
 #include "cli/options.h"
 
 namespace trunnion::cli {
@@ -29,7 +32,10 @@ const std::initializer_list<void (*)(CLI::App&, Run&)> commands = {
     add_check,
     add_compare,
     add_compensate,
+    add_completion,
     add_diagnose,
+    add_effects,
+    add_help,
     add_identify,
     add_import,
     add_merge,
@@ -57,15 +63,41 @@ int report_usage_error(const std::string& message) {
     return exit_bad_input;
 }
 
-/// The first word that stands where a command is named and is none; empty: all are known.
-std::string unknown_command(const CLI::App& app, const std::vector<std::string>& words) {
-    const CLI::App* level = &app;
+/// The command that the words name, and the first word that stands where one is named and is none.
+struct NamedCommand {
+    const CLI::App* command = nullptr;
+    std::string unknown;  ///< empty: all are known
+};
+
+NamedCommand named_command(const CLI::App& app, const std::vector<std::string>& words) {
+    NamedCommand out{&app, {}};
     for (const std::string& word : words) {
-        if (word.starts_with('-') || level->get_subcommands({}).empty()) break;
-        const auto named = level->get_subcommands(
+        if (word.starts_with('-') || out.command->get_subcommands({}).empty()) break;
+        const auto named = out.command->get_subcommands(
             [&](const CLI::App* command) { return command->check_name(word); });
-        if (named.empty()) return word;
-        level = named.front();
+        if (named.empty()) return {out.command, word};
+        out.command = named.front();
+    }
+    return out;
+}
+
+std::string no_such_command(const NamedCommand& named) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : named.command->get_subcommands({}))
+        names.push_back(command->get_name());
+    return fmt::format("there is no command '{}'{}", named.unknown,
+                       did_you_mean(named.unknown, names));
+}
+
+/// Behind the message on a word that the command does not take: the option that was meant.
+std::string meant_option(const CLI::App& command, const std::vector<std::string>& words) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& word : words) {
+        const std::string name = word.substr(0, word.find('='));
+        if (name.starts_with("--") && std::find(names.begin(), names.end(), name) == names.end())
+            return did_you_mean(name, names);
     }
     return {};
 }
@@ -95,18 +127,23 @@ int show_help(const CLI::App& app, const CLI::Success& asked) {
 }
 
 int parse_and_run(int argc, char** argv) {
-    CLI::App app{"trunnion: an offline CNC control with a physical five-axis machine behind it"};
+    CLI::App app{"trunnion: an offline CNC control with a physical five-axis machine behind it",
+                 "trunnion"};
     app.require_subcommand(1);
     app.set_version_flag("--version", TRUNNION_VERSION);
     Run run;
     for (const auto add : commands) add(app, run);
     check_numbers(app);
-    if (const std::string word = unknown_command(app, {argv + 1, argv + argc}); !word.empty())
-        return report_usage_error(fmt::format("there is no command '{}'", word));
+    set_help(app);
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    const NamedCommand named = named_command(app, words);
+    if (!named.unknown.empty()) return report_usage_error(no_such_command(named));
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) {
         return show_help(app, asked);
+    } catch (const CLI::ExtrasError& e) {
+        return report_usage_error(e.what() + meant_option(*named.command, words));
     } catch (const CLI::ParseError& e) {
         return report_usage_error(e.what());
     }

@@ -7,9 +7,11 @@
 #include <utility>
 
 #include "base/alarm.h"
+#include "base/nearest.h"
 #include "base/read_file.h"
 #include "base/toml_reader.h"
 #include "base/units.h"
+#include "effects/effect_names.h"
 
 namespace trunnion::effects {
 namespace {
@@ -115,7 +117,9 @@ setup::EffectSetting parse_injection(const std::string& text, const Catalogue& c
     setup::EffectSetting setting;
     setting.name = scan.word();
     const Effect* effect = find_effect(catalogue, setting.name);
-    if (!effect) scan.fail("no effect is named '" + setting.name + "'");
+    if (!effect)
+        scan.fail("no effect is named '" + setting.name + "'" +
+                  did_you_mean(setting.name, names_of(catalogue)));
     if (effect->parameters.empty()) scan.fail("this machine has nothing for " + setting.name);
     if (scan.take('=')) {
         const EffectParameter& first = effect->parameters.front();
@@ -203,7 +207,8 @@ void check_parameters(const setup::Setup& setup, const Effect& effect,
 }  // namespace
 
 void refuse_effect_name(const setup::Setup& setup, const std::string& name) {
-    const std::string message = "no effect is named '" + name + "'";
+    const std::string message =
+        "no effect is named '" + name + "'" + did_you_mean(name, names_of(make_catalogue(setup)));
     const TomlFile file = file_of(setup);
     if (const TomlValue* effect = find_value(file.root().find("effects"), name))
         file.fail(*effect, message);

@@ -1,5 +1,7 @@
 #include "setup/setup.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "base/read_file.h"
@@ -8,17 +10,6 @@
 
 namespace trunnion::setup {
 namespace {
-
-/// "7580-7585, 19666"
-std::string ranges(const std::vector<int>& rising) {
-    std::string out;
-    for (std::size_t i = 0, last; i < rising.size(); i = last + 1) {
-        for (last = i; last + 1 < rising.size() && rising[last + 1] == rising[last] + 1;) ++last;
-        out += (out.empty() ? "" : ", ") + std::to_string(rising[i]);
-        if (last > i) out += '-' + std::to_string(rising[last]);
-    }
-    return out;
-}
 
 /// Numbers of the pivot (19680-19714) and of the G54.2 groups that the file does not give are those
 /// of the machine, told truthfully.
@@ -35,11 +26,10 @@ void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
         notes.push_back(setup.path + ": no parameter 1022 says how " + alone +
                         " runs: the control believes that it does not move the tool");
     derive_fixture_groups(setup.machine, parameters);
-    std::vector<int> added;
-    for (const auto& [number, parameter] : parameters.entry)
-        if (!given.contains(number)) added.push_back(number);
-    if (!added.empty())
-        notes.push_back(setup.path + ": parameters derived from [machine]: " + ranges(added));
+    std::size_t added = 0;
+    for (const auto& [number, parameter] : parameters.entry) added += !given.contains(number);
+    if (added > 0)
+        notes.push_back(fmt::format("{}: {} parameters derived from [machine]", setup.path, added));
 }
 
 }  // namespace

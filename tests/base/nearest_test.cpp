@@ -1,0 +1,22 @@
+#include "base/nearest.h"
+
+#include <catch2/catch.hpp>
+
+using namespace trunnion;
+
+TEST_CASE("a mistyped word leads to the one that was meant, a strange one to none") {
+    const std::vector<std::string> commands{"backup",  "ballbar", "check",
+                                            "compare", "pivot",   "run"};
+    CHECK(nearest("rum", commands) == "run");
+    CHECK(nearest("RUN", commands) == "run");
+    CHECK(nearest("pviot", commands) == "pivot");   // two swapped
+    CHECK(nearest("comp", commands) == "compare");  // begun
+    CHECK(nearest("balbar", commands) == "ballbar");
+    CHECK(nearest("simulate", commands).empty());
+    CHECK(nearest("x", commands).empty());
+    CHECK(nearest("", commands).empty());
+    CHECK(nearest(std::string(1000, 'r'), commands).empty());
+    CHECK(nearest("run", {}).empty());
+    CHECK(did_you_mean("rum", commands) == ", did you mean 'run'?");
+    CHECK(did_you_mean("simulate", commands).empty());
+}
