@@ -6,9 +6,11 @@
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/options.h"
+#include "cli/page_options.h"
 #include "cli/readings_command.h"
 #include "cli/setups.h"
 #include "effects/settings.h"
+#include "report/ballbar_page.h"
 #include "report/ballbar_report.h"
 
 namespace trunnion::cli {
@@ -23,6 +25,8 @@ struct BallbarOptions {
     std::uint64_t seed = 1;
     ballbar::test::SetupTimes times;
     bool json = false, hurco = false, inside = false;
+    PageOptions page;
+    const CLI::App* command = nullptr;
 };
 
 /// --program and --kinematic-program only write; nothing runs.
@@ -88,6 +92,13 @@ void refuse_simulation_options(const BallbarOptions& o) {
             {o.measured[0]});
 }
 
+std::string page_of(const BallbarOptions& o, const setup::Setup& setup,
+                    const ballbar::test::BallbarResult& result) {
+    report::Page page = report::ballbar_page(result);
+    if (result.simulated) page.origin.seed = o.seed;
+    return finished_page(std::move(page), *o.command, o.page, {setup.path});
+}
+
 int run_command(const BallbarOptions& o) {
     if (!o.measured.empty()) refuse_simulation_options(o);
     setup::Setup setup = open_setup(o.setup);
@@ -100,6 +111,7 @@ int run_command(const BallbarOptions& o) {
     print_notes(result.notes);
     OutputFiles files;
     files.add("-", o.json ? report::ballbar_json(result) : report::ballbar_table(result));
+    if (!o.page.html.empty()) files.add(o.page.html, page_of(o, setup, result));
     if (!o.csv.empty()) files.add(o.csv, report::ballbar_csv(result));
     if (!o.readings.empty())
         files.add(o.readings, records::format_readings(result.before.readings));
@@ -151,6 +163,8 @@ void add_ballbar(CLI::App& app, Run& run) {
     not_negative(command->add_option("--remount-time", o->times.remount_s,
                                      "assumed seconds to move the bar between two tests"));
     command->add_flag("--json", o->json, "one JSON object on stdout");
+    add_page_options(*command, o->page);
+    o->command = command;
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });
 }
 

@@ -13,6 +13,7 @@
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/options.h"
+#include "cli/page_options.h"
 #include "cli/program_choice.h"
 #include "cli/setups.h"
 #include "controller/alarms.h"
@@ -22,6 +23,7 @@
 #include "emulator/run.h"
 #include "interpreter/program_folders.h"
 #include "regression/suite.h"
+#include "report/findings_page.h"
 #include "report/findings_report.h"
 
 namespace trunnion::cli {
@@ -33,6 +35,8 @@ struct CheckCommand {
     std::string setup, format = "text", out = "-";
     bool run = false;
     std::uint64_t max_blocks = 10'000'000;
+    PageOptions page;
+    const CLI::App* command = nullptr;
 };
 
 std::vector<std::string> files_of(const std::vector<std::string>& paths) {
@@ -171,6 +175,12 @@ int check(const CheckCommand& c) {
         print_notes(programs.announcements());
     }
     OutputFiles out;
+    if (!c.page.html.empty()) {
+        std::vector<std::string> read = files;
+        read.push_back(setup.path);
+        out.add(c.page.html,
+                finished_page(report::findings_page(findings, files), *c.command, c.page, read));
+    }
     out.add(c.out, report::format_findings(findings, files, c.format));
     out.write();
     return findings.empty() ? exit_done : exit_differs;
@@ -191,6 +201,8 @@ void add_check(CLI::App& app, Run& run) {
     command->add_flag_callback(
         "--json", [c] { c->format = "json"; }, "the same as --format json");
     writes_file(command->add_option("--out", c->out, "file for the report"));
+    add_page_options(*command, c->page);
+    c->command = command;
     command->callback([c, &run] { run = [c] { return check(*c); }; });
 }
 

@@ -12,10 +12,12 @@
 #include "cli/files.h"
 #include "cli/long_work.h"
 #include "cli/options.h"
+#include "cli/page_options.h"
 #include "cli/program_choice.h"
 #include "cli/setups.h"
 #include "compensation/compensation.h"
 #include "effects/settings.h"
+#include "report/compensation_page.h"
 
 namespace trunnion::cli {
 namespace {
@@ -26,6 +28,8 @@ struct Options {
     double tolerance_um = 0.05, largest_turn_deg = 0.1;
     int decimals = 6;
     BudgetOptions limits;
+    PageOptions page;
+    const CLI::App* command = nullptr;
 };
 
 int report_alarm(const Alarm& alarm) {
@@ -58,6 +62,9 @@ int run_command(const Options& o) {
     if (c.limit != BudgetLimit::none) return report_limit(c.limit, c.original.blocks);
     OutputFiles files;
     files.add(o.out, c.program);
+    if (!o.page.html.empty())
+        files.add(o.page.html, finished_page(report::compensation_page(c, setup.name, o.program),
+                                             *o.command, o.page, {setup.path}));
     files.write();
     print_error("{} blocks; largest tip error at a block's end {:.3f} um before, {:.3f} um after\n",
                 c.blocks.size(), um_from_mm(c.before.tip_mm), um_from_mm(c.after.tip_mm));
@@ -90,6 +97,8 @@ void add_compensate(CLI::App& app, Run& run) {
                         "they keep their words)");
     command->add_option("--decimals", o->decimals, "of the words written (6)");
     add_budget(*command, o->limits);
+    add_page_options(*command, o->page);
+    o->command = command;
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });
 }
 

@@ -12,6 +12,7 @@
 #include "cli/command.h"
 #include "cli/long_work.h"
 #include "cli/options.h"
+#include "cli/page_options.h"
 #include "cli/readings_command.h"
 #include "diagnosis/diagnosis.h"
 #include "report/diagnosis_page.h"
@@ -25,7 +26,9 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
     std::vector<std::string> readings;
-    std::string setup, holdout, out, html;
+    std::string setup, holdout, out;
+    PageOptions page;
+    const CLI::App* command = nullptr;
     std::optional<double> limit_um;
     bool json = false, allow_large = false;
 };
@@ -185,8 +188,10 @@ int diagnose_command(const Options& options) {
     const diagnosis::Diagnosis result = diagnose_watched(setup, table, how, planning);
     OutputFiles files;
     if (!options.out.empty()) files.add(options.out, setup::format_setup(result.setup));
-    if (!options.html.empty())
-        files.add(options.html, report::diagnosis_page(result, title_of(options.readings)));
+    if (!options.page.html.empty())
+        files.add(options.page.html,
+                  finished_page(report::diagnosis_page(result, title_of(options.readings)),
+                                *options.command, options.page));
     if (options.json) files.add("-", to_json(result).dump(1) + "\n");
     files.write();
     if (!options.json) print_report(result);
@@ -211,7 +216,8 @@ void add_diagnose(CLI::App& app, Run& run) {
     not_negative(
         command->add_option("--limit-um", options->limit_um, "exit 1 when the gap is larger"));
     writes_file(command->add_option("--out", options->out, "setup with the effects added"));
-    writes_file(command->add_option("--html", options->html, "report as one HTML file"));
+    add_page_options(*command, options->page);
+    options->command = command;
     command->add_flag("--allow-large", options->allow_large,
                       "residuals that no machine tool has are meant, no slip of units");
     command->add_flag("--json", options->json, "result as JSON on stdout");

@@ -16,9 +16,13 @@
 #include "cli/files.h"
 #include "cli/long_work.h"
 #include "cli/options.h"
+#include "cli/page_options.h"
 #include "cli/readings_command.h"
 #include "cli/shards.h"
+#include "effects/settings.h"
+#include "emulator/replay.h"
 #include "identification/monte_carlo.h"
+#include "report/identification_page.h"
 #include "report/identification_report.h"
 #include "report/stores_text.h"
 
@@ -31,6 +35,8 @@ struct Options {
     int runs = 0;
     std::uint64_t seed = 1;
     bool json = false, allow_large = false;
+    PageOptions page;
+    const CLI::App* command = nullptr;
 };
 
 /// What is fitted, and to what.
@@ -106,6 +112,16 @@ int identify_part(const Inputs& in, const Options& options,
                : report_interrupted(part.repetitions.size(), mine);
 }
 
+/// What is left comes from the identified setup alone, as `predict` would say it.
+std::string page_of(const Options& options, const identification::Identification& result,
+                    const records::ReadingTable& table) {
+    const records::ReadingTable predicted =
+        emulator::predicted(result.setup, table, effects::active_models(result.setup));
+    report::Page page = report::identification_page(result, table, predicted);
+    if (options.runs > 0) page.origin.seed = options.seed;
+    return finished_page(std::move(page), *options.command, options.page);
+}
+
 int identify_command(const Options& options) {
     if (!options.shard.empty() && options.runs == 0)
         throw InputError("--shard cuts the repetitions of --monte-carlo");
@@ -127,6 +143,8 @@ int identify_command(const Options& options) {
     }
     OutputFiles files;
     if (!options.out.empty()) files.add(options.out, setup::format_setup(result.setup));
+    if (!options.page.html.empty())
+        files.add(options.page.html, page_of(options, result, in.table));
     if (options.json) files.add("-", report::identification_json(result));
     files.write();
     if (!options.json) {
@@ -162,6 +180,8 @@ void add_identify(CLI::App& app, Run& run) {
     command->add_flag("--allow-large", options->allow_large,
                       "residuals that no machine tool has are meant, no slip of units");
     command->add_flag("--json", options->json, "result as JSON on stdout");
+    add_page_options(*command, options->page);
+    options->command = command;
     command->callback([options, &run] { run = [options] { return identify_command(*options); }; });
 }
 

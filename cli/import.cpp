@@ -10,7 +10,9 @@
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/options.h"
+#include "cli/page_options.h"
 #include "cli/readings_command.h"
+#include "report/import_page.h"
 
 namespace trunnion::cli {
 namespace {
@@ -18,12 +20,23 @@ namespace {
 struct Options {
     std::string kind, setup, map, out;
     std::vector<std::string> files, told;
+    PageOptions page;
+    const CLI::App* command = nullptr;
 };
 
 const std::map<std::string, imports::ImportKind> kinds{
     {"ballbar", imports::ImportKind::ballbar}, {"iso230-2", imports::ImportKind::iso230_2},
     {"points", imports::ImportKind::points},   {"axis-log", imports::ImportKind::axis_log},
     {"table", imports::ImportKind::table},     {"dprnt", imports::ImportKind::dprnt}};
+
+std::string page_of(const Options& options, const setup::Setup& setup,
+                    const imports::Imported& result) {
+    std::vector<std::string> notes;
+    const records::ReadingTable table =
+        records::parse_readings(result.readings, options.out, notes, setup.machine.chain.names());
+    return finished_page(report::import_page(table, result.summary, result.notes), *options.command,
+                         options.page);
+}
 
 int import_command(const Options& options) {
     const setup::Setup setup = load_setup_option(options.setup);
@@ -35,6 +48,7 @@ int import_command(const Options& options) {
     for (const std::string& line : result.summary) print_error("{}\n", line);
     print_notes(result.notes);
     OutputFiles out;
+    if (!options.page.html.empty()) out.add(options.page.html, page_of(options, setup, result));
     out.add(options.out, std::move(result.readings));
     out.write();
     return exit_done;
@@ -56,6 +70,8 @@ void add_import(CLI::App& app, Run& run) {
         ->add_option("--with", options->told,
                      "what the files do not tell: 'unit=um', 'axis=X' (docs/readings.md)")
         ->allow_extra_args(false);
+    add_page_options(*command, options->page);
+    options->command = command;
     command->callback([options, &run] { run = [options] { return import_command(*options); }; });
 }
 

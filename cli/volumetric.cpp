@@ -10,8 +10,10 @@
 #include "cli/command.h"
 #include "cli/long_work.h"
 #include "cli/options.h"
+#include "cli/page_options.h"
 #include "cli/setups.h"
 #include "effects/settings.h"
+#include "report/volumetric_page.h"
 #include "report/volumetric_pictures.h"
 #include "report/volumetric_report.h"
 
@@ -21,6 +23,8 @@ namespace {
 struct Options {
     std::string setup, csv, svg;
     volumetric::VolumetricOptions map;
+    PageOptions page;
+    const CLI::App* command = nullptr;
 };
 
 /// A grid of five axes grows fast; each pose is kept.
@@ -64,11 +68,15 @@ int run_command(const Options& o) {
         for (auto& [name, text] : report::volumetric_pictures(map))
             files.add(o.svg + '/' + name, text);
     }
+    if (!o.page.html.empty() && whole)
+        files.add(o.page.html,
+                  finished_page(report::volumetric_page(map), *o.command, o.page, {setup.path}));
     files.write();
     if (o.csv != "-") print_out("{}", report::volumetric_text(map));
     if (whole) return exit_done;
     print_error("trunnion: interrupted: these are the first {} poses of the grid{}\n",
-                map.points.size(), o.svg.empty() ? "" : ", without pictures");
+                map.points.size(),
+                o.svg.empty() && o.page.html.empty() ? "" : ", without pictures");
     return exit_limit;
 }
 
@@ -88,6 +96,8 @@ void add_volumetric(CLI::App& app, Run& run) {
     writes_file(command->add_option("--csv", o->csv, "every pose with its error"));
     writes_file(command->add_option("--svg", o->svg,
                                     "folder for pictures: one for each height, one of the axes"));
+    add_page_options(*command, o->page);
+    o->command = command;
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });
 }
 

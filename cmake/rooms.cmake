@@ -29,7 +29,7 @@ set(TRUNNION_ROOMS
   "compensation: emulator setup motion positioning kinematics offsets base"
   "volumetric: emulator setup kinematics base"
   "ballbar/test: emulator setup records kinematics interpreter geometry base"
-  "report: ballbar/test volumetric pivot diagnosis identification regression emulator setup check geometry base"
+  "report: ballbar/test volumetric pivot compensation diagnosis identification regression emulator setup check records geometry base"
   "cli: report imports pivot compensation diagnosis regression identification effects emulator setup backup check controller records interpreter base"
 )
 

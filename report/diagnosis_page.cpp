@@ -27,6 +27,7 @@ std::string bars(const std::vector<Bar>& list, double full, const std::string& u
     const double top = dashed ? 26.0 : 8.0;
     const double bottom = top + bar_line * static_cast<double>(list.size());
     Svg svg(bar_left + bar_width + 110.0, bottom + 44.0);
+    svg.describe(upper_first(unit), "One bar for each line of the table.");
     const PlotRange range = round_range(0.0, full, 5);
     const double scale = bar_width / range.high;
     for (double tick = 0.0; tick <= range.high * 1.0001; tick += range.tick) {
@@ -86,6 +87,8 @@ std::string residual_plot(const diagnosis::Diagnosis& d) {
     const double top = std::max(1.2 * size[(n - 1) * 995 / 1000], 3.0 * d.noise_um);
     const PlotRange x = round_range(0.0, static_cast<double>(n), 6), y = round_range(-top, top, 6);
     Svg svg(740.0, 330.0);
+    svg.describe("Machine minus simulation of each reading",
+                 "In the order taken, in µm, without and with the causes; the noise as a band.");
     Plot plot(svg, {64.0, 34.0}, 650.0, 230.0, x, y);
     const Point2 high = plot.at(0.0, 2.0 * d.noise_um), low = plot.at(x.high, -2.0 * d.noise_um);
     svg.rectangle(high, low.x - high.x, low.y - high.y, {"none", 0.0, "#e8e8e8", ""});
@@ -120,23 +123,23 @@ std::string rivals_text(const diagnosis::Cause& cause) {
 
 std::string cause_table(const diagnosis::Diagnosis& d) {
     std::string text =
-        "<table class=\"wide\">\n" +
+        "<div class=\"scroll\" tabindex=\"0\"><table>\n" +
         row({"Cause", "Share of the gap", "Size", "Could also be", "Alone it shrinks the gap by"},
             "th");
     for (const diagnosis::Cause& cause : d.causes) {
         const bool known = cause.effect != "unknown";
-        text += row({"<b>" + escape_xml(cause.effect) + "</b><br><span class=\"small\">" +
+        text += row({"<b>" + escape_xml(cause.effect) + "</b><br><span class=\"note\">" +
                          escape_xml(cause.what) + "</span>",
                      fmt::format("{:.0f} %", 100.0 * cause.share),
                      known ? escape_xml(main_size(cause)) : "&ndash;",
                      known ? rivals_text(cause) : "&ndash;",
-                     known ? fmt::format("{:.0f} %<br><span class=\"small\">95 %: {:.0f} to "
+                     known ? fmt::format("{:.0f} %<br><span class=\"note\">95 %: {:.0f} to "
                                          "{:.0f} %</span>",
                                          100.0 * cause.heldout.shrink, 100.0 * cause.heldout.low,
                                          100.0 * cause.heldout.high)
                            : "&ndash;"});
     }
-    return text + "</table>\n";
+    return text + "</table></div>\n";
 }
 
 std::string cause_section(const diagnosis::Cause& cause) {
@@ -147,17 +150,18 @@ std::string cause_section(const diagnosis::Cause& cause) {
         escape_xml(cause.effect), escape_xml(cause.what), escape_xml(cause.usual_cause),
         escape_xml(cause.remedy));
     if (!cause.rivals.empty())
-        text += "<p class=\"rival\">These readings cannot tell it from: " + rivals_text(cause) +
+        text += "<p class=\"bad-text\">These readings cannot tell it from: " + rivals_text(cause) +
                 ".</p>\n";
-    text += "<table>" + row({"Parameter", "Value", "&plusmn; 1 sigma", "Unit"}, "th");
+    text += "<div class=\"scroll\" tabindex=\"0\"><table>" +
+            row({"Parameter", "Value", "&plusmn; 1 sigma", "Unit"}, "th");
     for (const identification::FitParameter& p : cause.parameters) {
         const ShopValue v = shop_value(p);
         text += row({escape_xml(v.name), v.value, v.sigma, escape_xml(v.unit)});
     }
-    text += "</table>\n";
+    text += "</table></div>\n";
     for (const identification::Inseparable& group : cause.unseen)
         text +=
-            "<p class=\"small\">No reading here sees this change: " + escape_xml(to_string(group)) +
+            "<p class=\"note\">No reading here sees this change: " + escape_xml(to_string(group)) +
             ".</p>\n";
     return text;
 }
@@ -178,8 +182,8 @@ std::string next_section(const diagnosis::Diagnosis& d) {
     for (const diagnosis::NextMeasurement& next : d.next) {
         text += "<p>" + escape_xml(upper_first(next.text)) + ".</p>\n";
         if (!next.program.empty())
-            text += "<details><summary>NC program</summary><pre>" + escape_xml(next.program) +
-                    "</pre></details>\n";
+            text += "<details><summary>NC program</summary><pre tabindex=\"0\">" +
+                    escape_xml(next.program) + "</pre></details>\n";
     }
     return text;
 }
@@ -207,44 +211,44 @@ std::string small_print(const diagnosis::Diagnosis& d) {
     return text + "</dl>\n";
 }
 
-const char* style =
-    "body{font:15px/1.5 system-ui,sans-serif;max-width:800px;margin:2em auto;padding:0 1em;"
-    "color:#1d1d1d;background:#fff}h1{font-size:1.5em;margin-bottom:0}h2{font-size:1.2em;"
-    "margin-top:1.8em;border-bottom:1px solid #ddd}h3{font-size:1.05em;margin-bottom:.2em}"
-    ".from{color:#555;margin-top:.2em}table{border-collapse:collapse;margin:.6em 0}"
-    "td,th{padding:4px 16px 4px 0;text-align:left;vertical-align:top;border-bottom:1px solid #eee}"
-    "th{color:#555;font-weight:600}.wide{width:100%}.small{color:#555;font-size:.87em}"
-    ".answer{background:#f2f6fa;padding:.9em 1.1em;border-left:5px solid #0072b2;font-size:1.07em}"
-    ".rival{color:#a04000}pre{background:#f7f7f7;padding:.6em;overflow:auto;max-height:20em;"
-    "font-size:.85em}dt{font-weight:600}dd{margin:0 0 .5em 1.2em}svg{max-width:100%;height:auto}"
-    "@media print{body{margin:0;max-width:none}details{display:none}}";
+/// Which effects, and how far the gap shrinks with all of them.
+std::string causes_section(const diagnosis::Diagnosis& d) {
+    if (d.causes.empty()) return {};
+    return section_html("Which effect", figure_html(share_bars(d),
+                                                    "Part of the gap that goes with "
+                                                    "each cause") +
+                                            cause_table(d)) +
+           section_html(
+               "How far the gap shrinks",
+               paragraph_html("All causes together, on readings that took no part in the fit.") +
+                   figure_html(before_after(d.after), "Before and after") +
+                   paragraph_html(fmt::format(
+                       "Beyond noise the gap shrinks by {:.0f} % (95 %: {:.0f} to {:.0f} %).",
+                       100.0 * d.after.shrink, 100.0 * d.after.low, 100.0 * d.after.high)));
+}
+
+Tone tone_of(const diagnosis::Diagnosis& d) {
+    if (d.verdict == diagnosis::Verdict::no_gap) return Tone::good;
+    return d.verdict == diagnosis::Verdict::explained ? Tone::neutral : Tone::bad;
+}
 
 }  // namespace
 
-std::string diagnosis_page(const diagnosis::Diagnosis& d, const std::string& title) {
-    std::string text = fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-        "<meta name=\"viewport\" content=\"width=device-width\"><title>Machine against simulation: "
-        "{0}</title><style>{1}</style></head><body>\n<h1>Machine against simulation</h1>\n"
-        "<p class=\"from\">{2}; readings {0}</p>\n<p class=\"answer\">{3}</p>\n",
-        escape_xml(title), style,
-        escape_xml(d.setup.name.empty() ? std::string("machine without a name") : d.setup.name),
-        escape_xml(answer(d)));
-    if (!d.causes.empty()) {
-        text += "<h2>Which effect</h2>\n" + share_bars(d) + cause_table(d);
-        text +=
-            "<h2>How far the gap shrinks</h2>\n<p>All causes together, on readings that took no "
-            "part in the fit.</p>\n" +
-            before_after(d.after);
-        text += fmt::format(
-            "<p>Beyond noise the gap shrinks by <b>{:.0f} %</b> (95 %: {:.0f} to {:.0f} %).</p>\n",
-            100.0 * d.after.shrink, 100.0 * d.after.low, 100.0 * d.after.high);
-    }
-    text += "<h2>All readings</h2>\n" + residual_plot(d);
-    text += where_section(d) + next_section(d);
-    if (!d.causes.empty()) text += "<h2>The causes one by one</h2>\n";
-    for (const diagnosis::Cause& cause : d.causes) text += cause_section(cause);
-    return text + small_print(d) + "</body></html>\n";
+Page diagnosis_page(const diagnosis::Diagnosis& d, const std::string& readings) {
+    Page page;
+    page.title = "Machine against simulation";
+    page.subject = (d.setup.name.empty() ? std::string("machine without a name") : d.setup.name) +
+                   "; readings " + readings;
+    page.verdict = answer(d);
+    page.tone = tone_of(d);
+    page.body_html = causes_section(d);
+    page.body_html += section_html(
+        "All readings", figure_html(residual_plot(d), "Machine minus simulation of each reading"));
+    page.body_html += where_section(d) + next_section(d);
+    if (!d.causes.empty()) page.body_html += "<h2>The causes one by one</h2>\n";
+    for (const diagnosis::Cause& cause : d.causes) page.body_html += cause_section(cause);
+    page.body_html += small_print(d);
+    return page;
 }
 
 }  // namespace trunnion::report

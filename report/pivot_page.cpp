@@ -17,13 +17,15 @@ std::string um(double value_mm) {
 }
 
 std::string stores_section(const PivotResult& r) {
-    PageTable table{
-        "", {"number", "in force / mm", "to type / mm", "error / µm", "u / µm", ""}, "lrrrrl", {}};
+    PageTable table{"",
+                    {"number", "in force / mm", "to type / mm", "error / µm", "u / µm", "state"},
+                    "lrrrrl",
+                    {}};
     for (const pivot::StoreVerdict& s : r.verdict.stores)
         table.rows.push_back({store_name(r, s.in_force),
                               fmt::format("{:.4f}", s.in_force.value_mm + 0.0),
                               fmt::format("{:.4f}", s.type_mm + 0.0), um(s.error_mm),
-                              um(s.sigma_mm), s.stale ? "stale" : ""});
+                              um(s.sigma_mm), s.stale ? "stale" : "right"});
     std::string body = table_html(table);
     for (const pivot::GroupVerdict& g : r.verdict.groups)
         body += paragraph_html(fmt::format(
@@ -75,7 +77,7 @@ std::string maps_section(const PivotResult& r) {
 }
 
 std::string affected_section(const PivotResult& r) {
-    PageTable table{"", {"what", "function", "codes", "off by up to / µm", ""}, "lllrl", {}};
+    PageTable table{"", {"what", "function", "codes", "off by up to / µm", "state"}, "lllrl", {}};
     for (const pivot::AffectedPart& part : r.affected)
         table.rows.push_back({part.path.empty() ? "all parts" : part.path, part.function,
                               pivot::codes_of(part.function, r.hurco),

@@ -182,6 +182,7 @@ std::vector<double> fit_eccentric_circle(const std::vector<PolarTrace>& traces) 
 std::string polar_svg(const PolarPlot& plot) {
     const double division_um = um_per_division(plot), px_per_um = division_px / division_um;
     Svg svg(width_px, height_px);
+    svg.describe(plot.title, plot.subtitle + ". Deviation from the nominal circle, magnified.");
     svg.text({30, 36}, plot.title, 20);
     svg.text({30, 58}, plot.subtitle, 13, "start", "#555");
     draw_grid(svg, plot);

@@ -135,6 +135,8 @@ std::string slice_picture(const volumetric::VolumetricMap& map, const AxisPositi
     const auto xs = places(points, Axis::X), ys = places(points, Axis::Y);
     const double dx = spacing(xs), dy = spacing(ys);
     Svg svg(960, 870);
+    svg.describe("Error of the tool point at one height",
+                 "Colour is the length of the error in µm, arrows are its X and Y.");
     svg.text({90, 30}, "Error of the tool point: " + map.machine, 17);
     svg.text({90, 52},
              fmt::format("Z {:.6g} mm{}; tool {:.6g} mm; actual - nominal, in the table's frame", z,
@@ -223,6 +225,8 @@ std::string axes_picture(const volumetric::VolumetricMap& map) {
     const double plots = 240.0 * static_cast<double>(rows);
     Svg svg(900, 90 + plots + 210);
     const volumetric::VolumetricPoint& worst = map.points[map.worst];
+    svg.describe("Error of the tool point along each axis",
+                 "Worst and rms error in µm over the position of each axis, and the causes.");
     svg.text({70, 30}, "Error of the tool point along each axis: " + map.machine, 17);
     svg.text({70, 52},
              fmt::format("{} poses, tool {:.6g} mm; rms {:.2f} um, worst {:.2f} um at {}",

@@ -88,6 +88,34 @@ TEST_CASE("pivot: the stores in force come from a backup when the prints name no
     }
 }
 
+TEST_CASE("pivot: the touches of the prints, imported, say the same as the printed centres") {
+    const Bench bench;
+    const std::string setup = " --setup " + machines + "bc_table.toml";
+    REQUIRE(bench.trunnion("pivot --write-programs " + bench.file("nc") + setup) == 0);
+    std::string prints, tables;
+    for (const char* name : {"O8001", "O8003"}) {
+        const std::string program = bench.file("nc/" + std::string(name) + ".nc");
+        const std::string print = bench.file(std::string(name) + ".txt");
+        const std::string table = bench.file(std::string(name) + ".csv");
+        REQUIRE(bench.trunnion("run " + program + " --programs " + bench.file("nc") + setup +
+                               " --print " + print) == 0);
+        REQUIRE(bench.trunnion("import dprnt " + print + setup + " --out " + table) == 0);
+        prints += " " + print;
+        tables += " " + table;
+    }
+    REQUIRE(bench.trunnion("pivot" + prints + setup + " --json") == 0);
+    const Json printed = Json::parse(bench.read("out.txt"));
+    REQUIRE(bench.trunnion("pivot" + tables + setup + " --json") == 0);
+    const Json touched = Json::parse(bench.read("out.txt"));
+    REQUIRE(touched["stores"].size() == printed["stores"].size());
+    for (std::size_t i = 0; i < printed["stores"].size(); ++i) {
+        const Json &a = printed["stores"][i], &b = touched["stores"][i];
+        CAPTURE(a.dump(), b.dump());
+        CHECK(a["stale"] == b["stale"]);
+        CHECK(b["exact_mm"].get<double>() == Approx(a["exact_mm"].get<double>()).margin(2e-4));
+    }
+}
+
 TEST_CASE("pivot: identify's machine and the stores alone lead to the same numbers") {
     const Bench bench;
     struct Kind {

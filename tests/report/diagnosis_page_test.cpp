@@ -56,7 +56,7 @@ TEST_CASE("values stand in the units of the shop, digits as sure as sigma") {
 }
 
 TEST_CASE("the page says size, cause, rivals and shrink, and is whole") {
-    const std::string page = report::diagnosis_page(one_cause(), "a <b>.csv");
+    const std::string page = report::page_html(report::diagnosis_page(one_cause(), "a <b>.csv"));
     for (const char* text :
          {"2.00 µm rms", "C.backlash", "93 %", "C.zero &amp; co", "a &lt;b&gt;.csv", "90 %",
           "85 to 95 %", "worn worm gear", "readjust the preload", "gap 81.23"})
@@ -71,7 +71,7 @@ TEST_CASE("the page says size, cause, rivals and shrink, and is whole") {
 TEST_CASE("a page without a gap says so and shows no cause") {
     diagnosis::Diagnosis d;
     d.rms_um = d.noise_um = 0.8;
-    const std::string page = report::diagnosis_page(d, "x.csv");
+    const std::string page = report::page_html(report::diagnosis_page(d, "x.csv"));
     CHECK_THAT(page, Catch::Contains("No gap.") && !Catch::Contains("Which effect"));
 }
 

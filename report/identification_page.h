@@ -1,0 +1,15 @@
+// The page of an identification: values with intervals, correlations, residuals by axis and time.
+#pragma once
+
+#include "identification/identify.h"
+#include "records/readings.h"
+#include "report/page.h"
+
+namespace trunnion::report {
+
+/// `measured` holds the readings, `predicted` the same rows as the identified setup predicts them.
+Page identification_page(const identification::Identification& result,
+                         const records::ReadingTable& measured,
+                         const records::ReadingTable& predicted);
+
+}  // namespace trunnion::report

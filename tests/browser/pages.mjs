@@ -1,0 +1,110 @@
+// Opens every page of the program in headless Chromium: phone and screen, light, dark and print.
+// node pages.mjs TRUNNION SOURCE_FOLDER. Ends with 77 (skipped) where Chromium or the packages of
+// package.json are not there (npm ci in this folder).
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+const [trunnion, source] = process.argv.slice(2);
+const skip = (why) => { console.log(`skipped: ${why}`); process.exit(77); };
+
+const chromium = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"]
+  .find(existsSync) ?? skip("no Chromium here");
+let playwright, axe;
+try {
+  const require = createRequire(import.meta.url);
+  playwright = require("playwright-core");
+  axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
+} catch {
+  skip("npm ci in tests/browser was not run");
+}
+
+const folder = mkdtempSync(join(tmpdir(), "trunnion_pages_"));
+const page = (name) => join(folder, `${name}.html`);
+const machine = (name) => join(source, "machines", name);
+const program = (name) => join(source, "programs/examples", name);
+const call = (...words) => {
+  try {
+    execFileSync(trunnion, words, { stdio: ["ignore", "ignore", "pipe"] });
+  } catch (error) {
+    if (error.status !== 1) throw error;  // differs, or findings
+  }
+};
+
+const readings = join(folder, "readings.csv");
+call("pivot", "--write-programs", join(folder, "nc"));
+call("run", join(folder, "nc/O8003.nc"), "--programs", join(folder, "nc"), "--readings", readings);
+const pages = {
+  run: ["run", program("bracket_g43_4.nc")],
+  check: ["check", join(source, "programs/examples")],
+  compare: ["compare", program("bracket_g43_4.nc"), program("bracket_post.nc")],
+  pivot: ["pivot"],
+  ballbar: ["ballbar", "--setup", machine("ac_trunnion.toml")],
+  volumetric: ["volumetric", "--setup", machine("ac_trunnion.toml")],
+  compensate: ["compensate", program("bracket_g43_4.nc"), "--out", join(folder, "c.nc")],
+  identify: ["identify", readings, "--setup", machine("bc_table.toml"), "--effects", "location"],
+  diagnose: ["diagnose", readings, "--setup", machine("bc_table.toml")],
+};
+const output = { compare: ["--format", "html", "--out"] };
+for (const [name, words] of Object.entries(pages))
+  call(...words, ...(output[name] ?? ["--html"]), page(name));
+
+let failed = 0;
+const check = (good, text) => { if (!good) { failed += 1; console.log(`FAILED ${text}`); } };
+const browser = await playwright.chromium.launch({
+  executablePath: chromium,
+  args: ["--no-sandbox", "--use-gl=swiftshader", "--enable-unsafe-swiftshader",
+         "--disable-background-networking"],
+});
+
+async function look(name, width, scheme, media) {
+  const where = `${name}, ${width} px, ${media === "print" ? "print" : scheme}`;
+  const context = await browser.newContext(
+    { viewport: { width, height: 900 }, colorScheme: scheme, bypassCSP: false });
+  const tab = await context.newPage();
+  tab.on("console", (m) => {  // the picture taken here makes the driver talk
+    check(m.text().includes("GL Driver Message"), `${where}: console: ${m.text()}`);
+  });
+  tab.on("pageerror", (e) => check(false, `${where}: ${e.message}`));
+  await tab.emulateMedia({ media, colorScheme: scheme });
+  await tab.goto(`file://${page(name)}`);
+  await tab.waitForTimeout(name === "run" || name === "compare" ? 1000 : 100);
+  const [scroll, client] = await tab.evaluate(
+    () => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
+  if (media === "screen") check(scroll === client, `${where}: ${scroll} px wide in ${client}`);
+  if (name === "run" && media === "screen") await tryRunPage(tab, where);
+  await context.close();
+}
+
+async function tryRunPage(tab, where) {
+  const picture = await tab.locator(".stage canvas").first().screenshot();
+  check(picture.length > 4000, `${where}: the canvas is blank (${picture.length} bytes)`);
+  const row = tab.locator(".blocks .row").nth(3);
+  await row.click();
+  check(await tab.locator(".blocks .row.chosen").count() === 1, `${where}: a click chooses a block`);
+}
+
+async function askAxe(name, scheme) {
+  const context = await browser.newContext(
+    { viewport: { width: 1440, height: 900 }, colorScheme: scheme, bypassCSP: true });
+  const tab = await context.newPage();
+  await tab.goto(`file://${page(name)}`);
+  await tab.evaluate(axe);
+  const { violations } = await tab.evaluate(() => globalThis.axe.run());
+  for (const v of violations)
+    check(false, `${name}, ${scheme}: axe ${v.id}: ${v.nodes[0].target.join()}`);
+  await context.close();
+}
+
+for (const name of Object.keys(pages)) {
+  for (const width of [360, 1440])
+    for (const scheme of ["light", "dark"]) await look(name, width, scheme, "screen");
+  await look(name, 794, "light", "print");
+  for (const scheme of ["light", "dark"]) await askAxe(name, scheme);
+}
+await browser.close();
+rmSync(folder, { recursive: true });
+console.log(`${Object.keys(pages).length} pages, ${failed} failures`);
+process.exit(failed ? 1 : 0);
