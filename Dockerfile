@@ -1,0 +1,16 @@
+# docker build -t trunnion . && docker run --rm -v "$PWD:/work" trunnion pivot --svg out
+FROM debian:12-slim AS build
+RUN apt-get update && apt-get install -y --no-install-recommends \
+    build-essential cmake ninja-build dpkg-dev file libboost-math-dev libcli11-dev libeigen3-dev \
+    libfmt-dev libnlopt-dev libnlopt-cxx-dev libtomlplusplus-dev nlohmann-json3-dev zlib1g-dev
+COPY . /source
+RUN cmake -S /source -B /build -G Ninja -DCMAKE_BUILD_TYPE=Release -DTRUNNION_TESTS=OFF \
+    -DTRUNNION_BENCHMARKS=OFF \
+ && cmake --build /build && cd /build && cpack
+
+FROM debian:12-slim
+COPY --from=build /build/trunnion_*.deb /tmp/
+RUN apt-get update && apt-get install -y --no-install-recommends /tmp/trunnion_*.deb \
+ && rm -rf /tmp/*.deb /var/lib/apt/lists/*
+WORKDIR /work
+ENTRYPOINT ["trunnion"]

@@ -1,0 +1,45 @@
+# cpack: a Debian package of the program, its machines and programs, man page and completions.
+# The libraries and headers (component "library") stay out of it.
+# The package needs the program alone, not the tests.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+set(share ${CMAKE_INSTALL_DATADIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${share}/doc/trunnion RENAME copyright
+  COMPONENT program)
+install(FILES ${PROJECT_SOURCE_DIR}/web/dist/LICENSES.txt DESTINATION ${share}/doc/trunnion
+  RENAME page_licenses COMPONENT program)
+# Made by the program itself when it is installed, so that they name its own options.
+install(CODE "
+  set(root \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${share}\")
+  foreach(form man bash zsh fish)
+    execute_process(COMMAND \"$<TARGET_FILE:trunnion>\" completion \${form}
+      OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+    set(file_man man/man1/trunnion.1)
+    set(file_bash bash-completion/completions/trunnion)
+    set(file_zsh zsh/vendor-completions/_trunnion)
+    set(file_fish fish/vendor_completions.d/trunnion.fish)
+    file(WRITE \"\${root}/\${file_\${form}}\" \"\${text}\")
+  endforeach()
+  execute_process(COMMAND gzip -9nf \"\${root}/man/man1/trunnion.1\" COMMAND_ERROR_IS_FATAL ANY)
+  configure_file(\"${PROJECT_SOURCE_DIR}/CHANGELOG.md\" \"\${root}/doc/trunnion/changelog\" COPYONLY)
+  execute_process(COMMAND gzip -9nf \"\${root}/doc/trunnion/changelog\" COMMAND_ERROR_IS_FATAL ANY)
+" COMPONENT program)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME trunnion)
+set(CPACK_PACKAGE_CONTACT "trunnion maintainers <maintainers@users.noreply.github.com>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE
+  GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program)
+set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "offline CNC control with a physical five-axis machine")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Runs NC programs, Macro B included, on an emulated Fanuc-style or Hurco
+control and a five-axis machine with ISO 230 errors. Finds which pivot store
+is stale, identifies errors from probe and ballbar readings, compares two
+programs as machining, and says why simulation and machine differ.")
+include(CPack)
