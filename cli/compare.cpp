@@ -11,11 +11,13 @@
 #include "base/console.h"
 #include "base/output_files.h"
 #include "base/read_file.h"
+#include "base/sha256.h"
 #include "base/units.h"
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/long_work.h"
 #include "cli/options.h"
+#include "cli/page_options.h"
 #include "cli/setups.h"
 #include "cli/shards.h"
 #include "interpreter/program_folders.h"
@@ -36,7 +38,31 @@ struct CompareCommand {
     unsigned threads = 0;
     std::uint64_t max_blocks = 100'000'000;  ///< an endless loop ends here, exit code 4
     bool json = false, update = false, devices = false;
+    PageOptions page;
+    const CLI::App* command = nullptr;
 };
+
+/// The files of two programs, or the suite.
+std::vector<report::PageInput> inputs_of(const CompareCommand& c) {
+    std::vector<report::PageInput> inputs;
+    for (const std::string& path : {c.a, c.b, c.suite, c.setup, c.setup_b})
+        if (!path.empty() && std::filesystem::is_regular_file(path))
+            inputs.push_back({path, sha256(read_file(path))});
+    return inputs;
+}
+
+/// What the options ask for, the page with its origin.
+void put_report(const CompareCommand& c, const regression::CompareReport& report,
+                report::ReportFormat format) {
+    report::Page page;
+    const bool html = format == report::ReportFormat::html;
+    if (html || !c.page.html.empty()) {
+        page = report::comparison_page(report);
+        page.origin = page_origin(*c.command, c.page, inputs_of(c));
+    }
+    if (!c.page.html.empty()) write_output(c.page.html, report::page_html(page));
+    write_output(c.out, html ? report::page_html(page) : report::format_comparison(report, format));
+}
 
 regression::SuiteCase case_of(const CompareCommand& c) {
     if (!(c.tol_lin_mm > 0.0) || !(c.tol_ang_deg > 0.0) || !(c.tol_feed >= 0.0) ||
@@ -121,7 +147,7 @@ int compare_many(const CompareCommand& c, const regression::SuiteCase& like,
                      report::format_part(
                          {std::move(run.report), std::move(run.places), suite.cases.size()}));
     else
-        write_output(c.out, report::format_comparison(run.report, format));
+        put_report(c, run.report, format);
     return code;
 }
 
@@ -136,7 +162,7 @@ int compare(const CompareCommand& c) {
         return compare_many(c, like, format);
     if (!c.shard.empty()) throw InputError("--shard cuts folders and suites, not two programs");
     const regression::CompareReport report = compare_two(c, like);
-    write_output(c.out, report::format_comparison(report, format));
+    put_report(c, report, format);
     return regression::exit_code(report);
 }
 
@@ -175,6 +201,8 @@ void add_compare(CLI::App& app, Run& run) {
     command->add_option("--max-blocks", c->max_blocks, "stop a program after this many blocks");
     command->add_flag("--update", c->update, "write the goldens of the suite that differ");
     command->add_option("--reason", c->reason, "why they changed; stands in the golden");
+    add_page_options(*command, c->page);
+    c->command = command;
     command->callback([c, &run] { run = [c] { return compare(*c); }; });
 }
 

@@ -108,13 +108,28 @@ std::vector<IndexPair> longest_rising(const std::vector<IndexPair>& pairs) {
 
 }  // namespace
 
-bool alike(const Pass& p, const Pass& q, const Tolerances& t) {
-    // Without a cut it is the way to the end or to another tool: alike wherever it begins.
-    if (!p.cuts() || !q.cuts()) return p.tool == q.tool && p.cuts() == q.cuts();
+namespace {
+
+/// Of two passes, or of what is kept of one.
+template <typename P, typename Q>
+bool alike_shapes(const P& p, const Q& q, const Tolerances& t) {
     const double place = 2.0 * t.position_mm;
     return p.tool == q.tool && close(p.centroid_mm, q.centroid_mm, place) &&
            close(p.start_mm, q.start_mm, place) && close(p.end_mm, q.end_mm, place) &&
            std::abs(p.cut_mm - q.cut_mm) <= 1e-3 * p.cut_mm + 4.0 * t.position_mm;
+}
+
+}  // namespace
+
+bool alike(const Pass& p, const Pass& q, const Tolerances& t) {
+    // Without a cut it is the way to the end or to another tool: alike wherever it begins.
+    if (!p.cuts() || !q.cuts()) return p.tool == q.tool && p.cuts() == q.cuts();
+    return alike_shapes(p, q, t);
+}
+
+bool PassIds::alike_look(const Look& p, const Pass& q) const {
+    if (!p.cuts || !q.cuts()) return p.tool == q.tool && p.cuts == q.cuts();
+    return alike_shapes(p, q, tolerances_);
 }
 
 PassIds::PassIds(const Tolerances& tolerances)
@@ -126,10 +141,11 @@ std::uint32_t PassIds::id_of(const Pass& pass) {
         const auto range = by_cell_.equal_range(cell(pass, corner));
         int looked = 0;
         for (auto k = range.first; k != range.second && looked < 64; ++k, ++looked)
-            if (alike(known_[k->second], pass, tolerances_)) return k->second;
+            if (alike_look(known_[k->second], pass)) return k->second;
     }
     const auto id = static_cast<std::uint32_t>(known_.size());
-    known_.push_back(pass);
+    known_.push_back(
+        {pass.start_mm, pass.end_mm, pass.centroid_mm, pass.cut_mm, pass.tool, pass.cuts()});
     by_cell_.emplace(cell(pass, -1), id);
     return id;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <unordered_map>
 #include <vector>
@@ -68,11 +69,19 @@ class PassIds {
     std::uint32_t id_of(const Pass& pass);
 
   private:
+    /// What of a pass makes it alike to others.
+    struct Look {
+        std::array<double, 3> start_mm, end_mm, centroid_mm;
+        double cut_mm;
+        std::uint16_t tool;
+        bool cuts;
+    };
     std::uint64_t cell(const Pass& pass, int corner) const;
+    bool alike_look(const Look& p, const Pass& q) const;
 
     Tolerances tolerances_;
     double cell_mm_;
-    std::vector<Pass> known_;
+    std::deque<Look> known_;  ///< does not grow by copies as a vector does
     std::unordered_multimap<std::uint64_t, std::uint32_t> by_cell_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "regression/chords.h"
+#include "regression/closeup.h"
 
 namespace trunnion::regression {
 
@@ -52,21 +53,48 @@ void draw_path(const PathRecord& record, const Tolerances& tolerances,
     }
 }
 
+bool holds(const PathRegion& region, const PictureInput& in) {
+    return (in.worst_a.first >= region.a.first && in.worst_a.first < region.a.last) ||
+           (in.worst_b.first >= region.b.first && in.worst_b.first < region.b.last);
+}
+
+/// The first region that lies apart, and the worst place unless it is the same.
+void add_closeups(const std::vector<PathRegion>& regions, const PictureInput& in,
+                  ComparePicture& picture) {
+    for (std::size_t k = 0; k < regions.size() && picture.closeups.empty(); ++k) {
+        const PathRegion& r = regions[k];
+        if (r.position_mm <= in.tolerances.position_mm) continue;
+        auto first = closeup_of(in.a, r.a, in.b, r.b, in.tolerances);
+        if (!first) continue;
+        first->difference = k;
+        first->first = true;
+        first->worst = holds(r, in);
+        picture.closeups.push_back(std::move(*first));
+    }
+    if (!picture.closeups.empty() && picture.closeups.front().worst) return;
+    auto there = closeup_of(in.a, in.worst_a, in.b, in.worst_b, in.tolerances);
+    if (!there) return;
+    there->difference = in.worst_difference;
+    there->worst = true;
+    picture.closeups.push_back(std::move(*there));
+}
+
 }  // namespace
 
-void draw_paths(const std::vector<PathRegion>& marked_regions, const PathRecord& a,
-                const PathRecord& b, const Tolerances& tolerances, ComparePicture& picture) {
+void draw_paths(const std::vector<PathRegion>& marked_regions, const PictureInput& in,
+                ComparePicture& picture) {
     if (marked_regions.empty()) return;
-    Tolerances coarse = tolerances;
-    coarse.position_mm = std::max(0.5, tolerances.position_mm);
+    Tolerances coarse = in.tolerances;
+    coarse.position_mm = std::max(0.5, in.tolerances.position_mm);
     constexpr std::size_t marked = 40;
-    draw_path(a, coarse, picture.cuts_a, picture.rapids_a);
-    draw_path(b, coarse, picture.cuts_b, picture.rapids_b);
+    draw_path(in.a, coarse, picture.cuts_a, picture.rapids_a);
+    draw_path(in.b, coarse, picture.cuts_b, picture.rapids_b);
     for (std::size_t k = 0; k < std::min(marked, marked_regions.size()); ++k) {
         const PathRegion& r = marked_regions[k];
         picture.marks.push_back(
-            {k, thin_line(a, r.a, 100, coarse), thin_line(b, r.b, 100, coarse)});
+            {k, thin_line(in.a, r.a, 100, coarse), thin_line(in.b, r.b, 100, coarse)});
     }
+    add_closeups(marked_regions, in, picture);
 }
 
 }  // namespace trunnion::regression

@@ -9,9 +9,17 @@
 
 namespace trunnion::regression {
 
-/// Cuts and rapids of both sides, of many passes evenly chosen ones, and the first regions as
-/// marks. Nothing without regions.
-void draw_paths(const std::vector<PathRegion>& marked_regions, const PathRecord& a,
-                const PathRecord& b, const Tolerances& tolerances, ComparePicture& picture);
+/// Both paths and where they lie farthest apart.
+struct PictureInput {
+    const PathRecord &a, &b;
+    const Tolerances& tolerances;
+    Stretch worst_a, worst_b;
+    std::size_t worst_difference = 0;  ///< to which that place belongs
+};
+
+/// Cuts and rapids of both sides, of many passes evenly chosen ones, the first regions as marks,
+/// the first one that lies apart and the worst place from near. Nothing without regions.
+void draw_paths(const std::vector<PathRegion>& marked_regions, const PictureInput& input,
+                ComparePicture& picture);
 
 }  // namespace trunnion::regression

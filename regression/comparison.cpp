@@ -1,6 +1,7 @@
 #include "regression/comparison.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/exit_codes.h"
 
@@ -26,6 +27,11 @@ double gravity(const Difference& d) {
 }
 
 }  // namespace
+
+double ComparePicture::Closeup::apart_mm() const {
+    return std::hypot(other_mm[0] - place_mm[0], other_mm[1] - place_mm[1],
+                      other_mm[2] - place_mm[2]);
+}
 
 std::size_t gravest_difference(const Comparison& comparison) {
     const auto& list = comparison.differences;

@@ -89,15 +89,29 @@ struct LayerVerdict {
     bool equal = false;
 };
 
-/// Both paths as polylines of tips, thinned out, and the differing parts: for the picture.
+/// Both paths as polylines of tips (mm, table frame), thinned out, and the differing parts: for the
+/// picture.
 struct ComparePicture {
-    using Line = std::vector<std::array<double, 3>>;
+    using Point = std::array<double, 3>;
+    using Line = std::vector<Point>;
     struct Mark {
         std::size_t difference = 0;  ///< which of Comparison::differences
         Line a, b;                   ///< its first place on each side
     };
+    /// A place where both differ, with the paths around it in full detail.
+    struct Closeup {
+        std::size_t difference = 0;
+        bool first = false, worst = false;  ///< the first difference, the farthest place of all
+        Point place_mm{};                   ///< on A, or on B where A has nothing
+        Point other_mm{};                   ///< the nearest of the other path
+        Point right{}, up{};                ///< unit vectors: along the path, towards the other
+        Point axis_a{}, axis_b{};           ///< unit vectors from tip to spindle
+        Line a, b;
+        double apart_mm() const;
+    };
     std::vector<Line> cuts_a, cuts_b, rapids_a, rapids_b;
     std::vector<Mark> marks;
+    std::vector<Closeup> closeups;
     bool empty() const { return cuts_a.empty() && cuts_b.empty(); }
 };
 

@@ -185,7 +185,18 @@ void describe_paths(const PathComparison& found, const std::vector<ExplainedClus
                         "functions or "
                         "machines; only where they end was compared",
                         found.approaches_differ));
-    draw_paths(regions, a, b, tolerances, result.picture);
+    const auto farthest = std::max_element(
+        result.differences.begin(), result.differences.end(),
+        [](const Difference& p, const Difference& q) { return p.position_mm < q.position_mm; });
+    const std::uint64_t worst_a = found.totals.worst_a, worst_b = found.totals.worst_b;
+    draw_paths(regions,
+               {a,
+                b,
+                tolerances,
+                {worst_a, worst_a + 1},
+                {worst_b, worst_b + 1},
+                static_cast<std::size_t>(farthest - result.differences.begin())},
+               result.picture);
 }
 
 namespace {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 
 #include "base/units.h"
 #include "positioning/rotary_transform.h"
@@ -46,6 +47,11 @@ std::vector<SeenShift> shifts_of(const std::vector<PathCluster>& clusters,
             {c.first.shift_mm, Vector3(path[c.first.a.first].end_orientation.data()), turned});
     }
     return seen;
+}
+
+/// To 0.0001 mm, without a minus before zero.
+double rounded(double value_mm) {
+    return std::round(value_mm * 1e4) / 1e4 + 0.0;
 }
 
 bool several_directions(const std::vector<SeenShift>& seen) {
@@ -93,7 +99,7 @@ std::optional<MovedPivot> moved_pivot(const std::vector<PathCluster>& clusters,
     if (all([&](const SeenShift& s) { return (s.shift_mm - s.turned * p).norm(); }))
         return MovedPivot{
             fmt::format("all {} shifts are one pivot moved by ({:.4f}, {:.4f}, {:.4f}) mm",
-                        seen.size(), p.x(), p.y(), p.z()),
+                        seen.size(), rounded(p.x()), rounded(p.y()), rounded(p.z())),
             p, 0.0};
     return std::nullopt;
 }

@@ -1,108 +1,184 @@
+// A comparison as a page: the answer, an index of programs, then causes, places, tools.
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "report/comparison_picture.h"
 #include "report/comparison_report.h"
-#include "report/places.h"
+#include "report/page.h"
+#include "report/xml.h"
 
 namespace trunnion::report {
 
 namespace {
 
-constexpr const char* style =
-    "body{font:15px/1.5 system-ui,sans-serif;max-width:70rem;margin:2rem auto;padding:0 1rem;"
-    "color:#222;background:#fff}h1{font-size:1.5rem}h2{font-size:1.15rem;margin-top:2rem}"
-    "table{border-collapse:collapse}td,th{padding:.2rem .7rem;border-bottom:1px solid #ddd;"
-    "text-align:right}td:last-child,th:last-child,td:first-child{text-align:left}"
-    "pre{background:#f6f6f4;padding:.5rem;overflow-x:auto;margin:.2rem 0}mark{background:#ffe28a}"
-    ".pair{display:grid;grid-template-columns:1fr "
-    "1fr;gap:1rem}.pair>div{min-width:0}.equal{color:#00664a}"
-    ".differs{color:#a33b00}svg{max-width:100%;height:auto}";
+std::string name_of_case(const regression::Comparison& c) {
+    return c.name.empty() ? c.b : c.name;
+}
 
 std::string place_html(const char* side, const regression::ComparePlace& p) {
     if (p.line == 0)
-        return fmt::format("<div>{} {}<pre>nothing here</pre></div>", side, escape_xml(p.program));
+        return fmt::format("<div><p>{} {}: nothing here</p></div>", side, escape_xml(p.program));
     std::string lines;
     for (int k = 0; k < static_cast<int>(p.context.size()); ++k) {
         const std::string text = fmt::format("{:>7} {}", p.line - p.context_at + k,
                                              escape_xml(p.context[static_cast<std::size_t>(k)]));
         lines += (k == p.context_at ? "<mark>" + text + "</mark>" : text) + "\n";
     }
-    return fmt::format("<div>{} {}:{}<pre>{}</pre></div>", side, escape_xml(p.program), p.line,
-                       lines);
+    return fmt::format("<div><p>{} {}:{}</p><pre tabindex=\"0\">{}</pre></div>", side,
+                       escape_xml(p.program), p.line, lines);
 }
 
-std::string range_html(const std::array<double, 2>& r) {
-    return r[0] == r[1] ? fmt::format("{:g}", r[1]) : fmt::format("{:g}–{:g}", r[0], r[1]);
+std::string difference_html(const regression::Difference& d, std::size_t number) {
+    std::string what = d.what;
+    if (!what.empty())
+        what[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(what[0])));
+    return fmt::format("<h3>{}. {}</h3>\n{}<div class=\"pair\">{}{}</div>\n", number,
+                       escape_xml(what), d.expected ? paragraph_html("Expected: " + d.reason) : "",
+                       place_html("A", d.a), place_html("B", d.b));
 }
 
-std::string table_html(const regression::Comparison& c) {
-    if (c.tools.empty()) return {};
-    std::string out =
-        "<table><tr><th>tool<th>cut A mm<th>cut B mm<th>longer by<th>feed A<th>feed B<th>spindle A"
-        "<th>spindle B<th>equal<th>moved<th>changed<th>reordered<th>only A<th>only B</tr>\n";
+std::string differences_html(const regression::Comparison& c, std::size_t shown) {
+    std::string out;
+    for (std::size_t k = 0; k < std::min(shown, c.differences.size()); ++k)
+        out += difference_html(c.differences[k], k + 1);
+    const std::uint64_t more =
+        c.differences.size() - std::min(shown, c.differences.size()) + c.differences_left_out;
+    if (more > 0)
+        out += paragraph_html(fmt::format("And {} more (--format json lists them).", more));
+    return out;
+}
+
+std::string both(const std::array<double, 2>& a, const std::array<double, 2>& b) {
+    const auto range = [](const std::array<double, 2>& r) {
+        return r[0] == r[1] ? fmt::format("{:g}", r[1]) : fmt::format("{:g} to {:g}", r[0], r[1]);
+    };
+    return a == b ? range(a) : range(a) + " → " + range(b);
+}
+
+std::string tools_html(const regression::Comparison& c) {
+    PageTable table{"",
+                    {"Tool", "Cut of A, mm", "B longer by, mm", "Feed, mm/min", "Spindle, rpm",
+                     "Passes equal", "moved", "changed", "reordered", "only in A", "only in B"},
+                    "lrrllrrrrrr",
+                    {}};
     for (const regression::ToolRow& r : c.tools)
         if (r.says_something())
-            out += fmt::format(
-                "<tr><td>T{}<td>{:.3f}<td>{:.3f}<td>{:+.3f}<td>{}<td>{}<td>{}<td>{}<td>{}<td>{}<td>"
-                "{}"
-                "<td>{}<td>{}<td>{}</tr>\n",
-                r.tool, r.cut_a_mm, r.cut_b_mm, r.cut_b_mm - r.cut_a_mm, range_html(r.feed_a),
-                range_html(r.feed_b), range_html(r.spindle_a), range_html(r.spindle_b), r.equal,
-                r.moved, r.changed, r.reordered, r.only_a, r.only_b);
-    return out + "</table>\n";
+            table.rows.push_back({fmt::format("T{}", r.tool), fmt::format("{:.3f}", r.cut_a_mm),
+                                  fmt::format("{:+.3f}", r.cut_b_mm - r.cut_a_mm + 0.0),
+                                  both(r.feed_a, r.feed_b), both(r.spindle_a, r.spindle_b),
+                                  fmt::format("{}", r.equal), fmt::format("{}", r.moved),
+                                  fmt::format("{}", r.changed), fmt::format("{}", r.reordered),
+                                  fmt::format("{}", r.only_a), fmt::format("{}", r.only_b)});
+    return table.rows.empty() ? "" : table_html(table);
 }
 
-/// What was compared, by which layers, how long it takes, what else there is to know.
+/// Machines, layers, cycle time, what else there is to know.
 std::string facts_html(const regression::Comparison& c) {
-    std::string out =
-        fmt::format("<p>A: {}{}<br>B: {}{}<br>layers:", escape_xml(c.a),
-                    c.setup.empty() ? "" : " on " + escape_xml(c.setup), escape_xml(c.b),
-                    c.setup_b.empty() ? "" : " on " + escape_xml(c.setup_b));
+    PageTable table{"", {}, "ll", {}};
+    const bool one = c.setup == c.setup_b;
+    if (!c.setup.empty()) table.rows.push_back({one ? "Machine" : "Machine of A", c.setup});
+    if (!one && !c.setup_b.empty()) table.rows.push_back({"Machine of B", c.setup_b});
+    std::string layers;
     for (const regression::LayerVerdict& l : c.layers)
-        out += fmt::format(" {} {}", name_of(l.layer), l.equal ? "equal" : "differs");
+        layers += fmt::format("{}{} {}", layers.empty() ? "" : ", ", name_of(l.layer),
+                              l.equal ? "equal" : "differs");
+    if (!layers.empty()) table.rows.push_back({"Layers", layers});
     if (c.time_a_s > 0.0 || c.time_b_s > 0.0)
-        out += fmt::format("<br>cycle time {:.1f} → {:.1f} s", c.time_a_s, c.time_b_s);
-    for (const std::string& note : c.notes) out += "<br>note: " + escape_xml(note);
-    return out + "</p>\n";
+        table.rows.push_back(
+            {"Cycle time", fmt::format("{:.1f} s → {:.1f} s", c.time_a_s, c.time_b_s)});
+    for (const std::string& note : c.notes) table.rows.push_back({"Note", note});
+    return table_html(table);
+}
+
+/// The answer without the sentences that stand in the list of differences.
+std::string short_verdict(const regression::Comparison& c) {
+    using regression::CompareStatus;
+    if (c.equal || c.differences.empty() || c.status == CompareStatus::bad_input) return c.verdict;
+    const std::uint64_t count = c.differences.size() + c.differences_left_out;
+    std::string text =
+        fmt::format("{} by {}: {} difference{}",
+                    c.status == CompareStatus::alarm ? "Stopped, differs" : "Differs",
+                    name_of(c.by), count, count == 1 ? "" : "s");
+    if (const std::size_t gravest = regression::gravest_difference(c); gravest > 0)
+        text += fmt::format(", the gravest is number {}", gravest + 1);
+    return text + ".";
+}
+
+std::string with_heading(bool single, const char* heading, const std::string& body) {
+    if (body.empty()) return {};
+    return single ? section_html(heading, body) : fmt::format("<h3>{}</h3>\n{}", heading, body);
 }
 
 std::string case_html(const regression::Comparison& c, bool single) {
-    std::string out;
-    if (!single)
-        out = fmt::format("<h2>{}</h2><p class=\"{}\">{}</p>\n",
-                          escape_xml(c.name.empty() ? c.b : c.name), c.equal ? "equal" : "differs",
-                          escape_xml(c.verdict));
-    if (single || !c.equal) out += facts_html(c);
-    if (c.equal && c.differences.empty()) return out;
-    out += picture_html(c) + table_html(c);
-    constexpr std::size_t shown = 200;
-    for (std::size_t k = 0; k < std::min(shown, c.differences.size()); ++k) {
-        const regression::Difference& d = c.differences[k];
-        out += fmt::format("<h3>{}. {}</h3>{}<div class=\"pair\">{}{}</div>\n", k + 1,
-                           escape_xml(d.what),
-                           d.expected ? "<p>expected: " + escape_xml(d.reason) + "</p>" : "",
-                           place_html("A", d.a), place_html("B", d.b));
+    const std::string differences = differences_html(c, single ? 200 : 20);
+    return (single ? with_heading(true, "Differences and causes", differences) : differences) +
+           with_heading(single, "Where", pictures_html(c)) +
+           with_heading(single, "Tools", tools_html(c)) +
+           with_heading(single, "What was compared", facts_html(c));
+}
+
+/// The programs that differ, gravest first, then the equal ones by name.
+std::string index_html(const std::vector<const regression::Comparison*>& differing,
+                       const regression::CompareReport& report) {
+    std::string out =
+        "<div class=\"scroll\" tabindex=\"0\"><table>\n<thead><tr><th>Program</th><th>Answer</th>"
+        "<th class=\"number\">Farthest, mm</th></tr></thead>\n<tbody>\n";
+    for (std::size_t k = 0; k < differing.size(); ++k)
+        out += fmt::format(
+            "<tr><td><a href=\"#program-{}\">{}</a></td><td>{}</td><td class=\"number\">{:.4f}</td>"
+            "</tr>\n",
+            k + 1, escape_xml(name_of_case(*differing[k])),
+            escape_xml(short_verdict(*differing[k])), differing[k]->position_mm);
+    out = differing.empty() ? "" : out + "</tbody>\n</table></div>\n";
+    std::string equal;
+    std::size_t count = 0;
+    for (const regression::Comparison& c : report.cases) {
+        if (!c.equal) continue;
+        equal += (count++ > 0 ? ", " : "") + name_of_case(c);
     }
+    if (count > 0)
+        out += fmt::format("<details><summary>{} equal</summary>{}</details>\n", count,
+                           paragraph_html(equal));
+    return section_html("Programs", out);
+}
+
+std::string many_html(const regression::CompareReport& report) {
+    std::vector<const regression::Comparison*> differing;
+    for (const regression::Comparison& c : report.cases)
+        if (!c.equal) differing.push_back(&c);
+    std::stable_sort(differing.begin(), differing.end(), [](const auto* p, const auto* q) {
+        return regression::gravity_of(*p) > regression::gravity_of(*q);
+    });
+    std::string out = index_html(differing, report);
+    for (std::size_t k = 0; k < differing.size(); ++k)
+        out +=
+            fmt::format("<section id=\"program-{}\">\n<h2>{}</h2>\n{}</section>\n", k + 1,
+                        escape_xml(name_of_case(*differing[k])), case_html(*differing[k], false));
     return out;
 }
 
 }  // namespace
 
-std::string comparison_html(const regression::CompareReport& report) {
+Page comparison_page(const regression::CompareReport& report) {
     const bool single = report.single && report.cases.size() == 1;
-    std::string out = fmt::format(
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>trunnion "
-        "compare</title><style>{}</style></head><body>\n<h1 class=\"{}\">{}</h1>\n",
-        style, regression::exit_code(report) == 0 ? "equal" : "differs",
-        escape_xml(verdict_of(report)));
-    for (const regression::Comparison& c : report.cases) out += case_html(c, single);
+    Page page;
+    page.tone = regression::exit_code(report) == 0 ? Tone::good : Tone::bad;
+    page.title = "Is it the same machining?";
+    page.subject =
+        single ? report.cases.front().a + " and " + report.cases.front().b : report.suite;
+    page.verdict = single ? short_verdict(report.cases.front()) : verdict_of(report);
+    if (!page.verdict.empty())
+        page.verdict[0] =
+            static_cast<char>(std::toupper(static_cast<unsigned char>(page.verdict[0])));
+    page.body_html = single ? case_html(report.cases.front(), true) : many_html(report);
     for (const regression::ExpectedDifference& e : regression::no_longer_occurring(report))
-        out +=
-            fmt::format("<p>Expected, but no longer there: {} {} ({}).</p>\n",
-                        escape_xml(e.case_name), escape_xml(e.fingerprint), escape_xml(e.reason));
-    return out + "</body></html>\n";
+        page.body_html += paragraph_html(fmt::format("Expected, but no longer there: {} {} ({}).",
+                                                     e.case_name, e.fingerprint, e.reason));
+    const auto drawn = [](const regression::Comparison& c) { return !c.picture.empty(); };
+    if (std::any_of(report.cases.begin(), report.cases.end(), drawn))
+        page.body_html += section_html("How to read the pictures", paragraph_html(pictures_legend));
+    return page;
 }
 
 }  // namespace trunnion::report

@@ -191,14 +191,32 @@ regression::Comparison case_of(const Json& j) {
     return c;
 }
 
+/// The parts of a close-up: name in the JSON and member, once for both ways.
+template <typename Closeup, typename Visit>
+void each_part(Closeup& c, const Visit& visit) {
+    visit("difference", c.difference);
+    visit("first", c.first);
+    visit("worst", c.worst);
+    visit("place_mm", c.place_mm);
+    visit("other_mm", c.other_mm);
+    visit("right", c.right);
+    visit("up", c.up);
+    visit("axis_a", c.axis_a);
+    visit("axis_b", c.axis_b);
+    visit("a", c.a);
+    visit("b", c.b);
+}
+
 Json picture_json(const regression::ComparePicture& p) {
-    Json j = {{"cuts_a", p.cuts_a},
-              {"cuts_b", p.cuts_b},
-              {"rapids_a", p.rapids_a},
-              {"rapids_b", p.rapids_b},
-              {"marks", Json::array()}};
+    Json j = {{"cuts_a", p.cuts_a},     {"cuts_b", p.cuts_b},     {"rapids_a", p.rapids_a},
+              {"rapids_b", p.rapids_b}, {"marks", Json::array()}, {"closeups", Json::array()}};
     for (const regression::ComparePicture::Mark& m : p.marks)
         j["marks"].push_back({{"difference", m.difference}, {"a", m.a}, {"b", m.b}});
+    for (const regression::ComparePicture::Closeup& c : p.closeups) {
+        Json closeup;
+        each_part(c, [&](const char* name, const auto& value) { closeup[name] = value; });
+        j["closeups"].push_back(closeup);
+    }
     return j;
 }
 
@@ -213,6 +231,11 @@ regression::ComparePicture picture_of(const Json& j) {
         m.at("difference").get_to(p.marks.back().difference);
         m.at("a").get_to(p.marks.back().a);
         m.at("b").get_to(p.marks.back().b);
+    }
+    for (const Json& closeup : j.at("closeups")) {
+        p.closeups.emplace_back();
+        each_part(p.closeups.back(),
+                  [&](const char* name, auto& value) { closeup.at(name).get_to(value); });
     }
     return p;
 }

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "report/closeup_drawing.h"
+#include "report/page.h"
 #include "report/svg.h"
+#include "report/view_box.h"
 
 namespace trunnion::report {
 
@@ -26,56 +28,11 @@ Point2 from_the_side(const Point3& p) {
     return {0.7071 * (p[0] - p[1]), 0.35 * (p[0] + p[1]) + 0.8 * p[2]};
 }
 
-/// A box in the plane of a view.
-struct Box {
-    double low_x = std::numeric_limits<double>::infinity(), low_y = low_x;
-    double high_x = -low_x, high_y = -low_x;
-
-    void widen(const Point2& p) {
-        low_x = std::min(low_x, p.x);
-        high_x = std::max(high_x, p.x);
-        low_y = std::min(low_y, p.y);
-        high_y = std::max(high_y, p.y);
-    }
-    bool holds(const Point2& p) const {
-        return p.x >= low_x && p.x <= high_x && p.y >= low_y && p.y <= high_y;
-    }
-    double width() const { return high_x - low_x; }
-    double height() const { return high_y - low_y; }
-    Box grown(double by) const { return {low_x - by, low_y - by, high_x + by, high_y + by}; }
-};
-
 struct View {
     const char* name;
     Point2 (*seen)(const Point3&);
-    Point2 corner;  ///< of its frame, pixels
-    double width, height;
 };
-
-/// The part of a - b within the box (Liang and Barsky 1984); false: nothing.
-bool clip(const Box& box, Point2& a, Point2& b) {
-    const double dx = b.x - a.x, dy = b.y - a.y;
-    const double p[] = {-dx, dx, -dy, dy};
-    const double q[] = {a.x - box.low_x, box.high_x - a.x, a.y - box.low_y, box.high_y - a.y};
-    double from = 0.0, to = 1.0;
-    for (int k = 0; k < 4; ++k) {
-        if (p[k] == 0.0 && q[k] < 0.0) return false;
-        if (p[k] < 0.0) from = std::max(from, q[k] / p[k]);
-        if (p[k] > 0.0) to = std::min(to, q[k] / p[k]);
-    }
-    if (from > to) return false;
-    b = {a.x + to * dx, a.y + to * dy};
-    a = {a.x + from * dx, a.y + from * dy};
-    return true;
-}
-
-/// 1, 2 or 5 times a power of ten, about a quarter of `span`.
-double bar_length(double span) {
-    const double power = std::pow(10.0, std::floor(std::log10(std::max(span, 1e-9) / 4.0)));
-    for (const double step : {5.0, 2.0})
-        if (step * power <= span / 4.0) return step * power;
-    return power;
-}
+constexpr double view_width = 380.0, view_height = 330.0, view_margin = 10.0;
 
 class ViewDrawing {
   public:
@@ -85,15 +42,17 @@ class ViewDrawing {
             for (const Line& line : *lines) widen(line);
         // What differs far away (a retract to machine zero) must not set the scale.
         const double size = std::max({box_.width(), box_.height(), 1.0});
-        const Box near = box_.grown(0.5 * size);
+        const ViewBox near = box_.grown(0.5 * size);
         for (const regression::ComparePicture::Mark& m : picture.marks)
             for (const Line* line : {&m.a, &m.b})
                 for (const Point3& p : *line)
                     if (near.holds(view_.seen(p))) box_.widen(view_.seen(p));
         box_ = box_.grown(0.06 * std::max({box_.width(), box_.height(), 1.0}));
-        scale_ = std::min(view.width / box_.width(), view.height / box_.height());
-        const double spare_x = view.width / scale_ - box_.width();
-        const double spare_y = view.height / scale_ - box_.height();
+        const double width = view_width - 2.0 * view_margin,
+                     height = view_height - 3.0 * view_margin;
+        scale_ = std::min(width / box_.width(), height / box_.height());
+        const double spare_x = width / scale_ - box_.width();
+        const double spare_y = height / scale_ - box_.height();
         box_ = {box_.low_x - spare_x / 2, box_.low_y - spare_y / 2, box_.high_x + spare_x / 2,
                 box_.high_y + spare_y / 2};
     }
@@ -109,41 +68,29 @@ class ViewDrawing {
             draw_line(m.a, {"#D55E00", 3.0, "none", ""});
             draw_line(m.b, {"#0072B2", 3.0, "none", "5 4"});
         }
+        for (const auto& closeup : picture_.closeups) draw_place(closeup);
         for (const regression::ComparePicture::Mark& m : picture_.marks) draw_number(m);
-        svg_.rectangle(view_.corner, view_.width, view_.height, {"#bbb", 1.0, "none", ""});
-        svg_.text({view_.corner.x, view_.corner.y - 6}, view_.name, 13);
-        draw_bar();
+        svg_.rectangle({0.5, 0.5}, view_width - 1.0, view_height - 1.0, {"#bbb", 1.0, "none", ""});
+        const double length = round_length(box_.width());
+        draw_bar(svg_, {view_margin, view_height - 8.0}, length * scale_, length);
     }
+    double span_mm() const { return std::max(box_.width(), box_.height()); }
 
   private:
     void widen(const Line& line) {
         for (const Point3& p : line) box_.widen(view_.seen(p));
     }
     Point2 pixel(const Point2& p) const {
-        return {view_.corner.x + (p.x - box_.low_x) * scale_,
-                view_.corner.y + view_.height - (p.y - box_.low_y) * scale_};
+        return {view_margin + (p.x - box_.low_x) * scale_,
+                view_height - 2.0 * view_margin - (p.y - box_.low_y) * scale_};
     }
     void draw_line(const Line& line, const SvgStyle& style) {
-        std::vector<Point2> run;
-        const auto flush = [&] {
-            if (run.size() > 1) svg_.polyline(run, style);
-            run.clear();
-        };
-        for (std::size_t k = 1; k < line.size(); ++k) {
-            Point2 a = view_.seen(line[k - 1]), b = view_.seen(line[k]);
-            const bool from_inside = box_.holds(a), to_inside = box_.holds(b);
-            if (!clip(box_, a, b)) {
-                flush();
-                continue;
-            }
-            if (run.empty() || !from_inside) {
-                flush();
-                run.push_back(pixel(a));
-            }
-            run.push_back(pixel(b));
-            if (!to_inside) flush();
+        std::vector<Point2> seen;
+        for (const Point3& p : line) seen.push_back(view_.seen(p));
+        for (std::vector<Point2>& run : box_.clipped(seen)) {
+            for (Point2& p : run) p = pixel(p);
+            svg_.polyline(run, style);
         }
-        flush();
     }
     /// The difference's number beside the middle of its first place.
     void draw_number(const regression::ComparePicture::Mark& m) {
@@ -160,37 +107,50 @@ class ViewDrawing {
         svg_.circle({at.x + 9, at.y - 9}, 8, {"#D55E00", 1.0, "#fff", ""});
         svg_.text({at.x + 9, at.y - 5}, std::to_string(m.difference + 1), 11, "middle");
     }
-    void draw_bar() {
-        const double length = bar_length(box_.width());
-        const Point2 from{view_.corner.x + 10, view_.corner.y + view_.height - 10};
-        svg_.line(from, {from.x + length * scale_, from.y}, {"#222", 2.0, "none", ""});
-        svg_.text({from.x, from.y - 5}, fmt::format("{:g} mm", length), 11);
+    /// A ring at the place and the tool axis there, an eighth of the view long.
+    void draw_place(const regression::ComparePicture::Closeup& c) {
+        const Point2 seen = view_.seen(c.place_mm);
+        if (!box_.holds(seen)) return;
+        const double long_mm = 0.12 * span_mm();
+        Point3 tip = c.place_mm;
+        for (std::size_t k = 0; k < 3; ++k) tip[k] += long_mm * c.axis_a[k];
+        const Point2 from = pixel(seen);
+        svg_.circle(from, 7, {"#b3261e", 2.0, "none", ""});
+        draw_arrow(svg_, from, pixel(view_.seen(tip)), {"#333", 1.5, "none", ""});
+        const char* name = c.first && c.worst ? "first, worst" : c.worst ? "worst" : "first";
+        const bool right = from.x > 0.75 * view_width;
+        svg_.text({from.x + (right ? -9 : 9), from.y + 15}, name, 12, right ? "end" : "start",
+                  "#b3261e");
     }
 
     Svg& svg_;
     View view_;
     const regression::ComparePicture& picture_;
-    Box box_;
+    ViewBox box_;
     double scale_ = 1.0;
     std::vector<Point2> numbers_;
 };
 
 }  // namespace
 
-std::string picture_html(const regression::Comparison& comparison) {
+std::string pictures_html(const regression::Comparison& comparison) {
     const regression::ComparePicture& picture = comparison.picture;
     if (picture.empty()) return {};
-    Svg svg(1040.0, 700.0);
+    std::string views;
+    double span_mm = 0.0;
     for (const View& view :
-         {View{"from the side", from_the_side, {10, 30}, 510, 660},
-          View{"from above: X right, Y up", from_above, {540, 30}, 490, 380},
-          View{"from the front: X right, Z up", from_the_front, {540, 440}, 490, 250}})
-        ViewDrawing(svg, view, picture).draw();
-    return "<figure>" + svg.str() +
-           "<figcaption>Grey: cuts of A. Light blue, dashed: cuts of B. Thick orange: what differs "
-           "in "
-           "A; thick blue, dashed: in B; the numbers are those below. Faint: rapids.</figcaption>"
-           "</figure>\n";
+         {View{"From the side", from_the_side}, View{"From above: X right, Y up", from_above},
+          View{"From the front: X right, Z up", from_the_front}}) {
+        Svg svg(view_width, view_height);
+        svg.describe(view.name, "both paths, mm, in the table frame");
+        ViewDrawing drawing(svg, view, picture);
+        drawing.draw();
+        span_mm = std::max(span_mm, drawing.span_mm());
+        views += figure_html(svg.str(), view.name);
+    }
+    for (const auto& closeup : picture.closeups)
+        if (is_small(closeup, span_mm)) views += closeup_html(closeup);
+    return "<div class=\"pair\">" + views + "</div>\n";
 }
 
 }  // namespace trunnion::report

@@ -157,7 +157,7 @@ std::string format_comparison(const regression::CompareReport& report, ReportFor
         case ReportFormat::json:
             return comparison_json(report);
         case ReportFormat::html:
-            return comparison_html(report);
+            return page_html(comparison_page(report));
         case ReportFormat::junit:
             return junit_of(report);
         case ReportFormat::sarif:

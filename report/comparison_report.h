@@ -4,6 +4,7 @@
 #include <string>
 
 #include "regression/comparison.h"
+#include "report/page.h"
 
 namespace trunnion::report {
 
@@ -19,7 +20,9 @@ std::string comparison_json(const regression::CompareReport& report);
 /// For step summaries: the answer, a table of the programs that differ, and their first
 /// differences.
 std::string comparison_markdown(const regression::CompareReport& report);
-std::string comparison_html(const regression::CompareReport& report);
+/// The page, without its origin: causes first, both paths with the first and the worst place,
+/// tools.
+Page comparison_page(const regression::CompareReport& report);
 
 /// One shard's part of a suite's results: everything a report is written from, as JSON, and back.
 struct ComparePart {

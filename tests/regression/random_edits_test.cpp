@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "tests/regression/plain_interpreter.h"
 #include "tests/regression/programs.h"
+#include "tests/regression/random_edit.h"
 
 using namespace trunnion;
 using namespace trunnion::testing;
@@ -76,35 +77,6 @@ M30
 
 constexpr std::array<double, 3> g55_mm{4.0, -3.0, 1.0};
 
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines(1);
-    for (const char c : text)
-        if (c == '\n')
-            lines.emplace_back();
-        else
-            lines.back() += c;
-    return lines;
-}
-
-std::size_t pick(SeededNoise& noise, std::size_t count) {
-    return static_cast<std::size_t>(noise.bits() % count);
-}
-
-/// Start, length and letter of a random word of a line.
-struct Word {
-    std::size_t first = 0, size = 0;
-};
-std::optional<Word> some_word(const std::string& line, SeededNoise& noise) {
-    std::vector<Word> words;
-    for (std::size_t at = 0; at < line.size(); ++at)
-        if (line[at] >= 'A' && line[at] <= 'Z') {
-            const std::size_t end = std::min(line.find(' ', at), line.size());
-            words.push_back({at, end - at});
-        }
-    if (words.empty()) return std::nullopt;
-    return words[pick(noise, words.size())];
-}
-
 constexpr std::array<const char*, 28> blocks{
     "G0 Z15.", "G1 X12. F450.", "G4 P700", "M3",  "M4",  "M5",  "M8",  "M9",  "M7",  "M0",
     "M1",      "S5000",         "F333.",   "G90", "G91", "G20", "G21", "G54", "G55", "G80",
@@ -113,47 +85,7 @@ constexpr std::array<const char*, 18> codes{"G0",  "G1",  "G2",  "G3",  "G20", "
                                             "G54", "G55", "G80", "G81", "G82", "G90",
                                             "G91", "G98", "G99", "M3",  "M5",  "M9"};
 
-/// One edit of line `text`; false: this one does not fit it.
-bool edit(std::vector<std::string>& lines, std::size_t at, SeededNoise& noise) {
-    std::string& text = lines[at];
-    const auto word = some_word(text, noise);
-    const std::size_t kind = pick(noise, 10);
-    if (kind == 0)
-        return lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(at),
-                            blocks[pick(noise, blocks.size())]),
-               true;
-    if (kind == 1) return lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(at)), true;
-    if (kind == 2) return std::swap(lines[at], lines[at + 1]), true;
-    if (kind == 3) return lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(at), text), true;
-    if (!word) return false;
-    const char letter = text[word->first];
-    const bool code = letter == 'G' || letter == 'M';
-    if (kind == 4) return text.erase(word->first, word->size + 1), true;
-    if (kind == 5 && code)
-        return text.replace(word->first, word->size, codes[pick(noise, codes.size())]), true;
-    if (kind == 6 && !code) return text[word->first] = "XYZIJFSTHPR"[pick(noise, 11)], true;
-    if (kind == 7 && !code) {
-        if (text[word->first + 1] == '-') return text.erase(word->first + 1, 1), true;
-        return text.insert(word->first + 1, "-"), true;
-    }
-    const std::size_t digit = word->first + 1 + pick(noise, word->size);
-    if (digit >= text.size() || text[digit] < '0' || text[digit] > '9') return false;
-    text[digit] = static_cast<char>('0' + pick(noise, 10));
-    return true;
-}
-
-std::string edited(SeededNoise& noise, std::string& what) {
-    for (;;) {
-        std::vector<std::string> lines = lines_of(base);
-        const std::size_t at = 2 + pick(noise, lines.size() - 6);
-        const std::string before = lines[at];
-        if (!edit(lines, at, noise)) continue;
-        what = "line " + std::to_string(at + 1) + ": '" + lines[at] + "' was '" + before + "'";
-        std::string out;
-        for (std::size_t k = 0; k + 1 < lines.size(); ++k) out += lines[k] + "\n";
-        return out;
-    }
-}
+const EditChoices choices{blocks, codes, "XYZIJFSTHPR"};
 
 struct Judged {
     bool sure = true, stopped = false;
@@ -279,7 +211,7 @@ Counts run_edits(std::uint64_t seed, int wanted) {
     options.max_blocks = 3000;
     while (n.changed + n.same < wanted) {
         std::string what;
-        const std::string b = edited(noise, what);
+        const std::string b = edited(base, choices, noise, what);
         const Opinion o = opinion(truth, judged(b, setup));
         if (o == Opinion::no_opinion) {
             ++n.not_judged;
