@@ -1,4 +1,4 @@
-// trunnion compare, trunnion merge: are two programs, folders or suites the same machining?
+// trunnion compare: are two programs, folders or suites the same machining?
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -60,8 +60,10 @@ void put_report(const CompareCommand& c, const regression::CompareReport& report
         page = report::comparison_page(report);
         page.origin = page_origin(*c.command, c.page, inputs_of(c));
     }
-    if (!c.page.html.empty()) write_output(c.page.html, report::page_html(page));
-    write_output(c.out, html ? report::page_html(page) : report::format_comparison(report, format));
+    OutputFiles files;  // both or none
+    if (!c.page.html.empty()) files.add(c.page.html, report::page_html(page));
+    files.add(c.out, html ? report::page_html(page) : report::format_comparison(report, format));
+    files.write();
 }
 
 regression::SuiteCase case_of(const CompareCommand& c) {

@@ -5,9 +5,11 @@
 #include "base/alarm.h"
 #include "base/output_files.h"
 #include "base/read_file.h"
+#include "base/sha256.h"
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/options.h"
+#include "cli/page_options.h"
 #include "report/comparison_report.h"
 #include "report/identification_report.h"
 
@@ -18,6 +20,8 @@ namespace {
 struct MergeOptions {
     std::vector<std::string> parts;
     std::string format = "text", out = "-";
+    PageOptions page;
+    const CLI::App* command = nullptr;
 };
 
 struct PartFile {
@@ -29,7 +33,15 @@ int merge_comparisons(const std::vector<PartFile>& files, const MergeOptions& o)
     std::vector<report::ComparePart> parts;
     for (const PartFile& file : files) parts.push_back(report::parse_part(file.text, file.path));
     const regression::CompareReport whole = report::merge_parts(parts);
-    write_output(o.out, report::format_comparison(whole, format));
+    if (format == report::ReportFormat::html) {
+        std::vector<report::PageInput> inputs;
+        for (const PartFile& file : files) inputs.push_back({file.path, sha256(file.text)});
+        report::Page page = report::comparison_page(whole);
+        page.origin = page_origin(*o.command, o.page, std::move(inputs));
+        write_output(o.out, report::page_html(page));
+    } else {
+        write_output(o.out, report::format_comparison(whole, format));
+    }
     return regression::exit_code(whole);
 }
 
@@ -63,6 +75,7 @@ void add_merge(CLI::App& app, Run& run) {
     command->add_flag_callback(
         "--json", [o] { o->format = "json"; }, "the same as --format json");
     writes_file(command->add_option("--out", o->out, "file for the report"));
+    o->command = command;
     command->callback([o, &run] { run = [o] { return merge(*o); }; });
 }
 
