@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "base/alarm.h"
 #include "base/console.h"
@@ -28,6 +29,7 @@ struct Options {
     double tolerance_um = 0.05, largest_turn_deg = 0.1;
     int decimals = 6;
     BudgetOptions limits;
+    bool json = false;
     PageOptions page;
     const CLI::App* command = nullptr;
 };
@@ -45,7 +47,20 @@ void print_direction(const char* where, double before_rad, double after_rad) {
                 1e6 * before_rad, 1e6 * after_rad);
 }
 
+/// What stderr says, for programs.
+nlohmann::ordered_json json_of(const compensation::CompensatedProgram& c) {
+    const auto worst = [](const compensation::CompensatedProgram::Worst& w) {
+        return nlohmann::ordered_json{{"tip_um", um_from_mm(w.tip_mm)},
+                                      {"turned_urad", urad_from_rad(w.turned_rad)},
+                                      {"kept_urad", urad_from_rad(w.kept_rad)}};
+    };
+    return {{"schema", "trunnion.compensate/1"}, {"blocks", c.blocks.size()},
+            {"before", worst(c.before)},         {"after", worst(c.after)},
+            {"in_gap", worst(c.in_gap)},         {"notes", c.notes}};
+}
+
 int run_command(const Options& o) {
+    if (o.json && o.out == "-") throw InputError("--json needs --out FILE for the program");
     if (o.tolerance_um <= 0.0) throw InputError("--tol-um: a tolerance above zero is needed");
     if (o.largest_turn_deg < 0.0) throw InputError("--max-turn-deg: 0 or more");
     if (o.decimals < 1 || o.decimals > 9) throw InputError("--decimals: 1 to 9");
@@ -65,6 +80,7 @@ int run_command(const Options& o) {
     if (!o.page.html.empty())
         files.add(o.page.html, finished_page(report::compensation_page(c, setup.name, o.program),
                                              *o.command, o.page, {setup.path}));
+    if (o.json) files.add("-", json_of(c).dump(1) + "\n");
     files.write();
     print_error("{} blocks; largest tip error at a block's end {:.3f} um before, {:.3f} um after\n",
                 c.blocks.size(), um_from_mm(c.before.tip_mm), um_from_mm(c.after.tip_mm));
@@ -97,6 +113,7 @@ void add_compensate(CLI::App& app, Run& run) {
                         "they keep their words)");
     command->add_option("--decimals", o->decimals, "of the words written (6)");
     add_budget(*command, o->limits);
+    command->add_flag("--json", o->json, "one JSON object on stdout");
     add_page_options(*command, o->page);
     o->command = command;
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });

@@ -23,6 +23,7 @@ namespace {
 struct Options {
     std::string setup, csv, svg;
     volumetric::VolumetricOptions map;
+    bool json = false;
     PageOptions page;
     const CLI::App* command = nullptr;
 };
@@ -72,7 +73,10 @@ int run_command(const Options& o) {
         files.add(o.page.html,
                   finished_page(report::volumetric_page(map), *o.command, o.page, {setup.path}));
     files.write();
-    if (o.csv != "-") print_out("{}", report::volumetric_text(map));
+    if (o.json)
+        print_out("{}", report::volumetric_json(map));
+    else if (o.csv != "-")
+        print_out("{}", report::volumetric_text(map));
     if (whole) return exit_done;
     print_error("trunnion: interrupted: these are the first {} poses of the grid{}\n",
                 map.points.size(),
@@ -96,6 +100,7 @@ void add_volumetric(CLI::App& app, Run& run) {
     writes_file(command->add_option("--csv", o->csv, "every pose with its error"));
     writes_file(command->add_option("--svg", o->svg,
                                     "folder for pictures: one for each height, one of the axes"));
+    command->add_flag("--json", o->json, "one JSON object on stdout");
     add_page_options(*command, o->page);
     o->command = command;
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/alarm.h"
+#include "report/diagnosis_words.h"
 #include "report/parameters_json.h"
 
 namespace trunnion::report {
@@ -126,15 +127,16 @@ std::string identification_json(const identification::Identification& result) {
 }
 
 std::string identification_text(const identification::Identification& result, bool repetitions) {
-    const auto sigma = [](double v) {
-        return std::isfinite(v) ? fmt::format("{:.2g}", v) : std::string("-");
-    };
-    std::string text = fmt::format("{:<18} {:<22} {:>14} {:>12} {:>12} {}\n", "effect", "parameter",
-                                   "value", "sigma", repetitions ? "Monte Carlo" : "", "unit");
-    for (const identification::FitParameter& p : result.parameters)
-        text += fmt::format("{:<18} {:<22} {:>14.7g} {:>12} {:>12} {}\n", p.effect,
-                            with_component(p), p.value, sigma(p.sigma),
-                            repetitions ? sigma(p.sigma_monte_carlo) : "", p.unit);
+    std::string text =
+        fmt::format("{:<18} {:<18} {:>13} {:>11} {:>11}  {}\n", "effect", "parameter", "value",
+                    "sigma", repetitions ? "Monte Carlo" : "", "unit");
+    for (const identification::FitParameter& p : result.parameters) {
+        const ShopValue v = shop_value(p);
+        identification::FitParameter repeated = p;
+        repeated.sigma = p.sigma_monte_carlo;
+        text += fmt::format("{:<18} {:<18} {:>13} {:>11} {:>11}  {}\n", p.effect, v.name, v.value,
+                            v.sigma, repetitions ? shop_value(repeated).sigma : "", v.unit);
+    }
     for (const identification::Inseparable& group : result.inseparable)
         text += fmt::format("no reading here sees: {}\n", to_string(group));
     return text + fmt::format("rms {:.3f} um before, {:.3f} um after, {} degrees of freedom\n",

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "base/numbers.h"
 #include "base/units.h"
 
@@ -46,6 +48,34 @@ std::string volumetric_csv(const volumetric::VolumetricMap& map) {
         out += shortest(point.error_W_mm.norm()) + ',' + cause_name(map, point) + '\n';
     }
     return out;
+}
+
+std::string volumetric_json(const volumetric::VolumetricMap& map) {
+    using Json = nlohmann::ordered_json;
+    const volumetric::VolumetricPoint& worst = map.points[map.worst];
+    Json at = Json::object(), causes = Json::array();
+    for (const Axis axis : map.axes) {
+        const double q = worst.at[axis];
+        at[map.names[axis]] = map.names.is_rotary(axis) ? deg_from_rad(q) : q;
+    }
+    for (const volumetric::VolumetricCause& cause : map.causes)
+        causes.push_back({{"name", cause.name},
+                          {"rms_um", um_from_mm(cause.rms_mm)},
+                          {"largest_um", um_from_mm(cause.largest_mm)},
+                          {"share", cause.share}});
+    const Vector3& e = worst.error_W_mm;
+    const Json json{{"schema", "trunnion.volumetric/1"},
+                    {"machine", map.machine},
+                    {"tool_mm", map.length_mm},
+                    {"poses", map.points.size()},
+                    {"rms_um", um_from_mm(map.rms_mm)},
+                    {"worst",
+                     {{"at", at},
+                      {"error_mm", {e.x(), e.y(), e.z()}},
+                      {"error_um", um_from_mm(e.norm())},
+                      {"cause", cause_name(map, worst)}}},
+                    {"causes", causes}};
+    return json.dump(1) + "\n";
 }
 
 std::string volumetric_text(const volumetric::VolumetricMap& map) {

@@ -1,4 +1,4 @@
-// A volumetric map as CSV and text; its pictures are in volumetric_pictures.h.
+// A volumetric map as CSV, JSON and text; its pictures are in volumetric_pictures.h.
 #pragma once
 
 #include <string>
@@ -11,6 +11,8 @@ namespace trunnion::report {
 /// One row a pose: axis positions, nominal tip in W, error in W (mm), and the cause that
 /// contributes most there.
 std::string volumetric_csv(const volumetric::VolumetricMap& map);
+/// `{"schema":"trunnion.volumetric/1",...}` of docs/formats.md.
+std::string volumetric_json(const volumetric::VolumetricMap& map);
 /// Worst place, rms, and a table of causes.
 std::string volumetric_text(const volumetric::VolumetricMap& map);
 

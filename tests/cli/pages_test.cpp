@@ -1,5 +1,6 @@
 // --html of every command: one template, verdict first, origin in the foot, the same bytes again.
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "tests/cli/command_bench.h"
 
@@ -65,4 +66,28 @@ TEST_CASE("the page of identify shows intervals, correlations and residuals") {
     for (const char* words : {"95 % interval", "What goes together", "Residuals over time",
                               "Residuals over B / deg", "EX0B"})
         CHECK_THAT(page, Catch::Contains(words));
+}
+
+TEST_CASE("volumetric and compensate give one JSON object with what they print") {
+    using Json = nlohmann::json;
+    const Bench bench;
+    REQUIRE(bench.trunnion("volumetric --grid 3 --rotary-grid 3 --json --setup " + root +
+                           "/machines/ac_trunnion.toml") == 0);
+    const Json map = Json::parse(bench.read("out.txt"));
+    CHECK(map["schema"] == "trunnion.volumetric/1");
+    CHECK(map["poses"] == 243);
+    const double worst = map["worst"]["error_um"].get<double>();
+    CHECK(worst > 100.0);
+    CHECK(worst >= map["rms_um"].get<double>());
+    CHECK(map["worst"]["at"].size() == 5);
+    double share = 0.0;
+    for (const Json& cause : map["causes"]) share += cause["share"].get<double>();
+    CHECK(share == Approx(1.0));
+    const std::string part = "compensate " + root + "/programs/examples/bracket_g43_4.nc --json";
+    REQUIRE(bench.trunnion(part + " --out " + bench.file("c.nc")) == 0);
+    const Json c = Json::parse(bench.read("out.txt"));
+    CHECK(c["schema"] == "trunnion.compensate/1");
+    CHECK(c["blocks"].get<int>() > 10);
+    CHECK(c["after"]["tip_um"].get<double>() < 0.05);
+    CHECK(bench.trunnion(part) == 2);  // the program and the object cannot share stdout
 }
