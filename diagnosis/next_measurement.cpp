@@ -132,10 +132,10 @@ NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& l
         best.minutes = w.measurement.minutes;
         best.settles = settled == 1.0;
         best.program = w.measurement.program;
-        best.text =
-            fmt::format("to tell {} from {}: {} (about {:.0f} minutes, predicted {:.0f} nats{})",
-                        best.first, best.second, w.measurement.text, best.minutes, gain,
-                        best.settles ? "" : "; it may take more than this one");
+        best.text = fmt::format("to tell {} from {}: {} (about {:.0f} minutes; {})", best.first,
+                                best.second, w.measurement.text, best.minutes,
+                                best.settles ? "it is expected to settle the matter"
+                                             : "it may take more than this one");
     }
     if (best.text.empty())
         best.text = fmt::format("no ready measurement tells {} from {} at this size", best.first,

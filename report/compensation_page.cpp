@@ -7,12 +7,17 @@
 namespace trunnion::report {
 namespace {
 
+/// Three significant digits; a thousandth is as good as nothing.
+std::string three_digits(double value) {
+    return value < 1e-3 ? "below 0.001" : fmt::format("{:.3g}", value);
+}
+
 std::string um(double mm) {
-    return fmt::format("{:.3g}", um_from_mm(mm));
+    return three_digits(um_from_mm(mm));
 }
 
 std::string urad(double rad) {
-    return fmt::format("{:.3g}", urad_from_rad(rad));
+    return three_digits(urad_from_rad(rad));
 }
 
 PageTable errors_table(const compensation::CompensatedProgram& c) {

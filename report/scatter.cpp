@@ -34,7 +34,6 @@ std::string legend_text(const ScatterSeries& series) {
 
 std::string scatter_svg(const Scatter& scatter) {
     Extent x, y;
-    y.include(0.0);
     for (const ScatterSeries& series : scatter.series)
         for (const Point2& p : series.points) x.include(p.x), y.include(p.y);
     Svg svg(left_px + width_px + 30, top_px + height_px + 60);
