@@ -40,6 +40,8 @@ const Mark* find_mark(const interpreter::ParsedProgram& program, const interpret
     if (block.kind == interpreter::BlockKind::statements) return nullptr;
     for (const Mark& mark : marks) {
         if (options.calls_program && options.calls_program(mark.letter, mark.code10)) continue;
+        if (mark.code10 == 1540 && options.dialect.family == interpreter::DialectFamily::hurco)
+            continue;
         if (has_code(program, block, mark.letter, mark.code10) &&
             has_letters(program, block, mark.with))
             return &mark;

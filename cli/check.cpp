@@ -20,6 +20,7 @@
 #include "controller/block_trial.h"
 #include "controller/code_calls.h"
 #include "controller/g_codes.h"
+#include "controller/hurco_codes.h"
 #include "emulator/run.h"
 #include "interpreter/program_folders.h"
 #include "regression/suite.h"
@@ -62,7 +63,10 @@ bool calls_program(const interpreter::CodeCalls& calls, char letter, int code10)
 }
 
 bool knows_g(const setup::Setup& setup, int code10) {
-    const controller::GCode* code = controller::find_g_code(code10 / 10.0);
+    const bool hurco = setup.dialect.family == interpreter::DialectFamily::hurco;
+    const controller::GCode* code =
+        hurco ? controller::find_hurco_g_code(code10 / 10.0, setup.hurco.bnc)
+              : controller::find_g_code(code10 / 10.0);
     if (code) return code->action != controller::Action::thread || setup.threading;
     for (const controller::GCode& own : setup.builder.g_codes)
         if (own.code10 == code10) return true;

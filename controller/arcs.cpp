@@ -23,7 +23,10 @@ void check_radii(const PlaneElement& figure, double tolerance_mm) {
 }  // namespace
 
 ArcRule arc_rule(const Modal& modal) {
-    return {modal.is(ModalGroup::motion, 20), modal.settings.arc_tolerance_mm};
+    const bool bnc = modal.settings.is_bnc();
+    const bool exchanged = bnc && modal.is(ModalGroup::plane, 180);
+    return {modal.is(ModalGroup::motion, 20) != exchanged, bnc && modal.absolute(),
+            modal.settings.arc_tolerance_mm};
 }
 
 PlanePoint centre_from_radius(PlanePoint start, PlanePoint end, double radius,
@@ -57,8 +60,12 @@ void bend_to_arc(const SortedWords& words, const motion::PlaneAxes& plane, const
         if (figure.start.x == figure.end.x && figure.start.y == figure.end.y) return;
         figure.centre = centre_from_radius(figure.start, figure.end, radius, rule);
     } else {
-        if (words.has(plane.centre_first)) figure.centre.x += words.length_mm(plane.centre_first);
-        if (words.has(plane.centre_second)) figure.centre.y += words.length_mm(plane.centre_second);
+        const auto take = [&](char letter, double& centre) {
+            if (!words.has(letter)) return;
+            centre = words.length_mm(letter) + (rule.absolute_centre ? 0.0 : centre);
+        };
+        take(plane.centre_first, figure.centre.x);
+        take(plane.centre_second, figure.centre.y);
         check_radii(figure, rule.tolerance_mm);
     }
     figure.sweep_rad = sweep_of(figure.centre, figure.start, figure.end, rule.clockwise);
@@ -69,11 +76,12 @@ void move_arc_block(const SortedWords& words, Modal& modal, const Frames& frames
     const motion::PlaneAxes& plane = modal.plane();
     check_plane_of_centre(words, plane);
     const offsets::ControlPosition target = commanded_position(words, modal, frames);
+    const ArcRule rule = arc_rule(modal);
     PlaneElement figure;
     if (has_arc_words(words, plane)) {
         figure.start = {frames.program[plane.first], frames.program[plane.second]};
         figure.end = {target[plane.first], target[plane.second]};
-        bend_to_arc(words, plane, arc_rule(modal), figure);
+        bend_to_arc(words, plane, rule, figure);
     } else if (modal.settings.arc_needs_centre) {
         raise_alarm(22);
     }
@@ -83,9 +91,8 @@ void move_arc_block(const SortedWords& words, Modal& modal, const Frames& frames
     }
     const ProgramArc arc{in_space(plane, frames.program, figure.centre), unit_along(plane.normal),
                          figure.sweep_rad};
-    mover.arc(
-        modal.is(ModalGroup::motion, 20) ? motion::MotionKind::arc_cw : motion::MotionKind::arc_ccw,
-        target, arc);
+    mover.arc(rule.clockwise ? motion::MotionKind::arc_cw : motion::MotionKind::arc_ccw, target,
+              arc);
 }
 
 }  // namespace trunnion::controller

@@ -7,8 +7,9 @@
 namespace trunnion::controller {
 
 struct ArcRule {
-    bool clockwise = false;     ///< G2
-    double tolerance_mm = 0.0;  ///< 3410; 0: start and end radius are not compared
+    bool clockwise = false;        ///< G2; G3 in G18 of BNC
+    bool absolute_centre = false;  ///< I J K are a place, not a way from the start (BNC)
+    double tolerance_mm = 0.0;     ///< 3410; 0: start and end radius are not compared
 };
 /// G2 or G3 in force, and 3410.
 ArcRule arc_rule(const Modal& modal);

@@ -57,6 +57,10 @@ AxisMover::AxisMover(const SortedWords& words, Modal& modal, Frames& frames,
 void AxisMover::configure(const ControlConfig& config) {
     limits = axis_limits(config.axes);
     clamps_ = config.clamps;
+    const bool hurco = config.dialect.family == interpreter::DialectFamily::hurco;
+    for (const auto& [axis, m_clamp] : hurco_clamps)
+        if (hurco && config.hurco.clamps_alarm)
+            clamps_.push_back({axis, m_clamp, m_clamp + 1, true});
 }
 
 void AxisMover::parameters_changed() {
@@ -112,6 +116,15 @@ void AxisMover::take_marks() {
     move_.transform = frames_.believed.transform ? &*frames_.believed.transform : nullptr;
 }
 
+/// A Hurco's rapid; nothing where the axes arrive together.
+std::optional<motion::Dogleg> AxisMover::dogleg_of(const motion::AxisMove& move) const {
+    const ControlSettings& settings = modal_.settings;
+    if (!settings.is_hurco() || settings.hurco.rapids_are_interpolated) return std::nullopt;
+    std::optional<motion::Dogleg> way(std::in_place, move.from, move.to, limits);
+    if (way->is_straight()) way.reset();
+    return way;
+}
+
 /// Everything is in `move_` but the marks. `way`: what F divides, mm.
 motion::MoveResult AxisMover::send(motion::MotionKind kind, const offsets::ControlPosition& program,
                                    const offsets::ControlPosition& machine, double way) {
@@ -121,11 +134,15 @@ motion::MoveResult AxisMover::send(motion::MotionKind kind, const offsets::Contr
     if (!clamps_.empty()) check_clamps(m.to);
     take_marks();
     const double cruise_s = pace_.take(m, limits, way);
+    const bool on_its_own = kind == motion::MotionKind::rapid && !m.curve && !m.arc;
+    const std::optional<motion::Dogleg> dogleg = on_its_own ? dogleg_of(m) : std::nullopt;
+    if (dogleg) m.curve = &*dogleg;
     m.feed_mm_min = kind == motion::MotionKind::rapid ? 0.0
                     : m.length_mm > 0.0 && cruise_s > 0
                         ? 60.0 * m.length_mm / cruise_s
                         : modal_.block.feed.mm_min / modal_.units.unit_mm;
     const motion::MoveResult result = sink_.move(m);
+    if (dogleg) m.curve = nullptr;
     ++record.moves;
     record.time_s += result.part * m.duration_s;
     record.path_mm += result.part * m.length_mm;

@@ -9,6 +9,7 @@
 #include "controller/frames.h"
 #include "controller/run_record.h"
 #include "motion/axis_limits.h"
+#include "motion/dogleg.h"
 #include "motion/motion.h"
 #include "motion/pace.h"
 
@@ -75,6 +76,7 @@ class AxisMover {
                             const offsets::ControlPosition& machine, double way);
     double duration(motion::MotionKind kind, double way) const;
     void take_marks();
+    std::optional<motion::Dogleg> dogleg_of(const motion::AxisMove& move) const;
     void check_stroke(const AxisPositions& to) const;
     void check_clamps(const AxisPositions& to) const;
 

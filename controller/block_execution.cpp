@@ -78,6 +78,7 @@ void run_motion(Control& c) {
     if (uses_cutter_path(w, c.mover)) return queue_motion(w, c.modal, c.frames, c.mover);
     const int code = c.modal.codes[ModalGroup::motion];
     if (code == 330) return cut_thread(w, c.modal, c.frames, c.mover);
+    if (code == 24 || code == 34) return c.arc_3d.move(w, c.modal, c.frames, c.mover);
     const bool round = code == 20 || code == 30;
     if (c.wrapped.cylinder() && round)
         return c.wrapped.move_cylinder_arc(w, c.modal, c.frames, c.mover);
@@ -93,8 +94,8 @@ void run_motion(Control& c) {
 bool moves_by_itself(const SortedWords& w, const Modal& modal, const Frames& frames) {
     if (frames.length_moves || (w.has('R') && modal.in_cycle())) return true;
     const int code = modal.codes[ModalGroup::motion];
-    const bool by_vector = frames.tip.in_force && frames.tip.by_vector;
-    return (code == 20 || code == 30 || by_vector) && (w.present & tool_vector_letters);
+    if (leads_tool(w, modal, frames.tip)) return true;
+    return (code == 20 || code == 30) && (w.present & tool_vector_letters);
 }
 
 /// H that belongs to no code of the block.
@@ -157,6 +158,7 @@ void execute(Control& c, const interpreter::BlockWords& block) {
     sort_words(block, c.modal, c.words);
     c.moved = false;
     c.plane_codes.check_goes_on(c.words);
+    c.arc_3d.check_goes_on(c.words);
     if (c.data_entry != DataEntry::none && c.words.code_count == 0) {
         if (c.data_entry == DataEntry::tool_life) return;
         enter_parameter(c.words, block.sequence_number, c.stores.parameters);

@@ -13,4 +13,11 @@ struct ClampCode {
     bool alarm = false;
 };
 
+/// Of a Hurco: the code that clamps; the next one releases.
+struct HurcoClamp {
+    Axis axis;
+    int m_clamp;
+};
+constexpr HurcoClamp hurco_clamps[] = {{Axis::C, 12}, {Axis::A, 32}, {Axis::B, 34}};
+
 }  // namespace trunnion::controller

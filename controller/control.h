@@ -2,6 +2,7 @@
 // actions and the system variables see it; every subject gets the parts that it needs.
 #pragma once
 
+#include "controller/arc_3d.h"
 #include "controller/cycles.h"
 #include "controller/data_setting.h"
 #include "controller/m_codes.h"
@@ -25,6 +26,7 @@ struct Control {
     Mover mover;
 
     CycleData cycle;
+    Arc3d arc_3d;
     SkipState skip;
     PlaneCodes plane_codes;
     WrappedMotion wrapped;

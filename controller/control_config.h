@@ -8,6 +8,7 @@
 
 #include "controller/builder_profile.h"
 #include "controller/clamp.h"
+#include "controller/hurco_choices.h"
 #include "geometry/axes.h"
 #include "interpreter/dialect.h"
 #include "positioning/tcp_frame.h"
@@ -35,6 +36,7 @@ struct ControlConfig {
     std::vector<bool> skip_switches = std::vector<bool>(10, false);
     bool threading = false;  ///< the control has G33
     BuilderProfile builder;
+    HurcoChoices hurco;
     bool optional_stop = false;    ///< M01 stops
     std::uint64_t max_blocks = 0;  ///< 0: none
     /// Asked every few thousand blocks with their number; false: the run ends with `limit`.

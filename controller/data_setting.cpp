@@ -94,6 +94,7 @@ DataEntry set_data(const SortedWords& words, const Modal& modal, Frames& frames,
             return DataEntry::tool_life;
         case 50:
         case 52:
+            if (modal.settings.is_hurco()) raise_alarm(9003, "G10 L52", words.column_of('L'));
             return DataEntry::parameters;
         default:
             raise_alarm(10, words.column_of('L'));

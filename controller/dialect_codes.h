@@ -7,9 +7,10 @@
 namespace trunnion::controller {
 
 struct DialectCode {
-    interpreter::DialectFamily family;
     int m_code;
-    void (*act)(Modal& modal, Frames& frames, Mover& mover);
+    bool after_motion;
+    /// nullptr: outputs and chips, which the emulator passes on.
+    void (*act)(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover);
     const char* text;
     const char* source;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "base/alarm.h"
 #include "controller/coordinates.h"
@@ -29,18 +30,21 @@ struct ToolVector {
 
 /// A tilted working plane in force.
 struct TiltedPlaneState {
-    Pose pose_PF;           ///< feature frame seen from the work frame (table frame, G54 and so on)
-    int nesting = 1;        ///< G68.2, and how many G68.4 on top
-    AxisPositions latched;  ///< where the axes stood when the frame was laid into the machine
+    Pose pose_PF;     ///< feature frame seen from the work frame (table frame, G54 and so on)
+    int nesting = 1;  ///< G68.2, and how many G68.4 on top
+    std::vector<Pose> below_PF;  ///< Hurco: the planes that this one stands on, the first one first
+    AxisPositions latched;       ///< where the axes stood when the frame was laid into the machine
 };
 
 /// Tool centre point control.
 struct TipControl {
     std::optional<motion::ToolCentrePoint> in_force;  ///< G43.4, G43.5, M128
     std::optional<motion::ToolCentrePoint>
-        starting;            ///< takes over at the end of the start-up block
-    bool by_vector = false;  ///< G43.5: I J K instead of rotary words
-    double lean_rad = 0.0;   ///< Q of G43.5
+        starting;                     ///< takes over at the end of the start-up block
+    bool by_vector = false;           ///< G43.5: I J K instead of rotary words
+    double lean_rad = 0.0;            ///< Q of G43.5
+    bool by_angle_or_vector = false;  ///< M128: rotary words or I J K, as the block has them
+    bool along_line = false;          ///< Hurco's G43.4 was given: the tip keeps to its way
     /// G43.4 had a block of its own in a frame that differs from the one before: the programmed
     /// position stands, and the next move goes there from where the tip is.
     bool keeps_program = false;

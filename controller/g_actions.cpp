@@ -8,10 +8,12 @@
 #include "controller/commanded.h"
 #include "controller/cutter_codes.h"
 #include "controller/fixture_offset_codes.h"
+#include "controller/retract.h"
 #include "controller/shapes.h"
 #include "controller/surface_speed.h"
 #include "controller/tool_centre.h"
 #include "controller/tool_length.h"
+#include "controller/transform_plane.h"
 #include "controller/word_readings.h"
 #include "controller/work_frames.h"
 
@@ -76,6 +78,8 @@ constexpr ActionRow rows[] = {
      [](Control& c, const GCode&) {
          c.reference_points.come_back(c.words, c.modal, c.frames, c.mover);
      }},
+    {Action::linearisation,
+     [](Control& c, const GCode&) { c.frames.tip.along_line = c.words.get('Q', 0.0) == 0.0; }},
     {Action::local_shift,
      [](Control& c, const GCode&) { set_local_shift(c.words, c.modal, c.frames, c.mover); }},
     {Action::machine_position,
@@ -98,6 +102,8 @@ constexpr ActionRow rows[] = {
      }},
     {Action::reference_check,
      [](Control& c, const GCode&) { check_reference(c.words, c.modal, c.frames, c.mover); }},
+    {Action::reposition,
+     [](Control& c, const GCode&) { reposition(c.words, c.modal, c.frames, c.mover); }},
     {Action::rotation,
      [](Control& c, const GCode&) { set_rotation(c.words, c.modal, c.frames, c.mover); }},
     {Action::rotation_cancel, end_rotation_or_plane},
@@ -130,10 +136,19 @@ constexpr ActionRow rows[] = {
      [](Control& c, const GCode& g) {
          set_tool_length(c.words, c.modal, c.frames, c.mover, g.code10);
      }},
-    {Action::units, [](Control& c, const GCode& g) { change_units(c.modal, g.code10); }},
+    {Action::transform_plane,
+     [](Control& c, const GCode& g) {
+         set_transform_plane(c.words, c.modal, c.frames, c.mover, g.code10);
+     }},
+    {Action::units,
+     [](Control& c, const GCode& g) {
+         change_units(c.modal, g.code10 == 700 || g.code10 == 200 ? 200 : 210);
+     }},
     {Action::work_offset,
      [](Control& c, const GCode& g) {
-         set_work_offset(c.words, c.modal, c.frames, c.mover, g.code10);
+         const bool g154 = g.code10 == 1540;
+         if (g154) c.mover.note("G154 is read as G54.1 (second-hand)");
+         set_work_offset(c.words, c.modal, c.frames, c.mover, g154 ? 541 : g.code10);
      }},
 };
 

@@ -23,6 +23,7 @@ enum class Action : std::uint8_t {
     five_axis_cutter,
     fixture_offset,
     from_reference,
+    linearisation,  ///< Hurco's G43.4
     local_shift,
     machine_position,
     mirror,
@@ -34,6 +35,7 @@ enum class Action : std::uint8_t {
     preset_cancel,
     reference,
     reference_check,
+    reposition,  ///< Hurco's G8.2
     rotation,
     rotation_cancel,
     scaling,
@@ -47,6 +49,7 @@ enum class Action : std::uint8_t {
     tool_axis_keeping_tip,
     tool_centre,
     tool_length,
+    transform_plane,  ///< Hurco's G68.2, G68.3
     units,
     work_offset,
 };

@@ -51,7 +51,10 @@ void set_spindle(Modal& modal, int direction) {
 }  // namespace
 
 MCodes::MCodes(const ControlConfig& config)
-    : clamps_(config.clamps), builder_(config.builder), optional_stop_(config.optional_stop) {}
+    : clamps_(config.clamps),
+      builder_(config.builder),
+      family_(config.dialect.family),
+      optional_stop_(config.optional_stop) {}
 
 const ClampCode* MCodes::clamp_of(int code) const {
     for (const ClampCode& clamp : clamps_)
@@ -61,6 +64,7 @@ const ClampCode* MCodes::clamp_of(int code) const {
 
 bool MCodes::acts_after(int code) const {
     if (const ClampCode* clamp = clamp_of(code)) return code == clamp->m_clamp;
+    if (const DialectCode* own = find_dialect_code(family_, code)) return own->after_motion;
     const MCode* row = find_row(code);
     return row ? row->after_motion : holds(builder_.m_codes_after, code);
 }
@@ -80,15 +84,15 @@ void MCodes::change_state(int code, Modal& modal, Mover& mover) {
     if (code >= 7 && code <= 9) modal.block.coolant = code != 9;
 }
 
-void MCodes::carry_out(int code, Modal& modal, Frames& frames, Mover& mover) {
+void MCodes::carry_out(int code, const SortedWords& words, Modal& modal, Frames& frames,
+                       Mover& mover) {
     modal.number.m = code;
     if (stops_reading(code)) mover.cutter.flush();
     if (code == 0) mover.note("M00: program stop, continued");
     if (code == 1 && optional_stop_) mover.note("M01: optional stop, continued");
-    if (const DialectCode* row = find_dialect_code(modal.settings.family, code))
-        row->act(modal, frames, mover);
-    else
-        change_state(code, modal, mover);
+    const DialectCode* own = clamp_of(code) ? nullptr : find_dialect_code(family_, code);
+    if (own && own->act) own->act(words, modal, frames, mover);
+    if (!own) change_state(code, modal, mover);
     mover.m_code(code);
 }
 
@@ -97,7 +101,7 @@ void MCodes::run(bool after_motion, SortedWords& words, Modal& modal, Frames& fr
     for (std::size_t i = 0; i < words.m_count; ++i) {
         if (acts_after(words.m[i]) != after_motion) continue;
         words.running_column = words.m_column[i];
-        carry_out(words.m[i], modal, frames, mover);
+        carry_out(words.m[i], words, modal, frames, mover);
     }
     words.running_column = 0;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "controller/modal_groups.h"
 #include "controller/settings.h"
@@ -44,6 +45,9 @@ struct Modal {
     NumbersInForce number;
     double polar_angle_deg = 0.0;  ///< G16: the angle in force
     bool shortest_way = false;     ///< M126: rotary words go the shorter way
+    /// M200: which sign of the tilt a tool vector prefers.
+    std::optional<positioning::Branch> tilt;
+    bool touches_twice = false;  ///< M42: G31 touches a second time, slower
 
     bool is(ModalGroup group, int code10) const { return codes.is(group, code10); }
     bool absolute() const { return is(ModalGroup::distance, 900); }

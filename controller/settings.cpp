@@ -63,6 +63,7 @@ ControlSettings decode_settings(const offsets::Parameters& parameters,
     for (const ControlAxis& axis : config.axes)
         s.axis_letters |= 1U << (letter_of(axis.axis) - 'A');
     s.family = config.dialect.family;
+    s.hurco = config.hurco;
     s.threading = config.threading;
     s.builder = config.builder;
     s.has_rotary_axis = std::any_of(s.axes.begin(), s.axes.end(),
@@ -78,7 +79,7 @@ ControlSettings decode_settings(const offsets::Parameters& parameters,
     s.arc_tolerance_mm = parameters.get(3410);
     s.peck_return_mm = parameters.get(5114, 1.0);
     s.peck_clearance_mm = parameters.get(5115, 1.0);
-    s.length_shifts = parameters.bit(5006, 6);
+    s.length_shifts = parameters.bit(5006, 6) || (s.is_hurco() && s.hurco.length_from_tool_change);
     s.length_axis_type = parameters.bit(5001, 0) ? 2 : parameters.bit(5001, 1) ? 1 : 0;
     s.radius_is_diameter = parameters.bit(5004, 2);
     s.cutter = decode_cutter(parameters);

@@ -20,6 +20,9 @@ struct ControlSettings {
     bool threading = false;  ///< G33
     BuilderProfile builder;
     interpreter::DialectFamily family = interpreter::DialectFamily::fanuc;
+    HurcoChoices hurco;  ///< without meaning on a Fanuc
+    bool is_hurco() const { return family == interpreter::DialectFamily::hurco; }
+    bool is_bnc() const { return is_hurco() && hurco.bnc; }
     bool g89_feeds_to_initial = true;  ///< own option, see ControlConfig
     positioning::TcpFrame tcp_frame =
         positioning::TcpFrame::start;  ///< G43.4 with the table turned

@@ -14,7 +14,8 @@ struct SkipState {
 /// Present position in the work frame, mm and deg: #5041... Includes the tool length when the
 /// configuration says so (default, assumed).
 offsets::ControlPosition work_position(const Modal& modal, const Frames& frames);
-/// PS0036 under cutter compensation. Without an axis word nothing moves and no feed is needed.
+/// PS0036 under cutter compensation. After M42 a Hurco touches twice. Without an axis word nothing
+/// moves and no feed is needed.
 void skip_move(SkipState& skip, const SortedWords& words, Modal& modal, const Frames& frames,
                Mover& mover);
 

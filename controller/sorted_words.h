@@ -31,6 +31,9 @@ struct SortedWords {
     bool corner_radius = false;   ///< ,R
     bool corner_chamfer = false;  ///< ,C
     double corner = 0.0;
+    /// Hurco: Z behind the first Z of a block, as written (depths of the pecks).
+    std::array<double, 2> more_depths{};
+    std::size_t more_depth_count = 0;
 
     static constexpr std::size_t max_codes = 12;
     std::array<const GCode*, max_codes> code{};  ///< all but group 01
@@ -94,6 +97,7 @@ struct SortedWords {
         motion = nullptr;
         motion_column = running_column = 0;
         corner_radius = corner_chamfer = false;
+        more_depth_count = 0;
     }
 };
 

@@ -29,26 +29,6 @@ positioning::PlaneWords plane_words(const SortedWords& words) {
     return out;
 }
 
-void check_plane_may_start(const Modal& modal, const Frames& frames) {
-    if (frames.tip.in_force) raise_alarm(5421, "(a tilted plane under it)");
-    if (frames.fixture_number != 0) raise_alarm(5457, "(G54.2 is in force)");
-    if (!modal.cutter_is_off()) raise_alarm(5457, "(cutter compensation is in force)");
-    if (frames.believed.fault) throw Alarm(*frames.believed.fault);
-}
-
-/// A new frame; G52 counts along the plane from now on.
-void set_plane(const TiltedPlaneState& plane, Modal& modal, Frames& frames, Mover& mover) {
-    Coordinates& stages = frames.stages;
-    if (!frames.plane) {
-        offsets::set_xyz(stages.plane_local, offsets::xyz_of(stages.local));
-        offsets::set_xyz(stages.local, Vector3::Zero());
-        modal.codes.set(ModalGroup::rotation, 682);
-    }
-    frames.plane = plane;
-    frames.place_plane();
-    mover.frames_changed();
-}
-
 Vector3 tool_direction_P(const Frames& frames) {
     const auto& transform = frames.believed.transform;
     return transform ? transform->tool_direction_W(frames.axes) : Vector3::UnitZ();
@@ -85,6 +65,25 @@ std::optional<Pose> add_to(positioning::PlaneDefinition& definition, const Sorte
 }
 
 }  // namespace
+
+void check_plane_may_start(const Modal& modal, const Frames& frames) {
+    if (frames.tip.in_force) raise_alarm(5421, "(a tilted plane under it)");
+    if (frames.fixture_number != 0) raise_alarm(5457, "(G54.2 is in force)");
+    if (!modal.cutter_is_off()) raise_alarm(5457, "(cutter compensation is in force)");
+    if (frames.believed.fault) throw Alarm(*frames.believed.fault);
+}
+
+void set_plane(const TiltedPlaneState& plane, Modal& modal, Frames& frames, Mover& mover) {
+    Coordinates& stages = frames.stages;
+    if (!frames.plane) {
+        offsets::set_xyz(stages.plane_local, offsets::xyz_of(stages.local));
+        offsets::set_xyz(stages.local, Vector3::Zero());
+        modal.codes.set(ModalGroup::rotation, 682);
+    }
+    frames.plane = plane;
+    frames.place_plane();
+    mover.frames_changed();
+}
 
 void PlaneCodes::check_goes_on(const SortedWords& words) const {
     if (!pending()) return;
@@ -126,6 +125,12 @@ void define_plane_by_tool(const SortedWords& words, Modal& modal, Frames& frames
 
 void cancel_tilted_plane(Modal& modal, Frames& frames, Mover& mover) {
     if (frames.tip.in_force) raise_alarm(5421, "(G69 under it)");
+    if (!frames.plane->below_PF.empty()) {
+        TiltedPlaneState plane = *frames.plane;
+        plane.pose_PF = plane.below_PF.back();
+        plane.below_PF.pop_back();
+        return set_plane(plane, modal, frames, mover);
+    }
     Coordinates& stages = frames.stages;
     frames.plane.reset();
     stages.feature_MF.reset();

@@ -6,6 +6,11 @@
 
 namespace trunnion::controller {
 
+/// PS5421 under tool centre point control, PS5457 under G54.2 or cutter compensation.
+void check_plane_may_start(const Modal& modal, const Frames& frames);
+/// A new frame; G52 counts along the plane from now on.
+void set_plane(const TiltedPlaneState& plane, Modal& modal, Frames& frames, Mover& mover);
+
 /// A definition that takes several blocks (P2, P3). PS5421 under G43.4, PS5456 when planes are
 /// nested too deep, PS5457 for a wrong definition or state.
 class PlaneCodes {
@@ -23,7 +28,7 @@ class PlaneCodes {
 
 /// G68.3
 void define_plane_by_tool(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover);
-/// G69 of a tilted plane: G52 of before counts again.
+/// G69 of a tilted plane: G52 of before counts again. On a Hurco the plane below is in force.
 void cancel_tilted_plane(Modal& modal, Frames& frames, Mover& mover);
 /// G53.1, and G53.6 which keeps the tip of tool H (that in force without H), R mm further from it.
 /// Both solutions stand in the notes. PS5458 when there is no plane or no position within travel.

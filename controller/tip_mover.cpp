@@ -8,9 +8,6 @@ namespace trunnion::controller {
 
 namespace {
 
-constexpr std::uint32_t rotary_letters =
-    SortedWords::bit('A') | SortedWords::bit('B') | SortedWords::bit('C');
-
 double arc_length(const motion::ArcPath& arc, const Vector3& from, const Vector3& to) {
     const Vector3 radius = from - arc.centre_mm;
     const double bow = radius.cross(arc.normal).norm() * arc.sweep_rad;
@@ -30,10 +27,17 @@ motion::ArcPath arc_of_axes(const motion::ToolCentrePoint& tcp, const motion::Ar
 }  // namespace
 
 void TipMover::check_words() const {
-    const bool by_vector = frames_.tip.by_vector;
-    const int column = words_.column_of_first(by_vector ? rotary_letters : tool_vector_letters);
-    if (column != 0)
-        raise_alarm(5421, by_vector ? "(a rotary word under G43.5)" : "(I J K under G43.4)",
+    const TipControl& tip = frames_.tip;
+    if (leads_tool(words_, modal_, tip)) {
+        if (const int column = words_.column_of_first(rotary_letters))
+            raise_alarm(5421, "(a rotary word beside a tool vector)", column);
+        return;
+    }
+    const std::uint32_t wrong = tip.by_vector            ? rotary_letters
+                                : tip.by_angle_or_vector ? 0U
+                                                         : tool_vector_letters;
+    if (const int column = words_.column_of_first(wrong))
+        raise_alarm(5421, tip.by_vector ? "(a rotary word under G43.5)" : "(I J K under G43.4)",
                     column);
 }
 
@@ -46,20 +50,12 @@ bool TipMover::turns(const AxisPositions& to) const {
     return !(tcp().transform->rotaries(frames_.axes) == tcp().transform->rotaries(to));
 }
 
-/// G43.5: rotary angles of the vector I J K (program frame), leaning towards the travel by Q.
+/// Rotary angles of the vector I J K (program frame), under G43.5 leaning towards the travel by Q.
 void TipMover::orient_tool(const Vector3& travel_W, AxisPositions& rotaries) const {
-    const positioning::RotaryTransform& transform = *tcp().transform;
-    const Vector3 vector =
-        frames_.stages.linear() *
-        Vector3(words_.get('I', 0.0), words_.get('J', 0.0), words_.get('K', 0.0));
-    const int column = words_.column_of_first(tool_vector_letters);
-    if (vector.norm() < 1e-9) raise_alarm(5421, "(I J K is no direction)", column);
+    const Vector3 vector = frames_.stages.linear() * tool_vector(words_);
     const Vector3 n_W =
         motion::leaned(tcp().direction_W(vector.normalized()), travel_W, frames_.tip.lean_rad);
-    const positioning::RotaryChoice choice = positioning::choose_rotaries(
-        transform, n_W, transform.rotaries(frames_.axes), frames_.rotary_travel(modal_.settings));
-    if (!choice.chosen) raise_alarm(5421, "(no rotary position for this tool axis)", column);
-    rotaries = transform.with_rotaries(rotaries, *choice.chosen);
+    rotaries = with_tool_along(n_W, words_, modal_, frames_, rotaries);
 }
 
 /// Where the tip is, mm in W: as the program position says, so that a way that does not move is
@@ -78,7 +74,7 @@ TipMover::TipWay TipMover::way_to(const offsets::ControlPosition& target) const 
     out.start_W = start_of_way();
     AxisPositions rotaries = offsets::axis_positions_of(machine);
     const Vector3 staged = staged_tip(machine);
-    if (frames_.tip.by_vector && (words_.present & tool_vector_letters)) {
+    if (leads_tool(words_, modal_, frames_.tip)) {
         orient_tool(tcp().tip_W(staged, rotaries) - out.start_W, rotaries);
         machine = offsets::control_position_of(rotaries);
     }
@@ -89,6 +85,11 @@ TipMover::TipWay TipMover::way_to(const offsets::ControlPosition& target) const 
     out.target.machine = machine;
     out.target.program = reached(target, machine);
     return out;
+}
+
+bool TipMover::keeps_tip_on_way() const {
+    return !frames_.tip.by_angle_or_vector || frames_.tip.along_line ||
+           modal_.settings.hurco.m128_keeps_tip_between_ends;
 }
 
 /// Rotaries alone: F counts degrees (19696#6 RFC = 1), or the axes run as fast as they may.
@@ -104,7 +105,7 @@ double TipMover::feed_length(double tip_mm, const offsets::ControlPosition& mach
 /// The program position: as commanded, with the angles that a vector led to.
 offsets::ControlPosition TipMover::reached(offsets::ControlPosition target,
                                            const offsets::ControlPosition& machine) const {
-    if (!frames_.tip.by_vector) return target;
+    if (!frames_.tip.by_vector && !leads_tool(words_, modal_, frames_.tip)) return target;
     const offsets::ControlPosition counted = frames_.stages.program_from_machine(machine);
     for (const Axis axis : {Axis::A, Axis::B, Axis::C}) target[axis] = counted[axis];
     return target;
@@ -116,7 +117,7 @@ motion::MoveResult TipMover::line(motion::MotionKind kind, const offsets::Contro
     CurveMove way;
     way.length_mm = (tip.end_W - tip.start_W).norm();
     way.feed_length_mm = feed_length(way.length_mm, tip.target.machine);
-    if (!turns(tip.target.axes)) return axes_.along(kind, tip.target, way);
+    if (!turns(tip.target.axes) || !keeps_tip_on_way()) return axes_.along(kind, tip.target, way);
     const motion::TipLine line(tcp(), frames_.axes, tip.target.axes, tip.start_W, tip.end_W);
     way.curve = &line;
     return axes_.along(kind, tip.target, way);

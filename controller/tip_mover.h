@@ -2,14 +2,12 @@
 #pragma once
 
 #include "controller/axis_mover.h"
+#include "controller/tool_vector.h"
 
 namespace trunnion::controller {
 
-/// I J K: the tool axis of G43.5.
-constexpr std::uint32_t tool_vector_letters =
-    SortedWords::bit('I') | SortedWords::bit('J') | SortedWords::bit('K');
-
-/// The stage in front of the axes while tool centre point control is in force (`frames.tip`).
+/// The stage in front of the axes while tool centre point control is in force (`frames.tip`). M128
+/// without G43.4 puts the tip right at the ends of blocks alone: the axes run straight between.
 class TipMover {
   public:
     TipMover(const SortedWords& words, const Modal& modal, const Frames& frames, AxisMover& axes)
@@ -37,6 +35,7 @@ class TipMover {
     offsets::ControlPosition reached(offsets::ControlPosition target,
                                      const offsets::ControlPosition& machine) const;
     bool turns(const AxisPositions& to) const;
+    bool keeps_tip_on_way() const;
     motion::ArcPath arc_in_W(const ProgramArc& arc, const AxisPositions& rotaries) const;
 
     const SortedWords& words_;

@@ -58,11 +58,12 @@ void cancel_tool_centre(Frames& frames, Mover& mover) {
 
 void set_tool_length(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover,
                      int code10) {
+    const bool hurco = modal.settings.is_hurco();
     const bool from_tcp = frames.tip.in_force.has_value();
-    cancel_tool_centre(frames, mover);
+    if (!hurco) cancel_tool_centre(frames, mover);
     modal.codes.set(ModalGroup::length, code10);
     if (words.has('H')) modal.number.length = words.whole('H');
-    const bool on = code10 != 490;
+    const bool on = code10 != 490 || (hurco && modal.settings.hurco.g49_keeps_tool_length);
     offsets::ControlPosition length;
     if (on) {
         const double sign = code10 == 440 ? -1.0 : 1.0;
@@ -71,6 +72,7 @@ void set_tool_length(const SortedWords& words, Modal& modal, Frames& frames, Mov
                          sign * tool_length_mm(words, frames.stores().tools, modal.number.length));
     }
     frames.tool = {offsets::xyz_of(length), on ? modal.number.length : 0};
+    if (frames.tip.in_force) frames.tip.in_force->tool_vector_mm = frames.tool.vector_mm;
     put_in_force(length, modal, frames, mover);
     if (!from_tcp || on) return;
     frames.length_moves = false;

@@ -6,7 +6,7 @@
 namespace trunnion::controller {
 
 /// G43, G44, G49; also ends tool centre point control: G49 of G43.4 moves nothing, the axes stand
-/// where the tip was led to (assumed).
+/// where the tip was led to (assumed). On a Hurco M128 goes on with the other length.
 void set_tool_length(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover,
                      int code10);
 /// Geometry + wear of offset number H in mm; 0 for H0. PS0030 at the word H when there is none.

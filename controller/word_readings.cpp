@@ -34,9 +34,13 @@ void change_feed_mode(Modal& modal, int code10) {
     modal.feed_changed();
 }
 
+double dwell_word_s(const SortedWords& words, const Modal& modal) {
+    return modal.settings.is_hurco() ? words.get('P') : words.whole('P') * 0.001;
+}
+
 void dwell(const SortedWords& words, const Modal& modal, Mover& mover) {
     double duration_s = 0.0;
-    if (words.has('P')) duration_s = words.whole('P') * 0.001;
+    if (words.has('P')) duration_s = dwell_word_s(words, modal);
     for (const char letter : {'X', 'U'}) {
         if (!words.has(letter)) continue;
         const bool in_ms = words.is_bare(letter) && !modal.settings.bare_is_unit;

@@ -13,7 +13,9 @@ void change_units(Modal& modal, int code10);
 void change_plane(Modal& modal, int code10);
 /// G93, G94, G95: another mode forgets F.
 void change_feed_mode(Modal& modal, int code10);
-/// G4 P (ms), X or U (s); PS0006 when negative.
+/// P of G4 and of cycles in s: written in ms, on a Hurco in s.
+double dwell_word_s(const SortedWords& words, const Modal& modal);
+/// G4 P, X or U (s); PS0006 when negative.
 void dwell(const SortedWords& words, const Modal& modal, Mover& mover);
 
 }  // namespace trunnion::controller

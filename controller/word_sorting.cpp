@@ -1,9 +1,9 @@
 #include "controller/word_sorting.h"
 
 #include <bit>
-#include <cmath>
 
 #include "controller/alarms.h"
+#include "controller/hurco_codes.h"
 #include "interpreter/word_rules.h"
 
 namespace trunnion::controller {
@@ -13,6 +13,10 @@ namespace {
 /// Addresses that a block may hold besides axes: all but E, N, O.
 constexpr std::uint32_t known_letters =
     0x3FFFFFFU & ~(SortedWords::bit('E') | SortedWords::bit('N') | SortedWords::bit('O'));
+
+/// U V W of a Hurco's G68.2: the Y direction of the plane.
+constexpr std::uint32_t plane_vector_letters =
+    SortedWords::bit('U') | SortedWords::bit('V') | SortedWords::bit('W');
 
 void add_code(SortedWords& w, const ControlSettings& settings, const GCode* code,
               std::uint16_t column) {
@@ -32,16 +36,6 @@ void add_code(SortedWords& w, const ControlSettings& settings, const GCode* code
     w.phases |= phase_bit(code->phase);
 }
 
-/// The control's own code, or one of the machine builder.
-const GCode* g_code_of(double value, const ControlSettings& settings) {
-    const GCode* code = find_g_code(value);
-    if (code && code->action == Action::thread && !settings.threading) return nullptr;
-    if (code) return code;
-    for (const GCode& own : settings.builder.g_codes)
-        if (std::abs(own.code10 - value * 10.0) < 1e-6) return &own;
-    return nullptr;
-}
-
 void drop_cycle(SortedWords& w) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < w.code_count; ++i) {
@@ -53,7 +47,7 @@ void drop_cycle(SortedWords& w) {
 }
 
 void add_g(SortedWords& w, const ControlSettings& settings, const interpreter::WordValue& word) {
-    const GCode* code = g_code_of(word.value, settings);
+    const GCode* code = find_g_code(word.value, settings);
     if (!code) raise_alarm(10, word.column);
     if (code->phase != Phase::motion) return add_code(w, settings, code, word.column);
     if (w.motion && settings.duplicates_alarm) raise_alarm(5074, word.column);
@@ -72,6 +66,11 @@ void add_m(SortedWords& w, const interpreter::WordValue& word) {
 
 void add_letter(SortedWords& w, const Modal& modal, const interpreter::WordValue& word) {
     const std::uint32_t bit = SortedWords::bit(word.letter);
+    if (word.letter == 'Z' && (w.present & bit) && modal.settings.is_hurco()) {
+        if (w.more_depth_count == w.more_depths.size()) raise_alarm(9, word.column);
+        w.more_depths[w.more_depth_count++] = word.value;
+        return;
+    }
     if ((w.present & bit) && modal.settings.duplicates_alarm) raise_alarm(5074, word.column);
     const auto i = static_cast<std::size_t>(word.letter - 'A');
     const double largest = word.decimal_point ? modal.largest[i] : modal.largest_bare[i];
@@ -109,14 +108,19 @@ void sort_words(const interpreter::BlockWords& block, const Modal& modal, Sorted
                 add_letter(words, modal, word);
         }
     }
-    const std::uint32_t allowed =
+    if (words.more_depth_count != 0 && !modal.in_cycle() &&
+        !(words.phases & phase_bit(Phase::cycle)))
+        raise_alarm(9, words.column_of('Z'));
+    std::uint32_t allowed =
         (known_letters & ~SortedWords::axis_letters) | modal.settings.axis_letters;
+    if (modal.settings.is_hurco() && (words.has_code(682) || words.has_code(683)))
+        allowed |= plane_vector_letters;
     if (const std::uint32_t strange = words.present & ~allowed)
         raise_alarm(9, words.column[static_cast<std::size_t>(std::countr_zero(strange))]);
     constexpr std::uint32_t ruled = SortedWords::bit('T') | SortedWords::bit('H') |
                                     SortedWords::bit('D') | SortedWords::bit('S');
     if (words.code_count == 0 && !(words.present & ruled)) return;
-    const auto fault = interpreter::find_word_fault(block);
+    const auto fault = interpreter::find_word_fault(block, modal.settings.family);
     if (!fault) return;
     if (fault->detail.empty()) raise_alarm(fault->alarm, fault->column);
     raise_alarm(fault->alarm, fault->detail, fault->column);

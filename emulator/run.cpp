@@ -57,6 +57,7 @@ controller::ControlConfig control_config(const setup::Setup& setup) {
     config.optional_stop = setup.optional_stop;
     config.threading = setup.threading;
     config.builder = setup.builder;
+    config.hurco = setup.hurco;
     for (const int n : setup.block_skip) config.skip_switches[static_cast<std::size_t>(n)] = true;
     return config;
 }

@@ -30,11 +30,18 @@ Block BlockParser::run() {
     return block_;
 }
 
+/// `E` alone in a line: the last line of a Hurco's program.
+bool BlockParser::is_hurco_end(char c) const {
+    if (c != 'E' || options_.dialect.family != DialectFamily::hurco) return false;
+    const char* const rest = skip_blanks(in_.p + 1, in_.end);
+    return rest == in_.end || is_line_end(*rest) || *rest == control_z;
+}
+
 /// False: the line is no block (end of record, folder line).
 bool BlockParser::start() {
     const char c = in_.peek_raw();
     const bool over = in_.begin == in_.end || (in_.p != in_.end && *in_.p == control_z);
-    if (!over && c != '%' && c != '&') return true;
+    if (!over && c != '%' && c != '&' && !is_hurco_end(c)) return true;
     block_.kind = BlockKind::end_of_record;
     const char* p = over ? in_.end : find_line_end(in_.p, in_.end);
     end_at(p == in_.end ? p : past_line_end(p, in_.end));

@@ -27,6 +27,7 @@ class BlockParser {
 
   private:
     bool start();
+    bool is_hurco_end(char c) const;
     bool item(char c);
     void finish();
     void program_number(char c);

@@ -25,8 +25,8 @@ bool read_hex_double(std::string_view digits, double& value) {
 }
 
 /// P, L and Q of calls and returns: whole numbers without a sign.
-void check_words(const BlockWords& words) {
-    if (const auto fault = find_word_fault(words, false))
+void check_words(const BlockWords& words, DialectFamily family) {
+    if (const auto fault = find_word_fault(words, family, false))
         raise_language_alarm(fault->alarm, fault->column);
 }
 
@@ -121,7 +121,7 @@ void Interpreter::State::macro_call(std::size_t at_word, Section* named, bool mo
                                     bool every_block) {
     if (at_word != 0)
         raise_language_alarm(127, words.words[0].column, "G65 and G66 stand first in their block");
-    check_words(words);
+    check_words(words, options.dialect.family);
     const int column = words.words[0].column;
     remove(0);
     const double p = take('P', -1.0);
@@ -185,7 +185,7 @@ bool Interpreter::State::give_or(Pending call) {
 
 /// M98 P_ L_ Q_, M198 P_ L_.
 bool Interpreter::State::subprogram_words(std::size_t at_word, Section* named, bool outside) {
-    check_words(words);
+    check_words(words, options.dialect.family);
     const int column = words.words[at_word].column;
     remove(at_word);
     const double p = take('P', -1.0);
@@ -209,7 +209,7 @@ bool Interpreter::State::subprogram_words(std::size_t at_word, Section* named, b
 
 /// M99 P_ L_: P names the block of the caller to go on at, L sets the repeats that are left.
 bool Interpreter::State::return_words(std::size_t at_word) {
-    check_words(words);
+    check_words(words, options.dialect.family);
     const int column = words.words[at_word].column;
     remove(at_word);
     Pending todo;

@@ -52,6 +52,10 @@ int code10_of(const WordValue& word) {
     return tenfold >= 0.0 && tenfold < 1e6 ? static_cast<int>(tenfold + 0.5) : -1;
 }
 
+bool is_fanuc_alone(const WordRule& rule) {
+    return rule.letter == 'P' && (rule.code10 == 40 || rule.code10 == 682 || rule.code10 == 730);
+}
+
 /// The codes of a block: few, so a scan is quick.
 class Codes {
   public:
@@ -115,12 +119,15 @@ std::optional<WordFault> find_m_fault(const WordValue& m_word) {
     return fault_of({0, 0, 'M'}, m_word);
 }
 
-std::optional<WordFault> find_word_fault(const BlockWords& block, bool all_known) {
+std::optional<WordFault> find_word_fault(const BlockWords& block, DialectFamily family,
+                                         bool all_known) {
+    const bool hurco = family == DialectFamily::hurco;
     const Codes codes(block);
     for (const WordRule& rule : rows) {
         const bool of_call = rule.code_letter == 'G' && rule.code10 >= 650 && rule.code10 <= 661;
         if (codes.calls && !of_call) continue;
         if (rule.code_letter != 0 && !codes.has(rule)) continue;
+        if (hurco && is_fanuc_alone(rule)) continue;
         if (const auto fault = apply(rule, block, all_known)) return fault;
     }
     if (!codes.calls)
@@ -128,8 +135,10 @@ std::optional<WordFault> find_word_fault(const BlockWords& block, bool all_known
             if (word.letter == 'M' && !word.vacant)
                 if (const auto fault = find_m_fault(word)) return fault;
     if (codes.cycles && !codes.calls)
-        for (const WordRule& rule : cycle_rows)
+        for (const WordRule& rule : cycle_rows) {
+            if (hurco && is_fanuc_alone(rule)) continue;
             if (const auto fault = apply(rule, block, all_known)) return fault;
+        }
     return std::nullopt;
 }
 

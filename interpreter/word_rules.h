@@ -7,6 +7,7 @@
 #include <string>
 
 #include "interpreter/block_words.h"
+#include "interpreter/dialect.h"
 
 namespace trunnion::interpreter {
 
@@ -35,7 +36,9 @@ struct WordFault {
 /// arguments: only P and L of the call have rules. Vacant words count as absent; the `<` of a
 /// called name stands for P. `all_known`: false when some words of the block are not in `block`, so
 /// that none counts as missing.
-std::optional<WordFault> find_word_fault(const BlockWords& block, bool all_known = true);
+/// `family`: a Hurco counts P of G4 and of cycles in seconds, and its G68.2 knows no P and Q.
+std::optional<WordFault> find_word_fault(const BlockWords& block, DialectFamily family,
+                                         bool all_known = true);
 
 /// A code number: whole and not below 0, or PS0007, PS0006.
 std::optional<WordFault> find_m_fault(const WordValue& m_word);

@@ -149,7 +149,7 @@ FunctionText text_of(const std::string& name, bool hurco) {
         "(THE TIP IS LED TO A POINT ABOVE THE SPHERE, ALONG THE TOOL, THEN PROBES WITHOUT IT.)\n",
         "G90G10L2P2X[#5221+#520]Y[#5222+#521]Z[#5223+#522]{1}0{2}0\n",
         std::string("G55\nDPRNT[MODE*DPP]\nG0{1}0{2}0\nM98P8102\n") +
-            (hurco ? "G43H#506X0Y0Z[#510+60.]\nM98P8102\nDPRNT[MODE*RTCP]\nM128\n"
+            (hurco ? "G43H#506X0Y0Z[#510+60.]\nM98P8102\nDPRNT[MODE*RTCP]\nM128\nG43.4\n"
                    : "DPRNT[MODE*RTCP]\nG43.4H#506X0Y0Z[#510+60.]\nM98P8102\n") +
             "{TOOL}G0X[#510*#545]Y[#510*#546]Z[#510*#547]{1}#530{2}#531\nM98P8102\n",
         hurco ? "M129\n" : ""};

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 
+#include "base/alarm.h"
 #include "base/read_file.h"
 #include "base/units.h"
+#include "setup/hurco_keys.h"
 #include "setup/setup_reader.h"
 
 namespace trunnion::setup {
@@ -25,6 +27,8 @@ void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
     if (!alone.empty())
         notes.push_back(setup.path + ": no parameter 1022 says how " + alone +
                         " runs: the control believes that it does not move the tool");
+    if (const std::string wrong = believe_centrelines(setup, parameters); !wrong.empty())
+        throw InputError("[control.hurco]: " + wrong, {setup.path, 0, 0});
     derive_fixture_groups(setup.machine, parameters);
     std::size_t added = 0;
     for (const auto& [number, parameter] : parameters.entry) added += !given.contains(number);

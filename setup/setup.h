@@ -1,6 +1,7 @@
 // Belief + machine + devices + artefacts: one copyable value, from a TOML file.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "controller/builder_profile.h"
 #include "controller/clamp.h"
+#include "controller/hurco_choices.h"
 #include "geometry/axes.h"
 #include "geometry/pose.h"
 #include "interpreter/dialect.h"
@@ -110,6 +112,9 @@ constexpr AxisSides came_travelling_plus() {
     return sides;
 }
 
+/// Where a rotary axis of a Hurco's part set-up crosses the plane across it: two of X, Y, Z, mm.
+using Centreline = std::array<std::optional<double>, 3>;
+
 struct Setup {
     std::string name;
     std::string path;  ///< of the file, for messages
@@ -128,6 +133,8 @@ struct Setup {
     bool optional_stop = false;                 ///< [control] optional_stop: M01 stops
     bool threading = false;                     ///< [control] threading: the control has G33
     controller::BuilderProfile builder;         ///< [control.builder]
+    controller::HurcoChoices hurco;             ///< [control.hurco]
+    std::map<Axis, Centreline> centrelines;     ///< [control.hurco] centreline: of the part set-up
     offsets::Stores stores;
     std::optional<ProbeSettings> probe;
     std::optional<BallbarSettings> ballbar;

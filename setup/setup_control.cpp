@@ -4,6 +4,7 @@
 
 #include "base/numbers.h"
 #include "offsets/parameter_units.h"
+#include "setup/hurco_keys.h"
 #include "setup/setup_reader.h"
 
 namespace trunnion::setup {
@@ -245,6 +246,7 @@ void read_control(const TomlFile& file, const TomlValue& control, const BackupRe
     read_switch(file, control, "threading", setup.threading);
     if (const TomlValue* table = control.find("builder"))
         read_builder(file, file.table(*table), setup.builder);
+    if (const TomlValue* table = control.find("hurco")) read_hurco(file, file.table(*table), setup);
     if (const TomlValue* table = control.find("clamps")) read_clamps(file, *table, setup);
     if (const TomlValue* on = control.find("block_skip"))
         read_block_skip(file, *on, setup.block_skip);

@@ -5,6 +5,7 @@
 #include "base/units.h"
 #include "offsets/parameter_units.h"
 #include "setup/artefact_keys.h"
+#include "setup/hurco_keys.h"
 #include "setup/setup.h"
 #include "setup/toml_text.h"
 
@@ -248,7 +249,7 @@ std::string control_text(const Setup& setup) {
     }
     if (setup.tcp_frame == positioning::TcpFrame::rotary_zero)
         out += "tcp_frame = \"rotary_zero\"\n";
-    out += clamps_text(setup.clamps) + builder_text(setup.builder);
+    out += clamps_text(setup.clamps) + builder_text(setup.builder) + hurco_text(setup);
     out += work_text(setup.stores.work) + fixture_text(setup.stores.fixture);
     if (!setup.stores.parameters.entry.empty()) out += "\n[control.parameters]\n";
     for (const auto& [number, parameter] : setup.stores.parameters.entry)

@@ -83,7 +83,7 @@ Words words_of(const kinematics::Machine& nominal, const BallbarProgramData& dat
                    {"ARC", deg(data.layout.partial_rad)},
                    {"SIDE", data.layout.inside ? "-1." : "1."}};
     add_stations(words, u == 'X');
-    words["ON"] = data.hurco ? "M128" : "G43.4H#557X#24Y#25Z#26";
+    words["ON"] = data.hurco ? "M128\nG43.4" : "G43.4H#557X#24Y#25Z#26";
     words["OFF"] = data.hurco ? "M129" : "G0G49Z[#26+#5083]\nG43H#557Z#26";
     return words;
 }

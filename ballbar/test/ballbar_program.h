@@ -18,7 +18,7 @@ struct BallbarProgramData {
     double feed_mm_min = 2000.0;  ///< planar tests
     double turn_deg_min = 720.0;  ///< rotary tests
     double overshoot_deg = 5.0;   ///< before and behind each measured arc
-    bool hurco = false;           ///< M128 and M129 instead of G43.4 and G49
+    bool hurco = false;           ///< M128 with its linearisation and M129
 };
 
 /// Defaults from a machine, its bar and the place of the centre pivot: ranges within the travel

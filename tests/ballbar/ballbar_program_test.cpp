@@ -168,8 +168,8 @@ TEST_CASE("the Hurco program with M128 gives the readings of the Fanuc program")
     const emulator::RunLog fanuc = run(setup, test_program(setup));
     setup.dialect = interpreter::hurco_dialect();
     const std::string program = test_program(setup);
-    CHECK(program.find("M128") != std::string::npos);
-    CHECK(program.find("G43.4") == std::string::npos);
+    CHECK(program.find("M128\nG43.4\n") != std::string::npos);
+    CHECK(program.find("G43.4H") == std::string::npos);
     const emulator::RunLog hurco = run(setup, program);
     require_no_alarm(hurco);
     REQUIRE(hurco.readings.rows.size() == fanuc.readings.rows.size());

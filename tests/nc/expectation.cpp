@@ -122,6 +122,34 @@ void set_reference(Expectation& e, std::istringstream& in) {
         value;
 }
 
+/// Switches of [control.hurco] away from their defaults.
+void set_hurco(Expectation& e, const std::string& name) {
+    controller::HurcoChoices& h = e.config.hurco;
+    const std::map<std::string, bool*> switches = {
+        {"LENGTH FROM M6", &h.length_from_tool_change},
+        {"G49 KEEPS", &h.g49_keeps_tool_length},
+        {"RAPIDS INTERPOLATED", &h.rapids_are_interpolated},
+        {"M128 KEEPS TIP", &h.m128_keeps_tip_between_ends},
+        {"PLANES STACK", &h.planes_stack},
+        {"MOVED AXES", &h.g68_2_moved_axes},
+        {"G86 FEEDS OUT", &h.g86_feeds_out},
+        {"G98 FROM R", &h.g98_feeds_from_r},
+        {"CLAMPS ALARM", &h.clamps_alarm}};
+    const auto found = switches.find(name);
+    if (found == switches.end()) throw std::runtime_error("SET HURCO " + name + "?");
+    *found->second = !*found->second;
+}
+
+void set_axes(Expectation& e, const std::string& letters) {
+    e.config.axes.clear();
+    for (const char letter : letters) {
+        controller::ControlAxis entry;
+        entry.axis = *axis_of(letter);
+        entry.rotary = is_rotary(entry.axis);
+        e.config.axes.push_back(entry);
+    }
+}
+
 /// 19680-19689 of a machine, then six lengths from `first` and `second` on.
 void set_unit(Expectation& e, std::istringstream& in,
               std::initializer_list<std::pair<int, double>> unit, int first, int second) {
@@ -182,7 +210,8 @@ void read_set(Expectation& e, std::istringstream& in) {
         e.config.clamps.push_back(clamp);
     } else if (what == "DIALECT") {
         const std::string name = rest_of(in);
-        if (name == "HURCO") e.config.dialect = interpreter::hurco_dialect();
+        if (name.starts_with("HURCO")) e.config.dialect = interpreter::hurco_dialect();
+        e.config.hurco.bnc = name == "HURCO BNC";
         if (name == "16I")
             e.config.dialect =
                 interpreter::fanuc_dialect(interpreter::ControlGeneration::fanuc_16i);
@@ -202,6 +231,15 @@ void read_set(Expectation& e, std::istringstream& in) {
         e.config.max_blocks = static_cast<std::uint64_t>(number);
     } else if (what == "TABLE" || what == "HEAD" || what == "MIXED") {
         set_machine(e, what, in);
+    } else if (what == "HURCO") {
+        set_hurco(e, rest_of(in));
+    } else if (what == "AXES") {
+        set_axes(e, rest_of(in));
+    } else if (what == "AC") {
+        set_unit(
+            e, in,
+            {{19680, 12}, {19681, 4}, {19682, 1}, {19684, 1}, {19686, 5}, {19687, 3}, {19689, 1}},
+            19700, 19703);
     } else if (what == "TCP") {
         e.config.tcp_frame = positioning::TcpFrame::rotary_zero;
     } else if (what == "POSITIONS") {
@@ -211,23 +249,12 @@ void read_set(Expectation& e, std::istringstream& in) {
     }
 }
 
-controller::ControlConfig five_axes() {
-    controller::ControlConfig config;
-    config.dialect = interpreter::fanuc_dialect();
-    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z, Axis::B, Axis::C}) {
-        controller::ControlAxis entry;
-        entry.axis = axis;
-        entry.rotary = is_rotary(axis);
-        config.axes.push_back(entry);
-    }
-    return config;
-}
-
 }  // namespace
 
 Expectation read_expectation(const std::string& text) {
     Expectation e;
-    e.config = five_axes();
+    e.config.dialect = interpreter::fanuc_dialect();
+    set_axes(e, "XYZBC");
     for (const std::string& comment : comments_of(text)) {
         std::istringstream in(comment);
         std::string word;

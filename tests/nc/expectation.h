@@ -29,7 +29,9 @@ struct ExpectedMove {
 ///   (SET POSITIONS WITHOUT LENGTH) (SET REFERENCE 2 Z 50.)
 ///   (SET TABLE 10. 0. -100. 5. 0. -50.) left-handed BC table: 19700-19702, 19703-19705
 ///   (SET OUTSIDE 50) the folder has this file as O50 (M198) (SET OPTIONAL STOP)
-///   (SET TCP FRAME ROTARY ZERO)
+///   (SET TCP FRAME ROTARY ZERO) (SET AXES XYZAC)
+///   (SET AC 10. 0. -100. 5. 0. -50.) the same as TABLE with A instead of B
+///   (SET DIALECT HURCO BNC) (SET HURCO CLAMPS ALARM) turns a switch of [control.hurco] round
 struct Expectation {
     std::map<int, std::optional<double>> variables;
     std::vector<ExpectedMove> moves;
