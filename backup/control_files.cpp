@@ -10,12 +10,26 @@
 
 namespace trunnion::backup {
 
-const std::vector<std::string> backup_file_names{"CNC-PARA.TXT", "EXT_WKZ.TXT", "TOOLOFST.TXT",
-                                                 "MACRO.TXT"};
-
 namespace {
 
 namespace fs = std::filesystem;
+
+struct FileRow {
+    const char* name;
+    Standing standing;
+};
+constexpr FileRow file_rows[] = {
+    {"CNC-PARA.TXT", Standing::obeyed}, {"EXT_WKZ.TXT", Standing::obeyed},
+    {"TOOLOFST.TXT", Standing::obeyed}, {"MACRO.TXT", Standing::obeyed},
+    {"PITCH.TXT", Standing::known},     {"ALL-FLDR.TXT", Standing::known},
+    {"ALL-PROG.TXT", Standing::known},  {"TOOLLIFE.TXT", Standing::known},
+    {"TOOLSIZE.TXT", Standing::known},  {"SYS-CONF.TXT", Standing::known},
+    {"OPRT_HIS.TXT", Standing::known},
+};
+
+bool has_values(const std::string& name) {
+    return name == "PITCH.TXT" || standing_of_file(name) == Standing::obeyed;
+}
 
 std::string upper(std::string s) {
     for (char& c : s)
@@ -43,16 +57,31 @@ void require_pivot(const ControlBackup& backup, const std::vector<BackupValue>& 
 
 }  // namespace
 
+const char* text_of(Standing standing) {
+    static constexpr const char* texts[] = {"obeyed", "known", "ignored"};
+    return texts[static_cast<std::size_t>(standing)];
+}
+
+Standing standing_of_file(const std::string& name) {
+    for (const FileRow& row : file_rows)
+        if (name == row.name) return row.standing;
+    return Standing::ignored;
+}
+
 ControlBackup read_backup(const std::string& folder) {
-    ControlBackup backup{folder, {}};
+    ControlBackup backup;
+    backup.folder = folder;
     if (!fs::is_directory(folder)) throw InputError("no such folder", {folder});
     for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string name = upper(entry.path().filename().string());
-        if (std::find(backup_file_names.begin(), backup_file_names.end(), name) !=
-            backup_file_names.end())
+        if (standing_of_file(name) == Standing::ignored)
+            backup.ignored.push_back(entry.path().filename().string());
+        else if (entry.is_regular_file())
             backup.files[name] = read_file(entry.path().string());
     }
-    if (backup.files.empty())
+    std::sort(backup.ignored.begin(), backup.ignored.end());
+    if (std::none_of(backup.files.begin(), backup.files.end(),
+                     [](const auto& file) { return has_values(file.first); }))
         throw InputError("none of CNC-PARA.TXT, EXT_WKZ.TXT, TOOLOFST.TXT, MACRO.TXT is here",
                          {folder});
     return backup;
@@ -69,6 +98,7 @@ void write_backup(const ControlBackup& backup, const std::string& folder) {
 std::vector<BackupValue> list_values(const ControlBackup& backup) {
     std::vector<BackupValue> values;
     for (const auto& [name, bytes] : backup.files) {
+        if (!has_values(name)) continue;
         const std::string path = (fs::path(backup.folder) / name).string();
         for (BackupValue& v : scan_values(name, bytes, path)) values.push_back(std::move(v));
     }
@@ -90,23 +120,6 @@ void update_backup(ControlBackup& backup, const offsets::Stores& stores) {
         if (same_value(wanted, stored_value(v))) continue;
         backup.files.at(v.file).replace(v.begin, v.size, format_value(v, wanted));
     }
-}
-
-std::vector<BackupDifference> diff_backups(const ControlBackup& a, const ControlBackup& b) {
-    std::vector<BackupDifference> differences;
-    std::map<std::pair<std::string, std::string>, BackupValue> left, right;
-    for (BackupValue& v : list_values(a)) left[{v.file, v.name}] = v;
-    for (BackupValue& v : list_values(b)) right[{v.file, v.name}] = v;
-    for (const auto& [key, v] : left) {
-        const auto other = right.find(key);
-        if (other == right.end())
-            differences.push_back({key.first, key.second, v.text, ""});
-        else if (!same_value(stored_value(v), stored_value(other->second)))
-            differences.push_back({key.first, key.second, v.text, other->second.text});
-    }
-    for (const auto& [key, v] : right)
-        if (!left.contains(key)) differences.push_back({key.first, key.second, "", v.text});
-    return differences;
 }
 
 }  // namespace trunnion::backup

@@ -15,12 +15,17 @@ namespace trunnion::backup {
 struct ControlBackup {
     std::string folder;
     std::map<std::string, std::string> files;
+    std::vector<std::string> ignored;  ///< other files of the folder, as they are called
 };
 
-/// Names that are read: parameters, work offsets, tool offsets, macro variables.
-extern const std::vector<std::string> backup_file_names;
+/// What the emulator does with a file or a parameter of a backup.
+enum class Standing : unsigned char { obeyed, known, ignored };
+const char* text_of(Standing standing);
+/// Files with values are obeyed; programs and lists of the control are known.
+Standing standing_of_file(const std::string& name);
 
-/// Reads the known files of a folder. Throws InputError when there is none of them.
+/// Reads the files of a folder that a control writes, values and programs. Throws InputError when
+/// none of them has values.
 ControlBackup read_backup(const std::string& folder);
 void write_backup(const ControlBackup& backup, const std::string& folder);
 
@@ -38,7 +43,8 @@ struct BackupValue {
     int number =
         0;        ///< parameter, variable or tool number; work offset: 0 EXT, 1-6, 100 + P of G54.1
     int sub = 0;  ///< axis number, letter of the axis, or 10..13 of G10 L
-    bool inch = false;  ///< an 'I' value: inches in the file, mm in the stores
+    bool inch = false;      ///< an 'I' value: inches in the file, mm in the stores
+    bool for_axis = false;  ///< a parameter's item A: `sub` is an axis number
 };
 
 /// Every value, file by file, in file order. Throws InputError (path, line, column) for a line of
@@ -50,10 +56,5 @@ std::vector<BackupValue> list_values(const ControlBackup& backup);
 void apply_backup(const ControlBackup& backup, offsets::Stores& stores);
 /// Rewrites, in the files' own form, those values that differ from the stores.
 void update_backup(ControlBackup& backup, const offsets::Stores& stores);
-
-struct BackupDifference {
-    std::string file, name, a, b;  ///< a or b empty: only in the other
-};
-std::vector<BackupDifference> diff_backups(const ControlBackup& a, const ControlBackup& b);
 
 }  // namespace trunnion::backup

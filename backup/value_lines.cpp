@@ -120,6 +120,7 @@ void scan_parameter(LineScanner& s, std::vector<BackupValue>& out) {
                                 : kind == 'A' ? index
                                               : index * 100 + (kind != 0));
         v.inch = type == 'I';
+        v.for_axis = kind == 'A';
         out.push_back(std::move(v));
     }
 }
@@ -129,7 +130,7 @@ std::string offset_name(int l, int p) {
     return p == 0 ? "EXT" : fmt::format("G{}", 53 + p);
 }
 
-/// G10L2P1X..Y.. | G10L20P1X.. | G10G90L10P1R.. | G10L85P500(hex)
+/// G10L2P1X..Y.. | G10L20P1X.. | G10G90L10P1R.. | G10P1R.. (memory A) | G10L85P500(hex) or R1.5
 void scan_g10(LineScanner& s, std::vector<BackupValue>& out) {
     int l = -1, p = -1;
     while (!s.done()) {
@@ -156,6 +157,12 @@ void scan_g10(LineScanner& s, std::vector<BackupValue>& out) {
         } else if ((l == 2 || l == 20) && p >= 0 && axis_of(letter)) {
             out.push_back(s.value(fmt::format("{} {}", offset_name(l, p), letter), s.number_text(),
                                   BackupValue::Kind::work_offset, l == 20 ? 100 + p : p, letter));
+        } else if (l == 85 && p >= 0 && letter == 'R') {
+            out.push_back(
+                s.value(fmt::format("#{}", p), s.number_text(), BackupValue::Kind::variable, p, 0));
+        } else if (l < 0 && p >= 0 && letter == 'R') {
+            out.push_back(s.value(fmt::format("H{}", p), s.number_text(),
+                                  BackupValue::Kind::tool_offset, p, 10));
         } else if (l >= 10 && l <= 13 && p >= 0 && letter == 'R') {
             static const char* const kinds[] = {"H{} geometry", "H{} wear", "D{} geometry",
                                                 "D{} wear"};
@@ -183,7 +190,8 @@ void scan_line(LineScanner& s, std::vector<BackupValue>& out) {
     if (s.done()) return;
     const std::string_view rest = s.line.substr(s.at);
     if (rest[0] == '%' || rest[0] == '(' || rest[0] == '/') return;
-    if (rest[0] == 'N' && s.file == "CNC-PARA.TXT") return scan_parameter(s, out);
+    if (rest[0] == 'N' && (s.file == "CNC-PARA.TXT" || s.file == "PITCH.TXT"))
+        return scan_parameter(s, out);
     if (rest.substr(0, 3) == "G10") return scan_g10(s, out);
     if (rest[0] == '#') return scan_assignment(s, out);
     if (rest.substr(0, 5) == "SETVN" || rest.substr(0, 3) == "G90" || rest.substr(0, 2) == "M0" ||
@@ -329,8 +337,12 @@ std::string format_value(const BackupValue& like, double number) {
         return fmt::format("{:08b}", static_cast<unsigned>(number));
     const double in_file = like.inch ? inch_from_mm(number) : number;
     std::string text = fmt::format("{}", in_file);
-    if (like.text.find('.') != std::string::npos && text.find_first_of(".e") == std::string::npos)
-        text += ".0";
+    const std::size_t point = like.text.find('.');
+    if (point == std::string::npos || text.find('e') != std::string::npos) return text;
+    if (text.find('.') == std::string::npos) text += '.';
+    const std::size_t decimals = like.text.size() - point - 1;
+    const std::size_t written = text.size() - text.find('.') - 1;
+    if (written < decimals) text.append(decimals - written, '0');
     return text;
 }
 

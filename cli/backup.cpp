@@ -1,23 +1,69 @@
 // trunnion backup load|save|diff: a real control's backup files.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <set>
 
 #include "backup/control_files.h"
+#include "backup/differences.h"
+#include "backup/parameter_names.h"
+#include "base/alarm.h"
 #include "base/console.h"
+#include "base/output_files.h"
 #include "cli/command.h"
 #include "cli/options.h"
 #include "cli/setups.h"
+#include "setup/control_machine.h"
+#include "setup/control_pivot.h"
 
 namespace trunnion::cli {
 
 namespace {
 
-int load(const std::string& folder) {
-    const backup::ControlBackup backup = backup::read_backup(folder);
+struct BackupCommand {
+    std::string a, b, setup, setup_out;
+    bool pivot = false;
+    std::vector<double> measured_mm;
+};
+
+void print_values(const backup::ControlBackup& backup) {
+    std::vector<backup::BackupValue> values = backup::list_values(backup);
+    backup::name_axes(values);
+    for (const backup::BackupValue& v : values) {
+        const bool parameter = v.kind == backup::BackupValue::Kind::parameter;
+        const auto standing =
+            parameter ? backup::standing_of_parameter(v.number) : backup::standing_of_file(v.file);
+        print_out("{}\t{}\t{}\t{}\t{}\n", v.file, v.name, v.text, backup::text_of(standing),
+                  parameter ? backup::name_of_parameter(v.number) : "");
+    }
+    for (const auto& [name, bytes] : backup.files)
+        if (const auto standing = backup::standing_of_file(name);
+            standing != backup::Standing::obeyed)
+            print_out("{}\t\t{} bytes\t{}\t\n", name, bytes.size(), backup::text_of(standing));
+    for (const std::string& name : backup.ignored) print_out("{}\t\t\tignored\t\n", name);
+}
+
+void write_setup(const BackupCommand& c, const offsets::Stores& stores) {
+    OutputFiles out;
+    out.add(c.setup_out, setup::format_setup(setup::setup_of_control(stores, c.a)));
+    out.write();
+}
+
+int load(const BackupCommand& c) {
+    const backup::ControlBackup backup = backup::read_backup(c.a);
     offsets::Stores stores;
     backup::apply_backup(backup, stores);
-    for (const backup::BackupValue& v : backup::list_values(backup))
-        print_out("{}\t{}\t{}\n", v.file, v.name, v.text);
-    return exit_done;
+    if (!c.setup_out.empty()) write_setup(c, stores);
+    if (!c.pivot) {
+        print_values(backup);
+        return exit_done;
+    }
+    std::optional<Vector3> measured_mm;
+    if (!c.measured_mm.empty())
+        measured_mm = Vector3(c.measured_mm[0], c.measured_mm[1], c.measured_mm[2]);
+    const setup::PivotAgreement agreement = setup::compare_pivots(stores, measured_mm, c.a);
+    print_out("{}\n", setup::text_of(agreement));
+    return agreement.agrees() ? exit_done : exit_differs;
 }
 
 int save(const std::string& from, const std::string& to, const std::string& setup_path) {
@@ -30,24 +76,29 @@ int save(const std::string& from, const std::string& to, const std::string& setu
 int diff(const std::string& a, const std::string& b) {
     const auto differences = backup::diff_backups(backup::read_backup(a), backup::read_backup(b));
     for (const backup::BackupDifference& d : differences)
-        print_out("{}\t{}\t{}\t{}\n", d.file, d.name, d.a.empty() ? "-" : d.a,
-                  d.b.empty() ? "-" : d.b);
+        print_out("{}\t{}\t{}\t{}\t{}\n", d.file, d.name, d.a.empty() ? "-" : d.a,
+                  d.b.empty() ? "-" : d.b, d.meaning);
     return differences.empty() ? exit_done : exit_differs;
 }
 
 }  // namespace
 
 void add_backup(CLI::App& app, Run& run) {
-    struct Options {
-        std::string a, b, setup;
-    };
-    const auto o = std::make_shared<Options>();
+    const auto o = std::make_shared<BackupCommand>();
     CLI::App* command = app.add_subcommand("backup", "a real control's backup files");
     command->require_subcommand(1);
 
-    CLI::App* load_word = command->add_subcommand("load", "list every value of a backup folder");
+    CLI::App* load_word = command->add_subcommand(
+        "load", "list every value of a backup folder: file, name, text, what becomes of it");
     reads_file(load_word->add_option("FOLDER", o->a, "backup folder"))->required();
-    load_word->callback([o, &run] { run = [o] { return load(o->a); }; });
+    writes_file(
+        load_word->add_option("--setup-out", o->setup_out, "setup of the machine it describes"));
+    CLI::Option* pivot = load_word->add_flag(
+        "--pivot", o->pivot, "one line: do G54 and 19700-19705 name the same pivot?");
+    load_word->add_option("--measured", o->measured_mm, "a measured pivot X Y Z, mm, machine")
+        ->expected(3)
+        ->needs(pivot);
+    load_word->callback([o, &run] { run = [o] { return load(*o); }; });
 
     CLI::App* save_word = command->add_subcommand(
         "save", "write the backup FOLDER to OUT with the values of a setup's control in it");
@@ -58,7 +109,7 @@ void add_backup(CLI::App& app, Run& run) {
     save_word->callback([o, &run] { run = [o] { return save(o->a, o->b, o->setup); }; });
 
     CLI::App* diff_word =
-        command->add_subcommand("diff", "values that differ between two backup folders");
+        command->add_subcommand("diff", "values and programs that differ between two folders");
     reads_file(diff_word->add_option("A", o->a, "backup folder"))->required();
     reads_file(diff_word->add_option("B", o->b, "backup folder"))->required();
     diff_word->callback([o, &run] { run = [o] { return diff(o->a, o->b); }; });

@@ -10,6 +10,7 @@
 
 #include "base/alarm.h"
 #include "base/output_files.h"
+#include "cli/against.h"
 #include "cli/command.h"
 #include "cli/files.h"
 #include "cli/options.h"
@@ -33,7 +34,7 @@ namespace {
 
 struct CheckCommand {
     std::vector<std::string> paths, folders;
-    std::string setup, format = "text", out = "-";
+    std::string setup, against, format = "text", out = "-";
     bool run = false;
     std::uint64_t max_blocks = 10'000'000;
     PageOptions page;
@@ -165,6 +166,8 @@ int check(const CheckCommand& c) {
     const std::vector<std::string> files = files_of(c.paths);
     SetupRules rules(setup);
     std::vector<check::Finding> findings;
+    std::optional<setup::Setup> other;
+    if (!c.against.empty()) other = other_reading(setup, c.against);
     for (const std::string& file : files) {
         const interpreter::ProgramText program = interpreter::read_main_program(file);
         interpreter::ProgramFolders programs = folders_of_file(program, c.folders);
@@ -176,6 +179,11 @@ int check(const CheckCommand& c) {
         const auto found = check::check_program(program, options);
         findings.insert(findings.end(), found.begin(), found.end());
         if (c.run) run_without_devices(setup, program, c, findings);
+        if (other) {
+            const auto apart =
+                differences_against(setup, *other, c.against, program, c.folders, c.max_blocks);
+            findings.insert(findings.end(), apart.begin(), apart.end());
+        }
         print_notes(programs.announcements());
     }
     OutputFiles out;
@@ -200,6 +208,9 @@ void add_check(CLI::App& app, Run& run) {
         command->add_option("--setup", c->setup, "machine and control (dialect, parameters)"));
     reads_file(command->add_option("--programs", c->folders, "folders of subprograms"));
     command->add_flag("--run", c->run, "also run them, without devices");
+    command->add_option("--against", c->against,
+                        "also run them on this control too (hurco, hurco-bnc, 16i, 0i-F, "
+                        "tcp_frame=.., a parameter 5006=64, a setup) and tell where they differ");
     command->add_option("--max-blocks", c->max_blocks, "limit of a run");
     command->add_option("--format", c->format, "text, json, junit, sarif, github");
     command->add_flag_callback(

@@ -6,6 +6,7 @@ namespace {
 
 ControlConfig in_order(ControlConfig config, const offsets::Parameters& parameters) {
     sort_axes(config.axes, parameters);
+    take_strokes(config.axes, parameters);
     return config;
 }
 

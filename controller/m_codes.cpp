@@ -51,10 +51,7 @@ void set_spindle(Modal& modal, int direction) {
 }  // namespace
 
 MCodes::MCodes(const ControlConfig& config)
-    : clamps_(config.clamps),
-      builder_(config.builder),
-      family_(config.dialect.family),
-      optional_stop_(config.optional_stop) {}
+    : clamps_(config.clamps), builder_(config.builder), optional_stop_(config.optional_stop) {}
 
 const ClampCode* MCodes::clamp_of(int code) const {
     for (const ClampCode& clamp : clamps_)
@@ -62,9 +59,9 @@ const ClampCode* MCodes::clamp_of(int code) const {
     return nullptr;
 }
 
-bool MCodes::acts_after(int code) const {
+bool MCodes::acts_after(int code, interpreter::DialectFamily family) const {
     if (const ClampCode* clamp = clamp_of(code)) return code == clamp->m_clamp;
-    if (const DialectCode* own = find_dialect_code(family_, code)) return own->after_motion;
+    if (const DialectCode* own = find_dialect_code(family, code)) return own->after_motion;
     const MCode* row = find_row(code);
     return row ? row->after_motion : holds(builder_.m_codes_after, code);
 }
@@ -90,7 +87,8 @@ void MCodes::carry_out(int code, const SortedWords& words, Modal& modal, Frames&
     if (stops_reading(code)) mover.cutter.flush();
     if (code == 0) mover.note("M00: program stop, continued");
     if (code == 1 && optional_stop_) mover.note("M01: optional stop, continued");
-    const DialectCode* own = clamp_of(code) ? nullptr : find_dialect_code(family_, code);
+    const DialectCode* own =
+        clamp_of(code) ? nullptr : find_dialect_code(modal.settings.family, code);
     if (own && own->act) own->act(words, modal, frames, mover);
     if (!own) change_state(code, modal, mover);
     mover.m_code(code);
@@ -99,7 +97,7 @@ void MCodes::carry_out(int code, const SortedWords& words, Modal& modal, Frames&
 void MCodes::run(bool after_motion, SortedWords& words, Modal& modal, Frames& frames,
                  Mover& mover) {
     for (std::size_t i = 0; i < words.m_count; ++i) {
-        if (acts_after(words.m[i]) != after_motion) continue;
+        if (acts_after(words.m[i], modal.settings.family) != after_motion) continue;
         words.running_column = words.m_column[i];
         carry_out(words.m[i], words, modal, frames, mover);
     }

@@ -25,14 +25,13 @@ class MCodes {
     void start_run() { ended_ = false; }
 
   private:
-    bool acts_after(int code) const;
+    bool acts_after(int code, interpreter::DialectFamily family) const;
     const ClampCode* clamp_of(int code) const;
     void carry_out(int code, const SortedWords& words, Modal& modal, Frames& frames, Mover& mover);
     void change_state(int code, Modal& modal, Mover& mover);
 
     std::vector<ClampCode> clamps_;
     BuilderProfile builder_;
-    interpreter::DialectFamily family_;
     bool optional_stop_;
     bool ended_ = false;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/units.h"
+
 namespace trunnion::controller {
 
 namespace {
@@ -9,11 +11,16 @@ namespace {
 constexpr double default_corner_jump = 400.0;  // mm/min, deg/min: what handbooks set (assumed)
 
 /// Value of an axis parameter: the axis's own, or the one for all.
-double for_axis(const offsets::Parameters& parameters, int number, int axis_number) {
+std::optional<double> find_for_axis(const offsets::Parameters& parameters, int number,
+                                    int axis_number) {
     const auto it = parameters.entry.find(number);
-    if (it == parameters.entry.end()) return 0.0;
+    if (it == parameters.entry.end()) return std::nullopt;
     const auto own = it->second.by_axis.find(axis_number);
-    return own != it->second.by_axis.end() ? own->second : it->second.value;
+    if (own != it->second.by_axis.end()) return own->second;
+    return it->second.by_axis.empty() ? std::optional(it->second.value) : std::nullopt;
+}
+double for_axis(const offsets::Parameters& parameters, int number, int axis_number) {
+    return find_for_axis(parameters, number, axis_number).value_or(0.0);
 }
 
 void decode_axes(const offsets::Parameters& parameters, const ControlConfig& config,
@@ -54,6 +61,21 @@ void sort_axes(std::vector<ControlAxis>& axes, const offsets::Parameters& parame
     };
     std::stable_sort(axes.begin(), axes.end(),
                      [&](const ControlAxis& a, const ControlAxis& b) { return rank(a) < rank(b); });
+}
+
+void take_strokes(std::vector<ControlAxis>& axes, const offsets::Parameters& parameters) {
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+        ControlAxis& axis = axes[k];
+        const double unit = axis.rotary ? rad_from_deg(1.0) : 1.0;
+        const int number = static_cast<int>(k) + 1;
+        const auto top = find_for_axis(parameters, 1320, number);
+        const auto bottom = find_for_axis(parameters, 1321, number);
+        const bool none = top && bottom && *top < *bottom;
+        if (top) axis.max = none ? std::optional<double>() : *top * unit;
+        if (bottom) axis.min = none ? std::optional<double>() : *bottom * unit;
+        if (const auto speed = find_for_axis(parameters, 1420, number); speed && *speed > 0.0)
+            axis.rapid_speed = *speed * unit / 60.0;
+    }
 }
 
 ControlSettings decode_settings(const offsets::Parameters& parameters,

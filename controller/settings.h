@@ -52,6 +52,9 @@ struct ControlSettings {
 
 /// Axis number of each letter: parameter 1020 where it is set, else X Y Z A B C U V W.
 void sort_axes(std::vector<ControlAxis>& axes, const offsets::Parameters& parameters);
+/// Strokes 1320, 1321 (mm, deg; the positive end below the negative one: no stroke) and rapid
+/// speeds 1420 (mm/min, deg/min) of axes in the order of their numbers, where the store has them.
+void take_strokes(std::vector<ControlAxis>& axes, const offsets::Parameters& parameters);
 /// `config.axes` in the order of their numbers.
 ControlSettings decode_settings(const offsets::Parameters& parameters, const ControlConfig& config);
 

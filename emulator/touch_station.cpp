@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/units.h"
+#include "emulator/body_touch.h"
 #include "emulator/replay.h"
 
 namespace trunnion::emulator {
@@ -108,6 +109,31 @@ bool TouchStation::mounted(const motion::AxisMove& move) const {
 
 std::optional<Touch> TouchStation::touch(const motion::AxisMove& move, records::Reading row,
                                          const Observer& observer, const ReadingLog& log) {
+    std::optional<Touch> body = touch_body(move, row, observer, log);
+    std::optional<Touch> sphere = touch_sphere(move, std::move(row), observer, log);
+    return body && (!sphere || body->s < sphere->s) ? body : sphere;
+}
+
+/// No reading: the setup's features and the tables of readings know spheres alone.
+std::optional<Touch> TouchStation::touch_body(const motion::AxisMove& move, records::Reading row,
+                                              const Observer& observer, const ReadingLog& log) {
+    if (setup_.bodies.empty()) return std::nullopt;
+    row.commanded = move.from;
+    const auto found = touch_bodies(move, log.sample_of(row), observer);
+    if (!found) return std::nullopt;
+    Touch touch{found->s, {}, std::move(row)};
+    if (const double length_mm =
+            (move.parallel.linear(move.to) - move.parallel.linear(move.from)).norm();
+        length_mm > 0.0 && setup_.probe->repeatability_um > 0.0)
+        touch.s += mm_from_um(setup_.probe->repeatability_um) * noise_.normal() / length_mm;
+    touch.s = std::clamp(touch.s, 0.0, 1.0);
+    touch.stopped = move.at(touch.s);
+    touch.row.device = records::Device::none;
+    return touch;
+}
+
+std::optional<Touch> TouchStation::touch_sphere(const motion::AxisMove& move, records::Reading row,
+                                                const Observer& observer, const ReadingLog& log) {
     Approach approach(move, std::move(row), observer, log);
     std::optional<Touch> first;
     for (const setup::Artefact& artefact : setup_.artefacts) {

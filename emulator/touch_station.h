@@ -1,4 +1,4 @@
-// The probe in the spindle and the spheres on the table: answers G31 moves.
+// The probe in the spindle, the spheres and bodies on the table: answers G31 moves.
 #pragma once
 
 #include <optional>
@@ -23,13 +23,18 @@ class TouchStation {
 
     /// The probe is in the spindle: no tool called yet, or the one the setup names.
     bool mounted(const motion::AxisMove& move) const;
-    /// The first sphere that the stylus meets on the move; `row` holds what the shop set up and
-    /// when the move started. The value is that of the row by the rules of a table; where the move
-    /// also turns rotary axes or runs along a curve, that of the path.
+    /// The first sphere or body that the stylus meets on the move; `row` holds what the shop set up
+    /// and when the move started. The value is that of the row by the rules of a table; where the
+    /// move also turns rotary axes or runs along a curve, that of the path.
     std::optional<Touch> touch(const motion::AxisMove& move, records::Reading row,
                                const Observer& observer, const ReadingLog& log);
 
   private:
+    std::optional<Touch> touch_body(const motion::AxisMove& move, records::Reading row,
+                                    const Observer& observer, const ReadingLog& log);
+    std::optional<Touch> touch_sphere(const motion::AxisMove& move, records::Reading row,
+                                      const Observer& observer, const ReadingLog& log);
+
     const setup::Setup& setup_;
     SeededNoise noise_;
 };

@@ -1,6 +1,7 @@
 #include "setup/control_machine.h"
 
 #include "base/alarm.h"
+#include "controller/settings.h"
 #include "offsets/pivot_parameters.h"
 
 namespace trunnion::setup {
@@ -10,6 +11,7 @@ namespace {
 kinematics::AxisGeometry rotary(const offsets::PivotAxis& axis, const Vector3& point_mm) {
     kinematics::AxisGeometry geometry;
     geometry.axis = axis.axis;
+    geometry.name = letter_of(axis.axis);
     geometry.rotary = true;
     geometry.direction = axis.direction();
     geometry.point_mm = point_mm;
@@ -21,6 +23,7 @@ kinematics::AxisGeometry rotary(const offsets::PivotAxis& axis, const Vector3& p
 kinematics::AxisGeometry slide(Axis axis) {
     kinematics::AxisGeometry geometry;
     geometry.axis = axis;
+    geometry.name = letter_of(axis);
     geometry.direction = Vector3::Unit(static_cast<int>(index_of(axis)));
     return geometry;
 }
@@ -33,6 +36,23 @@ std::string text_of(const kinematics::Chain& chain) {
     for (const kinematics::AxisGeometry& axis : chain.tool)
         text += std::string(" ") + letter_of(axis.axis);
     return text + " t";
+}
+
+/// Strokes and rapid speeds as the control has them: 1320, 1321, 1420.
+void take_strokes(const offsets::Parameters& parameters, kinematics::Chain& chain) {
+    std::vector<controller::ControlAxis> axes;
+    for (const kinematics::AxisGeometry& axis : chain.axes())
+        axes.push_back({axis.axis, axis.rotary, axis.min, axis.max, {}, {}});
+    controller::sort_axes(axes, parameters);
+    controller::take_strokes(axes, parameters);
+    for (auto* side : {&chain.work, &chain.tool})
+        for (kinematics::AxisGeometry& geometry : *side)
+            for (const controller::ControlAxis& axis : axes) {
+                if (axis.axis != geometry.axis) continue;
+                geometry.min = axis.min;
+                geometry.max = axis.max;
+                if (axis.rapid_speed) geometry.max_speed = axis.rapid_speed;
+            }
 }
 
 }  // namespace
@@ -59,6 +79,7 @@ Setup setup_of_control(const offsets::Stores& stores, const std::string& path) {
     if (pivot->unit == offsets::MechanicalUnit::tool_tool)
         chain.tool.push_back(rotary(pivot->second, head - pivot->tool_second_offset_mm));
     setup.chain_text = text_of(chain);
+    take_strokes(stores.parameters, chain);
     return setup;
 }
 

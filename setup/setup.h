@@ -17,6 +17,7 @@
 #include "kinematics/machine.h"
 #include "offsets/stores.h"
 #include "positioning/tcp_frame.h"
+#include "setup/body.h"
 
 namespace trunnion::setup {
 
@@ -139,6 +140,7 @@ struct Setup {
     std::optional<ProbeSettings> probe;
     std::optional<BallbarSettings> ballbar;
     std::vector<Artefact> artefacts;
+    std::vector<Body> bodies;  ///< that G31 meets beside the spheres
     std::vector<Instrument> instruments;
     ModelSettings model;
     /// Zero of each test of a laser or autocollimator, mm or rad, as a fit found it (ZeroGroup of

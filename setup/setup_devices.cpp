@@ -1,6 +1,7 @@
 // [probe], [ballbar], [model] and [effects] of a setup file.
 #include "base/units.h"
 #include "setup/artefact_keys.h"
+#include "setup/body_keys.h"
 #include "setup/setup_reader.h"
 
 namespace trunnion::setup {
@@ -114,6 +115,7 @@ void read_devices(const TomlFile& file, Setup& setup) {
     if (const TomlValue* table = root.find("probe")) read_probe(file, *table, setup);
     if (const TomlValue* table = root.find("ballbar")) read_ballbar(file, *table, setup);
     read_artefacts(file, setup);
+    read_bodies(file, setup);
     read_instruments(file, setup);
     if (const TomlValue* table = root.find("model"))
         read_model(file, *table, setup.machine.chain.names(), setup.model);

@@ -5,6 +5,7 @@
 #include "base/units.h"
 #include "offsets/parameter_units.h"
 #include "setup/artefact_keys.h"
+#include "setup/body_keys.h"
 #include "setup/hurco_keys.h"
 #include "setup/setup.h"
 #include "setup/toml_text.h"
@@ -336,6 +337,7 @@ std::string format_setup(const Setup& setup) {
     if (setup.probe) out += probe_text(*setup.probe);
     if (setup.ballbar) out += ballbar_text(*setup.ballbar);
     for (const Artefact& artefact : setup.artefacts) out += artefact_text(artefact);
+    for (const Body& body : setup.bodies) out += body_text(body);
     for (const Instrument& instrument : setup.instruments) out += instrument_text(instrument);
     return out + model_text(setup.model, setup.machine.chain.names());
 }

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
+#include "backup/differences.h"
 #include "base/alarm.h"
 
 using namespace trunnion;

@@ -199,6 +199,13 @@ void read_set(Expectation& e, std::istringstream& in) {
         in >> e.skip_at;
     } else if (what == "LIMIT") {
         set_limit(e, in);
+    } else if (what == "STROKE") {
+        char letter = 0;
+        double min = 0.0, max = 0.0;
+        in >> letter >> min >> max;
+        const int axis = static_cast<int>(std::string("XYZBC").find(letter)) + 1;
+        e.stores.parameters.entry[1320].by_axis[axis] = max;
+        e.stores.parameters.entry[1321].by_axis[axis] = min;
     } else if (what == "REFERENCE") {
         set_reference(e, in);
     } else if (what == "CLAMP") {

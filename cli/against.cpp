@@ -1,0 +1,100 @@
+#include "cli/against.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/alarm.h"
+#include "base/numbers.h"
+#include "cli/program_choice.h"
+#include "cli/setups.h"
+#include "emulator/run.h"
+#include "interpreter/program_folders.h"
+#include "regression/two_controls.h"
+
+namespace trunnion::cli {
+
+namespace {
+
+constexpr std::size_t most_findings = 50;  ///< of one program: more say nothing new
+
+bool take_control(const std::string& what, setup::Setup& setup) {
+    using interpreter::ControlGeneration;
+    struct Row {
+        const char* name;
+        interpreter::Dialect dialect;
+    };
+    const Row rows[] = {{"hurco", interpreter::hurco_dialect()},
+                        {"hurco-bnc", interpreter::hurco_dialect()},
+                        {"fanuc", interpreter::fanuc_dialect()},
+                        {"16i", interpreter::fanuc_dialect(ControlGeneration::fanuc_16i)},
+                        {"30i", interpreter::fanuc_dialect(ControlGeneration::fanuc_30i)},
+                        {"0i-F", interpreter::fanuc_dialect(ControlGeneration::fanuc_0i_f)}};
+    for (const Row& row : rows) {
+        if (what != row.name) continue;
+        setup.dialect = row.dialect;
+        setup.hurco.bnc = what == "hurco-bnc";
+        return true;
+    }
+    return false;
+}
+
+/// "NAME=VALUE"
+bool take_choice(const std::string& what, setup::Setup& setup) {
+    const std::size_t equals = what.find('=');
+    if (equals == std::string::npos) return false;
+    const std::string name = what.substr(0, equals), value = what.substr(equals + 1);
+    if (name == "tcp_frame" && (value == "start" || value == "rotary_zero")) {
+        setup.tcp_frame =
+            value == "start" ? positioning::TcpFrame::start : positioning::TcpFrame::rotary_zero;
+        return true;
+    }
+    const auto number = parse_number(name), wanted = parse_number(value);
+    if (!number || !wanted || *number < 0 || *number > 99999) return false;
+    setup.stores.parameters.set(static_cast<int>(*number), *wanted);
+    return true;
+}
+
+regression::ControlReading reading_of(const setup::Setup& setup, const std::string& name,
+                                      std::uint64_t max_blocks) {
+    regression::ControlReading out{name, emulator::control_config(setup), setup.stores};
+    out.config.max_blocks = max_blocks;
+    return out;
+}
+
+}  // namespace
+
+setup::Setup other_reading(const setup::Setup& setup, const std::string& what) {
+    setup::Setup other = setup;
+    if (take_control(what, other) || take_choice(what, other)) return other;
+    if (std::filesystem::is_regular_file(what)) return open_setup(what);
+    throw InputError(
+        "--against takes hurco, hurco-bnc, fanuc, 16i, 30i, 0i-F, "
+        "tcp_frame=start or rotary_zero, a parameter like 5006=64, or a setup file; "
+        "not '" +
+        what + "'");
+}
+
+std::vector<check::Finding> differences_against(const setup::Setup& setup,
+                                                const setup::Setup& other, const std::string& name,
+                                                const interpreter::ProgramText& program,
+                                                const std::vector<std::string>& folders,
+                                                std::uint64_t max_blocks) {
+    const auto found = regression::compare_controls(
+        reading_of(setup, "this control", max_blocks), reading_of(other, name, max_blocks), program,
+        [&] {
+            return std::make_unique<interpreter::ProgramFolders>(folders_of_file(program, folders));
+        });
+    std::vector<check::Finding> out;
+    for (const regression::ReadingDifference& d : found) {
+        if (out.size() == most_findings) break;
+        out.push_back({"reading", check::Severity::warning,
+                       d.program.empty() ? program.name : d.program, std::max(1, d.line),
+                       std::max(1, d.column), d.text,
+                       "Decide which control the program is for, or write it so that both agree."});
+    }
+    if (found.size() > out.size())
+        out.back().text += " (and " + std::to_string(found.size() - out.size()) + " more)";
+    return out;
+}
+
+}  // namespace trunnion::cli

@@ -1,0 +1,23 @@
+// check --against: the same setup with another control, choice or parameter.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "check/check.h"
+#include "interpreter/program_source.h"
+#include "setup/setup.h"
+
+namespace trunnion::cli {
+
+/// "hurco", "hurco-bnc", "fanuc", "16i", "30i", "0i-F", "tcp_frame=start", "tcp_frame=rotary_zero",
+/// a parameter "5006=64", or the path of a setup. Throws InputError for anything else.
+setup::Setup other_reading(const setup::Setup& setup, const std::string& what);
+/// Findings of rule "reading": where the program would move differently on `other`.
+std::vector<check::Finding> differences_against(const setup::Setup& setup,
+                                                const setup::Setup& other, const std::string& name,
+                                                const interpreter::ProgramText& program,
+                                                const std::vector<std::string>& folders,
+                                                std::uint64_t max_blocks);
+
+}  // namespace trunnion::cli

@@ -1,0 +1,101 @@
+#include "emulator/body_touch.h"
+
+#include <algorithm>
+
+namespace trunnion::emulator {
+
+namespace {
+
+probe::Solid box(const Vector3& low, const Vector3& high) {
+    return {false, low, high, 0.0, 0.0};
+}
+
+/// Four walls; they overlap at the corners.
+std::vector<probe::Solid> walls(const setup::Body& body) {
+    const double x = 0.5 * body.size_mm.x(), y = 0.5 * body.size_mm.y();
+    const double out_x = x + body.wall_mm, out_y = y + body.wall_mm, z = -body.size_mm.z();
+    return {box({-out_x, -out_y, z}, {-x, out_y, 0.0}), box({x, -out_y, z}, {out_x, out_y, 0.0}),
+            box({-out_x, -out_y, z}, {out_x, -y, 0.0}), box({-out_x, y, z}, {out_x, out_y, 0.0}),
+            box({-out_x, -out_y, z - body.wall_mm}, {out_x, out_y, z})};
+}
+
+/// The machine on the move, read by a stylus that comes along it.
+class OnMove {
+  public:
+    OnMove(const motion::AxisMove& move, const AxisSample& start, const Observer& observer)
+        : move_(move), start_(start), observer_(observer) {
+        const Vector3 way = move.parallel.linear(move.to) - move.parallel.linear(move.from);
+        length_mm_ = way.norm();
+        contact_.device = records::Device::touch;
+        contact_.stylus = true;
+        contact_.direction_M = length_mm_ > 0.0 ? Vector3(way / length_mm_) : Vector3::UnitZ();
+        const kinematics::MachinePose poses = observer.nominal(start);
+        contact_.direction_W = poses.pose_MW.rotation.transpose() * contact_.direction_M;
+    }
+
+    Vector3 ball_W_mm(double s) const {
+        const PhysicalState state = observer_.at(sample(s), contact_);
+        const Vector3 tip_S = observer_.setup().probe->tip_S_mm + state.extra.tip_shift_mm;
+        return state.poses.pose_MW.inverse() * (state.poses.pose_MS * tip_S) -
+               state.extra.work_shift_mm;
+    }
+    /// Pretravel: the skip comes later by this part of the move.
+    double later(double s) const {
+        if (length_mm_ == 0.0) return 0.0;
+        return observer_.at(sample(s), contact_).extra.reading_mm / length_mm_;
+    }
+
+  private:
+    AxisSample sample(double s) const {
+        AxisSample here = start_;
+        here.position = move_.at(s);
+        here.time_s += s * move_.duration_s;
+        return here;
+    }
+
+    const motion::AxisMove& move_;
+    const AxisSample& start_;
+    const Observer& observer_;
+    Contact contact_;
+    double length_mm_ = 0.0;
+};
+
+}  // namespace
+
+std::vector<probe::Solid> solids_of(const setup::Body& body) {
+    const double radius = 0.5 * body.diameter_mm;
+    const Vector3 half(0.5 * body.size_mm.x(), 0.5 * body.size_mm.y(), 0.0);
+    const Vector3 low(0.0, 0.0, -body.height_mm);
+    switch (body.kind) {
+        case setup::Body::Kind::block:
+            return {box({-half.x(), -half.y(), -body.size_mm.z()}, half)};
+        case setup::Body::Kind::pocket:
+            return walls(body);
+        case setup::Body::Kind::boss:
+            return {{true, low, Vector3::Zero(), 0.0, radius}};
+        case setup::Body::Kind::ring:
+            return {{true, low, Vector3::Zero(), radius, radius + body.wall_mm}};
+    }
+    return {};
+}
+
+std::optional<BodyTouch> touch_bodies(const motion::AxisMove& move, const AxisSample& start,
+                                      const Observer& observer) {
+    const OnMove on(move, start, observer);
+    const double radius_mm = 0.5 * observer.setup().probe->ball_diameter_mm;
+    std::optional<BodyTouch> first;
+    for (const setup::Body& body : observer.setup().bodies) {
+        const Pose pose_BW = body.pose_WB().inverse();
+        const std::vector<probe::Solid> solids = solids_of(body);
+        const auto s = probe::first_contact(
+            solids, [&](double t) { return Vector3(pose_BW * on.ball_W_mm(t)); }, radius_mm);
+        if (s && (!first || *s < first->contact_s)) first = {{*s, *s, body.name}};
+    }
+    if (!first) return first;
+    first->s = first->contact_s + on.later(first->contact_s);
+    if (first->s > 1.0) return std::nullopt;
+    first->s = std::max(0.0, first->s);
+    return first;
+}
+
+}  // namespace trunnion::emulator

@@ -1,0 +1,30 @@
+// Bodies on the table that a probe meets beside spheres: plates, blocks, pockets, bosses, rings.
+#pragma once
+
+#include <string>
+
+#include "geometry/pose.h"
+
+namespace trunnion::setup {
+
+/// In its own frame B the top lies in z = 0 and the middle in x = y = 0; the body is below. Sizes
+/// are the physical ones; what a program believes stands in the program.
+struct Body {
+    /// block: a plate, a web, a corner, an edge. pocket: walls around a rectangle. boss: a
+    /// cylinder. ring: a bore in a cylinder.
+    enum class Kind : unsigned char { block, pocket, boss, ring };
+    std::string name;
+    Kind kind = Kind::block;
+    Vector3 center_W_mm = Vector3::Zero();  ///< of the top
+    Vector3 tilt_deg = Vector3::Zero();     ///< about the fixed X, then Y, Z of W
+    /// Block: its size. Pocket: of the hollow, z its depth.
+    Vector3 size_mm = Vector3(50.0, 50.0, 20.0);
+    double diameter_mm = 25.0;  ///< boss, or bore of a ring
+    double height_mm = 20.0;    ///< of boss and ring
+    double wall_mm = 10.0;      ///< of pocket and ring
+
+    Pose pose_WB() const;
+    bool operator==(const Body&) const = default;
+};
+
+}  // namespace trunnion::setup

@@ -1,0 +1,72 @@
+// One program on two controls: told is where they would move differently, and only there.
+#include "regression/two_controls.h"
+
+#include <catch2/catch.hpp>
+
+namespace trunnion {
+
+namespace {
+
+regression::ControlReading reading(const std::string& name) {
+    regression::ControlReading out;
+    out.name = name;
+    out.config.dialect =
+        name == "hurco" ? interpreter::hurco_dialect() : interpreter::fanuc_dialect();
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z, Axis::B, Axis::C}) {
+        controller::ControlAxis entry;
+        entry.axis = axis;
+        entry.rotary = is_rotary(axis);
+        out.config.axes.push_back(entry);
+    }
+    out.stores.tools.tool[1].length_geometry_mm = 100.0;
+    out.stores.parameters.set(3401, 1);
+    return out;
+}
+
+std::vector<regression::ReadingDifference> compared(const std::string& text,
+                                                    const regression::ControlReading& a,
+                                                    const regression::ControlReading& b) {
+    return regression::compare_controls(a, b, interpreter::ProgramText{"t.nc", text, nullptr}, [] {
+        return std::make_unique<interpreter::ProgramsInMemory>();
+    });
+}
+
+std::vector<regression::ReadingDifference> fanuc_and_hurco(const std::string& text) {
+    return compared(text, reading("fanuc"), reading("hurco"));
+}
+
+}  // namespace
+
+TEST_CASE("what both read alike is not told") {
+    CHECK(fanuc_and_hurco("G90 G21 G17\nG0 X10.\nG1 Y5. F100.\nG2 X20. R5.\nM30\n").empty());
+}
+
+TEST_CASE("a tool length that moves on one control is told where it arises and where it ends") {
+    const auto found = fanuc_and_hurco("G90 G21\nG43 H1\nX5.\nG0 Z50.\nM30\n");
+    REQUIRE(found.size() == 2);
+    CHECK(found[0].line == 2);
+    CHECK(found[0].text == "ends at Z100.0000 on fanuc, Z0.0000 on hurco");
+    CHECK(found[1].line == 4);
+    CHECK(found[1].text.find("alike again") != std::string::npos);
+}
+
+TEST_CASE("a dogleg and a dwell of the same end: the way is told") {
+    const auto found = fanuc_and_hurco("G90 G21\nG0 X100. Y20.\nM30\n");
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].line == 2);
+    CHECK(found[0].text == "is half way at Y10.0000 on fanuc, Y20.0000 on hurco");
+}
+
+TEST_CASE("an alarm of one control and another way through the program are told") {
+    const auto alarm = fanuc_and_hurco("G90 G21\nG53.1\nM30\n");
+    REQUIRE(alarm.size() == 2);
+    CHECK(alarm[1].text.find("hurco stops here: PS0010") == 0);
+    auto other = reading("old");
+    other.stores.parameters.set(5006, 64);
+    const auto way = compared("G90 G21\nG43 H1\nIF[#5023GT50.]GOTO5\nG0 X1.\nN5 X2.\nM30\n",
+                              reading("new"), other);
+    REQUIRE(way.size() == 2);
+    CHECK(way[1].text == "from here new goes on at line 5, old at line 4");
+}
+
+}  // namespace trunnion
