@@ -11,7 +11,7 @@ using namespace trunnion;
 namespace {
 
 backup::ControlBackup sample() {
-    backup::ControlBackup b{"stick", {}};
+    backup::ControlBackup b{"stick", {}, {}};
     b.files["CNC-PARA.TXT"] =
         "%\n\r\rN00000Q1L1P00000010L2P00000000 \n\r\rN01020Q1A1P88A2P89A3P90\n\r\r"
         "N19680Q1L1P12\n\r\rN19700Q1L1P0.5L2P0.0\n\r\rN19701Q1L1P-1.25\n\r\rN19702Q1L1P3.\n\r\r"
