@@ -10,6 +10,9 @@
 
 namespace trunnion::backup {
 
+const std::vector<std::string> backup_file_names{"CNC-PARA.TXT", "EXT_WKZ.TXT", "TOOLOFST.TXT",
+                                                 "MACRO.TXT", "PITCH.TXT"};
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -28,7 +31,8 @@ constexpr FileRow file_rows[] = {
 };
 
 bool has_values(const std::string& name) {
-    return name == "PITCH.TXT" || standing_of_file(name) == Standing::obeyed;
+    return std::find(backup_file_names.begin(), backup_file_names.end(), name) !=
+           backup_file_names.end();
 }
 
 std::string upper(std::string s) {

@@ -24,6 +24,9 @@ const char* text_of(Standing standing);
 /// Files with values are obeyed; programs and lists of the control are known.
 Standing standing_of_file(const std::string& name);
 
+/// Names of the files that have values.
+extern const std::vector<std::string> backup_file_names;
+
 /// Reads the files of a folder that a control writes, values and programs. Throws InputError when
 /// none of them has values.
 ControlBackup read_backup(const std::string& folder);

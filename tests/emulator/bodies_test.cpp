@@ -4,6 +4,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/alarm.h"
+#include "base/units.h"
 #include "emulator/run.h"
 #include "interpreter/program_folders.h"
 

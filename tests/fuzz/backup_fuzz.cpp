@@ -9,7 +9,7 @@ namespace {
 using namespace trunnion;
 
 void check_backup(std::string_view text) {
-    backup::ControlBackup files{"f", {}};
+    backup::ControlBackup files{"f", {}, {}};
     for (const std::string& name : backup::backup_file_names) {
         const std::size_t end = text.find('\x1e');
         files.files[name] = std::string(text.substr(0, end));
