@@ -227,6 +227,7 @@ class ArcCheck {
 }  // namespace
 
 void check_arcs(const CheckSection& section, const CheckOptions& options, Findings& findings) {
+    if (options.arc_centres_are_places) return;
     ArcCheck(section, options, findings).run();
 }
 

@@ -60,6 +60,7 @@ struct CheckOptions {
     std::function<int(int number, bool writes)> variable_alarm;
     /// A control that carries out blocks one after another. Not checked when empty.
     std::function<std::unique_ptr<Trial>()> start_trial;
+    bool arc_centres_are_places = false;  ///< BNC: I J K are no way from the start
     double arc_tolerance_mm = 0.02;  ///< radius at the arc's end against its start (parameter 3410)
 };
 

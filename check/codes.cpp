@@ -60,6 +60,8 @@ void at_end(const Followed& state, const interpreter::Block& block, Findings& fi
 
 void check_codes(const CheckSection& section, const CheckOptions& options, Findings& findings) {
     const interpreter::ParsedProgram& program = *section.program;
+    // G43.4 of a Hurco is the linearisation, which M129 ends.
+    const bool hurco = options.dialect.family == interpreter::DialectFamily::hurco;
     Followed state;
     for (const interpreter::Block* block : section.blocks) {
         for (const interpreter::Item& item : program.items(*block)) {
@@ -73,7 +75,8 @@ void check_codes(const CheckSection& section, const CheckOptions& options, Findi
                     "this control has no " + name_of_code(code),
                     "Use a code of this control, or map it to a program (parameters 6050-6059).");
             for (const Effect& e : effects)
-                if (e.code10 == code) state.*e.state = e.on;
+                if (e.code10 == code && !(hurco && e.state == &Followed::tool_centre))
+                    state.*e.state = e.on;
         }
         if (state.compensation && has_code(program, *block, 'G', 310))
             findings.add("skip-compensation", Severity::error, *block, 1,

@@ -28,7 +28,8 @@ void check_block_words(const interpreter::ParsedProgram& program, const interpre
             mapped = mapped || ((w.letter == 'G' || w.letter == 'M') &&
                                 options.calls_program(w.letter, code10_of(w.value)));
     if (mapped) return;  // the words are arguments
-    if (const auto fault = interpreter::find_word_fault(constants->words, options.dialect.family, constants->all))
+    if (const auto fault =
+            interpreter::find_word_fault(constants->words, options.dialect.family, constants->all))
         findings.add(
             "word", Severity::error, block, fault->column,
             alarm_text(options, fault->alarm) + (fault->detail.empty() ? "" : " " + fault->detail),

@@ -100,6 +100,8 @@ class SetupRules {
     check::CheckOptions options() {
         check::CheckOptions out;
         out.dialect = setup_.dialect;
+        out.arc_centres_are_places =
+            setup_.hurco.bnc && setup_.dialect.family == interpreter::DialectFamily::hurco;
         out.knows_g = [this](int code10) {
             return knows_g(setup_, code10) || cli::calls_program(calls_, 'G', code10);
         };
