@@ -2,8 +2,11 @@
 #include "imports/import.h"
 
 #include <CLI/CLI.hpp>
+#include <cctype>
+#include <map>
 #include <memory>
 
+#include "base/alarm.h"
 #include "base/console.h"
 #include "base/output_files.h"
 #include "base/read_file.h"
@@ -12,13 +15,15 @@
 #include "cli/options.h"
 #include "cli/page_options.h"
 #include "cli/readings_command.h"
+#include "records/iso230_2.h"
 #include "report/import_page.h"
+#include "report/iso230_picture.h"
 
 namespace trunnion::cli {
 namespace {
 
 struct Options {
-    std::string kind, setup, map, out;
+    std::string kind, setup, map, out, svg;
     std::vector<std::string> files, told;
     PageOptions page;
     const CLI::App* command = nullptr;
@@ -38,17 +43,43 @@ std::string page_of(const Options& options, const setup::Setup& setup,
                          options.page);
 }
 
+/// A test's name as a file can have it.
+std::string file_name(std::string test) {
+    for (char& c : test)
+        if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+    return "iso230_2_" + test + ".svg";
+}
+
+/// A picture of each test, in the folder.
+void add_pictures(const std::string& folder, const std::string& readings, const setup::Setup& setup,
+                  OutputFiles& out) {
+    std::vector<std::string> notes;
+    const records::ReadingTable table =
+        records::parse_readings(readings, "", notes, setup.machine.chain.names());
+    std::map<std::string, bool> tests;
+    for (const records::Reading& row : table.rows)
+        if (row.device != records::Device::none) tests[row.test] = row.angular;
+    make_folder(folder);
+    for (const auto& [test, rotary] : tests)
+        out.add(folder + '/' + file_name(test),
+                report::iso230_2_picture(test, records::deviation_points(table, test), rotary));
+}
+
 int import_command(const Options& options) {
+    const imports::ImportKind kind = kinds.at(options.kind);
+    if (!options.svg.empty() && kind != imports::ImportKind::iso230_2)
+        throw InputError("--svg draws tables of ISO 230-2 only");
     const setup::Setup setup = load_setup_option(options.setup);
     std::vector<imports::ImportFile> files;
     for (const std::string& path : options.files) files.push_back({path, read_file_or_input(path)});
     imports::ImportRequest request{setup, files, imports::Facts(options.told), {}};
     if (!options.map.empty()) request.map = {options.map, read_file_or_input(options.map)};
-    imports::Imported result = imports::import_readings(kinds.at(options.kind), request);
+    imports::Imported result = imports::import_readings(kind, request);
     for (const std::string& line : result.summary) print_error("{}\n", line);
     print_notes(result.notes);
     OutputFiles out;
     if (!options.page.html.empty()) out.add(options.page.html, page_of(options, setup, result));
+    if (!options.svg.empty()) add_pictures(options.svg, result.readings, setup, out);
     out.add(options.out, std::move(result.readings));
     out.write();
     return exit_done;
@@ -66,6 +97,8 @@ void add_import(CLI::App& app, Run& run) {
     reads_file(command->add_option("--setup", options->setup, "setup file (TOML), needed"));
     writes_file(command->add_option("--out", options->out, "readings (CSV)"))->required();
     reads_file(command->add_option("--map", options->map, "of kind table: which column is what"));
+    writes_file(
+        command->add_option("--svg", options->svg, "of kind iso230-2: folder for pictures"));
     command
         ->add_option("--with", options->told,
                      "what the files do not tell: 'unit=um', 'axis=X' (docs/readings.md)")

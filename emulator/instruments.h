@@ -26,6 +26,9 @@ struct ReplayOffsets {
     Vector3 cup_S = Vector3::Zero();
     double length = 0.0;                          ///< of the ballbar
     setup::ExtensionErrors stylus_S, long_cup_S;  ///< by extension
+    /// Of the second session and on, in place of all but `zeros`: what belongs to a set-up begins
+    /// anew with each. Fewer than there are: a session without an entry is as the first one.
+    std::vector<ReplayOffsets> later_sessions = {};
 };
 
 /// One reading to be taken in one state.

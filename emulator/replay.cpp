@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <deque>
 #include <map>
 #include <tuple>
 
@@ -35,6 +36,12 @@ void check_axes(const setup::Setup& setup, const records::ReadingTable& table) {
 int touches_of(const records::ReadingTable& table) {
     const auto it = table.comment.find("touches");
     return it == table.comment.end() ? 0 : std::atoi(it->second.c_str());
+}
+
+const ReplayOffsets& of_session(const ReplayOffsets& offsets, std::size_t session) {
+    return session == 0 || session > offsets.later_sessions.size()
+               ? offsets
+               : offsets.later_sessions[session - 1];
 }
 
 bool turns(const kinematics::Chain& chain, Axis axis) {
@@ -80,6 +87,15 @@ Replay::Replay(const setup::Setup& setup, const records::ReadingTable& table) : 
     }
     list_unknown_sides(table);
     list_zeros(table);
+    list_sessions(table);
+}
+
+void Replay::list_sessions(const records::ReadingTable& table) {
+    for (const std::size_t r : rows_) {
+        const auto it = std::find(sessions_.begin(), sessions_.end(), table.rows[r].session);
+        session_.push_back(static_cast<std::size_t>(it - sessions_.begin()));
+        if (it == sessions_.end()) sessions_.push_back(table.rows[r].session);
+    }
 }
 
 void Replay::list_zeros(const records::ReadingTable& table) {
@@ -117,20 +133,22 @@ double Replay::read(std::size_t i, const kinematics::ForwardModel& model,
                     const ReplayOffsets& offsets, const kinematics::Perturbation& extra) const {
     const PhysicalState state{model.poses(samples_[i].position, extra, spindle_angle(samples_[i])),
                               extra};
-    return reading_mm({setup_, offsets, contacts_[i], state});
+    return reading_mm({setup_, of_session(offsets, session_[i]), contacts_[i], state});
 }
 
 std::vector<double> Replay::predict(const kinematics::Machine& machine,
                                     const ReplayOffsets& offsets,
                                     const EffectModels& models) const {
-    const Observer observer(setup_, machine, models, offsets);
+    std::deque<Observer> observers;  // an observer does not move
+    for (std::size_t k = 0; k < std::max<std::size_t>(1, sessions_.size()); ++k)
+        observers.emplace_back(setup_, machine, models, of_session(offsets, k));
     std::vector<double> value_mm(size());
     for (std::size_t i = 0; i < size(); ++i) {
         AxisSample sample = samples_[i];
         Contact contact = contacts_[i];
         sample.position = commanded_[i];
         contact.along_mm = 0.0;
-        value_mm[i] = observer.read(sample, contact);
+        value_mm[i] = observers[session_[i]].read(sample, contact);
     }
     for (std::size_t k = 0; k < zeros_.size(); ++k) {
         const double added = k < offsets.zeros.size() ? offsets.zeros[k] : 0.0;

@@ -54,6 +54,11 @@ class Replay {
     /// Tests of `linear` and `angle` rows, one entry for each test and session: their zero is free.
     const std::vector<ZeroGroup>& zeros() const { return zeros_; }
 
+    /// Names of the sessions, in the order of their first device rows; one without a name where the
+    /// table has no column for them.
+    const std::vector<std::string>& sessions() const { return sessions_; }
+    std::size_t session(std::size_t i) const { return session_[i]; }
+
     /// Readings of all device rows, mm; `linear` and `angle` rows count from the first of their
     /// test. `machine` may differ from the setup's (location errors).
     std::vector<double> predict(const kinematics::Machine& machine, const ReplayOffsets& offsets,
@@ -70,6 +75,7 @@ class Replay {
                 const kinematics::Perturbation& extra) const;
     void list_unknown_sides(const records::ReadingTable& table);
     void list_zeros(const records::ReadingTable& table);
+    void list_sessions(const records::ReadingTable& table);
 
     setup::Setup setup_;
     std::vector<std::size_t> rows_;
@@ -78,6 +84,8 @@ class Replay {
     std::vector<AxisPositions> commanded_;
     std::vector<UnknownSide> unknown_;
     std::vector<ZeroGroup> zeros_;
+    std::vector<std::string> sessions_;
+    std::vector<std::size_t> session_;  ///< of each device row
 };
 
 /// Sum of products of all entries: the change of a reading for a small `delta`.

@@ -23,8 +23,8 @@ using Slot = Unknowns::Slot;
 
 Eigen::VectorXd residual(const BaseModel& model, const emulator::Replay& replay,
                          const setup::Setup& setup) {
-    const std::vector<double> value = replay.predict(
-        setup.machine, offsets_between(replay.setup(), setup), effects::active_models(setup));
+    const std::vector<double> value =
+        replay.predict(setup.machine, offsets_to(replay, setup), effects::active_models(setup));
     return model.measured_mm -
            Eigen::Map<const Eigen::VectorXd>(value.data(), static_cast<Eigen::Index>(value.size()));
 }
@@ -231,6 +231,7 @@ BaseModel fit_base(const setup::Setup& setup, const records::ReadingTable& table
                    const std::vector<std::string>& effects) {
     BaseModel model;
     model.setup = setup;
+    begin_sessions(model.setup, replay);
     take_measured(model, table, replay);
     const RowNoise noise = row_noise(setup, table, replay);
     model.sigma_mm = noise.sigma_mm;

@@ -10,6 +10,7 @@
 #include "base/alarm.h"
 #include "effects/settings.h"
 #include "identification/keys.h"
+#include "identification/set_up_words.h"
 #include "identification/unknown_sides.h"
 
 namespace trunnion::identification {
@@ -254,6 +255,7 @@ Identification identify(const setup::Setup& setup, const records::ReadingTable& 
             fmt::format("{} readings cannot fix {} unknowns and show how well they fit",
                         replay.size(), base.rank),
             {table.path, 0, 0});
+    result.set_up_words = set_up_words(base.setup, base.parameters);
     result.notes = std::move(notes);
     result.notes.insert(result.notes.end(), base.notes.begin(), base.notes.end());
     result.setup = std::move(base.setup);

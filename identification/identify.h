@@ -14,6 +14,7 @@ struct Identification {
     /// Of the parameters that are no keys, in their order and units: it comes with the directions
     /// that the readings see (`inseparable` lists the others).
     Eigen::MatrixXd covariance;
+    std::vector<std::string> set_up_words;  ///< how a part or instrument lay, in sentences
     std::vector<std::string> notes;
     setup::Setup setup;  ///< with the values entered; loads again
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 namespace trunnion::identification {
@@ -16,9 +17,10 @@ struct Used {
     bool bar = false;
 };
 
-Used used_by(const emulator::Replay& replay) {
+Used used_by(const emulator::Replay& replay, std::size_t session) {
     Used used;
     for (std::size_t i = 0; i < replay.size(); ++i) {
+        if (replay.session(i) != session) continue;
         const emulator::Contact& contact = replay.contact(i);
         const bool bar = contact.device == records::Device::ballbar;
         used.artefacts.insert(contact.artefact);
@@ -101,9 +103,10 @@ void add_zeros(std::vector<FreeQuantity>& list, const emulator::Replay& replay) 
 
 }  // namespace
 
-std::vector<FreeQuantity> free_quantities(const setup::Setup& setup,
-                                          const emulator::Replay& replay) {
-    const Used used = used_by(replay);
+namespace {
+
+/// Those that one session sees.
+std::vector<FreeQuantity> quantities_of(const setup::Setup& setup, const Used& used) {
     std::vector<FreeQuantity> list;
     for (int k = 0; k < static_cast<int>(setup.artefacts.size()); ++k) {
         const setup::Artefact& artefact = setup.artefacts[static_cast<std::size_t>(k)];
@@ -124,12 +127,39 @@ std::vector<FreeQuantity> free_quantities(const setup::Setup& setup,
         if (instrument.free_scale)
             list.push_back({instrument.name + ".scale", "1", 1e-4, {Kind::instrument, k, 6}});
     }
+    return list;
+}
+
+}  // namespace
+
+std::vector<FreeQuantity> free_quantities(const setup::Setup& setup,
+                                          const emulator::Replay& replay) {
+    std::vector<FreeQuantity> list;
+    int slot = static_cast<int>(replay.zeros().size());
+    for (std::size_t s = 0; s < replay.sessions().size(); ++s)
+        for (FreeQuantity& free : quantities_of(setup, used_by(replay, s))) {
+            if (replay.sessions().size() > 1) free.name += '.' + replay.sessions()[s];
+            free.place.session = static_cast<int>(s);
+            if (s > 0) free.place.slot = slot++;
+            list.push_back(std::move(free));
+        }
     add_zeros(list, replay);
     return list;
 }
 
+void begin_sessions(setup::Setup& setup, const emulator::Replay& replay) {
+    setup.zeros.assign(replay.zeros().size(), 0.0);
+    for (const FreeQuantity& free : free_quantities(setup, replay)) {
+        if (free.place.session == 0) continue;
+        SetUpQuantity first = free.place;
+        first.session = 0;
+        setup.zeros.push_back(number_of(setup, first));
+    }
+}
+
 double& number_of(setup::Setup& setup, const SetUpQuantity& q) {
     const auto k = static_cast<std::size_t>(q.index);
+    if (q.session > 0) return setup.zeros.at(static_cast<std::size_t>(q.slot));
     switch (q.kind) {
         case Kind::cup:
             return setup.ballbar->cup_S_mm(q.component);
@@ -150,8 +180,11 @@ double& number_of(setup::Setup& setup, const SetUpQuantity& q) {
     }
 }
 
-double set_up_derivative(const SetUpQuantity& q, const emulator::Contact& contact,
+double set_up_derivative(const SetUpQuantity& q, const emulator::Replay& replay, std::size_t i,
                          const kinematics::Perturbation& gradient) {
+    const emulator::Contact& contact = replay.contact(i);
+    if (q.kind != Kind::zero && static_cast<std::size_t>(q.session) != replay.session(i))
+        return 0.0;
     const bool bar = contact.device == records::Device::ballbar;
     const bool same_length = contact.extension_mm == q.extension_mm;
     switch (q.kind) {
@@ -176,6 +209,8 @@ double set_up_derivative(const SetUpQuantity& q, const emulator::Contact& contac
     }
 }
 
+namespace {
+
 emulator::ReplayOffsets offsets_between(const setup::Setup& from, const setup::Setup& to) {
     emulator::ReplayOffsets offsets;
     for (std::size_t k = 0; k < from.artefacts.size(); ++k) {
@@ -188,14 +223,40 @@ emulator::ReplayOffsets offsets_between(const setup::Setup& from, const setup::S
                                         is.pose_error.tilt_rad - was.pose_error.tilt_rad},
                                        is.scale_error - was.scale_error});
     }
-    for (std::size_t k = 0; k < to.zeros.size(); ++k)
-        offsets.zeros.push_back(to.zeros[k] - (k < from.zeros.size() ? from.zeros[k] : 0.0));
     if (from.probe)
         offsets.stylus_S = difference(from.probe->extension_errors, to.probe->extension_errors);
     if (!from.ballbar) return offsets;
     offsets.long_cup_S = difference(from.ballbar->extension_errors, to.ballbar->extension_errors);
     offsets.cup_S = to.ballbar->cup_S_mm - from.ballbar->cup_S_mm;
     offsets.length = to.ballbar->length_mm - from.ballbar->length_mm;
+    return offsets;
+}
+
+/// The setup as the k-th session has it.
+setup::Setup in_session(const setup::Setup& fitted, const std::vector<FreeQuantity>& quantities,
+                        int session) {
+    setup::Setup own = fitted;
+    for (const FreeQuantity& free : quantities) {
+        if (free.place.session != session) continue;
+        SetUpQuantity first = free.place;
+        first.session = 0;
+        number_of(own, first) = fitted.zeros.at(static_cast<std::size_t>(free.place.slot));
+    }
+    return own;
+}
+
+}  // namespace
+
+emulator::ReplayOffsets offsets_to(const emulator::Replay& replay, const setup::Setup& fitted) {
+    const setup::Setup& from = replay.setup();
+    emulator::ReplayOffsets offsets = offsets_between(from, fitted);
+    const std::size_t zeros = std::min(fitted.zeros.size(), replay.zeros().size());
+    offsets.zeros.assign(fitted.zeros.begin(),
+                         fitted.zeros.begin() + static_cast<std::ptrdiff_t>(zeros));
+    if (replay.sessions().size() < 2) return offsets;
+    const std::vector<FreeQuantity> quantities = free_quantities(from, replay);
+    for (int s = 1; s < static_cast<int>(replay.sessions().size()); ++s)
+        offsets.later_sessions.push_back(offsets_between(from, in_session(fitted, quantities, s)));
     return offsets;
 }
 

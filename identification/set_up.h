@@ -25,6 +25,9 @@ struct SetUpQuantity {
     int index = 0;      ///< of the artefact, the instrument or the test
     int component = 0;  ///< x y z; of an instrument x y z, a b c of its pose, then its scale
     double extension_mm = 0.0;  ///< of a longer stylus or cup
+    /// Of a session after the first: the setup has one place for each, so that value stands in its
+    /// `zeros`, at `slot`.
+    int session = 0, slot = 0;
 };
 
 struct FreeQuantity {
@@ -33,15 +36,18 @@ struct FreeQuantity {
     SetUpQuantity place;
 };
 
-/// Those that the setup leaves free and that the rows of the replay depend on.
+/// Those that the setup leaves free and that the rows of the replay depend on; where the replay has
+/// several sessions each anew for each of them ("S1.x_mm.tuesday").
 std::vector<FreeQuantity> free_quantities(const setup::Setup& setup,
                                           const emulator::Replay& replay);
+/// Room in the setup for the values of tests and later sessions; each begins at the setup's own.
+void begin_sessions(setup::Setup& setup, const emulator::Replay& replay);
 /// The number itself.
 double& number_of(setup::Setup& setup, const SetUpQuantity& quantity);
-/// d reading / d quantity of one row, from what the reading's gradient says about machine and tool.
-double set_up_derivative(const SetUpQuantity& quantity, const emulator::Contact& contact,
-                         const kinematics::Perturbation& gradient);
-/// Difference to a setup's own quantities: the replay keeps those of the file.
-emulator::ReplayOffsets offsets_between(const setup::Setup& from, const setup::Setup& to);
+/// d reading / d quantity of device row i, from what its gradient says about machine and tool.
+double set_up_derivative(const SetUpQuantity& quantity, const emulator::Replay& replay,
+                         std::size_t i, const kinematics::Perturbation& gradient);
+/// Difference to the quantities of the replay's setup, which are those of the file.
+emulator::ReplayOffsets offsets_to(const emulator::Replay& replay, const setup::Setup& fitted);
 
 }  // namespace trunnion::identification

@@ -64,7 +64,7 @@ Eigen::MatrixXd columns_of(const std::vector<Slot>& slots, const emulator::Repla
         for (std::size_t i = 0; i < replay.size(); ++i)
             columns(static_cast<Eigen::Index>(i), c) =
                 slots[j].fit.typical *
-                set_up_derivative(slots[j].fit.set_up, replay.contact(i), gradient[i]);
+                set_up_derivative(slots[j].fit.set_up, replay, i, gradient[i]);
     }
     return columns;
 }

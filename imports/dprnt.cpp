@@ -47,7 +47,7 @@ class PrintedRun {
         if (axes_.size() != 5)
             throw InputError("prints name the positions of five axes, this machine has others",
                              {setup.path});
-        has_rotary_mode();
+        begin_modes();
     }
 
     void read();
@@ -74,7 +74,7 @@ class PrintedRun {
     void result(const PrintedLine& line) {
         if (line.text.ends_with(" END")) end(line);
     }
-    void has_rotary_mode() { mode_ = plain_mode_ = PositioningMode::dpp; }
+    void begin_modes() { mode_ = plain_mode_ = PositioningMode::dpp; }
     std::string sphere_at(const PrintedLine& line, const AxisPositions& skip) const;
     void append(records::Reading row, int line);
 
@@ -162,7 +162,7 @@ void PrintedRun::head(const PrintedLine& line) {
     stands_.reset();
     timed_ = false;
     shop_ = {};
-    has_rotary_mode();
+    begin_modes();
 }
 
 void PrintedRun::end(const PrintedLine& line) {

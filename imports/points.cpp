@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "base/alarm.h"
 #include "imports/column_roles.h"
@@ -171,6 +172,27 @@ void write_point(const PointFile& file, std::size_t i, const std::vector<records
     }
 }
 
+/// A pose that is free for each session takes six numbers of it: three points at least.
+void check_pose(const PointFile& file, const setup::Instrument* instrument) {
+    if (!instrument || !instrument->free_pose) return;
+    constexpr std::size_t fewest = 3;
+    std::map<std::string, std::pair<std::size_t, std::size_t>> sessions;  // first row, points
+    std::vector<records::TableCell> cells;
+    for (std::size_t i = 0; i < file.table.size(); ++i) {
+        file.table.read(i, cells);
+        const std::string name = file.columns.session ? cells[*file.columns.session].plain() : "";
+        ++sessions.try_emplace(name, i, 0).first->second.second;
+    }
+    for (const auto& [name, entry] : sessions)
+        if (entry.second < fewest)
+            file.table.line(entry.first)
+                .fail(fmt::format("{} point{} of {}{} not fix its pose, which the setup leaves "
+                                  "free: three at least",
+                                  entry.second, entry.second == 1 ? "" : "s", instrument->name,
+                                  name.empty() ? " do" : " in session " + name + " do"),
+                      1);
+}
+
 void tell(const PointFile& file, const TimeColumn& time, const std::string& instrument,
           Imported& result) {
     const TextTable& table = file.table;
@@ -207,6 +229,7 @@ Imported import_points(const ImportRequest& request) {
         row.commanded = positions_told(setup, facts.text("at"));
         rows.begin_file(table, facts);
         const PointFile points{table, columns, target};
+        check_pose(points, instrument);
         std::vector<records::TableCell> cells;
         for (std::size_t i = 0; i < table.size(); ++i) {
             table.read(i, cells);

@@ -88,6 +88,7 @@ identification::Identification parse_fitted(const Json& json) {
     for (const Json& group : json.at("inseparable"))
         fitted.inseparable.push_back({group.at("names").get<std::vector<std::string>>(),
                                       group.at("direction").get<std::vector<double>>()});
+    fitted.set_up_words = json.at("set_up_words").get<std::vector<std::string>>();
     fitted.rms_before_um = number(json.at("rms_before_um"));
     fitted.rms_after_um = number(json.at("rms_after_um"));
     fitted.dof = json.at("dof").get<int>();
@@ -114,10 +115,27 @@ RepetitionPart parse_part_json(const Json& json) {
 
 }  // namespace
 
+namespace {
+
+/// What belongs to the set-up, by itself: no fault of the machine.
+Json json_set_up(const std::vector<identification::FitParameter>& parameters) {
+    Json list = Json::array();
+    for (const identification::FitParameter& p : parameters)
+        if (p.effect == "setup")
+            list.push_back({{"name", p.name},
+                            {"value", number(p.value)},
+                            {"sigma", number(p.sigma)},
+                            {"unit", p.unit}});
+    return list;
+}
+
+}  // namespace
+
 std::string identification_json(const identification::Identification& result) {
     Json json;
     json["schema"] = "trunnion.identification/1";
     json["parameters"] = json_parameters(result.parameters);
+    json["setup"] = json_set_up(result.parameters);
     json["inseparable"] = json_inseparable(result.inseparable);
     json["covariance"] = json_covariance(result.parameters, result.covariance);
     json["rms_before_um"] = result.rms_before_um;
@@ -139,6 +157,8 @@ std::string identification_text(const identification::Identification& result, bo
     }
     for (const identification::Inseparable& group : result.inseparable)
         text += fmt::format("no reading here sees: {}\n", to_string(group));
+    for (const std::string& sentence : result.set_up_words)
+        text += fmt::format("set-up: {}\n", sentence);
     return text + fmt::format("rms {:.3f} um before, {:.3f} um after, {} degrees of freedom\n",
                               result.rms_before_um, result.rms_after_um, result.dof);
 }
@@ -152,6 +172,7 @@ std::string format_part(const RepetitionPart& part) {
     json["fitted"] = {{"parameters", parameters_of(part.fitted)},
                       {"inseparable", json_inseparable(part.fitted.inseparable)},
                       {"covariance", rows_of(part.fitted.covariance)},
+                      {"set_up_words", part.fitted.set_up_words},
                       {"rms_before_um", part.fitted.rms_before_um},
                       {"rms_after_um", part.fitted.rms_after_um},
                       {"dof", part.fitted.dof}};

@@ -1,0 +1,67 @@
+#include "identification/set_up_words.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "base/units.h"
+
+namespace trunnion::identification {
+namespace {
+
+using Kind = SetUpQuantity::Kind;
+
+/// Pose and scale of one instrument in one session, as far as the readings see them.
+struct Found {
+    Vector3 shift_mm = Vector3::Zero(), tilt_rad = Vector3::Zero();
+    std::array<bool, 7> seen{};
+    double scale = 0.0;
+    std::string session;
+};
+
+/// Behind the number: "Tracker.a_rad.tuesday".
+std::string session_of(const std::string& name) {
+    const std::size_t unit = name.find('.');
+    const std::size_t dot = unit == std::string::npos ? unit : name.find('.', unit + 1);
+    return dot == std::string::npos ? "" : name.substr(dot + 1);
+}
+
+std::string words(const setup::Instrument& instrument, const Found& found) {
+    std::string text = found.session.empty() ? "" : found.session + ": ";
+    text += instrument.sees_table ? "the part was" : instrument.name + " sees the machine";
+    const bool turned = found.seen[3] || found.seen[4] || found.seen[5];
+    const bool shifted = found.seen[0] || found.seen[1] || found.seen[2];
+    if (turned) text += fmt::format(" turned by {:.4g} deg", deg_from_rad(found.tilt_rad.norm()));
+    if (shifted)
+        text += fmt::format("{} shifted by ({:.4g}, {:.4g}, {:.4g}) mm", turned ? "," : "",
+                            found.shift_mm.x(), found.shift_mm.y(), found.shift_mm.z());
+    if (found.seen[6])
+        text +=
+            fmt::format("{} scaled by {:.4g} ppm", turned || shifted ? "," : "", 1e6 * found.scale);
+    return text;
+}
+
+}  // namespace
+
+std::vector<std::string> set_up_words(const setup::Setup& setup,
+                                      const std::vector<FitParameter>& parameters) {
+    std::map<std::pair<int, int>, Found> list;
+    for (const FitParameter& p : parameters) {
+        const SetUpQuantity& q = p.set_up;
+        if (q.kind != Kind::instrument || !std::isfinite(p.sigma)) continue;
+        Found& found = list[{q.session, q.index}];
+        found.seen[static_cast<std::size_t>(q.component)] = true;
+        found.session = session_of(p.name);
+        if (q.component < 3) found.shift_mm(q.component) = p.value;
+        if (q.component >= 3 && q.component < 6) found.tilt_rad(q.component - 3) = p.value;
+        if (q.component == 6) found.scale = p.value;
+    }
+    std::vector<std::string> sentences;
+    for (const auto& [place, found] : list)
+        sentences.push_back(
+            words(setup.instruments[static_cast<std::size_t>(place.second)], found));
+    return sentences;
+}
+
+}  // namespace trunnion::identification

@@ -1,0 +1,166 @@
+// What belongs to a day begins anew, what belongs to the machine stays.
+#include <catch2/catch.hpp>
+
+#include "base/units.h"
+#include "effects/settings.h"
+#include "identification/identify.h"
+
+namespace trunnion {
+namespace {
+
+setup::Setup machine() {
+    std::vector<std::string> notes;
+    return setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w C B b X Y Z t\"\n"
+        "[machine.axis.B]\ndirection = [0, -1, 0]\npoint_mm = [0, 0, 0]\n"
+        "[machine.axis.C]\ndirection = [0, 0, -1]\npoint_mm = [0, 0, 0]\n"
+        "[[instrument]]\nname = \"CMM\"\nframe = \"W\"\nfree = [\"pose\", \"scale\"]\n"
+        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -150]\n"
+        "[model]\nmodelled = []\n",
+        "s.toml", notes);
+}
+
+/// Points of a plate, or of a cube where it has `layers`, without values.
+records::ReadingTable points(const setup::Setup& setup, const std::string& session, int layers) {
+    records::ReadingTable table;
+    table.path = "points.csv";
+    table.names = setup.machine.chain.names();
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
+        table.axes.push_back(axis.axis);
+    for (int k = 0; k < 25 * layers; ++k)
+        for (int d = 0; d < 3; ++d) {
+            records::Reading row;
+            row.index = static_cast<int>(table.rows.size());
+            row.time_s = 10.0 * k;
+            row.test = "plate";
+            row.device = records::Device::point;
+            row.feature = "R1";
+            row.session = session;
+            row.commanded[Axis::X] = -100.0 + 50.0 * (k % 5);
+            row.commanded[Axis::Y] = -100.0 + 50.0 * (k / 5 % 5);
+            row.commanded[Axis::Z] = 150.0 + 60.0 * (k / 25);
+            row.direction_M = Vector3::Unit(d);
+            table.rows.push_back(row);
+        }
+    return table;
+}
+
+/// What the CMM reads of a machine whose part lies so.
+void measure(setup::Setup real, const Vector3& shift_mm, const Vector3& tilt_rad, double scale,
+             records::ReadingTable& table) {
+    real.instruments[0].pose_error = {shift_mm, tilt_rad};
+    real.instruments[0].scale_error = scale;
+    table = emulator::predicted(real, table, effects::active_models(real));
+}
+
+records::ReadingTable two_days(const setup::Setup& real, int layers) {
+    records::ReadingTable a = points(real, "monday", layers), b = points(real, "tuesday", layers);
+    measure(real, {-0.044, 0.079, 0.01}, {0, 0, rad_from_deg(0.029)}, -34e-6, a);
+    measure(real, {0.02, 0.01, -0.03}, {2e-5, -1e-5, rad_from_deg(-0.011)}, 5e-6, b);
+    for (records::Reading& row : b.rows) {
+        row.time_s += 86400.0;
+        a.rows.push_back(row);
+    }
+    return a;
+}
+
+double value_of(const identification::Identification& result, const std::string& name) {
+    for (const identification::FitParameter& p : result.parameters)
+        if (p.name == name) return p.value;
+    FAIL("no parameter " << name);
+    return 0.0;
+}
+
+}  // namespace
+
+TEST_CASE("each day has its own pose and scale, the machine's error is common",
+          "[identification][sessions]") {
+    const setup::Setup setup = machine();
+    setup::Setup real = setup;
+    real.effects.push_back({"XY.squareness", {{"angle_rad", {6e-5}}}});
+    const auto result = identification::identify(setup, two_days(real, 2), {"XY.squareness"});
+    CHECK(result.rms_after_um < 1e-3);
+    CHECK(value_of(result, "angle_rad") == Approx(6e-5).epsilon(1e-3));
+    CHECK(value_of(result, "CMM.x_mm.monday") == Approx(-0.044).margin(1e-5));
+    CHECK(value_of(result, "CMM.y_mm.monday") == Approx(0.079).margin(1e-5));
+    CHECK(value_of(result, "CMM.c_rad.monday") == Approx(rad_from_deg(0.029)).margin(1e-8));
+    CHECK(value_of(result, "CMM.scale.monday") == Approx(-34e-6).margin(1e-8));
+    CHECK(value_of(result, "CMM.z_mm.tuesday") == Approx(-0.03).margin(1e-5));
+    CHECK(value_of(result, "CMM.a_rad.tuesday") == Approx(2e-5).margin(1e-8));
+    CHECK(value_of(result, "CMM.c_rad.tuesday") == Approx(rad_from_deg(-0.011)).margin(1e-8));
+    CHECK(value_of(result, "CMM.scale.tuesday") == Approx(5e-6).margin(1e-8));
+    const std::vector<std::string>& words = result.set_up_words;
+    REQUIRE(words.size() == 2);
+    CHECK(words[0] ==
+          "monday: the part was turned by 0.029 deg, shifted by (-0.044, 0.079, 0.01) mm, scaled "
+          "by -34 ppm");
+    CHECK_THAT(words[1], Catch::Contains("tuesday: the part was turned by 0.0111 deg"));
+}
+
+TEST_CASE("two days taken for one leave what lies between them", "[identification][sessions]") {
+    const setup::Setup setup = machine();
+    records::ReadingTable table = two_days(setup, 2);
+    for (records::Reading& row : table.rows) row.session.clear();
+    const auto result = identification::identify(setup, table, {});
+    CHECK(result.rms_after_um > 20.0);
+    CHECK(value_of(result, "CMM.x_mm") < 0.02);  // one session: names without a day
+}
+
+TEST_CASE("a line of points does not tell how the part was turned about it",
+          "[identification][sessions]") {
+    const setup::Setup setup = machine();
+    records::ReadingTable table = points(setup, "", 1);
+    std::erase_if(table.rows, [](const records::Reading& row) {
+        return row.commanded[Axis::Y] != 0.0 || row.commanded[Axis::Z] != 150.0;
+    });
+    measure(setup, {0.01, 0.02, 0.03}, {0, 1e-4, 2e-4}, 0.0, table);
+    const auto result = identification::identify(setup, table, {});
+    REQUIRE(result.inseparable.size() == 1);
+    CHECK(result.rms_after_um < 1e-3);
+}
+
+TEST_CASE("a sphere that was put elsewhere on the second day moves no axis",
+          "[identification][sessions]") {
+    std::vector<std::string> notes;
+    const setup::Setup setup =
+        setup::load_setup(std::string(TRUNNION_SOURCE_DIR) + "/machines/bc_table.toml", notes);
+    setup::Setup real = setup;
+    real.machine.errors.axis[index_of(Axis::C)].location = {};
+    records::ReadingTable whole;
+    whole.path = "spheres.csv";
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
+        whole.axes.push_back(axis.axis);
+    const Vector3 moved(0.05, -0.03, 0.02);
+    for (int day = 0; day < 2; ++day) {
+        records::ReadingTable table = whole;
+        table.rows.clear();
+        for (int k = 0; k < 36; ++k)
+            for (int d = 0; d < 3; ++d) {
+                records::Reading row;
+                row.time_s = 1e5 * day + 10.0 * k;
+                row.test = "t";
+                row.session = day == 0 ? "a" : "b";
+                row.device = records::Device::sphere;
+                row.feature = "S1";
+                row.direction_M = Vector3::Unit(d);
+                row.commanded[Axis::B] = rad_from_deg(-60.0 + 24.0 * (k % 6));
+                row.commanded[Axis::C] = rad_from_deg(60.0 * (k / 6));
+                table.rows.push_back(row);
+            }
+        setup::Setup of_day = real;
+        if (day == 1) of_day.artefacts[0].center_W_mm += moved;
+        table = emulator::predicted(of_day, table, {});
+        for (const records::Reading& row : table.rows) whole.rows.push_back(row);
+    }
+    const auto result = identification::identify(setup, whole, {"location"});
+    CHECK(result.rms_after_um < 1e-3);
+    for (int d = 0; d < 3; ++d) {
+        const std::string name = std::string("S1.") + "xyz"[d] + "_mm.";
+        CHECK(value_of(result, name + "b") - value_of(result, name + "a") ==
+              Approx(moved(d)).margin(1e-6));
+    }
+    for (const identification::FitParameter& p : result.parameters)
+        if (p.effect == "location" && std::isfinite(p.sigma)) CHECK(std::abs(p.value) < 1e-6);
+}
+
+}  // namespace trunnion
