@@ -63,6 +63,7 @@ double remainder_per_row(const std::vector<Missed>& missed, double noise_factor,
 /// Directions of the set-up that the readings leave open by more than a typical size.
 Eigen::MatrixXd open_set_up(const Design& design) {
     Eigen::MatrixXd information = design.known().transpose() * design.known();
+    if (information.size() == 0) return information;  // nothing is free
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(information);
     const auto open = (solver.eigenvalues().array() < 1.0).count();  // they rise
     return solver.eigenvectors().leftCols(open);
