@@ -59,10 +59,10 @@ void add_pictures(const std::string& folder, const std::string& readings, const 
     std::map<std::string, bool> tests;
     for (const records::Reading& row : table.rows)
         if (row.device != records::Device::none) tests[row.test] = row.angular;
-    make_folder(folder);
     for (const auto& [test, rotary] : tests)
         out.add(folder + '/' + file_name(test),
                 report::iso230_2_picture(test, records::deviation_points(table, test), rotary));
+    make_folder(folder);
 }
 
 int import_command(const Options& options) {

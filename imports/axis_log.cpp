@@ -169,7 +169,9 @@ Imported import_axis_log(const ImportRequest& request) {
         const Log log = read_columns(table, request.setup, facts, time);
         check(table, log);
         records::Reading row;
-        row.test = facts.text("test", "log");
+        const auto number = &file - request.files.data() + 1;
+        row.test = facts.text(
+            "test", request.files.size() > 1 ? fmt::format("log_{}", number) : std::string("log"));
         row.commanded = positions_told(request.setup, facts.text("at"));
         rows.begin_file(table, facts);
         std::vector<records::TableCell> cells;

@@ -94,7 +94,7 @@ TEST_CASE("each day has its own pose and scale, the machine's error is common",
     CHECK(words[0] ==
           "monday: the part was turned by 0.029 deg, shifted by (-0.044, 0.079, 0.01) mm, scaled "
           "by -34 ppm");
-    CHECK_THAT(words[1], Catch::Contains("tuesday: the part was turned by 0.0111 deg"));
+    CHECK_THAT(words[1], Catch::Contains("tuesday: the part was turned by 0.01107 deg"));
 }
 
 TEST_CASE("two days taken for one leave what lies between them", "[identification][sessions]") {

@@ -66,9 +66,9 @@ TEST_CASE("an axis or a device that nobody knows is refused", "[imports][bad]") 
             "axis", 1);
     refuses(setup,
             {ImportKind::table,
-             "p,v\n1,2\n",
+             "p [mm],v [mm]\n1,2\n",
              {},
              "[columns]\nx_mm = \"p\"\n[[reading]]\ndevice = "
              "\"radar\"\nfeature = \"R1\"\nvalue_mm = \"v\"\n"},
-            "radar", 4);
+            "device is sphere, touch", 2);
 }
