@@ -213,9 +213,8 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys,
 bool straighten(Prepared& p, Searched& s) {
     const Solution solution = solved(s.design, s.model);
     const setup::Setup setup = setup_with(p, s.design, s.model, solution);
-    const std::vector<double> read =
-        p.replay.predict(setup.machine, identification::offsets_to(p.replay, setup),
-                         effects::active_models(setup));
+    const std::vector<double> read = p.replay.predict(
+        setup.machine, identification::offsets_to(p.replay, setup), effects::active_models(setup));
     const Eigen::VectorXd fit = p.base.residual_mm - left_mm(p, s.design, s.model, solution);
     const Eigen::VectorXd straight =
         p.base.measured_mm -
