@@ -74,6 +74,11 @@ std::string shift_text(const Vector3& shift) {
     return out;
 }
 
+std::string away_text(double position_mm) {
+    return position_mm < 5e-5 ? " along the same way"
+                              : fmt::format(", up to {:.4f} mm away", position_mm);
+}
+
 std::string times(std::uint64_t count, const char* what) {
     return count > 1 ? fmt::format(", in {} {}", count, what) : "";
 }
@@ -89,13 +94,11 @@ std::string sentence(const PathCluster& c, PathSpace space, const Tolerances& to
         case DifferenceKind::only_a:
             return c.cut_a_mm > 0.0
                        ? fmt::format("only in A: a pass with {:.3f} mm of cut", c.cut_a_mm) + tool
-                       : fmt::format("only in A: moves, up to {:.4f} mm away", c.position_mm) +
-                             tool;
+                       : fmt::format("only in A: moves{}", away_text(c.position_mm)) + tool;
         case DifferenceKind::only_b:
             return c.cut_b_mm > 0.0
                        ? fmt::format("only in B: a pass with {:.3f} mm of cut", c.cut_b_mm) + tool
-                       : fmt::format("only in B: moves, up to {:.4f} mm away", c.position_mm) +
-                             tool;
+                       : fmt::format("only in B: moves{}", away_text(c.position_mm)) + tool;
         case DifferenceKind::reordered:
             return fmt::format("{} {:.3f} mm of cut at another place in the order",
                                c.count > 1 ? fmt::format("{} passes with", c.count) : "a pass with",

@@ -115,13 +115,21 @@ void PathRecorder::see_through(const positioning::RotaryTransform* transform,
 }
 
 motion::MoveResult PathRecorder::move(const motion::AxisMove& move) {
-    if (seen_through_ == nullptr) return record(move);
+    const bool cancelled = move.tool_vector_mm.isZero(0.0);
+    if (seen_through_ == nullptr && !(cancelled && held_vector_mm_)) {
+        if (!cancelled) held_vector_mm_ = move.tool_vector_mm;
+        return record(move);
+    }
     motion::AxisMove seen = move;
-    seen.transform = seen_through_;
+    if (seen_through_ != nullptr) seen.transform = seen_through_;
     const auto offset = static_cast<std::size_t>(std::max(0, move.tool_offset));
     const double length_mm = move.tool_vector_mm.norm();
-    if (length_mm > 0.0 && offset < seen_length_mm_.size())
+    if (!cancelled && offset < seen_length_mm_.size())
         seen.tool_vector_mm *= seen_length_mm_[offset] / length_mm;
+    if (!cancelled)
+        held_vector_mm_ = seen.tool_vector_mm;
+    else if (held_vector_mm_)
+        seen.tool_vector_mm = *held_vector_mm_;
     return record(seen);
 }
 

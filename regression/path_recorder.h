@@ -44,6 +44,8 @@ class PathRecorder : public motion::MotionSink {
     bool begun_ = false, by_time_ = false;
     const positioning::RotaryTransform* seen_through_ = nullptr;
     std::vector<double> seen_length_mm_;
+    /// Length in force before G49, kept: a point of the spindle that does not jump is followed.
+    std::optional<Vector3> held_vector_mm_;
     const std::string* program_ = nullptr;
     std::uint16_t program_index_ = 0;
     std::vector<PathPoint> points_;

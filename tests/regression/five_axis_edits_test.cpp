@@ -100,7 +100,7 @@ bool same_values(const TableMove& p, const TableMove& q, double allowed) {
     if (p.rapid || q.rapid) return p.rapid == q.rapid;
     return p.by_time == q.by_time && std::abs(p.feed - q.feed) <= allowed * p.feed &&
            std::abs(p.spindle - q.spindle) <= allowed * std::abs(p.spindle) &&
-           p.coolant == q.coolant;
+           p.coolant == q.coolant && p.tool == q.tool;
 }
 
 /// Tips and axes at the same share of the way, worst of all: mm, rad.

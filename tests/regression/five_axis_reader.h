@@ -25,6 +25,7 @@ struct TableMove {
     bool by_time = false;
     double spindle = 0.0;
     bool coolant = false;
+    int tool = 0;
     std::vector<TablePoint> points;  ///< start to end; rapids: the end
 };
 
@@ -238,7 +239,7 @@ class FiveAxisReader {
         b_deg_ = b;
         c_deg_ = c;
         if (motion_ == 0) {
-            if (known_end_) moves.push_back({true, 0, false, 0, false, {at(to, b, c)}});
+            if (known_end_) moves.push_back({true, 0, false, 0, false, 0, {at(to, b, c)}});
             return;
         }
         if (!known || (turning && frame_ != Frame::tcp) || (to == from && !turning))
@@ -280,7 +281,7 @@ class FiveAxisReader {
 
     TableMove& cut() {
         unsure = unsure || feed_ <= 0.0 || !compensated_ || (by_time_ && !has('F'));
-        moves.push_back({false, feed_, by_time_, turning_ * speed_, coolant_, {}});
+        moves.push_back({false, feed_, by_time_, turning_ * speed_, coolant_, tool_, {}});
         return moves.back();
     }
 
@@ -290,6 +291,7 @@ class FiveAxisReader {
         if (m == 7 || m == 8) coolant_ = true;
         if (m == 9) coolant_ = false;
         if (m == 30) done_ = true;
+        if (m == 6) tool_ = 1;
         if (m == 6) unsure = unsure || !has('T') || words_.at('T') != 1.0;
         const bool known = (m >= 3 && m <= 9) || m == 30;
         // M5 and M9 act behind the block's move: alone they are sure.
@@ -304,7 +306,7 @@ class FiveAxisReader {
     Matrix3 plane_rotation_ = Matrix3::Identity();
     std::array<bool, 3> said_{};
     double b_deg_ = 0.0, c_deg_ = 0.0, feed_ = 0.0, speed_ = 0.0;
-    int motion_ = 0, plane_ = 17, turning_ = 0;
+    int motion_ = 0, plane_ = 17, turning_ = 0, tool_ = 0;
     bool by_time_ = false, coolant_ = false, compensated_ = false, tilted_ = false, done_ = false;
     bool turned_to_plane_ = false, lost_ = false, known_end_ = false, used_h_ = false;
 };

@@ -307,3 +307,30 @@ TEST_CASE("no number of a report is NaN where an arc is programmed in another pl
         CHECK(r.verdict.find("nan") == std::string::npos);
     }
 }
+
+TEST_CASE("the path goes on with the length before G49: nothing jumps, what moves is seen",
+          "[compare]") {
+    const setup::Setup setup = bc_table();
+    const std::string a =
+        "O1\nG90 G21 G94 G54 G40 G49\nT1 M6\nS5000 M3\nG0 X0. Y0. Z300.\nG43 H1 Z160.\nG1 Z140. "
+        "F300.\nX30. F800.\nG0 Z300.\nG91 G28 Z0.\nG90 G49\nT2 M6\nS5000 M3\nG0 X0. Y10.\nG43 "
+        "H2 Z160.\nG1 Z140. F300.\nX30. F800.\nG0 Z300.\nM30\n";
+    // Behind G28 G49 moves no axis: with it or without is the same path.
+    const regression::Comparison kept =
+        compare_texts(a, replaced(a, "G90 G49\nT2", "G90\nT2"), setup);
+    INFO(kept.verdict);
+    CHECK(kept.equal);
+    const regression::Comparison missing =
+        compare_texts(a, replaced(a, "G43 H2 Z160.", "Z160."), setup);
+    INFO(missing.verdict);
+    CHECK_FALSE(missing.equal);
+    CHECK(missing.differences.front().what.find("H2") != std::string::npos);
+    CHECK(missing.position_mm > 100.0);
+    // Elsewhere it moves Z by the length (5006#6 = 0), and that is a difference of the rapids.
+    const std::string b = replaced(a, "G91 G28 Z0.\nG90 G49\n", "");
+    const regression::Comparison moves =
+        compare_texts(b, replaced(b, "T2 M6", "G49\nT2 M6"), setup);
+    INFO(moves.verdict);
+    CHECK_FALSE(moves.equal);
+    CHECK(moves.position_mm == Approx(150.0));
+}
