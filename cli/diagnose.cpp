@@ -10,6 +10,7 @@
 #include "base/console.h"
 #include "base/output_files.h"
 #include "cli/command.h"
+#include "cli/files.h"
 #include "cli/long_work.h"
 #include "cli/options.h"
 #include "cli/page_options.h"
@@ -98,6 +99,11 @@ Json to_json(const diagnosis::Diagnosis& d) {
     for (const identification::FitParameter& p : d.set_up)
         json["setup"].push_back(
             {{"name", p.name}, {"value", p.value}, {"sigma", p.sigma}, {"unit", p.unit}});
+    for (const identification::FoundSide& s : d.sides)
+        json["setup"].push_back({{"name", "side of " + s.axis},
+                                 {"value", s.value()},
+                                 {"sigma", s.sigma()},
+                                 {"unit", "1"}});
     json["next_measurement"] = Json::array();
     for (const diagnosis::NextMeasurement& next : d.next)
         json["next_measurement"].push_back({{"separates", {next.first, next.second}},
@@ -144,6 +150,7 @@ void print_report(const diagnosis::Diagnosis& d) {
     print_out("verdict: {}\n{}\n", to_string(d.verdict), report::verdict_sentence(d));
     print_out("{} readings ({} set aside), rms {:.3f} um, noise {:.3f} um ({}), excess {:.3f} um\n",
               d.readings, d.outliers, d.rms_um, d.noise_um, to_string(d.noise.source), d.excess_um);
+    for (const identification::FoundSide& s : d.sides) print_out("  {}\n", to_string(s));
     for (const diagnosis::DriverShare& w : d.where) print_out("  {}\n", w.text);
     for (const diagnosis::Cause& cause : d.causes) print_cause(cause);
     if (!d.causes.empty())
@@ -186,6 +193,7 @@ int diagnose_command(const Options& options) {
     how.holdout = holdout ? &*holdout : nullptr;
     std::optional<Interruption> planning;
     const diagnosis::Diagnosis result = diagnose_watched(setup, table, how, planning);
+    print_notes(result.notes);
     OutputFiles files;
     if (!options.out.empty()) files.add(options.out, setup::format_setup(result.setup));
     if (!options.page.html.empty())

@@ -7,6 +7,7 @@
 #include "diagnosis/candidate_groups.h"
 #include "diagnosis/diagnosis_report.h"
 #include "diagnosis/key_search.h"
+#include "diagnosis/open_sides.h"
 #include "diagnosis/outliers.h"
 #include "diagnosis/ripples.h"
 #include "diagnosis/rules.h"
@@ -294,11 +295,16 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
     Round round{std::vector<bool>(p.replay.size(), true), {}, p.base.sigma_mm};
     round.noise = belief_of(p, p.base.residual_mm, round.sigma_mm);
     leave_out(p, lone_probe_readings(p, round.used), round);
-    KeySearch keys(p.replay, p.base);
+    take_promising_sides(p);
+    std::optional<KeySearch> keys(std::in_place, p.replay, p.base);
     watch("search among models");
-    Searched s = search_of(p, round, keys, nullptr);
-    for (int k = 1; k < most_rounds && corrected(p, s, round); ++k)
-        s = search_of(p, round, keys, &s);
+    Searched s = search_of(p, round, *keys, nullptr);
+    for (int k = 1; k < most_rounds; ++k) {
+        const bool turned = retake_sides(p, s.design, s.model);
+        if (turned) keys.emplace(p.replay, p.base);  // its columns are those of other sides
+        if (!corrected(p, s, round) && !turned) break;
+        s = search_of(p, round, *keys, &s);
+    }
     watch("held-out readings");
     const Judgement judgement = judged(s.design, p, s.model, round.noise, round.used);
     return report_of({p, s.design, s.setting, s.model, judgement, round.noise, round.used},

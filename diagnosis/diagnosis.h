@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "diagnosis/noise.h"
-#include "identification/base_model.h"
+#include "identification/unknown_sides.h"
 #include "records/readings.h"
 #include "setup/setup.h"
 
@@ -70,12 +70,14 @@ struct Diagnosis {
     double explained = 0.0;      ///< H of the readings left out, 0..1: it decides the verdict
     bool between_places = true;  ///< false: it holds at the measured places only
     std::vector<identification::FitParameter> set_up;  ///< nuisances: never causes
+    std::vector<identification::FoundSide> sides;      ///< likewise: what the table leaves open
     HeldOut after;
     std::vector<NextMeasurement> next;
     std::vector<std::string> unseen;  ///< effects that these readings cannot show
     std::vector<identification::Inseparable>
         inseparable;  ///< of the base, and of the stores (pivot.*)
     std::size_t readings = 0, outliers = 0;
+    std::vector<std::string> notes;           ///< large residuals that were meant
     std::vector<double> before_um, after_um;  ///< machine minus simulation, by reading
     setup::Setup setup;                       ///< with the re-identified and added effects
 };

@@ -259,6 +259,8 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
     d.inseparable = base.inseparable;
     for (const identification::FitParameter& p : base.parameters)
         if (p.effect == "setup") d.set_up.push_back(p);
+    d.sides = f.prepared.sides;
+    d.notes = base.notes;
     for (const auto& entry : f.design.groups()) {
         if (!entry.group.effect || entry.hidden) continue;
         const std::string& name = entry.group.effect->name;

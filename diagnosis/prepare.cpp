@@ -40,6 +40,11 @@ Prepared::Prepared(const setup::Setup& setup, const records::ReadingTable& readi
     if (replay.size() < least_readings)
         throw InputError(fmt::format("{} readings allow no diagnosis", replay.size()),
                          {table.path, 0, 0});
+    base_sides = sides =
+        identification::choose_sides(setup, table, replay, catalogue, setup.model.modelled);
+    for (std::size_t k = 0; k < replay.unknown_sides().size(); ++k)
+        if (std::none_of(sides.begin(), sides.end(), [&](const auto& s) { return s.open == k; }))
+            open_sides.push_back(k);
     base = identification::fit_base(setup, table, replay, catalogue, setup.model.modelled);
     blocks = noise_blocks(replay, table);
     folds = make_folds(blocks, replay.size());

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "diagnosis/noise.h"
-#include "identification/base_model.h"
+#include "identification/unknown_sides.h"
 
 namespace trunnion::diagnosis {
 
@@ -15,12 +15,17 @@ struct Folds {
 };
 Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows);
 
-/// Never changed after prepare(), but for the residual when large effects bend the readings.
+/// Never changed after prepare(), but for the residual when large effects bend the readings, and
+/// for sides that the table leaves open.
 struct Prepared {
     Prepared(const setup::Setup& setup, const records::ReadingTable& table);
     const records::ReadingTable& table;
     emulator::Replay replay;
     effects::Catalogue catalogue;
+    std::vector<identification::FoundSide> base_sides;  ///< that the base model sees
+    std::vector<std::size_t> open_sides;  ///< of Replay::unknown_sides: those that it does not see
+    std::vector<identification::FoundSide>
+        sides;                       ///< that base and causes see, as the fit takes them
     identification::BaseModel base;  ///< location, set-up; residual in mm
     std::vector<NoiseBlock> blocks;
     Folds folds;

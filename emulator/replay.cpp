@@ -119,7 +119,7 @@ void Replay::list_unknown_sides(const records::ReadingTable& table) {
             const records::Reading& row = table.rows[rows_[i]];
             const auto [at, added] =
                 known.try_emplace({row.part, row.session, axis}, unknown_.size());
-            if (added) unknown_.push_back({axis, {}});
+            if (added) unknown_.push_back({axis, {}, 1});
             unknown_[at->second].rows.push_back(i);
         }
 }
@@ -127,6 +127,7 @@ void Replay::list_unknown_sides(const records::ReadingTable& table) {
 void Replay::assume_side(std::size_t k, signed char side) {
     for (const std::size_t i : unknown_[k].rows)
         samples_[i].travel[index_of(unknown_[k].axis)] = side;
+    unknown_[k].taken = side;
 }
 
 double Replay::read(std::size_t i, const kinematics::ForwardModel& model,

@@ -23,6 +23,7 @@ DeviceRow device_row(const Observer& observer, const records::Reading& row,
 struct UnknownSide {
     Axis axis = Axis::X;
     std::vector<std::size_t> rows;  ///< device rows
+    signed char taken = 1;
 };
 
 /// Rows of a laser or autocollimator between two zeroings.
@@ -48,8 +49,9 @@ class Replay {
 
     /// Sides that the table leaves open, one entry for each axis and session.
     const std::vector<UnknownSide>& unknown_sides() const { return unknown_; }
-    /// From here on the k-th of them is taken as `side`, -1 or +1.
+    /// From here on the k-th of them is taken as `side`, -1 or +1; + until then.
     void assume_side(std::size_t k, signed char side);
+    signed char side(std::size_t k) const { return unknown_[k].taken; }
 
     /// Tests of `linear` and `angle` rows, one entry for each test and session: their zero is free.
     const std::vector<ZeroGroup>& zeros() const { return zeros_; }

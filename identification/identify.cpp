@@ -222,7 +222,9 @@ Identification identify(const setup::Setup& setup, const records::ReadingTable& 
         if (!effect) effects::refuse_effect_name(setup, name);
         if (!keyed(*effect)) plain.push_back(name);
     }
-    std::vector<std::string> notes = choose_sides(setup, table, replay, catalogue, plain);
+    std::vector<std::string> notes;
+    for (const FoundSide& found : choose_sides(setup, table, replay, catalogue, plain))
+        notes.push_back(table.path + ": " + to_string(found));
     std::vector<KeyedEffect> with_keys;
     if (plain.size() < effects.size()) {
         const BaseModel base = fit_base(setup, table, replay, catalogue, plain);

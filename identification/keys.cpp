@@ -81,6 +81,14 @@ Eigen::VectorXd key_column(const emulator::Replay& replay, const BaseModel& base
 
 }  // namespace
 
+double explained(const emulator::Replay& replay, const BaseModel& base,
+                 const std::vector<KeyedEffect>& effects) {
+    std::vector<double> keys;
+    for (const KeyedEffect& e : effects)
+        for (const std::size_t j : e.free) keys.push_back(e.values[j]);
+    return JointGain(replay, base, effects)(keys);
+}
+
 void refine_together(const emulator::Replay& replay, const BaseModel& base,
                      std::vector<KeyedEffect>& effects) {
     std::vector<double> keys, low, high;

@@ -14,6 +14,10 @@ struct KeyedEffect {
     std::vector<std::size_t> free;  ///< keys that may lie between grid values
 };
 
+/// Weighted squares of what the base leaves that the effects explain together, fitted beside it.
+double explained(const emulator::Replay& replay, const BaseModel& base,
+                 const std::vector<KeyedEffect>& effects);
+
 /// Moves all free keys at once so that the effects explain most of what the base leaves (NLopt,
 /// bounded by half the first and twice the last grid value).
 void refine_together(const emulator::Replay& replay, const BaseModel& base,

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <functional>
+
 #include "effects/settings.h"
 
 namespace trunnion::identification {
@@ -9,106 +12,127 @@ namespace {
 
 constexpr double tells = 4.0;  ///< difference of the weighted squares: two sigma
 
-class SideChoice {
-  public:
-    SideChoice(const setup::Setup& setup, const records::ReadingTable& table,
-               emulator::Replay& replay, const effects::Catalogue& catalogue,
-               const std::vector<std::string>& effects)
-        : setup_(setup),
-          table_(table),
-          replay_(replay),
-          catalogue_(catalogue),
-          effects_(effects),
-          models_(effects::active_models(setup)) {
-        for (const std::string& name : effects)
-            if (const effects::Effect* effect = effects::find_effect(catalogue, name)) {
-                std::vector<double> values = effect->zeros();
-                for (std::size_t j = 0; j < values.size(); ++j)
-                    if (!effect->parameters[j].is_key()) values[j] = effect->parameters[j].typical;
-                models_.push_back(effects::make_model(*effect, values));
-            }
-    }
+std::string name_of(const emulator::Replay& replay, const records::ReadingTable& table,
+                    std::size_t open) {
+    const emulator::UnknownSide& side = replay.unknown_sides()[open];
+    const std::string& session = table.rows[replay.table_row(side.rows.front())].session;
+    return table.names[side.axis] + (session.empty() ? "" : " of " + session);
+}
 
-    std::vector<std::string> best() {
-        std::vector<std::size_t> open;
-        for (std::size_t k = 0; k < replay_.unknown_sides().size(); ++k)
-            if (matters(k)) open.push_back(k);
-        if (open.empty()) return {};
-        side_.assign(replay_.unknown_sides().size(), 1);
-        double now = misfit();
-        std::vector<double> worse(side_.size(), 0.0);
-        for (bool changed = true; std::exchange(changed, false);)
-            for (const std::size_t k : open) {
-                turn(k);
-                const double other = misfit();
-                worse[k] = std::abs(other - now);
-                if (other < now - 1e-9 * now)
-                    now = other, changed = true;
-                else
-                    turn(k);
+/// Open sides that one of the models sees, as the replay takes them now.
+std::vector<FoundSide> seen_sides(const emulator::Replay& replay, const records::ReadingTable& table,
+                                  const std::vector<std::size_t>& open,
+                                  const emulator::EffectModels& models) {
+    std::vector<FoundSide> list;
+    for (const std::size_t k : open)
+        for (const auto& model : models)
+            if (sees_side(replay, k, *model)) {
+                list.push_back({k, name_of(replay, table, k), replay.side(k)});
+                break;
             }
-        std::vector<std::string> notes;
-        for (const std::size_t k : open) notes.push_back(note(k, worse[k]));
-        return notes;
-    }
+    return list;
+}
 
-  private:
-    /// Some effect reads otherwise on the other side.
-    bool matters(std::size_t k) const {
-        for (const std::size_t i : replay_.unknown_sides()[k].rows) {
-            kinematics::Perturbation plus, minus;
-            AxisSample other = replay_.sample(i);
-            other.travel[index_of(replay_.unknown_sides()[k].axis)] = -1;
-            for (const auto& model : models_) {
-                model->perturb(replay_.sample(i), replay_.contact(i), plus);
-                model->perturb(other, replay_.contact(i), minus);
+/// Turns one side after the other until none fits better.
+void settle(std::vector<FoundSide>& sides, emulator::Replay& replay,
+            const std::function<double()>& misfit) {
+    if (sides.empty()) return;
+    double now = misfit();
+    for (bool changed = true; std::exchange(changed, false);)
+        for (FoundSide& found : sides) {
+            const auto other = static_cast<signed char>(-found.side);
+            replay.assume_side(found.open, other);
+            const double turned = misfit();
+            found.worse = std::abs(turned - now);
+            if (turned < now - 1e-9 * now) {
+                now = turned;
+                found.side = other;
+                changed = true;
+            } else {
+                replay.assume_side(found.open, found.side);
             }
-            if (plus.axis != minus.axis) return true;
-            for (std::size_t a = 0; a < axis_count; ++a)
-                if (plus.motion[a].shift_mm != minus.motion[a].shift_mm) return true;
         }
-        return false;
-    }
-
-    void turn(std::size_t k) {
-        side_[k] = static_cast<signed char>(-side_[k]);
-        replay_.assume_side(k, side_[k]);
-    }
-
-    double misfit() const {
-        const BaseModel base = fit_base(setup_, table_, replay_, catalogue_, effects_);
-        return base.residual_mm.cwiseQuotient(base.sigma_mm).squaredNorm();
-    }
-
-    std::string note(std::size_t k, double worse) const {
-        const char side = side_[k] > 0 ? '+' : '-';
-        const std::string name = setup_.machine.chain.names()[replay_.unknown_sides()[k].axis];
-        if (worse < tells)
-            return fmt::format(
-                "{}: no row tells from which side {} came before its first motion, "
-                "nor do the readings: taken as {}",
-                table_.path, name, side);
-        return fmt::format(
-            "{}: before its first motion {} came travelling {} (the other side fits "
-            "worse by {:.3g} in weighted squares)",
-            table_.path, name, side, worse);
-    }
-
-    const setup::Setup& setup_;
-    const records::ReadingTable& table_;
-    emulator::Replay& replay_;
-    const effects::Catalogue& catalogue_;
-    const std::vector<std::string>& effects_;
-    emulator::EffectModels models_;
-    std::vector<signed char> side_;
-};
+}
 
 }  // namespace
 
-std::vector<std::string> choose_sides(const setup::Setup& setup, const records::ReadingTable& table,
-                                      emulator::Replay& replay, const effects::Catalogue& catalogue,
-                                      const std::vector<std::string>& effects) {
-    return SideChoice(setup, table, replay, catalogue, effects).best();
+std::shared_ptr<const emulator::EffectModel> usual_model(const effects::Effect& effect,
+                                                         std::vector<double> values) {
+    for (std::size_t j = 0; j < values.size(); ++j)
+        if (!effect.parameters[j].is_key()) values[j] = effect.parameters[j].typical;
+    return effects::make_model(effect, std::move(values));
+}
+
+bool FoundSide::told() const {
+    return worse >= tells;
+}
+
+double FoundSide::value() const {
+    return side * std::tanh(0.25 * worse);
+}
+
+double FoundSide::sigma() const {
+    return std::sqrt(1.0 - value() * value());
+}
+
+std::string to_string(const FoundSide& found) {
+    const char side = found.side > 0 ? '+' : '-';
+    if (!found.told())
+        return fmt::format(
+            "no row tells from which side {} came before its first motion, "
+            "nor do the readings: taken as {}",
+            found.axis, side);
+    return fmt::format(
+        "before its first motion {} came travelling {} (the other side fits "
+        "worse by {:.3g} in weighted squares)",
+        found.axis, side, found.worse);
+}
+
+bool sees_side(const emulator::Replay& replay, std::size_t open,
+               const emulator::EffectModel& model) {
+    const emulator::UnknownSide& side = replay.unknown_sides()[open];
+    for (const std::size_t i : side.rows) {
+        kinematics::Perturbation plus, minus;
+        AxisSample at = replay.sample(i);
+        at.travel[index_of(side.axis)] = 1;
+        model.perturb(at, replay.contact(i), plus);
+        at.travel[index_of(side.axis)] = -1;
+        model.perturb(at, replay.contact(i), minus);
+        if (plus.axis != minus.axis) return true;
+        for (std::size_t a = 0; a < axis_count; ++a)
+            if (plus.motion[a].shift_mm != minus.motion[a].shift_mm) return true;
+    }
+    return false;
+}
+
+std::vector<FoundSide> choose_sides(const setup::Setup& setup, const records::ReadingTable& table,
+                                    emulator::Replay& replay, const effects::Catalogue& catalogue,
+                                    const std::vector<std::string>& effects) {
+    emulator::EffectModels models = effects::active_models(setup);
+    for (const std::string& name : effects)
+        if (const effects::Effect* effect = effects::find_effect(catalogue, name))
+            models.push_back(usual_model(*effect, effect->zeros()));
+    std::vector<std::size_t> open(replay.unknown_sides().size());
+    for (std::size_t k = 0; k < open.size(); ++k) open[k] = k;
+    std::vector<FoundSide> sides = seen_sides(replay, table, open, models);
+    settle(sides, replay, [&] {
+        const BaseModel base = fit_base(setup, table, replay, catalogue, effects);
+        return base.residual_mm.cwiseQuotient(base.sigma_mm).squaredNorm();
+    });
+    return sides;
+}
+
+std::vector<FoundSide> choose_sides_beside(const BaseModel& base,
+                                           const records::ReadingTable& table,
+                                           const std::vector<KeyedEffect>& effects,
+                                           const std::vector<std::size_t>& open,
+                                           emulator::Replay& replay) {
+    emulator::EffectModels models;
+    for (const KeyedEffect& e : effects) models.push_back(usual_model(*e.effect, e.values));
+    std::vector<FoundSide> sides = seen_sides(replay, table, open, models);
+    const double all = base.residual_mm.cwiseQuotient(base.sigma_mm).squaredNorm();
+    settle(sides, replay, [&] { return all - explained(replay, base, effects); });
+    return sides;
 }
 
 }  // namespace trunnion::identification

@@ -95,6 +95,10 @@ TEST_CASE("bad readings: one message with its place, exit code 2, no verdict, no
             micrometres[i] = micrometres[i].substr(0, comma + 1) +
                              std::to_string(1e3 * std::stod(micrometres[i].substr(comma + 1)));
     }
+    std::vector<std::string> other_axis = good.lines, other_side = good.lines;
+    for (std::size_t i = good.header; i < other_axis.size(); ++i)
+        other_axis[i] += i == good.header ? ",a_deg" : ",0";
+    other_side.insert(other_side.begin(), "# side = X+ Q-");
     const std::string time_before = cells_of(good.lines[good.header + 5])[good.column("time_s")];
     const Case cases[] = {
         {"empty", {}, "table.csv:1:", "header"},
@@ -106,6 +110,8 @@ TEST_CASE("bad readings: one message with its place, exit code 2, no verdict, no
         {"no device column", without("device"), "table.csv:", "device"},
         {"no feature column", without("feature"), "table.csv:", "feature"},
         {"no axis of the machine", without("b_deg"), "table.csv", "axis B"},
+        {"an axis that the chain lacks", other_axis, "table.csv:", "column 'a_deg'"},
+        {"side of an axis that the chain lacks", other_side, "table.csv:1:13:", "side of an axis"},
         {"100 mm residual", good.with(8, "value_mm", "100"), good.place(8), "100 mm"},
         {"micrometres", micrometres, "table.csv:", "um"},
         {"time runs back", good.with(6, "time_s", "1"), good.place(6), "backwards"},
@@ -168,6 +174,21 @@ TEST_CASE("a setup of another machine and bad held-out readings are refused") {
     }
     CHECK(bench.trunnion("identify " + table + " --setup " + setup + " --effects C.wobble") == 2);
     CHECK_THAT(bench.read("err.txt"), Catch::Contains("C.wobble"));
+}
+
+TEST_CASE("a large gap that is true: refused with a message, or warned of and taken as meant") {
+    const Bench bench;
+    const Good good;
+    const std::string setup = bench.write("setup.toml", setup::format_setup(good.setup));
+    const std::string table = bench.write("table.csv", text_of(good.with(8, "value_mm", "-5.6")));
+    for (const char* command : {"identify ", "diagnose "}) {
+        INFO(command);
+        CHECK(bench.trunnion(command + table + " --setup " + setup) == 2);
+        CHECK_THAT(bench.read("err.txt"), Catch::Contains("--allow-large"));
+        CHECK(bench.trunnion(command + table + " --allow-large --setup " + setup) == 0);
+        CHECK_THAT(bench.read("err.txt"), Catch::Contains("taken as meant"));
+        CHECK_FALSE(bench.read("out.txt").empty());
+    }
 }
 
 TEST_CASE("several tables are read as one") {

@@ -228,6 +228,21 @@ TEST_CASE("the same readings give the same diagnosis", "[diagnosis]") {
     REQUIRE(a.causes.front().parameters.front().value == b.causes.front().parameters.front().value);
 }
 
+TEST_CASE("nothing free is a model too", "[diagnosis]") {
+    setup::Setup setup = campaign::bc_setup();
+    setup.model.modelled.clear();
+    for (setup::Artefact& artefact : setup.artefacts) artefact.free_center = false;
+    setup.ballbar->free_cup = setup.ballbar->free_length = false;
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 30, 5);
+    CHECK(diagnosis::diagnose(setup, campaign::measured(setup, table, 4)).verdict ==
+          diagnosis::Verdict::no_gap);
+    const setup::Setup bent = campaign::with_effect(setup, "C.backlash=80urad");
+    const diagnosis::Diagnosis d = diagnosis::diagnose(setup, campaign::measured(bent, table, 4));
+    REQUIRE_FALSE(d.causes.empty());
+    CHECK(d.causes.front().effect == "C.backlash");
+}
+
 TEST_CASE("too few readings give a message and no verdict", "[diagnosis]") {
     const Bench bench;
     records::ReadingTable few = campaign::measured(bench.real, bench.table, 1);

@@ -19,7 +19,7 @@ namespace {
 
 const std::string root = TRUNNION_SOURCE_DIR;
 constexpr double wanted_sigmas = 5.0;
-constexpr double largest_size = 20.0;  ///< in usual sizes: a machine that is still one
+constexpr double largest_size = 10.0;  ///< in usual sizes: a machine that is still one
 
 struct Program {
     const char *machine, *folder;
@@ -94,7 +94,7 @@ struct Injected {
 };
 
 /// The effect with its usual keys, its parameters at a size that five sigma see; nothing when even
-/// twenty times its usual size does not show that much: the program cannot see it.
+/// ten times its usual size does not show that much: the program cannot see it.
 std::optional<Injected> at_five_sigma(const effects::Effect& effect, const setup::Setup& setup,
                                       const records::ReadingTable& table) {
     if (aliased(effect, table)) return std::nullopt;

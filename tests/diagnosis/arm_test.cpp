@@ -1,0 +1,57 @@
+// An arm of six joints measured by a tracker: what is wrong with one joint is named, and on a gap
+// of nothing but kinematic parameters nothing is.
+
+#include "tests/identification/arm.h"
+
+#include <catch2/catch.hpp>
+
+#include "base/random.h"
+#include "diagnosis/diagnosis.h"
+
+namespace trunnion {
+namespace {
+
+constexpr double noise_mm = 0.02;
+
+/// Random poses of the textbook's arm; `joint` turns further than commanded by what `error_rad`
+/// says of its angle.
+std::vector<arm::Pose> measured(int count, std::uint64_t seed, std::size_t joint,
+                                const std::function<double(double)>& error_rad) {
+    SeededNoise random(seed);
+    std::vector<arm::Pose> poses;
+    for (int k = 0; k < count; ++k) {
+        arm::Pose pose;
+        for (double& q : pose.joints_deg) q = 240.0 * (random.uniform() - 0.5);
+        auto turned = pose.joints_deg;
+        turned[joint] += deg_from_rad(error_rad(rad_from_deg(turned[joint])));
+        pose.measured_mm = arm::target_mm(arm::ur5, turned) +
+                           noise_mm * Vector3(random.normal(), random.normal(), random.normal());
+        poses.push_back(pose);
+    }
+    return poses;
+}
+
+diagnosis::Diagnosis diagnosis_of(const std::vector<arm::Pose>& poses) {
+    setup::Setup setup = arm::setup(arm::ur5, 1e3 * noise_mm);
+    setup.model.modelled = arm::kinematic_effects();
+    diagnosis::DiagnosisOptions options;
+    options.plan_next = false;
+    return diagnosis::diagnose(setup, arm::table(setup, arm::ur5, poses), options);
+}
+
+}  // namespace
+
+TEST_CASE("a joint of an arm that is off by a wave of its angle is named", "[diagnosis][arm]") {
+    const diagnosis::Diagnosis d =
+        diagnosis_of(measured(120, 3, 1, [](double q) { return 1.5e-4 * std::cos(2.0 * q); }));
+    REQUIRE_FALSE(d.causes.empty());
+    CHECK(d.causes[0].effect == "J2.positioning");
+    CHECK(d.explained > 0.8);
+}
+
+TEST_CASE("an arm as its kinematic parameters say has no gap", "[diagnosis][arm]") {
+    const diagnosis::Diagnosis d = diagnosis_of(measured(120, 4, 0, [](double) { return 3e-4; }));
+    CHECK(d.verdict == diagnosis::Verdict::no_gap);
+}
+
+}  // namespace trunnion

@@ -1,0 +1,74 @@
+// Tables whose head does not say from which side the axes came: the sides are found beside the
+// cause, and are none themselves.
+
+#include <catch2/catch.hpp>
+
+#include "diagnosis/diagnosis.h"
+#include "tests/support/campaign.h"
+
+namespace trunnion {
+namespace {
+
+/// Circles before B and C have moved, then turns of both and a map of the sphere; nothing tells
+/// from which side any axis came.
+records::ReadingTable without_sides(const setup::Setup& truth, int side_of_c, std::uint64_t seed) {
+    records::ReadingTable table = campaign::empty_table(truth);
+    campaign::add_ballbar(table, truth, 24);
+    campaign::add_sphere_map(table, truth, 30, 5);
+    table.side_before[index_of(Axis::C)] = static_cast<signed char>(side_of_c);
+    table.side_before[index_of(Axis::B)] = 1;
+    records::ReadingTable read = campaign::measured(truth, table, seed);
+    read.side_before = {};
+    return read;
+}
+
+}  // namespace
+
+TEST_CASE("backlash is named, and the side that no row tells beside it", "[diagnosis][sides]") {
+    const setup::Setup setup = campaign::bc_setup();
+    diagnosis::DiagnosisOptions options;
+    options.plan_next = false;
+    const setup::Setup truth =
+        campaign::with_effect(campaign::real_machine(setup), "C.backlash=60urad");
+    for (const int side : {-1, 1}) {
+        INFO(side);
+        const diagnosis::Diagnosis d =
+            diagnosis::diagnose(setup, without_sides(truth, side, 3), options);
+        REQUIRE_FALSE(d.causes.empty());
+        CHECK(d.causes[0].effect == "C.backlash");
+        CHECK(d.causes.size() == 1);
+        CHECK(d.causes[0].parameters[0].value == Approx(6e-5).epsilon(0.1));
+        CHECK(d.verdict != diagnosis::Verdict::unexplained);
+        for (const diagnosis::Cause& c : d.causes) UNSCOPED_INFO(c.effect << ' ' << c.probability);
+        for (const auto& found : d.sides) UNSCOPED_INFO(to_string(found));
+        REQUIRE(d.sides.size() == 1);  // no cause asks for the side of B
+        CHECK(d.sides[0].axis == "C");
+        CHECK(d.sides[0].side == side);
+        CHECK(d.sides[0].told());
+        CHECK(d.sides[0].value() == Approx(side).margin(0.1));
+    }
+}
+
+TEST_CASE("unknown sides make no gap", "[diagnosis][sides]") {
+    const setup::Setup setup = campaign::bc_setup();
+    for (std::uint64_t seed = 1; seed <= 1; ++seed) {
+        const diagnosis::Diagnosis d =
+            diagnosis::diagnose(setup, without_sides(campaign::real_machine(setup), -1, seed));
+        CHECK(d.verdict == diagnosis::Verdict::no_gap);
+        CHECK(d.sides.empty());
+    }
+}
+
+TEST_CASE("a backlash that the simulation has: its side is found with the base",
+          "[diagnosis][sides]") {
+    setup::Setup setup = campaign::bc_setup();
+    setup.model.modelled = {"location", "C.backlash"};
+    const setup::Setup truth =
+        campaign::with_effect(campaign::real_machine(setup), "C.backlash=60urad");
+    const diagnosis::Diagnosis d = diagnosis::diagnose(setup, without_sides(truth, -1, 4));
+    CHECK(d.verdict == diagnosis::Verdict::no_gap);
+    REQUIRE(d.sides.size() == 1);
+    CHECK(d.sides[0].side == -1);
+}
+
+}  // namespace trunnion
