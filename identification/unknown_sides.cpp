@@ -20,7 +20,8 @@ std::string name_of(const emulator::Replay& replay, const records::ReadingTable&
 }
 
 /// Open sides that one of the models sees, as the replay takes them now.
-std::vector<FoundSide> seen_sides(const emulator::Replay& replay, const records::ReadingTable& table,
+std::vector<FoundSide> seen_sides(const emulator::Replay& replay,
+                                  const records::ReadingTable& table,
                                   const std::vector<std::size_t>& open,
                                   const emulator::EffectModels& models) {
     std::vector<FoundSide> list;
