@@ -54,14 +54,13 @@ char first_axis(const ballbar::test::BallbarResult& r) {
 
 std::string rank_text(const ballbar::test::BallbarResult& r) {
     std::string text = fmt::format(
-        "rank {} of {}: with the cup's place unknown these move together and change no reading\n",
+        "rank {} of {}: with the cup's place unknown these move together and change no\nreading\n",
         r.open_fit.rank, r.open_fit.parameters.size());
     for (const ballbar::test::InseparableGroup& group : r.open_fit.inseparable)
         text += "  " + group_text(group) + "\n";
     return text + fmt::format(
                       "taken as known: tool length {:.3f} mm (offset H{}) and a cup that runs "
-                      "true; a tool "
-                      "longer by 1 um reads\nas +1 um of EZ0{}\n",
+                      "true;\na tool longer by 1 um reads as +1 um of EZ0{}\n",
                       -r.data.layout.cup_S_mm.z(), r.data.tool_offset, first_axis(r));
 }
 
@@ -82,14 +81,15 @@ std::string setup_text(const ballbar::test::BallbarResult& r) {
     const ballbar::test::BarLength bar = ballbar::test::bar_length(r);
     const Vector3 pivot = ballbar::test::pivot_found_mm(r);
     return fmt::format(
-               "exact fit of the set-up: bar {:.4f} mm {:+.3f} +- {:.3f} um, pivot ({:.2f} {:.2f} "
+               "exact fit of the set-up: bar {:.4f} mm {:+.3f} +- {:.3f} um,\n  pivot ({:.2f} "
+               "{:.2f} "
                "{:.2f}) um from its stated place on the table\n",
                r.reference_mm, um_from_mm(bar.error_mm), um_from_mm(bar.sigma_mm),
                um_from_mm(pivot.x()), um_from_mm(pivot.y()), um_from_mm(pivot.z())) +
            fmt::format(
                "location check (sphere through the three circles): pivot off by ({:.2f} {:.2f} "
-               "{:.2f}) "
-               "um, readings {:+.2f} um long, rms {:.2f} um\n",
+               "{:.2f}) um,\n"
+               "  readings {:+.2f} um long, rms {:.2f} um\n",
                um_from_mm(p.x()), um_from_mm(p.y()), um_from_mm(p.z()),
                um_from_mm(r.published.length_error_mm), um_from_mm(r.published.setup_rms_mm));
 }
@@ -118,8 +118,8 @@ std::string minutes(double seconds) {
 
 std::string time_text(const ballbar::test::BallbarResult& r) {
     return fmt::format(
-        "time: program {}; one set-up {}, two set-ups {} ({:.0f} % saved; assumed: {} for a "
-        "set-up, {} to move the bar between tests)\n",
+        "time: program {}; one set-up {}, two set-ups {} ({:.0f} % saved;\n"
+        "  assumed: {} for a set-up, {} to move the bar between tests)\n",
         minutes(r.before.time_s), minutes(r.single_setup_s()), minutes(r.two_setups_s()),
         100.0 * (1.0 - r.single_setup_s() / r.two_setups_s()), minutes(r.times.setup_s),
         minutes(r.times.remount_s));
@@ -182,8 +182,8 @@ std::string location_text(const ballbar::test::BallbarResult& r) {
         text += "\nthe same axis lines in M at the nominal intersection (as in the 2015 paper)\n" +
                 error_table(r.at_intersection, r.has_after);
     text +=
-        "\npublished: circles, planes and transport of 2015; its bias against the exact fit is the "
-        "cosine error of the bar\n";
+        "\npublished: circles, planes and transport of 2015; its bias against the exact fit\n"
+        "is the cosine error of the bar\n";
     text += "\n" + setup_text(r) + residual_text(r) + "\n" + rank_text(r) + "\n";
     if (r.stores) text += stores_text(*r.stores, r.dialect) + "\n";
     return text;

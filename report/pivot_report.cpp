@@ -32,7 +32,7 @@ double plain(double value, double least) {
 
 std::string um_vector(const Vector3& v_mm) {
     const auto number = [](double mm) { return plain(um_from_mm(mm), 0.005); };
-    return fmt::format("({:9.2f} {:9.2f} {:9.2f})", number(v_mm.x()), number(v_mm.y()),
+    return fmt::format("{:8.2f} {:8.2f} {:8.2f}", number(v_mm.x()), number(v_mm.y()),
                        number(v_mm.z()));
 }
 
@@ -46,15 +46,14 @@ const pivot::PivotPoint* worst_point(const pivot::PivotArc& arc) {
 }
 
 std::string map_text(const PivotResult& r, const pivot::PivotMap& map) {
-    std::string out = fmt::format("Map {}: {}, {} indexations\n", map.number, map.name,
+    std::string out = fmt::format("Map {}: {}, {} indexations, circle and errors in µm\n", map.number, map.name,
                                   map.arcs.empty() ? 0 : map.arcs[0].points.size());
-    out +=
-        "  function  store    circle radius    expected   largest error at                X    "
-        "     Y         Z / µm\n";
+    out += fmt::format("  {:<9} {:<6} {:>9} {:>9}  {:<14} {:>8} {:>8} {:>8}\n", "function", "store",
+                       "radius", "expected", "largest at", "X", "Y", "Z");
     for (const pivot::PivotArc& arc : map.arcs)
         if (const pivot::PivotPoint* worst = worst_point(arc))
             out += fmt::format(
-                "  {:<9} {:<7} {:10.2f} µm {:8.2f} µm   {}{:<7g} {}{:<7g} {}\n", arc.function,
+                "  {:<9} {:<6} {:9.2f} {:9.2f}  {}{:<6g} {}{:<6g} {}\n", arc.function,
                 group_words(r, arc.group), um_from_mm(arc.circle.radius_mm()),
                 um_from_mm(arc.expected.radius_mm()), letter_of(r.first), worst->first_deg,
                 letter_of(r.second), worst->second_deg, um_vector(worst->error_mm));
@@ -85,8 +84,8 @@ std::string stores_table(const PivotResult& r) {
 std::string quality_text(const PivotResult& r) {
     const pivot::PivotVerdict& v = r.verdict;
     std::string out = fmt::format(
-        "found from these readings: one centre scatters by {:.2f} µm an axis, {} "
-        "zeroings of the sphere by {:.2f} µm\n",
+        "found from these readings: one centre scatters by {:.2f} µm an axis,\n{} zeroings of "
+        "the sphere by {:.2f} µm\n",
         v.fit.noise_um, v.fit.zeroings, v.fit.zero_scatter_um);
     for (const pivot::GroupVerdict& g : v.groups)
         out += fmt::format("after typing ({:g} mm steps) {} functions are off by up to {:.2f} µm\n",

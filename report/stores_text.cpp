@@ -70,8 +70,8 @@ std::string stores_text(const setup::StoresToType& s, interpreter::DialectFamily
                     "in force / mm", "type / mm", "change / um");
     text += hurco ? hurco_lines(s, digits) : fanuc_lines(s, digits);
     text += fmt::format(
-        "  tip off on the table: {:.1f} um now; after typing {:.2f} um by tilts of the axes (no "
-        "place in these numbers), {:.2f} um by the increment of {:g} mm\n",
+        "  tip off on the table: {:.1f} um now; after typing {:.2f} um by tilts of the axes\n"
+        "  (no place in these numbers), {:.2f} um by the increment of {:g} mm\n",
         s.now_um, s.tilts_um, s.rounding_um, s.increment_mm);
     const std::string centre = centre_lines(s, digits);
     if (centre.empty()) return text;

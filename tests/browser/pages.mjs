@@ -33,9 +33,10 @@ const call = (...words) => {
   }
 };
 
-const readings = join(folder, "readings.csv");
+const readings = join(folder, "readings.csv"), prints = join(folder, "prints.txt");
 call("pivot", "--write-programs", join(folder, "nc"));
-call("run", join(folder, "nc/O8003.nc"), "--programs", join(folder, "nc"), "--readings", readings);
+call("run", join(folder, "nc/O8003.nc"), "--programs", join(folder, "nc"), "--readings", readings,
+     "--print", prints);
 const pages = {
   run: ["run", program("bracket_g43_4.nc")],
   check: ["check", join(source, "programs/examples")],
@@ -45,6 +46,8 @@ const pages = {
   volumetric: ["volumetric", "--setup", machine("ac_trunnion.toml")],
   compensate: ["compensate", program("bracket_g43_4.nc"), "--out", join(folder, "c.nc")],
   identify: ["identify", readings, "--setup", machine("bc_table.toml"), "--effects", "location"],
+  import: ["import", "dprnt", prints, "--setup", machine("bc_table.toml"), "--out",
+           join(folder, "imported.csv")],
   diagnose: ["diagnose", readings, "--setup", machine("bc_table.toml")],
 };
 for (const [name, words] of Object.entries(pages)) call(...words, "--html", page(name));
