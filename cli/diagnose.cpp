@@ -18,6 +18,7 @@
 #include "diagnosis/diagnosis.h"
 #include "report/diagnosis_page.h"
 #include "report/diagnosis_words.h"
+#include "report/error_table.h"
 #include "report/parameters_json.h"
 
 namespace trunnion::cli {
@@ -67,6 +68,11 @@ Json to_json(const diagnosis::Cause& cause) {
         json["between_places"] = cause.holds_between;
         json["points"] = Json::array();
         for (const diagnosis::TablePoint& p : cause.points) json["points"].push_back(to_json(p));
+        if (const auto data = report::pitch_error_data(cause))
+            json["pitch_error"] = {{"first_mm", data->first_mm},
+                                   {"interval_mm", data->interval_mm},
+                                   {"unit_mm", data->unit_mm},
+                                   {"value", data->value}};
     }
     return json;
 }
@@ -119,6 +125,7 @@ Json to_json(const diagnosis::Diagnosis& d) {
     json["unseen"] = d.unseen;
     json["inseparable"] = report::json_inseparable(d.inseparable);
     json["readings"] = d.readings;
+    if (d.chosen_from > 0) json["chosen_from"] = d.chosen_from;
     json["outliers"] = d.outliers;
     return json;
 }
@@ -136,8 +143,9 @@ void print_cause(const diagnosis::Cause& cause) {
     for (const identification::Inseparable& group : cause.unseen)
         print_out("  no reading here sees: {}\n", to_string(group));
     if (!cause.points.empty())
-        print_out("  a table of {} values{}\n", cause.points.size(),
-                  cause.holds_between ? "" : ": at the measured places only");
+        print_out("  a table of {} values{}\n{}", cause.points.size(),
+                  cause.holds_between ? "" : ": at the measured places only",
+                  report::error_table(cause));
     if (!cause.rivals.empty())
         print_out("  cannot be told apart here from: {}\n", fmt::join(cause.rivals, ", "));
     print_out(
@@ -151,6 +159,7 @@ void print_report(const diagnosis::Diagnosis& d) {
     print_out("{} readings ({} set aside), rms {:.3f} um, noise {:.3f} um ({}), excess {:.3f} um\n",
               d.readings, d.outliers, d.rms_um, d.noise_um, to_string(d.noise.source), d.excess_um);
     for (const identification::FoundSide& s : d.sides) print_out("  {}\n", to_string(s));
+    if (d.chosen_from > 0) print_out("  chosen evenly from {} readings\n", d.chosen_from);
     for (const diagnosis::DriverShare& w : d.where) print_out("  {}\n", w.text);
     for (const diagnosis::Cause& cause : d.causes) print_cause(cause);
     if (!d.causes.empty())

@@ -12,6 +12,7 @@
 #include "diagnosis/ripples.h"
 #include "diagnosis/rules.h"
 #include "diagnosis/solution.h"
+#include "diagnosis/thinning.h"
 #include "diagnosis/verdict.h"
 #include "effects/settings.h"
 #include "identification/identify.h"
@@ -19,6 +20,8 @@
 namespace trunnion::diagnosis {
 namespace {
 
+/// Of a longer table as many are chosen evenly: they name causes of a hundredth of the noise.
+constexpr std::size_t most_readings = 10000;
 constexpr int most_rounds = 3;         ///< of search, noise and bent readings
 constexpr double bend_sigma = 0.25;    ///< of a reading: less than this is no bend
 constexpr double outlier_sigma = 1e3;  ///< a reading that is left out has so many sigma
@@ -287,6 +290,13 @@ const char* to_string(NoiseSource source) {
 
 Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table,
                    const DiagnosisOptions& options) {
+    if (const auto fewer = thinned(table, most_readings)) {
+        Diagnosis d = diagnose(setup, *fewer, options);
+        d.chosen_from = static_cast<std::size_t>(std::count_if(
+            table.rows.begin(), table.rows.end(),
+            [](const records::Reading& row) { return row.device != records::Device::none; }));
+        return d;
+    }
     const auto watch = [&](const char* stage) {
         if (options.watch) options.watch(stage);
     };

@@ -36,6 +36,7 @@ struct TablePoint {
     std::string error;  ///< ISO 230 name: "EXX"
     double at = 0.0, value = 0.0, sigma = 0.0;
     std::string at_unit, unit;  ///< mm or rad
+    bool travel = false;        ///< the error of a slide along its own travel
 };
 
 struct Cause {
@@ -77,7 +78,8 @@ struct Diagnosis {
     std::vector<identification::Inseparable>
         inseparable;  ///< of the base, and of the stores (pivot.*)
     std::size_t readings = 0, outliers = 0;
-    std::vector<std::string> notes;           ///< large residuals that were meant
+    std::vector<std::string> notes;  ///< large residuals that were meant
+    std::size_t chosen_from = 0;  ///< readings of a longer table, of which those were chosen; or 0
     std::vector<double> before_um, after_um;  ///< machine minus simulation, by reading
     setup::Setup setup;                       ///< with the re-identified and added effects
 };

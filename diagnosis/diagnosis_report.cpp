@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/units.h"
+#include "diagnosis/causes.h"
 #include "diagnosis/next_measurement.h"
 #include "diagnosis/rules.h"
 #include "diagnosis/shrink_interval.h"
 #include "diagnosis/solution.h"
 #include "estimation/distributions.h"
-#include "estimation/ranked_least_squares.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -20,7 +19,6 @@ namespace {
 /// compared is another fit of the set-up.
 constexpr double least_half_width = 0.01;
 constexpr double effects_tried = 60.0;  ///< by which the chance of an effect is corrected
-constexpr double unseen_part = 0.7;     ///< of the prior: a parameter that is no better known
 constexpr double noise_is_off = 0.1;    ///< relative: a stated noise that is wrong
 constexpr double least_weight = 1e-4;   ///< of a model that may be true instead
 constexpr std::size_t most_truths = 24;
@@ -114,121 +112,6 @@ DrawSetting draw_setting(const Outcome& f, std::uint64_t seed) {
             rows,
             noise_mm(f).squaredNorm() / static_cast<double>(noise_mm(f).size()),
             seed};
-}
-
-std::vector<identification::FitParameter> parameters_of(const ColumnGroup& group,
-                                                        const Eigen::VectorXd& own,
-                                                        const Eigen::VectorXd& sigma, double tau) {
-    std::vector<identification::FitParameter> list;
-    const std::vector<double> values = values_in(group, own);
-    for (std::size_t j = 0; j < group.effect->parameters.size(); ++j) {
-        const effects::EffectParameter& p = group.effect->parameters[j];
-        identification::FitParameter fit{
-            group.effect->name, p.name,       p.unit, p.component, p.typical,
-            values[j],          std::nan(""), 0.0,    0.0,         0.0};
-        for (std::size_t k = 0; k < group.parameters.size(); ++k) {
-            const double s = sigma(static_cast<Eigen::Index>(k));
-            if (group.parameters[k] == j && s < unseen_part * tau) fit.sigma = s * p.typical;
-        }
-        list.push_back(std::move(fit));
-    }
-    return list;
-}
-
-std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorXd& own,
-                                  const Eigen::MatrixXd& covariance) {
-    const TableForm& table = group.table;
-    const Eigen::VectorXd value = table_values(group, own);
-    const Eigen::VectorXd sigma =
-        (group.shape * covariance * group.shape.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
-    const Eigen::Index each = table.per_direction();
-    std::vector<TablePoint> points;
-    for (std::size_t k = 0; k < table.directions.size(); ++k)
-        for (Eigen::Index j = 0; j < each && !table.knots.empty(); ++j) {
-            const int d = table.directions[k];
-            const Eigen::Index at = static_cast<Eigen::Index>(k) * each + j;
-            points.push_back({effects::motion_name(d, table.axis),
-                              table.knots[static_cast<std::size_t>(j)], value(at),
-                              sigma(at) * table_unit(d), table.axis.rotary ? "rad" : "mm",
-                              d < 3 ? "mm" : "rad"});
-        }
-    constexpr int places = 36;  // of a whole turn, from its harmonics
-    for (std::size_t k = 0; k < table.directions.size() && table.knots.empty(); ++k)
-        for (int j = 0; j < places; ++j) {
-            const double q = 2.0 * pi * j / places;
-            Eigen::VectorXd wave = Eigen::VectorXd::Zero(value.size());
-            for (int n = 0; n < table.orders; ++n) {
-                const Eigen::Index at = static_cast<Eigen::Index>(k) * each + 2 * n;
-                wave(at) = std::cos((table.first_order + n) * q);
-                wave(at + 1) = std::sin((table.first_order + n) * q);
-            }
-            const int d = table.directions[k];
-            const Eigen::VectorXd by = group.shape.transpose() * wave;
-            points.push_back({effects::motion_name(d, table.axis), q, wave.dot(value),
-                              table_unit(d) * std::sqrt(std::max(0.0, by.dot(covariance * by))),
-                              "rad", d < 3 ? "mm" : "rad"});
-        }
-    return points;
-}
-
-/// Directions of an effect's parameters that these readings cannot show.
-std::vector<identification::Inseparable> unseen_of(const Design::Entry& entry) {
-    std::vector<identification::Inseparable> groups;
-    const ColumnGroup& group = entry.group;
-    if (!group.effect) return groups;
-    const auto& list = group.effect->parameters;
-    const auto name = [&](std::size_t j) {
-        return identification::full_name(
-            {group.effect->name, list[j].name, list[j].unit, list[j].component});
-    };
-    for (std::size_t j = 0; j < list.size(); ++j)
-        if (!list[j].is_key() && list[j].usual &&
-            std::find(group.parameters.begin(), group.parameters.end(), j) ==
-                group.parameters.end())
-            groups.push_back({{name(j)}, {1.0}});
-    const estimation::LinearFit fit =
-        estimation::solve_ranked(entry.gram, Eigen::VectorXd::Zero(entry.gram.rows()));
-    for (const Eigen::VectorXd& v : fit.null_space) {
-        identification::Inseparable unseen;
-        for (Eigen::Index k = 0; k < v.size(); ++k)
-            if (v(k) != 0.0) {
-                unseen.names.push_back(name(group.parameters[static_cast<std::size_t>(k)]));
-                unseen.direction.push_back(v(k));
-            }
-        groups.push_back(std::move(unseen));
-    }
-    return groups;
-}
-
-Cause cause_of(const Outcome& f, const Claim& claim, const Solution& solution,
-               const Eigen::MatrixXd& covariance) {
-    const std::size_t member = f.model.members[claim.position];
-    const ColumnGroup& group = f.design.group(member);
-    const Eigen::Index first = solution.first[claim.position];
-    const Eigen::Index count = solution.size[claim.position];
-    const Eigen::VectorXd own = solution.mean.segment(first, count);
-    const Eigen::MatrixXd spread = covariance.block(first, first, count, count);
-    Cause cause;
-    cause.effect = claim.name;
-    cause.probability = claim.probability;
-    cause.rivals = claim.rivals;
-    cause.share = claim.share;
-    cause.rms_sigma = claim.rms;
-    if (group.effect) {
-        cause.parameters = parameters_of(group, own, spread.diagonal().cwiseSqrt(),
-                                         f.model.variances.tau[claim.position]);
-        cause.unseen = unseen_of(f.design.groups()[member]);
-        cause.what = group.effect->what;
-        cause.usual_cause = group.effect->cause;
-        cause.remedy = group.effect->remedy;
-        return cause;
-    }
-    cause.points = points_of(group, own, spread);
-    cause.holds_between = f.judgement.interpolates[claim.position];
-    cause.what = "An error of the axis that follows its position in a form of its own";
-    cause.usual_cause = "screw, scale, guide or bearing as they are; no single fault";
-    cause.remedy = "enter the table as pitch or straightness compensation of the axis";
-    return cause;
 }
 
 void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
@@ -328,7 +211,7 @@ Model writable(const Outcome& f) {
 /// The setup predicts no worse than the one it came from: else that one stays.
 setup::Setup written_setup(const Outcome& f) {
     const Model none{{}, {{}, f.model.variances.nu}, 0.0};
-    const bool better = f.judgement.gap && f.judgement.after < f.judgement.before;
+    const bool better = f.judgement.gap && f.judgement.part > 0.0;
     const Model model = better ? writable(f) : none;
     return setup_with(f.prepared, f.design, model, solved(f.design, model));
 }
@@ -370,7 +253,22 @@ HeldOut alone(const Outcome& f, std::size_t position, const ShrinkDraws& draws) 
 
 }  // namespace
 
-Diagnosis report_of(const Outcome& f, const DiagnosisOptions& options) {
+namespace {
+
+/// Held-out readings of their own have the last word: H is no more than what they show.
+Judgement with_holdout(const Outcome& f, const records::ReadingTable* holdout) {
+    Judgement judgement = f.judgement;
+    if (holdout && judgement.gap)
+        judgement.part = std::min(judgement.part, measured_part(f, written_setup(f), *holdout));
+    return judgement;
+}
+
+}  // namespace
+
+Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
+    const Judgement judgement = with_holdout(found, options.holdout);
+    const Outcome f{found.prepared, found.design, found.setting, found.model,
+                    judgement,      found.noise,  found.used};
     Diagnosis d;
     const Solution solution = solved(f.design, f.model);
     describe_size(f, solution, d);
@@ -398,10 +296,13 @@ Diagnosis report_of(const Outcome& f, const DiagnosisOptions& options) {
     const ShrinkDraws draws(f.design, fresh, possible_truths(f), draw_setting(f, options.seed));
     const Eigen::MatrixXd covariance = solution.covariance();
     for (const Claim& claim : claims) {
-        d.causes.push_back(cause_of(f, claim, solution, covariance));
+        d.causes.push_back(cause_of({f.design, f.model, f.judgement, solution, covariance}, claim));
         d.causes.back().heldout = alone(f, claim.position, draws);
     }
-    d.after = held_out(f, f.judgement.left_before, f.judgement.left);
+    // Causes that readings left out do not bear out are not written, so they shrink nothing.
+    const bool written = f.judgement.part > 0.0;
+    d.after =
+        held_out(f, f.judgement.left_before, written ? f.judgement.left : f.judgement.left_before);
     const auto [low, high] = draws.interval(f.model);
     d.after.low = std::min(low, d.after.shrink) - least_half_width;
     d.after.high = std::min(1.0, std::max(high, d.after.shrink) + least_half_width);

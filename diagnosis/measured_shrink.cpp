@@ -14,6 +14,7 @@ namespace {
 struct SquaredSums {
     std::vector<double> before, after, noise, rows;
     double independent = 0.0;
+    double whitened_before = 0.0, whitened_after = 0.0;  ///< over the variance of the noise
 };
 
 double shrink_of(double before, double after, double noise) {
@@ -43,7 +44,10 @@ SquaredSums sums_of(const Outcome& f, const setup::Setup& setup,
             const double scale = f.noise.model.of(block.device).scale;
             b += std::pow(value - before[k], 2);
             a += std::pow(value - after[k], 2);
-            n += f.judgement.floor * std::pow(scale * noise.sigma_mm(i), 2);
+            const double own = f.judgement.floor * std::pow(scale * noise.sigma_mm(i), 2);
+            n += own;
+            sums.whitened_before += std::pow(value - before[k], 2) / own;
+            sums.whitened_after += std::pow(value - after[k], 2) / own;
         }
         sums.before.push_back(b);
         sums.after.push_back(a);
@@ -55,6 +59,15 @@ SquaredSums sums_of(const Outcome& f, const setup::Setup& setup,
 }
 
 }  // namespace
+
+double measured_part(const Outcome& f, const setup::Setup& setup,
+                     const records::ReadingTable& holdout) {
+    const SquaredSums sums = sums_of(f, setup, holdout);
+    const double rows = total(sums.rows), excess = sums.whitened_before - rows;
+    const double chance = 3.0 * std::sqrt(2.0 * rows);  // three sigma of the noise's own square
+    if (excess < chance) return 1.0;
+    return (sums.whitened_before - sums.whitened_after) / excess;
+}
 
 HeldOut measured_shrink(const Outcome& f, const setup::Setup& setup,
                         const records::ReadingTable& holdout, std::uint64_t seed) {

@@ -1,4 +1,5 @@
 // The zero of each test: scatter of zeroing is noise, one large zero is a place.
+#include <cmath>
 #include <map>
 
 #include "diagnosis/candidate_groups.h"
@@ -29,18 +30,24 @@ std::vector<Eigen::Index> tests_of(const Prepared& p,
     return test;
 }
 
-void add_group(Design& design, const Whitener& whitener, const std::string& name,
-               Eigen::MatrixXd columns) {
-    whitener.apply(columns);
+ColumnGroup group_named(const std::string& name, const std::string& text) {
     ColumnGroup group;
     group.kind = GroupKind::offset;
     group.name = name;
     group.component = "reading";
-    group.text = "is an offset of single tests";
+    group.text = text;
+    return group;
+}
+
+void add_group(Design& design, const Whitener& whitener, ColumnGroup group,
+               Eigen::MatrixXd columns) {
+    whitener.apply(columns);
     const Eigen::Index first = design.add_features(columns);
     for (Eigen::Index k = 0; k < columns.cols(); ++k) group.features.push_back(first + k);
     design.add(std::move(group));
 }
+
+constexpr const char* single_tests = "is an offset of single tests";
 
 }  // namespace
 
@@ -57,7 +64,8 @@ void add_offset_groups(Design& design, const Prepared& prepared, const Whitener&
                 columns.block<1, 3>(i, 3 * probe[k]) =
                     usual_mm * prepared.base.gradient[k].work_shift_mm.transpose();
         }
-        add_group(design, whitener, "zero of a test", std::move(columns));
+        add_group(design, whitener, group_named("zero of a test", single_tests),
+                  std::move(columns));
     }
     const auto other = tests_of(
         prepared, [](const emulator::Contact& c) { return !probes(c); }, count);
@@ -66,7 +74,8 @@ void add_offset_groups(Design& design, const Prepared& prepared, const Whitener&
         for (Eigen::Index i = 0; i < rows; ++i)
             if (other[static_cast<std::size_t>(i)] >= 0)
                 columns(i, other[static_cast<std::size_t>(i)]) = usual_mm;
-        add_group(design, whitener, "zero of a pass", std::move(columns));
+        add_group(design, whitener, group_named("zero of a pass", single_tests),
+                  std::move(columns));
     }
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace trunnion::effects {
 namespace {
 
@@ -11,8 +13,8 @@ constexpr AxisMaker rotary_effects[] = {rotary_zero,    rotary_positioning, rota
                                         rotary_radial,  rotary_axial,       rotary_tilt,
                                         rotary_backlash};
 constexpr AxisMaker linear_effects[] = {
-    linear_scale,    linear_straightness,   linear_angular,     linear_cyclic,
-    linear_backlash, linear_reversal_spike, linear_lateral_play};
+    linear_scale,    linear_straightness,   linear_angular,      linear_cyclic,
+    linear_backlash, linear_reversal_spike, linear_lateral_play, linear_play_load};
 
 /// The first rotary axis that carries the work: the one that gravity loads.
 const kinematics::AxisGeometry* tilting_axis(const kinematics::Chain& chain) {
@@ -98,6 +100,13 @@ Catalogue make_catalogue(const setup::Setup& setup, const DataExtent& extent) {
     list.push_back(control_rounding(chain));
     if (basic) list.push_back(control_chord(chain));
     list.push_back(clamp_shift(chain));
+    list.push_back(sensor_gain());
+    if (std::any_of(chain.tool.begin(), chain.tool.end(),
+                    [](const kinematics::AxisGeometry& axis) { return axis.rotary; })) {
+        list.push_back(gravity_tool(chain));
+        list.push_back(chain_collimation(chain));
+        list.push_back(chain_flexure(chain));
+    }
     for (Effect& effect : list) hide_from_encoders(effect);
     return list;
 }

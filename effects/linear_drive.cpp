@@ -42,6 +42,8 @@ Effect linear_backlash(const kinematics::AxisGeometry& axis) {
 namespace {
 
 constexpr double law_radius_mm = 100.0;  ///< an angle of the path is given as way on this circle
+constexpr double law_speed_mm_s = 10.0;  ///< a time is given as way at this speed
+constexpr double long_ago_mm = 1e6;      ///< of an axis that stands: what decays is gone
 
 /// Angle (rad) by which the path has turned since the axis stood still: from its direction.
 double angle_since_quadrant(Axis axis, const AxisSample& sample) {
@@ -53,6 +55,22 @@ double angle_since_quadrant(Axis axis, const AxisSample& sample) {
     return slows ? pi - angle : angle;
 }
 
+/// Time since the axis began to move, from its way and speed at even acceleration (s); on a circle
+/// 2 tan(phi / 2) for phi, 2 % too long after half a radian.
+double time_since_reversal(double way_mm, double speed_mm_s) {
+    return 2.0 * way_mm / speed_mm_s;
+}
+
+/// The argument of the decay by law 0, 1 or 2, mm.
+double way_of(double law, Axis axis, const AxisSample& sample) {
+    const double since_mm = sample.since_reversal[index_of(axis)];
+    if (law == 0.0) return law_radius_mm * angle_since_quadrant(axis, sample);
+    if (law == 1.0) return since_mm;
+    const double speed_mm_s = std::abs(sample.velocity[axis]);
+    return speed_mm_s > 0.0 ? law_speed_mm_s * time_since_reversal(since_mm, speed_mm_s)
+                            : long_ago_mm;
+}
+
 }  // namespace
 
 Effect linear_reversal_spike(const kinematics::AxisGeometry& axis) {
@@ -62,9 +80,9 @@ Effect linear_reversal_spike(const kinematics::AxisGeometry& axis) {
         "friction at standstill with a soft or slow velocity loop",
         "raise the loop gain or switch on friction (quadrant) compensation",
         "position - height_mm * sign of travel * exp(-way / decay_mm); way: law 1 the distance "
-        "since "
-        "reversal, law 0 the angle of the path since the quadrant times 100 mm; run_up 0: a circle "
-        "begun at the quadrant was not reached through it",
+        "since reversal, law 0 the angle of the path since the quadrant times 100 mm, law 2 the "
+        "time since reversal times 10 mm/s; run_up 0: a circle begun at the quadrant was not "
+        "reached through it",
         {{"height_mm", "mm", 6e-3, -1, {}, true},
          {"decay_mm",
           "mm",
@@ -72,7 +90,7 @@ Effect linear_reversal_spike(const kinematics::AxisGeometry& axis) {
           -1,
           {0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 1.2, 2.0, 3.5, 6.0, 10.0, 16.0},
           true},
-         {"law", "1", 1.0, -1, {0.0, 1.0}, false},
+         {"law", "1", 1.0, -1, {0.0, 1.0, 2.0}, false},
          {"run_up", "1", 1.0, -1, {0.0, 1.0}, false}},
         [k = axis.axis](const AxisSample& sample, const emulator::Contact& contact,
                         std::span<const double> value, kinematics::Perturbation& out) {
@@ -80,9 +98,8 @@ Effect linear_reversal_spike(const kinematics::AxisGeometry& axis) {
             const bool not_turned = sample.since_reversal[i] >= records::no_reversal_seen ||
                                     (value[3] == 0.0 && sample.run_up_unknown[i]);
             if (is_probe(contact) || not_turned) return;
-            const double way = value[2] == 0.0 ? law_radius_mm * angle_since_quadrant(k, sample)
-                                               : sample.since_reversal[i];
-            out.axis[k] -= value[0] * sample.travel[i] * std::exp(-way / value[1]);
+            const double way_mm = way_of(value[2], k, sample);
+            out.axis[k] -= value[0] * sample.travel[i] * std::exp(-way_mm / value[1]);
         },
         SeenBy::any_encoder};
 }

@@ -45,6 +45,12 @@ Effect artefact_moved(const std::vector<setup::Artefact>& artefacts, const DataE
 Effect control_rounding(const kinematics::Chain& chain);
 Effect control_chord(const kinematics::Chain& chain);
 Effect clamp_shift(const kinematics::Chain& chain);
+Effect linear_play_load(const kinematics::AxisGeometry& axis);
+Effect sensor_gain();
+/// The three of chains whose tool side turns (they need a rotary axis there).
+Effect gravity_tool(const kinematics::Chain& chain);
+Effect chain_collimation(const kinematics::Chain& chain);
+Effect chain_flexure(const kinematics::Chain& chain);
 Effect pivot_g54(const kinematics::Chain& chain);
 Effect pivot_p1970x(const kinematics::Chain& chain);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "report/diagnosis_words.h"
+#include "report/error_table.h"
 #include "report/svg.h"
 #include "report/xml.h"
 
@@ -142,7 +143,17 @@ std::string cause_table(const diagnosis::Diagnosis& d) {
     return text + "</table></div>\n";
 }
 
+std::string free_form_section(const diagnosis::Cause& cause) {
+    return fmt::format(
+        "<h3>{}</h3>\n<p>{}. <b>What to do:</b> {}.{}</p>\n{}<details><summary>Table"
+        "</summary><pre tabindex=\"0\">{}</pre></details>\n",
+        escape_xml(cause.effect), escape_xml(cause.what), escape_xml(cause.remedy),
+        cause.holds_between ? "" : " It holds at the measured places only.", error_curves(cause),
+        escape_xml(error_table(cause)));
+}
+
 std::string cause_section(const diagnosis::Cause& cause) {
+    if (!cause.points.empty()) return free_form_section(cause);
     if (cause.parameters.empty()) return "";
     std::string text = fmt::format(
         "<h3>{}</h3>\n<p>{}. <b>Usual cause:</b> {}. <b>What to do:</b> "

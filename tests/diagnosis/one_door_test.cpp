@@ -294,7 +294,7 @@ TEST_CASE("one door: a sphere and two circles", "[door]") {
     const MeasuredMachine machine = machine_of("mill_xy_table.toml", {}, "");
     const std::set<std::string> unseen = check_door(machine, 1);
     for (const std::string& name : unseen) UNSCOPED_INFO(name);
-    CHECK(unseen.size() < 30);
+    CHECK(unseen.size() < 36);  // nothing loads the table: no play by load
     for (const char* name : {"X backlash key", "pretravel_um", "X.cyclic", "servo.mismatch",
                              "X.reversal_spike", "probe.radius", "XY.squareness"})
         CHECK(unseen.count(name) == 0);

@@ -17,14 +17,14 @@ TEST_CASE("the catalogue has every name of the contract", "[effects]") {
         "thermal.drift",     "thermal.expansion", "gravity.sag",    "probe.pretravel",
         "probe.radius",      "probe.runout",      "tool.length",    "ballbar.length",
         "artefact.position", "artefact.form",     "artefact.moved", "control.rounding",
-        "control.chord",     "clamp.shift"};
+        "control.chord",     "clamp.shift",       "sensor.gain"};
     for (const char* axis : {"B", "C"})
         for (const char* what :
              {".zero", ".positioning", ".cyclic", ".radial", ".axial", ".tilt", ".backlash"})
             names.push_back(std::string(axis) + what);
     for (const char* axis : {"X", "Y", "Z"})
         for (const char* what : {".scale", ".straightness", ".angular", ".cyclic", ".backlash",
-                                 ".reversal_spike", ".lateral_play"})
+                                 ".reversal_spike", ".lateral_play", ".play_load"})
             names.push_back(std::string(axis) + what);
     for (const std::string& name : names) {
         INFO(name);

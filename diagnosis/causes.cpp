@@ -1,0 +1,130 @@
+#include "diagnosis/causes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "estimation/ranked_least_squares.h"
+
+namespace trunnion::diagnosis {
+namespace {
+
+constexpr double unseen_part = 0.7;  ///< of the prior: a parameter that is no better known
+
+std::vector<identification::FitParameter> parameters_of(const ColumnGroup& group,
+                                                        const Eigen::VectorXd& own,
+                                                        const Eigen::VectorXd& sigma, double tau) {
+    std::vector<identification::FitParameter> list;
+    const std::vector<double> values = values_in(group, own);
+    for (std::size_t j = 0; j < group.effect->parameters.size(); ++j) {
+        const effects::EffectParameter& p = group.effect->parameters[j];
+        identification::FitParameter fit{
+            group.effect->name, p.name,       p.unit, p.component, p.typical,
+            values[j],          std::nan(""), 0.0,    0.0,         0.0};
+        for (std::size_t k = 0; k < group.parameters.size(); ++k) {
+            const double s = sigma(static_cast<Eigen::Index>(k));
+            if (group.parameters[k] == j && s < unseen_part * tau) fit.sigma = s * p.typical;
+        }
+        list.push_back(std::move(fit));
+    }
+    return list;
+}
+
+std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorXd& own,
+                                  const Eigen::MatrixXd& covariance) {
+    const TableForm& table = group.table;
+    const Eigen::VectorXd value = table_values(group, own);
+    const Eigen::VectorXd sigma =
+        (group.shape * covariance * group.shape.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
+    const Eigen::Index each = table.per_direction();
+    std::vector<TablePoint> points;
+    for (std::size_t k = 0; k < table.directions.size(); ++k)
+        for (Eigen::Index j = 0; j < each && !table.knots.empty(); ++j) {
+            const int d = table.directions[k];
+            const Eigen::Index at = static_cast<Eigen::Index>(k) * each + j;
+            points.push_back({effects::motion_name(d, table.axis),
+                              table.knots[static_cast<std::size_t>(j)], value(at),
+                              sigma(at) * table_unit(d), table.axis.rotary ? "rad" : "mm",
+                              d < 3 ? "mm" : "rad",
+                              !table.axis.rotary && d == effects::main_direction(table.axis)});
+        }
+    constexpr int places = 36;  // of a whole turn, from its harmonics
+    for (std::size_t k = 0; k < table.directions.size() && table.knots.empty(); ++k)
+        for (int j = 0; j < places; ++j) {
+            const double q = 2.0 * pi * j / places;
+            Eigen::VectorXd wave = Eigen::VectorXd::Zero(value.size());
+            for (int n = 0; n < table.orders; ++n) {
+                const Eigen::Index at = static_cast<Eigen::Index>(k) * each + 2 * n;
+                wave(at) = std::cos((table.first_order + n) * q);
+                wave(at + 1) = std::sin((table.first_order + n) * q);
+            }
+            const int d = table.directions[k];
+            const Eigen::VectorXd by = group.shape.transpose() * wave;
+            points.push_back({effects::motion_name(d, table.axis), q, wave.dot(value),
+                              table_unit(d) * std::sqrt(std::max(0.0, by.dot(covariance * by))),
+                              "rad", d < 3 ? "mm" : "rad", false});
+        }
+    return points;
+}
+
+}  // namespace
+
+std::vector<identification::Inseparable> unseen_of(const Design::Entry& entry) {
+    std::vector<identification::Inseparable> groups;
+    const ColumnGroup& group = entry.group;
+    if (!group.effect) return groups;
+    const auto& list = group.effect->parameters;
+    const auto name = [&](std::size_t j) {
+        return identification::full_name(
+            {group.effect->name, list[j].name, list[j].unit, list[j].component});
+    };
+    for (std::size_t j = 0; j < list.size(); ++j)
+        if (!list[j].is_key() && list[j].usual &&
+            std::find(group.parameters.begin(), group.parameters.end(), j) ==
+                group.parameters.end())
+            groups.push_back({{name(j)}, {1.0}});
+    const estimation::LinearFit fit =
+        estimation::solve_ranked(entry.gram, Eigen::VectorXd::Zero(entry.gram.rows()));
+    for (const Eigen::VectorXd& v : fit.null_space) {
+        identification::Inseparable unseen;
+        for (Eigen::Index k = 0; k < v.size(); ++k)
+            if (v(k) != 0.0) {
+                unseen.names.push_back(name(group.parameters[static_cast<std::size_t>(k)]));
+                unseen.direction.push_back(v(k));
+            }
+        groups.push_back(std::move(unseen));
+    }
+    return groups;
+}
+
+Cause cause_of(const FoundModel& f, const Claim& claim) {
+    const std::size_t member = f.model.members[claim.position];
+    const ColumnGroup& group = f.design.group(member);
+    const Eigen::Index first = f.solution.first[claim.position];
+    const Eigen::Index count = f.solution.size[claim.position];
+    const Eigen::VectorXd own = f.solution.mean.segment(first, count);
+    const Eigen::MatrixXd spread = f.covariance.block(first, first, count, count);
+    Cause cause;
+    cause.effect = claim.name;
+    cause.probability = claim.probability;
+    cause.rivals = claim.rivals;
+    cause.share = claim.share;
+    cause.rms_sigma = claim.rms;
+    if (group.effect) {
+        cause.parameters = parameters_of(group, own, spread.diagonal().cwiseSqrt(),
+                                         f.model.variances.tau[claim.position]);
+        cause.unseen = unseen_of(f.design.groups()[member]);
+        cause.what = group.effect->what;
+        cause.usual_cause = group.effect->cause;
+        cause.remedy = group.effect->remedy;
+        return cause;
+    }
+    cause.points = points_of(group, own, spread);
+    cause.holds_between = f.judgement.interpolates[claim.position];
+    cause.what = "An error of the axis that follows its position in a form of its own";
+    cause.usual_cause = "screw, scale, guide or bearing as they are; no single fault";
+    cause.remedy = "enter the table as pitch or straightness compensation of the axis";
+    return cause;
+}
+
+}  // namespace trunnion::diagnosis

@@ -1,0 +1,23 @@
+// A claim as the cause that commands print: parameters or table, with their uncertainty.
+#pragma once
+
+#include "diagnosis/solution.h"
+#include "diagnosis/verdict.h"
+
+namespace trunnion::diagnosis {
+
+/// The chosen model with its solution.
+struct FoundModel {
+    const Design& design;
+    const Model& model;
+    const Judgement& judgement;
+    const Solution& solution;
+    const Eigen::MatrixXd& covariance;  ///< of the solution
+};
+/// Without its held-out figures.
+Cause cause_of(const FoundModel& found, const Claim& claim);
+
+/// Directions of an effect's parameters that these readings cannot show.
+std::vector<identification::Inseparable> unseen_of(const Design::Entry& entry);
+
+}  // namespace trunnion::diagnosis

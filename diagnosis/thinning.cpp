@@ -1,0 +1,112 @@
+#include "diagnosis/thinning.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+
+namespace trunnion::diagnosis {
+namespace {
+
+using records::Device;
+
+/// Velocities and reversals come from differences of rows: of a turn one row in 3 degrees stays.
+constexpr std::size_t least_of_pass = 120;
+
+bool is_pass(Device device) {
+    return device == Device::ballbar || device == Device::axis || device == Device::linear ||
+           device == Device::angle;
+}
+
+/// A place in 0..n-1 that looks random but is the same each time.
+std::size_t scattered(std::size_t stretch, std::size_t n) {
+    return static_cast<std::size_t>(((stretch + 1) * std::uint64_t{0x9E3779B97F4A7C15}) >> 33) % n;
+}
+
+bool same_pose(const records::ReadingTable& table, const records::Reading& a,
+               const records::Reading& b) {
+    if (a.test != b.test || a.feature != b.feature) return false;
+    return std::all_of(table.axes.begin(), table.axes.end(), [&](Axis axis) {
+        return !table.names.is_rotary(axis) || a.commanded[axis] == b.commanded[axis];
+    });
+}
+
+class Thinner {
+  public:
+    Thinner(const records::ReadingTable& table, std::size_t step) : table_(table), step_(step) {
+        for (const records::Reading& row : table.rows)
+            if (is_pass(row.device)) ++length_[row.test];
+    }
+
+    std::vector<records::Reading> rows() {
+        for (const records::Reading& row : table_.rows) {
+            if (is_pass(row.device))
+                add_of_pass(row);
+            else if (row.device == Device::none)
+                waiting_.push_back(row);
+            else
+                add_of_pose(row);
+        }
+        return std::move(kept_);
+    }
+
+  private:
+    void add_of_pass(const records::Reading& row) {
+        const std::size_t count = seen_[row.test]++;
+        const std::size_t step =
+            std::clamp<std::size_t>(length_[row.test] / least_of_pass, 1, step_);
+        if (count > 0 && count % step != scattered(count / step, step)) {
+            waiting_.clear();
+            return;
+        }
+        keep(row);
+    }
+
+    void add_of_pose(const records::Reading& row) {
+        if (!pose_ || !same_pose(table_, *pose_, row)) {
+            ++poses_;
+            if (poses_ % step_ != 0) waiting_.clear();
+        }
+        pose_ = &row;
+        if (poses_ % step_ == 0) return keep(row);
+        waiting_.push_back(row);
+        waiting_.back().device = Device::none;
+        waiting_.back().value_mm.reset();
+    }
+
+    void keep(const records::Reading& row) {
+        kept_.insert(kept_.end(), waiting_.begin(), waiting_.end());
+        waiting_.clear();
+        kept_.push_back(row);
+    }
+
+    const records::ReadingTable& table_;
+    std::size_t step_, poses_ = static_cast<std::size_t>(-1);
+    const records::Reading* pose_ = nullptr;
+    std::map<std::string, std::size_t> seen_, length_;  ///< rows of each pass: so far, in all
+    std::vector<records::Reading> kept_, waiting_;
+};
+
+}  // namespace
+
+std::optional<records::ReadingTable> thinned(const records::ReadingTable& table, std::size_t most) {
+    std::size_t all = 0;
+    for (const records::Reading& row : table.rows) {
+        if (row.device == Device::none) continue;
+        if (!row.value_mm) return std::nullopt;  // refused later, wherever it stands
+        ++all;
+    }
+    if (all <= most) return std::nullopt;
+    records::ReadingTable fewer;
+    fewer.path = table.path;
+    fewer.parts = table.parts;
+    fewer.comment = table.comment;
+    fewer.side_before = table.side_before;
+    fewer.part_sides = table.part_sides;
+    fewer.axes = table.axes;
+    fewer.names = table.names;
+    fewer.optional_columns = table.optional_columns;
+    fewer.rows = Thinner(table, (all + most - 1) / most).rows();
+    return fewer;
+}
+
+}  // namespace trunnion::diagnosis

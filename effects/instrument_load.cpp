@@ -1,0 +1,43 @@
+// Gain of a sensor, and play that the load changes.
+#include "effects/models.h"
+
+namespace trunnion::effects {
+
+Effect sensor_gain() {
+    return {"sensor.gain",
+            "The instrument reads distances too long or too short, in proportion",
+            "wavelength without compensation of air, scale of a tracker, gain of an encoder",
+            "calibrate the instrument on a known length; correct for air temperature and pressure",
+            "reading + gain_ppm 1e-6 * what is read: position along the component (point, linear), "
+            "position of the axis (axis)",
+            {{"gain_ppm", "ppm", 10.0, -1, {}, true}},
+            [](const AxisSample& sample, const emulator::Contact& contact,
+               std::span<const double> value, kinematics::Perturbation& out) {
+                const double gain = 1e-6 * value[0];
+                if (contact.device == records::Device::point)
+                    out.reading_mm += gain * contact.direction_I.dot(contact.commanded_I_mm);
+                if (contact.device == records::Device::linear)
+                    out.reading_mm +=
+                        gain * contact.direction_W.dot(contact.believed_WS.translation_mm);
+                if (contact.device == records::Device::axis)
+                    out.axis[contact.axis] += gain * sample.position[contact.axis];
+            },
+            SeenBy::any_encoder};
+}
+
+Effect linear_play_load(const kinematics::AxisGeometry& axis) {
+    return {effect_name(axis, ".play_load"),
+            "The play of the axis grows with the load on the table",
+            "nut or bearing without preload, gibs that open under weight",
+            "restore the preload; measure and cut with the same load",
+            "position + gap_mm / 2 * load / 100 kg * sign of travel (cancels in a found sphere "
+            "centre)",
+            {{"gap_mm", "mm", 5e-3, -1, {}, true}},
+            [k = axis.axis](const AxisSample& sample, const emulator::Contact&,
+                            std::span<const double> value, kinematics::Perturbation& out) {
+                out.axis[k] += 0.5 * value[0] * sample.load_kg / 100.0 * sample.travel[index_of(k)];
+            },
+            SeenBy::scale};
+}
+
+}  // namespace trunnion::effects

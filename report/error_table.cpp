@@ -1,0 +1,123 @@
+#include "report/error_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "report/svg.h"
+
+namespace trunnion::report {
+namespace {
+
+using diagnosis::TablePoint;
+
+/// Points of one error after the other, in the order of the cause.
+std::vector<std::vector<TablePoint>> by_error(const diagnosis::Cause& cause) {
+    std::vector<std::vector<TablePoint>> list;
+    for (const TablePoint& p : cause.points) {
+        if (list.empty() || list.back().front().error != p.error) list.emplace_back();
+        list.back().push_back(p);
+    }
+    return list;
+}
+
+double place_of(const TablePoint& p) {
+    return p.at_unit == "rad" ? deg_from_rad(p.at) : p.at;
+}
+
+const char* place_unit(const TablePoint& p) {
+    return p.at_unit == "rad" ? "deg" : "mm";
+}
+
+const char* small_unit(const TablePoint& p) {
+    return p.unit == "rad" ? "urad" : "um";
+}
+
+double small_size(const TablePoint& p) {
+    return p.unit == "rad" ? 1e6 : 1e3;
+}
+
+/// Between two points the straight line; outside the curve the nearest end.
+double value_at(const std::vector<TablePoint>& curve, double at) {
+    const auto after =
+        std::find_if(curve.begin(), curve.end(), [&](const TablePoint& p) { return p.at >= at; });
+    if (after == curve.begin()) return curve.front().value;
+    if (after == curve.end()) return curve.back().value;
+    const TablePoint& before = *std::prev(after);
+    const double part = (at - before.at) / (after->at - before.at);
+    return before.value + part * (after->value - before.value);
+}
+
+}  // namespace
+
+std::optional<PitchErrorData> pitch_error_data(const diagnosis::Cause& cause, double unit_mm) {
+    for (const std::vector<TablePoint>& curve : by_error(cause)) {
+        if (!curve.front().travel || curve.size() < 2) continue;
+        const double range = curve.back().at - curve.front().at;
+        PitchErrorData data{
+            curve.front().at, range / static_cast<double>(curve.size() - 1), unit_mm, {}};
+        long sum = 0;
+        for (std::size_t k = 1; k < curve.size(); ++k) {
+            const double at = data.first_mm + data.interval_mm * static_cast<double>(k);
+            const double whole = -(value_at(curve, at) - curve.front().value) / unit_mm;
+            const long next = std::lround(whole);
+            data.value.push_back(static_cast<int>(next - sum));
+            sum = next;
+        }
+        return data;
+    }
+    return std::nullopt;
+}
+
+std::string error_table(const diagnosis::Cause& cause) {
+    std::string text;
+    for (const std::vector<TablePoint>& curve : by_error(cause)) {
+        text += fmt::format("  {}: at {}, error {}, sigma\n", curve.front().error,
+                            place_unit(curve.front()), small_unit(curve.front()));
+        for (const TablePoint& p : curve)
+            text += fmt::format("  {:>12.4f} {:>10.2f} {:>8.2f}\n", place_of(p),
+                                small_size(p) * p.value, small_size(p) * p.sigma);
+    }
+    const auto data = pitch_error_data(cause);
+    if (!data) return text;
+    text += fmt::format(
+        "  pitch error data, from {:.4f} mm every {:.4f} mm, in {:.4f} mm (incremental; assumed):\n"
+        "  {}\n",
+        data->first_mm, data->interval_mm, data->unit_mm, fmt::join(data->value, " "));
+    return text;
+}
+
+std::string error_curves(const diagnosis::Cause& cause) {
+    std::string text;
+    for (const std::vector<TablePoint>& curve : by_error(cause)) {
+        if (curve.size() < 2) continue;
+        const double size = small_size(curve.front());
+        double most = 0.0;
+        for (const TablePoint& p : curve)
+            most = std::max(most, size * (std::abs(p.value) + 2.0 * p.sigma));
+        if (most == 0.0) continue;
+        const PlotRange x = round_range(place_of(curve.front()), place_of(curve.back()), 6),
+                        y = round_range(-most, most, 6);
+        Svg svg(740.0, 260.0);
+        svg.describe(fmt::format("{} over the place", curve.front().error),
+                     "The curve of the error with two sigma of each place.");
+        Plot plot(svg, {64.0, 14.0}, 650.0, 190.0, x, y);
+        plot.frame("", fmt::format("place, {}", place_unit(curve.front())),
+                   fmt::format("{}, {}", curve.front().error, small_unit(curve.front())));
+        for (std::size_t k = 0; k < curve.size(); ++k) {
+            const TablePoint& p = curve[k];
+            const auto point = [&](double v) { return plot.at(place_of(p), size * v); };
+            svg.line(point(p.value - 2.0 * p.sigma), point(p.value + 2.0 * p.sigma),
+                     {"#9ecae9", 3.0, "none", ""});
+            if (k > 0)
+                svg.line(plot.at(place_of(curve[k - 1]), size * curve[k - 1].value), point(p.value),
+                         {"#0072b2", 1.5, "none", ""});
+        }
+        text += svg.str();
+    }
+    return text;
+}
+
+}  // namespace trunnion::report

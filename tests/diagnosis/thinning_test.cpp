@@ -1,0 +1,57 @@
+// Very long tables: an even choice keeps what sides, velocities and zeros come from.
+#include "diagnosis/thinning.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "records/samples.h"
+#include "tests/support/campaign.h"
+
+namespace trunnion {
+
+TEST_CASE("of a long table an even choice of readings stays", "[diagnosis]") {
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 400, 3);
+    campaign::add_ballbar(table, setup, 1500);
+    for (records::Reading& row : table.rows)
+        if (row.device != records::Device::none) row.value_mm = 0.0;
+    CHECK_FALSE(diagnosis::thinned(table, table.rows.size()));
+    const auto fewer = diagnosis::thinned(table, 4000);
+    REQUIRE(fewer);
+    std::map<std::string, std::size_t> count, all;
+    for (const records::Reading& row : fewer->rows)
+        if (row.device != records::Device::none) ++count[row.test];
+    for (const records::Reading& row : table.rows)
+        if (row.device != records::Device::none) ++all[row.test];
+    REQUIRE(count.size() == all.size());  // every pass is there
+    std::size_t sum = 0;
+    for (const auto& [test, n] : count) {
+        sum += n;
+        CHECK(static_cast<double>(n) ==
+              Approx(static_cast<double>(all[test]) / 10.0).epsilon(0.05));
+    }
+    CHECK(sum <= 4100);
+    // Sides and velocities are those of the whole table.
+    const auto whole = records::samples_of(table), part = records::samples_of(*fewer);
+    std::map<double, std::size_t> at;
+    for (std::size_t i = 0; i < table.rows.size(); ++i) at[table.rows[i].time_s] = i;
+    for (std::size_t i = 0; i < fewer->rows.size(); ++i) {
+        if (fewer->rows[i].device == records::Device::none) continue;
+        const AxisSample& there = whole[at[fewer->rows[i].time_s]];
+        for (const Axis axis : table.axes) {
+            if (fewer->rows[i].device == records::Device::sphere)
+                CHECK(part[i].travel[index_of(axis)] == there.travel[index_of(axis)]);
+            CHECK(std::abs(part[i].velocity[axis] - there.velocity[axis]) < 3.5);  // of 67 mm/s
+        }
+    }
+}
+
+TEST_CASE("a device row without a value is not thinned away", "[diagnosis]") {
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_ballbar(table, setup, 100);
+    CHECK_FALSE(diagnosis::thinned(table, 10));
+}
+
+}  // namespace trunnion

@@ -1,0 +1,48 @@
+// Errors in free form as tables, and as data of a pitch error compensation.
+#include "report/error_table.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+namespace trunnion {
+namespace {
+
+diagnosis::Cause waved(bool travel) {
+    diagnosis::Cause cause;
+    cause.effect = "X.positioning";
+    for (int k = 0; k <= 20; ++k) {
+        const double at = -200.0 + 20.0 * k;
+        cause.points.push_back({"EXX", at, 0.006 * std::sin(at / 40.0), 2e-4, "mm", "mm", travel});
+    }
+    return cause;
+}
+
+}  // namespace
+
+TEST_CASE("pitch error data take the error away within half a unit at every place", "[report]") {
+    const diagnosis::Cause cause = waved(true);
+    const auto data = report::pitch_error_data(cause);
+    REQUIRE(data);
+    CHECK(data->first_mm == -200.0);
+    CHECK(data->interval_mm == Approx(20.0));
+    REQUIRE(data->value.size() == 20);
+    double added = 0.0;
+    for (std::size_t k = 0; k < data->value.size(); ++k) {
+        added += data->unit_mm * data->value[k];
+        const double rest = cause.points[k + 1].value - cause.points[0].value + added;
+        CHECK(std::abs(rest) <= 0.5 * data->unit_mm + 1e-12);
+    }
+    CHECK_FALSE(report::pitch_error_data(waved(false)));
+    CHECK_FALSE(report::pitch_error_data({}));
+}
+
+TEST_CASE("a free form prints every place with its sigma", "[report]") {
+    const std::string text = report::error_table(waved(true));
+    CHECK(text.find("EXX: at mm, error um, sigma") != std::string::npos);
+    CHECK(text.find("-200.0000") != std::string::npos);
+    CHECK(text.find("pitch error data") != std::string::npos);
+    CHECK(report::error_curves(waved(true)).find("<svg") != std::string::npos);
+    CHECK(report::error_table({}).empty());
+}
+
+}  // namespace trunnion
