@@ -192,8 +192,7 @@ TEST_CASE("absent pivot parameters are those of the machine, with a note") {
     CHECK(s.stores.parameters.get(19705) == 37);
     CHECK(s.stores.parameters.get(19680) == 12);
     REQUIRE(notes.size() == 1);
-    CHECK_THAT(notes[0], Catch::Contains("derived from [machine]") &&
-                             Catch::Contains("19701-19705") && !Catch::Contains("19700"));
+    CHECK_THAT(notes[0], Catch::Contains("parameters derived from [machine]"));
 }
 
 TEST_CASE("unknown keys are noted with their place") {
