@@ -6,6 +6,7 @@ option(TRUNNION_UNITY "compile the files of a room in groups" OFF)
 # Files whose unnamed namespace has a name of a neighbour's: they are compiled alone.
 set(TRUNNION_ALONE
   controller/dialect_codes.cpp controller/g_codes.cpp controller/m_codes.cpp
+  controller/holes.cpp controller/hurco_codes.cpp setup/body_keys.cpp
   imports/points.cpp pivot/pivot_prints.cpp pivot/pivot_readings.cpp regression/effects_layer.cpp
   regression/golden.cpp)
 
