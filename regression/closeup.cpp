@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "regression/arrays.h"
 #include "regression/chords.h"
 
 namespace trunnion::regression {
@@ -10,10 +11,6 @@ namespace trunnion::regression {
 namespace {
 
 using Points = std::vector<PathPoint>;
-
-ComparePicture::Point array_of(const Vector3& v) {
-    return {v.x(), v.y(), v.z()};
-}
 
 /// The points of a stretch, from where it begins.
 Points points_of(const PathRecord& record, Stretch stretch, const Tolerances& tolerances) {

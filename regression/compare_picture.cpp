@@ -2,16 +2,13 @@
 
 #include <algorithm>
 
+#include "regression/arrays.h"
 #include "regression/chords.h"
 #include "regression/closeup.h"
 
 namespace trunnion::regression {
 
 namespace {
-
-std::array<double, 3> array_of(const Vector3& v) {
-    return {v.x(), v.y(), v.z()};
-}
 
 ComparePicture::Line thin_line(const PathRecord& record, Stretch stretch, std::uint64_t points,
                                const Tolerances& tolerances) {

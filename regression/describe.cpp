@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "interpreter/lexical.h"
 #include "interpreter/program_folders.h"
+#include "regression/arrays.h"
 #include "regression/block_difference.h"
 #include "regression/compare_picture.h"
 
@@ -133,10 +134,6 @@ std::string sentence(const PathCluster& c, PathSpace space, const Tolerances& to
         return fmt::format("another path, up to {:.4f} mm apart", c.position_mm) + places + tool;
     return "the same points by another motion (rapid or feed, or along the path to and fro)" +
            places + tool;
-}
-
-std::array<double, 3> array_of(const Vector3& v) {
-    return {v.x(), v.y(), v.z()};
 }
 
 /// The block without its N number and blanks: what a fingerprint is made of.

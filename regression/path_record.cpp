@@ -2,15 +2,12 @@
 
 #include <algorithm>
 
+#include "regression/arrays.h"
 #include "regression/chords.h"
 
 namespace trunnion::regression {
 
 namespace {
-
-std::array<double, 3> array_of(const Vector3& v) {
-    return {v.x(), v.y(), v.z()};
-}
 
 bool stands(const PathPoint& from, const Segment& segment) {
     return !segment.is_arc() && from.position_mm == Vector3(segment.end_mm.data()) &&

@@ -6,15 +6,12 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "offsets/control_position.h"
 #include "positioning/rotary_transform.h"
 
 namespace trunnion::setup {
 
 namespace {
-
-Vector3 xyz_of(const offsets::OffsetVector& offset) {
-    return {offset[Axis::X], offset[Axis::Y], offset[Axis::Z]};
-}
 
 /// The part of `change` across an axis line.
 Vector3 across(const Vector3& change, const offsets::PivotAxis& axis) {
@@ -82,7 +79,7 @@ std::optional<RotaryStores> rotary_stores(const kinematics::Chain& chain,
     for (const kinematics::AxisGeometry& axis : chain.axes()) order.push_back(axis.axis);
     const auto pivot = offsets::decode_pivot(stores.parameters, order);
     if (!pivot) return std::nullopt;
-    return RotaryStores{*pivot, xyz_of(stores.work.standard[0]) + xyz_of(stores.work.external)};
+    return RotaryStores{*pivot, offsets::xyz_of(stores.work.standard[0]) + offsets::xyz_of(stores.work.external)};
 }
 
 Vector3 known_point_mm(const kinematics::Machine& machine, Axis axis) {
@@ -297,7 +294,7 @@ std::vector<StoreLine> fixture_lines(const offsets::Stores& stores, const Vector
                                      double increment_mm) {
     std::vector<StoreLine> lines;
     for (std::size_t n = 0; n < stores.fixture.set.size(); ++n) {
-        const Vector3 now = xyz_of(stores.fixture.set[n].offset);
+        const Vector3 now = offsets::xyz_of(stores.fixture.set[n].offset);
         if (now.isZero(0.0)) continue;
         for (int i = 0; i < 3; ++i) {
             const double exact = now[i] - g54_change_mm[i];

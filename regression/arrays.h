@@ -1,0 +1,14 @@
+// A vector as plain numbers, as reports keep it.
+#pragma once
+
+#include <array>
+
+#include "geometry/pose.h"
+
+namespace trunnion::regression {
+
+inline std::array<double, 3> array_of(const Vector3& v) {
+    return {v.x(), v.y(), v.z()};
+}
+
+}  // namespace trunnion::regression
