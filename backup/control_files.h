@@ -14,8 +14,8 @@ namespace trunnion::backup {
 /// that is not changed is written back byte for byte, whatever its line ends (LF, CRLF, LF CR CR).
 struct ControlBackup {
     std::string folder;
-    std::map<std::string, std::string> files;
-    std::vector<std::string> ignored;  ///< other files of the folder, as they are called
+    std::map<std::string, std::string> files = {};
+    std::vector<std::string> ignored = {};  ///< other files of the folder, as they are called
 };
 
 /// What the emulator does with a file or a parameter of a backup.

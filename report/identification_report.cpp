@@ -9,6 +9,7 @@
 
 #include "base/alarm.h"
 #include "report/diagnosis_words.h"
+#include "report/json_values.h"
 #include "report/parameters_json.h"
 
 namespace trunnion::report {
@@ -20,10 +21,6 @@ constexpr const char* part_schema = "trunnion.identification-part/1";
 constexpr std::size_t most_parameters = 10'000;  ///< a part with more is none of ours
 constexpr int most_repetitions = 100'000;        ///< as the option takes
 
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 double number(const Json& json) {
     return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
@@ -34,8 +31,8 @@ Json parameters_of(const identification::Identification& fitted) {
         list.push_back({{"effect", p.effect},
                         {"name", p.name},
                         {"component", p.component},
-                        {"value", number(p.value)},
-                        {"sigma", number(p.sigma)},
+                        {"value", json_number(p.value)},
+                        {"sigma", json_number(p.sigma)},
                         {"unit", p.unit}});
     return list;
 }
@@ -44,7 +41,7 @@ Json rows_of(const Eigen::MatrixXd& matrix) {
     Json rows = Json::array();
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
         Json row = Json::array();
-        for (Eigen::Index k = 0; k < matrix.cols(); ++k) row.push_back(number(matrix(i, k)));
+        for (Eigen::Index k = 0; k < matrix.cols(); ++k) row.push_back(json_number(matrix(i, k)));
         rows.push_back(std::move(row));
     }
     return rows;
@@ -123,8 +120,8 @@ Json json_set_up(const std::vector<identification::FitParameter>& parameters) {
     for (const identification::FitParameter& p : parameters)
         if (p.effect == "setup")
             list.push_back({{"name", p.name},
-                            {"value", number(p.value)},
-                            {"sigma", number(p.sigma)},
+                            {"value", json_number(p.value)},
+                            {"sigma", json_number(p.sigma)},
                             {"unit", p.unit}});
     return list;
 }
@@ -179,7 +176,7 @@ std::string format_part(const RepetitionPart& part) {
     json["repetitions"] = Json::array();
     for (const identification::Repetition& r : part.repetitions) {
         Json off = Json::array();
-        for (const double v : r.off) off.push_back(number(v));
+        for (const double v : r.off) off.push_back(json_number(v));
         json["repetitions"].push_back({{"index", r.index}, {"off", std::move(off)}});
     }
     return json.dump() + "\n";

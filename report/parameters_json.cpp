@@ -3,15 +3,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/json_values.h"
+
 namespace trunnion::report {
-namespace {
-
-nlohmann::ordered_json number(double value) {
-    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
-
-}  // namespace
-
 nlohmann::ordered_json json_parameters(
     const std::vector<identification::FitParameter>& parameters) {
     nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -22,18 +16,18 @@ nlohmann::ordered_json json_parameters(
         if (!continues) {
             list.push_back({{"effect", p.effect}, {"name", p.name}});
             auto& entry = list.back();
-            entry["value"] = vector ? nlohmann::ordered_json::array() : number(p.value);
-            entry["sigma"] = vector ? nlohmann::ordered_json::array() : number(p.sigma);
+            entry["value"] = vector ? nlohmann::ordered_json::array() : json_number(p.value);
+            entry["sigma"] = vector ? nlohmann::ordered_json::array() : json_number(p.sigma);
             entry["unit"] = p.unit;
             if (p.sigma_monte_carlo != 0.0)
                 entry["sigma_monte_carlo"] =
-                    vector ? nlohmann::ordered_json::array() : number(p.sigma_monte_carlo);
+                    vector ? nlohmann::ordered_json::array() : json_number(p.sigma_monte_carlo);
         }
         if (!vector) continue;
         if (p.sigma_monte_carlo != 0.0)
-            list.back()["sigma_monte_carlo"].push_back(number(p.sigma_monte_carlo));
-        list.back()["value"].push_back(number(p.value));
-        list.back()["sigma"].push_back(number(p.sigma));
+            list.back()["sigma_monte_carlo"].push_back(json_number(p.sigma_monte_carlo));
+        list.back()["value"].push_back(json_number(p.value));
+        list.back()["sigma"].push_back(json_number(p.sigma));
     }
     return list;
 }
@@ -56,8 +50,8 @@ nlohmann::ordered_json json_covariance(const std::vector<identification::FitPara
     for (Eigen::Index i = 0; i < n; ++i) {
         nlohmann::ordered_json row = nlohmann::ordered_json::array(), correlation = row;
         for (Eigen::Index k = 0; k < n; ++k) {
-            row.push_back(number(covariance(i, k)));
-            correlation.push_back(number(covariance(i, k) / (sigma(i) * sigma(k))));
+            row.push_back(json_number(covariance(i, k)));
+            correlation.push_back(json_number(covariance(i, k) / (sigma(i) * sigma(k))));
         }
         json["matrix"].push_back(row);
         json["correlation"].push_back(correlation);

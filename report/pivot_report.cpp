@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/units.h"
+#include "report/json_values.h"
 
 namespace trunnion::report {
 
@@ -46,8 +47,9 @@ const pivot::PivotPoint* worst_point(const pivot::PivotArc& arc) {
 }
 
 std::string map_text(const PivotResult& r, const pivot::PivotMap& map) {
-    std::string out = fmt::format("Map {}: {}, {} indexations, circle and errors in µm\n", map.number, map.name,
-                                  map.arcs.empty() ? 0 : map.arcs[0].points.size());
+    std::string out =
+        fmt::format("Map {}: {}, {} indexations, circle and errors in µm\n", map.number, map.name,
+                    map.arcs.empty() ? 0 : map.arcs[0].points.size());
     out += fmt::format("  {:<9} {:<6} {:>9} {:>9}  {:<14} {:>8} {:>8} {:>8}\n", "function", "store",
                        "radius", "expected", "largest at", "X", "Y", "Z");
     for (const pivot::PivotArc& arc : map.arcs)
@@ -111,10 +113,6 @@ std::string affected_text(const PivotResult& r) {
                                part.path.empty() ? "parts made with" : part.path, part.function,
                                pivot::codes_of(part.function, r.hurco), part.error_um);
     return out.empty() ? out : "affected:\n" + out;
-}
-
-Json vector_json(const Vector3& v) {
-    return {v.x(), v.y(), v.z()};
 }
 
 Vector3 mean_of(const std::vector<pivot::PivotPoint>& points) {

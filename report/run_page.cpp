@@ -8,6 +8,7 @@
 
 #include "base/numbers.h"
 #include "base/units.h"
+#include "report/json_values.h"
 #include "report/packed_columns.h"
 #include "report/svg.h"
 
@@ -135,10 +136,6 @@ std::vector<PackedColumn> columns_of(const RunPath& path) {
     columns.push_back(column("feed", 1, points, [](const auto& p) { return p.feed ? 1 : 0; }));
     columns.push_back(column("tool", 1, points, [](const auto& p) { return p.tool; }));
     return columns;
-}
-
-Json vector_json(const Vector3& v) {
-    return Json::array({v.x(), v.y(), v.z()});
 }
 
 Json machine_json(const setup::Setup& setup) {

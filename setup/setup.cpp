@@ -33,7 +33,8 @@ void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
     std::size_t added = 0;
     for (const auto& [number, parameter] : parameters.entry) added += !given.contains(number);
     if (added > 0)
-        notes.push_back(fmt::format("{}: {} parameters derived from [machine]", setup.path, added));
+        notes.push_back(fmt::format("{}: {} parameter{} derived from [machine]", setup.path, added,
+                                    added == 1 ? "" : "s"));
 }
 
 }  // namespace
