@@ -79,7 +79,8 @@ std::optional<RotaryStores> rotary_stores(const kinematics::Chain& chain,
     for (const kinematics::AxisGeometry& axis : chain.axes()) order.push_back(axis.axis);
     const auto pivot = offsets::decode_pivot(stores.parameters, order);
     if (!pivot) return std::nullopt;
-    return RotaryStores{*pivot, offsets::xyz_of(stores.work.standard[0]) + offsets::xyz_of(stores.work.external)};
+    return RotaryStores{
+        *pivot, offsets::xyz_of(stores.work.standard[0]) + offsets::xyz_of(stores.work.external)};
 }
 
 Vector3 known_point_mm(const kinematics::Machine& machine, Axis axis) {

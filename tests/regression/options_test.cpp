@@ -53,8 +53,9 @@ TEST_CASE("with devices the probe answers: another target behind the same surfac
     CHECK(moved.differences.front().a.block.starts_with("X150."));
 }
 
-TEST_CASE("The option --call gives both sides the same arguments: equal for some, different for others",
-          "[compare]") {
+TEST_CASE(
+    "The option --call gives both sides the same arguments: equal for some, different for others",
+    "[compare]") {
     const setup::Setup setup = bc_table();
     const auto macro = [](const char* depth) {
         return fmt::format(
