@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "report/page.h"
 #include "report/svg.h"
 
 namespace trunnion::report {
@@ -115,7 +116,9 @@ std::string error_curves(const diagnosis::Cause& cause) {
                 svg.line(plot.at(place_of(curve[k - 1]), size * curve[k - 1].value), point(p.value),
                          {"#0072b2", 1.5, "none", ""});
         }
-        text += svg.str();
+        text += figure_html(
+            svg.str(),
+            fmt::format("{}: what was found, with two sigma at each place", curve.front().error));
     }
     return text;
 }
