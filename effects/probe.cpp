@@ -73,17 +73,20 @@ Effect probe_runout() {
 }
 
 Effect tool_length() {
-    return {"tool.length",
-            "The tool, probe or ballbar cup is longer or shorter than the control believes",
-            "tool length measured with another reference, stylus changed",
-            "measure the tool's length again",
-            "tip lower by error_mm (probe and ballbar rows; run --truth: any tool)",
-            {{"error_mm", "mm", 15e-3, -1, {}, true}},
-            [](const AxisSample&, const emulator::Contact& contact, std::span<const double> value,
-               kinematics::Perturbation& out) {
-                const bool cup = contact.device == records::Device::ballbar;
-                if (is_probe(contact) || cup || contact.tip) out.tip_shift_mm.z() -= value[0];
-            }};
+    return {
+        "tool.length",
+        "The tool, probe or ballbar cup is longer or shorter than the control believes",
+        "tool length measured with another reference, stylus changed",
+        "measure the tool's length again",
+        "tip lower by error_mm (probe and ballbar rows; run --truth: any tool); of 0: every tool "
+        "by the same, 1: the probe's alone, 2: the ballbar's alone",
+        {{"error_mm", "mm", 15e-3, -1, {}, true}, {"of", "1", 0.0, -1, {0.0, 1.0, 2.0}, false}},
+        [](const AxisSample&, const emulator::Contact& contact, std::span<const double> value,
+           kinematics::Perturbation& out) {
+            const bool probe = is_probe(contact) && value[1] != 2.0;
+            const bool cup = contact.device == records::Device::ballbar && value[1] != 1.0;
+            if (probe || cup || contact.tip) out.tip_shift_mm.z() -= value[0];
+        }};
 }
 
 Effect ballbar_length() {
