@@ -110,10 +110,6 @@ RepetitionPart parse_part_json(const Json& json) {
     return part;
 }
 
-}  // namespace
-
-namespace {
-
 /// What belongs to the set-up, by itself: no fault of the machine.
 Json json_set_up(const std::vector<identification::FitParameter>& parameters) {
     Json list = Json::array();

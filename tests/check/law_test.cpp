@@ -7,33 +7,18 @@
 #include "base/random.h"
 #include "check/check.h"
 #include "controller/alarms.h"
-#include "controller/block_trial.h"
 #include "controller/controller.h"
 #include "controller/g_codes.h"
+#include "tests/check/one_trial.h"
 
 using namespace trunnion;
+using testing::OneTrial;
 
 namespace {
 
 class NoAxes : public motion::MotionSink {
   public:
     motion::MoveResult move(const motion::AxisMove&) override { return {}; }
-};
-
-class OneTrial : public check::Trial {
-  public:
-    OneTrial(const controller::ControlConfig& config, const offsets::Stores& stores)
-        : trial_(config, stores) {}
-    std::optional<Alarm> run(const interpreter::BlockWords& block) override {
-        return trial_.run(block);
-    }
-    std::optional<Alarm> read(const interpreter::BlockWords& block) override {
-        return trial_.read(block);
-    }
-    std::optional<Alarm> end() override { return trial_.end(); }
-
-  private:
-    controller::BlockTrial trial_;
 };
 
 controller::ControlConfig five_axes() {
