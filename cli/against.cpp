@@ -5,9 +5,9 @@
 
 #include "base/alarm.h"
 #include "base/numbers.h"
-#include "cli/program_choice.h"
 #include "cli/setups.h"
 #include "emulator/run.h"
+#include "inputs/program_choice.h"
 #include "interpreter/program_folders.h"
 #include "regression/two_controls.h"
 
@@ -79,11 +79,12 @@ std::vector<check::Finding> differences_against(const setup::Setup& setup,
                                                 const interpreter::ProgramText& program,
                                                 const std::vector<std::string>& folders,
                                                 std::uint64_t max_blocks) {
-    const auto found = regression::compare_controls(
-        reading_of(setup, "this control", max_blocks), reading_of(other, name, max_blocks), program,
-        [&] {
-            return std::make_unique<interpreter::ProgramFolders>(folders_of_file(program, folders));
-        });
+    const auto found =
+        regression::compare_controls(reading_of(setup, "this control", max_blocks),
+                                     reading_of(other, name, max_blocks), program, [&] {
+                                         return std::make_unique<interpreter::ProgramFolders>(
+                                             inputs::folders_of_file(program, folders));
+                                     });
     std::vector<check::Finding> out;
     for (const regression::ReadingDifference& d : found) {
         if (out.size() == most_findings) break;

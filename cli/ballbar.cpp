@@ -4,7 +4,7 @@
 
 #include "base/output_files.h"
 #include "cli/command.h"
-#include "cli/files.h"
+#include "cli/notes.h"
 #include "cli/options.h"
 #include "cli/page_options.h"
 #include "cli/readings_command.h"

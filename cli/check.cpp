@@ -12,10 +12,9 @@
 #include "base/output_files.h"
 #include "cli/against.h"
 #include "cli/command.h"
-#include "cli/files.h"
+#include "cli/notes.h"
 #include "cli/options.h"
 #include "cli/page_options.h"
-#include "cli/program_choice.h"
 #include "cli/setups.h"
 #include "controller/alarms.h"
 #include "controller/block_trial.h"
@@ -23,6 +22,7 @@
 #include "controller/g_codes.h"
 #include "controller/hurco_codes.h"
 #include "emulator/run.h"
+#include "inputs/program_choice.h"
 #include "interpreter/program_folders.h"
 #include "regression/suite.h"
 #include "report/findings_page.h"
@@ -138,7 +138,7 @@ void run_without_devices(const setup::Setup& setup, const interpreter::ProgramTe
                          const CheckCommand& c, std::vector<check::Finding>& findings) {
     offsets::Stores stores = setup.stores;
     NoDevices sink;
-    interpreter::ProgramFolders programs = folders_of_file(program, c.folders);
+    interpreter::ProgramFolders programs = inputs::folders_of_file(program, c.folders);
     controller::ControlConfig config = emulator::control_config(setup);
     config.max_blocks = c.max_blocks;
     controller::Controller controller(std::move(config), stores, programs, sink,
@@ -172,7 +172,7 @@ int check(const CheckCommand& c) {
     if (!c.against.empty()) other = other_reading(setup, c.against);
     for (const std::string& file : files) {
         const interpreter::ProgramText program = interpreter::read_main_program(file);
-        interpreter::ProgramFolders programs = folders_of_file(program, c.folders);
+        interpreter::ProgramFolders programs = inputs::folders_of_file(program, c.folders);
         check::CheckOptions options = rules.options();
         options.finds_program = [&](int number) { return programs.find(number).has_value(); };
         options.finds_named = [&](const std::string& name) {

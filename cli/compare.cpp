@@ -14,7 +14,6 @@
 #include "base/sha256.h"
 #include "base/units.h"
 #include "cli/command.h"
-#include "cli/files.h"
 #include "cli/long_work.h"
 #include "cli/options.h"
 #include "cli/page_options.h"

@@ -10,14 +10,14 @@
 #include "base/units.h"
 #include "cli/budget_options.h"
 #include "cli/command.h"
-#include "cli/files.h"
 #include "cli/long_work.h"
+#include "cli/notes.h"
 #include "cli/options.h"
 #include "cli/page_options.h"
-#include "cli/program_choice.h"
 #include "cli/setups.h"
 #include "compensation/compensation.h"
 #include "effects/settings.h"
+#include "inputs/program_choice.h"
 #include "report/compensation_page.h"
 
 namespace trunnion::cli {
@@ -65,7 +65,7 @@ int run_command(const Options& o) {
     if (o.largest_turn_deg < 0.0) throw InputError("--max-turn-deg: 0 or more");
     if (o.decimals < 1 || o.decimals > 9) throw InputError("--decimals: 1 to 9");
     const setup::Setup setup = open_setup(o.setup);
-    ProgramAndFolders program = open_program(o.program, o.folders);
+    inputs::ProgramAndFolders program = inputs::open_program(o.program, o.folders);
     const Interruption interruption;
     const compensation::CompensatedProgram c = compensation::compensate_program(
         setup, program.folders, program.program, effects::active_models(setup),

@@ -4,18 +4,18 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "base/console.h"
 #include "base/output_files.h"
 #include "cli/command.h"
-#include "cli/files.h"
 #include "cli/long_work.h"
+#include "cli/notes.h"
 #include "cli/options.h"
 #include "cli/page_options.h"
 #include "cli/readings_command.h"
 #include "diagnosis/diagnosis.h"
+#include "report/diagnosis_json.h"
 #include "report/diagnosis_page.h"
 #include "report/diagnosis_words.h"
 #include "report/error_table.h"
@@ -23,8 +23,6 @@
 
 namespace trunnion::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Options {
     std::vector<std::string> readings;
@@ -34,101 +32,6 @@ struct Options {
     std::optional<double> limit_um;
     bool json = false, allow_large = false;
 };
-
-Json to_json(const diagnosis::HeldOut& heldout) {
-    return {{"rms_before_um", heldout.rms_before_um},
-            {"rms_after_um", heldout.rms_after_um},
-            {"noise_um", heldout.noise_um},
-            {"shrink", heldout.shrink},
-            {"ci95", {heldout.low, heldout.high}}};
-}
-
-Json to_json(const diagnosis::DeviceNoise& noise) {
-    return {{"scale", noise.scale}, {"shared", noise.shared}, {"memory", noise.memory}};
-}
-
-Json to_json(const diagnosis::TablePoint& point) {
-    return {{"error", point.error}, {"at", point.at},           {"value", point.value},
-            {"sigma", point.sigma}, {"at_unit", point.at_unit}, {"unit", point.unit}};
-}
-
-Json to_json(const diagnosis::Cause& cause) {
-    Json json{{"effect", cause.effect},
-              {"probability", cause.probability},
-              {"rivals", cause.rivals},
-              {"parameters", report::json_parameters(cause.parameters)},
-              {"inseparable", report::json_inseparable(cause.unseen)},
-              {"share", cause.share},
-              {"heldout", to_json(cause.heldout)},
-              {"what", cause.what},
-              {"usual_cause", cause.usual_cause},
-              {"remedy", cause.remedy}};
-    if (!cause.points.empty()) {
-        json["form"] = "table";
-        json["between_places"] = cause.holds_between;
-        json["points"] = Json::array();
-        for (const diagnosis::TablePoint& p : cause.points) json["points"].push_back(to_json(p));
-        if (const auto data = report::pitch_error_data(cause))
-            json["pitch_error"] = {{"first_mm", data->first_mm},
-                                   {"interval_mm", data->interval_mm},
-                                   {"unit_mm", data->unit_mm},
-                                   {"value", data->value}};
-    }
-    return json;
-}
-
-Json to_json(const diagnosis::Diagnosis& d) {
-    Json json{{"schema", "trunnion.diagnosis/1"},
-              {"verdict", to_string(d.verdict)},
-              {"noise_source", to_string(d.noise.source)},
-              {"gap",
-               {{"rms_um", d.rms_um},
-                {"noise_um", d.noise_um},
-                {"excess_um", d.excess_um},
-                {"p_value", d.p_value}}}};
-    json["where"] = Json::array();
-    for (const diagnosis::DriverShare& w : d.where)
-        json["where"].push_back({{"by", w.by},
-                                 {"component", w.component},
-                                 {"share", w.share},
-                                 {"p_value", w.p_value},
-                                 {"text", w.text}});
-    json["causes"] = Json::array();
-    for (const diagnosis::Cause& cause : d.causes) json["causes"].push_back(to_json(cause));
-    json["after"] = {{"rms_um", d.after_rms_um},
-                     {"explained", d.explained},
-                     {"between_places", d.between_places},
-                     {"heldout_shrink", d.after.shrink},
-                     {"ci95", {d.after.low, d.after.high}},
-                     {"unexplained_share", d.unexplained_share}};
-    json["setup"] = Json::array();
-    for (const identification::FitParameter& p : d.set_up)
-        json["setup"].push_back(
-            {{"name", p.name}, {"value", p.value}, {"sigma", p.sigma}, {"unit", p.unit}});
-    for (const identification::FoundSide& s : d.sides)
-        json["setup"].push_back({{"name", "side of " + s.axis},
-                                 {"value", s.value()},
-                                 {"sigma", s.sigma()},
-                                 {"unit", "1"}});
-    json["next_measurement"] = Json::array();
-    for (const diagnosis::NextMeasurement& next : d.next)
-        json["next_measurement"].push_back({{"separates", {next.first, next.second}},
-                                            {"text", next.text},
-                                            {"program", next.program},
-                                            {"log_bayes_factor", next.log_bayes_factor},
-                                            {"minutes", next.minutes},
-                                            {"settles", next.settles}});
-    json["noise"] = {{"sphere", to_json(d.noise.sphere)},
-                     {"touch", to_json(d.noise.touch)},
-                     {"ballbar", to_json(d.noise.ballbar)},
-                     {"doubt", d.noise.doubt}};
-    json["unseen"] = d.unseen;
-    json["inseparable"] = report::json_inseparable(d.inseparable);
-    json["readings"] = d.readings;
-    if (d.chosen_from > 0) json["chosen_from"] = d.chosen_from;
-    json["outliers"] = d.outliers;
-    return json;
-}
 
 void print_cause(const diagnosis::Cause& cause) {
     print_out("\n{}  {:.0f} % of the gap, probability {:.2f}\n", cause.effect, 100 * cause.share,
@@ -209,7 +112,7 @@ int diagnose_command(const Options& options) {
         files.add(options.page.html,
                   finished_page(report::diagnosis_page(result, title_of(options.readings)),
                                 *options.command, options.page));
-    if (options.json) files.add("-", to_json(result).dump(1) + "\n");
+    if (options.json) files.add("-", report::diagnosis_json(result));
     files.write();
     if (!options.json) print_report(result);
     if (planning && Interruption::asked()) {

@@ -11,13 +11,14 @@
 #include "base/output_files.h"
 #include "base/read_file.h"
 #include "cli/command.h"
-#include "cli/files.h"
+#include "cli/notes.h"
 #include "cli/options.h"
 #include "cli/page_options.h"
 #include "cli/readings_command.h"
 #include "records/iso230_2.h"
 #include "report/import_page.h"
 #include "report/iso230_picture.h"
+#include "report/readings_json.h"
 
 namespace trunnion::cli {
 namespace {
@@ -25,6 +26,7 @@ namespace {
 struct Options {
     std::string kind, setup, map, out, svg;
     std::vector<std::string> files, told;
+    bool json = false;
     PageOptions page;
     const CLI::App* command = nullptr;
 };
@@ -34,13 +36,18 @@ const std::map<std::string, imports::ImportKind> kinds{
     {"points", imports::ImportKind::points},   {"axis-log", imports::ImportKind::axis_log},
     {"table", imports::ImportKind::table},     {"dprnt", imports::ImportKind::dprnt}};
 
+records::ReadingTable table_of(const Options& options, const setup::Setup& setup,
+                               const imports::Imported& result) {
+    std::vector<std::string> notes;
+    return records::parse_readings(result.readings, options.out, notes,
+                                   setup.machine.chain.names());
+}
+
 std::string page_of(const Options& options, const setup::Setup& setup,
                     const imports::Imported& result) {
-    std::vector<std::string> notes;
-    const records::ReadingTable table =
-        records::parse_readings(result.readings, options.out, notes, setup.machine.chain.names());
-    return finished_page(report::import_page(table, result.summary, result.notes), *options.command,
-                         options.page);
+    return finished_page(
+        report::import_page(table_of(options, setup, result), result.summary, result.notes),
+        *options.command, options.page);
 }
 
 /// A test's name as a file can have it.
@@ -75,11 +82,15 @@ int import_command(const Options& options) {
     imports::ImportRequest request{setup, files, imports::Facts(options.told), {}};
     if (!options.map.empty()) request.map = {options.map, read_file_or_input(options.map)};
     imports::Imported result = imports::import_readings(kind, request);
-    for (const std::string& line : result.summary) print_error("{}\n", line);
+    if (!options.json)
+        for (const std::string& line : result.summary) print_error("{}\n", line);
     print_notes(result.notes);
     OutputFiles out;
     if (!options.page.html.empty()) out.add(options.page.html, page_of(options, setup, result));
     if (!options.svg.empty()) add_pictures(options.svg, result.readings, setup, out);
+    if (options.json)
+        out.add("-", report::import_json(table_of(options, setup, result),
+                                         {options.out, result.summary, result.notes}));
     out.add(options.out, std::move(result.readings));
     out.write();
     return exit_done;
@@ -103,6 +114,7 @@ void add_import(CLI::App& app, Run& run) {
         ->add_option("--with", options->told,
                      "what the files do not tell: 'unit=um', 'axis=X' (docs/readings.md)")
         ->allow_extra_args(false);
+    command->add_flag("--json", options->json, "what was read, as one JSON object on stdout");
     add_page_options(*command, options->page);
     options->command = command;
     command->callback([options, &run] { run = [options] { return import_command(*options); }; });

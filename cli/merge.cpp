@@ -7,7 +7,6 @@
 #include "base/read_file.h"
 #include "base/sha256.h"
 #include "cli/command.h"
-#include "cli/files.h"
 #include "cli/options.h"
 #include "cli/page_options.h"
 #include "report/comparison_report.h"

@@ -10,11 +10,12 @@
 #include "base/output_files.h"
 #include "base/read_file.h"
 #include "cli/command.h"
-#include "cli/files.h"
+#include "cli/notes.h"
 #include "cli/options.h"
 #include "cli/page_options.h"
 #include "cli/readings_command.h"
 #include "cli/setups.h"
+#include "inputs/shipped.h"
 #include "pivot/mixed_functions.h"
 #include "pivot/pivot_program.h"
 #include "pivot/pivot_readings.h"
@@ -194,8 +195,9 @@ report::PivotResult from_known_machine(const PivotOptions& o, const setup::Setup
 }
 
 report::PivotResult simulate(const PivotOptions& o, const setup::Setup& setup, OutputFiles& files) {
-    pivot::PivotDemonstration demo = pivot::demonstrate_pivot(
-        setup, pivot::pivot_programs(pivot::plan_pivot_test(setup)), {shipped("programs")}, o.seed);
+    pivot::PivotDemonstration demo =
+        pivot::demonstrate_pivot(setup, pivot::pivot_programs(pivot::plan_pivot_test(setup)),
+                                 {inputs::shipped("programs")}, o.seed);
     if (!o.print.empty()) files.add(o.print, demo.printed);
     report::PivotResult result = result_of(o, setup, std::move(demo.verdict), std::move(demo.maps));
     result.true_right = demo.true_right;
@@ -209,7 +211,7 @@ int write_programs(const PivotOptions& o, const setup::Setup& setup) {
     for (const auto& [name, text] : pivot::pivot_programs(pivot::plan_pivot_test(setup)))
         files.add((fs::path(o.programs_folder) / name).string(), text);
     files.add((fs::path(o.programs_folder) / "sphere9.nc").string(),
-              read_file(shipped("programs") + "/sphere9.nc"));
+              read_file(inputs::shipped("programs") + "/sphere9.nc"));
     files.write();
     return exit_done;
 }

@@ -4,14 +4,15 @@
 
 #include "base/numbers.h"
 #include "base/output_files.h"
-#include "base/random.h"
 #include "cli/command.h"
 #include "cli/options.h"
 #include "cli/readings_command.h"
 #include "effects/settings.h"
 #include "emulator/replay.h"
-#include "identification/base_model.h"
+#include "identification/sensitivity.h"
+#include "identification/simulated.h"
 #include "report/parameters_json.h"
+#include "report/readings_json.h"
 
 namespace trunnion::cli {
 namespace {
@@ -19,59 +20,43 @@ namespace {
 struct Options {
     std::string readings, setup, jacobian, effects;
     std::vector<std::string> inject;
-    bool noise = false;
+    bool noise = false, json = false;
     std::uint64_t seed = 1;
 };
 
-/// The readings as a device would take them: with one draw of its noise each.
-void add_noise(const setup::Setup& setup, std::uint64_t seed, records::ReadingTable& table) {
-    const emulator::Replay replay(setup, table);
-    const identification::RowNoise noise = identification::row_noise(setup, table, replay);
-    SeededNoise source(seed);
-    for (std::size_t i = 0; i < replay.size(); ++i)
-        *table.rows[replay.table_row(i)].value_mm +=
-            noise.sigma_mm(static_cast<Eigen::Index>(i)) * source.normal();
-    table.comment["source"] = "simulated";
-    table.comment["seed"] = std::to_string(seed);
-}
-
 /// One row for each device row: its index, then d value / d parameter in mm (rad) for each unit.
-std::string jacobian_text(const setup::Setup& setup, const records::ReadingTable& table,
-                          const std::vector<std::string>& effects) {
-    const emulator::Replay replay(setup, table);
-    const kinematics::ForwardModel model(setup.machine);
-    std::vector<kinematics::Perturbation> gradient;
-    for (std::size_t i = 0; i < replay.size(); ++i)
-        gradient.push_back(replay.gradient(i, model, {}));
-    const identification::BaseColumns base = identification::base_columns(
-        setup, replay, effects::make_catalogue(setup), effects, gradient);
+std::string jacobian_text(const identification::Sensitivity& found) {
     std::string out = "index";
-    for (const identification::FitParameter& p : base.parameters)
+    for (const identification::FitParameter& p : found.parameters)
         out += ',' + p.effect + '.' + report::with_component(p) + " [" + p.unit + ']';
     out += '\n';
-    for (std::size_t i = 0; i < replay.size(); ++i) {
-        out += std::to_string(table.rows[replay.table_row(i)].index);
-        for (std::size_t j = 0; j < base.parameters.size(); ++j)
-            out += ',' + shortest(base.columns(static_cast<Eigen::Index>(i),
-                                               static_cast<Eigen::Index>(j)) /
-                                  base.parameters[j].typical);
+    for (Eigen::Index i = 0; i < found.jacobian.rows(); ++i) {
+        out += std::to_string(found.index[static_cast<std::size_t>(i)]);
+        for (const double derivative : found.jacobian.row(i)) out += ',' + shortest(derivative);
         out += '\n';
     }
     return out;
 }
 
+/// Derivatives are worked out only when somebody asks for them.
+std::optional<identification::Sensitivity> derivatives(const Options& options,
+                                                       const setup::Setup& setup,
+                                                       const records::ReadingTable& table) {
+    if (options.jacobian.empty() && !(options.json && !options.effects.empty())) return {};
+    return identification::sensitivity(setup, table, split_names(options.effects));
+}
+
 int predict(const Options& options) {
     const setup::Setup setup = load_setup_option(options.setup, options.inject);
     const records::ReadingTable table = load_readings(options.readings, setup);
+    const auto found = derivatives(options, setup, table);
+    const records::ReadingTable read =
+        options.noise ? identification::simulated(setup, table, options.seed)
+                      : emulator::predicted(setup, table, effects::active_models(setup));
     OutputFiles files;
-    if (!options.jacobian.empty()) {
-        const auto named = split_names(options.effects);
-        files.add(options.jacobian,
-                  jacobian_text(setup, table, named.empty() ? setup.model.modelled : named));
-    }
-    records::ReadingTable read = emulator::predicted(setup, table, effects::active_models(setup));
-    if (options.noise) add_noise(setup, options.seed, read);
-    files.add("-", records::format_readings(read));
+    if (!options.jacobian.empty()) files.add(options.jacobian, jacobian_text(*found));
+    files.add("-",
+              options.json ? report::prediction_json(read, found) : records::format_readings(read));
     files.write();
     return exit_done;
 }
@@ -92,6 +77,8 @@ void add_predict(CLI::App& app, Run& run) {
                       "as a device would read: with the noise of the rows or of [model]");
     command->add_option("--seed", options->seed, "of the noise (1)");
     command->add_option("--inject", options->inject, "switch an effect on: 'C.backlash=60urad'");
+    command->add_flag("--json", options->json,
+                      "one JSON object on stdout; with --effects the derivatives in it");
     command->callback([options, &run] { run = [options] { return predict(*options); }; });
 }
 

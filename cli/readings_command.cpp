@@ -2,7 +2,7 @@
 
 #include "base/alarm.h"
 #include "base/read_file.h"
-#include "cli/files.h"
+#include "cli/notes.h"
 #include "effects/settings.h"
 
 namespace trunnion::cli {

@@ -10,13 +10,13 @@
 #include "base/sha256.h"
 #include "cli/budget_options.h"
 #include "cli/command.h"
-#include "cli/files.h"
 #include "cli/long_work.h"
+#include "cli/notes.h"
 #include "cli/options.h"
 #include "cli/page_options.h"
-#include "cli/program_choice.h"
 #include "cli/setups.h"
 #include "effects/settings.h"
+#include "inputs/program_choice.h"
 #include "report/run_page.h"
 #include "report/run_report.h"
 
@@ -122,7 +122,7 @@ int exit_code(const emulator::RunLog& log) {
 }
 
 /// Shows how far it is; Ctrl-C ends the run as a limit does.
-emulator::RunLog run_watched(const setup::Setup& setup, ProgramAndFolders& program,
+emulator::RunLog run_watched(const setup::Setup& setup, inputs::ProgramAndFolders& program,
                              emulator::RunOptions options) {
     Progress progress;
     options.budget.progress = [&](std::uint64_t blocks) {
@@ -167,7 +167,7 @@ int run_command(const Options& o) {
     if ((o.truth || o.trace_step_mm > 0.0 || o.trace_chord_mm > 0.0) && o.trace.empty())
         throw InputError("--truth, --trace-step and --trace-chord belong to --trace FILE");
     const setup::Setup setup = setup_of(o);
-    ProgramAndFolders program = open_program(o.program, o.folders);
+    inputs::ProgramAndFolders program = inputs::open_program(o.program, o.folders);
     emulator::RunOptions options = run_options(o, setup);
     const Interruption interruption;
     OutputFiles files;

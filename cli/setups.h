@@ -7,8 +7,7 @@
 
 namespace trunnion::cli {
 
-/// Loads a setup file, backup folder included; an empty path is machines/bc_table.toml. Notes go to
-/// stderr.
+/// inputs::open_setup, its notes on stderr.
 setup::Setup open_setup(const std::string& path);
 
 }  // namespace trunnion::cli

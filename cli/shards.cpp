@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/files.h"
+#include "cli/notes.h"
 #include "cli/options.h"
 
 namespace trunnion::cli {

@@ -1,10 +1,9 @@
-// Files that ship with the product, and notes on files that were read.
+// Files that ship with the product.
 #pragma once
 
 #include <string>
-#include <vector>
 
-namespace trunnion::cli {
+namespace trunnion::inputs {
 
 /// A folder or file that ships with the product ("machines/bc_table.toml", "programs"). It is
 /// looked for in the folder that TRUNNION_HOME names, then beside the program and its parent
@@ -12,7 +11,4 @@ namespace trunnion::cli {
 /// build was installed or made. Throws InputError that lists these places when it is nowhere.
 std::string shipped(const std::string& relative);
 
-/// One line for each note on stderr; a note brings its own place.
-void print_notes(const std::vector<std::string>& notes);
-
-}  // namespace trunnion::cli
+}  // namespace trunnion::inputs

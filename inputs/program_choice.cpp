@@ -1,13 +1,13 @@
-#include "cli/program_choice.h"
+#include "inputs/program_choice.h"
 
 #include <algorithm>
 #include <filesystem>
 
 #include "base/alarm.h"
 #include "base/numbers.h"
-#include "cli/files.h"
+#include "inputs/shipped.h"
 
-namespace trunnion::cli {
+namespace trunnion::inputs {
 namespace fs = std::filesystem;
 namespace {
 
@@ -77,4 +77,4 @@ ProgramAndFolders open_program(const std::string& name, std::vector<std::string>
     return {*number, std::move(source)};
 }
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::inputs

@@ -1,4 +1,4 @@
-// The program a command works on: a file, or an O number in the program folders.
+// The program a command or a script works on: a file, or an O number in the program folders.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 #include "emulator/run.h"
 #include "interpreter/program_folders.h"
 
-namespace trunnion::cli {
+namespace trunnion::inputs {
 
 /// Folders searched for programs: those given, the program's own, then what ships with the product.
 struct ProgramAndFolders {
@@ -22,4 +22,4 @@ interpreter::ProgramFolders folders_of_file(const interpreter::ProgramText& prog
 /// Throws InputError when there is no such file and no such O number.
 ProgramAndFolders open_program(const std::string& name, std::vector<std::string> folders);
 
-}  // namespace trunnion::cli
+}  // namespace trunnion::inputs

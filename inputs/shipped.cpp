@@ -1,13 +1,12 @@
-#include "cli/files.h"
+#include "inputs/shipped.h"
 
 #include <cstdlib>
 #include <filesystem>
+#include <vector>
 
 #include "base/alarm.h"
-#include "base/console.h"
-#include "base/text.h"
 
-namespace trunnion::cli {
+namespace trunnion::inputs {
 namespace fs = std::filesystem;
 namespace {
 
@@ -45,8 +44,4 @@ std::string shipped(const std::string& relative) {
                      {relative, 0, 0});
 }
 
-void print_notes(const std::vector<std::string>& notes) {
-    for (const std::string& note : notes) print_error("{}\n", printable(note));
-}
-
-}  // namespace trunnion::cli
+}  // namespace trunnion::inputs

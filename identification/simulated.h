@@ -1,0 +1,15 @@
+// Readings as the devices of a setup would take them.
+#pragma once
+
+#include <cstdint>
+
+#include "emulator/replay.h"
+
+namespace trunnion::identification {
+
+/// The table with value_mm of every device row replaced by its prediction, plus one normal draw of
+/// the row's noise (RowNoise). The same seed gives the same table.
+records::ReadingTable simulated(const setup::Setup& setup, const records::ReadingTable& table,
+                                std::uint64_t seed);
+
+}  // namespace trunnion::identification
