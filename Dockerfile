@@ -2,10 +2,11 @@
 FROM debian:12-slim AS build
 RUN apt-get update && apt-get install -y --no-install-recommends \
     build-essential cmake ninja-build dpkg-dev file libboost-math-dev libcli11-dev libeigen3-dev \
-    libfmt-dev libnlopt-dev libnlopt-cxx-dev libtomlplusplus-dev nlohmann-json3-dev zlib1g-dev
+    libfmt-dev libnlopt-dev libnlopt-cxx-dev libtomlplusplus-dev nlohmann-json3-dev zlib1g-dev \
+    pybind11-dev python3-dev python3-numpy
 COPY . /source
 RUN cmake -S /source -B /build -G Ninja -DCMAKE_BUILD_TYPE=Release -DTRUNNION_TESTS=OFF \
-    -DTRUNNION_BENCHMARKS=OFF \
+    -DTRUNNION_BENCHMARKS=OFF -DTRUNNION_PYTHON=ON \
  && cmake --build /build && cd /build && cpack
 
 FROM debian:12-slim

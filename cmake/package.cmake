@@ -24,6 +24,16 @@ install(CODE "
   execute_process(COMMAND gzip -9nf \"\${root}/doc/trunnion/changelog\" COMMAND_ERROR_IS_FATAL ANY)
 " COMPONENT program)
 
+# Debian's folder for modules; the compiled half is for one version of Python.
+set(package_depends "")
+if(TARGET trunnion_python)
+  set(modules lib/python3/dist-packages/trunnion)
+  install(TARGETS trunnion_python LIBRARY DESTINATION ${modules} COMPONENT program)
+  install(FILES python/trunnion/__init__.py DESTINATION ${modules} COMPONENT program)
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  set(package_depends "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
+endif()
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME trunnion)
 set(CPACK_PACKAGE_CONTACT "trunnion maintainers <maintainers@users.noreply.github.com>")
@@ -37,6 +47,10 @@ set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "${package_depends}")
+if(TARGET trunnion_python)
+  set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-pandas")
+endif()
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "offline CNC control with a physical five-axis machine")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Runs NC programs, Macro B included, on an emulated Fanuc-style or Hurco
 control and a five-axis machine with ISO 230 errors. Finds which pivot store

@@ -20,6 +20,7 @@ set(TRUNNION_ROOMS
   "setup: controller positioning kinematics offsets interpreter geometry base"
   "imports: setup records geometry base"
   "emulator: setup ballbar probe controller motion positioning records kinematics geometry base"
+  "inputs: emulator setup backup interpreter base"
   "effects: emulator records geometry base"
   "estimation"
   "identification: estimation effects emulator base"
@@ -30,7 +31,8 @@ set(TRUNNION_ROOMS
   "volumetric: emulator setup kinematics base"
   "ballbar/test: emulator setup records kinematics interpreter geometry base"
   "report: ballbar/test volumetric pivot compensation diagnosis identification regression emulator setup check records geometry base"
-  "cli: report imports pivot compensation diagnosis regression identification effects emulator setup backup check controller records interpreter base"
+  "python: report inputs diagnosis regression identification effects emulator setup records interpreter base"
+  "cli: report inputs imports pivot compensation diagnosis regression identification effects emulator setup backup check controller records interpreter base"
 )
 
 # What stands behind the colon of one line of the list.
@@ -82,7 +84,7 @@ function(trunnion_add_rooms)
   foreach(line IN LISTS TRUNNION_ROOMS)
     string(REGEX MATCH "^[a-z/]+" name "${line}")
     trunnion_room_depends("${line}" depends)
-    if(NOT name STREQUAL "cli")
+    if(NOT name MATCHES "^(cli|python)$")
       trunnion_room(${name} "${depends}")
     endif()
   endforeach()

@@ -1,0 +1,36 @@
+// A CSV table that arrives piece by piece, as columns of numbers and of words.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trunnion::python {
+
+/// One column: of numbers, or of words.
+struct CsvColumn {
+    std::string name;
+    bool words = false;
+    std::vector<double> number;     ///< NaN: an empty cell
+    std::vector<std::string> word;  ///< of a column of words
+};
+
+/// The table as run and predict write it: lines that begin with # are left out, the next one names
+/// the columns.
+class CsvColumns {
+  public:
+    /// Names of the columns that hold words whatever is in them.
+    explicit CsvColumns(std::vector<std::string> words) : words_(std::move(words)) {}
+    /// Whole lines.
+    void add(std::string_view text);
+    const std::vector<CsvColumn>& columns() const { return columns_; }
+
+  private:
+    void add_line(std::string_view line);
+    void name_columns(std::string_view line);
+
+    std::vector<std::string> words_;
+    std::vector<CsvColumn> columns_;
+};
+
+}  // namespace trunnion::python
