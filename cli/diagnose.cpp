@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -17,9 +16,7 @@
 #include "diagnosis/diagnosis.h"
 #include "report/diagnosis_json.h"
 #include "report/diagnosis_page.h"
-#include "report/diagnosis_words.h"
-#include "report/error_table.h"
-#include "report/parameters_json.h"
+#include "report/diagnosis_text.h"
 
 namespace trunnion::cli {
 namespace {
@@ -32,50 +29,6 @@ struct Options {
     std::optional<double> limit_um;
     bool json = false, allow_large = false;
 };
-
-void print_cause(const diagnosis::Cause& cause) {
-    print_out("\n{}  {:.0f} % of the gap, probability {:.2f}\n", cause.effect, 100 * cause.share,
-              cause.probability);
-    print_out("  {}.\n", cause.what);
-    if (!cause.usual_cause.empty())
-        print_out("  Usual cause: {}. What to do: {}.\n", cause.usual_cause, cause.remedy);
-    for (const identification::FitParameter& p : cause.parameters)
-        print_out("  {:<20} {:>12.4g} {} {}\n", report::with_component(p), p.value, p.unit,
-                  std::isfinite(p.sigma) ? fmt::format("(sigma {:.2g})", p.sigma)
-                                         : std::string("(no sigma of its own)"));
-    for (const identification::Inseparable& group : cause.unseen)
-        print_out("  no reading here sees: {}\n", to_string(group));
-    if (!cause.points.empty())
-        print_out("  a table of {} values{}\n{}", cause.points.size(),
-                  cause.holds_between ? "" : ": at the measured places only",
-                  report::error_table(cause));
-    if (!cause.rivals.empty())
-        print_out("  cannot be told apart here from: {}\n", fmt::join(cause.rivals, ", "));
-    print_out(
-        "  held out: {:.3f} -> {:.3f} um (noise {:.3f}): shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
-        cause.heldout.rms_before_um, cause.heldout.rms_after_um, cause.heldout.noise_um,
-        100 * cause.heldout.shrink, 100 * cause.heldout.low, 100 * cause.heldout.high);
-}
-
-void print_report(const diagnosis::Diagnosis& d) {
-    print_out("verdict: {}\n{}\n", to_string(d.verdict), report::verdict_sentence(d));
-    print_out("{} readings ({} set aside), rms {:.3f} um, noise {:.3f} um ({}), excess {:.3f} um\n",
-              d.readings, d.outliers, d.rms_um, d.noise_um, to_string(d.noise.source), d.excess_um);
-    for (const identification::FoundSide& s : d.sides) print_out("  {}\n", to_string(s));
-    if (d.chosen_from > 0) print_out("  chosen evenly from {} readings\n", d.chosen_from);
-    for (const diagnosis::DriverShare& w : d.where) print_out("  {}\n", w.text);
-    for (const diagnosis::Cause& cause : d.causes) print_cause(cause);
-    if (!d.causes.empty())
-        print_out(
-            "\nafter: rms {:.3f} um; of readings left out the causes explain {:.0f} %{}; the gap "
-            "shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
-            d.after_rms_um, 100 * d.explained, d.between_places ? "" : " at the measured places",
-            100 * d.after.shrink, 100 * d.after.low, 100 * d.after.high);
-    if (d.causes.empty())
-        for (const identification::Inseparable& group : d.inseparable)
-            print_out("no reading here sees: {}\n", to_string(group));
-    for (const diagnosis::NextMeasurement& next : d.next) print_out("next: {}\n", next.text);
-}
 
 std::string title_of(const std::vector<std::string>& readings) {
     return fmt::format("{}", fmt::join(readings, " + "));
@@ -114,7 +67,7 @@ int diagnose_command(const Options& options) {
                                 *options.command, options.page));
     if (options.json) files.add("-", report::diagnosis_json(result));
     files.write();
-    if (!options.json) print_report(result);
+    if (!options.json) print_out("{}", report::diagnosis_text(result));
     if (planning && Interruption::asked()) {
         print_error("trunnion: interrupted: no plan of the next measurement\n");
         return exit_limit;
