@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include "base/alarm.h"
 #include "base/console.h"
@@ -18,6 +17,7 @@
 #include "compensation/compensation.h"
 #include "effects/settings.h"
 #include "inputs/program_choice.h"
+#include "report/compensation_json.h"
 #include "report/compensation_page.h"
 
 namespace trunnion::cli {
@@ -47,18 +47,6 @@ void print_direction(const char* where, double before_rad, double after_rad) {
                 1e6 * before_rad, 1e6 * after_rad);
 }
 
-/// What stderr says, for programs.
-nlohmann::ordered_json json_of(const compensation::CompensatedProgram& c) {
-    const auto worst = [](const compensation::CompensatedProgram::Worst& w) {
-        return nlohmann::ordered_json{{"tip_um", um_from_mm(w.tip_mm)},
-                                      {"turned_urad", urad_from_rad(w.turned_rad)},
-                                      {"kept_urad", urad_from_rad(w.kept_rad)}};
-    };
-    return {{"schema", "trunnion.compensate/1"}, {"blocks", c.blocks.size()},
-            {"before", worst(c.before)},         {"after", worst(c.after)},
-            {"in_gap", worst(c.in_gap)},         {"notes", c.notes}};
-}
-
 int run_command(const Options& o) {
     if (o.json && o.out == "-") throw InputError("--json needs --out FILE for the program");
     if (o.tolerance_um <= 0.0) throw InputError("--tol-um: a tolerance above zero is needed");
@@ -80,7 +68,7 @@ int run_command(const Options& o) {
     if (!o.page.html.empty())
         files.add(o.page.html, finished_page(report::compensation_page(c, setup.name, o.program),
                                              *o.command, o.page, {setup.path}));
-    if (o.json) files.add("-", json_of(c).dump(1) + "\n");
+    if (o.json) files.add("-", report::compensation_json(c));
     files.write();
     print_error("{} blocks; largest tip error at a block's end {:.3f} um before, {:.3f} um after\n",
                 c.blocks.size(), um_from_mm(c.before.tip_mm), um_from_mm(c.after.tip_mm));

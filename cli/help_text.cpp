@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "report/paragraph.h"
+
 namespace trunnion::cli {
 namespace {
 
@@ -46,7 +48,7 @@ const std::map<std::string, std::vector<std::string>>& example_table() {
 /// Left column, then the text from its own column on.
 std::string entry(const std::string& left, const std::string& text) {
     std::string out = "  " + left;
-    const auto lines = wrapped(text, help_columns - text_column);
+    const auto lines = report::wrapped(text, help_columns - text_column);
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const bool beside = i == 0 && out.size() + 2 <= text_column;
         if (beside)
@@ -68,7 +70,7 @@ class HelpForm : public CLI::Formatter {
     }
     std::string make_description(const CLI::App* app) const override {
         std::string out;
-        for (const std::string& line : wrapped(app->get_description(), help_columns))
+        for (const std::string& line : report::wrapped(app->get_description(), help_columns))
             out += line + '\n';
         return out;
     }
@@ -86,22 +88,6 @@ class HelpForm : public CLI::Formatter {
 };
 
 }  // namespace
-
-std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
-    std::vector<std::string> lines;
-    std::string line;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = std::min(text.find_first_of(" \n", at), text.size());
-        const std::string word = text.substr(at, end - at);
-        if (!line.empty() && line.size() + 1 + word.size() > width)
-            lines.push_back(std::exchange(line, {}));
-        if (!word.empty()) line += (line.empty() ? "" : " ") + word;
-        if (end < text.size() && text[end] == '\n') lines.push_back(std::exchange(line, {}));
-        at = end + 1;
-    }
-    if (!line.empty()) lines.push_back(line);
-    return lines;
-}
 
 std::string value_word(const CLI::Option& option) {
     if (option.get_expected_max() == 0 || option.get_type_size() == 0) return {};

@@ -15,9 +15,6 @@ namespace trunnion::cli {
 /// when all options are there.
 void set_help(CLI::App& app);
 
-/// Lines of at most `width` places; words are kept whole.
-std::vector<std::string> wrapped(const std::string& text, std::size_t width);
-
 /// "--setup FILE", "PROGRAM".
 std::string option_words(const CLI::Option& option);
 /// What stands behind the name: FILE, NUMBER, N, TEXT; empty for a switch.

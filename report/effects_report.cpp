@@ -1,0 +1,71 @@
+#include "report/effects_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "report/paragraph.h"
+
+namespace trunnion::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string parameter_name(const effects::EffectParameter& p) {
+    return p.component < 0 ? p.name : fmt::format("{}[{}]", p.name, "xyz"[p.component]);
+}
+
+std::string paragraph(const std::string& head, const std::string& words) {
+    std::string text;
+    constexpr std::size_t column = 10, width = 70;
+    const auto lines = wrapped(words, width);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        text += fmt::format("{:<{}}{}\n", i == 0 ? head : "", column, lines[i]);
+    return text;
+}
+
+}  // namespace
+
+std::string effects_json(const std::vector<effects::Effect>& list) {
+    Json json{{"schema", "trunnion.effects/1"}, {"effects", Json::array()}};
+    for (const effects::Effect& effect : list) {
+        Json parameters = Json::array();
+        for (const effects::EffectParameter& p : effect.parameters)
+            parameters.push_back(
+                {{"name", parameter_name(p)}, {"unit", p.unit}, {"typical", p.typical}});
+        json["effects"].push_back({{"name", effect.name},
+                                   {"what", effect.what},
+                                   {"cause", effect.cause},
+                                   {"remedy", effect.remedy},
+                                   {"formula", effect.formula},
+                                   {"parameters", parameters}});
+    }
+    return json.dump(2) + "\n";
+}
+
+std::string effect_text(const effects::Effect& effect) {
+    std::string text = fmt::format("{}\n", effect.name);
+    text += paragraph("what", effect.what);
+    text += paragraph("cause", effect.cause);
+    text += paragraph("remedy", effect.remedy);
+    text += paragraph("formula", effect.formula);
+    for (const effects::EffectParameter& p : effect.parameters)
+        text += fmt::format("          {:<24} {:<8} typical {:.3g}\n", parameter_name(p), p.unit,
+                            p.typical);
+    if (!effect.parameters.empty())
+        text += fmt::format("example   --inject '{}: {}={:.3g}'\n", effect.name,
+                            effect.parameters.front().name, effect.parameters.front().typical);
+    return text;
+}
+
+std::string effects_text(const std::vector<effects::Effect>& list) {
+    std::string text;
+    for (const effects::Effect& effect : list) {
+        const auto lines = wrapped(effect.what, 57);
+        for (std::size_t i = 0; i < lines.size(); ++i)
+            text += fmt::format("{:<22} {}\n", i == 0 ? effect.name : "", lines[i]);
+    }
+    return text;
+}
+
+}  // namespace trunnion::report
