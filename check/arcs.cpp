@@ -1,6 +1,7 @@
 // Arcs whose end is off their circle, and arcs without a plane, where it can be told from the text.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -18,6 +19,11 @@ struct Plane {
     std::size_t first, second;
 };
 constexpr Plane plane_xy{0, 1}, plane_zx{2, 0}, plane_yz{1, 2};
+
+/// Ten times the code. G20, G21, G40, G43, G49, G61, G64, G80, G94 leave position and plane.
+constexpr std::array harmless{200, 210, 400, 430, 490, 610, 640, 800, 940};
+/// Canned cycles: they end the motion mode.
+constexpr std::array cycles{730, 740, 760, 810, 820, 830, 840, 850, 860, 870, 880, 890};
 
 /// What is known of position and modes at a block; nothing where it was computed or jumped to.
 class ArcCheck {
@@ -59,62 +65,16 @@ class ArcCheck {
             other = true;
             return;
         }
-        switch (code10_of(*value)) {
-            case 0:
-                arc_ = 0;
-                break;
-            case 10:
-                arc_ = 1;
-                break;
-            case 20:
-                arc_ = 2;
-                break;
-            case 30:
-                arc_ = 3;
-                break;
-            case 170:
-                set_plane(plane_xy);
-                break;
-            case 180:
-                set_plane(plane_zx);
-                break;
-            case 190:
-                set_plane(plane_yz);
-                break;
-            case 900:
-                absolute_ = true;
-                break;
-            case 910:
-                absolute_ = false;
-                break;
-            case 200:
-            case 210:
-                break;
-            case 400:
-            case 800:
-            case 940:
-            case 430:
-            case 490:
-            case 610:
-            case 640:
-                break;
-            case 730:
-            case 740:
-            case 760:
-            case 810:
-            case 820:
-            case 830:
-            case 840:
-            case 850:
-            case 860:
-            case 870:
-            case 880:
-            case 890:
-                arc_ = -1;
-                other = true;
-                break;
-            default:
-                other = true;  // work offsets, rotation, polar words, reference moves, ...
+        const int code = code10_of(*value);
+        if (code == 0 || code == 10 || code == 20 || code == 30) {
+            arc_ = code / 10;
+        } else if (code == 170 || code == 180 || code == 190) {
+            set_plane(code == 170 ? plane_xy : code == 180 ? plane_zx : plane_yz);
+        } else if (code == 900 || code == 910) {
+            absolute_ = code == 900;
+        } else if (std::find(harmless.begin(), harmless.end(), code) == harmless.end()) {
+            if (std::find(cycles.begin(), cycles.end(), code) != cycles.end()) arc_ = -1;
+            other = true;  // cycles, work offsets, rotation, polar words, reference moves, ...
         }
     }
 

@@ -142,6 +142,76 @@ void name_null_space(BaseModel& model, const std::vector<Slot>& slots,
     }
 }
 
+/// Measured readings, their noise, derivatives and residuals at the setup as it is written.
+BaseModel start_model(const setup::Setup& setup, const records::ReadingTable& table,
+                      const emulator::Replay& replay) {
+    BaseModel model;
+    model.setup = setup;
+    begin_sessions(model.setup, replay);
+    take_measured(model, table, replay);
+    const RowNoise noise = row_noise(setup, table, replay);
+    model.sigma_mm = noise.sigma_mm;
+    model.noise_given = noise.given;
+    const kinematics::ForwardModel forward(setup.machine);
+    for (std::size_t i = 0; i < replay.size(); ++i)
+        model.gradient.push_back(replay.gradient(i, forward, {}));
+    model.residual_mm = model.start_residual_mm = residual(model, replay, model.setup);
+    return model;
+}
+
+Eigen::VectorXd typical_of(const std::vector<Slot>& slots) {
+    Eigen::VectorXd typical(static_cast<Eigen::Index>(slots.size()));
+    for (std::size_t j = 0; j < slots.size(); ++j)
+        typical(static_cast<Eigen::Index>(j)) = slots[j].fit.typical;
+    return typical;
+}
+
+/// What is known of a parameter beforehand, as one further row of the normal equations; unknowns
+/// in units of `typical`.
+void add_prior(const FitParameter& prior, const setup::Setup& setup, Eigen::Index j,
+               Eigen::MatrixXd& information, Eigen::VectorXd& gradient) {
+    if (prior.prior_sigma <= 0.0) return;
+    const double pull = prior.typical / prior.prior_sigma;
+    information(j, j) += pull * pull;
+    gradient(j) += pull * pull * (prior.prior_value - location_value(setup, prior)) / prior.typical;
+}
+
+/// Gauss-Newton with robust weights; the model's setup moves to the solution. Returns the last
+/// step's fit, in units of `typical`.
+estimation::LinearFit iterate(BaseModel& model, const emulator::Replay& replay,
+                              const std::vector<Slot>& slots, const Eigen::VectorXd& typical) {
+    estimation::LinearFit fit;
+    for (int pass = 0; pass < 8 && !slots.empty(); ++pass) {
+        const Eigen::VectorXd weight = row_weights(model, model.residual_mm);
+        const Eigen::MatrixXd a = weight.asDiagonal() * model.columns;
+        Eigen::MatrixXd information = a.transpose() * a;
+        Eigen::VectorXd gradient = a.transpose() * weight.cwiseProduct(model.residual_mm);
+        for (std::size_t j = 0; j < slots.size(); ++j)
+            add_prior(slots[j].fit, model.setup, static_cast<Eigen::Index>(j), information,
+                      gradient);
+        fit = estimation::solve_ranked(information, gradient);
+        take_step(model, replay, slots, weight, typical.cwiseProduct(fit.value));
+        if (fit.value.cwiseAbs().maxCoeff() < 1e-7) break;
+    }
+    return fit;
+}
+
+/// The unknown with its value in the fitted setup.
+FitParameter fitted_parameter(const Slot& slot, setup::Setup& setup, double sigma) {
+    FitParameter done = slot.fit;
+    done.sigma = sigma;
+    if (!slot.effect) {
+        done.value = number_of(setup, slot.fit.set_up);
+    } else if (slot.effect->name == "location") {
+        done.value = location_value(setup, slot.fit);
+    } else {
+        for (const setup::EffectSetting& setting : setup.effects)
+            if (setting.name == slot.effect->name)
+                done.value = effects::values_of(*slot.effect, setting)[slot.parameter];
+    }
+    return done;
+}
+
 }  // namespace
 
 std::string full_name(const FitParameter& p) {
@@ -229,63 +299,21 @@ BaseColumns base_columns(const setup::Setup& setup, const emulator::Replay& repl
 BaseModel fit_base(const setup::Setup& setup, const records::ReadingTable& table,
                    const emulator::Replay& replay, const effects::Catalogue& catalogue,
                    const std::vector<std::string>& effects) {
-    BaseModel model;
-    model.setup = setup;
-    begin_sessions(model.setup, replay);
-    take_measured(model, table, replay);
-    const RowNoise noise = row_noise(setup, table, replay);
-    model.sigma_mm = noise.sigma_mm;
-    model.noise_given = noise.given;
+    BaseModel model = start_model(setup, table, replay);
     const Unknowns unknowns(setup, replay, catalogue, effects);
     const auto& slots = unknowns.slots();
-    {
-        const kinematics::ForwardModel forward(setup.machine);
-        for (std::size_t i = 0; i < replay.size(); ++i)
-            model.gradient.push_back(replay.gradient(i, forward, {}));
-    }
     model.columns = columns_of(slots, replay, model.gradient);
-    model.residual_mm = model.start_residual_mm = residual(model, replay, model.setup);
-    const auto p = static_cast<Eigen::Index>(slots.size());
-    Eigen::VectorXd typical(p);
-    for (Eigen::Index j = 0; j < p; ++j)
-        typical(j) = slots[static_cast<std::size_t>(j)].fit.typical;
-    estimation::LinearFit fit;
-    for (int pass = 0; pass < 8 && p > 0; ++pass) {
-        const Eigen::VectorXd weight = row_weights(model, model.residual_mm);
-        const Eigen::MatrixXd a = weight.asDiagonal() * model.columns;
-        Eigen::MatrixXd information = a.transpose() * a;
-        Eigen::VectorXd gradient = a.transpose() * weight.cwiseProduct(model.residual_mm);
-        for (Eigen::Index j = 0; j < p; ++j) {
-            const FitParameter& prior = slots[static_cast<std::size_t>(j)].fit;
-            if (prior.prior_sigma <= 0.0) continue;
-            const double pull = typical(j) / prior.prior_sigma;
-            information(j, j) += pull * pull;
-            gradient(j) +=
-                pull * pull * (prior.prior_value - location_value(model.setup, prior)) / typical(j);
-        }
-        fit = estimation::solve_ranked(information, gradient);
-        take_step(model, replay, slots, weight, typical.cwiseProduct(fit.value));
-        if (fit.value.cwiseAbs().maxCoeff() < 1e-7) break;
-    }
+    const Eigen::VectorXd typical = typical_of(slots);
+    const estimation::LinearFit fit = iterate(model, replay, slots, typical);
     tell_absurd_residuals(model, replay, table);
     name_null_space(model, slots, fit);
-    model.rank = static_cast<int>(p) - static_cast<int>(fit.null_space.size());
+    model.rank = static_cast<int>(typical.size()) - static_cast<int>(fit.null_space.size());
     model.covariance = typical.asDiagonal() * fit.covariance * typical.asDiagonal();
-    for (Eigen::Index j = 0; j < p; ++j) {
-        const Slot& slot = slots[static_cast<std::size_t>(j)];
-        FitParameter done = slot.fit;
-        done.sigma = typical(j) * fit.sigma(j);
-        if (!slot.effect) {
-            done.value = number_of(model.setup, slot.fit.set_up);
-        } else if (slot.effect->name == "location") {
-            done.value = location_value(model.setup, slot.fit);
-        } else {
-            for (const setup::EffectSetting& setting : model.setup.effects)
-                if (setting.name == slot.effect->name)
-                    done.value = effects::values_of(*slot.effect, setting)[slot.parameter];
-        }
-        tell_absurd_location(model, done, table);
-        model.parameters.push_back(done);
+    for (std::size_t j = 0; j < slots.size(); ++j) {
+        const auto k = static_cast<Eigen::Index>(j);
+        model.parameters.push_back(
+            fitted_parameter(slots[j], model.setup, typical(k) * fit.sigma(k)));
+        tell_absurd_location(model, model.parameters.back(), table);
     }
     model.models = effects::active_models(model.setup);
     return model;

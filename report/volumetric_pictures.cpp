@@ -129,11 +129,63 @@ std::string rotary_text(const volumetric::VolumetricMap& map, const AxisPosition
     return others.empty() ? "" : ", " + place_text(map.names, others, middle);
 }
 
+/// The grid at one height and what its cells are drawn with.
+struct Slice {
+    const Points& points;
+    std::vector<double> xs, ys;  ///< rising
+    double largest_um;           ///< of the whole grid
+    double arrow_px = 0.0;       ///< length of an arrow of `largest_um`
+
+    double dx() const { return spacing(xs); }
+    double dy() const { return spacing(ys); }
+    /// Whether a cell has room for numbers.
+    bool roomy() const { return xs.size() <= 9 && ys.size() <= 9; }
+};
+
+void draw_cells(Svg& svg, const Plot& plot, const Slice& slice) {
+    for (const volumetric::VolumetricPoint* p : slice.points) {
+        const double x = p->at[Axis::X], y = p->at[Axis::Y];
+        const Point2 low = plot.at(x - 0.5 * slice.dx(), y + 0.5 * slice.dy());
+        const Point2 high = plot.at(x + 0.5 * slice.dx(), y - 0.5 * slice.dy());
+        svg.rectangle(low, high.x - low.x, high.y - low.y,
+                      {"white", 0.5, heat(error_um(*p) / slice.largest_um), ""});
+    }
+}
+
+void draw_arrows(Svg& svg, const Plot& plot, const Slice& slice) {
+    for (const volumetric::VolumetricPoint* p : slice.points) {
+        const Point2 at = plot.at(p->at[Axis::X], p->at[Axis::Y]);
+        const double scale = slice.arrow_px / slice.largest_um;
+        const std::string ink = error_um(*p) / slice.largest_um > 0.45 ? "white" : "#222";
+        svg.circle(at, 2.0, {"none", 0.0, ink, ""});
+        arrow(svg, at,
+              {at.x + scale * um_from_mm(p->error_W_mm.x()),
+               at.y - scale * um_from_mm(p->error_W_mm.y())});
+        if (!slice.roomy()) continue;
+        const Point2 corner =
+            plot.at(p->at[Axis::X] + 0.5 * slice.dx(), p->at[Axis::Y] + 0.5 * slice.dy());
+        svg.text({corner.x - 4, corner.y + 12}, fmt::format("{:.1f}", error_um(*p)), 10, "end",
+                 ink);
+        svg.text({corner.x - 4, corner.y + 23},
+                 fmt::format("z {:+.1f}", um_from_mm(p->error_W_mm.z())), 9, "end", ink);
+    }
+}
+
+void draw_slice_legend(Svg& svg, const Slice& slice) {
+    colour_bar(svg, {810, 110}, 300, slice.largest_um);
+    const double key_um = round_range(0.0, 0.6 * slice.largest_um, 2).tick;
+    arrow(svg, {800, 470}, {800 + slice.arrow_px * key_um / slice.largest_um, 470});
+    svg.text({800, 490}, fmt::format("{:.6g} um in X Y", key_um), 12);
+    svg.circle({808, 520}, 8, {"#D55E00", 2.5, "none", ""});
+    svg.text({824, 524}, "worst here", 12);
+    if (slice.roomy()) svg.text({800, 552}, "numbers: length, and Z", 11);
+}
+
 std::string slice_picture(const volumetric::VolumetricMap& map, const AxisPositions& middle,
                           double z, const Points& points) {
-    const double largest_um = std::max(error_um(map.points[map.worst]), 1e-6);
-    const auto xs = places(points, Axis::X), ys = places(points, Axis::Y);
-    const double dx = spacing(xs), dy = spacing(ys);
+    Slice slice{points, places(points, Axis::X), places(points, Axis::Y),
+                std::max(error_um(map.points[map.worst]), 1e-6)};
+    const double dx = slice.dx(), dy = slice.dy();
     Svg svg(960, 870);
     svg.describe("Error of the tool point at one height",
                  "Colour is the length of the error in µm, arrows are its X and Y.");
@@ -142,50 +194,26 @@ std::string slice_picture(const volumetric::VolumetricMap& map, const AxisPositi
              fmt::format("Z {:.6g} mm{}; tool {:.6g} mm; actual - nominal, in the table's frame", z,
                          rotary_text(map, middle), map.length_mm),
              12);
-    Plot plot(svg, {90, 80}, 680, 500, round_range(xs.front() - 0.5 * dx, xs.back() + 0.5 * dx),
-              round_range(ys.front() - 0.5 * dy, ys.back() + 0.5 * dy));
+    Plot plot(svg, {90, 80}, 680, 500,
+              round_range(slice.xs.front() - 0.5 * dx, slice.xs.back() + 0.5 * dx),
+              round_range(slice.ys.front() - 0.5 * dy, slice.ys.back() + 0.5 * dy));
     plot.frame("", "X, mm", "Y, mm");
-    const double arrow_px =
+    slice.arrow_px =
         0.8 * std::min(plot.at(dx, 0).x - plot.at(0, 0).x, plot.at(0, 0).y - plot.at(0, dy).y);
-    const volumetric::VolumetricPoint* worst = points.front();
-    for (const volumetric::VolumetricPoint* p : points) {
-        const Point2 low = plot.at(p->at[Axis::X] - 0.5 * dx, p->at[Axis::Y] + 0.5 * dy);
-        const Point2 high = plot.at(p->at[Axis::X] + 0.5 * dx, p->at[Axis::Y] - 0.5 * dy);
-        svg.rectangle(low, high.x - low.x, high.y - low.y,
-                      {"white", 0.5, heat(error_um(*p) / largest_um), ""});
-        if (error_um(*p) > error_um(*worst)) worst = p;
-    }
-    const bool roomy = xs.size() <= 9 && ys.size() <= 9;
-    for (const volumetric::VolumetricPoint* p : points) {
-        const Point2 at = plot.at(p->at[Axis::X], p->at[Axis::Y]);
-        const double scale = arrow_px / largest_um;
-        const double part = error_um(*p) / largest_um;
-        const std::string ink = part > 0.45 ? "white" : "#222";
-        svg.circle(at, 2.0, {"none", 0.0, ink, ""});
-        arrow(svg, at,
-              {at.x + scale * um_from_mm(p->error_W_mm.x()),
-               at.y - scale * um_from_mm(p->error_W_mm.y())});
-        if (!roomy) continue;
-        const Point2 corner = plot.at(p->at[Axis::X] + 0.5 * dx, p->at[Axis::Y] + 0.5 * dy);
-        svg.text({corner.x - 4, corner.y + 12}, fmt::format("{:.1f}", error_um(*p)), 10, "end",
-                 ink);
-        svg.text({corner.x - 4, corner.y + 23},
-                 fmt::format("z {:+.1f}", um_from_mm(p->error_W_mm.z())), 9, "end", ink);
-    }
-    svg.circle(plot.at(worst->at[Axis::X], worst->at[Axis::Y]), 11, {"white", 4.5, "none", ""});
-    svg.circle(plot.at(worst->at[Axis::X], worst->at[Axis::Y]), 11, {"#D55E00", 2.5, "none", ""});
-    colour_bar(svg, {810, 110}, 300, largest_um);
-    const double key_um = round_range(0.0, 0.6 * largest_um, 2).tick;
-    arrow(svg, {800, 470}, {800 + arrow_px * key_um / largest_um, 470});
-    svg.text({800, 490}, fmt::format("{:.6g} um in X Y", key_um), 12);
-    svg.circle({808, 520}, 8, {"#D55E00", 2.5, "none", ""});
-    svg.text({824, 524}, "worst here", 12);
-    if (roomy) svg.text({800, 552}, "numbers: length, and Z", 11);
+    draw_cells(svg, plot, slice);
+    draw_arrows(svg, plot, slice);
+    const volumetric::VolumetricPoint& worst = **std::max_element(
+        points.begin(), points.end(),
+        [](const auto* a, const auto* b) { return error_um(*a) < error_um(*b); });
+    for (const SvgStyle& ring :
+         {SvgStyle{"white", 4.5, "none", ""}, SvgStyle{"#D55E00", 2.5, "none", ""}})
+        svg.circle(plot.at(worst.at[Axis::X], worst.at[Axis::Y]), 11, ring);
+    draw_slice_legend(svg, slice);
     const auto worst_line = [&](const char* where, const volumetric::VolumetricPoint& p) {
         return fmt::format("{}: {:.2f} um at {}, mostly {}", where, error_um(p),
                            place_text(map.names, map.axes, p.at), cause_name(map, p));
     };
-    svg.text({90, 634}, worst_line("Worst at this height", *worst), 12);
+    svg.text({90, 634}, worst_line("Worst at this height", worst), 12);
     svg.text({90, 652}, worst_line("Worst in the whole grid", map.points[map.worst]), 12);
     cause_bars(svg, {90, 695}, 780, map);
     return svg.str();
