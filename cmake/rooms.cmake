@@ -29,7 +29,7 @@ set(TRUNNION_ROOMS
   "pivot: estimation effects emulator setup positioning records interpreter kinematics geometry base"
   "compensation: emulator setup motion positioning kinematics offsets base"
   "volumetric: emulator setup kinematics base"
-  "ballbar/test: emulator setup records kinematics interpreter geometry base"
+  "ballbar/test: estimation emulator setup records kinematics interpreter geometry base"
   "report: ballbar/test volumetric pivot compensation diagnosis identification regression effects emulator setup check records geometry base"
   "python: report inputs diagnosis regression identification effects emulator setup records interpreter base"
   "cli: report inputs imports pivot compensation diagnosis regression identification effects emulator setup backup check controller records interpreter base"

@@ -26,7 +26,26 @@ std::vector<Eigen::VectorXd> sparse_basis(Eigen::MatrixXd basis) {
     return result;
 }
 
+using Eigensolver = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+
+Directions split(const Eigensolver& eigen, Eigen::Index unseen) {
+    const Eigen::Index seen = eigen.eigenvalues().size() - unseen;
+    return {eigen.eigenvectors().rightCols(seen), eigen.eigenvalues().tail(seen),
+            eigen.eigenvectors().leftCols(unseen)};
+}
+
 }  // namespace
+
+Directions directions_above(const Eigen::MatrixXd& information, double least, double part) {
+    if (information.size() == 0) return {};
+    const Eigensolver eigen(information);
+    const double floor = std::max(least, part * eigen.eigenvalues().maxCoeff());
+    return split(eigen, (eigen.eigenvalues().array() < floor).count());
+}
+
+Directions directions_beside(const Eigen::MatrixXd& information, Eigen::Index unseen) {
+    return information.size() == 0 ? Directions{} : split(Eigensolver(information), unseen);
+}
 
 LinearFit solve_ranked(const Eigen::MatrixXd& information, const Eigen::VectorXd& gradient,
                        double threshold) {
@@ -36,19 +55,12 @@ LinearFit solve_ranked(const Eigen::MatrixXd& information, const Eigen::VectorXd
     fit.sigma = Eigen::VectorXd::Zero(p);
     fit.covariance = Eigen::MatrixXd::Zero(p, p);
     if (p == 0) return fit;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(information);
-    // Rounding of the normal equations leaves about 1e-16 of the largest eigenvalue.
-    const double floor = std::max(threshold * threshold, 1e-13 * eigen.eigenvalues().maxCoeff());
-    Eigen::Index unseen = 0;
-    while (unseen < p && eigen.eigenvalues()(unseen) < floor) ++unseen;
-    for (Eigen::Index k = unseen; k < p; ++k) {
-        const Eigen::VectorXd v = eigen.eigenvectors().col(k);
-        fit.value += v * (v.dot(gradient) / eigen.eigenvalues()(k));
-        fit.covariance += v * v.transpose() / eigen.eigenvalues()(k);
-    }
+    const Directions d = directions_above(information, threshold * threshold);
+    fit.value = d.seen * (d.seen.transpose() * gradient).cwiseQuotient(d.information);
+    fit.covariance = d.inverse();
     fit.sigma = fit.covariance.diagonal().cwiseSqrt();
-    if (unseen == 0) return fit;
-    fit.null_space = sparse_basis(eigen.eigenvectors().leftCols(unseen).transpose());
+    if (d.unseen.cols() == 0) return fit;
+    fit.null_space = sparse_basis(d.unseen.transpose());
     for (const Eigen::VectorXd& v : fit.null_space)
         for (Eigen::Index j = 0; j < p; ++j)
             if (v(j) != 0.0) fit.sigma(j) = std::numeric_limits<double>::quiet_NaN();

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -20,48 +19,6 @@ bool keyed(const effects::Effect& effect) {
     return std::any_of(effect.parameters.begin(), effect.parameters.end(),
                        [](const effects::EffectParameter& p) { return p.is_key(); });
 }
-
-/// Part of the weighted squared sum of `left_mm` that an effect with these keys and the base
-/// explain.
-class KeyGain {
-  public:
-    KeyGain(const emulator::Replay& replay, const BaseModel& base, const effects::Effect& effect,
-            const Eigen::VectorXd& left_mm)
-        : replay_(replay),
-          base_(base),
-          effect_(effect),
-          weight_(base.sigma_mm.cwiseInverse()),
-          left_(left_mm.cwiseProduct(weight_)),
-          columns_(weight_.asDiagonal() * base.columns) {
-        Eigen::MatrixXd information = columns_.transpose() * columns_;
-        information.diagonal().array() += 1e-3;
-        llt_.compute(information);
-    }
-
-    double operator()(const std::vector<double>& keys) const {
-        std::vector<Eigen::VectorXd> list;
-        for (std::size_t j = 0; j < effect_.parameters.size(); ++j)
-            if (!effect_.parameters[j].is_key())
-                list.push_back(
-                    effect_column(replay_, base_.gradient, effect_, keys, j).cwiseProduct(weight_));
-        Eigen::MatrixXd a(left_.size(), static_cast<Eigen::Index>(list.size()));
-        for (std::size_t c = 0; c < list.size(); ++c) a.col(static_cast<Eigen::Index>(c)) = list[c];
-        const Eigen::MatrixXd cross = columns_.transpose() * a;
-        Eigen::MatrixXd information = a.transpose() * a - cross.transpose() * llt_.solve(cross);
-        information.diagonal().array() += 1e-2;
-        const Eigen::VectorXd h =
-            a.transpose() * left_ - cross.transpose() * llt_.solve(columns_.transpose() * left_);
-        return h.dot(information.ldlt().solve(h));
-    }
-
-  private:
-    const emulator::Replay& replay_;
-    const BaseModel& base_;
-    const effects::Effect& effect_;
-    Eigen::VectorXd weight_, left_;
-    Eigen::MatrixXd columns_;
-    Eigen::LLT<Eigen::MatrixXd> llt_;
-};
 
 /// Bounds of a key's search: the grid's values on both sides, none of them next to it.
 std::pair<double, double> neighbours(const std::vector<double>& grid, double value) {
@@ -105,15 +62,15 @@ std::vector<double> refine_keys(const emulator::Replay& replay, const BaseModel&
                                 const effects::Effect& effect, std::vector<double> keys,
                                 const Eigen::VectorXd& left_mm) {
     constexpr double golden = 0.6180339887498949;
-    const KeyGain gain(replay, base, effect, left_mm);
-    double best = gain(keys);
+    const KeyGain gain(replay, base, left_mm);
+    double best = gain(effect, keys);
     for (std::size_t j = 0; j < keys.size(); ++j) {
         const effects::EffectParameter& p = effect.parameters[j];
         if (!p.is_key() || !p.refine) continue;
         const auto at = [&](double value) {
             std::vector<double> trial = keys;
             trial[j] = value;
-            return gain(trial);
+            return gain(effect, trial);
         };
         for (int round = 0; round < 4; ++round) {
             const auto [from, to] = neighbours(p.grid, keys[j]);
@@ -147,7 +104,7 @@ std::vector<double> refine_keys(const emulator::Replay& replay, const BaseModel&
 
 std::vector<double> search_keys(const emulator::Replay& replay, const BaseModel& base,
                                 const effects::Effect& effect, const Eigen::VectorXd& left_mm) {
-    const KeyGain gain(replay, base, effect, left_mm);
+    const KeyGain gain(replay, base, left_mm);
     std::vector<double> best = effect.zeros();
     double most = -1.0;
     std::vector<std::size_t> key;
@@ -158,7 +115,7 @@ std::vector<double> search_keys(const emulator::Replay& replay, const BaseModel&
         std::vector<double> values = effect.zeros();
         for (std::size_t k = 0; k < key.size(); ++k)
             values[key[k]] = effect.parameters[key[k]].grid[at[k]];
-        if (const double g = gain(values); g > most) {
+        if (const double g = gain(effect, values); g > most) {
             most = g;
             best = values;
         }

@@ -1,62 +1,30 @@
 // Keys of several effects together: a bounded search, and what their uncertainty adds.
 #include "identification/keys.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <nlopt.hpp>
+
+#include "estimation/ranked_least_squares.h"
 
 namespace trunnion::identification {
 namespace {
 
-/// Part of the weighted squared sum of what the base leaves that effects at these keys explain.
-class JointGain {
-  public:
-    JointGain(const emulator::Replay& replay, const BaseModel& base,
-              const std::vector<KeyedEffect>& effects)
-        : replay_(replay),
-          base_(base),
-          effects_(effects),
-          weight_(base.sigma_mm.cwiseInverse()),
-          known_(weight_.asDiagonal() * base.columns),
-          left_(base.residual_mm.cwiseProduct(weight_)) {
-        Eigen::MatrixXd information = known_.transpose() * known_;
-        information.diagonal().array() += 1e-3;
-        llt_.compute(information);
-    }
-
-    double operator()(const std::vector<double>& keys) const {
-        std::vector<Eigen::VectorXd> list;
-        std::size_t at = 0;
-        for (const KeyedEffect& e : effects_) {
-            std::vector<double> values = e.values;
-            for (const std::size_t j : e.free) values[j] = keys[at++];
-            for (std::size_t j = 0; j < values.size(); ++j)
-                if (!e.effect->parameters[j].is_key())
-                    list.push_back(effect_column(replay_, base_.gradient, *e.effect, values, j)
-                                       .cwiseProduct(weight_));
-        }
-        Eigen::MatrixXd a(left_.size(), static_cast<Eigen::Index>(list.size()));
-        for (std::size_t c = 0; c < list.size(); ++c) a.col(static_cast<Eigen::Index>(c)) = list[c];
-        const Eigen::MatrixXd cross = known_.transpose() * a;
-        Eigen::MatrixXd information = a.transpose() * a - cross.transpose() * llt_.solve(cross);
-        information.diagonal().array() += 1e-2;
-        const Eigen::VectorXd h =
-            a.transpose() * left_ - cross.transpose() * llt_.solve(known_.transpose() * left_);
-        return h.dot(information.ldlt().solve(h));
-    }
-
-  private:
-    const emulator::Replay& replay_;
-    const BaseModel& base_;
-    const std::vector<KeyedEffect>& effects_;
-    Eigen::VectorXd weight_;
-    Eigen::MatrixXd known_;
-    Eigen::VectorXd left_;
-    Eigen::LLT<Eigen::MatrixXd> llt_;
+/// A search moves the free keys of `effects`.
+struct KeySearchGoal {
+    KeyGain gain;
+    std::vector<KeyedEffect> effects;
 };
 
-double objective(const std::vector<double>& keys, std::vector<double>&, void* gain) {
-    return (*static_cast<const JointGain*>(gain))(keys);
+void set_free_keys(std::vector<KeyedEffect>& effects, const std::vector<double>& keys) {
+    std::size_t at = 0;
+    for (KeyedEffect& e : effects)
+        for (const std::size_t j : e.free) e.values[j] = keys[at++];
+}
+
+double objective(const std::vector<double>& keys, std::vector<double>&, void* data) {
+    auto& goal = *static_cast<KeySearchGoal*>(data);
+    set_free_keys(goal.effects, keys);
+    return goal.gain(goal.effects);
 }
 
 /// Change of each reading for one unit of key `j` of a fitted effect.
@@ -83,10 +51,7 @@ Eigen::VectorXd key_column(const emulator::Replay& replay, const BaseModel& base
 
 double explained(const emulator::Replay& replay, const BaseModel& base,
                  const std::vector<KeyedEffect>& effects) {
-    std::vector<double> keys;
-    for (const KeyedEffect& e : effects)
-        for (const std::size_t j : e.free) keys.push_back(e.values[j]);
-    return JointGain(replay, base, effects)(keys);
+    return KeyGain(replay, base, base.residual_mm)(effects);
 }
 
 void refine_together(const emulator::Replay& replay, const BaseModel& base,
@@ -100,9 +65,9 @@ void refine_together(const emulator::Replay& replay, const BaseModel& base,
             high.push_back(std::max(e.values[j], 2.0 * grid.back()));
         }
     if (keys.empty()) return;
-    JointGain gain(replay, base, effects);
+    KeySearchGoal goal{KeyGain(replay, base, base.residual_mm), effects};
     nlopt::opt search(nlopt::LN_BOBYQA, static_cast<unsigned>(keys.size()));
-    search.set_max_objective(objective, &gain);
+    search.set_max_objective(objective, &goal);
     search.set_lower_bounds(low);
     search.set_upper_bounds(high);
     std::vector<double> step;
@@ -117,9 +82,7 @@ void refine_together(const emulator::Replay& replay, const BaseModel& base,
     } catch (const std::runtime_error&) {
         return;
     }
-    std::size_t at = 0;
-    for (KeyedEffect& e : effects)
-        for (const std::size_t j : e.free) e.values[j] = keys[at++];
+    set_free_keys(effects, keys);
 }
 
 void add_key_uncertainty(const emulator::Replay& replay, const std::vector<KeyedEffect>& effects,
@@ -142,26 +105,23 @@ void add_key_uncertainty(const emulator::Replay& replay, const std::vector<Keyed
     Eigen::MatrixXd information = all.transpose() * all;
     for (Eigen::Index j = 0; j < p; ++j) {
         const FitParameter& f = base.parameters[static_cast<std::size_t>(j)];
-        information(j, j) += 1e-6;
         if (f.prior_sigma > 0.0) information(j, j) += std::pow(f.typical / f.prior_sigma, 2);
     }
-    information.diagonal().array() += 1e-9;
-    const Eigen::MatrixXd covariance =
-        information.ldlt().solve(Eigen::MatrixXd::Identity(p + k, p + k));
+    const Eigen::VectorXd sigma =
+        estimation::solve_ranked(information, Eigen::VectorXd::Zero(p + k)).sigma;
     for (Eigen::Index j = 0; j < p; ++j) {
         FitParameter& f = parameters[static_cast<std::size_t>(j)];
-        if (std::isfinite(f.sigma))
-            f.sigma = std::max(f.sigma, f.typical * std::sqrt(covariance(j, j)));
+        if (std::isfinite(f.sigma) && std::isfinite(sigma(j)))
+            f.sigma = std::max(f.sigma, f.typical * sigma(j));
     }
     at = p;
     for (const KeyedEffect& e : effects)
         for (const std::size_t j : e.free) {
-            const double sigma =
-                size[static_cast<std::size_t>(at - p)] * std::sqrt(covariance(at, at));
+            const double of_key = size[static_cast<std::size_t>(at - p)] * sigma(at);
             ++at;
             for (FitParameter& f : parameters)
                 if (f.effect == e.effect->name && f.name == e.effect->parameters[j].name)
-                    f.sigma = sigma;
+                    f.sigma = of_key;
         }
 }
 

@@ -3,16 +3,9 @@
 
 #include <vector>
 
-#include "identification/base_model.h"
+#include "identification/key_gain.h"
 
 namespace trunnion::identification {
-
-/// An effect with keys in a fit. `values` in the order of its parameters.
-struct KeyedEffect {
-    const effects::Effect* effect = nullptr;
-    std::vector<double> values;
-    std::vector<std::size_t> free;  ///< keys that may lie between grid values
-};
 
 /// Weighted squares of what the base leaves that the effects explain together, fitted beside it.
 double explained(const emulator::Replay& replay, const BaseModel& base,
@@ -23,8 +16,9 @@ double explained(const emulator::Replay& replay, const BaseModel& base,
 void refine_together(const emulator::Replay& replay, const BaseModel& base,
                      std::vector<KeyedEffect>& effects);
 
-/// Sigma of the free keys, and of all other parameters when the keys are not known exactly. `base`
-/// is the fit with all effects in it, `effects` have the fitted values.
+/// Sigma of the free keys (NaN when the readings do not see one), and of all other parameters when
+/// the keys are not known exactly. `base` is the fit with all effects in it, `effects` have the
+/// fitted values.
 void add_key_uncertainty(const emulator::Replay& replay, const std::vector<KeyedEffect>& effects,
                          const BaseModel& base, std::vector<FitParameter>& parameters);
 

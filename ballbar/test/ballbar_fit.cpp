@@ -1,10 +1,10 @@
 #include "ballbar/test/ballbar_fit.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "base/units.h"
+#include "estimation/ranked_least_squares.h"
 #include "kinematics/forward.h"
 
 namespace trunnion::ballbar::test {
@@ -196,17 +196,12 @@ BallbarModel::Linear BallbarModel::linearise(const Eigen::VectorXd& scaled) cons
     }
     const Eigen::MatrixXd normal =
         linear.jacobian.transpose() * weight.asDiagonal() * linear.jacobian;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normal);
-    const Eigen::VectorXd lambda = eigen.eigenvalues();
-    const Eigen::MatrixXd& v = eigen.eigenvectors();
     // Symmetries are exact at zero errors only: their number is settled there.
-    const Eigen::Index null = start_.null.rows() > 0
-                                  ? start_.null.cols()
-                                  : (lambda.array() < null_threshold * lambda.maxCoeff()).count();
-    linear.null = v.leftCols(null);
-    const auto good = v.rightCols(v.cols() - null);
-    linear.inverse =
-        good * lambda.tail(lambda.size() - null).cwiseInverse().asDiagonal() * good.transpose();
+    const estimation::Directions d =
+        start_.null.rows() > 0 ? estimation::directions_beside(normal, start_.null.cols())
+                               : estimation::directions_above(normal, 0.0, null_threshold);
+    linear.null = d.unseen;
+    linear.inverse = d.inverse();
     return linear;
 }
 

@@ -1,0 +1,33 @@
+#include "identification/key_gain.h"
+
+namespace trunnion::identification {
+namespace {
+
+/// Columns are derivatives for one usual change: a direction that moves all readings together by
+/// less than this many sigma is not seen (the threshold of solve_ranked).
+constexpr double unseen_sigma = 0.05;
+
+}  // namespace
+
+KeyGain::KeyGain(const emulator::Replay& replay, const BaseModel& base,
+                 const Eigen::VectorXd& left_mm)
+    : replay_(replay),
+      base_(base),
+      weight_(base.sigma_mm.cwiseInverse()),
+      left_(left_mm.cwiseProduct(weight_)),
+      known_(weight_.asDiagonal() * base.columns) {}
+
+double KeyGain::operator()(const std::vector<KeyedEffect>& effects) const {
+    std::vector<Eigen::VectorXd> list;
+    for (const KeyedEffect& e : effects)
+        for (std::size_t j = 0; j < e.values.size(); ++j)
+            if (!e.effect->parameters[j].is_key())
+                list.push_back(effect_column(replay_, base_.gradient, *e.effect, e.values, j)
+                                   .cwiseProduct(weight_));
+    Eigen::MatrixXd columns(left_.size(), static_cast<Eigen::Index>(list.size()));
+    for (std::size_t c = 0; c < list.size(); ++c)
+        columns.col(static_cast<Eigen::Index>(c)) = list[c];
+    return estimation::explained_beside(known_, columns, left_, unseen_sigma);
+}
+
+}  // namespace trunnion::identification
