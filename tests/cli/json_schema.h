@@ -2,6 +2,7 @@
 // additionalProperties as a schema, minimum, maximum, $ref into $defs.
 #pragma once
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
