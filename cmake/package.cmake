@@ -3,6 +3,7 @@
 # The package needs the program alone, not the tests.
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
 set(share ${CMAKE_INSTALL_DATADIR})
+set(maintainer "trunnion maintainers <maintainers@users.noreply.github.com>")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${share}/doc/trunnion RENAME copyright
   COMPONENT program)
 install(FILES ${PROJECT_SOURCE_DIR}/web/dist/LICENSES.txt DESTINATION ${share}/doc/trunnion
@@ -20,8 +21,17 @@ install(CODE "
     file(WRITE \"\${root}/\${file_\${form}}\" \"\${text}\")
   endforeach()
   execute_process(COMMAND gzip -9nf \"\${root}/man/man1/trunnion.1\" COMMAND_ERROR_IS_FATAL ANY)
-  configure_file(\"${PROJECT_SOURCE_DIR}/CHANGELOG.md\" \"\${root}/doc/trunnion/changelog\" COPYONLY)
-  execute_process(COMMAND gzip -9nf \"\${root}/doc/trunnion/changelog\" COMMAND_ERROR_IS_FATAL ANY)
+  configure_file(\"${PROJECT_SOURCE_DIR}/CHANGELOG.md\" \"\${root}/doc/trunnion/CHANGELOG.md\" COPYONLY)
+  string(TIMESTAMP day \"%a, %d %b %Y %H:%M:%S +0000\" UTC)
+  file(WRITE \"\${root}/doc/trunnion/changelog\" \"trunnion (${PROJECT_VERSION}) unstable; urgency=medium
+
+  * CHANGELOG.md.gz beside this file says what is new.
+
+ -- ${maintainer}  \${day}
+\")
+  foreach(file changelog CHANGELOG.md)
+    execute_process(COMMAND gzip -9nf \"\${root}/doc/trunnion/\${file}\" COMMAND_ERROR_IS_FATAL ANY)
+  endforeach()
 " COMPONENT program)
 
 # Debian's folder for modules; the compiled half is for one version of Python.
@@ -36,7 +46,7 @@ endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME trunnion)
-set(CPACK_PACKAGE_CONTACT "trunnion maintainers <maintainers@users.noreply.github.com>")
+set(CPACK_PACKAGE_CONTACT "${maintainer}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE
@@ -50,6 +60,8 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "${package_depends}")
 if(TARGET trunnion_python)
   set(CPACK_DEBIAN_PACKAGE_SUGGESTS "python3-pandas")
+  set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
+    ${PROJECT_SOURCE_DIR}/cmake/debian/postinst ${PROJECT_SOURCE_DIR}/cmake/debian/prerm)
 endif()
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "offline CNC control with a physical five-axis machine")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Runs NC programs, Macro B included, on an emulated Fanuc-style or Hurco
