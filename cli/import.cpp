@@ -32,9 +32,10 @@ struct Options {
 };
 
 const std::map<std::string, imports::ImportKind> kinds{
-    {"ballbar", imports::ImportKind::ballbar}, {"iso230-2", imports::ImportKind::iso230_2},
-    {"points", imports::ImportKind::points},   {"axis-log", imports::ImportKind::axis_log},
-    {"table", imports::ImportKind::table},     {"dprnt", imports::ImportKind::dprnt}};
+    {"ballbar", imports::ImportKind::ballbar},  {"iso230-2", imports::ImportKind::iso230_2},
+    {"points", imports::ImportKind::points},    {"axis-log", imports::ImportKind::axis_log},
+    {"table", imports::ImportKind::table},      {"dprnt", imports::ImportKind::dprnt},
+    {"pointing", imports::ImportKind::pointing}};
 
 records::ReadingTable table_of(const Options& options, const setup::Setup& setup,
                                const imports::Imported& result) {

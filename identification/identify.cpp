@@ -9,6 +9,7 @@
 #include "base/alarm.h"
 #include "effects/settings.h"
 #include "identification/keys.h"
+#include "identification/needed_terms.h"
 #include "identification/set_up_words.h"
 #include "identification/unknown_sides.h"
 
@@ -194,7 +195,7 @@ Identification identify(const setup::Setup& setup, const records::ReadingTable& 
                 if (effect.parameters[j].is_key()) effect.parameters[j].typical = e.values[j];
         }
     }
-    BaseModel base = fit_base(setup, table, replay, catalogue, effects);
+    BaseModel base = fit_needed_terms({setup, table, replay, effects}, catalogue, notes);
     Identification result;
     result.parameters = base.parameters;
     for (const std::string& name : effects)

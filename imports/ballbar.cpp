@@ -107,7 +107,7 @@ void fill_times(const Circle& circle, double length_mm, const std::vector<double
 class BarRows {
   public:
     BarRows(const setup::Setup& setup, const setup::Artefact& pivot, const AxisPositions& at)
-        : setup_(setup), pivot_(pivot), at_(at) {
+        : setup_(setup), nominal_{setup.machine.chain, {}}, pivot_(pivot), at_(at) {
         if (!setup.ballbar) throw InputError("the setup has no [ballbar]", {setup.path});
     }
 
@@ -117,7 +117,7 @@ class BarRows {
         Vector3 along = Vector3::Zero();
         along(a) = std::cos(angle_rad);
         along(b) = std::sin(angle_rad);
-        const Vector3 center_M = setup_.machine.poses(at_).pose_MW * pivot_.center_W_mm;
+        const Vector3 center_M = nominal_.poses(at_).pose_MW * pivot_.center_W_mm;
         const Vector3 cup_M = center_M + setup_.ballbar->length_mm * along;
         AxisPositions q = at_;
         const Vector3 xyz = cup_M - setup_.ballbar->cup_S_mm;
@@ -129,10 +129,10 @@ class BarRows {
   private:
     /// The formula holds for slides along X, Y and Z of M; on a machine of another kind it says so.
     void check(const AxisPositions& q, const Vector3& cup_M) const {
-        const auto poses = setup_.machine.poses(q);
+        const auto poses = nominal_.poses(q);
         const Vector3 between =
             poses.pose_MW * pivot_.center_W_mm - poses.pose_MS * setup_.ballbar->cup_S_mm;
-        const Vector3 wanted = setup_.machine.poses(at_).pose_MW * pivot_.center_W_mm - cup_M;
+        const Vector3 wanted = nominal_.poses(at_).pose_MW * pivot_.center_W_mm - cup_M;
         if ((between - wanted).norm() > 1e-6)
             throw InputError(
                 "the slides of this machine are not along X, Y and Z: give axis "
@@ -141,6 +141,7 @@ class BarRows {
     }
 
     const setup::Setup& setup_;
+    kinematics::Machine nominal_;  ///< what the control believes, whatever errors are known
     const setup::Artefact& pivot_;
     AxisPositions at_;
 };
@@ -163,9 +164,8 @@ std::vector<double> times_of(const TextTable& table, const TimeColumn& time) {
     return times;
 }
 
-void import_circle(const ImportRequest& request, const ImportFile& file, RowWriter& rows,
+void import_circle(const ImportRequest& request, const TextTable& table, RowWriter& rows,
                    Imported& result) {
-    const TextTable table(file.text, file.path);
     const Facts facts = request.facts.with_head_of(table);
     const setup::Setup& setup = request.setup;
     const setup::Artefact& pivot =
@@ -185,6 +185,7 @@ void import_circle(const ImportRequest& request, const ImportFile& file, RowWrit
     row.feature = pivot.name;
     row.feed_mm_min = circle.feed_mm_min.value_or(0.0);
     rows.begin_file(table, facts);
+    if (time.dated()) rows.name_days();
     std::vector<records::TableCell> cells;
     for (std::size_t i = 0; i < table.size(); ++i) {
         table.read(i, cells);
@@ -210,7 +211,8 @@ void import_circle(const ImportRequest& request, const ImportFile& file, RowWrit
 Imported import_ballbar(const ImportRequest& request) {
     Imported result;
     RowWriter rows(request.setup, "ballbar", {"feed_mm_min"}, false, false);
-    for (const ImportFile& file : request.files) import_circle(request, file, rows, result);
+    for (const TextTable& table : tables_of(request, result.notes))
+        import_circle(request, table, rows, result);
     result.readings = rows.take();
     return result;
 }

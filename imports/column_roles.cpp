@@ -2,6 +2,7 @@
 
 #include <cctype>
 #include <map>
+#include <set>
 #include <string_view>
 
 #include "imports/columns.h"
@@ -36,11 +37,27 @@ const std::map<std::string, Word, std::less<>>& words() {
         {"demand", W::commanded},
         {"desired", W::commanded},
         {"soll", W::commanded},
+        {"sollposition", W::commanded},
+        {"sollpos", W::commanded},
+        {"lagesollwert", W::commanded},
+        {"positionssollwert", W::commanded},
+        {"pcmd", W::commanded},
+        {"poscmd", W::commanded},
         {"sollwert", W::commanded},
         {"cad", W::commanded},
         {"actual", W::actual},
         {"act", W::actual},
         {"ist", W::actual},
+        {"istposition", W::actual},
+        {"istpos", W::actual},
+        {"lageistwert", W::actual},
+        {"positionsistwert", W::actual},
+        {"posf", W::actual},
+        {"fb", W::actual},
+        {"resolver", W::actual},
+        {"sensor", W::actual},
+        {"tracker", W::actual},
+        {"obs", W::actual},
         {"istwert", W::actual},
         {"feedback", W::actual},
         {"fbk", W::actual},
@@ -53,8 +70,14 @@ const std::map<std::string, Word, std::less<>>& words() {
         {"error", W::error},
         {"err", W::error},
         {"abweichung", W::error},
+        {"dif", W::error},
+        {"diff", W::error},
+        {"difference", W::error},
+        {"delta", W::error},
+        {"d", W::error},
         {"following", W::following},
         {"lag", W::following},
+        {"ferror", W::following},
         {"schleppfehler", W::following},
         {"velocity", W::velocity},
         {"vel", W::velocity},
@@ -69,6 +92,9 @@ const std::map<std::string, Word, std::less<>>& words() {
         {"coordinate", W::filler},
         {"value", W::filler},
         {"lage", W::filler},
+        {"coord", W::filler},
+        {"angle", W::filler},
+        {"winkel", W::filler},
         {"point", W::filler},
     };
     return table;
@@ -82,11 +108,39 @@ bool only_digits(std::string_view text) {
     return text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-bool take_axis(ColumnRole& role, char letter) {
-    const char axis = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
-    if (role.axis != 0 && role.axis != axis) return false;
+bool take_axis(ColumnRole& role, const std::string& axis) {
+    if (!role.axis.empty() && role.axis != axis) return false;
     role.axis = axis;
     return true;
+}
+
+bool take_axis(ColumnRole& role, char letter) {
+    return take_axis(
+        role, std::string(1, static_cast<char>(std::toupper(static_cast<unsigned char>(letter)))));
+}
+
+/// Letters of a word, and the digits behind them.
+std::pair<std::string, std::string> parts_of(const std::string& word) {
+    const std::size_t last = word.find_last_not_of("0123456789");
+    const std::size_t cut = last == std::string::npos ? 0 : last + 1;
+    return {word.substr(0, cut), word.substr(cut)};
+}
+
+/// An axis of the machine with a name of its own: "J3" for "j3", "joint 3", "a3", "axis 3".
+std::optional<std::string> named_axis(const std::string& word, const std::string& next,
+                                      const AxisNames& axes) {
+    static const std::set<std::string> joints{"joint", "axis", "gelenk", "achse", "j",
+                                              "a",     "q",    "theta",  "ax"};
+    auto [letters, digits] = parts_of(word);
+    if (digits.empty() && only_digits(next)) digits = next;
+    for (const Axis axis : all_axes) {
+        const std::string& name = axes[axis];
+        if (name.size() < 2) continue;
+        const auto [own, number] = parts_of(lower_case(name));
+        if (number == digits && (letters == own || (!digits.empty() && joints.contains(letters))))
+            return name;
+    }
+    return std::nullopt;
 }
 
 void take_word(ColumnRole& role, Word word) {
@@ -136,11 +190,20 @@ bool understand(ColumnRole& role, std::string_view word) {
 
 }  // namespace
 
-std::optional<ColumnRole> role_of(const std::string& name) {
+std::optional<ColumnRole> role_of(const std::string& name, const AxisNames& axes) {
     ColumnRole role;
-    for (const std::string& word : words_of(name))
-        if (!understand(role, word)) return std::nullopt;
-    return role.axis == 0 ? std::nullopt : std::optional(role);
+    const std::vector<std::string> list = words_of(name);
+    for (std::size_t k = 0; k < list.size(); ++k) {
+        const std::string next = k + 1 < list.size() ? list[k + 1] : "";
+        if (const auto named = named_axis(list[k], next, axes)) {
+            if (!take_axis(role, *named)) return std::nullopt;
+            role.machine = true;
+            if (!next.empty() && only_digits(next)) ++k;
+        } else if (!understand(role, list[k])) {
+            return std::nullopt;
+        }
+    }
+    return role.axis.empty() ? std::nullopt : std::optional(role);
 }
 
 }  // namespace trunnion::imports

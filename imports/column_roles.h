@@ -4,20 +4,23 @@
 #include <optional>
 #include <string>
 
+#include "geometry/axis_names.h"
+
 namespace trunnion::imports {
 
 enum class Role : unsigned char { none, commanded, actual, error, following_error };
 enum class Rate : unsigned char { position, velocity, acceleration };
 
 struct ColumnRole {
-    char axis = 0;  ///< letter, upper case
+    std::string axis;  ///< letter, upper case, or the name of an axis of the machine: "J1"
     Role role = Role::none;
     Rate rate = Rate::position;
     bool machine = false;  ///< "machine x", "x axis": a position of the axis, not of a point
 };
 
-/// "X1_CommandPosition", "Ist X", "x_nom", "B axis velocity"; nothing for a name with a word that
-/// says something else (a current, a temperature) or that names no axis.
-std::optional<ColumnRole> role_of(const std::string& name);
+/// "X1_CommandPosition", "Ist X", "x_nom", "B axis velocity", "joint_3" of a machine whose axes
+/// have such names; nothing for a name with a word that says something else (a current, a
+/// temperature) or that names no axis.
+std::optional<ColumnRole> role_of(const std::string& name, const AxisNames& axes = {});
 
 }  // namespace trunnion::imports

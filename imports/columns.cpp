@@ -11,6 +11,8 @@
 namespace trunnion::imports {
 namespace {
 
+constexpr double seconds_a_day = 86400.0;
+
 bool upper(char c) {
     return std::isupper(static_cast<unsigned char>(c)) != 0;
 }
@@ -53,6 +55,13 @@ std::optional<std::size_t> find_column(const TextTable& table,
     return found;
 }
 
+std::optional<std::size_t> find_first_column(const TextTable& table,
+                                             const std::vector<std::vector<std::string>>& lists) {
+    for (const std::vector<std::string>& names : lists)
+        if (const auto found = find_column(table, names)) return found;
+    return std::nullopt;
+}
+
 NumberColumn number_column(const TextTable& table, std::size_t index, Quantity quantity,
                            const std::string& otherwise) {
     const TextColumn& column = table.columns()[index];
@@ -84,9 +93,12 @@ double number_in(const TextTable& table, std::size_t row,
 
 TimeColumn::TimeColumn(const TextTable& table, const Facts& facts,
                        std::optional<std::size_t> column) {
-    column_ = column ? column
-                     : find_column(table, {"time", "times", "timestamp", "datetime", "date", "zeit",
-                                           "zeitstempel", "t", "uhrzeit", "clock"});
+    const auto clock =
+        find_column(table, {"time", "times", "timestamp", "datetime", "zeit", "zeitstempel", "t",
+                            "uhrzeit", "clock", "timems", "elapsed", "elapsedtime", "utc"});
+    const auto date = find_column(table, {"date", "datum"});
+    column_ = column ? column : clock ? clock : date;
+    if (!column && clock) date_ = date;
     if (const auto step = facts.positive("step_s")) step_s_ = *step;
     if (!column_) return;
     name_ = table.columns()[*column_].name;
@@ -94,19 +106,25 @@ TimeColumn::TimeColumn(const TextTable& table, const Facts& facts,
     table.read(0, cells);
     stamps_ = !table.find_number(cells[*column_].text);
     if (!stamps_) factor_ = number_column(table, *column_, Quantity::time, "s").factor;
+    dated_ = stamps_ && time_s(table, 0, cells) > seconds_a_day;
 }
 
 double TimeColumn::time_s(const TextTable& table, std::size_t row,
                           const std::vector<records::TableCell>& cells) const {
     if (!column_) return step_s_ * static_cast<double>(row);
     if (!stamps_) return number_in(table, row, cells, {*column_, factor_});
-    const records::TableCell& cell = cells[*column_];
-    const auto time = seconds_of(cell.text);
-    if (!time)
-        table.line(row).fail("'" + std::string(cell.text) +
-                                 "' is no time as 2024-03-01T08:15:30 (01/02/2024 is two days)",
-                             cell.column);
-    return *time;
+    double sum_s = 0.0;
+    for (const auto& column : {column_, date_}) {
+        if (!column) continue;
+        const records::TableCell& cell = cells[*column];
+        const auto time = seconds_of(cell.text);
+        if (!time)
+            table.line(row).fail("'" + std::string(cell.text) +
+                                     "' is no time as 2024-03-01T08:15:30 (01/02/2024 is two days)",
+                                 cell.column);
+        sum_s += *time;
+    }
+    return sum_s;
 }
 
 std::string TimeColumn::words() const {

@@ -24,6 +24,7 @@ constexpr double store_digits_mm = 1e-6;  ///< more than the digits of a store
 struct PrintedRow {
     records::Reading row;
     int line = 0;
+    int run = 1;  ///< of the file: which program printed it
 };
 
 /// The axes in the order in which a control numbers them.
@@ -52,8 +53,9 @@ class PrintedRun {
 
     void read();
     const std::vector<PrintedRow>& rows() const { return rows_; }
-    std::size_t touches() const { return touches_; }
-    std::size_t tests() const { return tests_; }
+    /// "603 touches in 8 tests", with the number of runs where there are several.
+    std::string words() const;
+    int runs() const { return runs_; }
 
   private:
     void take(const PrintedLine& line);
@@ -97,6 +99,7 @@ class PrintedRun {
     std::optional<AxisPositions> stands_;
     double unit_mm_ = 1.0, time_s_ = 0.0;
     std::size_t touches_ = 0, tests_ = 0;
+    int runs_ = 0;
     std::optional<PrintedLine> running_;  ///< head of the program whose END is to come
     bool timed_ = false;
 };
@@ -148,6 +151,7 @@ void PrintedRun::head(const PrintedLine& line) {
         running_->fail(fmt::format(
             "this program stopped: another one begins in line {} before its END", line.number));
     running_ = line;
+    ++runs_;
     const std::size_t at = line.text.find(" AXES ");
     if (at == std::string_view::npos) line.fail("the head of a program names its AXES");
     std::string rotary, named;
@@ -275,15 +279,21 @@ void PrintedRun::touch(const PrintedLine& line) {
 }
 
 void PrintedRun::append(records::Reading row, int line) {
-    const double since_s = rows_.empty() ? row.time_s : rows_.back().row.time_s;
+    const bool first = rows_.empty() || rows_.back().run != runs_;
+    const double since_s = first ? row.time_s : rows_.back().row.time_s;
     for (records::Reading& stop : stops_.before(row.commanded)) {
         stop.feature = row.feature;
         stop.time_s = std::min(since_s, row.time_s);
         const int at = stop.line;
-        rows_.push_back({std::move(stop), at});
+        rows_.push_back({std::move(stop), at, runs_});
     }
     stops_.clear();
-    rows_.push_back({std::move(row), line});
+    rows_.push_back({std::move(row), line, runs_});
+}
+
+std::string PrintedRun::words() const {
+    return fmt::format("{} touches in {} tests{}", touches_, tests_,
+                       runs_ > 1 ? fmt::format(", {} runs of programs", runs_) : "");
 }
 
 std::vector<std::string> columns_of(const std::vector<PrintedRow>& rows) {
@@ -294,25 +304,49 @@ std::vector<std::string> columns_of(const std::vector<PrintedRow>& rows) {
     return columns;
 }
 
+/// `--with session=each`: each program of each file is a set-up of its own.
+void write_runs(const std::vector<PrintedRow>& printed, const Facts& facts, int& session,
+                RowWriter& rows) {
+    const bool each = facts.text("session") == "each";
+    int run = 1;
+    if (each) ++session;
+    for (const PrintedRow& row : printed) {
+        if (row.run != run) {
+            rows.begin_run();
+            if (each) ++session;
+        }
+        run = row.run;
+        records::Reading reading = row.row;
+        if (each) reading.session = fmt::format("run_{}", session);
+        rows.add(std::move(reading), row.line);
+    }
+}
+
 }  // namespace
 
 Imported import_dprnt(const ImportRequest& request) {
     Imported result;
     std::vector<PrintedRow> all;
-    std::vector<std::pair<const ImportFile*, std::size_t>> files;
+    std::vector<std::vector<PrintedRow>> files;
+    int runs = 0;
     for (const ImportFile& file : request.files) {
         PrintedRun run(request.setup, file, result.notes);
         run.read();
+        files.push_back(run.rows());
         all.insert(all.end(), run.rows().begin(), run.rows().end());
-        files.emplace_back(&file, run.rows().size());
-        result.summary.push_back(
-            fmt::format("{}: {} touches in {} tests", file.path, run.touches(), run.tests()));
+        runs += run.runs();
+        result.summary.push_back(file.path + ": " + run.words());
     }
+    if (runs > static_cast<int>(files.size()) && !request.facts.has("session"))
+        result.notes.push_back(fmt::format(
+            "{} runs of programs taken as one set-up: --with session=each makes each a session of "
+            "its own, where the artefact or the probe was mounted anew between them",
+            runs));
     RowWriter rows(request.setup, "dprnt", columns_of(all), true, false);
-    auto row = all.begin();
-    for (const auto& [file, count] : files) {
-        rows.begin_file(file->path, request.facts);
-        for (std::size_t k = 0; k < count; ++k, ++row) rows.add(row->row, row->line);
+    int session = 0;
+    for (std::size_t k = 0; k < files.size(); ++k) {
+        rows.begin_file(request.files[k].path, request.facts);
+        write_runs(files[k], request.facts, session, rows);
     }
     result.readings = rows.take();
     return result;

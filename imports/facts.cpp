@@ -7,15 +7,16 @@
 #include "base/alarm.h"
 #include "base/numbers.h"
 #include "base/units.h"
+#include "imports/times.h"
 
 namespace trunnion::imports {
 namespace {
 
 const std::set<std::string>& known_keys() {
     static const std::set<std::string> keys{
-        "axis",    "unit", "feature",  "test",  "session", "instrument",
-        "step_s",  "at",   "feed",     "plane", "sense",   "start_deg",
-        "end_deg", "sign", "position", "zone",  "sigma",   "values"};
+        "axis",     "unit", "feature", "test",   "session",   "instrument", "step_s",
+        "at",       "feed", "plane",   "sense",  "start_deg", "end_deg",    "sign",
+        "position", "zone", "sigma",   "values", "columns",   "along",      "about"};
     return keys;
 }
 
@@ -25,7 +26,9 @@ const std::map<std::string, std::string>& other_words() {
         {"feedrate", "feed"},   {"feed rate", "feed"}, {"feed_mm_min", "feed"},
         {"vorschub", "feed"},   {"ebene", "plane"},    {"achse", "axis"},
         {"axis name", "axis"},  {"units", "unit"},     {"einheit", "unit"},
-        {"direction", "sense"}, {"richtung", "sense"}, {"start angle", "start_deg"}};
+        {"direction", "sense"}, {"richtung", "sense"}, {"start angle", "start_deg"},
+        {"date", "day"},        {"datum", "day"},      {"test date", "day"},
+        {"messdatum", "day"}};
     return words;
 }
 
@@ -53,7 +56,9 @@ Facts Facts::with_head_of(const TextTable& table) const {
     for (const auto& [word, value] : table.head()) {
         const auto other = other_words().find(word);
         const std::string& key = other == other_words().end() ? word : other->second;
-        if (known_keys().contains(key)) all.facts_.emplace(key, value);
+        if (known_keys().contains(key) && key != "columns") all.facts_.emplace(key, value);
+        if (const auto day = key == "day" ? day_in(value) : std::nullopt)
+            all.facts_.emplace("session", *day);
     }
     return all;
 }
@@ -79,12 +84,19 @@ std::optional<double> Facts::positive(const std::string& key) const {
 
 std::optional<Axis> axis_named(const setup::Setup& setup, const std::string& name) {
     if (name.empty()) return std::nullopt;
+    const AxisNames names = setup.machine.chain.names();
     const std::string word = upper(name);
+    for (const Axis axis : all_axes)
+        if (names.has(axis) && upper(names[axis]) == word) return axis;
     const std::string rest = word.substr(1);
     const bool plain = rest.empty() || rest == "1" || rest == "-AXIS" || rest == " AXIS" ||
                        rest == "_AXIS" || rest == "AXIS" || rest == "-ACHSE";
     if (!plain || !axis_of(word[0])) return std::nullopt;
-    return setup.machine.chain.names().find(word.substr(0, 1));
+    return names.find(word.substr(0, 1));
+}
+
+bool turns(const setup::Setup& setup, Axis axis) {
+    return setup.machine.chain.names().is_rotary(axis);
 }
 
 AxisPositions positions_told(const setup::Setup& setup, const std::string& text) {
@@ -104,7 +116,7 @@ AxisPositions positions_told(const setup::Setup& setup, const std::string& text)
                              setup.path);
         // value_or: the compiler does not see that the value is there.
         const double told = value.value_or(0.0);
-        at[*axis] = is_rotary(*axis) ? rad_from_deg(told) : told;
+        at[*axis] = turns(setup, *axis) ? rad_from_deg(told) : told;
     }
     return at;
 }

@@ -31,9 +31,11 @@ class Facts {
     std::map<std::string, std::string> facts_;
 };
 
-/// The axis that `name` says ("X", "x", "X1", "X-axis"); nothing when the machine has none such.
-/// Letters only: axes of other names come in through a map (kind table).
+/// The axis that `name` says ("X", "x", "X1", "X-axis", "J1"); nothing when the machine has none
+/// such.
 std::optional<Axis> axis_named(const setup::Setup& setup, const std::string& name);
+/// The machine's own axis may turn under the letter of a slide.
+bool turns(const setup::Setup& setup, Axis axis);
 /// "Y=100 B=-30" (mm, deg): positions of axes that the file does not tell. Throws InputError for
 /// an axis that the machine does not have.
 AxisPositions positions_told(const setup::Setup& setup, const std::string& text);

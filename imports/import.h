@@ -9,7 +9,15 @@
 
 namespace trunnion::imports {
 
-enum class ImportKind : unsigned char { ballbar, iso230_2, points, axis_log, table, dprnt };
+enum class ImportKind : unsigned char {
+    ballbar,
+    iso230_2,
+    points,
+    axis_log,
+    table,
+    dprnt,
+    pointing
+};
 
 struct ImportFile {
     std::string path, text;
@@ -32,6 +40,9 @@ struct Imported {
 /// written.
 Imported import_readings(ImportKind kind, const ImportRequest& request);
 
+/// The tables of all files, one behind the other.
+std::vector<TextTable> tables_of(const ImportRequest& request, std::vector<std::string>& notes);
+
 // One function a kind; import_readings chooses.
 Imported import_ballbar(const ImportRequest& request);
 Imported import_iso230_2(const ImportRequest& request);
@@ -39,5 +50,6 @@ Imported import_points(const ImportRequest& request);
 Imported import_axis_log(const ImportRequest& request);
 Imported import_table(const ImportRequest& request);
 Imported import_dprnt(const ImportRequest& request);
+Imported import_pointing(const ImportRequest& request);
 
 }  // namespace trunnion::imports

@@ -7,120 +7,65 @@
 #include <map>
 
 #include "base/alarm.h"
-#include "imports/column_roles.h"
+#include "imports/point_columns.h"
 #include "imports/row_writer.h"
 
 namespace trunnion::imports {
 namespace {
-
-using ThreeColumns = std::array<std::optional<NumberColumn>, 3>;
-
-struct PointColumns {
-    ThreeColumns nominal, measured;
-    std::vector<std::pair<Axis, NumberColumn>> axes;  ///< positions of the machine's axes
-    std::optional<NumberColumn> sigma;
-    std::optional<std::size_t> session;
-    std::vector<std::string> unused;
-};
-
-bool complete(const ThreeColumns& columns) {
-    return std::all_of(columns.begin(), columns.end(), [](auto& c) { return c.has_value(); });
-}
-
-/// A coordinate without a word ("x") is a measured one.
-void take(const TextTable& table, std::size_t k, const ColumnRole& role, const setup::Setup& setup,
-          const Facts& facts, PointColumns& columns) {
-    const TextColumn& column = table.columns()[k];
-    const auto axis = axis_named(setup, std::string(1, role.axis));
-    const std::string unit = facts.text("unit", "mm");
-    const std::size_t d = std::string_view("XYZ").find(role.axis);
-    if (role.machine || d == std::string_view::npos) {
-        if (axis) {
-            const bool rotary = is_rotary(*axis);
-            columns.axes.emplace_back(
-                *axis, number_column(table, k, rotary ? Quantity::angle : Quantity::length,
-                                     rotary ? "deg" : unit));
-        } else {
-            columns.unused.push_back(column.name);
-        }
-        return;
-    }
-    auto& place = role.role == Role::commanded ? columns.nominal[d] : columns.measured[d];
-    if (place) table.header_line().fail("a second column for this coordinate", column.column);
-    place = number_column(table, k, Quantity::length, unit);
-}
-
-PointColumns read_columns(const TextTable& table, const setup::Setup& setup, const Facts& facts,
-                          const TimeColumn& time) {
-    PointColumns columns;
-    columns.session = find_column(table, {"session", "setup", "tag", "day"});
-    const auto sigma = find_column(table, {"sigma", "u", "uncertainty", "unsicherheit"});
-    if (sigma)
-        columns.sigma = number_column(table, *sigma, Quantity::length, facts.text("unit", "mm"));
-    for (std::size_t k = 0; k < table.columns().size(); ++k) {
-        if (time.column() == k || columns.session == k || sigma == k) continue;
-        const auto role = role_of(table.columns()[k].name);
-        if (role && role->rate == Rate::position && role->role != Role::error &&
-            role->role != Role::following_error)
-            take(table, k, *role, setup, facts, columns);
-        else
-            columns.unused.push_back(table.columns()[k].name);
-    }
-    if (!complete(columns.measured))
-        table.header_line().fail("no columns of measured x, y and z", 1);
-    if (!complete(columns.nominal) && columns.axes.empty())
-        table.header_line().fail(
-            "no columns of nominal x, y and z, and none of axis positions (\"machine x\")", 1);
-    return columns;
-}
-
-Vector3 three(const TextTable& table, std::size_t i, const std::vector<records::TableCell>& cells,
-              const ThreeColumns& columns) {
-    Vector3 p;
-    for (std::size_t d = 0; d < 3; ++d)
-        p(static_cast<Eigen::Index>(d)) = number_in(table, i, cells, *columns[d]);
-    return p;
-}
 
 /// Where the declared control puts a target, in the frame that the instrument reads.
 class CommandedTarget {
   public:
     CommandedTarget(const setup::Setup& setup, const setup::Artefact& target,
                     const setup::Instrument* instrument)
-        : machine_(setup.machine),
+        : setup_(setup),
+          nominal_{setup.machine.chain, {}},
           target_(target),
           on_table_(instrument && instrument->sees_table) {
         if (instrument) pose_ = instrument->pose_IM();
     }
 
     Vector3 point(const AxisPositions& at) const {
-        const auto poses = machine_.poses(at);
-        const Vector3 p_M = target_.tool_S_mm ? poses.pose_MS * *target_.tool_S_mm
+        const auto poses = nominal_.poses(at);
+        const Vector3 p_M = target_.tool_S_mm ? poses.pose_MS * setup_.target_S_mm(target_)
                                               : poses.pose_MW * target_.center_W_mm;
         return on_table_ ? Vector3(poses.pose_MW.inverse() * p_M) : p_M;
     }
     Vector3 read(const AxisPositions& at) const { return pose_ * point(at); }
 
     /// X, Y and Z that bring the target to the nominal point, the other axes as they stand: the way
-    /// is linear in them. Nothing when they do not move it.
-    std::optional<AxisPositions> reach(AxisPositions at, const Vector3& nominal) const {
+    /// is linear in them. A coordinate that is not told leaves its axis where it stands. Nothing
+    /// when they do not move it.
+    std::optional<AxisPositions> reach(AxisPositions at,
+                                       const std::array<std::optional<double>, 3>& nominal) const {
         constexpr std::array linear{Axis::X, Axis::Y, Axis::Z};
-        for (const Axis axis : linear) at[axis] = 0.0;
-        const Vector3 zero = point(at);
-        Matrix3 way;
+        const Vector3 begin = point(at);
+        Matrix3 way = Matrix3::Identity();
+        Vector3 left = Vector3::Zero();
         for (std::size_t d = 0; d < 3; ++d) {
+            const auto row = static_cast<Eigen::Index>(d);
+            if (nominal[d]) left(row) = *nominal[d] - begin(row);
+        }
+        for (std::size_t d = 0; d < 3; ++d) {
+            if (!nominal[d]) continue;
             AxisPositions moved = at;
-            moved[linear[d]] = 1.0;
-            way.col(static_cast<Eigen::Index>(d)) = point(moved) - zero;
+            moved[linear[d]] += 1.0;
+            const Vector3 step = point(moved) - begin;
+            for (std::size_t e = 0; e < 3; ++e) {
+                const auto row = static_cast<Eigen::Index>(e);
+                way(row, static_cast<Eigen::Index>(d)) = nominal[e] ? step(row) : 0.0;
+            }
         }
         if (std::abs(way.determinant()) < 1e-3) return std::nullopt;
-        const Vector3 q = way.inverse() * (nominal - zero);
-        for (std::size_t d = 0; d < 3; ++d) at[linear[d]] = q(static_cast<Eigen::Index>(d));
+        const Vector3 q = way.inverse() * left;
+        for (std::size_t d = 0; d < 3; ++d)
+            if (nominal[d]) at[linear[d]] += q(static_cast<Eigen::Index>(d));
         return at;
     }
 
   private:
-    const kinematics::Machine& machine_;
+    const setup::Setup& setup_;
+    kinematics::Machine nominal_;  ///< what the control believes, whatever errors are known
     const setup::Artefact& target_;
     bool on_table_;
     Pose pose_;
@@ -139,17 +84,28 @@ struct PointFile {
     const TextTable& table;
     const PointColumns& columns;
     const CommandedTarget& target;
+    const setup::Setup& setup;
+    std::vector<MeasuredPoint> points;
 };
 
-AxisPositions positions_of(const PointFile& file, std::size_t i,
+bool has_slides(const setup::Setup& setup) {
+    const AxisNames names = setup.machine.chain.names();
+    return std::any_of(all_axes.begin(), all_axes.begin() + 3,
+                       [&](Axis axis) { return names.has(axis) && !names.is_rotary(axis); });
+}
+
+AxisPositions positions_of(const PointFile& file, const MeasuredPoint& point,
                            const std::vector<records::TableCell>& cells, AxisPositions at) {
     bool linear = false;
     for (const auto& [axis, column] : file.columns.axes) {
-        at[axis] = number_in(file.table, i, cells, column);
-        linear |= !is_rotary(axis);
+        at[axis] = number_in(file.table, point.row, cells, column);
+        linear |= !turns(file.setup, axis);
     }
-    if (linear || !complete(file.columns.nominal)) return at;
-    const auto reached = file.target.reach(at, three(file.table, i, cells, file.columns.nominal));
+    const auto told = [](const auto& value) { return value.has_value(); };
+    if (linear || !has_slides(file.setup) ||
+        std::none_of(point.nominal.begin(), point.nominal.end(), told))
+        return at;
+    const auto reached = file.target.reach(at, point.nominal);
     if (!reached)
         file.table.header_line().fail(
             "X, Y and Z do not move this target in the instrument's frame: give the axis "
@@ -158,17 +114,21 @@ AxisPositions positions_of(const PointFile& file, std::size_t i,
     return *reached;
 }
 
-void write_point(const PointFile& file, std::size_t i, const std::vector<records::TableCell>& cells,
-                 records::Reading row, RowWriter& rows) {
+/// A row for each coordinate that was measured.
+void write_point(const PointFile& file, const MeasuredPoint& point,
+                 const std::vector<records::TableCell>& cells, records::Reading row,
+                 RowWriter& rows) {
     if (file.columns.session) row.session = cells[*file.columns.session].plain();
-    if (file.columns.sigma) row.sigma_mm = number_in(file.table, i, cells, *file.columns.sigma);
-    row.commanded = positions_of(file, i, cells, row.commanded);
-    const Vector3 apart =
-        three(file.table, i, cells, file.columns.measured) - file.target.read(row.commanded);
-    for (Eigen::Index d = 0; d < 3; ++d) {
-        row.direction_M = Vector3::Unit(d);
-        row.value_mm = apart(d);
-        rows.add(row, file.table.line(i).number);
+    if (file.columns.sigma)
+        row.sigma_mm = number_in(file.table, point.row, cells, *file.columns.sigma);
+    row.commanded = positions_of(file, point, cells, row.commanded);
+    const Vector3 commanded_mm = file.target.read(row.commanded);
+    for (std::size_t d = 0; d < 3; ++d) {
+        if (!point.measured[d]) continue;
+        const auto component = static_cast<Eigen::Index>(d);
+        row.direction_M = Vector3::Unit(component);
+        row.value_mm = *point.measured[d] - commanded_mm(component);
+        rows.add(row, file.table.line(point.rows[d]).number);
     }
 }
 
@@ -178,10 +138,10 @@ void check_pose(const PointFile& file, const setup::Instrument* instrument) {
     constexpr std::size_t fewest = 3;
     std::map<std::string, std::pair<std::size_t, std::size_t>> sessions;  // first row, points
     std::vector<records::TableCell> cells;
-    for (std::size_t i = 0; i < file.table.size(); ++i) {
-        file.table.read(i, cells);
+    for (const MeasuredPoint& point : file.points) {
+        file.table.read(point.row, cells);
         const std::string name = file.columns.session ? cells[*file.columns.session].plain() : "";
-        ++sessions.try_emplace(name, i, 0).first->second.second;
+        ++sessions.try_emplace(name, point.row, 0).first->second.second;
     }
     for (const auto& [name, entry] : sessions)
         if (entry.second < fewest)
@@ -194,50 +154,61 @@ void check_pose(const PointFile& file, const setup::Instrument* instrument) {
 }
 
 void tell(const PointFile& file, const TimeColumn& time, const std::string& instrument,
-          Imported& result) {
+          std::size_t left_out, Imported& result) {
     const TextTable& table = file.table;
-    result.summary.push_back(fmt::format(
-        "{}: {} points ({}), read by {}; {}", table.path(), table.size(),
-        complete(file.columns.nominal) ? "nominal and measured" : "axis positions and measured",
-        instrument.empty() ? "an instrument in M" : instrument, table.dialect_words()));
+    const PointColumns& columns = file.columns;
+    const bool nominal = std::any_of(columns.nominal.begin(), columns.nominal.end(),
+                                     [](auto& c) { return c.has_value(); });
+    result.summary.push_back(
+        fmt::format("{}: {} points ({}), read by {}; {}", table.path(), file.points.size(),
+                    nominal ? "nominal and measured" : "axis positions and measured",
+                    instrument.empty() ? "an instrument in M" : instrument, table.dialect_words()));
     if (time.invented())
         result.notes.push_back(table.path() + ": no column of times: points one minute apart");
-    for (const std::string& name : file.columns.unused)
+    if (left_out > 0)
+        result.notes.push_back(
+            fmt::format("{}: {} coordinates without a value are left out", table.path(), left_out));
+    for (const std::string& name : columns.unused)
         result.notes.push_back(table.path() + ": column '" + name + "' is not used");
+}
+
+void import_table_of_points(const TextTable& table, const ImportRequest& request, RowWriter& rows,
+                            Imported& result) {
+    const setup::Setup& setup = request.setup;
+    const Facts facts = request.facts.with_head_of(table);
+    const TimeColumn time(table, facts);
+    const PointColumns columns = point_columns(table, setup, facts, time);
+    const setup::Artefact& artefact =
+        artefact_for(setup, facts.text("feature"), setup::Artefact::Kind::target);
+    const setup::Instrument* instrument = instrument_of(setup, facts.text("instrument"));
+    const CommandedTarget target(setup, artefact, instrument);
+    records::Reading row;
+    row.test = facts.text("test", "points");
+    row.device = records::Device::point;
+    row.feature = artefact.name;
+    if (instrument) row.instrument = instrument->name;
+    row.commanded = positions_told(setup, facts.text("at"));
+    rows.begin_file(table, facts);
+    if (time.dated()) rows.name_days();
+    std::size_t left_out = 0;
+    const PointFile file{table, columns, target, setup, measured_points(table, columns, left_out)};
+    check_pose(file, instrument);
+    std::vector<records::TableCell> cells;
+    for (const MeasuredPoint& point : file.points) {
+        table.read(point.row, cells);
+        row.time_s = time.time_s(table, point.row, cells);
+        write_point(file, point, cells, row, rows);
+    }
+    tell(file, time, row.instrument, left_out, result);
 }
 
 }  // namespace
 
 Imported import_points(const ImportRequest& request) {
-    const setup::Setup& setup = request.setup;
     Imported result;
-    RowWriter rows(setup, "points", {"sigma_mm", "instrument"}, true, false);
-    for (const ImportFile& file : request.files) {
-        const TextTable table(file.text, file.path);
-        const Facts facts = request.facts.with_head_of(table);
-        const TimeColumn time(table, facts);
-        const PointColumns columns = read_columns(table, setup, facts, time);
-        const setup::Artefact& artefact =
-            artefact_for(setup, facts.text("feature"), setup::Artefact::Kind::target);
-        const setup::Instrument* instrument = instrument_of(setup, facts.text("instrument"));
-        const CommandedTarget target(setup, artefact, instrument);
-        records::Reading row;
-        row.test = facts.text("test", "points");
-        row.device = records::Device::point;
-        row.feature = artefact.name;
-        if (instrument) row.instrument = instrument->name;
-        row.commanded = positions_told(setup, facts.text("at"));
-        rows.begin_file(table, facts);
-        const PointFile points{table, columns, target};
-        check_pose(points, instrument);
-        std::vector<records::TableCell> cells;
-        for (std::size_t i = 0; i < table.size(); ++i) {
-            table.read(i, cells);
-            row.time_s = time.time_s(table, i, cells);
-            write_point(points, i, cells, row, rows);
-        }
-        tell(points, time, row.instrument, result);
-    }
+    RowWriter rows(request.setup, "points", {"sigma_mm", "instrument"}, true, false);
+    for (const TextTable& table : tables_of(request, result.notes))
+        import_table_of_points(table, request, rows, result);
     result.readings = rows.take();
     return result;
 }

@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "base/alarm.h"
+#include "imports/times.h"
 
 namespace trunnion::imports {
 namespace {
 
-constexpr double pause_s = 60.0;  ///< between two files whose clocks both began at zero
+constexpr double pause_s = 60.0;          ///< between two files whose clocks both began at zero
+constexpr double night_s = 4.0 * 3600.0;  ///< a longer pause begins a session
 /// Between rows of different positions that carry the same time stamp.
 constexpr double shortest_s = 1e-6;
 
@@ -59,10 +61,21 @@ void RowWriter::begin_file(const std::string& path, const Facts& facts) {
     name_ = file_name_of(path_);
     session_ = facts.text("session");
     begins_ = true;
+    dated_ = false;
+}
+
+std::string RowWriter::day_of_row(double time_s) {
+    if (day_.empty() || std::abs(time_s - day_s_) > night_s) {
+        const std::string day = day_of(time_s);
+        day_ = day_.starts_with(day) ? day_ + "_later" : day;
+    }
+    day_s_ = time_s;
+    return day_;
 }
 
 void RowWriter::add(records::Reading row, int line) {
     if (row.session.empty()) row.session = session_;
+    if (row.session.empty() && dated_) row.session = day_of_row(row.time_s);
     const bool restarts = begins_ || row.session != last_session_;
     if (index_ == 0)
         shift_s_ = -row.time_s;

@@ -22,6 +22,11 @@ class RowWriter {
     /// after the last row.
     void begin_file(const std::string& path, const Facts& facts);
     void begin_file(const TextTable& table, const Facts& facts) { begin_file(table.path(), facts); }
+    /// Times of this file count from 1970: a pause of four hours begins a session, which is named
+    /// after its day unless the file or `--with session=` names one.
+    void name_days() { dated_ = true; }
+    /// A further program in the same file: its clock may begin anew, as that of a file may.
+    void begin_run() { begins_ = true; }
     /// `row.time_s` is the file's; throws InputError when it runs back within the session.
     /// `line`: of the file, 0 for a row that no line says.
     void add(records::Reading row, int line);
@@ -33,7 +38,11 @@ class RowWriter {
     records::ReadingWriter writer_;
     std::string text_, path_, name_, session_, last_session_;
     int index_ = 0;
-    bool begins_ = false;
+    std::string day_of_row(double time_s);
+
+    bool begins_ = false, dated_ = false;
+    std::string day_;  ///< session of the day
+    double day_s_ = 0.0;
     double shift_s_ = 0.0, last_s_ = 0.0;
     double last_file_s_ = 0.0;  ///< the same by the file's clock
     AxisPositions last_at_;

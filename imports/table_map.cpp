@@ -227,14 +227,14 @@ Imported import_table(const ImportRequest& request) {
     const TomlFile map_file(request.map.text, request.map.path);
     Imported result;
     std::optional<RowWriter> rows;
-    for (const ImportFile& file : request.files) {
-        const TextTable table(file.text, file.path);
+    for (const TextTable& table : tables_of(request, result.notes)) {
         const Facts facts = request.facts.with_head_of(table);
         const Map map = MapReader(map_file, table, request.setup).read();
         if (!rows) rows.emplace(request.setup, "table", map.columns, true, true);
         const TimeColumn time(table, facts, time_column_of(map));
         LineReader line(table, time);
         rows->begin_file(table, facts);
+        if (time.dated()) rows->name_days();
         for (std::size_t i = 0; i < table.size(); ++i) {
             line.next(i);
             records::Reading common;

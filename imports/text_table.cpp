@@ -1,5 +1,7 @@
 #include "imports/text_table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -10,8 +12,13 @@
 namespace trunnion::imports {
 namespace {
 
-/// Lines at the start that decide how a file is written.
+/// Lines that decide how a file is written and where a table begins.
 constexpr std::size_t sample_lines = 200;
+constexpr std::size_t longest_unit = 10;  ///< letters
+constexpr std::size_t longest_head = 30;  ///< lines between two tables
+
+using Line = TextTable::Line;
+using Cells = std::vector<records::TableCell>;
 
 std::string lower(std::string_view text) {
     std::string out(text);
@@ -19,216 +26,296 @@ std::string lower(std::string_view text) {
     return out;
 }
 
-bool digit(char c) {
-    return c >= '0' && c <= '9';
+bool one_of(char c, std::string_view set) {
+    return set.find(c) != std::string_view::npos;
 }
 
-/// A comma between two digits, as in 1,5.
-bool has_decimal_comma(std::string_view text) {
-    for (std::size_t k = 1; k + 1 < text.size(); ++k)
-        if (text[k] == ',' && digit(text[k - 1]) && digit(text[k + 1])) return true;
-    return false;
+/// "[3]" counts, it is no unit.
+bool is_index(std::string_view text) {
+    return text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// Blanks as separator: runs of them count as one.
-std::vector<records::TableCell> split_blanks(std::string_view text) {
-    std::vector<records::TableCell> cells;
-    for (std::size_t k = 0; k < text.size();) {
-        if (text[k] == ' ' || text[k] == '\t') {
-            ++k;
-            continue;
-        }
-        const std::size_t end = std::min(text.find_first_of(" \t", k), text.size());
-        cells.push_back({text.substr(k, end - k), static_cast<int>(k) + 1, false});
-        k = end;
+std::string unit_in(const records::TableCell& cell) {
+    std::string unit = cell.plain();
+    std::erase_if(unit, [](char c) { return one_of(c, "[]()"); });
+    return unit;
+}
+
+/// "# time x": the names that plotting tools write behind a comment mark.
+std::string_view without_mark(std::string_view text) {
+    const std::size_t begin = text.find_first_not_of("#%");
+    return begin == std::string_view::npos ? std::string_view() : text.substr(begin);
+}
+
+std::vector<Line> lines_of(std::string_view text) {
+    std::vector<Line> lines;
+    for (int number = 1; !text.empty(); ++number) {
+        const std::string_view line = records::take_line(text);
+        if (!records::without_blanks(line).empty()) lines.push_back({line, number});
     }
-    return cells;
+    return lines;
 }
 
-std::vector<records::TableCell> cells_of(const records::TableLine& line, char separator) {
-    if (separator == ' ') return split_blanks(line.text);
-    std::vector<records::TableCell> cells;
-    line.split(separator, cells);
-    return cells;
+bool begins_with_number(std::string_view text) {
+    const std::size_t k = text.find_first_not_of(" \t\"");
+    return k != std::string_view::npos && one_of(text[k], "0123456789+-.");
 }
 
-/// "Pos X [mm]", "Pos X (mm)", "pos_x / mm" -> name and unit.
-TextColumn column_of(const records::TableCell& cell) {
-    std::string text = cell.plain();
-    for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
-        const std::size_t at = text.find(open), end = text.find(close, at + 1);
-        if (at == std::string::npos || end == std::string::npos) continue;
-        const std::string unit(records::without_blanks(text.substr(at + 1, end - at - 1)));
-        if (open == '(' && !find_unit(unit)) continue;  // a remark
-        text.erase(at, end - at + 1);
-        return {std::string(records::without_blanks(text)), unit, cell.column};
-    }
-    const std::size_t cut = text.find_last_of("_/ ");
-    if (cut != std::string::npos && cut > 0) {
-        const std::string unit(records::without_blanks(text.substr(cut + 1)));
-        // "x_m" may be an axis; "time_s", "err um" and "angle / deg" are units.
-        if (find_unit(unit)) {
-            std::string name(records::without_blanks(text.substr(0, cut)));
-            while (name.ends_with('/') || name.ends_with('_')) name.pop_back();
-            return {std::string(records::without_blanks(name)), unit, cell.column};
-        }
-    }
-    return {text, "", cell.column};
+/// Numbers alone, or behind one name as in "Position;0;100;200".
+bool mostly_numbers(const Cells& cells, const Dialect& dialect) {
+    const auto number = [&](const auto& cell) { return dialect.find_number(cell.text); };
+    return std::all_of(cells.begin() + 1, cells.end(), number) && cells.size() > 1;
+}
+
+/// Of a row: an axis moves over numbers; "Feed;1000" stands above a table.
+bool row_like(const Cells& cells, const Dialect& dialect) {
+    if (cells.size() < 2 || !is_data(cells, dialect)) return false;
+    const std::string_view first = cells.front().text;
+    return cells.size() > 2 || is_data({cells.front()}, dialect) || first.empty();
 }
 
 }  // namespace
 
-TextTable::TextTable(std::string_view text, std::string path) : path_(std::move(path)) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
-        throw InputError("text in UTF-16: save it as UTF-8", {path_, 1, 1});
-    take_lines(text);
-    choose_dialect();
-    const std::size_t header = find_header();
-    read_head(header);
-    read_header(header);
-    rows_.erase(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(header) + 1);
-    read_units();
+TextColumn column_named(const std::string& name, int column) {
+    std::string text = name;
+    for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}}) {
+        const std::size_t at = text.find(open), end = text.find(close, at);
+        if (at == std::string::npos || end == std::string::npos) continue;
+        const std::string unit(records::without_blanks(text.substr(at + 1, end - at - 1)));
+        if (!find_unit(unit) && (open == '(' || is_index(unit))) continue;  // a remark
+        text.erase(at, end - at + 1);
+        return {std::string(records::without_blanks(text)), unit, column};
+    }
+    const std::size_t cut = text.find_last_of("_/ ,");
+    if (cut != std::string::npos && cut > 0) {
+        const std::string unit(records::without_blanks(text.substr(cut + 1)));
+        // "x_m" may be an axis; "time_s", "err um" and "angle / deg" are units.
+        if (find_unit(unit) && !is_index(unit.substr(0, 1))) {
+            std::string left(records::without_blanks(text.substr(0, cut)));
+            while (left.ends_with('/') || left.ends_with('_') || left.ends_with(','))
+                left.pop_back();
+            return {std::string(records::without_blanks(left)), unit, column};
+        }
+    }
+    return {text, "", column};
+}
+
+TextTable::TextTable(const std::vector<Line>& lines, std::size_t begin, std::string path,
+                     Dialect dialect, const std::string& told)
+    : path_(std::move(path)), dialect_(dialect) {
+    const std::size_t at =
+        told.empty() ? find_header(lines, begin) : first_told_row(lines, begin, told);
+    read_head(lines, begin, at);
+    if (at == lines.size()) return;
+    if (told.empty()) read_header(lines, at);
+    take_rows(lines, told.empty() ? at + 1 : at);
+    if (told.empty()) take_units();
     if (rows_.empty()) throw InputError("the table has no rows", {path_, header_.number, 1});
 }
 
-void TextTable::take_lines(std::string_view text) {
-    for (int number = 1; !text.empty(); ++number) {
-        const std::string_view line = records::take_line(text);
-        if (!records::without_blanks(line).empty()) rows_.push_back({line, number});
-    }
-    if (rows_.empty()) throw InputError("the file is empty", {path_, 1, 1});
+std::vector<records::TableCell> TextTable::header_cells(const Line& line, std::size_t width) const {
+    const records::TableLine bare{without_mark(line.text), line.number, path_};
+    Cells names = cells_of(bare, dialect_.separator);
+    if (dialect_.separator == ' ' && names.size() != width)
+        if (Cells apart = cells_apart(bare.text); apart.size() == width) return apart;
+    drop_empty_end(names);
+    return names;
 }
 
-/// The separator that splits most lines alike, in this order where several do.
-void TextTable::choose_dialect() {
-    const std::size_t n = std::min(rows_.size(), sample_lines);
-    const auto count = [&](std::string_view text, char c) {
-        return std::count(text.begin(), text.end(), c);
-    };
-    std::size_t best = 0;
-    separator_ = ' ';
-    for (const char candidate : {'\t', ';', ',', '|'}) {
-        std::map<std::ptrdiff_t, std::size_t> lines;
-        for (std::size_t i = 0; i < n; ++i)
-            if (const auto k = count(rows_[i].text, candidate); k > 0) ++lines[k];
-        std::size_t alike = 0;
-        for (const auto& [cells, number] : lines) alike = std::max(alike, number);
-        if (candidate == ',' && best > 0) break;  // commas beside ; or tabs are decimal marks
-        if (2 * alike <= n || alike <= best) continue;
-        best = alike;
-        separator_ = candidate;
+bool TextTable::is_units(const Line& line) const {
+    const Cells names = cells(line);
+    std::size_t units = 0, words = 0;
+    for (const records::TableCell& cell : names) {
+        const std::string unit = unit_in(cell);
+        if (unit.empty() || unit == "-") continue;
+        ++(find_unit(unit) ? units : words);
+        if (unit.size() > longest_unit) return false;
     }
-    if (separator_ == ',') return;
-    for (std::size_t i = 0; i < n && !decimal_comma_; ++i)
-        if (rows_[i].text[0] != '#') decimal_comma_ = has_decimal_comma(rows_[i].text);
-    if (separator_ == ' ' && decimal_comma_ && best == 0 && n > 0 &&
-        split_blanks(rows_[n - 1].text).size() == 1)
-        throw InputError("a comma may be decimal mark or separator here: use ; between columns",
-                         {path_, rows_[n - 1].number, 1}, std::string(rows_[n - 1].text));
+    return units > 0 && 2 * words <= units && !has_number(names, dialect_);
 }
 
-bool TextTable::numbers_in(const Row& row) const {
-    for (const records::TableCell& cell : cells_of({row.text, row.number, path_}, separator_))
-        if (find_number(cell.text)) return true;
+/// Rows, two at most, that stand behind lines[header] and have as many cells as it has names.
+std::size_t TextTable::rows_behind(const std::vector<Line>& lines, std::size_t header) const {
+    std::size_t first = header + 1;
+    if (first < lines.size() && is_units(lines[first])) ++first;
+    std::size_t count = 0;
+    for (std::size_t i = first; i < std::min(lines.size(), first + 2); ++i) {
+        Cells row = cells(lines[i]);
+        const Cells names = header_cells(lines[header], row.size());
+        const bool words =
+            names.size() > 1 &&
+            (!has_number(names, dialect_) || (names.size() > 3 && mostly_numbers(names, dialect_)));
+        if (!words || row.size() < names.size() || !row_like(row, dialect_)) break;
+        drop_empty_end(row);
+        if (row.size() > names.size()) break;
+        ++count;
+    }
+    return count;
+}
+
+/// The first line of names with two rows behind it; of the first table else that of the widest row,
+/// of a further one none.
+std::size_t TextTable::find_header(const std::vector<Line>& lines, std::size_t begin) const {
+    const std::size_t end = std::min(lines.size(), begin + sample_lines);
+    for (std::size_t i = begin; i < end; ++i)
+        if (rows_behind(lines, i) == 2) return i;
+    return begin == 0 ? widest(lines) : lines.size();
+}
+
+std::size_t TextTable::widest(const std::vector<Line>& lines) const {
+    const std::size_t end = std::min(lines.size(), sample_lines);
+    std::size_t width = 0;
+    for (std::size_t i = 0; i < end; ++i)
+        if (Cells row = cells(lines[i]); has_number(row, dialect_)) {
+            drop_empty_end(row);
+            width = std::max(width, row.size());
+        }
+    for (std::size_t i = 0; i < end && width > 0; ++i)
+        if (lines[i].text[0] != '#' && header_cells(lines[i], width).size() == width) return i;
+    throw InputError("no table: no line of numbers in the first 200", {path_, 1, 1});
+}
+
+void TextTable::read_header(const std::vector<Line>& lines, std::size_t at) {
+    header_ = lines[at];
+    const std::size_t width = at + 1 < lines.size() ? cells(lines[at + 1]).size() : 0;
+    const Cells names = header_cells(header_, width);
+    if (std::all_of(names.begin(), names.end(), [&](auto& c) { return find_number(c.text); }))
+        header_line().fail(
+            "numbers where the names of the columns are expected (--with columns=\"time [s], X cmd "
+            "[mm], X act [mm]\" tells them)",
+            1);
+    for (const records::TableCell& cell : names)
+        columns_.push_back(column_named(cell.plain(), cell.column));
+}
+
+/// Columns as told; the first line of numbers that has as many.
+std::size_t TextTable::first_told_row(const std::vector<Line>& lines, std::size_t begin,
+                                      const std::string& told) {
+    Cells names;
+    records::TableLine{told, 1, "--with columns"}.split(',', names);
+    for (const records::TableCell& cell : names) columns_.push_back(column_named(cell.plain(), 1));
+    for (std::size_t i = begin; i < lines.size(); ++i) {
+        Cells row = cells(lines[i]);
+        drop_empty_end(row);
+        if (row.size() == columns_.size() && has_number(row, dialect_)) {
+            header_ = lines[i];
+            return i;
+        }
+    }
+    if (begin > 0) return lines.size();
+    throw InputError(
+        fmt::format("no line of {} numbers, as many as --with columns has names", columns_.size()),
+        {path_, 1, 1});
+}
+
+/// A short line such as "Section;2" with names and rows of another table soon behind it.
+bool TextTable::leads_to_header(const std::vector<Line>& lines, std::size_t at) const {
+    const std::size_t end = std::min(lines.size(), at + longest_head);
+    for (std::size_t i = at + 1; i < end && !begins_with_number(lines[i].text); ++i)
+        if (rows_behind(lines, i) == 2) return true;
     return false;
 }
 
-/// The last line of words before the first line of numbers; a row of units between is none.
-std::size_t TextTable::find_header() const {
-    std::size_t width = 0, first = rows_.size();
-    for (std::size_t i = std::min(rows_.size(), sample_lines); i-- > 0;)
-        if (numbers_in(rows_[i]))
-            width = std::max(width,
-                             cells_of({rows_[i].text, rows_[i].number, path_}, separator_).size());
-    for (std::size_t i = 0; i < std::min(rows_.size(), sample_lines); ++i) {
-        if (rows_[i].text[0] == '#') continue;
-        const records::TableLine line{rows_[i].text, rows_[i].number, path_};
-        if (cells_of(line, separator_).size() == width) {
-            first = i;
-            break;
+/// Up to a line of words that is no row: the end, or the head of another table.
+void TextTable::take_rows(const std::vector<Line>& lines, std::size_t begin) {
+    for (end_ = begin; end_ < lines.size(); ++end_) {
+        const Line& line = lines[end_];
+        if (line.text[0] == '#') continue;
+        if (!begins_with_number(line.text) && !(end_ == begin && is_units(line))) {
+            const Cells row = cells(line);
+            const bool says = line.text.find_first_of(":=") != std::string_view::npos;
+            if (!is_data(row, dialect_)) return;
+            if (row.size() < columns_.size() && (says || leads_to_header(lines, end_))) return;
         }
+        rows_.push_back(line);
     }
-    if (first == rows_.size())
-        throw InputError("no table: no line of numbers in the first 200", {path_, 1, 1});
-    return first;
 }
 
-void TextTable::read_header(std::size_t at) {
-    header_ = rows_[at];
-    const auto cells = cells_of(header_line(), separator_);
-    if (std::all_of(cells.begin(), cells.end(), [&](auto& c) { return find_number(c.text); }))
-        header_line().fail("numbers where the names of the columns are expected", 1);
-    for (const records::TableCell& cell : cells) columns_.push_back(column_of(cell));
-}
-
-/// A second line that holds units alone: "s;mm;mm".
-void TextTable::read_units() {
-    if (rows_.empty() || numbers_in(rows_.front())) return;
-    const auto cells = cells_of(line(0), separator_);
-    if (cells.size() != columns_.size()) return;
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-        std::string unit = cells[k].plain();
-        std::erase_if(unit, [](char c) { return c == '[' || c == ']' || c == '(' || c == ')'; });
-        if (!unit.empty() && unit != "-" && !find_unit(unit)) return;
-        if (find_unit(unit)) columns_[k].unit = unit;
+/// A line that holds units alone below the names: "s;mm;mm".
+void TextTable::take_units() {
+    if (rows_.empty() || !is_units(rows_.front())) return;
+    const Cells names = cells(rows_.front());
+    if (names.size() < columns_.size()) return;
+    for (std::size_t k = 0; k < columns_.size(); ++k) {
+        if (const std::string unit = unit_in(names[k]); find_unit(unit)) columns_[k].unit = unit;
     }
     rows_.erase(rows_.begin());
 }
 
 /// Lines above the table, "Feed: 1000" or "# plane = XY" or "Feed;1000".
-void TextTable::read_head(std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-        std::string_view text = rows_[i].text;
-        while (!text.empty() && (text[0] == '#' || text[0] == ' ')) text.remove_prefix(1);
-        const std::size_t cut = text.find_first_of(":=;\t");
+void TextTable::read_head(const std::vector<Line>& lines, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+        std::string_view text = lines[i].text;
+        while (!text.empty() && one_of(text[0], "#% \"")) text.remove_prefix(1);
+        const std::string cuts = std::string(":=;\t") + (dialect_.separator == ',' ? "," : "");
+        const std::size_t cut = text.find_first_of(cuts);
         if (cut == std::string_view::npos) continue;
-        const std::string_view value = records::without_blanks(text.substr(cut + 1));
-        head_[lower(records::without_blanks(text.substr(0, cut)))] =
-            records::without_blanks(value.substr(0, value.find(';')));
+        std::string_view value = text.substr(cut);
+        value.remove_prefix(std::min(value.find_first_not_of(cuts + " \""), value.size()));
+        value = value.substr(0, value.find_first_of(cuts.substr(2) + "\""));
+        std::string key = lower(records::without_blanks(text.substr(0, cut)));
+        std::erase(key, '"');
+        head_[key] = records::without_blanks(value);
     }
 }
 
 std::string TextTable::dialect_words() const {
-    const std::string between = separator_ == '\t'  ? "tabs"
-                                : separator_ == ' ' ? "blanks"
-                                                    : std::string("'") + separator_ + '\'';
-    return between + " between columns, decimal " + (decimal_comma_ ? "comma" : "point");
+    const char separator = dialect_.separator;
+    const std::string between = separator == '\t'  ? "tabs"
+                                : separator == ' ' ? "blanks"
+                                                   : std::string("'") + separator + '\'';
+    return between + " between columns, decimal " + (dialect_.decimal_comma ? "comma" : "point");
 }
 
-void TextTable::read(std::size_t i, std::vector<records::TableCell>& cells) const {
-    if (separator_ == ' ')
-        cells = split_blanks(rows_[i].text);
+void TextTable::read(std::size_t i, std::vector<records::TableCell>& row) const {
+    if (dialect_.separator == ' ')
+        row = cells_of(line(i), ' ');
     else
-        line(i).split(separator_, cells);
-    if (cells.size() != columns_.size())
-        line(i).fail("row has " + std::to_string(cells.size()) + " cells, the header " +
+        line(i).split(dialect_.separator, row);
+    while (row.size() > columns_.size() && row.back().text.empty()) row.pop_back();
+    if (row.size() != columns_.size())
+        line(i).fail("row has " + std::to_string(row.size()) + " cells, the header " +
                          std::to_string(columns_.size()),
-                     cells.size() < columns_.size() ? static_cast<int>(rows_[i].text.size()) + 1
-                                                    : cells[columns_.size()].column);
-}
-
-std::optional<double> TextTable::find_number(std::string_view text) const {
-    if (!decimal_comma_) return parse_number(text);
-    if (text.find('.') != std::string_view::npos) return std::nullopt;
-    if (text.find(',') == std::string_view::npos) return parse_number(text);
-    std::string point(text);
-    std::replace(point.begin(), point.end(), ',', '.');
-    return parse_number(point);
+                     row.size() < columns_.size() ? static_cast<int>(rows_[i].text.size()) + 1
+                                                  : row[columns_.size()].column);
 }
 
 double TextTable::number(std::size_t i, const records::TableCell& cell,
                          std::string_view what) const {
     if (const auto value = find_number(cell.text)) return *value;
     line(i).fail(std::string(what) + ": '" + std::string(cell.text) + "' is not a finite number" +
-                     (decimal_comma_ ? " with a decimal comma, as the others here" : ""),
+                     (dialect_.decimal_comma ? " with a decimal comma, as the others here" : ""),
                  cell.column);
 }
 
 void TextTable::fail(std::size_t i, std::size_t column, const std::string& message) const {
-    std::vector<records::TableCell> cells;
-    read(i, cells);
-    line(i).fail(message, cells[column].column);
+    Cells row;
+    read(i, row);
+    line(i).fail(message, row[column].column);
+}
+
+std::vector<TextTable> tables_of(std::string_view text, const std::string& path,
+                                 const std::string& told, std::vector<std::string>& notes) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    const std::vector<Line> lines = lines_of(text);
+    if (lines.empty()) throw InputError("the file is empty", {path, 1, 1});
+    std::vector<records::TableLine> sample;
+    for (std::size_t i = 0; i < std::min(lines.size(), sample_lines); ++i)
+        sample.push_back({lines[i].text, lines[i].number, path});
+    const Dialect dialect = dialect_of(sample);
+    std::vector<TextTable> tables;
+    for (std::size_t begin = 0; begin < lines.size(); begin = tables.back().end()) {
+        TextTable table(lines, begin, path, dialect, told);
+        if (table.size() == 0) {
+            notes.push_back(
+                fmt::format("{}: what stands from line {} on, behind the table, is not used", path,
+                            lines[begin].number));
+            break;
+        }
+        tables.push_back(std::move(table));
+        if (tables.size() > 1) tables.back().inherit(tables[tables.size() - 2].head());
+    }
+    return tables;
 }
 
 }  // namespace trunnion::imports

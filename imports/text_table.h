@@ -1,4 +1,4 @@
-// A text file of any dialect as a table: separator, decimal mark, names and units of the columns.
+// A text file of any dialect as tables: separator, decimal mark, names and units of the columns.
 #pragma once
 
 #include <map>
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "records/table_line.h"
+#include "imports/cells.h"
 
 namespace trunnion::imports {
 
@@ -16,53 +16,77 @@ struct TextColumn {
     std::string name, unit;  ///< unit: as written, empty where the file tells none
     int column = 1;          ///< where the name stands, from 1
 };
+/// "Pos X [mm]", "Pos X (mm)", "pos_x / mm".
+TextColumn column_named(const std::string& text, int column);
 
 /// Rows are split when they are asked for: a log of a million rows stays a text.
 class TextTable {
   public:
-    /// Finds out how the text is written: byte order mark, line ends, separator (tab ; , or
-    /// blanks), decimal comma, a row of units below the names. Throws InputError (place) for a text
-    /// without a table, a comma that may be a separator and a decimal mark at once, quotes that are
-    /// not closed. The text must outlive the table.
-    TextTable(std::string_view text, std::string path);
+    /// One line of the file.
+    struct Line {
+        std::string_view text;
+        int number = 0;
+    };
+    using Head = std::map<std::string, std::string>;
+
+    /// The first table at or behind lines[begin], which ends before a line of words that is no row
+    /// of it. `told`: names of the columns where no line has them, comma between. Throws
+    /// InputError (place) for lines without a table and quotes that are not closed; behind the
+    /// first table there may be none: then it has no rows.
+    TextTable(const std::vector<Line>& lines, std::size_t begin, std::string path, Dialect dialect,
+              const std::string& told = "");
 
     const std::string& path() const { return path_; }
     const std::vector<TextColumn>& columns() const { return columns_; }
-    const std::map<std::string, std::string>& head() const { return head_; }  ///< `Feed: 1000` ..
-    char separator() const { return separator_; }
+    const Head& head() const { return head_; }  ///< `Feed: 1000` ..
+    void inherit(const Head& above) { head_.insert(above.begin(), above.end()); }
     /// "; between the columns, decimal comma"
     std::string dialect_words() const;
 
     std::size_t size() const { return rows_.size(); }
+    std::size_t end() const { return end_; }  ///< of the lines: the first one behind the table
     /// Cells of row `i`; throws InputError when it has not as many as the header.
     void read(std::size_t i, std::vector<records::TableCell>& cells) const;
     records::TableLine line(std::size_t i) const { return {rows_[i].text, rows_[i].number, path_}; }
     records::TableLine header_line() const { return {header_.text, header_.number, path_}; }
     /// The cell as a number, decimal comma understood. Throws InputError with its place.
     double number(std::size_t i, const records::TableCell& cell, std::string_view what) const;
-    std::optional<double> find_number(std::string_view text) const;
+    std::optional<double> find_number(std::string_view text) const {
+        return dialect_.find_number(text);
+    }
     [[noreturn]] void fail(std::size_t i, std::size_t column, const std::string& message) const;
 
   private:
-    struct Row {
-        std::string_view text;
-        int number = 0;
-    };
-    bool numbers_in(const Row& row) const;
-    void take_lines(std::string_view text);
-    void choose_dialect();
-    std::size_t find_header() const;
-    void read_header(std::size_t at);
-    void read_units();
-    void read_head(std::size_t count);
+    records::TableLine whole(const Line& line) const { return {line.text, line.number, path_}; }
+    std::vector<records::TableCell> cells(const Line& line) const {
+        return cells_of(whole(line), dialect_.separator);
+    }
+    std::vector<records::TableCell> header_cells(const Line& line, std::size_t width) const;
+    std::size_t rows_behind(const std::vector<Line>& lines, std::size_t header) const;
+    std::size_t find_header(const std::vector<Line>& lines, std::size_t begin) const;
+    std::size_t widest(const std::vector<Line>& lines) const;
+    bool is_units(const Line& line) const;
+    std::size_t first_told_row(const std::vector<Line>& lines, std::size_t begin,
+                               const std::string& told);
+    bool leads_to_header(const std::vector<Line>& lines, std::size_t at) const;
+    void read_header(const std::vector<Line>& lines, std::size_t at);
+    void read_head(const std::vector<Line>& lines, std::size_t begin, std::size_t end);
+    void take_rows(const std::vector<Line>& lines, std::size_t begin);
+    void take_units();
 
     std::string path_;
+    Dialect dialect_;
     std::vector<TextColumn> columns_;
-    std::map<std::string, std::string> head_;
-    std::vector<Row> rows_;
-    Row header_;
-    char separator_ = ',';
-    bool decimal_comma_ = false;
+    Head head_;
+    std::vector<Line> rows_;
+    Line header_;
+    std::size_t end_ = 0;
 };
+
+/// Every table of a file, the first one first: what stands above one holds for those behind it.
+/// `told`: as TextTable. Throws InputError (place) for a text without a table. The text must
+/// outlive them. `notes` gets a line for text behind the last table.
+std::vector<TextTable> tables_of(std::string_view text, const std::string& path,
+                                 const std::string& told, std::vector<std::string>& notes);
 
 }  // namespace trunnion::imports

@@ -1,8 +1,11 @@
 #include "imports/times.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 
 #include "base/numbers.h"
 #include "records/table_line.h"
@@ -104,6 +107,20 @@ std::optional<double> take_zone(std::string_view text) {
 }
 
 }  // namespace
+
+std::optional<std::string> day_in(std::string_view text) {
+    text = records::without_blanks(text);
+    const auto date = take_date(text);
+    return date ? std::optional(day_of(*date)) : std::nullopt;
+}
+
+std::string day_of(double time_s) {
+    const std::chrono::sys_days days{
+        std::chrono::days(static_cast<int>(std::floor(time_s / 86400.0)))};
+    const std::chrono::year_month_day date(days);
+    return fmt::format("{}-{:02}-{:02}", static_cast<int>(date.year()),
+                       static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
+}
 
 std::optional<double> seconds_of(std::string_view text) {
     text = records::without_blanks(text);

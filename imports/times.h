@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace trunnion::imports {
@@ -11,5 +12,10 @@ namespace trunnion::imports {
 /// off); or a time of day alone (08:15:30), as seconds since midnight. Nothing for another text, a
 /// day that no calendar has, and 01/02/2024, which is two days.
 std::optional<double> seconds_of(std::string_view text);
+
+/// The day that a text begins with, as 2024-03-01; nothing where seconds_of reads none.
+std::optional<std::string> day_in(std::string_view text);
+/// The day of a moment in seconds since 1970.
+std::string day_of(double time_s);
 
 }  // namespace trunnion::imports

@@ -1,9 +1,11 @@
 #include "imports/units.h"
 
+#include <algorithm>
 #include <cctype>
 #include <map>
 #include <string>
 
+#include "base/numbers.h"
 #include "base/units.h"
 
 namespace trunnion::imports {
@@ -20,8 +22,16 @@ std::string plain(std::string_view name) {
         } else if (two == "\xC2\xB0") {
             out += "deg";
             ++k;
+        } else if (two == "\xC2\xB2" || name[k] == '\xB2') {
+            out += '2';
+            k += two == "\xC2\xB2";
+        } else if (name.substr(k, 3) == "\xE2\x80\xB3") {
+            out += '"';
+            k += 2;
         } else if (name[k] == '\xB5') {
             out += 'u';
+        } else if (name[k] == '\xB0') {
+            out += "deg";
         } else if (name[k] != ' ') {
             out += static_cast<char>(std::tolower(static_cast<unsigned char>(name[k])));
         }
@@ -47,10 +57,18 @@ const std::map<std::string, Unit, std::less<>>& units() {
         {"degree", {Q::angle, deg}},
         {"degrees", {Q::angle, deg}},
         {"grad", {Q::angle, deg}},
+        {"turn", {Q::angle, 360.0 * deg}},
+        {"rev", {Q::angle, 360.0 * deg}},
+        {"mdeg", {Q::angle, 1e-3 * deg}},
         {"rad", {Q::angle, 1.0}},
         {"mrad", {Q::angle, 1e-3}},
         {"urad", {Q::angle, 1e-6}},
         {"arcsec", {Q::angle, deg / 3600.0}},
+        {"arcseconds", {Q::angle, deg / 3600.0}},
+        {"arc-sec", {Q::angle, deg / 3600.0}},
+        {"asec", {Q::angle, deg / 3600.0}},
+        {"\'\'", {Q::angle, deg / 3600.0}},
+        {"mas", {Q::angle, deg / 3.6e6}},
         {"arcmin", {Q::angle, deg / 60.0}},
         {"\"", {Q::angle, deg / 3600.0}},
         {"s", {Q::time, 1.0}},
@@ -79,8 +97,15 @@ const std::map<std::string, Unit, std::less<>>& units() {
 }  // namespace
 
 std::optional<Unit> find_unit(std::string_view name) {
-    const auto it = units().find(plain(name));
-    return it == units().end() ? std::nullopt : std::optional(it->second);
+    const std::string word = plain(name);
+    if (const auto it = units().find(word); it != units().end()) return it->second;
+    const std::size_t digits = std::min(word.find_first_not_of("0123456789.,"), word.size());
+    std::string count = word.substr(0, digits);
+    std::replace(count.begin(), count.end(), ',', '.');
+    const auto times = parse_number(count);
+    const auto it = units().find(word.substr(digits));
+    if (!times || *times <= 0.0 || it == units().end()) return std::nullopt;
+    return Unit{it->second.quantity, *times * it->second.factor};
 }
 
 }  // namespace trunnion::imports

@@ -75,9 +75,7 @@ TEST_CASE("what is no table is refused with its line") {
     refused("1,2,3\n4,5,6\n", "names of the columns", 1);
     refused(head + "0,1\n1,2,3\n2,3,4\n", "cells", 2);
     refused(head + "0,1,1\n1,abc,2\n", "not a finite number", 3);
-    refused(head + "0,1,1\n1,nan,2\n", "not a finite number", 3);
     refused(head + "0,1,1\n1,2 um,2\n", "a unit in the cell", 3);
-    refused(head + "0,1,1\n1,2,\n", "not a finite number", 3);
     refused(head + "5,1,1\n4,2,2\n", "clock runs back", 3);
     refused(head + "0,1,1\n1,\"2,2\n", "quote", 3);
     refused("time;X cmd;X act\n0;1,5;1.5\n", "decimal comma", 2);
@@ -88,6 +86,58 @@ TEST_CASE("what is no table is refused with its line") {
     refused("time [s],X cmd [mm],X lag [um]\n0,1,1\n", "sign=", 1);
     refused("time [s],X cmd [mm],X cmd [um],X act\n0,1,1,1\n", "second column", 1);
     refused("time,X cmd [mm],X act [mm]\n01/02/2024 08:00,1,1\n", "is no time", 2);
+}
+
+TEST_CASE("a value that is missing leaves its row out, with a note") {
+    for (const char* hole : {"", "NaN", "---", "n/a", "***"}) {
+        INFO(hole);
+        const Case log{
+            imports::ImportKind::axis_log,
+            std::string("time [s],X cmd [mm],X act [mm]\n0,1,1\n1,2,") + hole + "\n2,3,3.001\n",
+            {},
+            ""};
+        const auto rows = import_bench::read_rows(import_bench::setup(), log);
+        REQUIRE(rows.size() == 2);
+        CHECK(rows[1].time_s == 2.0);
+        CHECK(rows[1].source == "f.txt:4");
+        const auto notes = import_bench::imported(import_bench::setup(), log).notes;
+        REQUIRE(notes.size() == 1);
+        CHECK_THAT(notes[0], Catch::Contains("X: 1 rows without a value"));
+    }
+}
+
+TEST_CASE("dates become sessions: one for each day, none for a pause at lunch") {
+    const Case log{imports::ImportKind::axis_log,
+                   "Date;Time;X cmd [mm];X act [mm]\n2024-03-01;08:00:00;1;1\n"
+                   "2024-03-01;11:00:00;2;2\n2024-03-08;07:59:00;3;3\n08.03.2024;08:00:00;4;4\n",
+                   {},
+                   ""};
+    const auto rows = import_bench::read_rows(import_bench::setup(), log);
+    REQUIRE(rows.size() == 4);
+    CHECK(rows[1].time_s == 3 * 3600.0);
+    CHECK(rows[0].session == "2024-03-01");
+    CHECK(rows[1].session == "2024-03-01");
+    CHECK(rows[2].session == "2024-03-08");
+    CHECK(rows[3].session == "2024-03-08");
+    Case one = log;
+    one.told = {"session=all"};
+    for (const auto& row : import_bench::read_rows(import_bench::setup(), one))
+        CHECK(row.session == "all");
+}
+
+TEST_CASE("UTF-16 and Latin-1 from a spreadsheet come in as UTF-8 does") {
+    const std::string text = "time [s];B cmd [\xB0];B act [\xB0]\n0;1,5;1,501\n1;2;2\n";
+    std::string wide = "\xFF\xFE";
+    for (const char c : text) {
+        wide += c;
+        wide += '\0';
+    }
+    for (const std::string& one : {text, wide}) {
+        const auto rows = import_bench::read_rows(import_bench::setup(),
+                                                  {imports::ImportKind::axis_log, one, {}, ""});
+        REQUIRE(rows.size() == 2);
+        CHECK(rows[0].commanded[Axis::B] == Approx(1.5 * 3.14159265358979 / 180));
+    }
 }
 
 TEST_CASE("a row remembers the file and the line that it came from") {

@@ -198,6 +198,34 @@ TEST_CASE("one touch by hand: value, place, direction, and a store that is not t
                                                 "declares 0.1443"));
 }
 
+TEST_CASE("one file of prints may hold several runs, each with a clock of its own",
+          "[imports][dprnt]") {
+    const setup::Setup setup = machine("bc_table.toml");
+    const auto read = [&](const imports::Imported& result) {
+        std::vector<std::string> notes;
+        return records::parse_readings(result.readings, "import.csv", notes).rows;
+    };
+    const std::string runs = good + with(good, "T 1500", "T 700");
+    const imports::Imported one = imported(setup, runs);
+    CHECK_THAT(one.summary[0], Catch::Contains("2 touches in 2 tests, 2 runs of programs"));
+    REQUIRE(one.notes.size() > 0);
+    CHECK_THAT(one.notes.back(), Catch::Contains("--with session=each"));
+    const auto joined = read(one), single = read(imported(setup, good));
+    REQUIRE(joined.size() == 2 * single.size());
+    for (std::size_t i = 0; i < single.size(); ++i) {
+        const records::Reading &again = joined[single.size() + i], &first = single[i];
+        CHECK(again.commanded == first.commanded);
+        CHECK(again.value_mm == first.value_mm);
+        CHECK(again.session.empty());
+        CHECK(again.time_s > joined[single.size() - 1].time_s);
+    }
+    const std::vector<imports::ImportFile> files{{"print.txt", runs}};
+    const auto days = read(imports::import_readings(
+        imports::ImportKind::dprnt, {setup, files, imports::Facts({"session=each"}), {}}));
+    CHECK(days.front().session == "run_1");
+    CHECK(days.back().session == "run_2");
+}
+
 TEST_CASE("prints that are refused name their line", "[imports][dprnt]") {
     const setup::Setup setup = machine("bc_table.toml");
     refuses(setup, "", "nothing was printed", 1);

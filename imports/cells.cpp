@@ -1,0 +1,150 @@
+#include "imports/cells.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string>
+
+#include "base/alarm.h"
+#include "base/numbers.h"
+#include "imports/times.h"
+
+namespace trunnion::imports {
+namespace {
+
+using Cells = std::vector<records::TableCell>;
+
+bool digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+/// A comma between two digits, as in 1,5.
+bool has_decimal_comma(std::string_view text) {
+    for (std::size_t k = 1; k + 1 < text.size(); ++k)
+        if (text[k] == ',' && digit(text[k - 1]) && digit(text[k + 1])) return true;
+    return false;
+}
+
+bool is_blank(char c) {
+    return c == ' ' || c == '\t';
+}
+
+/// Most lines in a row that `separator` cuts into as many cells, two or more.
+std::size_t longest_run(const std::vector<records::TableLine>& lines, char separator) {
+    std::size_t best = 0, run = 0;
+    std::ptrdiff_t last = 0;
+    for (const records::TableLine& line : lines) {
+        const auto count = std::count(line.text.begin(), line.text.end(), separator);
+        run = count > 0 && count == last ? run + 1 : 1;
+        last = count;
+        if (count > 0) best = std::max(best, run);
+    }
+    return best;
+}
+
+/// "0,5  1,25": what stands between blanks are numbers with a decimal comma.
+bool commas_between_blanks(const std::vector<records::TableLine>& lines) {
+    const Dialect comma{' ', true};
+    for (const records::TableLine& line : lines) {
+        const Cells cells = cells_of(line, ' ');
+        const auto number = [&](const auto& cell) { return comma.find_number(cell.text); };
+        if (cells.size() > 1 && has_decimal_comma(line.text) &&
+            std::all_of(cells.begin(), cells.end(), number))
+            return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+std::optional<double> Dialect::find_number(std::string_view text) const {
+    if (!decimal_comma) return parse_number(text);
+    if (text.find('.') != std::string_view::npos) return std::nullopt;
+    if (text.find(',') == std::string_view::npos) return parse_number(text);
+    std::string point(text);
+    std::replace(point.begin(), point.end(), ',', '.');
+    return parse_number(point);
+}
+
+std::vector<records::TableCell> cells_of(const records::TableLine& line, char separator) {
+    Cells cells;
+    if (separator != ' ') {
+        line.split(separator, cells);
+        return cells;
+    }
+    const std::string_view text = line.text;
+    for (std::size_t k = 0; k < text.size();) {
+        if (is_blank(text[k])) {
+            ++k;
+            continue;
+        }
+        const std::size_t end = std::min(text.find_first_of(" \t", k), text.size());
+        cells.push_back({text.substr(k, end - k), static_cast<int>(k) + 1, false});
+        k = end;
+    }
+    return cells;
+}
+
+std::vector<records::TableCell> cells_apart(std::string_view text) {
+    Cells cells;
+    std::size_t k = 0;
+    while ((k = text.find_first_not_of(" \t", k)) != std::string_view::npos) {
+        std::size_t end = k;
+        while (end < text.size() && text[end] != '\t' &&
+               !(text[end] == ' ' && (end + 1 == text.size() || is_blank(text[end + 1]))))
+            ++end;
+        cells.push_back({text.substr(k, end - k), static_cast<int>(k) + 1, false});
+        k = end;
+    }
+    return cells;
+}
+
+void drop_empty_end(std::vector<records::TableCell>& cells) {
+    while (!cells.empty() && cells.back().text.empty()) cells.pop_back();
+}
+
+bool is_missing(std::string_view text) {
+    static constexpr std::array<std::string_view, 9> words{"-",  "--",   "---",  "nan", "n/a",
+                                                           "na", "n.a.", "null", "#n/a"};
+    if (text.find_first_not_of('*') == std::string_view::npos) return true;  // empty too
+    std::string lower(text);
+    for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return std::find(words.begin(), words.end(), lower) != words.end();
+}
+
+bool has_number(const Cells& cells, const Dialect& dialect) {
+    return std::any_of(cells.begin(), cells.end(),
+                       [&](const auto& cell) { return dialect.find_number(cell.text); });
+}
+
+bool is_data(const Cells& cells, const Dialect& dialect) {
+    return has_number(cells, dialect) ||
+           std::any_of(cells.begin(), cells.end(), [](const auto& cell) {
+               return (!cell.text.empty() && is_missing(cell.text)) || seconds_of(cell.text);
+           });
+}
+
+Dialect dialect_of(const std::vector<records::TableLine>& lines) {
+    Dialect dialect{' ', false};
+    std::size_t best = 1;
+    for (const char candidate : {'\t', ';', ',', '|'}) {
+        // Commas beside ; or tabs, and between blanks, are decimal marks.
+        if (candidate == ',' && (best > 1 || commas_between_blanks(lines))) continue;
+        const std::size_t run = longest_run(lines, candidate);
+        if (run <= best) continue;
+        best = run;
+        dialect.separator = candidate;
+    }
+    if (dialect.separator == ',') return dialect;
+    dialect.decimal_comma = std::any_of(lines.begin(), lines.end(), [](const auto& line) {
+        return line.text[0] != '#' && has_decimal_comma(line.text);
+    });
+    const bool one = cells_of(lines.back(), ' ').size() == 1;
+    if (dialect.separator == ' ' && dialect.decimal_comma && one)
+        throw InputError("a comma may be decimal mark or separator here: use ; between columns",
+                         {std::string(lines.back().path), lines.back().number, 1},
+                         std::string(lines.back().text));
+    return dialect;
+}
+
+}  // namespace trunnion::imports

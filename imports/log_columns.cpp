@@ -1,0 +1,159 @@
+#include "imports/log_columns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "imports/column_roles.h"
+
+namespace trunnion::imports {
+namespace {
+
+Quantity quantity_of(bool rotary, Rate rate) {
+    if (rate == Rate::acceleration) return Quantity::per_s2;
+    if (rate == Rate::velocity) return rotary ? Quantity::turning : Quantity::speed;
+    return rotary ? Quantity::angle : Quantity::length;
+}
+
+std::string usual_unit(bool rotary, Rate rate) {
+    if (rate == Rate::acceleration) return "mm/s2";
+    if (rate == Rate::velocity) return rotary ? "deg/s" : "mm/s";
+    return rotary ? "deg" : "mm";
+}
+
+/// Whether the error is actual - commanded (+1) or commanded - actual.
+double sign_of_error(const TextTable& table, const TextColumn& column, Role role,
+                     const Facts& facts) {
+    const std::string sign = facts.text("sign", role == Role::error ? "+" : "");
+    if (sign != "+" && sign != "-")
+        table.header_line().fail("'" + column.name +
+                                     "': actual - commanded (--with sign=+) or commanded - actual "
+                                     "(--with sign=-)?",
+                                 column.column);
+    return sign == "+" ? 1.0 : -1.0;
+}
+
+std::optional<NumberColumn>& place_of(AxisColumns& axis, const ColumnRole& role) {
+    if (role.rate == Rate::velocity) return axis.velocity;
+    if (role.rate == Rate::acceleration) return axis.acceleration;
+    if (role.role == Role::commanded) return axis.commanded;
+    return role.role == Role::actual ? axis.actual : axis.error;
+}
+
+/// Speeds that the encoder told are no commanded motion; a position is one of the two or the error.
+bool wanted(const ColumnRole& role) {
+    return role.rate == Rate::position ? role.role != Role::none : role.role != Role::actual;
+}
+
+AxisColumns& columns_of(LogColumns& log, const setup::Setup& setup, Axis axis) {
+    for (AxisColumns& columns : log.axes)
+        if (columns.axis == axis) return columns;
+    log.axes.push_back({});
+    log.axes.back().axis = axis;
+    log.axes.back().rotary = turns(setup, axis);
+    log.axes.back().name = setup.machine.chain.names()[axis];
+    return log.axes.back();
+}
+
+/// A name without a letter ("commanded", "actual position") is about the axis that is told.
+std::optional<ColumnRole> role_in(const TextColumn& column, const AxisNames& names,
+                                  const Facts& facts) {
+    if (auto role = role_of(column.name, names)) return role;
+    return facts.has("axis") ? role_of(column.name + ' ' + facts.text("axis"), names)
+                             : std::nullopt;
+}
+
+/// "Az" beside "Az error" or "Az actual": as commanded.
+void take_plain(const TextTable& table, std::size_t k, const Facts& facts, AxisColumns& columns,
+                LogColumns& log) {
+    if (columns.commanded || !(columns.actual || columns.error)) {
+        log.unused.push_back(table.columns()[k].name);
+        return;
+    }
+    columns.commanded =
+        number_column(table, k, quantity_of(columns.rotary, Rate::position),
+                      facts.text("unit", usual_unit(columns.rotary, Rate::position)));
+}
+
+void check(const TextTable& table, const LogColumns& log) {
+    if (std::none_of(log.axes.begin(), log.axes.end(), [](auto& axis) { return axis.read(); }))
+        table.header_line().fail(
+            "no axis has both a commanded and an actual position (\"X commanded\", \"X actual\")",
+            1);
+}
+
+}  // namespace
+
+LogColumns log_columns(const TextTable& table, const setup::Setup& setup, const Facts& facts,
+                       const TimeColumn& time) {
+    LogColumns log;
+    std::vector<std::pair<Axis, std::size_t>> plain;
+    for (std::size_t k = 0; k < table.columns().size(); ++k) {
+        if (time.is_column(k)) continue;
+        const TextColumn& column = table.columns()[k];
+        const auto role = role_in(column, setup.machine.chain.names(), facts);
+        const auto axis = role ? axis_named(setup, role->axis) : std::nullopt;
+        if (axis && role->role == Role::none && role->rate == Rate::position) {
+            plain.emplace_back(*axis, k);
+            continue;
+        }
+        if (!axis || !wanted(*role)) {
+            log.unused.push_back(column.name);
+            continue;
+        }
+        AxisColumns& columns = columns_of(log, setup, *axis);
+        std::optional<NumberColumn>& place = place_of(columns, *role);
+        if (place) table.header_line().fail("a second column for this", column.column);
+        log.units_assumed |= column.unit.empty() && !facts.has("unit");
+        const bool rate = role->rate != Rate::position;
+        place = number_column(table, k, quantity_of(columns.rotary, role->rate),
+                              rate ? usual_unit(columns.rotary, role->rate)
+                                   : facts.text("unit", usual_unit(columns.rotary, role->rate)));
+        if (&place == &columns.error)
+            columns.error_sign = sign_of_error(table, column, role->role, facts);
+    }
+    for (const auto& [axis, k] : plain)
+        take_plain(table, k, facts, columns_of(log, setup, axis), log);
+    check(table, log);
+    return log;
+}
+
+std::optional<double> number_or_none(const TextTable& table, std::size_t row,
+                                     const std::vector<records::TableCell>& cells,
+                                     const std::optional<NumberColumn>& column) {
+    if (!column || is_missing(cells[column->index].text)) return std::nullopt;
+    return number_in(table, row, cells, *column);
+}
+
+std::optional<LogEntry> log_entry(const TextTable& table, std::size_t row,
+                                  const std::vector<records::TableCell>& cells,
+                                  const AxisColumns& axis) {
+    const auto commanded = number_or_none(table, row, cells, axis.commanded);
+    const auto read = number_or_none(table, row, cells, axis.actual ? axis.actual : axis.error);
+    if (!commanded || !read) return std::nullopt;
+    return LogEntry{*commanded, axis.actual ? *read - *commanded : axis.error_sign * *read};
+}
+
+std::string axes_words(const LogColumns& log) {
+    std::string out;
+    for (const AxisColumns& axis : log.axes)
+        if (axis.read())
+            out += (out.empty() ? "" : ", ") + axis.name +
+                   (axis.velocity ? " (with commanded speed)" : "");
+    return out;
+}
+
+std::vector<std::string> log_notes(const TextTable& table, const LogColumns& log) {
+    std::vector<std::string> notes;
+    if (log.units_assumed)
+        notes.push_back(table.path() + ": columns without unit taken as mm, deg, mm/s");
+    for (const AxisColumns& axis : log.axes)
+        if (axis.missing > 0)
+            notes.push_back(fmt::format("{}: {}: {} rows without a value are left out",
+                                        table.path(), axis.name, axis.missing));
+    for (const std::string& name : log.unused)
+        notes.push_back(table.path() + ": column '" + name + "' is not used");
+    return notes;
+}
+
+}  // namespace trunnion::imports

@@ -1,0 +1,53 @@
+// Commanded and read positions of axes in the columns of a log.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "imports/columns.h"
+#include "imports/facts.h"
+
+namespace trunnion::imports {
+
+/// The columns of one axis.
+struct AxisColumns {
+    Axis axis = Axis::X;
+    bool rotary = false;
+    std::string name;
+    std::size_t missing = 0;
+    std::optional<NumberColumn> commanded, actual, error, velocity, acceleration;
+    double error_sign = 1.0;
+
+    bool read() const { return (commanded && actual) || (commanded && error); }
+};
+
+struct LogColumns {
+    std::vector<AxisColumns> axes;
+    std::vector<std::string> unused;
+    bool units_assumed = false;
+};
+
+/// By the names of the columns and the facts axis, unit and sign. Throws InputError (header line)
+/// where no axis has both positions, or the sign of an error is not told.
+LogColumns log_columns(const TextTable& table, const setup::Setup& setup, const Facts& facts,
+                       const TimeColumn& time);
+
+/// What one line says of one axis: mm or rad.
+struct LogEntry {
+    double commanded = 0.0, error = 0.0;  ///< error: read - commanded
+};
+/// Nothing where one of the two is missing.
+std::optional<LogEntry> log_entry(const TextTable& table, std::size_t row,
+                                  const std::vector<records::TableCell>& cells,
+                                  const AxisColumns& axis);
+/// A number that may be missing.
+std::optional<double> number_or_none(const TextTable& table, std::size_t row,
+                                     const std::vector<records::TableCell>& cells,
+                                     const std::optional<NumberColumn>& column);
+/// "X, B (with commanded speed)": the axes that were read.
+std::string axes_words(const LogColumns& log);
+/// Units assumed, values missing, columns that are not used.
+std::vector<std::string> log_notes(const TextTable& table, const LogColumns& log);
+
+}  // namespace trunnion::imports

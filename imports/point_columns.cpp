@@ -1,0 +1,164 @@
+#include "imports/point_columns.h"
+
+#include <algorithm>
+
+#include "imports/column_roles.h"
+
+namespace trunnion::imports {
+namespace {
+
+using Cells = std::vector<records::TableCell>;
+
+bool any(const ThreeColumns& columns) {
+    return std::any_of(columns.begin(), columns.end(), [](auto& c) { return c.has_value(); });
+}
+
+std::optional<std::size_t> component_of(const std::string& letter) {
+    const std::size_t d = std::string_view("XYZ").find(letter);
+    return letter.size() == 1 && d != std::string_view::npos ? std::optional(d) : std::nullopt;
+}
+
+/// A coordinate without a word ("x") is a measured one.
+ThreeColumns& place_of(PointColumns& columns, Role role) {
+    if (role == Role::commanded) return columns.nominal;
+    return role == Role::error ? columns.error : columns.measured;
+}
+
+void take(const TextTable& table, std::size_t k, const ColumnRole& role, const setup::Setup& setup,
+          const Facts& facts, PointColumns& columns) {
+    const TextColumn& column = table.columns()[k];
+    const auto axis = axis_named(setup, role.axis);
+    const std::string unit = facts.text("unit", "mm");
+    const auto d = component_of(role.axis);
+    if (role.machine || !d) {
+        if (!axis) {
+            columns.unused.push_back(column.name);
+            return;
+        }
+        const bool rotary = turns(setup, *axis);
+        columns.axes.emplace_back(
+            *axis, number_column(table, k, rotary ? Quantity::angle : Quantity::length,
+                                 rotary ? "deg" : unit));
+        return;
+    }
+    auto& place = place_of(columns, role.role)[*d];
+    if (place) table.header_line().fail("a second column for this coordinate", column.column);
+    place = number_column(table, k, Quantity::length, unit);
+}
+
+/// "X", "Y", "Z" (or "x-coordinate") in the first row's cell.
+bool names_coordinate(const TextTable& table, std::size_t column) {
+    Cells cells;
+    table.read(0, cells);
+    const auto role = role_of(cells[column].plain());
+    return role && component_of(role->axis);
+}
+
+/// A line for each coordinate: name, axis, nominal, actual, deviation.
+bool take_lines(const TextTable& table, const Facts& facts, PointColumns& columns) {
+    const auto coordinate =
+        find_first_column(table, {{"coordinate", "coord", "koordinate"},
+                                  {"axis", "achse", "ax"},
+                                  {"characteristic", "merkmal", "dim", "dimension"}});
+    const auto nominal = find_column(table, {"nominal", "nom", "soll", "sollwert", "nennwert"}),
+               measured = find_column(
+                   table, {"measured", "meas", "actual", "act", "ist", "istwert", "messwert"}),
+               error = find_column(table, {"deviation", "dev", "abweichung", "error", "diff"});
+    if (!coordinate || !names_coordinate(table, *coordinate) || (!measured && !error)) return false;
+    columns.coordinate = coordinate;
+    columns.name = find_first_column(table, {{"name", "label", "point", "punkt", "element"},
+                                             {"feature", "id", "no", "nr", "number"}});
+    const std::string unit = facts.text("unit", "mm");
+    const auto place = [&](const std::optional<std::size_t>& column) {
+        return column ? std::optional(number_column(table, *column, Quantity::length, unit))
+                      : std::nullopt;
+    };
+    columns.nominal[0] = place(nominal);
+    columns.measured[0] = place(measured);
+    columns.error[0] = place(error);
+    return true;
+}
+
+void check(const TextTable& table, const PointColumns& columns) {
+    const bool nominal = any(columns.nominal), error = any(columns.error);
+    if (!any(columns.measured) && !(nominal && error))
+        table.header_line().fail("no columns of measured x, y and z", 1);
+    if (!nominal && !error && columns.axes.empty())
+        table.header_line().fail(
+            "no columns of nominal x, y and z, and none of axis positions (\"machine x\")", 1);
+}
+
+std::optional<double> number(const TextTable& table, std::size_t row, const Cells& cells,
+                             const std::optional<NumberColumn>& column) {
+    if (!column || is_missing(cells[column->index].text)) return std::nullopt;
+    return number_in(table, row, cells, *column);
+}
+
+/// Nominal and measured from any two of nominal, measured and their difference.
+void fill(const TextTable& table, std::size_t row, const Cells& cells, const PointColumns& columns,
+          std::pair<std::size_t, std::size_t> from_to, MeasuredPoint& point) {
+    const auto [from, d] = from_to;
+    auto nominal = number(table, row, cells, columns.nominal[from]),
+         measured = number(table, row, cells, columns.measured[from]);
+    const auto error = number(table, row, cells, columns.error[from]);
+    if (!nominal && measured && error) nominal = *measured - *error;
+    if (!columns.measured[from] && nominal && error) measured = *nominal + *error;
+    point.nominal[d] = nominal;
+    point.measured[d] = measured;
+    point.rows[d] = row;
+}
+
+}  // namespace
+
+PointColumns point_columns(const TextTable& table, const setup::Setup& setup, const Facts& facts,
+                           const TimeColumn& time) {
+    PointColumns columns;
+    columns.session = find_column(table, {"session", "setup", "tag", "day"});
+    const auto sigma = find_column(table, {"sigma", "u", "uncertainty", "unsicherheit"});
+    if (sigma)
+        columns.sigma = number_column(table, *sigma, Quantity::length, facts.text("unit", "mm"));
+    if (take_lines(table, facts, columns)) return columns;
+    for (std::size_t k = 0; k < table.columns().size(); ++k) {
+        if (time.is_column(k) || columns.session == k || sigma == k) continue;
+        const auto role = role_of(table.columns()[k].name, setup.machine.chain.names());
+        if (role && role->rate == Rate::position && role->role != Role::following_error)
+            take(table, k, *role, setup, facts, columns);
+        else
+            columns.unused.push_back(table.columns()[k].name);
+    }
+    check(table, columns);
+    return columns;
+}
+
+std::vector<MeasuredPoint> measured_points(const TextTable& table, const PointColumns& columns,
+                                           std::size_t& left_out) {
+    std::vector<MeasuredPoint> points;
+    Cells cells;
+    std::string name;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        table.read(i, cells);
+        if (!columns.coordinate) {
+            MeasuredPoint point{i, {}, {}, {}};
+            for (std::size_t d = 0; d < 3; ++d) {
+                fill(table, i, cells, columns, {d, d}, point);
+                const bool wanted = columns.measured[d] || columns.error[d];
+                left_out += wanted && !point.measured[d] ? 1 : 0;
+            }
+            points.push_back(point);
+            continue;
+        }
+        const records::TableCell& cell = cells[*columns.coordinate];
+        const auto role = role_of(cell.plain());
+        const auto d = role ? component_of(role->axis) : std::nullopt;
+        if (!d) continue;  // a diameter or a distance, no coordinate
+        const std::string own = columns.name ? cells[*columns.name].plain() : "";
+        if (points.empty() || own != name || points.back().measured[*d])
+            points.push_back({i, {}, {}, {}});
+        name = own;
+        fill(table, i, cells, columns, {0, *d}, points.back());
+        left_out += points.back().measured[*d] ? 0 : 1;
+    }
+    return points;
+}
+
+}  // namespace trunnion::imports

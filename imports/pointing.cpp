@@ -1,0 +1,143 @@
+// Angles that one or two rotary axes took, read from outside: a resolver against a reference, a
+// telescope against stars.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/units.h"
+#include "imports/log_columns.h"
+#include "imports/row_writer.h"
+
+namespace trunnion::imports {
+namespace {
+
+/// A component of the rotation that is read.
+struct Component {
+    std::string test;
+    Vector3 direction_M;
+    double angle_rad = 0.0;
+};
+
+/// The machine's axes that were read, the carrying one first.
+class Mount {
+  public:
+    Mount(const TextTable& table, const setup::Setup& setup, const LogColumns& log)
+        : setup_(setup) {
+        const kinematics::Chain& chain = setup.machine.chain;
+        for (const auto* side : {&chain.work, &chain.tool})
+            for (const kinematics::AxisGeometry& axis : *side)
+                if (const AxisColumns* columns = columns_of(log, axis.axis)) {
+                    if (!axis.rotary)
+                        table.header_line().fail(axis.name + " does not turn: import axis-log", 1);
+                    axes_.push_back(*columns);
+                    on_work_.push_back(side == &chain.work);
+                }
+        if (axes_.size() > 2 || (axes_.size() == 2 && (on_work_[0] || on_work_[1])))
+            table.header_line().fail(
+                "one rotary axis, or two that carry the line of sight, are read at a time", 1);
+    }
+
+    const std::vector<AxisColumns>& axes() const { return axes_; }
+
+    /// One axis: the rotation about it. Two: the line of sight stands across both when all axes are
+    /// at zero; read are the turn about the second axis and the one across it and the line of
+    /// sight, which is as wide as the sky shows it.
+    std::vector<Component> components(const AxisPositions& at,
+                                      const std::vector<double>& errors_rad) const {
+        const Vector3 last = direction_M(axes_.back().axis, at);
+        const std::string name = axes_.back().name;
+        if (axes_.size() == 1) return {{name, on_work_[0] ? Vector3(-last) : last, errors_rad[0]}};
+        const Vector3 first = direction_M(axes_[0].axis, at);
+        AxisPositions zero = at;
+        zero[axes_[1].axis] = 0.0;
+        const Vector3 sight_at_zero =
+            direction_M(axes_[0].axis, zero).cross(direction_M(axes_[1].axis, zero)).normalized();
+        const Vector3 sight = rotation_about(last, at[axes_[1].axis]) * sight_at_zero;
+        const Vector3 across = sight.cross(last).normalized();
+        const Vector3 turned = errors_rad[0] * first + errors_rad[1] * last;
+        return {{name, last, last.dot(turned)}, {"across_" + name, across, across.dot(turned)}};
+    }
+
+  private:
+    static const AxisColumns* columns_of(const LogColumns& log, Axis axis) {
+        for (const AxisColumns& columns : log.axes)
+            if (columns.axis == axis && columns.read()) return &columns;
+        return nullptr;
+    }
+
+    /// Of a tool-side axis, where those that carry it have brought it.
+    Vector3 direction_M(Axis axis, const AxisPositions& at) const {
+        Matrix3 carried = Matrix3::Identity();
+        for (const kinematics::AxisGeometry& a : setup_.machine.chain.tool) {
+            if (a.axis == axis) return carried * a.direction;
+            if (a.rotary) carried *= rotation_about(a.direction, at[a.axis]);
+        }
+        return setup_.machine.chain.find(axis)->direction;
+    }
+
+    const setup::Setup& setup_;
+    std::vector<AxisColumns> axes_;
+    std::vector<bool> on_work_;
+};
+
+/// Rows of one line of the table.
+void write_line(const TextTable& table, std::size_t i, const Mount& mount, records::Reading row,
+                RowWriter& rows) {
+    std::vector<records::TableCell> cells;
+    table.read(i, cells);
+    std::vector<double> errors_rad;
+    for (const AxisColumns& axis : mount.axes()) {
+        const auto entry = log_entry(table, i, cells, axis);
+        if (!entry) return;
+        row.commanded[axis.axis] = entry->commanded;
+        errors_rad.push_back(std::remainder(entry->error, 2.0 * pi));
+    }
+    const std::string test = row.test;
+    for (const Component& component : mount.components(row.commanded, errors_rad)) {
+        row.test = test.empty() ? component.test : test + '_' + component.test;
+        row.direction_M = component.direction_M;
+        row.value_mm = component.angle_rad;
+        rows.add(row, table.line(i).number);
+    }
+}
+
+void import_sights(const TextTable& table, const ImportRequest& request, RowWriter& rows,
+                   Imported& result) {
+    const setup::Setup& setup = request.setup;
+    const Facts facts = request.facts.with_head_of(table);
+    const TimeColumn time(table, facts);
+    const LogColumns log = log_columns(table, setup, facts, time);
+    const Mount mount(table, setup, log);
+    records::Reading row;
+    row.test = facts.text("test");
+    row.device = records::Device::angle;
+    row.angular = true;
+    row.feature = artefact_for(setup, facts.text("feature"), setup::Artefact::Kind::target).name;
+    row.commanded = positions_told(setup, facts.text("at"));
+    rows.begin_file(table, facts);
+    if (time.dated()) rows.name_days();
+    const int before = rows.count();
+    std::vector<records::TableCell> cells;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        table.read(i, cells);
+        row.time_s = time.time_s(table, i, cells);
+        write_line(table, i, mount, row, rows);
+    }
+    result.summary.push_back(fmt::format(
+        "{}: pointing of {}, {} lines, {} readings, {}; {}", table.path(), axes_words(log),
+        table.size(), rows.count() - before, time.words(), table.dialect_words()));
+    for (std::string& note : log_notes(table, log)) result.notes.push_back(std::move(note));
+}
+
+}  // namespace
+
+Imported import_pointing(const ImportRequest& request) {
+    Imported result;
+    RowWriter rows(request.setup, "pointing", {}, true, true);
+    for (const TextTable& table : tables_of(request, result.notes))
+        import_sights(table, request, rows, result);
+    result.readings = rows.take();
+    return result;
+}
+
+}  // namespace trunnion::imports

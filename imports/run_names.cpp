@@ -1,0 +1,105 @@
+#include "imports/run_names.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+
+namespace trunnion::imports {
+namespace {
+
+std::string lower(std::string word) {
+    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return word;
+}
+
+const std::map<std::string, int>& directions() {
+    static const std::map<std::string, int> words{{"+", 1},
+                                                  {"-", -1},
+                                                  {"up", 1},
+                                                  {"down", -1},
+                                                  {"pos", 1},
+                                                  {"neg", -1},
+                                                  {"positive", 1},
+                                                  {"negative", -1},
+                                                  {"plus", 1},
+                                                  {"minus", -1},
+                                                  {"forward", 1},
+                                                  {"forwards", 1},
+                                                  {"reverse", -1},
+                                                  {"backward", -1},
+                                                  {"backwards", -1},
+                                                  {"back", -1},
+                                                  {"return", -1},
+                                                  {"f", 1},
+                                                  {"r", -1},
+                                                  {"fwd", 1},
+                                                  {"rev", -1},
+                                                  {"bwd", -1},
+                                                  {"vor", 1},
+                                                  {"vorw\xC3\xA4rts", 1},
+                                                  {"vorwaerts", 1},
+                                                  {"r\xC3\xBC"
+                                                   "ckw\xC3\xA4rts",
+                                                   -1},
+                                                  {"rueckwaerts", -1},
+                                                  {"rueck", -1},
+                                                  {"r\xC3\xBC"
+                                                   "ck",
+                                                   -1},
+                                                  {"zurueck", -1},
+                                                  {"hin", 1},
+                                                  {"her", -1},
+                                                  {"1", 1},
+                                                  {"-1", -1},
+                                                  {"+1", 1},
+                                                  {"\xE2\x86\x91", 1},
+                                                  {"\xE2\x86\x93", -1},
+                                                  {"\xE2\x86\x92", 1},
+                                                  {"\xE2\x86\x90", -1},
+                                                  {"cw", -1},
+                                                  {"ccw", 1}};
+    return words;
+}
+
+bool filler(const std::string& word) {
+    static const std::set<std::string> words{
+        "run",      "lauf", "cycle",         "zyklus",      "pass",     "deviation", "error",
+        "dev",      "err",  "abweichung",    "direction",   "richtung", "no",        "nr",
+        "approach", "bi",   "bidirectional", "measurement", "messung",  "repeat",    "fehler"};
+    return word.empty() || words.contains(word);
+}
+
+}  // namespace
+
+int direction_of(std::string word) {
+    const auto it = directions().find(lower(std::move(word)));
+    return it == directions().end() ? 0 : it->second;
+}
+
+RunName run_name(const std::string& name) {
+    RunName result;
+    std::string word;
+    const auto finish = [&] {
+        const int direction = direction_of(word);
+        if (direction != 0) result.direction = direction;
+        result.other |= direction == 0 && !filler(lower(word));
+        word.clear();
+    };
+    for (const char c : name + ' ') {
+        const bool digit = c >= '0' && c <= '9';
+        if (digit) result.run = std::min(10 * result.run + (c - '0'), 100000);
+        if (digit || std::string(" _.#()/:,").find(c) != std::string::npos) {
+            finish();
+        } else if (c == '+' || c == '-') {
+            finish();
+            word = std::string(1, c);
+            finish();
+        } else {
+            word += c;
+        }
+    }
+    return result;
+}
+
+}  // namespace trunnion::imports
