@@ -13,10 +13,9 @@ TomlValue convert(const toml::node& node);
 TomlValue convert_table(const toml::table& table) {
     TomlValue value;
     for (const auto& [key, child] : table)
-        value.entries.emplace_back(std::string(key.str()), convert(child));
+        value.entries.push_back({std::string(key.str()), convert(child)});
     std::stable_sort(value.entries.begin(), value.entries.end(), [](const auto& a, const auto& b) {
-        return std::pair(a.second.line, a.second.column) <
-               std::pair(b.second.line, b.second.column);
+        return std::pair(a.value.line, a.value.column) < std::pair(b.value.line, b.value.column);
     });
     return value;
 }

@@ -12,6 +12,8 @@
 
 namespace trunnion::inline base {
 
+struct TomlEntry;
+
 struct TomlValue {
     enum class Kind : unsigned char { table, array, number, text, boolean };
 
@@ -19,12 +21,17 @@ struct TomlValue {
     double number = 0.0;
     bool truth = false;
     std::string text;
-    std::vector<std::pair<std::string, TomlValue>> entries;  ///< of a table, in file order
-    std::vector<TomlValue> items;                            ///< of an array
+    std::vector<TomlEntry> entries;  ///< of a table, in file order
+    std::vector<TomlValue> items;    ///< of an array
     int line = 0, column = 0;
     mutable bool used = false;  ///< asked for by the reader; the rest is noted as unknown
 
     const TomlValue* find(std::string_view key) const;  ///< marks it used; nullptr when absent
+};
+
+struct TomlEntry {
+    std::string key;
+    TomlValue value;
 };
 
 /// A parsed file. All functions that return a value throw InputError with its place when the value

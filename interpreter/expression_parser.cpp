@@ -141,6 +141,21 @@ void ExpressionParser::function(OpCode code, std::uint16_t column) {
     emit(code, column, 1);
 }
 
+/// The second bracket of FUNCTION[a]/[b]; nothing is taken where no bracket follows the slash.
+bool ExpressionParser::slash_bracket() {
+    const char* const before = in_.p;
+    if (in_.peek() == '/') {
+        ++in_.p;
+        if (in_.peek() == '[') {
+            open();
+            close();
+            return true;
+        }
+    }
+    in_.p = before;
+    return false;
+}
+
 /// ATAN[a], ATAN[a]/[b] (not a division) and ATAN[a,b].
 void ExpressionParser::atan(std::uint16_t column) {
     open();
@@ -151,16 +166,7 @@ void ExpressionParser::atan(std::uint16_t column) {
     }
     close();
     if (comma) return emit(OpCode::atan2, column, 2);
-    const char* const before = in_.p;
-    if (in_.peek() == '/') {
-        ++in_.p;
-        if (in_.peek() == '[') {
-            open();
-            close();
-            return emit(OpCode::atan2, column, 2);
-        }
-        in_.p = before;
-    }
+    if (slash_bracket()) return emit(OpCode::atan2, column, 2);
     emit(OpCode::atan, column, 1);
 }
 
@@ -173,16 +179,8 @@ void ExpressionParser::prm(std::uint16_t column) {
         binary(Precedence::comparison);
     }
     close();
-    const char* const before = in_.p;
-    if (in_.peek() == '/') {
-        ++in_.p;
-        if (in_.peek() == '[') {
-            open();
-            close();
-            return emit(bit ? OpCode::prm_bit_axis : OpCode::prm_axis, column, bit ? 3 : 2);
-        }
-        in_.p = before;
-    }
+    if (slash_bracket())
+        return emit(bit ? OpCode::prm_bit_axis : OpCode::prm_axis, column, bit ? 3 : 2);
     emit(bit ? OpCode::prm_bit : OpCode::prm, column, bit ? 2 : 1);
 }
 

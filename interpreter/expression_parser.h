@@ -32,6 +32,7 @@ class ExpressionParser {
     void close();
     void number();
     void function(OpCode code, std::uint16_t column);
+    bool slash_bracket();
     void atan(std::uint16_t column);
     void prm(std::uint16_t column);
     void load(std::uint16_t column);

@@ -45,7 +45,7 @@ void store_mode(Reading& row, const TableLine& line, const TableCell& cell) {
 }
 
 void store_clamped(Reading& row, const TableLine& line, const TableCell& cell) {
-    if (cell.text != "" && cell.text != "0" && cell.text != "1")
+    if (!cell.text.empty() && cell.text != "0" && cell.text != "1")
         line.fail("clamped is 0, 1 or empty", cell.column);
     row.clamped = cell.text == "1";
 }

@@ -166,8 +166,7 @@ void assume_turns(std::span<const Reading> rows, std::size_t k, TravelHistory& h
 /// One row after the other through the history.
 class Walk {
   public:
-    Walk(std::span<const Reading> rows, TravelHistory history)
-        : rows_(rows), history_(std::move(history)) {}
+    Walk(std::span<const Reading> rows, TravelHistory history) : rows_(rows), history_(history) {}
 
     std::vector<AxisSample> samples() {
         for (std::size_t k = 0; k < rows_.size(); ++k) step(k);
@@ -235,7 +234,7 @@ bool way_unknown(const Reading& from, const Reading& to) {
 
 std::vector<AxisSample> samples_of(std::span<const Reading> rows, const std::vector<Axis>& axes,
                                    TravelHistory history, const AxisNames& names) {
-    std::vector<AxisSample> samples = Walk(rows, std::move(history)).samples();
+    std::vector<AxisSample> samples = Walk(rows, history).samples();
     for (AxisSample& sample : samples)
         for (const Axis axis : axes)
             sample.side_unknown[index_of(axis)] = sample.travel[index_of(axis)] == 0;

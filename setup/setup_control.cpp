@@ -153,10 +153,10 @@ void read_clamps(const TomlFile& file, const TomlValue& table, Setup& setup) {
         const auto axis = setup.machine.chain.names().find(key);
         if (!axis || !is_letter(*setup.machine.chain.find(*axis)))
             file.fail(value, "'" + key + "' is not an axis of this machine");
-        const auto code = [&](const char* name, int otherwise) {
-            const double m = file.find_number(file.table(value), name).value_or(otherwise);
+        const auto code = [&, &codes = value](const char* name, int otherwise) {
+            const double m = file.find_number(file.table(codes), name).value_or(otherwise);
             if (m < 0 || m > 999 || m != static_cast<int>(m))
-                file.fail(value, std::string(name) + " is an M code, 0 to 999");
+                file.fail(codes, std::string(name) + " is an M code, 0 to 999");
             return static_cast<int>(m);
         };
         controller::ClampCode clamp{*axis, code("clamp", 10), code("release", 11), true};

@@ -5,6 +5,7 @@
 #include "controller/alarms.h"
 #include "controller/hurco_codes.h"
 #include "tests/check/one_trial.h"
+#include "tests/support/table_parameters.h"
 
 using namespace trunnion;
 using testing::OneTrial;
@@ -22,16 +23,9 @@ std::vector<check::Finding> found(const std::string& text, bool bnc) {
         config.axes.push_back(entry);
     }
     offsets::Stores stores;
-    for (const auto& [number, value] : {std::pair(19680, 12),
-                                        {19681, 4},
-                                        {19682, 1},
-                                        {19684, 1},
-                                        {19686, 5},
-                                        {19687, 3},
-                                        {19689, 1},
-                                        {19697, 3},
-                                        {3401, 1}})
-        stores.parameters.set(number, value);
+    testing::set_two_table_axes(stores.parameters, 1);
+    stores.parameters.set(19697, 3);
+    stores.parameters.set(3401, 1);
     check::CheckOptions options;
     options.dialect = config.dialect;
     options.arc_centres_are_places = bnc;

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "block_bench.h"
+#include "tests/support/table_parameters.h"
 
 namespace trunnion {
 
@@ -13,13 +14,7 @@ namespace {
 std::vector<Vector3> tips(bool tilted, const std::string& body, int* alarm) {
     Bench b;
     offsets::Parameters& p = b.stores.parameters;
-    p.set(19680, 12);
-    p.set(19681, 4);
-    p.set(19682, 2);
-    p.set(19684, 1);
-    p.set(19686, 5);
-    p.set(19687, 3);
-    p.set(19689, 1);
+    testing::set_two_table_axes(p, 2);
     p.set(19700, 12.0);
     p.set(19702, -45.0);
     p.set(19705, -30.0);

@@ -8,6 +8,7 @@
 
 #include "controller/control.h"
 #include "controller/controller.h"
+#include "tests/support/table_parameters.h"
 
 namespace trunnion {
 
@@ -56,16 +57,9 @@ controller::ControlConfig hurco_config(const json& setup, const std::string& nam
 
 offsets::Stores hurco_stores(const json& setup) {
     offsets::Stores stores;
-    for (const auto& [number, value] : {std::pair(19680, 12),
-                                        {19681, 4},
-                                        {19682, 1},
-                                        {19684, 1},
-                                        {19686, 5},
-                                        {19687, 3},
-                                        {19689, 1},
-                                        {19697, 3},
-                                        {3401, 1}})
-        stores.parameters.set(number, value);
+    testing::set_two_table_axes(stores.parameters, 1);
+    stores.parameters.set(19697, 3);
+    stores.parameters.set(3401, 1);
     const auto &a = setup["A_centreline"], &c = setup["C_centreline_at_A0"];
     stores.parameters.set(19701, a["Y"]);
     stores.parameters.set(19702, a["Z"]);

@@ -7,6 +7,7 @@
 #include "base/alarm.h"
 #include "base/random.h"
 #include "base/units.h"
+#include "tests/support/table_parameters.h"
 
 namespace trunnion {
 
@@ -14,13 +15,7 @@ namespace {
 
 offsets::Parameters bc_table() {
     offsets::Parameters p;
-    p.set(19680, 12);
-    p.set(19681, 4);
-    p.set(19682, 2);
-    p.set(19684, 1);
-    p.set(19686, 5);
-    p.set(19687, 3);
-    p.set(19689, 1);
+    testing::set_two_table_axes(p, 2);
     p.set(19697, 3);
     p.set(19700, 10);
     p.set(19701, 20);

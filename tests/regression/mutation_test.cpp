@@ -11,6 +11,7 @@
 #include "emulator/run.h"
 #include "tests/regression/plain_interpreter.h"
 #include "tests/regression/programs.h"
+#include "tests/regression/random_edit.h"
 
 using namespace trunnion;
 using namespace trunnion::testing;
@@ -228,20 +229,6 @@ M5
 M30
 %
 )";
-
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines(1);
-    for (const char c : text)
-        if (c == '\n')
-            lines.emplace_back();
-        else
-            lines.back() += c;
-    return lines;
-}
-
-std::size_t pick(SeededNoise& noise, std::size_t count) {
-    return static_cast<std::size_t>(noise.bits() % count);
-}
 
 /// One edit: a digit, a sign, a word removed, a line swapped with the next, a G code changed.
 std::string edited(const std::string& program, SeededNoise& noise, std::size_t& line) {
