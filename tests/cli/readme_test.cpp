@@ -20,7 +20,7 @@ std::string example(const std::string& name) {
 
 /// `words` as the README has them, run from the source folder.
 int run_as_shown(const CommandBench& bench, const std::string& words, const std::string& more) {
-    CHECK_THAT(readme(), Catch::Contains("\n    trunnion " + words + "\n"));
+    CHECK_THAT(readme(), Catch::Contains("\n$ trunnion " + words + "\n"));
     std::filesystem::current_path(source);
     return bench.trunnion(words + more);
 }
@@ -30,7 +30,7 @@ int run_as_shown(const CommandBench& bench, const std::string& words, const std:
 TEST_CASE("README: the first program runs and its trace says where the tip was") {
     const CommandBench bench;
     const std::string words = "run " + example("g43_4") + " --trace path.csv --truth";
-    CHECK_THAT(readme(), Catch::Contains("\n    trunnion " + words + "\n"));
+    CHECK_THAT(readme(), Catch::Contains("\n$ trunnion " + words + "\n"));
     std::filesystem::current_path(source);
     REQUIRE(bench.trunnion("run " + example("g43_4") + " --truth --trace " +
                            bench.file("path.csv")) == 0);
