@@ -5,6 +5,7 @@
 
 #include "base/alarm.h"
 #include "base/numbers.h"
+#include "choices/choice_table.h"
 #include "cli/setups.h"
 #include "emulator/run.h"
 #include "inputs/program_choice.h"
@@ -17,38 +18,17 @@ namespace {
 
 constexpr std::size_t most_findings = 50;  ///< of one program: more say nothing new
 
-bool take_control(const std::string& what, setup::Setup& setup) {
-    using interpreter::ControlGeneration;
-    struct Row {
-        const char* name;
-        interpreter::Dialect dialect;
-    };
-    const Row rows[] = {{"hurco", interpreter::hurco_dialect()},
-                        {"hurco-bnc", interpreter::hurco_dialect()},
-                        {"fanuc", interpreter::fanuc_dialect()},
-                        {"16i", interpreter::fanuc_dialect(ControlGeneration::fanuc_16i)},
-                        {"30i", interpreter::fanuc_dialect(ControlGeneration::fanuc_30i)},
-                        {"0i-F", interpreter::fanuc_dialect(ControlGeneration::fanuc_0i_f)}};
-    for (const Row& row : rows) {
-        if (what != row.name) continue;
-        setup.dialect = row.dialect;
-        setup.hurco.bnc = what == "hurco-bnc";
-        return true;
-    }
-    return false;
-}
-
-/// "NAME=VALUE"
+/// A row of the table of choices, a control's name alone, or "NUMBER=VALUE" of a parameter.
 bool take_choice(const std::string& what, setup::Setup& setup) {
+    for (const char* const key : {"", "dialect=", "generation="})
+        if (const auto choice = choices::find_choice(key + what)) {
+            choice->take(setup);
+            return true;
+        }
     const std::size_t equals = what.find('=');
     if (equals == std::string::npos) return false;
-    const std::string name = what.substr(0, equals), value = what.substr(equals + 1);
-    if (name == "tcp_frame" && (value == "start" || value == "rotary_zero")) {
-        setup.tcp_frame =
-            value == "start" ? positioning::TcpFrame::start : positioning::TcpFrame::rotary_zero;
-        return true;
-    }
-    const auto number = parse_number(name), wanted = parse_number(value);
+    const auto number = parse_number(what.substr(0, equals)),
+               wanted = parse_number(what.substr(equals + 1));
     if (!number || !wanted || *number < 0 || *number > 99999) return false;
     setup.stores.parameters.set(static_cast<int>(*number), *wanted);
     return true;
@@ -65,11 +45,12 @@ regression::ControlReading reading_of(const setup::Setup& setup, const std::stri
 
 setup::Setup other_reading(const setup::Setup& setup, const std::string& what) {
     setup::Setup other = setup;
-    if (take_control(what, other) || take_choice(what, other)) return other;
+    if (take_choice(what, other)) return other;
     if (std::filesystem::is_regular_file(what)) return open_setup(what);
     throw InputError(
-        "--against takes hurco, hurco-bnc, fanuc, 16i, 30i, 0i-F, "
-        "tcp_frame=start or rotary_zero, a parameter like 5006=64, or a setup file; "
+        "--against takes hurco, hurco-bnc, fanuc, 16i, 30i, 0i-F, a choice like "
+        "tcp_frame=rotary_zero or 5006#6=1 (docs/compare.md lists them), a parameter like "
+        "5114=0.5, or a setup file; "
         "not '" +
         what + "'");
 }

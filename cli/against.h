@@ -10,8 +10,9 @@
 
 namespace trunnion::cli {
 
-/// "hurco", "hurco-bnc", "fanuc", "16i", "30i", "0i-F", "tcp_frame=start", "tcp_frame=rotary_zero",
-/// a parameter "5006=64", or the path of a setup. Throws InputError for anything else.
+/// "hurco", "hurco-bnc", "fanuc", "16i", "30i", "0i-F", a row of choices/choice_table.h
+/// ("tcp_frame=start", "5006#6=1"), a parameter "5006=64", or the path of a setup. Throws
+/// InputError for anything else.
 setup::Setup other_reading(const setup::Setup& setup, const std::string& what);
 /// Findings of rule "reading": where the program would move differently on `other`.
 std::vector<check::Finding> differences_against(const setup::Setup& setup,

@@ -5,9 +5,11 @@
 #include <memory>
 #include <optional>
 
+#include "base/alarm.h"
 #include "base/console.h"
 #include "base/output_files.h"
 #include "cli/command.h"
+#include "cli/diagnose_program.h"
 #include "cli/long_work.h"
 #include "cli/notes.h"
 #include "cli/options.h"
@@ -28,6 +30,9 @@ struct Options {
     const CLI::App* command = nullptr;
     std::optional<double> limit_um;
     bool json = false, allow_large = false;
+    std::string program;  ///< not empty: the readings are a control's log of it
+    std::vector<std::string> folders;
+    std::uint64_t max_blocks = 10'000'000;
 };
 
 std::string title_of(const std::vector<std::string>& readings) {
@@ -48,7 +53,18 @@ diagnosis::Diagnosis diagnose_watched(const setup::Setup& setup, const records::
     return diagnosis::diagnose(setup, table, how);
 }
 
+int diagnose_log(const Options& options) {
+    if (!options.holdout.empty() || options.allow_large || options.readings.size() != 1)
+        throw InputError(
+            "--program takes one log of axis positions, without --holdout and --allow-large");
+    return diagnose_program({options.readings.front(), options.setup, options.program, options.out,
+                             options.folders, options.max_blocks, options.page, options.command,
+                             options.limit_um.value_or(-1.0), options.json});
+}
+
 int diagnose_command(const Options& options) {
+    if (!options.program.empty()) return diagnose_log(options);
+    if (!options.folders.empty()) throw InputError("--programs belongs to --program");
     setup::Setup setup = load_setup_option(options.setup);
     setup.model.allow_large = options.allow_large;
     const records::ReadingTable table = load_readings(options.readings, setup);
@@ -86,6 +102,11 @@ void add_diagnose(CLI::App& app, Run& run) {
     reads_file(command->add_option("--setup", options->setup, "setup file (TOML), needed"));
     reads_file(command->add_option("--holdout", options->holdout,
                                    "readings that take no part in the fit"));
+    reads_file(command->add_option("--program", options->program,
+                                   "the readings are axis positions that a control logged while "
+                                   "it ran this program: which of its choices or stores differs"));
+    reads_file(command->add_option("--programs", options->folders, "folders of subprograms"));
+    command->add_option("--max-blocks", options->max_blocks, "limit of a run of the program");
     not_negative(
         command->add_option("--limit-um", options->limit_um, "exit 1 when the gap is larger"));
     writes_file(command->add_option("--out", options->out, "setup with the effects added"));

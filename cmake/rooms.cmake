@@ -25,14 +25,15 @@ set(TRUNNION_ROOMS
   "estimation"
   "identification: estimation effects emulator base"
   "regression: emulator setup controller motion positioning interpreter geometry base"
+  "choices: estimation emulator setup records controller motion offsets interpreter base"
   "diagnosis: identification estimation effects emulator setup records kinematics base"
   "pivot: estimation effects emulator setup positioning records interpreter kinematics geometry base"
   "compensation: emulator setup motion positioning kinematics offsets base"
   "volumetric: emulator setup kinematics base"
   "ballbar/test: estimation emulator setup records kinematics interpreter geometry base"
-  "report: ballbar/test volumetric pivot compensation diagnosis identification regression effects emulator setup check records geometry base"
+  "report: ballbar/test volumetric pivot compensation choices diagnosis identification regression effects emulator setup check records geometry base"
   "python: report inputs diagnosis regression identification effects emulator setup records interpreter base"
-  "cli: report inputs imports pivot compensation diagnosis regression identification effects emulator setup backup check controller records interpreter base"
+  "cli: report inputs imports pivot compensation choices diagnosis regression identification effects emulator setup backup check controller records interpreter base"
 )
 
 # What stands behind the colon of one line of the list.

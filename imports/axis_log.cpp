@@ -10,9 +10,17 @@ namespace {
 /// A row of each axis that has both its positions in this line; where one is missing, none.
 void write_row(const TextTable& table, std::size_t i, const std::vector<records::TableCell>& cells,
                LogColumns& log, records::Reading row, RowWriter& rows) {
+    const std::string block =
+        log.block ? std::string(cells[log.block->column].text) : std::string();
+    const bool places_only = log.places_only();
     for (const AxisColumns& axis : log.axes)
-        if (const auto q = number_or_none(table, i, cells, axis.commanded))
+        if (const auto q =
+                number_or_none(table, i, cells, places_only ? axis.place() : axis.commanded))
             row.commanded[axis.axis] = *q;
+    if (places_only) {
+        rows.add(row, table.line(i).number, block);
+        return;
+    }
     row.device = records::Device::axis;
     for (AxisColumns& axis : log.axes) {
         if (!axis.read()) continue;
@@ -26,7 +34,7 @@ void write_row(const TextTable& table, std::size_t i, const std::vector<records:
         row.value_mm = entry->error;
         row.velocity_mm_s = number_or_none(table, i, cells, axis.velocity);
         row.acceleration_mm_s2 = number_or_none(table, i, cells, axis.acceleration);
-        rows.add(row, table.line(i).number);
+        rows.add(row, table.line(i).number, block);
     }
 }
 
@@ -38,7 +46,8 @@ std::vector<std::string> rate_columns(const setup::Setup& setup) {
 }
 
 void tell(const TextTable& table, const LogColumns& log, const TimeColumn& time, Imported& result) {
-    result.summary.push_back(fmt::format("{}: servo log of {}, {} rows, {}; {}", table.path(),
+    result.summary.push_back(fmt::format("{}: {} of {}, {} rows, {}; {}", table.path(),
+                                         log.places_only() ? "positions" : "servo log",
                                          axes_words(log), table.size(), time.words(),
                                          table.dialect_words()));
     if (time.invented())
@@ -56,7 +65,7 @@ Imported import_axis_log(const ImportRequest& request) {
     for (const TextTable& table : tables) {
         const Facts facts = request.facts.with_head_of(table);
         const TimeColumn time(table, facts);
-        LogColumns log = log_columns(table, request.setup, facts, time);
+        LogColumns log = log_columns(table, request.setup, facts, time, true);
         records::Reading row;
         const auto number = &table - tables.data() + 1;
         row.test = facts.text(
@@ -64,6 +73,7 @@ Imported import_axis_log(const ImportRequest& request) {
         row.commanded = positions_told(request.setup, facts.text("at"));
         rows.begin_file(table, facts);
         if (time.dated()) rows.name_days();
+        if (log.block && number == 1) rows.add_column(log.block->is_line ? "line" : "block");
         std::vector<records::TableCell> cells;
         for (std::size_t i = 0; i < table.size(); ++i) {
             table.read(i, cells);

@@ -66,7 +66,7 @@ std::optional<ColumnRole> role_in(const TextColumn& column, const AxisNames& nam
 /// "Az" beside "Az error" or "Az actual": as commanded.
 void take_plain(const TextTable& table, std::size_t k, const Facts& facts, AxisColumns& columns,
                 LogColumns& log) {
-    if (columns.commanded || !(columns.actual || columns.error)) {
+    if (columns.commanded || !(columns.actual || columns.error || log.block)) {
         log.unused.push_back(table.columns()[k].name);
         return;
     }
@@ -75,8 +75,12 @@ void take_plain(const TextTable& table, std::size_t k, const Facts& facts, AxisC
                       facts.text("unit", usual_unit(columns.rotary, Rate::position)));
 }
 
+bool any_read(const LogColumns& log) {
+    return std::any_of(log.axes.begin(), log.axes.end(), [](auto& axis) { return axis.read(); });
+}
+
 void check(const TextTable& table, const LogColumns& log) {
-    if (std::none_of(log.axes.begin(), log.axes.end(), [](auto& axis) { return axis.read(); }))
+    if (!any_read(log) && !log.places_only())
         table.header_line().fail(
             "no axis has both a commanded and an actual position (\"X commanded\", \"X actual\")",
             1);
@@ -84,12 +88,29 @@ void check(const TextTable& table, const LogColumns& log) {
 
 }  // namespace
 
+std::optional<BlockColumnFound> find_block_column(const TextTable& table) {
+    if (const auto line = find_column(table, {"line", "programline", "ncline"}))
+        return BlockColumnFound{*line, true};
+    const auto number = find_column(table, {"block", "blocknumber", "sequence", "sequencenumber",
+                                            "sequenceno", "satz", "satznummer"});
+    if (number) return BlockColumnFound{*number, false};
+    for (std::size_t k = 0; k < table.columns().size(); ++k)  // "n" may count the rows
+        if (table.columns()[k].name == "N") return BlockColumnFound{k, false};
+    return std::nullopt;
+}
+
+bool LogColumns::places_only() const {
+    return block && !any_read(*this) &&
+           std::any_of(axes.begin(), axes.end(), [](auto& axis) { return axis.place(); });
+}
+
 LogColumns log_columns(const TextTable& table, const setup::Setup& setup, const Facts& facts,
-                       const TimeColumn& time) {
+                       const TimeColumn& time, bool blocks) {
     LogColumns log;
+    if (blocks) log.block = find_block_column(table);
     std::vector<std::pair<Axis, std::size_t>> plain;
     for (std::size_t k = 0; k < table.columns().size(); ++k) {
-        if (time.is_column(k)) continue;
+        if (time.is_column(k) || (log.block && log.block->column == k)) continue;
         const TextColumn& column = table.columns()[k];
         const auto role = role_in(column, setup.machine.chain.names(), facts);
         const auto axis = role ? axis_named(setup, role->axis) : std::nullopt;
@@ -137,7 +158,7 @@ std::optional<LogEntry> log_entry(const TextTable& table, std::size_t row,
 std::string axes_words(const LogColumns& log) {
     std::string out;
     for (const AxisColumns& axis : log.axes)
-        if (axis.read())
+        if (axis.read() || log.places_only())
             out += (out.empty() ? "" : ", ") + axis.name +
                    (axis.velocity ? " (with commanded speed)" : "");
     return out;

@@ -20,18 +20,32 @@ struct AxisColumns {
     double error_sign = 1.0;
 
     bool read() const { return (commanded && actual) || (commanded && error); }
+    const std::optional<NumberColumn>& place() const { return commanded ? commanded : actual; }
 };
+
+/// Which column tells the block of a row, as line of the program or as N number.
+struct BlockColumnFound {
+    std::size_t column = 0;
+    bool is_line = false;
+};
+/// By its name: line, N, block, sequence number; nothing where none tells it.
+std::optional<BlockColumnFound> find_block_column(const TextTable& table);
 
 struct LogColumns {
     std::vector<AxisColumns> axes;
     std::vector<std::string> unused;
     bool units_assumed = false;
+    std::optional<BlockColumnFound> block;
+
+    /// Positions alone, beside the blocks of a program: no axis has both of its own.
+    bool places_only() const;
 };
 
 /// By the names of the columns and the facts axis, unit and sign. Throws InputError (header line)
-/// where no axis has both positions, or the sign of an error is not told.
+/// where no axis has both positions, or the sign of an error is not told. With `blocks` a column
+/// may tell the blocks of a program; then positions alone are enough.
 LogColumns log_columns(const TextTable& table, const setup::Setup& setup, const Facts& facts,
-                       const TimeColumn& time);
+                       const TimeColumn& time, bool blocks = false);
 
 /// What one line says of one axis: mm or rad.
 struct LogEntry {

@@ -5,6 +5,7 @@
 
 #include "base/alarm.h"
 #include "imports/times.h"
+#include "records/table_line.h"
 
 namespace trunnion::imports {
 namespace {
@@ -73,7 +74,12 @@ std::string RowWriter::day_of_row(double time_s) {
     return day_;
 }
 
-void RowWriter::add(records::Reading row, int line) {
+void RowWriter::add_column(const std::string& name) {
+    text_.insert(text_.size() - 1, ',' + name);
+    has_column_ = true;
+}
+
+void RowWriter::add(records::Reading row, int line, const std::string& more) {
     if (row.session.empty()) row.session = session_;
     if (row.session.empty() && dated_) row.session = day_of_row(row.time_s);
     const bool restarts = begins_ || row.session != last_session_;
@@ -95,6 +101,7 @@ void RowWriter::add(records::Reading row, int line) {
     last_s_ = row.time_s;
     last_at_ = row.commanded;
     writer_.append(row, text_);
+    if (has_column_) text_.insert(text_.size() - 1, ',' + records::cell_text(more));
 }
 
 }  // namespace trunnion::imports

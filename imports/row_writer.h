@@ -17,6 +17,9 @@ class RowWriter {
     /// session are added).
     RowWriter(const setup::Setup& setup, const std::string& kind, std::vector<std::string> columns,
               bool directions, bool degrees);
+    /// One more column behind the others, which readings do not know: the block of a program. To be
+    /// called before the first row.
+    void add_column(const std::string& name);
 
     /// Rows that follow come from this file. A clock that starts at zero again goes on a minute
     /// after the last row.
@@ -28,8 +31,8 @@ class RowWriter {
     /// A further program in the same file: its clock may begin anew, as that of a file may.
     void begin_run() { begins_ = true; }
     /// `row.time_s` is the file's; throws InputError when it runs back within the session.
-    /// `line`: of the file, 0 for a row that no line says.
-    void add(records::Reading row, int line);
+    /// `line`: of the file, 0 for a row that no line says; `more`: text in the added column.
+    void add(records::Reading row, int line, const std::string& more = "");
     int count() const { return index_; }
     std::string take() { return std::move(text_); }
 
@@ -40,7 +43,7 @@ class RowWriter {
     int index_ = 0;
     std::string day_of_row(double time_s);
 
-    bool begins_ = false, dated_ = false;
+    bool begins_ = false, dated_ = false, has_column_ = false;
     std::string day_;  ///< session of the day
     double day_s_ = 0.0;
     double shift_s_ = 0.0, last_s_ = 0.0;

@@ -87,6 +87,14 @@ std::string places_text(const offsets::ControlPosition& a, const offsets::Contro
     return out;
 }
 
+/// Of the axis that differs most.
+const char* unit_of(const offsets::ControlPosition& a, const offsets::ControlPosition& b) {
+    const double most = largest(a, b);
+    for (const Axis axis : all_axes)
+        if (std::abs(a[axis] - b[axis]) == most) return is_rotary(axis) ? "deg" : "mm";
+    return "mm";
+}
+
 class SideBySide {
   public:
     SideBySide(const ControlReading& a, const ControlReading& b, const Steps& of_a,
@@ -109,25 +117,29 @@ class SideBySide {
     }
 
   private:
-    void tell(const Step& at, std::string text) {
-        out_.push_back({*at.program, at.line, 0, std::move(text)});
+    void tell(const Step& at, std::string text, double apart = 0.0) {
+        out_.push_back({*at.program, at.line, 0, std::move(text), apart});
     }
     void compare(const Step& x, const Step& y) {
         const offsets::ControlPosition now = apart(x.end, y.end);
         if (largest(now, apart_) > end_tolerance) {
             const bool same = largest(x.end, y.end) <= end_tolerance;
-            tell(x, same ? fmt::format("both stand alike again behind this block")
-                         : text_of("ends at", x.end, y.end, end_tolerance));
+            tell(x,
+                 same ? fmt::format("both stand alike again behind this block")
+                      : text_of("ends at", x.end, y.end, end_tolerance),
+                 largest(x.end, y.end));
         } else if (x.moved && y.moved && largest(now, {}) <= end_tolerance &&
                    largest(x.half_way, y.half_way) > way_tolerance) {
-            tell(x, text_of("is half way at", x.half_way, y.half_way, way_tolerance));
+            tell(x, text_of("is half way at", x.half_way, y.half_way, way_tolerance),
+                 largest(x.half_way, y.half_way));
         }
         apart_ = now;
     }
     std::string text_of(const char* what, const offsets::ControlPosition& x,
                         const offsets::ControlPosition& y, double tolerance) const {
-        return fmt::format("{} {} on {}, {} on {}", what, places_text(x, y, tolerance, true),
-                           a_.name, places_text(x, y, tolerance, false), b_.name);
+        return fmt::format(
+            "{} {} on {}, {} on {}: {:.4f} {} apart", what, places_text(x, y, tolerance, true),
+            a_.name, places_text(x, y, tolerance, false), b_.name, largest(x, y), unit_of(x, y));
     }
     void compare_ends() {
         const auto &x = of_a_.result.alarm, &y = of_b_.result.alarm;
@@ -138,7 +150,8 @@ class SideBySide {
     void tell_alarm(const Alarm& alarm, const std::string& name) {
         out_.push_back({alarm.where.program, alarm.where.line, alarm.where.column,
                         fmt::format("{} stops here: {}", name,
-                                    controller::alarm_title(alarm.number, alarm.text))});
+                                    controller::alarm_title(alarm.number, alarm.text)),
+                        0.0});
     }
 
     const ControlReading &a_, &b_;

@@ -20,6 +20,7 @@ struct ReadingDifference {
     std::string program;
     int line = 0, column = 0;  ///< from 1, column 0: the whole block
     std::string text;
+    double apart = 0.0;  ///< mm or deg, the axis that differs most; 0 where only one moves on
 };
 
 /// Subprograms, opened anew for each run.

@@ -61,6 +61,35 @@ TEST_CASE("check ends a program that loops for ever") {
     CHECK_THAT(bench.out(), Catch::Contains("does not end within 1000 blocks"));
 }
 
+TEST_CASE("check --against: another control, generation, choice, parameter, setup; how far") {
+    const Bench bench;
+    bench.write("part.nc", "O1\nG90 G21 G17 G54\nT1 M6\nG43 H1\nG0 X100. Y20.\nX5\nM30\n");
+    CHECK(bench.check("part.nc --against 16i") == 0);
+    CHECK(bench.check("part.nc --against block_skip.1=on") == 0);
+    CHECK(bench.check("part.nc --against hurco") == 1);
+    CHECK_THAT(bench.out(), Catch::Contains("part.nc:4:1: warning: ends at Z150.") &&
+                                Catch::Contains("150.0000 mm apart"));
+    CHECK(bench.check("part.nc --against 5006#6=1 --json") == 1);
+    const Json json = Json::parse(bench.out());
+    REQUIRE(json["findings"].size() == 1);
+    CHECK(json["findings"][0]["rule"] == "reading");
+    CHECK(json["findings"][0]["line"] == 4);
+    CHECK(bench.check("part.nc --against 3401=0") == 1);
+    CHECK_THAT(bench.out(), Catch::Contains("part.nc:6:1: warning: ends at X5.") &&
+                                Catch::Contains("4.9950 mm apart"));
+    bench.write("other.toml",
+                "[machine]\nname = \"o\"\nchain = \"w b X Y Z t\"\n"
+                "[control.work_offsets]\nG54 = { X = 7.0 }\n");
+    CHECK(bench.check("part.nc --against other.toml --html page.html --out report.txt") == 1);
+    CHECK_THAT(bench.read("page.html"), Catch::Contains("mm apart"));
+    CHECK(bench.out().empty());
+    for (const char* wrong : {"haas", "tcp_frame=end", "5006#9=1", "nowhere.toml"}) {
+        CHECK(bench.check(std::string("part.nc --against ") + wrong + " --out no.txt") == 2);
+        CHECK_THAT(bench.read("err.txt"), Catch::Contains("--against takes hurco"));
+        CHECK_FALSE(std::filesystem::exists(bench.path / "no.txt"));
+    }
+}
+
 TEST_CASE("parameters of a setup change what a program does") {
     const Bench bench;
     std::ifstream table(std::string(TRUNNION_SOURCE_DIR) + "/machines/bc_table.toml");

@@ -76,6 +76,9 @@ TEST_CASE("docs/instruments: points in four commands") {
 TEST_CASE("docs/instruments: a servo log in four commands") {
     check_page("servo_log.md", 4);
 }
+TEST_CASE("docs/instruments: a control's log of a program in three commands") {
+    check_page("control_log.md", 3);
+}
 TEST_CASE("docs/instruments: prints of a measuring program in four commands") {
     check_page("dprnt.md", 4);
 }

@@ -147,3 +147,10 @@ TEST_CASE("schemas: import, predict, identify and diagnose") {
     held(bench, "identification", "identify " + worn + " --effects pivot.p1970x");
     held(bench, "diagnosis", "diagnose " + worn);
 }
+
+TEST_CASE("schemas: diagnose --program") {
+    const CommandBench bench;
+    const std::string words = "diagnose " + instrument("control_log.csv") + " --program " +
+                              instrument("control_part.nc") + " --setup ";
+    CHECK(held(bench, "control_gap", words + instrument("machine.toml"))["causes"].size() == 2);
+}

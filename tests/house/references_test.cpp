@@ -131,6 +131,7 @@ TEST_CASE("every file that a comment or a document names is in the repository") 
                                          "setup.toml",
                                          "suite.toml",
                                          "identified.toml",
+                                         "learned.toml",
                                          "my_machine.toml",
                                          "S2.toml",
                                          "O1234.nc",

@@ -45,7 +45,8 @@ TEST_CASE("a tool length that moves on one control is told where it arises and w
     const auto found = fanuc_and_hurco("G90 G21\nG43 H1\nX5.\nG0 Z50.\nM30\n");
     REQUIRE(found.size() == 2);
     CHECK(found[0].line == 2);
-    CHECK(found[0].text == "ends at Z100.0000 on fanuc, Z0.0000 on hurco");
+    CHECK(found[0].text == "ends at Z100.0000 on fanuc, Z0.0000 on hurco: 100.0000 mm apart");
+    CHECK(found[0].apart == 100.0);
     CHECK(found[1].line == 4);
     CHECK(found[1].text.find("alike again") != std::string::npos);
 }
@@ -54,7 +55,7 @@ TEST_CASE("a dogleg and a dwell of the same end: the way is told") {
     const auto found = fanuc_and_hurco("G90 G21\nG0 X100. Y20.\nM30\n");
     REQUIRE(found.size() == 1);
     CHECK(found[0].line == 2);
-    CHECK(found[0].text == "is half way at Y10.0000 on fanuc, Y20.0000 on hurco");
+    CHECK(found[0].text == "is half way at Y10.0000 on fanuc, Y20.0000 on hurco: 10.0000 mm apart");
 }
 
 TEST_CASE("an alarm of one control and another way through the program are told") {

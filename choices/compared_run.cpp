@@ -1,0 +1,31 @@
+#include "choices/compared_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace trunnion::choices {
+
+ComparedRun Comparer::compared(ControlPath path) const {
+    ComparedRun out{std::move(path), {}, {}, 0.0};
+    out.pairs = pair_up(log_, out.path);
+    out.losses = row_losses(log_, out.pairs);
+    out.loss = sum_of(out.losses);
+    return out;
+}
+
+bool same_way(const ControlPath& a, const ControlPath& b) {
+    constexpr double same = 1e-7;
+    return std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(),
+                      [](const PathNode& p, const PathNode& q) {
+                          for (std::size_t i = 0; i < axis_count; ++i)
+                              if (!(std::abs(p.at.value[i] - q.at.value[i]) <= same)) return false;
+                          return true;
+                      });
+}
+
+double sum_of(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+}  // namespace trunnion::choices

@@ -1,0 +1,41 @@
+// A setup's control run beside a log: path, pairs, and what lies between them.
+#pragma once
+
+#include "choices/pairing.h"
+
+namespace trunnion::choices {
+
+struct ComparedRun {
+    ControlPath path;
+    std::vector<Pair> pairs;
+    std::vector<double> losses;  ///< one for each row of the log: squares in units of its sigma
+    double loss = 0.0;           ///< their sum
+};
+
+/// One program beside one log, asked again and again.
+class Comparer {
+  public:
+    Comparer(const LogView& log, const interpreter::ProgramText& program,
+             interpreter::ProgramSource& programs, PathOptions options)
+        : log_(log), program_(program), programs_(programs), options_(options) {}
+
+    const LogView& log() const { return log_; }
+    ControlPath path(const setup::Setup& setup) const {
+        return path_of(setup, program_, programs_, options_);
+    }
+    ComparedRun compared(ControlPath path) const;
+    ComparedRun run(const setup::Setup& setup) const { return compared(path(setup)); }
+
+  private:
+    const LogView& log_;
+    const interpreter::ProgramText& program_;
+    interpreter::ProgramSource& programs_;
+    PathOptions options_;
+};
+
+/// The axes go the same way, within 1e-7 mm and deg.
+bool same_way(const ControlPath& a, const ControlPath& b);
+
+double sum_of(const std::vector<double>& values);
+
+}  // namespace trunnion::choices

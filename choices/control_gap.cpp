@@ -1,0 +1,339 @@
+#include "choices/control_gap.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "base/random.h"
+#include "choices/folds.h"
+#include "choices/gap_search.h"
+#include "controller/alarms.h"
+#include "estimation/distributions.h"
+
+namespace trunnion::choices {
+
+namespace {
+
+constexpr std::size_t most_where = 5;
+constexpr double quiet_mean = 1.5;   ///< mean loss of what is no gap
+constexpr double quiet_worst = 6.0;  ///< and its largest distance, in sigma
+constexpr double explained_from = 0.8, partly_from = 0.5;
+constexpr double least_left = 0.005;  ///< of the gap: a block that is said to stay
+constexpr int draws = 400;
+
+double um(double mm) {
+    return 1000.0 * mm;
+}
+
+/// Block of each row: the one that the log tells, else the one that the control is in there.
+std::vector<int> blocks_of(const LogView& log, const ComparedRun& run) {
+    std::vector<int> out(log.rows.size(), 0);
+    for (const Pair& pair : run.pairs)
+        out[pair.row] = static_cast<int>(run.path.nodes[pair.node].block);
+    if (log.keys == 0) return out;
+    for (std::size_t row = 0; row < out.size(); ++row) out[row] = log.rows[row].key + 1;
+    return out;
+}
+
+class Texts {
+  public:
+    Texts(const interpreter::ProgramText& main, const std::vector<interpreter::ProgramText>& all)
+        : main_(main), all_(all) {}
+    std::string block(const PathBlock& block) const {
+        for (const interpreter::ProgramText& text : all_)
+            if (text.name == block.program) return line_of(text.text, block.line);
+        return line_of(main_.text, block.line);
+    }
+
+  private:
+    static std::string line_of(std::string_view text, int line) {
+        for (int k = 1; k < line && !text.empty(); ++k)
+            text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+        std::string out(text.substr(0, text.find_first_of("\r\n")));
+        return out;
+    }
+    const interpreter::ProgramText& main_;
+    const std::vector<interpreter::ProgramText>& all_;
+};
+
+/// What is said about runs of one log.
+class Teller {
+  public:
+    Teller(const LogOfProgram& log, const Texts& texts, const std::vector<int>& blocks)
+        : log_(log), texts_(texts), blocks_(blocks) {}
+
+    double mean_um(const std::vector<double>& losses) const {
+        double sum = 0.0;
+        for (std::size_t row = 0; row < losses.size(); ++row) sum += square_um(losses[row], row);
+        return std::sqrt(sum / static_cast<double>(losses.size()));
+    }
+    double noise_um() const {
+        return um(log_.sigma) * std::sqrt(static_cast<double>(log_.view.axes.size()));
+    }
+    double noise_loss() const {
+        return static_cast<double>(log_.view.axes.size() * log_.view.rows.size());
+    }
+    /// The pair that lies farthest apart among the rows that `counts`.
+    template <class Counts>
+    GapPlace worst(const ComparedRun& run, Counts counts) const {
+        const Pair* most = nullptr;
+        for (const Pair& pair : run.pairs)
+            if (counts(pair.row) && (most == nullptr || size(pair) > size(*most))) most = &pair;
+        return most == nullptr ? GapPlace{} : place(run, *most);
+    }
+    template <class Counts>
+    GapPlace first(const ComparedRun& run, Counts counts) const {
+        const Pair* first = nullptr;
+        for (const Pair& pair : run.pairs) {
+            if (!counts(pair.row)) continue;
+            const bool earlier = first == nullptr || pair.row < first->row ||
+                                 (pair.row == first->row && size(pair) > size(*first));
+            if (earlier) first = &pair;
+        }
+        return first == nullptr ? GapPlace{} : place(run, *first);
+    }
+    /// `excess`: loss beyond noise that the shares are parts of.
+    std::vector<GapBlock> where(const ComparedRun& run, double excess) const {
+        std::map<int, std::pair<double, double>> loss;  // and how many terms
+        for (std::size_t row = 0; row < run.losses.size(); ++row) {
+            loss[blocks_[row]].first += run.losses[row];
+            loss[blocks_[row]].second += static_cast<double>(log_.view.axes.size());
+        }
+        std::vector<std::pair<double, int>> order;
+        for (const auto& [block, l] : loss) order.emplace_back(-l.first, block);
+        std::sort(order.begin(), order.end());
+        std::vector<GapBlock> out;
+        for (const auto& [negative, block] : order) {
+            const double terms = loss[block].second;
+            const double p = estimation::chi_squared_tail(-negative, terms);
+            if (out.size() == most_where || p > 1e-4) break;
+            out.push_back({worst(run, [&](std::size_t row) { return blocks_[row] == block; }),
+                           std::max(0.0, -negative - terms) / std::max(1.0, excess), p});
+        }
+        return out;
+    }
+    /// Part of the excess over the noise that is gone, as amplitude, with the spread of blocks.
+    GapShrink shrink(const std::vector<double>& before, const std::vector<double>& after) const {
+        GapShrink out{mean_um(before), mean_um(after), 0.0, 0.0, 0.0};
+        std::map<int, std::array<double, 3>> sums;
+        for (std::size_t row = 0; row < before.size(); ++row) {
+            auto& s = sums[blocks_[row]];
+            s[0] += before[row];
+            s[1] += after[row];
+            s[2] += static_cast<double>(log_.view.axes.size());
+        }
+        std::vector<std::array<double, 3>> list;
+        for (const auto& [block, s] : sums) list.push_back(s);
+        out.shrink = shrink_of(list, [](std::size_t k) { return k; });
+        SeededNoise random(1);
+        std::vector<double> drawn;
+        for (int d = 0; d < draws; ++d)
+            drawn.push_back(shrink_of(list, [&](std::size_t) {
+                return std::min(
+                    list.size() - 1,
+                    static_cast<std::size_t>(random.uniform() * static_cast<double>(list.size())));
+            }));
+        std::sort(drawn.begin(), drawn.end());
+        out.low = drawn[draws / 40];
+        out.high = drawn[draws - 1 - draws / 40];
+        return out;
+    }
+    GapPlace place(const ComparedRun& run, const Pair& pair) const {
+        const PathBlock& block = run.path.blocks[run.path.nodes[pair.node].block];
+        return {block.program, block.line, block.line > 0 ? texts_.block(block) : std::string(),
+                size(pair), log_.view.rows[pair.row].line};
+    }
+
+  private:
+    template <class Pick>
+    static double shrink_of(const std::vector<std::array<double, 3>>& list, Pick pick) {
+        double before = 0.0, after = 0.0;
+        for (std::size_t k = 0; k < list.size(); ++k) {
+            const auto& s = list[pick(k)];
+            before += s[0] - s[2];
+            after += s[1] - s[2];
+        }
+        if (before <= 0.0) return 0.0;
+        return std::clamp(1.0 - std::sqrt(std::max(0.0, after) / before), 0.0, 1.0);
+    }
+    double square_um(double loss, std::size_t row) const {
+        const double weight = log_.view.rows[row].weight;
+        return 1e6 * loss / (weight * weight);
+    }
+    double size(const Pair& pair) const {
+        double sum = 0.0;
+        for (const Axis axis : log_.view.axes) sum += pair.apart[axis] * pair.apart[axis];
+        return std::sqrt(sum);
+    }
+
+    const LogOfProgram& log_;
+    const Texts& texts_;
+    const std::vector<int>& blocks_;
+};
+
+bool is_quiet(const LogOfProgram& log, const ComparedRun& run, double noise_loss) {
+    double worst = 0.0;
+    for (const double loss : run.losses) worst = std::max(worst, loss);
+    const double axes = static_cast<double>(log.view.axes.size());
+    return run.loss <= quiet_mean * noise_loss && worst <= axes * quiet_worst * quiet_worst;
+}
+
+/// The control with all steps but one.
+setup::Setup without(const setup::Setup& setup, const GapSearch& found, std::size_t left_out) {
+    setup::Setup out = setup;
+    for (std::size_t k = 0; k < found.steps.size(); ++k)
+        if (k != left_out) found.steps[k].chosen.take(out);
+    return out;
+}
+
+struct Judged {
+    const Comparer& comparer;
+    const Teller& teller;
+    const std::vector<int>& blocks;
+    double loss_before;
+};
+
+GapCause cause_of(const GapQuestion& question, const GapSearch& found, std::size_t k,
+                  const Judged& by) {
+    const GapStep& step = found.steps[k];
+    const ComparedRun rest = by.comparer.run(without(question.setup, found, k));
+    GapCause out{step.chosen.name,
+                 step.chosen.what,
+                 step.chosen.numbers,
+                 step.probability,
+                 step.rivals,
+                 0.0,
+                 0,
+                 {},
+                 {},
+                 {}};
+    const double excess = by.loss_before - by.teller.noise_loss();
+    if (excess > 0.0) out.share = std::clamp((rest.loss - found.run.loss) / excess, 0.0, 1.0);
+    const auto changed = [&](std::size_t row) {
+        return is_changed(rest.losses[row], found.run.losses[row]);
+    };
+    out.blocks = changed_blocks(rest.losses, found.run.losses, by.blocks).size();
+    out.first = by.teller.first(rest, changed);
+    out.worst = by.teller.worst(rest, changed);
+    out.heldout = by.teller.shrink(rest.losses, found.left_out);
+    return out;
+}
+
+GapVerdict verdict_of(const ControlGap& gap) {
+    if (gap.causes.empty() || gap.explained < partly_from) return GapVerdict::unexplained;
+    if (gap.explained < explained_from) return GapVerdict::partly_explained;
+    const bool rivals = std::any_of(gap.causes.begin(), gap.causes.end(),
+                                    [](const GapCause& c) { return !c.rivals.empty(); });
+    return rivals ? GapVerdict::ambiguous : GapVerdict::explained;
+}
+
+/// Never more than the blocks that see the cause, and what all causes explain, allow.
+void cap_probability(GapCause& cause, double explained) {
+    const double blocks = static_cast<double>(cause.blocks);
+    cause.probability =
+        std::min({cause.probability, (blocks + 1.0) / (blocks + 2.0), std::max(0.0, explained)});
+}
+
+/// A gap with structure that no row of the tables makes.
+void add_unknown(ControlGap& gap) {
+    GapCause cause;
+    cause.name = "unknown";
+    cause.what = "no choice and no store in the tables explains what stays";
+    cause.share = 1.0 - gap.explained;
+    cause.blocks = gap.blocks;
+    cause.first = gap.first;
+    cause.worst = gap.worst;
+    cause.probability = 1.0;
+    cap_probability(cause, 1.0 - gap.explained);
+    gap.causes.push_back(cause);
+}
+
+/// A note where the program goes on behind the log.
+void tell_rest(const ComparedRun& base, ControlGap& gap) {
+    std::size_t last = 0;
+    for (const Pair& pair : base.pairs) last = std::max<std::size_t>(last, pair.node);
+    if (last + 1 >= base.path.nodes.size()) return;
+    const PathBlock& next = base.path.blocks[base.path.nodes[last + 1].block];
+    gap.notes.push_back(fmt::format(
+        "the log ends before the program does: the moves from line {} on are not judged",
+        next.line));
+}
+
+void tell_base(const LogOfProgram& log, const ComparedRun& base, const Teller& teller,
+               ControlGap& gap) {
+    gap.noise = log.noise;
+    gap.rows = log.view.rows.size();
+    gap.rms_um = teller.mean_um(base.losses);
+    gap.noise_um = teller.noise_um();
+    gap.excess_um = std::sqrt(std::max(0.0, gap.rms_um * gap.rms_um - gap.noise_um * gap.noise_um));
+    gap.p_value = estimation::chi_squared_tail(base.loss, teller.noise_loss());
+    const double limit = quiet_worst * quiet_worst;
+    gap.first = teller.first(base, [&](std::size_t row) { return base.losses[row] > limit; });
+    gap.worst = teller.worst(base, [](std::size_t) { return true; });
+    gap.where = teller.where(base, base.loss - teller.noise_loss());
+    if (base.path.alarm)
+        gap.stopped =
+            fmt::format("{} at line {}",
+                        controller::alarm_title(base.path.alarm->number, base.path.alarm->text),
+                        base.path.alarm->where.line);
+    gap.after_rms_um = gap.rms_um;
+    tell_rest(base, gap);
+}
+
+void tell_causes(const GapQuestion& question, const GapSearch& found, const ComparedRun& base,
+                 const Judged& by, ControlGap& gap) {
+    for (std::size_t k = 0; k < found.steps.size(); ++k)
+        gap.causes.push_back(cause_of(question, found, k, by));
+    const double noise = by.teller.noise_loss(), excess = base.loss - noise;
+    gap.explained =
+        excess > 0.0 ? std::clamp((base.loss - sum_of(found.left_out)) / excess, 0.0, 1.0) : 0.0;
+    for (GapCause& cause : gap.causes) cap_probability(cause, gap.explained);
+    std::stable_sort(gap.causes.begin(), gap.causes.end(),
+                     [](const GapCause& a, const GapCause& b) { return a.share > b.share; });
+    gap.verdict = verdict_of(gap);
+    if (gap.verdict == GapVerdict::unexplained) add_unknown(gap);
+    gap.after = by.teller.shrink(base.losses, found.left_out);
+    gap.after_rms_um = by.teller.mean_um(found.run.losses);
+    for (const GapBlock& block : by.teller.where(found.run, excess))
+        if (block.share > least_left) gap.left.push_back(block);
+    gap.unseen = found.unseen;
+    gap.setup = found.setup;
+}
+
+}  // namespace
+
+const char* to_string(GapVerdict verdict) {
+    constexpr const char* names[] = {"no-gap", "explained", "partly-explained", "ambiguous",
+                                     "unexplained"};
+    return names[static_cast<std::size_t>(verdict)];
+}
+
+ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& programs,
+                       const std::function<std::vector<interpreter::ProgramText>()>& called) {
+    ControlGap gap;
+    gap.setup = question.setup;
+    PathOptions first_look;
+    first_look.ends_only = true;
+    first_look.max_blocks = question.max_blocks;
+    path_of(question.setup, question.program, programs, first_look);  // finds what it calls
+    const std::vector<interpreter::ProgramText> all = called();
+    LogOfProgram log = log_of_program(question.log, all);
+    log.path.max_blocks = question.max_blocks;
+    gap.notes = log.notes;
+    const Comparer comparer(log.view, question.program, programs, log.path);
+    const ComparedRun base = comparer.run(question.setup);
+    const std::vector<int> blocks = blocks_of(log.view, base);
+    gap.blocks = std::set<int>(blocks.begin(), blocks.end()).size();
+    const Texts texts(question.program, all);
+    const Teller teller(log, texts, blocks);
+    tell_base(log, base, teller, gap);
+    if (is_quiet(log, base, teller.noise_loss())) return gap;
+    const GapSearch found = search_causes(comparer, question.setup, base, blocks, question.watch);
+    tell_causes(question, found, base, {comparer, teller, blocks, base.loss}, gap);
+    return gap;
+}
+
+}  // namespace trunnion::choices

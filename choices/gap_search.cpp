@@ -1,0 +1,169 @@
+#include "choices/gap_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "choices/folds.h"
+
+namespace trunnion::choices {
+
+namespace {
+
+constexpr std::size_t most_steps = 8;
+constexpr double least_gain = 4.0;     ///< of the score: odds of 50 to 1
+constexpr double least_shrink = 0.02;  ///< of the loss, on rows left out
+constexpr double rival_gap = 3.0;      ///< of the score: odds of 20 to 1
+
+/// Scores of one log.
+class Scorer {
+  public:
+    Scorer(const LogView& log, const std::vector<int>& blocks) {
+        const double axes = static_cast<double>(log.axes.size());
+        terms_ = axes * static_cast<double>(log.rows.size());
+        n_ = axes * static_cast<double>(std::set<int>(blocks.begin(), blocks.end()).size());
+    }
+    double score(double loss, std::size_t numbers) const {
+        return -0.5 * n_ * std::log(std::max(1.0, loss / terms_)) -
+               0.5 * static_cast<double>(numbers) * std::log(n_ + 1.0);
+    }
+    double noise_loss() const { return terms_; }
+
+  private:
+    double terms_ = 1.0, n_ = 1.0;
+};
+
+/// Losses when each fold is judged with the change only where the other folds call for it.
+std::vector<double> decided_elsewhere(const std::vector<double>& before,
+                                      const std::vector<double>& after,
+                                      const std::vector<int>& blocks) {
+    const std::vector<int> folds = folds_for(before, after, blocks);
+    std::array<double, fold_count> gain{};
+    double all = 0.0;
+    for (std::size_t row = 0; row < before.size(); ++row) {
+        gain[static_cast<std::size_t>(folds[row])] += before[row] - after[row];
+        all += before[row] - after[row];
+    }
+    std::vector<double> out(before.size());
+    for (std::size_t row = 0; row < before.size(); ++row) {
+        const bool takes = all - gain[static_cast<std::size_t>(folds[row])] > 0.0;
+        out[row] = takes ? after[row] : before[row];
+    }
+    return out;
+}
+
+class Searcher {
+  public:
+    Searcher(const Comparer& comparer, const setup::Setup& setup, const ComparedRun& before,
+             const std::vector<int>& blocks)
+        : comparer_(comparer), blocks_(blocks), scorer_(comparer.log(), blocks) {
+        found_.setup = setup;
+        found_.run = before;
+        found_.left_out = before.losses;
+    }
+
+    GapSearch search(const std::function<void(const char*)>& watch) {
+        while (found_.steps.size() < most_steps && found_.run.loss > scorer_.noise_loss()) {
+            if (watch) watch("choices of the control");
+            candidates_.clear();
+            unseen_.clear();
+            add_choices();
+            if (watch) watch("stores of the control");
+            add_stores();
+            if (found_.steps.empty()) found_.unseen = unseen_;
+            if (!take_best()) break;
+        }
+        return std::move(found_);
+    }
+
+  private:
+    void add(GapCandidate candidate) {
+        candidate.score = scorer_.score(candidate.run.loss, candidate.numbers.size());
+        candidates_.push_back(std::move(candidate));
+    }
+    void add_choices() {
+        for (const Choice& choice : choice_table()) {
+            if (choice.holds(found_.setup)) continue;
+            setup::Setup other = found_.setup;
+            choice.take(other);
+            ControlPath path = comparer_.path(other);
+            if (same_way(path, found_.run.path)) {
+                unseen_.push_back(choice.name());
+                continue;
+            }
+            ComparedRun run = comparer_.compared(std::move(path));
+            if (run.loss >= found_.run.loss) continue;
+            std::vector<double> left_out =
+                decided_elsewhere(found_.run.losses, run.losses, blocks_);
+            add({choice.name(),
+                 choice.what,
+                 choice.take,
+                 {},
+                 std::move(run),
+                 std::move(left_out),
+                 0.0});
+        }
+    }
+    void add_stores() {
+        for (const Store& store : store_table(found_.setup)) {
+            StoreFit fit = fit_store(comparer_, found_.setup, found_.run, store, blocks_);
+            if (!fit.seen) unseen_.push_back(store.name);
+            if (fit.numbers.empty()) continue;
+            std::vector<std::pair<std::function<double&(setup::Setup&)>, double>> values;
+            for (const StoredNumber& number : store.numbers)
+                for (const FittedNumber& fitted : fit.numbers)
+                    if (fitted.name == number.name) values.emplace_back(number.in, fitted.to);
+            const auto take = [values](setup::Setup& s) {
+                for (const auto& [in, value] : values) in(s) = value;
+            };
+            add({store.name, store.what, take, fit.numbers, std::move(fit.run),
+                 std::move(fit.left_out), 0.0});
+        }
+    }
+    bool passes(const GapCandidate& c) const {
+        const double before = found_.run.loss - scorer_.noise_loss();
+        return c.score > now() + least_gain &&
+               found_.run.loss - sum_of(c.left_out) > least_shrink * before;
+    }
+    double now() const { return scorer_.score(found_.run.loss, 0); }
+
+    bool take_best() {
+        GapCandidate* best = nullptr;
+        for (GapCandidate& c : candidates_)
+            if (passes(c) && (best == nullptr || c.score > best->score + 1e-6)) best = &c;
+        if (best == nullptr) return false;
+        GapStep step;
+        double others = std::exp(now() - best->score);
+        for (const GapCandidate& c : candidates_) {
+            if (&c == best) continue;
+            others += std::exp(c.score - best->score);
+            if (c.score > best->score - rival_gap) step.rivals.push_back(c.name);
+        }
+        step.probability = 1.0 / (1.0 + others);
+        for (std::size_t row = 0; row < found_.left_out.size(); ++row)
+            found_.left_out[row] = best->left_out[row];
+        best->take(found_.setup);
+        found_.run = best->run;
+        step.chosen = std::move(*best);
+        found_.steps.push_back(std::move(step));
+        return true;
+    }
+
+    const Comparer& comparer_;
+    const std::vector<int>& blocks_;
+    Scorer scorer_;
+    GapSearch found_;
+    std::vector<GapCandidate> candidates_;
+    std::vector<std::string> unseen_;
+};
+
+}  // namespace
+
+GapSearch search_causes(const Comparer& comparer, const setup::Setup& setup,
+                        const ComparedRun& before, const std::vector<int>& blocks,
+                        const std::function<void(const char*)>& watch) {
+    return Searcher(comparer, setup, before, blocks).search(watch);
+}
+
+}  // namespace trunnion::choices

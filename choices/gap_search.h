@@ -1,0 +1,44 @@
+// The search for causes of a control's gap: candidates, their scores, greedy choice.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "choices/choice_table.h"
+#include "choices/store_fit.h"
+
+namespace trunnion::choices {
+
+/// A change of the control that may explain the log.
+struct GapCandidate {
+    std::string name, what;
+    std::function<void(setup::Setup&)> take;
+    std::vector<FittedNumber> numbers;
+    ComparedRun run;
+    std::vector<double> left_out;  ///< losses of the rows, each fold judged without it
+    double score = 0.0;            ///< log of its evidence, to a common constant
+};
+
+/// One accepted change with what is said of it.
+struct GapStep {
+    GapCandidate chosen;
+    std::vector<std::string> rivals;
+    double probability = 0.0;  ///< among all candidates and none
+};
+
+struct GapSearch {
+    std::vector<GapStep> steps;
+    setup::Setup setup;
+    ComparedRun run;               ///< with all steps
+    std::vector<double> left_out;  ///< its losses, folds left out of each step's decision and fit
+    std::vector<std::string> unseen;
+};
+
+/// `blocks`: block of each row, from 0. Score: -n/2 ln(mean loss, at least 1) - k/2 ln n with n =
+/// blocks times axes: it knows no scale, so what stays unexplained tempers it.
+GapSearch search_causes(const Comparer& comparer, const setup::Setup& setup,
+                        const ComparedRun& before, const std::vector<int>& blocks,
+                        const std::function<void(const char*)>& watch);
+
+}  // namespace trunnion::choices

@@ -1,0 +1,216 @@
+#include "choices/log_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "base/alarm.h"
+#include "base/units.h"
+#include "motion/motion.h"
+
+namespace trunnion::choices {
+
+namespace {
+
+constexpr std::size_t rows_for_noise = 50;
+constexpr double dense_rows_a_block = 8.0;  ///< from here on neighbours lie on one smooth motion
+
+/// N number in force at each line of a text, [0] for the lines before the first.
+std::vector<int> numbers_in(std::string_view text) {
+    std::vector<int> out{0};
+    int number = 0;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        std::string_view line = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        while (!line.empty() && (line[0] == ' ' || line[0] == '/' || line[0] == '\t'))
+            line.remove_prefix(1);
+        if (line.size() > 1 && (line[0] == 'N' || line[0] == 'n') &&
+            std::isdigit(static_cast<unsigned char>(line[1])))
+            number = std::atoi(std::string(line.substr(1, 9)).c_str());
+        out.push_back(number);
+    }
+    return out;
+}
+
+std::string file_of(const std::string& path) {
+    return std::filesystem::path(path).filename().string();
+}
+
+/// Numbers of blocks as the log counts them.
+class BlockKeys {
+  public:
+    BlockKeys(const records::PositionLog& log, const std::vector<interpreter::ProgramText>& texts)
+        : main_(file_of(texts.front().name)) {
+        for (const interpreter::ProgramText& text : texts)
+            numbers_[file_of(text.name)] = numbers_in(text.text);
+        by_number_ = log.blocks == records::BlockColumn::number && all_are_numbers(log);
+        knows_program_ = std::any_of(log.rows.begin(), log.rows.end(), [&](const auto& row) {
+            return numbers_.contains(file_of(row.program)) && file_of(row.program) != main_;
+        });
+    }
+    bool by_number() const { return by_number_; }
+
+    int of_row(const records::PositionLog& log, const records::LoggedPosition& row) {
+        if (row.block == 0) return -1;
+        const std::string program = program_of(row.program);
+        if (!by_number_ && !knows_program_ && !any_has_line(row.block)) refuse(log, row);
+        return keys_.try_emplace({program, row.block}, static_cast<int>(keys_.size()))
+            .first->second;
+    }
+    int of_block(const PathBlock& block) const {
+        const std::string file = block.program.empty() ? main_ : file_of(block.program);
+        int told = block.line;
+        if (by_number_) {
+            const auto lines = numbers_.find(file);
+            if (lines == numbers_.end()) return -1;
+            told = lines->second[std::min<std::size_t>(static_cast<std::size_t>(block.line),
+                                                       lines->second.size() - 1)];
+        }
+        const auto key = keys_.find({program_of(file), told});
+        return key == keys_.end() ? -1 : key->second;
+    }
+    int count() const { return static_cast<int>(keys_.size()); }
+
+  private:
+    /// Programs count where the log names one that is called; else a block is a block of any.
+    std::string program_of(const std::string& name) const {
+        const std::string file = file_of(name);
+        return knows_program_ && numbers_.contains(file) && file != main_ ? file : std::string();
+    }
+    bool any_has_line(int line) const {
+        return std::any_of(numbers_.begin(), numbers_.end(), [line](const auto& program) {
+            return line < static_cast<int>(program.second.size());
+        });
+    }
+    bool all_are_numbers(const records::PositionLog& log) const {
+        std::map<int, bool> known;
+        for (const auto& [file, lines] : numbers_)
+            for (const int n : lines) known[n] = true;
+        return std::all_of(log.rows.begin(), log.rows.end(), [&](const auto& row) {
+            return row.block == 0 || known.contains(row.block);
+        });
+    }
+    [[noreturn]] void refuse(const records::PositionLog& log,
+                             const records::LoggedPosition& row) const {
+        throw InputError(fmt::format("block {}: {} has {} lines and no such N number; is this the "
+                                     "program that was logged?",
+                                     row.block, main_, numbers_.at(main_).size() - 1),
+                         {log.path, row.line, 0});
+    }
+
+    std::string main_;
+    std::map<std::string, std::vector<int>> numbers_;  ///< by file
+    std::map<std::pair<std::string, int>, int> keys_;
+    bool by_number_ = false, knows_program_ = false;
+};
+
+/// Where an arc of the log stands at `part` of its way; the other axes go evenly.
+AxisPositions on_arc(const records::LoggedArc& arc, const AxisPositions& from,
+                     const AxisPositions& to, double part) {
+    const auto xyz = [](const AxisPositions& q) {
+        return Vector3(q[Axis::X], q[Axis::Y], q[Axis::Z]);
+    };
+    const Vector3 n = arc.normal.normalized(), a = xyz(from) - arc.centre_mm,
+                  b = xyz(to) - arc.centre_mm;
+    double sweep = std::atan2(n.dot(a.cross(b)), a.dot(b) - n.dot(a) * n.dot(b));
+    const double way = arc.turns < 0 ? -1.0 : 1.0;
+    if (way * sweep <= 1e-9) sweep += way * 2.0 * pi;
+    sweep += way * 2.0 * pi * (std::abs(arc.turns) - 1.0);
+    AxisPositions out;
+    for (std::size_t i = 0; i < axis_count; ++i)
+        out.value[i] = from.value[i] + part * (to.value[i] - from.value[i]);
+    const Vector3 p =
+        motion::point_on_arc({arc.centre_mm, n, arc.turns, sweep}, xyz(from), xyz(to), part);
+    for (int k = 0; k < 3; ++k) out.value[static_cast<std::size_t>(k)] = p[k];
+    return out;
+}
+
+/// Spread of one axis about a smooth motion: the middle third difference.
+double scatter(const LogView& view, Axis axis) {
+    std::vector<double> size;
+    for (std::size_t i = 3; i < view.rows.size(); ++i) {
+        const auto at = [&](std::size_t k) { return view.rows[i - k].at[axis]; };
+        size.push_back(std::abs(at(0) - 3 * at(1) + 3 * at(2) - at(3)));
+    }
+    const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
+    std::nth_element(size.begin(), middle, size.end());
+    return 1.4826 * *middle / std::sqrt(20.0);
+}
+
+double measured_sigma(const LogView& view) {
+    double most = 0.0;
+    for (const Axis axis : view.axes) most = std::max(most, scatter(view, axis));
+    return most;
+}
+
+void set_noise(const records::PositionLog& log, LogOfProgram& out) {
+    const double printed = log.step / std::sqrt(12.0);
+    const bool given = std::any_of(log.rows.begin(), log.rows.end(),
+                                   [](const auto& row) { return row.sigma_mm > 0.0; });
+    const double blocks = std::max(1, out.view.keys);
+    const bool dense = !log.ends && log.rows.size() >= rows_for_noise &&
+                       static_cast<double>(log.rows.size()) > dense_rows_a_block * blocks;
+    double sigma = std::max(printed, log.ends ? least_sigma : least_sample_sigma);
+    if (!given && dense) {
+        const double found = measured_sigma(out.view);
+        if (found > sigma) out.noise = LogNoise::repeats;
+        sigma = std::max(sigma, found);
+    }
+    if (given) out.noise = LogNoise::given;
+    double sum = 0.0;
+    for (LogView::Row& row : out.view.rows) {  // `weight` holds the log's sigma so far
+        const double own = std::max(row.weight, sigma);
+        row.weight = 1.0 / own;
+        sum += own;
+    }
+    out.sigma = sum / static_cast<double>(out.view.rows.size());
+}
+
+}  // namespace
+
+const char* to_string(LogNoise noise) {
+    constexpr const char* names[] = {"given", "repeats", "assumed"};
+    return names[static_cast<std::size_t>(noise)];
+}
+
+LogOfProgram log_of_program(const records::PositionLog& log,
+                            const std::vector<interpreter::ProgramText>& texts) {
+    LogOfProgram out;
+    const auto keys = std::make_shared<BlockKeys>(log, texts);
+    out.view.axes = log.axes;
+    out.view.ends = log.ends;
+    AxisPositions before;
+    for (const records::LoggedPosition& row : log.rows) {
+        const int key = log.blocks == records::BlockColumn::none ? -1 : keys->of_row(log, row);
+        const double sigma = row.sigma_mm;
+        if (log.ends && row.arc) {
+            out.path.arc_points = true;
+            for (int part = 1; part < arc_parts; ++part)
+                out.view.rows.push_back(
+                    {offsets::control_position_of(
+                         on_arc(*row.arc, before, row.at, static_cast<double>(part) / arc_parts)),
+                     key, sigma, row.line, true});
+        }
+        out.view.rows.push_back(
+            {offsets::control_position_of(row.at), key, sigma, row.line, row.end});
+        before = row.at;
+    }
+    out.view.keys = keys->count();
+    out.view.key_of = [keys](const PathBlock& block) { return keys->of_block(block); };
+    set_noise(log, out);
+    if (!log.ends) out.path.start = log.rows.front().at;
+    out.path.ends_only = log.ends;
+    out.path.chord_mm = std::max(least_sample_sigma, 0.3 * out.sigma);
+    if (out.view.keys == 0)
+        out.notes.push_back(log.path + ": no blocks told: rows are placed by their order alone");
+    else if (keys->by_number())
+        out.notes.push_back(log.path + ": the numbers of blocks are N numbers of the program");
+    return out;
+}
+
+}  // namespace trunnion::choices

@@ -1,0 +1,98 @@
+#include "report/control_gap_page.h"
+
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "report/control_gap_report.h"
+
+namespace trunnion::report {
+
+namespace {
+
+std::string gap_size(double apart) {
+    return fmt::format("{:.4f}", apart);
+}
+
+PageTable cause_table(const choices::ControlGap& gap) {
+    PageTable table{"",
+                    {"cause", "what it does", "share, %", "probability", "could also be",
+                     "held out, um", "shrinks by, %"},
+                    "llrrlll",
+                    {}};
+    for (const choices::GapCause& c : gap.causes) {
+        std::string what = c.what;
+        for (const choices::FittedNumber& n : c.numbers) what += "; " + number_words(n);
+        const std::string rivals = fmt::format("{}", fmt::join(c.rivals, ", "));
+        table.rows.push_back(
+            {c.name, what, fmt::format("{:.0f}", 100 * c.share),
+             fmt::format("{:.2f}", c.probability), rivals.empty() ? "none" : rivals,
+             fmt::format("{:.3f} to {:.3f}", c.heldout.before_um, c.heldout.after_um),
+             fmt::format("{:.0f} ({:.0f} to {:.0f})", 100 * c.heldout.shrink, 100 * c.heldout.low,
+                         100 * c.heldout.high)});
+    }
+    return table;
+}
+
+PageTable cause_places(const choices::ControlGap& gap) {
+    PageTable table{"", {"cause", "blocks", "first", "apart", "worst", "apart"}, "lrlrlr", {}};
+    for (const choices::GapCause& c : gap.causes)
+        table.rows.push_back({c.name, std::to_string(c.blocks), place_words(c.first),
+                              gap_size(c.first.apart), place_words(c.worst),
+                              gap_size(c.worst.apart)});
+    return table;
+}
+
+PageTable block_table(const std::vector<choices::GapBlock>& blocks) {
+    PageTable table{"", {"block", "up to, mm or deg", "share, %", "line of the log"}, "lrrr", {}};
+    for (const choices::GapBlock& b : blocks)
+        table.rows.push_back({place_words(b.worst), gap_size(b.worst.apart),
+                              fmt::format("{:.0f}", 100 * b.share),
+                              std::to_string(b.worst.log_line)});
+    return table;
+}
+
+Tone gap_tone(choices::GapVerdict verdict) {
+    if (verdict == choices::GapVerdict::no_gap) return Tone::good;
+    return verdict == choices::GapVerdict::explained ? Tone::neutral : Tone::bad;
+}
+
+std::string gap_sections(const choices::ControlGap& gap) {
+    std::string out;
+    if (!gap.causes.empty())
+        out += section_html("Which choice or store", table_html(cause_table(gap))) +
+               section_html("Where each shows", table_html(cause_places(gap)));
+    if (!gap.where.empty())
+        out += section_html("Blocks with most of the gap", table_html(block_table(gap.where)));
+    if (!gap.causes.empty() && !gap.left.empty())
+        out += section_html("What stays", table_html(block_table(gap.left)));
+    return out;
+}
+
+std::string how_to_read(const choices::ControlGap& gap) {
+    std::string out = paragraph_html(
+        "The program ran on the emulated control once for each choice and each store of its "
+        "tables; each logged position was compared with the place that its block reaches. A cause "
+        "stands only where blocks that took no part in the decision come nearer too. A choice "
+        "without rivals may still have one that is not in the table.");
+    if (!gap.unseen.empty())
+        out += paragraph_html(
+            fmt::format("This program cannot tell: {}.", fmt::join(gap.unseen, ", ")));
+    return section_html("How to read this", out);
+}
+
+}  // namespace
+
+Page control_gap_page(const choices::ControlGap& gap, const std::string& log,
+                      const std::string& program) {
+    Page page;
+    page.title = "Control log against emulated control";
+    page.subject = valid_utf8(fmt::format("log {}; program {}", log, program));
+    page.verdict = verdict_sentence(gap);
+    if (!gap.stopped.empty())
+        page.verdict += " This control stops: " + printable(gap.stopped) + ".";
+    page.tone = gap_tone(gap.verdict);
+    page.body_html = gap_sections(gap) + how_to_read(gap);
+    return page;
+}
+
+}  // namespace trunnion::report

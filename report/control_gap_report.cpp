@@ -1,0 +1,167 @@
+#include "report/control_gap_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/text.h"
+#include "report/json_values.h"
+
+namespace trunnion::report {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json place_json(const choices::GapPlace& place) {
+    return {{"program", valid_utf8(place.program)},
+            {"line", place.line},
+            {"block", valid_utf8(place.block)},
+            {"apart_um", 1000.0 * place.apart},
+            {"log_line", place.log_line}};
+}
+
+Json shrink_json(const choices::GapShrink& s, double noise_um) {
+    return {{"rms_before_um", s.before_um},
+            {"rms_after_um", s.after_um},
+            {"noise_um", noise_um},
+            {"shrink", s.shrink},
+            {"ci95", {s.low, s.high}}};
+}
+
+Json blocks_json(const std::vector<choices::GapBlock>& blocks) {
+    Json list = Json::array();
+    for (const choices::GapBlock& b : blocks)
+        list.push_back({{"by", "block"},
+                        {"component", fmt::format("line {}", b.worst.line)},
+                        {"share", b.share},
+                        {"p_value", b.p_value},
+                        {"text", fmt::format("{}: up to {:.4f} mm or deg, {:.0f} % of the gap",
+                                             place_words(b.worst), b.worst.apart, 100 * b.share)},
+                        {"place", place_json(b.worst)}});
+    return list;
+}
+
+Json cause_json(const choices::GapCause& cause, double noise_um) {
+    Json parameters = Json::array();
+    for (const choices::FittedNumber& n : cause.numbers)
+        parameters.push_back({{"name", n.name},
+                              {"value", n.to},
+                              {"declared", n.from},
+                              {"sigma", json_number(n.sigma)},
+                              {"unit", n.unit}});
+    return {{"effect", cause.name},
+            {"probability", cause.probability},
+            {"rivals", cause.rivals},
+            {"parameters", parameters},
+            {"share", cause.share},
+            {"heldout", shrink_json(cause.heldout, noise_um)},
+            {"what", cause.what},
+            {"blocks", cause.blocks},
+            {"first", place_json(cause.first)},
+            {"worst", place_json(cause.worst)}};
+}
+
+std::string cause_text(const choices::GapCause& cause) {
+    std::string out = fmt::format("\n{}  {:.0f} % of the gap, probability {:.2f}\n  {}\n",
+                                  cause.name, 100 * cause.share, cause.probability, cause.what);
+    for (const choices::FittedNumber& n : cause.numbers) out += "  " + number_words(n) + '\n';
+    out += fmt::format("  {} block{}; first at {}: {:.4f}; worst at {}: {:.4f} mm or deg\n",
+                       cause.blocks, cause.blocks == 1 ? "" : "s", place_words(cause.first),
+                       cause.first.apart, place_words(cause.worst), cause.worst.apart);
+    if (cause.name == "unknown") return out;
+    if (!cause.rivals.empty())
+        out += fmt::format("  this log cannot tell it from: {}\n", fmt::join(cause.rivals, ", "));
+    return out +
+           fmt::format("  held out: {:.3f} -> {:.3f} um: shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
+                       cause.heldout.before_um, cause.heldout.after_um, 100 * cause.heldout.shrink,
+                       100 * cause.heldout.low, 100 * cause.heldout.high);
+}
+
+std::string blocks_text(const char* head, const std::vector<choices::GapBlock>& blocks) {
+    std::string out = blocks.empty() ? "" : head;
+    for (const choices::GapBlock& b : blocks)
+        out += fmt::format("  {}: up to {:.4f} mm or deg, {:.0f} % of it\n", place_words(b.worst),
+                           b.worst.apart, 100 * b.share);
+    return out;
+}
+
+}  // namespace
+
+std::string place_words(const choices::GapPlace& place) {
+    if (place.line == 0) return "the start";
+    const std::string where = place.program.empty() ? "" : printable(place.program) + ", ";
+    return fmt::format("{}line {} `{}`", where, place.line, printable(place.block));
+}
+
+std::string number_words(const choices::FittedNumber& n) {
+    return fmt::format("{} {:.4f} -> {:.4f} {} (sigma {:.2g})", n.name, n.from, n.to, n.unit,
+                       n.sigma);
+}
+
+std::string verdict_sentence(const choices::ControlGap& gap) {
+    using choices::GapVerdict;
+    if (gap.verdict == GapVerdict::no_gap)
+        return "The control moves as the log says, within its noise.";
+    const std::string size =
+        fmt::format("Log and control differ by {:.3f} um rms, at most {:.4f} mm or deg", gap.rms_um,
+                    gap.worst.apart);
+    if (gap.verdict == GapVerdict::unexplained)
+        return size + "; no choice and no store of this control explains it.";
+    std::vector<std::string> names;
+    for (const choices::GapCause& cause : gap.causes) names.push_back(cause.name);
+    return fmt::format("{}; {} explain{} {:.0f} % of it on blocks left out.", size,
+                       fmt::join(names, ", "), names.size() == 1 ? "s" : "", 100 * gap.explained);
+}
+
+std::string control_gap_json(const choices::ControlGap& gap) {
+    Json json{{"schema", "trunnion.diagnosis/1"},
+              {"of", "control"},
+              {"verdict", to_string(gap.verdict)},
+              {"noise_source", to_string(gap.noise)},
+              {"gap",
+               {{"rms_um", gap.rms_um},
+                {"noise_um", gap.noise_um},
+                {"excess_um", gap.excess_um},
+                {"p_value", gap.p_value},
+                {"first", place_json(gap.first)},
+                {"worst", place_json(gap.worst)}}}};
+    json["where"] = blocks_json(gap.where);
+    json["causes"] = Json::array();
+    for (const choices::GapCause& cause : gap.causes)
+        json["causes"].push_back(cause_json(cause, gap.noise_um));
+    json["after"] = {{"rms_um", gap.after_rms_um},
+                     {"explained", gap.explained},
+                     {"heldout_shrink", gap.after.shrink},
+                     {"ci95", {gap.after.low, gap.after.high}},
+                     {"unexplained_share", 1.0 - gap.explained},
+                     {"where", blocks_json(gap.left)}};
+    json["setup"] = Json::array();
+    json["next_measurement"] = Json::array();
+    json["unseen"] = gap.unseen;
+    json["rows"] = gap.rows;
+    json["blocks"] = gap.blocks;
+    json["stopped"] = gap.stopped;
+    return json.dump(1) + "\n";
+}
+
+std::string control_gap_text(const choices::ControlGap& gap) {
+    std::string out =
+        fmt::format("verdict: {}\n{}\n", to_string(gap.verdict), verdict_sentence(gap));
+    out += fmt::format("{} positions in {} blocks, rms {:.3f} um, noise {:.3f} um ({})\n", gap.rows,
+                       gap.blocks, gap.rms_um, gap.noise_um, to_string(gap.noise));
+    if (!gap.stopped.empty()) out += "this control stops: " + printable(gap.stopped) + '\n';
+    if (gap.verdict == choices::GapVerdict::no_gap) return out;
+    out += fmt::format("first at {}: {:.4f} mm or deg\n", place_words(gap.first), gap.first.apart);
+    out += blocks_text("most of the gap:\n", gap.where);
+    for (const choices::GapCause& cause : gap.causes) out += cause_text(cause);
+    if (!gap.causes.empty())
+        out += fmt::format(
+            "\nafter: rms {:.3f} um; the gap shrinks by {:.0f} % ({:.0f} to {:.0f}) on blocks left "
+            "out\n",
+            gap.after_rms_um, 100 * gap.after.shrink, 100 * gap.after.low, 100 * gap.after.high);
+    out += gap.causes.empty() ? std::string() : blocks_text("what stays:\n", gap.left);
+    return out;
+}
+
+}  // namespace trunnion::report

@@ -1,0 +1,303 @@
+// diagnose --program: a log that this program wrote under another setup, judged through the file.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/command_bench.h"
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// A five-axis machine whose [control] tables follow.
+std::string machine(const std::string& control) {
+    return R"([machine]
+name  = "Log"
+chain = "w C B b X Y Z t"
+[machine.axis.B]
+direction = [0, -1, 0]
+point_mm  = [0, 0, 0]
+[machine.axis.C]
+direction = [0, 0, -1]
+point_mm  = [0, 0, 0]
+)" + control;
+}
+
+struct Control {
+    std::string keys, hurco, g54 = "X = 10.0, Y = -20.0, Z = 5.0", h1 = "150.0",
+                             parameters = "3401 = \"00000001\"\n";
+    std::string text() const {
+        return machine("[control]\n" + keys + "[control.hurco]\n" + hurco +
+                       "[control.work_offsets]\nG54 = { " + g54 + " }\nG55 = { X = 50.0 }\n" +
+                       "[control.parameters]\n" + parameters +
+                       "[control.tools]\n1 = { length_mm = " + h1 + ", diameter_mm = 6.0 }\n");
+    }
+};
+
+struct Bench : CommandBench {
+    /// Runs the program on `there`, and asks which of `here` explains the trace.
+    Json asked(const std::string& program, const Control& here, const Control& there,
+               const std::string& log_words = "") const {
+        write("here.toml", here.text());
+        write("there.toml", there.text());
+        write("part.nc", program);
+        (void)trunnion("run " + file("part.nc") + " --setup " + file("there.toml") + " --trace " +
+                       file("log.csv") + log_words);
+        return asked();
+    }
+    Json asked() const {
+        const int code = trunnion("diagnose " + file("log.csv") + " --program " + file("part.nc") +
+                                  " --setup " + file("here.toml") + " --json");
+        INFO(read("err.txt"));
+        REQUIRE(code == 0);
+        return Json::parse(read("out.txt"));
+    }
+};
+
+/// All kinds of motion in the words of a three-axis mill, over two work offsets and one tool.
+const std::string mill = R"(N10 G90 G21 G17 G40 G49 G80 G54
+N20 T1 M6
+N30 G43 H1 Z50.
+N40 G0 X0. Y0.
+N50 G1 Z2. F500.
+N60 X40. Y10.
+N70 G2 X60. Y30. R30.
+N80 G3 X40. Y10. I-25. J10.
+N90 G0 Z30.
+N100 G55 X5. Y5.
+N110 G99 G73 X10. Y10. Z-9. R3. Q4. F200.
+N120 X25.
+N130 G98 G83 X10. Y-10. Z-12. R3. Q5.
+N140 G80
+N150 G0 X70. Y40
+N160 G1 X30 Y12
+N170 G91 G1 X-5. Y-6.
+N180 X-5. Z-1.
+N190 G90 G49 Z80.
+N200 M30
+)";
+
+/// Indexing, then G43.4, as posts write it.
+const std::string five_axis = R"(N10 G90 G21 G54
+N20 T1 M6
+N30 G0 B30. C40.
+N40 G43.4 H1 X50. Y20. Z60.
+N50 G1 X40. Y10. Z50. B20. C10. F800.
+N60 X30. Y-10. Z40. B-10. C-20.
+N70 X10. Y-20. Z45. B5. C60.
+N80 X0. Y0. Z60. B0. C0.
+N90 G49
+N100 M30
+)";
+
+/// G43 and G49 in blocks of their own.
+const std::string lengths = R"(N10 G90 G21 G54 G0 X0. Y0.
+N20 T1 M6
+N30 G43 H1
+N40 X20. Y10.
+N50 G1 Z2. F300.
+N60 X30.
+N70 G49
+N80 X0. Y1.
+N90 G0 Z25.
+N100 M30
+)";
+
+const Json& cause(const Json& result) {
+    REQUIRE(result["causes"].size() == 1);
+    const Json& only = result["causes"][0];
+    CHECK(only["probability"].get<double>() < 1.0);
+    CHECK(only["heldout"]["shrink"].get<double>() > 0.99);
+    return only;
+}
+
+double value(const Json& of, const std::string& name) {
+    for (const Json& parameter : of["parameters"])
+        if (parameter["name"] == name) return parameter["value"];
+    return -1e9;
+}
+
+}  // namespace
+
+TEST_CASE("diagnose --program: the log of the same control is no gap") {
+    const Bench bench;
+    for (const std::string& program : {mill, five_axis})
+        for (const char* samples : {"", " --trace-step 0.5"}) {
+            const Json result = bench.asked(program, {}, {}, samples);
+            CHECK(result["schema"] == "trunnion.diagnosis/1");
+            CHECK(result["verdict"] == "no-gap");
+            CHECK(result["causes"].empty());
+            CHECK(result["gap"]["rms_um"].get<double>() < 0.2);
+        }
+}
+
+TEST_CASE("diagnose --program: one choice of the other control is named, from ends and samples") {
+    struct Case {
+        std::string name, program;
+        Control here, there;
+    };
+    Control metric, bare, shift, frame, type_b, no_length, radius;
+    bare.parameters = "3401 = \"00000000\"\n";
+    shift.parameters += "5006 = \"01000000\"\n";
+    frame.keys = "tcp_frame = \"rotary_zero\"\n";
+    const std::vector<Case> cases{{"3401#0=0", mill, metric, bare},
+                                  {"3401#0=1", mill, bare, metric},
+                                  {"5006#6=1", lengths, metric, shift},
+                                  {"tcp_frame=rotary_zero", five_axis, metric, frame},
+                                  {"tcp_frame=start", five_axis, frame, metric}};
+    const Bench bench;
+    for (const Case& c : cases)
+        for (const char* samples : {"", " --trace-step 0.5"}) {
+            INFO(c.name << samples);
+            const Json result = bench.asked(c.program, c.here, c.there, samples);
+            INFO(result.dump(1));
+            CHECK((result["verdict"] == "explained" || result["verdict"] == "ambiguous"));
+            CHECK(cause(result)["effect"] == c.name);
+            CHECK(result["after"]["rms_um"].get<double>() < 0.2);
+        }
+}
+
+TEST_CASE("diagnose --program: a stale store is named with its value") {
+    const Bench bench;
+    Control g54, h1, peck;
+    g54.g54 = "X = 10.025, Y = -20.0, Z = 4.99";
+    h1.h1 = "150.012";
+    peck.parameters += "5114 = 0.3\n";
+    for (const char* samples : {"", " --trace-step 0.5"}) {
+        INFO(samples);
+        Json result = bench.asked(mill, {}, g54, samples);
+        INFO(result.dump(1));
+        CHECK(cause(result)["effect"] == "G54");
+        CHECK(value(cause(result), "G54.X") == Approx(10.025).margin(2e-4));
+        CHECK(value(cause(result), "G54.Z") == Approx(4.99).margin(2e-4));
+        CHECK(cause(result)["parameters"].size() == 2);
+        result = bench.asked(mill, {}, h1, samples);
+        CHECK(cause(result)["effect"] == "H1");
+        CHECK(value(cause(result), "H1") == Approx(150.012).margin(2e-4));
+    }
+    const Json result = bench.asked(mill, {}, peck);
+    CHECK(cause(result)["effect"] == "5114");
+    CHECK(value(cause(result), "5114") == Approx(0.3).margin(2e-4));
+    CHECK(cause(result)["first"]["line"] == 11);
+}
+
+TEST_CASE("diagnose --program: two causes beside each other, and the setup that has them") {
+    const Bench bench;
+    Control there;
+    there.keys = "tcp_frame = \"rotary_zero\"\n";
+    there.g54 = "X = 10.03, Y = -20.0, Z = 5.0";
+    const Json result = bench.asked(five_axis, {}, there, " --trace-step 1");
+    INFO(result.dump(1));
+    REQUIRE(result["causes"].size() == 2);
+    CHECK(result["causes"][0]["effect"] == "tcp_frame=rotary_zero");
+    CHECK(result["causes"][1]["effect"] == "G54");
+    CHECK(result["causes"][1]["rivals"][0] == "external");
+    CHECK(result["verdict"] == "ambiguous");
+    REQUIRE(bench.trunnion("diagnose " + bench.file("log.csv") + " --program " +
+                           bench.file("part.nc") + " --setup " + bench.file("here.toml") +
+                           " --out " + bench.file("learned.toml") + " --html " +
+                           bench.file("gap.html")) == 0);
+    CHECK_THAT(bench.read("gap.html"), Catch::Contains("tcp_frame=rotary_zero"));
+    REQUIRE(bench.trunnion("diagnose " + bench.file("log.csv") + " --program " +
+                           bench.file("part.nc") + " --setup " + bench.file("learned.toml")) == 0);
+    CHECK_THAT(bench.read("out.txt"), Catch::Contains("verdict: no-gap"));
+}
+
+TEST_CASE("diagnose --program: another generation and Hurco's dialect, where this control stops") {
+    const Bench bench;
+    Control hurco;
+    hurco.keys = "dialect = \"hurco\"\n";
+    const std::string cycles =
+        "N10 G90 G21 G17 G54\nN20 T1 M6\nN30 G0 X5. Y5.\nN40 G43 H1 Z60.\nN50 X40. Y12.\n"
+        "N60 G1 Z10. F400.\nN70 M140 L20.\nN80 G0 X10. Y50.\nN90 G49\nN100 X0. Y3.\nM30\n";
+    const Json result = bench.asked(cycles, {}, hurco, " --trace-step 0.5");
+    INFO(result.dump(1));
+    CHECK(result["causes"][0]["effect"] == "dialect=hurco");
+    CHECK(result["after"]["explained"].get<double>() > 0.99);
+    Control old;
+    old.keys = "generation = \"16i\"\n";
+    CHECK(bench.asked(mill, {}, old)["verdict"] == "no-gap");  // they read this program alike
+}
+
+TEST_CASE("diagnose --program: noise of the log stays noise, and hides nothing larger") {
+    const Bench bench;
+    Control g54;
+    g54.g54 = "X = 10.02, Y = -20.0, Z = 5.0";
+    for (const bool stale : {false, true}) {
+        bench.asked(mill, {}, stale ? g54 : Control{}, " --trace-step 1");
+        std::istringstream lines(bench.read("log.csv"));
+        std::string line, noisy = "line,x_mm,y_mm,z_mm\n";
+        unsigned seed = 7;
+        const auto noise = [&seed] {
+            seed = seed * 1664525U + 1013904223U;
+            return 0.004 * (static_cast<double>(seed >> 8U) / 16777216.0 - 0.5);
+        };
+        std::getline(lines, line);
+        while (std::getline(lines, line)) {
+            std::vector<std::string> cell;
+            std::istringstream cells(line);
+            for (std::string text; std::getline(cells, text, ',');) cell.push_back(text);
+            noisy += cell[2];
+            for (const std::size_t k : {6U, 7U, 8U})
+                noisy += ',' + std::to_string(std::stod(cell[k]) + noise());
+            noisy += '\n';
+        }
+        bench.write("log.csv", noisy);
+        const Json result = bench.asked();
+        INFO(result.dump(1));
+        CHECK(result["noise_source"] == "repeats");
+        if (!stale) CHECK(result["verdict"] == "no-gap");
+        if (stale) CHECK(value(cause(result), "G54.X") == Approx(10.02).margin(5e-4));
+    }
+}
+
+TEST_CASE("diagnose --program: what no table has stays unexplained") {
+    const Bench bench;
+    bench.write("here.toml", Control{}.text());
+    bench.write("part.nc", mill);
+    bench.write("there.toml", Control{}.text());
+    std::string other = mill;
+    other.replace(other.find("X40. Y10.\nN70"), 9, "X41. Y10.");
+    other.replace(other.find("R3. Q5."), 7, "R3. Q7.");
+    bench.write("other.nc", other);
+    REQUIRE(bench.trunnion("run " + bench.file("other.nc") + " --setup " +
+                           bench.file("there.toml") + " --trace " + bench.file("log.csv")) == 0);
+    const Json result = bench.asked();
+    INFO(result.dump(1));
+    CHECK(result["verdict"] == "unexplained");
+    CHECK(result["causes"].back()["effect"] == "unknown");
+    for (const Json& claim : result["causes"])
+        if (claim["effect"] != "unknown") CHECK(claim["probability"].get<double>() < 0.5);
+    CHECK(result["gap"]["first"]["line"] == 6);
+}
+
+TEST_CASE("diagnose --program refuses with one message and writes nothing") {
+    const Bench bench;
+    bench.asked(mill, {}, {});
+    struct Case {
+        std::string log, words, message;
+    };
+    const std::string head = "line,motion,x_mm,y_mm,z_mm\n";
+    const std::vector<Case> cases{
+        {"line,motion\n3,G0\n", "", "log.csv:1:1: error: no column tells the position"},
+        {"line,motion,x_mm,a_deg\n3,G0,1,2\n", "", "the machine's axes are"},
+        {head, "", "log.csv"},
+        {head + "3,G0,1,2\n", "", "log.csv:2"},
+        {head + "3,G0,1,2,abc\n", "", "log.csv:2:"},
+        {head + "3.5,G0,1,2,3\n", "", "log.csv:2:1: error: a block is a whole number"},
+        {head + "812,G0,1,2,3\n", "", "log.csv:2: error: block 812: part.nc has 20 lines"},
+        {head + "3,G0,1,2,3\n", " --holdout " + bench.file("log.csv"), "--program takes one log"},
+    };
+    for (const Case& c : cases) {
+        bench.write("log.csv", c.log);
+        CHECK(bench.trunnion("diagnose " + bench.file("log.csv") + " --program " +
+                             bench.file("part.nc") + " --setup " + bench.file("here.toml") +
+                             " --out " + bench.file("new.toml") + c.words) == 2);
+        INFO(bench.read("err.txt"));
+        CHECK_THAT(bench.read("err.txt"), Catch::Contains(c.message));
+        CHECK(bench.read("out.txt").empty());
+        CHECK_FALSE(std::filesystem::exists(bench.path / "new.toml"));
+    }
+    CHECK(bench.trunnion("diagnose " + bench.file("log.csv") + " --program " +
+                         bench.file("part.nc")) == 2);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("--setup is missing"));
+}
