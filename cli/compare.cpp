@@ -134,12 +134,11 @@ int compare_many(const CompareCommand& c, const regression::SuiteCase& like,
     const Interruption interruption;
     Progress progress;
     std::mutex showing;
-    const regression::SuiteWatch watch{
-        [&](std::size_t done, std::size_t total) {
-            const std::lock_guard<std::mutex> lock(showing);
-            progress.show([&] { return fmt::format("compared {} of {} programs", done, total); });
-        },
-        [] { return Interruption::asked(); }};
+    const regression::SuiteWatch watch{[&](std::size_t done, std::size_t total) {
+                                           const std::lock_guard<std::mutex> lock(showing);
+                                           progress.count(done, total, "programs");
+                                       },
+                                       [] { return Interruption::asked(); }};
     regression::SuiteRun run = regression::run_suite(suite, shard.value_or(regression::Shard{}),
                                                      open_setup, threads, watch);
     const int code = regression::exit_code(run.report);

@@ -81,7 +81,8 @@ std::vector<identification::Repetition> repeat(const Inputs& in, const Options& 
     const int mine = planned(options.runs, shard);
     plan.go_on = [&](int done) {
         const std::lock_guard lock(showing);
-        progress.show([&] { return fmt::format("repetition {} of {}", done, mine); });
+        progress.count(static_cast<std::uint64_t>(done), static_cast<std::uint64_t>(mine),
+                       "repetitions");
         return !Interruption::asked();
     };
     return identification::repeat_identification(in.setup, in.table, in.effects, plan, fitted);

@@ -83,8 +83,7 @@ int import_command(const Options& options) {
     imports::ImportRequest request{setup, files, imports::Facts(options.told), {}};
     if (!options.map.empty()) request.map = {options.map, read_file_or_input(options.map)};
     imports::Imported result = imports::import_readings(kind, request);
-    if (!options.json)
-        for (const std::string& line : result.summary) print_error("{}\n", line);
+    if (!options.json) print_notes(result.summary);
     print_notes(result.notes);
     OutputFiles out;
     if (!options.page.html.empty()) out.add(options.page.html, page_of(options, setup, result));

@@ -7,6 +7,7 @@
 #include <csignal>
 
 #include "base/console.h"
+#include "cli/notes.h"
 
 namespace trunnion::cli {
 namespace {
@@ -19,6 +20,18 @@ constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGHUP};
 void ask_once(int signal) {
     interruption_asked = 1;
     std::signal(signal, SIG_DFL);
+}
+
+/// Without a total (0) there is no time left.
+std::string pace_text(std::uint64_t done, std::uint64_t total, const char* things,
+                      double passed_s) {
+    const double rate_per_s = double(done) / passed_s;
+    const std::string count =
+        total > 0 ? fmt::format("{} of {}", done, total) : fmt::format("{}", done);
+    std::string text = fmt::format("{} {}, {:.3g} a second", count, things, rate_per_s);
+    if (total > done && done > 0)
+        text += fmt::format(", {:.0f} s left", double(total - done) / rate_per_s);
+    return text;
 }
 
 constexpr const char* wipe_line = "\r\033[K";
@@ -44,8 +57,9 @@ bool Interruption::asked() {
 }
 
 Progress::Progress()
-    : terminal_(::isatty(STDERR_FILENO) == 1),
-      next_(Clock::now() + std::chrono::milliseconds(500)) {}
+    : terminal_(::isatty(STDERR_FILENO) == 1 && talk() != Talk::quiet),
+      begin_(Clock::now()),
+      next_(begin_ + std::chrono::milliseconds(500)) {}
 
 Progress::~Progress() {
     if (shown_) write_error(wipe_line);
@@ -57,6 +71,13 @@ void Progress::show(const std::function<std::string()>& text) {
     if (now < next_) return;
     next_ = now + std::chrono::milliseconds(200);
     stage(text());
+}
+
+void Progress::count(std::uint64_t done, std::uint64_t total, const char* things) {
+    show([&] {
+        const std::chrono::duration<double> passed = Clock::now() - begin_;
+        return pace_text(done, total, things, passed.count());
+    });
 }
 
 void Progress::stage(const std::string& text) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -22,8 +23,8 @@ class Interruption {
     void (*before_[3])(int);  ///< handlers of the three signals
 };
 
-/// One line on stderr, written over and over and wiped at the end; nothing where stderr is no
-/// terminal, and no counts in the first half second.
+/// One line on stderr, written over and over and wiped at the end; nothing with --quiet or where
+/// stderr is no terminal, and no counts in the first half second.
 class Progress {
   public:
     Progress();
@@ -33,6 +34,8 @@ class Progress {
 
     /// `text` is asked for only when it is time to show it.
     void show(const std::function<std::string()>& text);
+    /// "30 of 200 repetitions, 12 a second, 14 s left"; the rate counts from the construction.
+    void count(std::uint64_t done, std::uint64_t total, const char* things);
     /// The same for work that tells seldom where it is: shown at once.
     void stage(const std::string& text);
 
@@ -40,7 +43,7 @@ class Progress {
     using Clock = std::chrono::steady_clock;
     bool terminal_;
     bool shown_ = false;
-    Clock::time_point next_;
+    Clock::time_point begin_, next_;
 };
 
 }  // namespace trunnion::cli

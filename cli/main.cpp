@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <exception>
 #include <filesystem>
 #include <initializer_list>
@@ -18,7 +19,9 @@
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/help_text.h"
+#include "cli/notes.h"
 #include "cli/options.h"
+#include "cli/page_options.h"
 
 namespace trunnion::cli {
 
@@ -102,10 +105,35 @@ std::string meant_option(const CLI::App& command, const std::vector<std::string>
     return {};
 }
 
+/// --quiet and --verbose of every command.
+void add_talk(CLI::App& app) {
+    for (CLI::App* command : app.get_subcommands({})) {
+        CLI::Option* quiet = command->add_flag(
+            "-q,--quiet", [](std::int64_t) { set_talk(Talk::quiet); },
+            "results and errors only: no notes, no progress");
+        command
+            ->add_flag(
+                "--verbose", [](std::int64_t) { set_talk(Talk::verbose); },
+                "also the files read with their SHA-256, and the time taken")
+            ->excludes(quiet);
+    }
+}
+
+/// What --verbose says when the work is done.
+void tell_work(const CLI::App& app, double passed_s) {
+    for (const CLI::App* command : app.get_subcommands())
+        for (const report::PageInput& input : page_inputs(*command))
+            print_error("read {} (sha256 {})\n", printable(input.path), input.sha256);
+    print_error("{:.3f} s\n", passed_s);
+}
+
 int run_guarded(const CLI::App& app, const Run& run) {
     try {
         refuse_clashing_files(app);
+        const auto begin = std::chrono::steady_clock::now();
         const int code = run();
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+        if (talk() == Talk::verbose) tell_work(app, passed.count());
         finish_out();
         return code;
     } catch (const InputError& e) {
@@ -133,6 +161,7 @@ int parse_and_run(int argc, char** argv) {
     app.set_version_flag("--version", TRUNNION_VERSION);
     Run run;
     for (const auto add : commands) add(app, run);
+    add_talk(app);
     check_numbers(app);
     set_help(app);
     const std::vector<std::string> words(argv + 1, argv + argc);

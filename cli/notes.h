@@ -1,4 +1,4 @@
-// Notes on files that were read.
+// How much a command says beside its result: --quiet, --verbose.
 #pragma once
 
 #include <string>
@@ -6,7 +6,12 @@
 
 namespace trunnion::cli {
 
-/// One line for each note on stderr; a note brings its own place.
+enum class Talk : unsigned char { quiet, usual, verbose };
+/// Said once by main, as the options ask for it.
+void set_talk(Talk talk);
+Talk talk();
+
+/// One line for each note on stderr, none with --quiet; a note brings its own place.
 void print_notes(const std::vector<std::string>& notes);
 
 }  // namespace trunnion::cli

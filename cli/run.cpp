@@ -125,9 +125,7 @@ int exit_code(const emulator::RunLog& log) {
 emulator::RunLog run_watched(const setup::Setup& setup, inputs::ProgramAndFolders& program,
                              emulator::RunOptions options) {
     Progress progress;
-    options.budget.progress = [&](std::uint64_t blocks) {
-        progress.show([&] { return fmt::format("{:.1f} million blocks", 1e-6 * double(blocks)); });
-    };
+    options.budget.progress = [&](std::uint64_t blocks) { progress.count(blocks, 0, "blocks"); };
     return emulator::run_program(setup, program.folders, program.program, options);
 }
 
@@ -185,7 +183,7 @@ int run_command(const Options& o) {
     else if (o.print.empty())
         print_out("{}", log.printed);
     if (!o.json && !o.variables.empty()) print_out("{}", report::variables_text(log));
-    if (!o.json) print_error("{}\n", report::run_summary(log));
+    if (!o.json) print_notes({report::run_summary(log)});
     if (!o.page.html.empty())
         files.add(o.page.html, page_of_run(o, setup, log, path, program.folders.used()));
     write_files(o, log, files);

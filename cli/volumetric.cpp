@@ -45,7 +45,7 @@ volumetric::VolumetricMap watched_map(const setup::Setup& setup,
                                       volumetric::VolumetricOptions options) {
     Progress progress;
     options.go_on = [&](std::size_t done, std::size_t total) {
-        progress.show([&] { return fmt::format("{} of {} poses", done, total); });
+        progress.count(done, total, "poses");
         return !Interruption::asked();
     };
     return volumetric::volumetric_map(setup, names, effects::active_models(setup), options);
