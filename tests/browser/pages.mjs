@@ -79,12 +79,43 @@ async function look(name, width, scheme, media) {
   await context.close();
 }
 
+/// How many colours a picture has: a blank canvas has one.
+async function coloursOf(context, png) {
+  const tab = await context.newPage();
+  const count = await tab.evaluate(async (bytes) => {
+    const image = await createImageBitmap(new Blob([new Uint8Array(bytes)]));
+    const canvas = new OffscreenCanvas(image.width, image.height).getContext("2d");
+    canvas.drawImage(image, 0, 0);
+    const { data } = canvas.getImageData(0, 0, image.width, image.height);
+    return new Set(new Uint32Array(data.buffer)).size;
+  }, [...png]);
+  await tab.close();
+  return count;
+}
+
 async function tryRunPage(tab, where) {
-  const picture = await tab.locator(".stage canvas").first().screenshot();
-  check(picture.length > 4000, `${where}: the canvas is blank (${picture.length} bytes)`);
-  const row = tab.locator(".blocks .row").nth(3);
+  const canvas = tab.locator(".stage canvas").first();
+  const colours = await coloursOf(tab.context(), await canvas.screenshot());
+  check(colours > 30, `${where}: the canvas is blank (${colours} colours)`);
+  const row = tab.locator(".blocks .row", { hasText: "G1 " }).first();
   await row.click();
-  check(await tab.locator(".blocks .row.chosen").count() === 1, `${where}: a click chooses a block`);
+  const chosen = tab.locator(".blocks .row.chosen");
+  check(await chosen.count() === 1, `${where}: a click chooses a block`);
+  check((await row.getAttribute("class")).includes("chosen"), `${where}: the block clicked`);
+  check(await clicksOnPath(tab, canvas, chosen) >= 2, `${where}: a click on the path, its block`);
+}
+
+/// Clicks all over the picture: how many different blocks they choose.
+async function clicksOnPath(tab, canvas, chosen) {
+  const blocks = new Set();
+  const { x, y, width, height } = await canvas.boundingBox();
+  for (let i = 1; i < 16; i += 1)
+    for (let j = 1; j < 12; j += 1) {
+      await tab.mouse.click(x + (width * i) / 16, y + (height * j) / 12);
+      if (await chosen.count() === 1) blocks.add(await chosen.textContent());
+      if (blocks.size >= 3) return blocks.size;
+    }
+  return blocks.size;
 }
 
 async function askAxe(name, scheme) {
