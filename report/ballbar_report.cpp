@@ -97,8 +97,9 @@ std::string setup_text(const ballbar::test::BallbarResult& r) {
 std::string planar_text(const ballbar::test::PlanarResult& planar) {
     const ballbar::test::CircularFigures& f = planar.figures;
     std::string text = fmt::format(
-        "{} at {:.0f} mm/min, {:.0f} deg: circularity ccw {:.2f}, cw {:.2f}, bidirectional {:.2f}, "
-        "mean radial deviation {:+.2f},\n  hysteresis {:.2f} um at {:.0f} deg\n",
+        "{} at {:.0f} mm/min, {:.0f} deg: circularity ccw {:.2f}, cw {:.2f}, bidirectional "
+        "{:.2f},\n"
+        "  mean radial deviation {:+.2f}, hysteresis {:.2f} um at {:.0f} deg\n",
         ballbar::test::plane_name(planar.test.plane), planar.test.passes.front().feed_mm_min,
         deg_from_rad(planar.test.arc_rad), f.circularity_ccw_um, f.circularity_cw_um,
         f.bidirectional_circularity_um, f.mean_radial_deviation_um, f.hysteresis_um,

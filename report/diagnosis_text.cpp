@@ -7,31 +7,49 @@
 
 #include "report/diagnosis_words.h"
 #include "report/error_table.h"
-#include "report/parameters_json.h"
+#include "report/paragraph.h"
 
 namespace trunnion::report {
 namespace {
 
+/// In the units of the shop, as many digits as the sigma supports.
+std::string parameter_line(const identification::FitParameter& p) {
+    const ShopValue v = shop_value(p);
+    return std::isfinite(p.sigma)
+               ? fmt::format("  {:<20} {:>10} ± {} {}\n", v.name, v.value, v.sigma, v.unit)
+               : fmt::format("  {:<20} {:>10} {} (no sigma of its own)\n", v.name, v.value, v.unit);
+}
+
+std::string parameters_text(const std::vector<identification::FitParameter>& parameters) {
+    std::string text;
+    std::vector<std::string> unseen;
+    for (const identification::FitParameter& p : parameters)
+        if (p.value == 0.0 && !std::isfinite(p.sigma))
+            unseen.push_back(shop_value(p).name);
+        else
+            text += parameter_line(p);
+    if (!unseen.empty())
+        text += paragraph(fmt::format("held at 0: {}", fmt::join(unseen, ", ")), 2);
+    return text;
+}
+
 std::string cause_text(const diagnosis::Cause& cause) {
     std::string text = fmt::format("\n{}  {:.0f} % of the gap, probability {:.2f}\n", cause.effect,
                                    100 * cause.share, cause.probability);
-    text += fmt::format("  {}.\n", cause.what);
+    text += paragraph(cause.what + ".", 2);
     if (!cause.usual_cause.empty())
-        text +=
-            fmt::format("  Usual cause: {}. What to do: {}.\n", cause.usual_cause, cause.remedy);
-    for (const identification::FitParameter& p : cause.parameters)
-        text += fmt::format("  {:<20} {:>12.4g} {} {}\n", with_component(p), p.value, p.unit,
-                            std::isfinite(p.sigma) ? fmt::format("(sigma {:.2g})", p.sigma)
-                                                   : std::string("(no sigma of its own)"));
+        text += paragraph("Usual cause: " + cause.usual_cause + ".", 2) +
+                paragraph("What to do: " + cause.remedy + ".", 2);
+    text += parameters_text(cause.parameters);
     for (const identification::Inseparable& group : cause.unseen)
-        text += fmt::format("  no reading here sees: {}\n", to_string(group));
+        text += paragraph("no reading here sees: " + to_string(group), 2);
     if (!cause.points.empty())
         text += fmt::format("  a table of {} values{}\n{}", cause.points.size(),
                             cause.holds_between ? "" : ": at the measured places only",
                             error_table(cause));
     if (!cause.rivals.empty())
-        text +=
-            fmt::format("  cannot be told apart here from: {}\n", fmt::join(cause.rivals, ", "));
+        text += paragraph(
+            fmt::format("cannot be told apart here from: {}", fmt::join(cause.rivals, ", ")), 2);
     text += fmt::format(
         "  held out: {:.3f} -> {:.3f} um (noise {:.3f}): shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
         cause.heldout.rms_before_um, cause.heldout.rms_after_um, cause.heldout.noise_um,
@@ -42,7 +60,8 @@ std::string cause_text(const diagnosis::Cause& cause) {
 }  // namespace
 
 std::string diagnosis_text(const diagnosis::Diagnosis& d) {
-    std::string text = fmt::format("verdict: {}\n{}\n", to_string(d.verdict), verdict_sentence(d));
+    std::string text =
+        fmt::format("verdict: {}\n", to_string(d.verdict)) + paragraph(verdict_sentence(d), 0);
     text += fmt::format(
         "{} readings ({} set aside), rms {:.3f} um, noise {:.3f} um ({}), excess {:.3f} um\n",
         d.readings, d.outliers, d.rms_um, d.noise_um, to_string(d.noise.source), d.excess_um);
@@ -51,16 +70,19 @@ std::string diagnosis_text(const diagnosis::Diagnosis& d) {
     for (const diagnosis::DriverShare& w : d.where) text += fmt::format("  {}\n", w.text);
     for (const diagnosis::Cause& cause : d.causes) text += cause_text(cause);
     if (!d.causes.empty())
-        text += fmt::format(
-            "\nafter: rms {:.3f} um; of readings left out the causes explain {:.0f} %{}; the gap "
-            "shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
-            d.after_rms_um, 100 * d.explained, d.between_places ? "" : " at the measured places",
-            100 * d.after.shrink, 100 * d.after.low, 100 * d.after.high);
+        text += "\n" +
+                paragraph(fmt::format("after: rms {:.3f} um; of readings left out the causes "
+                                      "explain {:.0f} %{}; the gap "
+                                      "shrinks by {:.0f} % ({:.0f} to {:.0f})",
+                                      d.after_rms_um, 100 * d.explained,
+                                      d.between_places ? "" : " at the measured places",
+                                      100 * d.after.shrink, 100 * d.after.low, 100 * d.after.high),
+                          0);
     if (d.causes.empty())
         for (const identification::Inseparable& group : d.inseparable)
-            text += fmt::format("no reading here sees: {}\n", to_string(group));
+            text += paragraph("no reading here sees: " + to_string(group), 0);
     for (const diagnosis::NextMeasurement& next : d.next)
-        text += fmt::format("next: {}\n", next.text);
+        text += paragraph("next: " + next.text, 0);
     return text;
 }
 

@@ -20,4 +20,12 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
     return lines;
 }
 
+std::string paragraph(const std::string& text, std::size_t indent) {
+    constexpr std::size_t columns = 90;
+    std::string out;
+    for (const std::string& line : wrapped(text, columns - indent - 2))
+        out += std::string(out.empty() ? indent : indent + 2, ' ') + line + '\n';
+    return out;
+}
+
 }  // namespace trunnion::report

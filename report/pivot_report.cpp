@@ -8,6 +8,7 @@
 
 #include "base/units.h"
 #include "report/json_values.h"
+#include "report/paragraph.h"
 
 namespace trunnion::report {
 
@@ -191,8 +192,8 @@ std::string pivot_table(const PivotResult& r) {
                                   r.date.empty() ? "" : ", measured " + r.date) +
                       stores_table(r);
     for (const pivot::PivotMap& map : r.maps) out += map_text(r, map);
-    return out + quality_text(r) + affected_text(r) + "\n" + pivot::sentence(r.verdict, r.hurco) +
-           "\n";
+    return out + quality_text(r) + affected_text(r) + "\n" +
+           paragraph(pivot::sentence(r.verdict, r.hurco), 0);
 }
 
 std::string pivot_json(const PivotResult& r) {

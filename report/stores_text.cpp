@@ -79,7 +79,7 @@ std::string stores_text(const setup::StoresToType& s, interpreter::DialectFamily
         centre + fmt::format("  tip off with DPP or G54.2: {:.1f} um now, {:.2f} um after typing",
                              s.g54_now_um, s.g54_left_um);
     if (s.apart_um > 0.05)
-        text += fmt::format("; the axes pass each other by {:.1f} um, which no G54 can hold",
+        text += fmt::format(";\n  the axes pass each other by {:.1f} um, which no G54 can hold",
                             s.apart_um);
     return text + "\n";
 }

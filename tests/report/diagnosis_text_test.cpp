@@ -1,0 +1,58 @@
+// A diagnosis on a terminal: units of the shop, digits that the sigma supports, short lines.
+#include "report/diagnosis_text.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+#include <sstream>
+
+namespace {
+
+using namespace trunnion;
+
+diagnosis::Diagnosis with_parameters(std::vector<identification::FitParameter> parameters) {
+    diagnosis::Diagnosis d;
+    d.verdict = diagnosis::Verdict::explained;
+    diagnosis::Cause cause;
+    cause.effect = "C.positioning";
+    cause.what = "The axis turns a little more or less than commanded, the same every turn";
+    cause.usual_cause = "eccentric encoder, wrong gear ratio, no or stale pitch compensation";
+    cause.remedy = "load a compensation table from these values or from an autocollimator";
+    cause.parameters = std::move(parameters);
+    d.causes.push_back(std::move(cause));
+    d.next.push_back({"a", "b",
+                      "to tell C.positioning from C.radial: ballbar circles in XY and ZX, then "
+                      "with each rotary axis turning, bar along X, Y and Z, out and back",
+                      "", 0.0, 0.0, false});
+    return d;
+}
+
+identification::FitParameter parameter(const std::string& name, double value_rad,
+                                       double sigma_rad) {
+    identification::FitParameter p;
+    p.effect = "C.positioning";
+    p.name = name;
+    p.unit = "rad";
+    p.value = value_rad;
+    p.sigma = sigma_rad;
+    return p;
+}
+
+}  // namespace
+
+TEST_CASE("diagnose prints urad with two digits of sigma, and what is held at 0 in one line") {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    const std::string text = report::diagnosis_text(
+        with_parameters({parameter("cos2_rad", 4.0639e-5, 3.98e-7),
+                         parameter("cos3_rad", 0.0, none), parameter("sin3_rad", 0.0, none)}));
+    CHECK_THAT(text, Catch::Contains("40.64 ± 0.40 µrad"));
+    CHECK_THAT(text, Catch::Contains("held at 0: cos3, sin3\n"));
+    CHECK_THAT(text, !Catch::Contains("e-05"));
+}
+
+TEST_CASE("no line of a diagnosis is longer than 90 places") {
+    std::istringstream lines(report::diagnosis_text(with_parameters({})));
+    for (std::string line; std::getline(lines, line);) {
+        INFO(line);
+        CHECK(line.size() <= 90);
+    }
+}
