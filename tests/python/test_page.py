@@ -10,7 +10,7 @@ import re
 import sys
 import tempfile
 
-SOURCE = pathlib.Path(os.environ["TRUNNION_SOURCE"])
+SOURCE = pathlib.Path(os.environ["TRUNNION_SOURCE"]).resolve()
 PAGE = SOURCE / "docs/python.md"
 BLOCK = re.compile(r"```python\n(.*?)```\n(?:\n```text\n(.*?)```\n)?", re.S)
 
