@@ -25,7 +25,7 @@ namespace {
 
 struct Options {
     std::vector<std::string> readings;
-    std::string setup, holdout, out;
+    std::string setup, holdout, out, over;
     PageOptions page;
     const CLI::App* command = nullptr;
     std::optional<double> limit_um;
@@ -72,6 +72,7 @@ int diagnose_command(const Options& options) {
     if (!options.holdout.empty()) holdout = load_readings(options.holdout, setup);
     diagnosis::DiagnosisOptions how;
     how.holdout = holdout ? &*holdout : nullptr;
+    how.over_sessions = !options.over.empty();
     std::optional<Interruption> planning;
     const diagnosis::Diagnosis result = diagnose_watched(setup, table, how, planning);
     print_notes(result.notes);
@@ -110,6 +111,11 @@ void add_diagnose(CLI::App& app, Run& run) {
     not_negative(
         command->add_option("--limit-um", options->limit_um, "exit 1 when the gap is larger"));
     writes_file(command->add_option("--out", options->out, "setup with the effects added"));
+    command
+        ->add_option("--over", options->over,
+                     "sessions: what changed from one to the next (column session, or one file "
+                     "each)")
+        ->check(CLI::IsMember({"sessions"}));
     add_page_options(*command, options->page);
     options->command = command;
     command->add_flag("--allow-large", options->allow_large,

@@ -10,7 +10,8 @@
 namespace trunnion::diagnosis {
 
 /// Simpler forms of an effect, each a choice of its linear parameters: a straightness without
-/// slope, single vectors where an effect has several (one artefact of many).
+/// slope, single vectors where an effect has several (one artefact of many), the location of one
+/// axis.
 std::vector<std::function<bool(const effects::EffectParameter&)>> simpler_forms(
     const effects::Effect& effect);
 
@@ -18,6 +19,11 @@ std::vector<std::function<bool(const effects::EffectParameter&)>> simpler_forms(
 /// features: what the textbook owns.
 Eigen::Index add_textbook_groups(Design& design, const Prepared& prepared,
                                  const Whitener& whitener);
+
+/// Effects without keys, location errors and all else that the simulation has, as changes that
+/// begin with the second session or a later one and stay. To be called next after the textbook's;
+/// returns how many features.
+Eigen::Index add_change_groups(Design& design, const Prepared& prepared, const Whitener& whitener);
 
 /// One group for an effect at one setting of its keys; nothing where no reading moves.
 std::optional<std::size_t> add_keyed_group(Design& design, const Prepared& prepared,

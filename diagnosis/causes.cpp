@@ -111,6 +111,8 @@ Cause cause_of(const FoundModel& f, const Claim& claim) {
     cause.share = claim.share;
     cause.rms_sigma = claim.rms;
     if (group.effect) {
+        cause.effect = group.effect->name;
+        cause.since = group.since;
         cause.parameters = parameters_of(group, own, spread.diagonal().cwiseSqrt(),
                                          f.model.variances.tau[claim.position]);
         cause.unseen = unseen_of(f.design.groups()[member]);

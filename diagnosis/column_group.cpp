@@ -16,6 +16,14 @@ bool has_keys(const effects::Effect& effect) {
                        [](const effects::EffectParameter& p) { return p.is_key(); });
 }
 
+void drop_sessions(Eigen::MatrixXd& columns, const emulator::Replay& replay,
+                   const std::vector<std::string>& before) {
+    for (std::size_t i = 0; i < replay.size() && !before.empty(); ++i)
+        if (std::find(before.begin(), before.end(), replay.sessions()[replay.session(i)]) !=
+            before.end())
+            columns.row(static_cast<Eigen::Index>(i)).setZero();
+}
+
 Eigen::MatrixXd table_features(const emulator::Replay& replay,
                                const std::vector<kinematics::Perturbation>& gradient,
                                const TableForm& table) {
@@ -57,6 +65,7 @@ Eigen::MatrixXd columns_on(const emulator::Replay& replay,
     for (std::size_t k = 0; k < group.parameters.size(); ++k)
         columns.col(static_cast<Eigen::Index>(k)) = identification::effect_column(
             replay, gradient, *group.effect, group.keys, group.parameters[k]);
+    drop_sessions(columns, replay, group.before);
     return columns;
 }
 

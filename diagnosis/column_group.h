@@ -45,12 +45,20 @@ struct ColumnGroup {
     std::vector<Eigen::Index> features;  ///< columns of the design that it combines
     Eigen::MatrixXd shape;               ///< features x columns; empty: one column a feature
     double log_prior = 0.0;              ///< of being there
+    /// A change between sessions: the first session that has it, and those before, which have not.
+    std::string since;
+    std::vector<std::string> before;
+    bool is_change() const { return !before.empty(); }
     Eigen::Index columns() const {
         return shape.size() > 0 ? shape.cols() : static_cast<Eigen::Index>(features.size());
     }
 };
 
 bool has_keys(const effects::Effect& effect);
+
+/// Rows of sessions before a change are zero: it moves no reading there.
+void drop_sessions(Eigen::MatrixXd& columns, const emulator::Replay& replay,
+                   const std::vector<std::string>& before);
 
 /// Derivatives of the readings by the values of a table at its knots (or by its harmonics), mm for
 /// one table_unit; direction after direction.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "diagnosis/candidate_groups.h"
+#include "diagnosis/changes.h"
 #include "diagnosis/diagnosis_report.h"
 #include "diagnosis/key_search.h"
 #include "diagnosis/open_sides.h"
@@ -32,6 +33,7 @@ struct Round {
     std::vector<bool> used;
     NoiseBelief noise;
     Eigen::VectorXd sigma_mm;
+    bool over_sessions = false;  ///< may the machine have changed between them?
 };
 
 NoiseBelief belief_of(const Prepared& p, const Eigen::VectorXd& residual_mm,
@@ -184,7 +186,8 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys,
                    const Searched* earlier) {
     const Whitener whitener(p.replay, p.blocks, round.noise.model, round.sigma_mm);
     Design design = empty_design(p, whitener, round.used);
-    const Eigen::Index owned = add_textbook_groups(design, p, whitener);
+    Eigen::Index owned = add_textbook_groups(design, p, whitener);
+    if (round.over_sessions) owned += add_change_groups(design, p, whitener);
     add_table_groups(design, p, whitener);
     add_offset_groups(design, p, whitener);
     add_driver_groups(design, p, whitener, owned);
@@ -214,8 +217,9 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys,
 
 /// Large effects bend the readings (a stylus that meets a sphere aside): what the emulator reads
 /// with the model takes the place of the straight line. False when that changed next to nothing.
+/// One setup reads all sessions here: changes between them stay straight.
 bool straighten(Prepared& p, Searched& s) {
-    const Solution solution = solved(s.design, s.model);
+    const Solution solution = without_changes(s.design, s.model, solved(s.design, s.model));
     const setup::Setup setup = setup_with(p, s.design, s.model, solution);
     const std::vector<double> read = p.replay.predict(
         setup.machine, identification::offsets_to(p.replay, setup), effects::active_models(setup));
@@ -288,8 +292,9 @@ const char* to_string(NoiseSource source) {
                                           : "assumed";
 }
 
-Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table,
+Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& given,
                    const DiagnosisOptions& options) {
+    const records::ReadingTable table = options.over_sessions ? files_as_sessions(given) : given;
     if (const auto fewer = thinned(table, most_readings)) {
         Diagnosis d = diagnose(setup, *fewer, options);
         d.chosen_from = static_cast<std::size_t>(std::count_if(
@@ -302,7 +307,9 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
     };
     Prepared p = prepare(setup, table);
     if (options.holdout) refuse_poor_holdout(p, *options.holdout);
-    Round round{std::vector<bool>(p.replay.size(), true), {}, p.base.sigma_mm};
+    if (options.over_sessions) refuse_one_session(p);
+    Round round{
+        std::vector<bool>(p.replay.size(), true), {}, p.base.sigma_mm, options.over_sessions};
     round.noise = belief_of(p, p.base.residual_mm, round.sigma_mm);
     leave_out(p, lone_probe_readings(p, round.used), round);
     take_promising_sides(p);

@@ -52,6 +52,22 @@ struct Cause {
     std::vector<TablePoint> points;  ///< of a cause in free form, else empty
     double rms_sigma = 0.0;          ///< what it does to the readings, rms in their sigma
     bool holds_between = true;       ///< a free form that predicts places left out
+    std::string since;               ///< a change: the session from which it holds; else empty
+};
+
+/// One parameter of the machine from one session to the next.
+struct SessionChange {
+    identification::FitParameter parameter;  ///< value and sigma: those of the change
+    std::string since;                       ///< the session that begins with it
+    double before = 0.0;                     ///< the parameter in the session before, in its unit
+    bool claimed = false;  ///< part of a cause; else what a change would be beside all causes
+};
+
+/// Readings of one session, um.
+struct SessionFit {
+    std::string name;
+    std::size_t readings = 0;
+    double rms_before_um = 0.0, rms_after_um = 0.0;  ///< with the set-up alone, with the causes
 };
 
 struct NextMeasurement {
@@ -81,12 +97,15 @@ struct Diagnosis {
     std::vector<std::string> notes;  ///< large residuals that were meant
     std::size_t chosen_from = 0;  ///< readings of a longer table, of which those were chosen; or 0
     std::vector<double> before_um, after_um;  ///< machine minus simulation, by reading
-    setup::Setup setup;                       ///< with the re-identified and added effects
+    std::vector<SessionFit> sessions;         ///< where changes between them were asked for
+    std::vector<SessionChange> changes;       ///< likewise
+    setup::Setup setup;  ///< with the re-identified and added effects, of the last session
 };
 
 struct DiagnosisOptions {
     const records::ReadingTable* holdout = nullptr;
     bool plan_next = true;
+    bool over_sessions = false;  ///< the machine may have changed between sessions: what did?
     std::uint64_t seed = 1;
     /// Told what is worked on now; empty: nobody looks on.
     std::function<void(const char* stage)> watch = {};

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnosis/causes.h"
+#include "diagnosis/changes.h"
 #include "diagnosis/next_measurement.h"
 #include "diagnosis/rules.h"
 #include "diagnosis/shrink_interval.h"
@@ -145,7 +146,7 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
     d.sides = f.prepared.sides;
     d.notes = base.notes;
     for (const auto& entry : f.design.groups()) {
-        if (!entry.group.effect || entry.hidden) continue;
+        if (!entry.group.effect || entry.hidden || entry.group.is_change()) continue;
         const std::string& name = entry.group.effect->name;
         if (!entry.visible() && std::find(d.unseen.begin(), d.unseen.end(), name) == d.unseen.end())
             d.unseen.push_back(name);
@@ -221,7 +222,7 @@ const ColumnGroup& fullest_form(const Design& design, std::size_t rival) {
     const ColumnGroup* fullest = &design.group(rival);
     for (const auto& entry : design.groups())
         if (entry.group.kind == GroupKind::textbook && entry.group.effect == fullest->effect &&
-            entry.group.columns() > fullest->columns())
+            entry.group.since == fullest->since && entry.group.columns() > fullest->columns())
             fullest = &entry.group;
     return *fullest;
 }
@@ -263,6 +264,17 @@ Judgement with_holdout(const Outcome& f, const records::ReadingTable* holdout) {
     return judgement;
 }
 
+/// Of a table without a gap no change is told but what the set-up alone leaves of one.
+void tell_sessions(const Outcome& f, const std::vector<Claim>& claims, Diagnosis& d) {
+    d.sessions = sessions_of(f, d.before_um, d.after_um);
+    const Model none{{}, {{}, f.model.variances.nu}, 0.0};
+    const Outcome told{f.prepared,  f.design, f.setting, f.judgement.gap ? f.model : none,
+                       f.judgement, f.noise,  f.used};
+    std::vector<bool> claimed(told.model.members.size(), false);
+    for (const Claim& claim : claims) claimed[claim.position] = true;
+    d.changes = changes_of(told, solved(told.design, told.model), claimed);
+}
+
 }  // namespace
 
 Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
@@ -287,9 +299,11 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     if (!f.judgement.gap) {
         d.after_rms_um = d.rms_um;
         d.after_um = d.before_um;
+        if (options.over_sessions) tell_sessions(f, claims, d);
         return d;
     }
     d.unexplained_share = 1.0 - d.explained;
+    if (options.over_sessions) tell_sessions(f, claims, d);
     d.where = where_of(f.design, f.judgement.floor);
     const FreshReadings fresh(f.prepared.base, f.prepared.catalogue, f.prepared.table,
                               f.prepared.replay, f.prepared.blocks, options.seed);

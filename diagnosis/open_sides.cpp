@@ -58,7 +58,7 @@ void take_promising_sides(Prepared& p) {
 bool retake_sides(Prepared& p, const Design& design, const Model& model) {
     std::vector<identification::KeyedEffect> members;
     for (const std::size_t m : model.members)
-        if (const ColumnGroup& group = design.group(m); group.effect)
+        if (const ColumnGroup& group = design.group(m); group.effect && !group.is_change())
             members.push_back(
                 {group.effect, group.keys.empty() ? group.effect->zeros() : group.keys, {}});
     if (p.open_sides.empty() || members.empty()) return false;

@@ -18,9 +18,14 @@ constexpr double absurd_mm = 5.0;
 Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
     Folds folds;
     folds.group.assign(rows, 0);
+    const auto logs = std::count_if(blocks.begin(), blocks.end(), [](const NoiseBlock& b) {
+        return b.device == records::Device::axis;
+    });
     int pass = 0;
     for (const NoiseBlock& block : blocks) {
-        const bool bar = block.device == records::Device::ballbar;
+        // Of few servo logs parts are left out, of many whole ones.
+        const bool bar = block.device == records::Device::ballbar ||
+                         (block.device == records::Device::axis && logs < Folds::count);
         const std::size_t pieces = bar ? std::min<std::size_t>(6, 1 + block.rows.size() / 8) : 1;
         const auto first = static_cast<int>(folds.fold.size());
         for (std::size_t k = 0; k < block.rows.size(); ++k)
@@ -69,6 +74,14 @@ void refuse_poor_holdout(const Prepared& prepared, const records::ReadingTable& 
                                          *row.value_mm - read[i]),
                              records::place_of(holdout, row));
     }
+}
+
+void refuse_one_session(const Prepared& prepared) {
+    if (prepared.replay.sessions().size() < 2)
+        throw InputError(
+            "what changed between sessions needs two of them or more; the column session says "
+            "which rows belong to which",
+            {prepared.table.path, 0, 0});
 }
 
 bool modelled(const Prepared& prepared, const effects::Effect& effect) {

@@ -6,8 +6,8 @@
 
 namespace trunnion::diagnosis {
 
-/// Rows cut into groups that share errors or neighbourhood: the readings of one pose, arcs of a
-/// sixth of a pass. A fold leaves out whole groups.
+/// Rows cut into groups that share errors or neighbourhood: the readings of one pose, a sixth of a
+/// pass (and of a servo log where there are fewer than five). A fold leaves out whole groups.
 struct Folds {
     static constexpr int count = 5;
     std::vector<int> group;  ///< by device row
@@ -35,6 +35,9 @@ struct Prepared {
 Prepared prepare(const setup::Setup& setup, const records::ReadingTable& table);
 /// Throws InputError for held-out readings that cannot be of this machine.
 void refuse_poor_holdout(const Prepared& prepared, const records::ReadingTable& holdout);
+
+/// Throws InputError when there is nothing to compare.
+void refuse_one_session(const Prepared& prepared);
 
 /// Is the effect one that the simulation has already?
 bool modelled(const Prepared& prepared, const effects::Effect& effect);

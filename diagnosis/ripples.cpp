@@ -12,11 +12,15 @@ namespace {
 constexpr std::size_t least_places = 8;
 constexpr double least_turns = 2.0, most_hole = 0.4, least_spacings = 2.0, least_outside = 0.2;
 
-bool evenly_spaced(const std::vector<double>& places) {
-    const double step = (places.back() - places.front()) / static_cast<double>(places.size() - 1);
+/// Step of a grid that holds all places, some of its nodes perhaps empty; 0 where there is none.
+/// Periods below two steps look like longer ones there.
+double grid_step(const std::vector<double>& places) {
+    double step = places.back() - places.front();
     for (std::size_t k = 1; k < places.size(); ++k)
-        if (std::abs(places[k] - places[k - 1] - step) > 1e-3 * step) return false;
-    return true;
+        step = std::min(step, places[k] - places[k - 1]);
+    for (std::size_t k = 1; k < places.size(); ++k)
+        if (std::abs(std::remainder(places[k] - places[k - 1], step)) > 1e-3 * step) return 0.0;
+    return step;
 }
 
 double largest_hole(const std::vector<double>& places, double period) {
@@ -72,9 +76,7 @@ bool shows_period(std::vector<double> places, double period) {
     if (places.size() < least_places) return false;
     if (places.back() - places.front() < least_turns * period) return false;
     if (largest_hole(places, period) > most_hole) return false;
-    const double spacing =
-        (places.back() - places.front()) / static_cast<double>(places.size() - 1);
-    return !evenly_spaced(places) || period >= least_spacings * spacing;
+    return period >= least_spacings * grid_step(places);
 }
 
 std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& prepared,

@@ -87,6 +87,13 @@ Solution solved(Design& design, const Model& model) {
     return s;
 }
 
+Solution without_changes(const Design& design, const Model& model, Solution solution) {
+    for (std::size_t k = 0; k < model.members.size(); ++k)
+        if (design.group(model.members[k]).is_change())
+            solution.mean.segment(solution.first[k], solution.size[k]).setZero();
+    return solution;
+}
+
 Eigen::MatrixXd fitted_mm(const Prepared& prepared, const Design& design, const Model& model) {
     Eigen::MatrixXd all = prepared.base.columns;
     for (const std::size_t m : model.members) {

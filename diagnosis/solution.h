@@ -18,6 +18,9 @@ struct Solution {
 };
 Solution solved(Design& design, const Model& model);
 
+/// The same without what changes between sessions: coefficients of the machine of the first one.
+Solution without_changes(const Design& design, const Model& model, Solution solution);
+
 /// Readings less set-up and causes, mm; zeros of tests and drivers stay in.
 Eigen::VectorXd left_mm(const Prepared& prepared, const Design& design, const Model& model,
                         const Solution& solution);
@@ -29,7 +32,7 @@ std::vector<double> values_in(const ColumnGroup& group, const Eigen::VectorXd& c
 /// Values of a table at its places, direction after direction, mm or rad.
 Eigen::VectorXd table_values(const ColumnGroup& group, const Eigen::VectorXd& coefficients);
 
-/// The base setup with all causes of the model added.
+/// The base setup with all causes of the model added: the machine of the last session.
 setup::Setup setup_with(const Prepared& prepared, const Design& design, const Model& model,
                         const Solution& solution);
 

@@ -22,14 +22,18 @@ struct Material {
     Eigen::MatrixXd columns;  ///< mm
 };
 
-/// Columns of the linear parameters in the textbook's form that move any reading.
+/// Columns of the linear parameters in the textbook's form that move any reading; none is moved in
+/// the sessions `before`.
 Material material_of(const Prepared& p, const effects::Effect& effect,
-                     const std::vector<double>& keys) {
+                     const std::vector<double>& keys, const std::vector<std::string>& before = {}) {
     Material m;
     std::vector<Eigen::VectorXd> list;
     for (std::size_t j = 0; j < effect.parameters.size(); ++j) {
         if (effect.parameters[j].is_key() || !effect.parameters[j].usual) continue;
-        list.push_back(identification::effect_column(p.replay, p.base.gradient, effect, keys, j));
+        Eigen::MatrixXd column =
+            identification::effect_column(p.replay, p.base.gradient, effect, keys, j);
+        drop_sessions(column, p.replay, before);
+        list.emplace_back(column);
         if (list.back().cwiseQuotient(p.base.sigma_mm).norm() < dead_column)
             list.pop_back();
         else
@@ -88,41 +92,91 @@ std::vector<std::function<bool(const effects::EffectParameter&)>> simpler_forms(
     if (vectors.size() > 1)
         for (const std::string& name : vectors)
             forms.push_back([name](const effects::EffectParameter& p) { return p.name == name; });
+    if (effect.name == "location") {
+        std::set<Axis> axes;
+        for (const effects::EffectParameter& p : effect.parameters) axes.insert(p.location->axis);
+        for (const Axis axis : axes)
+            if (axes.size() > 1)
+                forms.push_back(
+                    [axis](const effects::EffectParameter& p) { return p.location->axis == axis; });
+    }
     return forms;
 }
 
-Eigen::Index add_textbook_groups(Design& design, const Prepared& prepared,
-                                 const Whitener& whitener) {
-    struct Ready {
-        const effects::Effect* effect;
-        Material material;
-        Eigen::Index first;
+namespace {
+
+/// A change between sessions: nothing before it. Without sessions before: no change.
+struct Since {
+    std::string session;
+    std::vector<std::string> before;
+};
+
+struct Ready {
+    const effects::Effect* effect;
+    Material material;
+    Eigen::Index first;
+};
+
+/// A change may be one of what the simulation has already.
+bool offered(const Prepared& p, const effects::Effect& effect, const Since& since) {
+    if (effect.parameters.empty() || has_keys(effect)) return false;
+    return !since.before.empty() || !modelled(p, effect);
+}
+
+/// All forms of an effect whose columns stand in the design.
+void add_forms(Design& design, const Ready& ready, Eigen::Index first, const Since& since,
+               double log_prior) {
+    const auto forms = simpler_forms(*ready.effect);
+    const auto add = [&](const Takes& takes) {
+        ColumnGroup group = group_of(*ready.effect, ready.effect->zeros(), ready.material,
+                                     first + ready.first, takes);
+        group.log_prior = log_prior - std::log(1.0 + static_cast<double>(forms.size()));
+        group.since = since.session;
+        group.before = since.before;
+        if (group.is_change()) group.name += " since " + since.session;
+        if (!group.features.empty()) design.add(std::move(group));
     };
+    add({});
+    for (const Takes& takes : forms) add(takes);
+}
+
+/// Effects without keys, in all forms. Returns how many features they are.
+Eigen::Index add_effects(Design& design, const Prepared& prepared, const Whitener& whitener,
+                         const Since& since) {
     std::vector<Ready> list;
     Eigen::Index all = 0;
     for (const effects::Effect& effect : prepared.catalogue) {
-        if (modelled(prepared, effect) || effect.parameters.empty() || has_keys(effect)) continue;
-        list.push_back({&effect, material_of(prepared, effect, effect.zeros()), all});
+        if (!offered(prepared, effect, since)) continue;
+        list.push_back({&effect, material_of(prepared, effect, effect.zeros(), since.before), all});
         all += list.back().material.columns.cols();
     }
     Eigen::MatrixXd white(prepared.base.residual_mm.size(), all);
     for (const Ready& r : list)
         white.middleCols(r.first, r.material.columns.cols()) = r.material.columns;
     whitener.apply(white);
-    design.add_features(white);
-    for (const Ready& r : list) {
-        const auto forms = simpler_forms(*r.effect);
-        const double prior =
-            rules::effect_prior - std::log(1.0 + static_cast<double>(forms.size()));
-        const auto add = [&](const Takes& takes) {
-            ColumnGroup group = group_of(*r.effect, r.effect->zeros(), r.material, r.first, takes);
-            group.log_prior = prior;
-            if (!group.features.empty()) design.add(std::move(group));
-        };
-        add({});
-        for (const Takes& takes : forms) add(takes);
-    }
+    const Eigen::Index first = design.add_features(white);
+    double prior = rules::effect_prior;
+    if (!since.before.empty())
+        prior -= std::log(static_cast<double>(prepared.replay.sessions().size() - 1));
+    for (const Ready& r : list) add_forms(design, r, first, since, prior);
     return all;
+}
+
+}  // namespace
+
+Eigen::Index add_textbook_groups(Design& design, const Prepared& prepared,
+                                 const Whitener& whitener) {
+    return add_effects(design, prepared, whitener, {});
+}
+
+Eigen::Index add_change_groups(Design& design, const Prepared& prepared, const Whitener& whitener) {
+    Eigen::Index added = 0;
+    std::vector<std::string> before;
+    for (const std::string& session : prepared.replay.sessions()) {
+        if (!before.empty()) added += add_effects(design, prepared, whitener, {session, before});
+        before.push_back(session);
+    }
+    return added;
 }
 
 std::optional<std::size_t> add_keyed_group(Design& design, const Prepared& prepared,

@@ -38,6 +38,7 @@ Json json_of(const diagnosis::Cause& cause) {
               {"what", cause.what},
               {"usual_cause", cause.usual_cause},
               {"remedy", cause.remedy}};
+    if (!cause.since.empty()) json["since"] = cause.since;
     if (!cause.points.empty()) {
         json["form"] = "table";
         json["between_places"] = cause.holds_between;
@@ -95,6 +96,26 @@ Json next_of(const diagnosis::Diagnosis& d) {
     return list;
 }
 
+/// What changed between sessions; a sigma that does not exist is null.
+Json over_of(const diagnosis::Diagnosis& d) {
+    Json json{{"sessions", Json::array()}, {"changes", Json::array()}};
+    for (const diagnosis::SessionFit& s : d.sessions)
+        json["sessions"].push_back({{"name", s.name},
+                                    {"readings", s.readings},
+                                    {"rms_before_um", s.rms_before_um},
+                                    {"rms_after_um", s.rms_after_um}});
+    for (const diagnosis::SessionChange& c : d.changes)
+        json["changes"].push_back({{"effect", c.parameter.effect},
+                                   {"name", with_component(c.parameter)},
+                                   {"unit", c.parameter.unit},
+                                   {"since", c.since},
+                                   {"before", c.before},
+                                   {"change", c.parameter.value},
+                                   {"sigma", c.parameter.sigma},
+                                   {"claimed", c.claimed}});
+    return json;
+}
+
 }  // namespace
 
 std::string diagnosis_json(const diagnosis::Diagnosis& d) {
@@ -125,6 +146,7 @@ std::string diagnosis_json(const diagnosis::Diagnosis& d) {
               {"unseen", d.unseen},
               {"inseparable", json_inseparable(d.inseparable)},
               {"readings", d.readings}};
+    if (!d.sessions.empty()) json["over"] = over_of(d);
     if (d.chosen_from > 0) json["chosen_from"] = d.chosen_from;
     json["outliers"] = d.outliers;
     return json.dump(1) + "\n";

@@ -7,6 +7,7 @@
 
 #include "report/diagnosis_words.h"
 #include "report/error_table.h"
+#include "report/session_changes.h"
 #include "report/svg.h"
 #include "report/xml.h"
 
@@ -60,7 +61,7 @@ std::string bars(const std::vector<Bar>& list, double full, const std::string& u
 std::string share_bars(const diagnosis::Diagnosis& d) {
     std::vector<Bar> list;
     for (std::size_t k = 0; k < d.causes.size(); ++k)
-        list.push_back({d.causes[k].effect, fmt::format("{:.0f} %", 100.0 * d.causes[k].share),
+        list.push_back({cause_name(d.causes[k]), fmt::format("{:.0f} %", 100.0 * d.causes[k].share),
                         d.causes[k].share,
                         d.causes[k].effect == "unknown" ? std::string("#999999")
                                                         : plot_colours[k % plot_colours.size()]});
@@ -129,7 +130,7 @@ std::string cause_table(const diagnosis::Diagnosis& d) {
             "th");
     for (const diagnosis::Cause& cause : d.causes) {
         const bool known = cause.effect != "unknown";
-        text += row({"<b>" + escape_xml(cause.effect) + "</b><br><span class=\"note\">" +
+        text += row({"<b>" + escape_xml(cause_name(cause)) + "</b><br><span class=\"note\">" +
                          escape_xml(cause.what) + "</span>",
                      fmt::format("{:.0f} %", 100.0 * cause.share),
                      known ? escape_xml(main_size(cause)) : "&ndash;",
@@ -158,7 +159,7 @@ std::string cause_section(const diagnosis::Cause& cause) {
     std::string text = fmt::format(
         "<h3>{}</h3>\n<p>{}. <b>Usual cause:</b> {}. <b>What to do:</b> "
         "{}.</p>\n",
-        escape_xml(cause.effect), escape_xml(cause.what), escape_xml(cause.usual_cause),
+        escape_xml(cause_name(cause)), escape_xml(cause.what), escape_xml(cause.usual_cause),
         escape_xml(cause.remedy));
     if (!cause.rivals.empty())
         text += "<p class=\"bad-text\">These readings cannot tell it from: " + rivals_text(cause) +
@@ -252,7 +253,7 @@ Page diagnosis_page(const diagnosis::Diagnosis& d, const std::string& readings) 
                    "; readings " + readings;
     page.verdict = answer(d);
     page.tone = tone_of(d);
-    page.body_html = causes_section(d);
+    page.body_html = causes_section(d) + changes_section(d);
     page.body_html += section_html(
         "All readings", figure_html(residual_plot(d), "Machine minus simulation of each reading"));
     page.body_html += where_section(d) + next_section(d);

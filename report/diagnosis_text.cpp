@@ -8,6 +8,7 @@
 #include "report/diagnosis_words.h"
 #include "report/error_table.h"
 #include "report/paragraph.h"
+#include "report/session_changes.h"
 
 namespace trunnion::report {
 namespace {
@@ -34,8 +35,8 @@ std::string parameters_text(const std::vector<identification::FitParameter>& par
 }
 
 std::string cause_text(const diagnosis::Cause& cause) {
-    std::string text = fmt::format("\n{}  {:.0f} % of the gap, probability {:.2f}\n", cause.effect,
-                                   100 * cause.share, cause.probability);
+    std::string text = fmt::format("\n{}  {:.0f} % of the gap, probability {:.2f}\n",
+                                   cause_name(cause), 100 * cause.share, cause.probability);
     text += paragraph(cause.what + ".", 2);
     if (!cause.usual_cause.empty())
         text += paragraph("Usual cause: " + cause.usual_cause + ".", 2) +
@@ -81,6 +82,7 @@ std::string diagnosis_text(const diagnosis::Diagnosis& d) {
     if (d.causes.empty())
         for (const identification::Inseparable& group : d.inseparable)
             text += paragraph("no reading here sees: " + to_string(group), 0);
+    text += changes_text(d);
     for (const diagnosis::NextMeasurement& next : d.next)
         text += paragraph("next: " + next.text, 0);
     return text;

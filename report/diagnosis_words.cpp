@@ -42,13 +42,17 @@ std::string causes_words(const diagnosis::Diagnosis& d) {
     std::string text;
     for (const diagnosis::Cause& cause : d.causes) {
         if (cause.effect == "unknown") continue;
-        text += fmt::format("{}{} ({:.0f} %)", text.empty() ? "" : ", ", cause.effect,
+        text += fmt::format("{}{} ({:.0f} %)", text.empty() ? "" : ", ", cause_name(cause),
                             100.0 * cause.share);
     }
     return text;
 }
 
 }  // namespace
+
+std::string cause_name(const diagnosis::Cause& cause) {
+    return cause.since.empty() ? cause.effect : cause.effect + " since " + cause.since;
+}
 
 std::string upper_first(std::string text) {
     if (!text.empty())
@@ -91,7 +95,7 @@ std::string main_size(const diagnosis::Cause& cause) {
 
 std::string verdict_sentence(const diagnosis::Diagnosis& d) {
     const std::string size = size_words(d);
-    const std::string first = d.causes.empty() ? "" : d.causes.front().effect;
+    const std::string first = d.causes.empty() ? "" : cause_name(d.causes.front());
     switch (d.verdict) {
         case diagnosis::Verdict::no_gap:
             return "No gap beyond noise: " + size + ".";

@@ -15,6 +15,8 @@ ShopValue shop_value(const identification::FitParameter& parameter);
 
 /// "gap 81.2 +- 0.9 urad": the parameter that stands out most from its uncertainty.
 std::string main_size(const diagnosis::Cause& cause);
+/// "C.backlash", "C.backlash since friday"
+std::string cause_name(const diagnosis::Cause& cause);
 /// The verdict with its size, in one sentence.
 std::string verdict_sentence(const diagnosis::Diagnosis& diagnosis);
 /// The whole answer in two or three plain sentences: how large, why, how far it would shrink.

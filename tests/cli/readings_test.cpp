@@ -207,6 +207,43 @@ TEST_CASE("several tables are read as one") {
     CHECK_THAT(bench.read("err.txt"), Catch::Contains("given twice"));
 }
 
+TEST_CASE("files of two dates are compared: text, JSON, page and the machine of the last") {
+    const Bench bench;
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
+    table.comment = {{"schema", "trunnion.readings/1"}};
+    table.optional_columns = {"mode", "feed_mm_min"};
+    campaign::add_sphere_map(table, setup, 40, 3);
+    const setup::Setup worn = campaign::with_effect(setup, "C.backlash: gap_rad=8e-5");
+    const std::string machine = bench.write("setup.toml", setup::format_setup(setup));
+    const std::string monday =
+        bench.write("monday.csv", records::format_readings(campaign::measured(setup, table, 1)));
+    const std::string friday =
+        bench.write("friday.csv", records::format_readings(campaign::measured(worn, table, 2)));
+    const std::string files = "diagnose " + monday + " " + friday + " --setup " + machine;
+    const std::string page = bench.file("changes.html"), later = bench.file("friday.toml");
+    REQUIRE(bench.trunnion(files + " --over sessions --html " + page + " --out " + later) == 0);
+    CHECK_THAT(bench.read("out.txt"), Catch::Contains("C.backlash since friday"));
+    CHECK_THAT(
+        bench.read("out.txt"),
+        Catch::Contains("Between the sessions the machine changed: C.backlash since friday"));
+    CHECK_THAT(bench.read("changes.html"), Catch::Contains("What changed between the sessions"));
+    REQUIRE(bench.trunnion(files + " --over sessions --json") == 0);
+    const Json json = Json::parse(bench.read("out.txt"));
+    CHECK(json["causes"][0]["effect"] == "C.backlash");
+    CHECK(json["causes"][0]["since"] == "friday");
+    CHECK(json["over"]["sessions"].size() == 2);
+    CHECK(json["over"]["changes"][0]["claimed"] == true);
+    CHECK(json["over"]["changes"][0]["before"] == Approx(0.0).margin(1e-9));
+    CHECK(json["over"]["changes"][0]["change"] == Approx(8e-5).epsilon(0.1));
+    // The written machine is that of friday: nothing is left of its gap.
+    REQUIRE(bench.trunnion("diagnose " + friday + " --json --setup " + later) == 0);
+    CHECK(Json::parse(bench.read("out.txt"))["verdict"] == "no-gap");
+    CHECK(bench.trunnion("diagnose " + friday + " --over sessions --setup " + machine) == 2);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("needs two of them or more"));
+    CHECK(bench.trunnion(files + " --over dates") == 2);
+}
+
 TEST_CASE("repetitions that are interrupted count as far as they are done") {
     const Bench bench;
     const Good good;

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# blind.sh [--seeds 5] [--sets 100] [--program PATH] [--out DIR] [--first SEED] [--kinds a,b] [--timeout 120]
+# blind.sh [--seeds 5] [--sets 100] [--program PATH] [--out DIR] [--first SEED] [--kinds a,b] [--circumstances a,b] [--timeout 120]
 # Generates sealed sets for fresh seeds, lets the program diagnose and predict all of them, then opens the truth
 # and prints the score. The truth lives in an unlinked file that only this shell holds open in between.
 set -eu
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-seeds=5 sets=100 program='' out='' first='' kinds='' limit=120 jobs=$(nproc)
+seeds=5 sets=100 program='' out='' first='' kinds='' around='' limit=120 jobs=$(nproc)
 while [ $# -gt 0 ]; do
   [ $# -ge 2 ] || { echo "blind: $1 needs a value" >&2; exit 2; }
   case $1 in
     --seeds) seeds=$2;; --sets) sets=$2;; --program) program=$2;; --out) out=$2;; --first) first=$2;;
-    --kinds) kinds=$2;; --timeout) limit=$2;; --jobs) jobs=$2;;
+    --kinds) kinds=$2;; --circumstances) around=$2;; --timeout) limit=$2;; --jobs) jobs=$2;;
     *) echo "blind: unknown option $1" >&2; exit 2;;
   esac
   shift 2
@@ -32,8 +32,8 @@ hidden=$(mktemp -d "${TMPDIR:-/tmp}/sealing.XXXXXX")
 trap 'rm -rf "$hidden"' EXIT
 echo "blind: generating $seeds x $sets sets, seeds $first..$((first + seeds - 1))" >&2
 seq 0 $((seeds - 1)) | xargs -P "$jobs" -I{} sh -c \
-  '"$1" "$2/generate.py" "$3/seed{}" --seed $(($4 + {})) --sets "$5" --truth "$6/seed{}/truth" ${7:+--kinds "$7"}' \
-  _ "$python" "$here" "$out" "$first" "$sets" "$hidden" "$kinds"
+  '"$1" "$2/generate.py" "$3/seed{}" --seed $(($4 + {})) --sets "$5" --truth "$6/seed{}/truth" ${7:+--kinds "$7"} ${8:+--circumstances "$8"}' \
+  _ "$python" "$here" "$out" "$first" "$sets" "$hidden" "$kinds" "$around"
 tar -C "$hidden" -cf "$hidden/sealed" --exclude=./sealed .
 exec 8<"$hidden/sealed"
 rm -rf "$hidden"

@@ -3,6 +3,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+import circumstances
 import noise
 import outsiders
 import registry
@@ -26,6 +27,7 @@ class Wish:
     letters: tuple = ("B", "C")
     outliers: bool = False
     form_sigma: float = 0.0     # visible rms of smooth form errors on every axis
+    around: str = ""            # zeros, sessions, sigma (circumstances.py)
 
 
 @dataclass
@@ -43,7 +45,7 @@ class Case:
     background: object = None
 
 
-def schedule(rng, count, kinds, names):
+def schedule(rng, count, kinds, names, around=()):
     """A shuffled list of wishes: about 16 % null, 52 % single, 12 % two or three, 10 % outsiders, 6 % foreign."""
     wishes = []
     share = {"null": 0.16, "single": 0.52, "multi": 0.12, "outsider": 0.10, "foreign": 0.06, "outliers": 0.04}
@@ -74,6 +76,8 @@ def schedule(rng, count, kinds, names):
                 rng.choice(["right", "wrong", "repeats", "correlated-repeats"], p=[0.5, 0.1, 0.25, 0.15]))
             form = float(np.exp(rng.uniform(np.log(0.7), np.log(12.0)))) if kind == "form" else 0.0
             wishes.append(Wish(kind, effects, sort, letters, kind == "outliers", form))
+    for k, wish in enumerate(wishes):
+        wish.around = around[k % len(around)] if around else ""
     return [wishes[i] for i in rng.permutation(len(wishes))]
 
 
@@ -113,11 +117,13 @@ def set_noise(rng, case):
     case.sigma_column = case.wish.noise == "right" and rng.random() < 0.15
 
 
-def prepare(rng, wish, needs):
+def prepare(rng, wish, needs, names=()):
     """Machine, campaign and base of a case whose effects need these things."""
     case = Case(wish)
     case.machine = draw_machine(rng, wish.letters)
     case.plan = draw_plan(rng, needs, wish.noise)
+    if not circumstances.suits(wish.around, wish, names, case.plan.devices):
+        case.wish = wish = replace(wish, around="zeros")
     case.machine.session_s = session_length(case.plan)
     if "cup known" in needs:
         case.machine.bar_free = ("length",)
@@ -128,9 +134,15 @@ def prepare(rng, wish, needs):
             case.machine.artefacts[k].free = False
     set_noise(rng, case)
     case.train, case.hold = build(rng, case.machine, case.plan)
-    case.base = Base(case.machine, set(case.plan.devices))
+    case.base = Base(case.machine, set(case.plan.devices), 2 if wish.around == "sessions" else 1)
+    if wish.around == "sessions":
+        circumstances.split_sessions(case.train)
+    if wish.around == "zeros":
+        circumstances.split_zeros(case.train, int(rng.integers(3, 7)))
     case.scene, case.scene_hold = (Scene(case.machine, case.base, rows) for rows in (case.train, case.hold))
     case.sigma_train, case.sigma_hold = (noise.sigma_mm(rows, case.noise_um) for rows in (case.train, case.hold))
+    if wish.around == "sigma":
+        case.sigma_train, case.sigma_column = circumstances.rough_rows(rng, case.sigma_train), True
     case.base_values = case.base.draw(rng)
     if case.plan.calibrated:
         case.base.calibrate(rng, case.base_values)
@@ -201,7 +213,7 @@ def try_case(rng, wish):
     needs = needs_of(rng, wish, names)
     if "no-sphere" in needs and "modes" in needs and "ballbar|touch" in needs:
         return None
-    case = prepare(rng, wish, needs)
+    case = prepare(rng, wish, needs, [n if isinstance(n, str) else "" for n in names])
     low, high = (2.0, 6.0) if wish.kind in ("multi", "form") else (1.0, 6.0)
     for name in names:
         wanted = float(rng.uniform(low, high))
@@ -258,6 +270,9 @@ def draw_case(rng, wish):
     case.clean_hold = case.scene_hold.readings(case.base_values, true)
     case.values = case.clean + noise.draw(rng, case.train, case.sigma_train, case.correlated)
     case.values_hold = case.clean_hold + noise.draw(rng, case.hold, case.sigma_hold, case.correlated)
+    if case.wish.around == "zeros":
+        turned = (case.scene.turned[0] @ case.scene.turned[1])[:, :3, :3]
+        case.values = case.values + circumstances.zero_shifts(rng, case.train, case.sigma_train, turned)
     case.outlier_rows = []
     if wish.outliers:
         case.values, case.outlier_rows = noise.outliers(rng, case.train, case.values)

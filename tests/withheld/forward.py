@@ -79,6 +79,13 @@ class Scene:
 
         Touches: the axes go on to the contact, and what the effects do there is what counts.
         """
+        if self.base.sessions == 1:
+            return self.of_session(values, effects, amplitudes)
+        days = [self.of_session(self.base.of_session(values, s), effects, amplitudes) for s in range(self.base.sessions)]
+        return np.choose(self.rows.session, days)
+
+    def of_session(self, values, effects, amplitudes):
+        """The same with the set-up of one session."""
         first, touch = self.read(values, effects, amplitudes), self.rows.device == "touch"
         if not touch.any() or not len(effects):
             return first

@@ -20,7 +20,8 @@ def write_set(folder, truth_folder, name, case):
     os.makedirs(os.path.join(folder, name))
     place = lambda file: os.path.join(folder, name, file)
     comments = {"schema": "trunnion.readings/1", "source": "real"}
-    optional = case.plan.columns() + (["sigma_mm"] if case.sigma_column else [])
+    optional = (case.plan.columns() + (["sigma_mm"] if case.sigma_column else [])
+                + (["session"] if case.base.sessions > 1 else []))
     with open(place("setup.toml"), "w") as out:
         out.write(setup_text(case.machine, set(case.plan.devices)))
         if case.plan.calibrated:
@@ -46,6 +47,7 @@ def parse(arguments):
     parser.add_argument("--kinds", help="comma-separated: null,single,multi,outsider,foreign,outliers")
     parser.add_argument("--truth", help="folder of the truth (default OUT/truth)")
     parser.add_argument("--effects", help="comma-separated names: singles of these only")
+    parser.add_argument("--circumstances", help="comma-separated: zeros,sessions,sigma; each set gets one, in turn")
     return parser.parse_args(arguments)
 
 
@@ -55,7 +57,8 @@ def main(arguments=None):
     rng = np.random.Generator(np.random.PCG64(options.seed))
     kinds = options.kinds.split(",") if options.kinds else None
     effects = options.effects.split(",") if options.effects else None
-    wanted = schedule(rng, options.sets, kinds, effects)
+    around = options.circumstances.split(",") if options.circumstances else ()
+    wanted = schedule(rng, options.sets, kinds, effects, around)
     sets, truth = os.path.join(options.out, "sets"), options.truth or os.path.join(options.out, "truth")
     os.makedirs(sets, exist_ok=False)
     os.makedirs(truth, exist_ok=True)

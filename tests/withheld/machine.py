@@ -74,8 +74,8 @@ class Base:
     then cup in S and bar length (mm).
     """
 
-    def __init__(self, machine, devices):
-        self.machine, self.names = machine, []
+    def __init__(self, machine, devices, sessions=1):
+        self.machine, self.names, self.sessions = machine, [], sessions
         for axis, letter in enumerate(machine.letters):
             across = machine.radial(axis)
             self.names += [("shift", axis, i) for i in across] + [("tilt", axis, i) for i in across]
@@ -86,6 +86,9 @@ class Base:
         if "ballbar" in devices:
             self.names += [("cup", 0, i) for i in range(3)] if "cup" in machine.bar_free else []
             self.names += [("length", 0, 0)] if "length" in machine.bar_free else []
+        self.single = list(self.names)                      # of one session
+        anew = [n for n in self.names if n[0] not in ("shift", "tilt")]
+        self.names += anew * (sessions - 1)
         self.size = len(self.names)
         tilt = np.array([n[0] == "tilt" for n in self.names])
         self.step = np.where(tilt, 1e-5, 1e-3)
@@ -114,19 +117,28 @@ class Base:
         low_high = np.array([span.get(n[0], (0.005, 0.030)) for n in self.names])
         return rng.uniform(low_high[:, 0], low_high[:, 1]) * rng.choice([-1.0, 1.0], self.size)
 
+    def of_session(self, values, session):
+        """The values of one session in the order of a single one: the set-up is its own."""
+        if session == 0:
+            return values[:len(self.single)]
+        located = sum(n[0] in ("shift", "tilt") for n in self.single)
+        own = len(self.single) - located
+        first = len(self.single) + (session - 1) * own
+        return np.concatenate([values[:located], values[first:first + own]])
+
     def split(self, values):
         """Parameter vector to arrays: axis shift (2,3), axis tilt (2,3), centres (k,3), cup (3), bar length."""
         parts = {"shift": np.zeros((2, 3)), "tilt": np.zeros((2, 3)),
                  "center": np.zeros((len(self.machine.artefacts), 3)), "cup": np.zeros((1, 3)),
                  "length": np.zeros((1, 1))}
-        for (kind, row, col), value in zip(self.names, values):
+        for (kind, row, col), value in zip(self.single, values):
             parts[kind][row, col] = value
         return parts
 
     def labels(self):
         """Contract-style names, for the truth file."""
         out = []
-        for kind, row, col in self.names:
+        for kind, row, col in self.single:
             if kind in ("shift", "tilt"):
                 prefix = ("EX0", "EY0", "EZ0")[col] if kind == "shift" else ("EA0", "EB0", "EC0")[col]
                 out.append(prefix + self.machine.letters[row] + ("_mm" if kind == "shift" else "_rad"))
@@ -134,6 +146,9 @@ class Base:
                 out.append(f"{self.machine.artefacts[row].name}.{LINEAR[col]}_mm")
             else:
                 out.append(f"{kind}.{LINEAR[col]}_mm" if kind == "cup" else "bar_length_mm")
+        located = sum(n[0] in ("shift", "tilt") for n in self.single)
+        for session in range(1, self.sessions):
+            out += [f"{label}.day{session + 1}" for label in out[located:len(self.single)]]
         return out
 
 

@@ -30,6 +30,7 @@ class Rows:
         self.dir = np.round(self.dir, 9)
         self.time_s = np.round(self.time_s, 3)
         self.temperature_c = np.round(self.temperature_c, 3)
+        self.session = np.zeros(len(records), int)
         self.derive()
 
     def derive(self):
@@ -85,7 +86,8 @@ def write_csv(path, rows, letters, values, optional, comments):
         writer.writerow(head)
         for i in range(rows.n):
             direction = [f"{d:.9g}" for d in rows.dir[i]] if rows.probe[i] else ["", "", ""]
-            extra = ["" if name == "sigma_mm" and not rows.read[i] else f"{getattr(rows, name)[i]:.10g}"
+            extra = [f"day{rows.session[i] + 1}" if name == "session" else
+                     "" if name == "sigma_mm" and not rows.read[i] else f"{getattr(rows, name)[i]:.10g}"
                      for name in optional]
             value = f"{values[i]:.7f}" if values is not None and rows.read[i] else ""
             writer.writerow([i, f"{rows.time_s[i]:.3f}", rows.test[i], rows.mode[i], rows.device[i],

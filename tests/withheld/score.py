@@ -82,6 +82,7 @@ def judge(seed, truth, verdict, values):
     rivals = [[str(r) for r in c.get("rivals") or []] for c in causes]
     after = verdict.get("after") or {}
     record = {"seed": seed, "name": truth["name"], "kind": truth["kind"], "noise": truth["noise_case"],
+              "around": truth.get("around", ""), "explained": number(after.get("explained")), "measured_explained": None,
               "machine": truth["machine"], "devices": "+".join(truth["devices"]),
               "truth": [e for e in truth["effects"] if e != "none"], "sizes": truth["size_sigma"],
               "size": min(truth["size_sigma"], default=0.0), "readings": truth["readings"],
@@ -98,6 +99,10 @@ def judge(seed, truth, verdict, values):
             record["measured_shrink"] = 1.0 - left / truth["base_excess_um"]
             z = [((a - b) / s) ** 2 for a, b, s in zip(values, truth["holdout"], truth["sigma"]) if s > 0]
             record["z_after"] = math.sqrt(math.fsum(z) / len(z))
+            excess = truth["base_holdout_z_rms"] ** 2 - 1.0
+            if excess > 0 and sum(s > 0 for s in truth["sigma"]) >= 100:
+                record["measured_explained"] = (truth["base_holdout_z_rms"] ** 2 - record["z_after"] ** 2) / excess
+            record["z_before"] = truth["base_holdout_z_rms"]
     return record
 
 
@@ -155,6 +160,14 @@ def shrink_error(r):
     return abs(r["claimed_shrink"] - r["measured_shrink"])
 
 
+def explained_error(r):
+    """|after.explained - the part of the excess square that is gone on the withheld readings|, for gaps of three
+    times the noise."""
+    if r["explained"] is None or r["measured_explained"] is None or r.get("z_before", 0.0) ** 2 - 1.0 < 9.0:
+        return None
+    return abs(r["explained"] - min(1.0, max(0.0, r["measured_explained"])))
+
+
 def in_interval(r):
     """The measured shrink lies in the claimed interval."""
     ends = r["ci95"]
@@ -186,6 +199,8 @@ def score_nulls(table, records):
     nulls = [r for r in records if r["kind"] == "null"]
     quiet = [r for r in nulls if r["noise"] != "wrong"]
     table.rate("null.right_or_repeats", "right noise, or repeats", quiet, silent, "reach 98 %")
+    for around in sorted({r["around"] for r in nulls if r["around"]}):
+        table.rate(f"null.{around}", f"  with {around}", [r for r in nulls if r["around"] == around], silent)
     for noise in ("right", "repeats", "correlated-repeats", "wrong"):
         table.rate(f"null.{noise}", f"  noise: {noise}", [r for r in nulls if r["noise"] == noise], silent)
     wrong = [r for r in records if r["noise"] == "wrong"]
@@ -215,8 +230,8 @@ def score_singles(table, records):
         name = f"{low:g} to {high:g} sigma" if high < 50 else f"{low:g} sigma and more"
         table.rate(f"single.first.{low:g}", f"  first at {name}", some, first)
         table.rate(f"single.first_or_rival.{low:g}", f"  first or rival at {name}", some, first_or_rival)
-    for key in ("machine", "devices", "noise"):
-        for value in sorted({r[key] for r in singles}):
+    for key in ("machine", "devices", "noise", "around"):
+        for value in sorted({r[key] for r in singles if r[key]}):
             table.rate(f"single.first.{value}", f"  first, {key} {value}", [r for r in singles if r[key] == value], first)
     outliers = [r for r in records if r["kind"] == "outliers"]
     table.rate("outliers.first_or_rival", "with 2 % outliers of 5 um: first or rival", outliers, first_or_rival)
@@ -281,6 +296,10 @@ def score_shrink(table, records):
     table.median("shrink.claim_error", "|claimed - measured shrink| from 3 sigma", large, shrink_error, "reach 0.05")
     table.median("shrink.claim_error_known", "  the same, one, two or three effects",
                  [r for r in large if r in known], shrink_error)
+    table.median("shrink.explained_error", "|after.explained - measured|, gaps from 3 times the noise", records,
+                 explained_error, "reach 0.05")
+    table.median("shrink.explained_error_form", "  the same beside form errors",
+                 [r for r in records if r["kind"] == "form"], explained_error, "reach 0.05")
     with_ends = [r for r in large if r["ci95"] and r["measured_shrink"] is not None]
     table.rate("shrink.ci95", "measured shrink inside ci95, from 3 sigma", with_ends, in_interval)
 

@@ -25,7 +25,7 @@ def describe(name, case):
     before, after = plain.predict(case.scene_hold), best.predict(case.scene_hold)
     before_um, after_um = excess_um(before, case.clean_hold, use), excess_um(after, case.clean_hold, use)
     return {
-        "name": name, "kind": case.wish.kind, "noise_case": case.wish.noise, "machine": "".join(case.machine.letters),
+        "name": name, "kind": case.wish.kind, "noise_case": case.wish.noise, "around": case.wish.around, "machine": "".join(case.machine.letters),
         "devices": list(case.plan.devices), "plan": vars(case.plan) | {"devices": list(case.plan.devices)},
         "effects": [e.name for e in case.effects] or ["none"],
         "params": {e.name: e.parameters() for e in case.effects},

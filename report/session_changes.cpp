@@ -1,0 +1,145 @@
+#include "report/session_changes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/diagnosis_words.h"
+#include "report/page.h"
+#include "report/svg.h"
+
+namespace trunnion::report {
+namespace {
+
+/// A change in the unit and with the digits of the shop.
+struct ShopChange {
+    std::string name, before, after, change, sigma, unit;
+};
+
+ShopChange shop_change(const diagnosis::SessionChange& c) {
+    const bool mm = c.parameter.unit == "mm", rad = c.parameter.unit == "rad";
+    const double factor = mm ? 1e3 : rad ? 1e6 : 1.0;
+    const bool seen = std::isfinite(c.parameter.sigma) && c.parameter.sigma > 0.0;
+    const int digits =
+        seen ? std::clamp(1 - static_cast<int>(std::floor(std::log10(factor * c.parameter.sigma))),
+                          0, 6)
+             : 3;
+    const auto number = [&](double value) {
+        return fmt::format("{:.{}f}", factor * value, digits);
+    };
+    ShopChange s{c.parameter.effect + " " + shop_value(c.parameter).name,
+                 number(c.before),
+                 "–",
+                 "–",
+                 "not seen",
+                 mm    ? "µm"
+                 : rad ? "µrad"
+                       : c.parameter.unit};
+    if (!seen) return s;
+    s.after = number(c.before + c.parameter.value);
+    s.change = fmt::format("{:+.{}f}", factor * c.parameter.value, digits);
+    s.sigma = number(c.parameter.sigma);
+    return s;
+}
+
+double in_sigma(const diagnosis::SessionChange& c) {
+    const double sigma = c.parameter.sigma;
+    return std::isfinite(sigma) && sigma > 0.0 ? c.parameter.value / sigma : 0.0;
+}
+
+/// Causes first, then as they come.
+std::vector<const diagnosis::SessionChange*> in_order(const diagnosis::Diagnosis& d) {
+    std::vector<const diagnosis::SessionChange*> list;
+    for (const diagnosis::SessionChange& c : d.changes) list.push_back(&c);
+    std::stable_partition(list.begin(), list.end(),
+                          [](const diagnosis::SessionChange* c) { return c->claimed; });
+    return list;
+}
+
+std::string sentence(const diagnosis::Diagnosis& d) {
+    std::string names;
+    for (const diagnosis::Cause& cause : d.causes)
+        if (!cause.since.empty())
+            names += fmt::format("{}{} (probability {:.2f})", names.empty() ? "" : ", ",
+                                 cause_name(cause), cause.probability);
+    if (!names.empty()) return "Between the sessions the machine changed: " + names + ".";
+    if (d.verdict == diagnosis::Verdict::unexplained)
+        return "No change of the catalogue's effects between the sessions is found; part of the "
+               "gap has no explanation.";
+    return "No change of the machine between the sessions is found.";
+}
+
+/// Every change that is seen, in its own sigma.
+std::string picture(const std::vector<const diagnosis::SessionChange*>& list) {
+    double most = 4.0;
+    for (const diagnosis::SessionChange* c : list) most = std::max(most, std::abs(in_sigma(*c)));
+    const PlotRange x = round_range(-most, most, 6);
+    constexpr double left = 270.0, width = 400.0, line = 20.0, top = 10.0;
+    const double bottom = top + line * static_cast<double>(list.size());
+    Svg svg(left + width + 30.0, bottom + 44.0);
+    svg.describe("Change of each parameter over its uncertainty",
+                 "One mark for each line of the table; the band is two sigma.");
+    const auto at = [&](double value) { return left + width * (value - x.low) / (x.high - x.low); };
+    svg.rectangle({at(-2.0), top}, at(2.0) - at(-2.0), bottom - top, {"none", 0.0, "#e8e8e8", ""});
+    for (double tick = x.low; tick <= x.high + 0.01 * x.tick; tick += x.tick) {
+        svg.line({at(tick), top}, {at(tick), bottom}, {"#dddddd", 1.0, "none", ""});
+        svg.text({at(tick), bottom + 16.0}, fmt::format("{:.4g}", tick), 11, "middle", "#555");
+    }
+    svg.text({left + 0.5 * width, bottom + 34.0}, "change over its sigma", 12, "middle", "#555");
+    double y = top + 0.5 * line;
+    for (const diagnosis::SessionChange* c : list) {
+        svg.text({left - 10.0, y + 4.0}, shop_change(*c).name, 12, "end");
+        svg.mark({at(in_sigma(*c)), y}, c->claimed ? 1 : 0, c->claimed ? "#d55e00" : "#0072b2");
+        y += line;
+    }
+    return svg.str();
+}
+
+}  // namespace
+
+std::string changes_text(const diagnosis::Diagnosis& d) {
+    if (d.sessions.empty()) return {};
+    std::string text = "\n" + sentence(d) + "\n";
+    for (const diagnosis::SessionFit& s : d.sessions)
+        text += fmt::format("  {:<12} {} readings, rms {:.3f} -> {:.3f} um\n", s.name, s.readings,
+                            s.rms_before_um, s.rms_after_um);
+    text += fmt::format("  {:<32} {:<10} {:>10} {:>10} {:>10} {:>9}\n", "parameter", "since",
+                        "before", "after", "change", "sigma");
+    for (const diagnosis::SessionChange* c : in_order(d)) {
+        const ShopChange s = shop_change(*c);
+        text +=
+            fmt::format("{} {:<32} {:<10} {:>10} {:>10} {:>10} {:>9} {}\n", c->claimed ? '*' : ' ',
+                        s.name, c->since, s.before, s.after, s.change, s.sigma, s.unit);
+    }
+    return text;
+}
+
+std::string changes_section(const diagnosis::Diagnosis& d) {
+    if (d.sessions.empty()) return {};
+    PageTable sessions{"The sessions, in the order taken",
+                       {"Session", "Readings", "rms as it is, µm", "rms with the causes, µm"},
+                       "lrrr",
+                       {}};
+    for (const diagnosis::SessionFit& s : d.sessions)
+        sessions.rows.push_back({s.name, std::to_string(s.readings),
+                                 fmt::format("{:.3f}", s.rms_before_um),
+                                 fmt::format("{:.3f}", s.rms_after_um)});
+    PageTable changes{"Each parameter from one session to the next; claimed changes first",
+                      {"Parameter", "Since", "Before", "After", "Change", "1 sigma", "Unit", ""},
+                      "llrrrrll",
+                      {}};
+    const auto list = in_order(d);
+    for (const diagnosis::SessionChange* c : list) {
+        const ShopChange s = shop_change(*c);
+        changes.rows.push_back({s.name, c->since, s.before, s.after, s.change, s.sigma, s.unit,
+                                c->claimed ? "changed" : ""});
+    }
+    return section_html(
+        "What changed between the sessions",
+        paragraph_html(sentence(d)) + table_html(sessions) +
+            (list.empty() ? "" : figure_html(picture(list), "Change over its uncertainty")) +
+            table_html(changes));
+}
+
+}  // namespace trunnion::report

@@ -1,0 +1,143 @@
+// The setup that diagnose writes, held against the truth where nothing was measured: it predicts no
+// worse than the setup it came from, whatever the gap is made of.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "diagnosis/diagnosis.h"
+#include "tests/support/campaign.h"
+
+namespace trunnion {
+namespace {
+
+constexpr int seeds = 12;              ///< of each kind
+constexpr double tolerance_um = 0.03;  ///< a tenth of the ballbar's noise
+
+/// Noise-free readings of a setup, mm.
+std::vector<double> read_by(const setup::Setup& s, const records::ReadingTable& table) {
+    return emulator::Replay(s, table).predict(effects::active_models(s));
+}
+
+double apart_um(const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += std::pow(a[i] - b[i], 2);
+    return 1e3 * std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+/// What only the readings show: nothing that a setup could hold. mm at a time and place.
+using Outside = std::function<double(const records::Reading&)>;
+
+struct Machine {
+    setup::Setup truth;
+    Outside outside = [](const records::Reading&) { return 0.0; };
+};
+
+/// Smooth errors of the linear axes along their travel, two waves each.
+setup::Setup with_forms(setup::Setup truth, SeededNoise& random, double size_mm) {
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
+        auto& motion = truth.machine.errors.axis[index_of(axis)].motion;
+        for (std::size_t d = 0; d < 3; ++d) {
+            const double wave_mm = 100.0 + 300.0 * random.uniform(), phase = 6.0 * random.uniform();
+            const double high = size_mm * random.normal();
+            kinematics::ErrorCurve& curve = motion[d];
+            for (double q = -600.0; q <= 600.0; q += 15.0) {
+                curve.at.push_back(q);
+                curve.value.push_back(high * std::sin(2.0 * pi * q / wave_mm + phase));
+            }
+        }
+    }
+    return truth;
+}
+
+setup::Setup with_one_effect(const setup::Setup& real, SeededNoise& random) {
+    static const char* const effects[] = {"C.backlash: gap_rad={}",
+                                          "X.scale: scale_ppm={}",
+                                          "gravity.sag: twist_rad={}",
+                                          "XY.squareness: angle_rad={}",
+                                          "Y.backlash: gap_mm={}",
+                                          "thermal.drift: d_mm=[{}, 0, 0], tau_s=900",
+                                          "B.backlash: gap_rad={}",
+                                          "X.straightness: EYX_p2_mm={}",
+                                          "C.cyclic: cos_rad={}, periods_per_turn=45"};
+    static constexpr double sizes[] = {4e-5, 20, 3e-5, 3e-5, 3e-3, 4e-3, 4e-5, 3e-3, 2e-5};
+    const auto k = static_cast<std::size_t>(9.0 * random.uniform());
+    const double size =
+        sizes[k] * std::exp(1.5 * random.normal());  // from next to nothing to large
+    return campaign::with_effect(real, fmt::format(fmt::runtime(effects[k]), size));
+}
+
+/// Wandering, a jump at a place, a zero that slips for a while: in no catalogue.
+Outside any_outsider(SeededNoise& random) {
+    const double high = 2e-3 * std::exp(random.normal()), at = random.uniform();
+    const double rate = 1e-3 + 5e-3 * random.uniform();
+    switch (static_cast<int>(3.0 * random.uniform())) {
+        case 0:
+            return [=](const records::Reading& row) {
+                return high * std::sin(rate * row.time_s + 7.0 * at) * row.direction_M.x();
+            };
+        case 1:
+            return [=](const records::Reading& row) {
+                return row.commanded[Axis::Y] > 200.0 * (at - 0.5) ? high : 0.0;
+            };
+        default:
+            return [=](const records::Reading& row) {
+                return std::fmod(row.time_s, 900.0) < 300.0 ? high * row.direction_M.z() : 0.0;
+            };
+    }
+}
+
+Machine machine_of(const std::string& kind, const setup::Setup& setup, std::uint64_t seed) {
+    SeededNoise random(1000 * seed + kind.size());
+    Machine m{campaign::real_machine(setup)};
+    if (kind == "one effect" || kind == "one beside forms")
+        m.truth = with_one_effect(m.truth, random);
+    if (kind == "forms" || kind == "one beside forms")
+        m.truth = with_forms(m.truth, random, 2e-3 * std::exp(random.normal()));
+    if (kind == "outsider") m.outside = any_outsider(random);
+    return m;
+}
+
+}  // namespace
+
+TEST_CASE("what is written predicts no worse than what it came from, on many machines",
+          "[diagnosis][written]") {
+    const setup::Setup setup = campaign::bc_setup();
+    int worse = 0, all = 0;
+    for (const std::string kind :
+         {"nothing", "one effect", "forms", "one beside forms", "outsider"})
+        for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+            const Machine m = machine_of(kind, setup, seed);
+            records::ReadingTable table = campaign::empty_table(setup), fresh = table;
+            if (seed % 3 != 0) campaign::add_sphere_map(table, setup, 36, seed);
+            if (seed % 3 != 1) campaign::add_ballbar(table, setup, 36);
+            if (seed % 3 != 0) campaign::add_sphere_map(fresh, setup, 50, seed + 500);
+            if (seed % 3 != 1) campaign::add_ballbar(fresh, setup, 47);
+            records::ReadingTable readings = campaign::measured(m.truth, table, seed);
+            for (records::Reading& row : readings.rows)
+                if (row.value_mm) *row.value_mm += m.outside(row);
+            diagnosis::DiagnosisOptions options;
+            options.plan_next = false;
+            const diagnosis::Diagnosis d = diagnosis::diagnose(setup, readings, options);
+            const setup::Setup base =
+                identification::fit_base(
+                    setup, readings, emulator::Replay(setup, readings),
+                    effects::make_catalogue(setup, effects::extent_of(setup, readings)),
+                    setup.model.modelled)
+                    .setup;
+            std::vector<double> real = read_by(m.truth, fresh);
+            std::size_t i = 0;
+            for (const records::Reading& row : fresh.rows)
+                if (row.device != records::Device::none) real[i++] += m.outside(row);
+            const double before = apart_um(read_by(base, fresh), real);
+            const double after = apart_um(read_by(d.setup, fresh), real);
+            INFO(kind << " " << seed << ": " << before << " -> " << after << " um, "
+                      << to_string(d.verdict)
+                      << (d.causes.empty() ? "" : ", " + d.causes.front().effect));
+            CHECK(after <= before + std::max(tolerance_um, 0.02 * before));
+            worse += after > before + 1e-6 ? 1 : 0;
+            ++all;
+        }
+    WARN(worse << " of " << all << " machines predicted worse, none by more than the tolerance");
+    CHECK(worse <= all / 20);
+}
+
+}  // namespace trunnion
