@@ -125,15 +125,16 @@ std::vector<SessionChange> changes_of(const Outcome& f, const Solution& solution
     return list;
 }
 
-records::ReadingTable files_as_sessions(records::ReadingTable table) {
+std::optional<records::ReadingTable> files_as_sessions(const records::ReadingTable& table) {
     const bool told = std::any_of(table.rows.begin(), table.rows.end(),
                                   [](const records::Reading& row) { return !row.session.empty(); });
-    if (told || table.parts.size() < 2) return table;
-    for (records::Reading& row : table.rows)
+    if (told || table.parts.size() < 2) return std::nullopt;
+    records::ReadingTable named = table;
+    for (records::Reading& row : named.rows)
         row.session =
-            std::filesystem::path(table.parts[static_cast<std::size_t>(row.part)]).stem().string();
-    table.optional_columns.emplace_back("session");
-    return table;
+            std::filesystem::path(named.parts[static_cast<std::size_t>(row.part)]).stem().string();
+    named.optional_columns.emplace_back("session");
+    return named;
 }
 
 std::vector<SessionFit> sessions_of(const Outcome& f, const std::vector<double>& before_um,

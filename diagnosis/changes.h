@@ -12,9 +12,9 @@ namespace trunnion::diagnosis {
 std::vector<SessionChange> changes_of(const Outcome& found, const Solution& solution,
                                       const std::vector<bool>& claimed);
 
-/// The same table with a session for each of its files, named by it without folder and ending; a
-/// table as it is where a row says its session or there is one file.
-records::ReadingTable files_as_sessions(records::ReadingTable table);
+/// The same table with a session for each of its files, named by it without folder and ending;
+/// nothing where a row says its session or there is one file.
+std::optional<records::ReadingTable> files_as_sessions(const records::ReadingTable& table);
 
 /// Rms of each session's readings, from `before_um` and `after_um` of all of them.
 std::vector<SessionFit> sessions_of(const Outcome& found, const std::vector<double>& before_um,

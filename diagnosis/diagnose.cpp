@@ -292,9 +292,10 @@ const char* to_string(NoiseSource source) {
                                           : "assumed";
 }
 
-Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& given,
+Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table,
                    const DiagnosisOptions& options) {
-    const records::ReadingTable table = options.over_sessions ? files_as_sessions(given) : given;
+    if (options.over_sessions)
+        if (const auto named = files_as_sessions(table)) return diagnose(setup, *named, options);
     if (const auto fewer = thinned(table, most_readings)) {
         Diagnosis d = diagnose(setup, *fewer, options);
         d.chosen_from = static_cast<std::size_t>(std::count_if(

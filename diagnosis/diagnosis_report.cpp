@@ -11,6 +11,7 @@
 #include "diagnosis/rules.h"
 #include "diagnosis/shrink_interval.h"
 #include "diagnosis/solution.h"
+#include "diagnosis/written_setup.h"
 #include "estimation/distributions.h"
 
 namespace trunnion::diagnosis {
@@ -199,22 +200,6 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
     }
     cause.heldout = held_out(f, f.judgement.left_before, f.judgement.left_before);
     return cause;
-}
-
-/// Members that the written setup has: all causes, but no table that fails between its places.
-Model writable(const Outcome& f) {
-    Model model = f.model;
-    for (std::size_t k = model.members.size(); k-- > 0;)
-        if (!f.judgement.interpolates[k]) model = without(model, k);
-    return tuned(f.design, f.setting, std::move(model), 1);
-}
-
-/// The setup predicts no worse than the one it came from: else that one stays.
-setup::Setup written_setup(const Outcome& f) {
-    const Model none{{}, {{}, f.model.variances.nu}, 0.0};
-    const bool better = f.judgement.gap && f.judgement.part > 0.0;
-    const Model model = better ? writable(f) : none;
-    return setup_with(f.prepared, f.design, model, solved(f.design, model));
 }
 
 /// A named rival in all its forms: a measurement must tell the claim from each of them.

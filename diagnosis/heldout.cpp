@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/units.h"
 #include "estimation/free_form.h"
@@ -168,6 +169,37 @@ Folds place_folds(const emulator::Replay& replay, const TableForm& table) {
         const bool end =
             !table.knots.empty() && (place == 0 || place + 1 == static_cast<int>(places.size()));
         folds.group.push_back(end ? -1 : place);
+    }
+    return folds;
+}
+
+Folds path_folds(const std::vector<NoiseBlock>& blocks, const emulator::Replay& replay,
+                 const std::vector<Axis>& axes) {
+    Folds folds;
+    folds.group.assign(replay.size(), 0);
+    std::map<std::vector<long>, int> paths;  // by the ends of all axes, in mm or centiradians
+    for (const NoiseBlock& block : blocks) {
+        const auto own = static_cast<int>(folds.fold.size());
+        int fold = own % Folds::count;
+        if (block.device == records::Device::ballbar) {
+            std::vector<long> ends;
+            for (const Axis axis : axes) {
+                double low = 1e300, high = -1e300;
+                for (const Eigen::Index i : block.rows) {
+                    const double q = replay.sample(static_cast<std::size_t>(i)).position[axis];
+                    low = std::min(low, q);
+                    high = std::max(high, q);
+                }
+                const double unit = is_rotary(axis) ? 0.01 : 1.0;
+                ends.push_back(std::lround(low / unit));
+                ends.push_back(std::lround(high / unit));
+            }
+            fold =
+                paths.try_emplace(std::move(ends), static_cast<int>(paths.size())).first->second %
+                Folds::count;
+        }
+        for (const Eigen::Index i : block.rows) folds.group[static_cast<std::size_t>(i)] = own;
+        folds.fold.push_back(fold);
     }
     return folds;
 }

@@ -56,4 +56,9 @@ class LeftOut {
 /// Whole places of an axis left out together, its ends never: does a table hold between places?
 Folds place_folds(const emulator::Replay& replay, const TableForm& table);
 
+/// Passes over the same path left out together (whatever the feed and the way round), poses of
+/// probes and targets one by one: does a model hold on paths that were not measured?
+Folds path_folds(const std::vector<NoiseBlock>& blocks, const emulator::Replay& replay,
+                 const std::vector<Axis>& axes);
+
 }  // namespace trunnion::diagnosis

@@ -1,0 +1,102 @@
+#include "diagnosis/written_setup.h"
+
+#include <algorithm>
+
+#include "diagnosis/solution.h"
+
+namespace trunnion::diagnosis {
+namespace {
+
+/// On paths left out, of the loss of the set-up alone: an effect that only one path shows cannot be
+/// predicted there, but it does no harm either.
+constexpr double most_harm = 1.2;
+
+using Takes = std::function<bool(GroupKind, std::size_t group)>;
+
+Model only(const Outcome& f, Model model, const Takes& takes) {
+    for (std::size_t k = model.members.size(); k-- > 0;)
+        if (const std::size_t m = model.members[k]; !takes(f.design.group(m).kind, m))
+            model = without(model, k);
+    return model;
+}
+
+bool holds(const Outcome& f, std::size_t group) {
+    const auto at = std::find(f.model.members.begin(), f.model.members.end(), group);
+    return f.judgement.interpolates[static_cast<std::size_t>(at - f.model.members.begin())];
+}
+
+bool is_large(const Outcome& f, std::size_t group) {
+    const auto at = std::find(f.model.members.begin(), f.model.members.end(), group);
+    return f.judgement.large[static_cast<std::size_t>(at - f.model.members.begin())];
+}
+
+/// Loss on readings left out when causes and small zeros alone predict.
+double loss_of(const Outcome& f, const Model& model, const Folds& folds) {
+    const LeftOut left(f.design, model, folds, f.used);
+    std::vector<bool> predicting;
+    for (const std::size_t m : model.members) {
+        const GroupKind kind = f.design.group(m).kind;
+        predicting.push_back(is_cause(kind) || (kind == GroupKind::offset && !is_large(f, m)));
+    }
+    return left.loss(std::vector<bool>(model.members.size(), true), predicting).mean();
+}
+
+bool has_tables(const Outcome& f, const Model& model) {
+    return std::any_of(model.members.begin(), model.members.end(),
+                       [&](std::size_t m) { return f.design.group(m).kind == GroupKind::table; });
+}
+
+bool harms_paths(const Outcome& f, const Model& model, const Model& none) {
+    const Folds paths = path_folds(f.prepared.blocks, f.prepared.replay, f.prepared.table.axes);
+    return loss_of(f, model, paths) > most_harm * loss_of(f, none, paths);
+}
+
+/// What was found less what does not predict, the fullest first.
+std::vector<Model> candidates_of(const Outcome& f) {
+    const auto all = [&](GroupKind, std::size_t m) { return holds(f, m); };
+    const auto causes = [&](GroupKind k, std::size_t m) {
+        return holds(f, m) && k != GroupKind::driver;
+    };
+    const auto named = [&](GroupKind k, std::size_t) { return k != GroupKind::table; };
+    const auto named_causes = [&](GroupKind k, std::size_t) {
+        return k != GroupKind::table && k != GroupKind::driver;
+    };
+    std::vector<Model> list;
+    for (const Takes& takes : {Takes(all), Takes(causes), Takes(named), Takes(named_causes)}) {
+        Model model = only(f, f.model, takes);
+        if (std::any_of(list.begin(), list.end(),
+                        [&](const Model& m) { return m.members == model.members; }))
+            continue;
+        if (model.members != f.model.members)
+            model = tuned(f.design, f.setting, std::move(model), 2);
+        list.push_back(std::move(model));
+    }
+    return list;
+}
+
+/// The best of the candidates on readings left out; that without causes where none is better.
+Model chosen(const Outcome& f) {
+    const Model none = only(f, f.model, [&](GroupKind k, std::size_t m) {
+        return k == GroupKind::offset && !is_large(f, m);
+    });
+    Model best = none;
+    double least = f.judgement.before;
+    for (Model& model : candidates_of(f)) {
+        const double loss = model.members == f.model.members ? f.judgement.after
+                                                             : loss_of(f, model, f.prepared.folds);
+        if (loss >= least || (has_tables(f, model) && harms_paths(f, model, none))) continue;
+        least = loss;
+        best = std::move(model);
+    }
+    return best;
+}
+
+}  // namespace
+
+setup::Setup written_setup(const Outcome& f) {
+    Model model{{}, {{}, f.model.variances.nu}, 0.0};
+    if (f.judgement.gap && f.judgement.part > 0.0) model = chosen(f);
+    return setup_with(f.prepared, f.design, model, solved(f.design, model));
+}
+
+}  // namespace trunnion::diagnosis
