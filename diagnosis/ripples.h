@@ -8,8 +8,8 @@
 namespace trunnion::diagnosis {
 
 /// A period (mm or rad) is shown by 8 distinct places or more, two whole turns inside the range, no
-/// hole in the phase above 0.4 of a turn, and, where all places lie on an even grid, two of its steps
-/// or more.
+/// hole in the phase above 0.4 of a turn, and, where all places lie on an even grid, two of its
+/// steps or more.
 bool shows_period(std::vector<double> places, double period);
 
 /// The effect at one setting of its keys, when the positions of its axis can show it and no

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "diagnosis/rules.h"
 #include "diagnosis/solution.h"
 
 namespace trunnion::diagnosis {
@@ -31,14 +32,14 @@ bool is_large(const Outcome& f, std::size_t group) {
 }
 
 /// Loss on readings left out when causes and small zeros alone predict.
-double loss_of(const Outcome& f, const Model& model, const Folds& folds) {
+BlockLoss loss_of(const Outcome& f, const Model& model, const Folds& folds) {
     const LeftOut left(f.design, model, folds, f.used);
     std::vector<bool> predicting;
     for (const std::size_t m : model.members) {
         const GroupKind kind = f.design.group(m).kind;
         predicting.push_back(is_cause(kind) || (kind == GroupKind::offset && !is_large(f, m)));
     }
-    return left.loss(std::vector<bool>(model.members.size(), true), predicting).mean();
+    return left.loss(std::vector<bool>(model.members.size(), true), predicting);
 }
 
 bool has_tables(const Outcome& f, const Model& model) {
@@ -48,7 +49,7 @@ bool has_tables(const Outcome& f, const Model& model) {
 
 bool harms_paths(const Outcome& f, const Model& model, const Model& none) {
     const Folds paths = path_folds(f.prepared.blocks, f.prepared.replay, f.prepared.table.axes);
-    return loss_of(f, model, paths) > most_harm * loss_of(f, none, paths);
+    return loss_of(f, model, paths).mean() > most_harm * loss_of(f, none, paths).mean();
 }
 
 /// What was found less what does not predict, the fullest first.
@@ -79,13 +80,14 @@ Model chosen(const Outcome& f) {
     const Model none = only(f, f.model, [&](GroupKind k, std::size_t m) {
         return k == GroupKind::offset && !is_large(f, m);
     });
+    const BlockLoss before = loss_of(f, none, f.prepared.folds);
     Model best = none;
-    double least = f.judgement.before;
+    double least = before.mean();
     for (Model& model : candidates_of(f)) {
-        const double loss = model.members == f.model.members ? f.judgement.after
-                                                             : loss_of(f, model, f.prepared.folds);
-        if (loss >= least || (has_tables(f, model) && harms_paths(f, model, none))) continue;
-        least = loss;
+        const BlockLoss loss = loss_of(f, model, f.prepared.folds);
+        if (loss.mean() >= least || saving_of(before, loss).t < rules::least_t) continue;
+        if (has_tables(f, model) && harms_paths(f, model, none)) continue;
+        least = loss.mean();
         best = std::move(model);
     }
     return best;

@@ -5,7 +5,7 @@
 
 namespace trunnion::diagnosis {
 
-/// Causes that predict readings left out better than the set-up alone, judged as they are written:
+/// Causes that predict readings left out surely better than the set-up alone, as they are written:
 /// without drivers and large zeros, without tables that fail between their places, and, where a
 /// table is among them, no worse on whole paths left out. Where nothing does: the re-identified
 /// setup without causes.

@@ -144,22 +144,26 @@ TEST_CASE("a period needs 8 places, two turns and no hole, of any kind of axis",
     }
 }
 
-TEST_CASE("a rotary axis that stood in few places gets no period", "[diagnosis][bounds]") {
+TEST_CASE("a rotary axis that stood in few places, or on a grid, gets no period",
+          "[diagnosis][bounds]") {
     const setup::Setup setup = campaign::bc_setup();
     const setup::Setup truth = campaign::with_effect(
-        campaign::real_machine(setup), "B.cyclic: cos_rad=6e-5, sin_rad=4e-5, periods_per_turn=12");
+        campaign::real_machine(setup), "B.cyclic: cos_rad=6e-5, sin_rad=4e-5, periods_per_turn=60");
+    records::ReadingTable anywhere = campaign::empty_table(setup);
+    campaign::add_sphere_map(anywhere, setup, 90, 3);
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
-        const diagnosis::Diagnosis few =
-            diagnosed(setup, campaign::measured(truth, map_in_places(setup, 6, seed), seed));
-        INFO("6 places: " << said(few));
-        CHECK(!claims(few, "B.cyclic"));
-        CHECK(few.verdict != diagnosis::Verdict::no_gap);
-        const diagnosis::Diagnosis many =
-            diagnosed(setup, campaign::measured(truth, map_in_places(setup, 33, seed), seed));
-        INFO("33 places: " << said(many));
-        REQUIRE(!many.causes.empty());
-        CHECK(many.causes.front().effect == "B.cyclic");
-        CHECK(value_of(many.causes.front(), "periods_per_turn") == Approx(12.0));
+        for (const int places : {6, 33}) {  // 33: every 5 degrees, where 60 waves look like 12
+            const diagnosis::Diagnosis d = diagnosed(
+                setup, campaign::measured(truth, map_in_places(setup, places, seed), seed));
+            INFO(places << " places: " << said(d));
+            CHECK(!claims(d, "B.cyclic"));
+            CHECK(d.verdict != diagnosis::Verdict::no_gap);
+        }
+        const diagnosis::Diagnosis d = diagnosed(setup, campaign::measured(truth, anywhere, seed));
+        INFO("anywhere: " << said(d));
+        REQUIRE(!d.causes.empty());
+        CHECK(d.causes.front().effect == "B.cyclic");
+        CHECK(value_of(d.causes.front(), "periods_per_turn") == Approx(60.0));
     }
 }
 
