@@ -3,7 +3,9 @@
 
 #include "tests/identification/arm.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cstdlib>
 
 #include "base/random.h"
 #include "diagnosis/diagnosis.h"
@@ -52,6 +54,43 @@ TEST_CASE("a joint of an arm that is off by a wave of its angle is named", "[dia
 TEST_CASE("an arm as its kinematic parameters say has no gap", "[diagnosis][arm]") {
     const diagnosis::Diagnosis d = diagnosis_of(measured(120, 4, 0, [](double) { return 3e-4; }));
     CHECK(d.verdict == diagnosis::Verdict::no_gap);
+}
+
+// The data set of P. Jacobi (see tests/identification/arm_test.cpp): TRUNNION_UR5 names its folder.
+TEST_CASE("beyond geometry: what is missing in a real UR5, and how far its gap shrinks",
+          "[diagnosis][arm][ur5]") {
+    const char* folder = std::getenv("TRUNNION_UR5");
+    if (!folder) {
+        WARN("skipped: TRUNNION_UR5 does not name the folder of the data set");
+        return;
+    }
+    setup::Setup setup = arm::setup(arm::ur5, 1e3 * noise_mm);
+    setup.model.modelled = arm::kinematic_effects();
+    const std::string name = std::string(folder) + "/3D_UR5_uncalibrated_";
+    const records::ReadingTable grid =
+        arm::table(setup, arm::ur5, arm::published(name + "grid_cleaned.csv"));
+    const records::ReadingTable fresh =
+        arm::table(setup, arm::ur5, arm::published(name + "random_cleaned.csv"));
+    diagnosis::DiagnosisOptions options;
+    options.plan_next = false;
+    const diagnosis::Diagnosis d = diagnosis::diagnose(setup, grid, options);
+    const auto geometry = identification::identify(setup, grid, arm::kinematic_effects());
+    const double before_mm = arm::mean(arm::misses_mm(geometry.setup, fresh));
+    const double after_mm = arm::mean(arm::misses_mm(d.setup, fresh));
+    std::string said;
+    for (const diagnosis::Cause& c : d.causes)
+        said += fmt::format("\n  {}{} {:.0f} % p {:.2f}", c.effect,
+                            c.points.empty() ? "" : " (table)", 100.0 * c.share, c.probability);
+    WARN(to_string(d.verdict) << ", explained " << d.explained << ", rms " << d.rms_um << " um"
+                              << said << "\n20 poses: " << before_mm << " -> " << after_mm
+                              << " mm mean");
+    CHECK(d.verdict != diagnosis::Verdict::no_gap);
+    CHECK(after_mm < before_mm);
+    const bool turns = std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) {
+        return c.effect == "J1.positioning" || c.effect == "J2.positioning" ||
+               c.effect == "free form of J1" || c.effect == "free form of J2";
+    });
+    CHECK(turns);
 }
 
 }  // namespace trunnion

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -77,6 +80,25 @@ struct Pose {
     std::array<double, 6> joints_deg{};
     Vector3 measured_mm = Vector3::Zero();
 };
+
+/// The poses of one CSV file of P. Jacobi's data set.
+inline std::vector<Pose> published(const std::string& path) {
+    std::ifstream file(path);
+    if (!file) throw std::runtime_error(path + " cannot be read");
+    std::string line;
+    std::getline(file, line);
+    std::vector<Pose> poses;
+    while (std::getline(file, line)) {
+        std::istringstream cells(line);
+        std::vector<double> v;
+        for (std::string cell; std::getline(cells, cell, ',');) v.push_back(std::stod(cell));
+        Pose pose;
+        pose.measured_mm = Vector3(v.at(1), v[2], v[3]) - Vector3(v.at(4), v[5], v[6]);
+        std::copy_n(v.begin() + 7, 6, pose.joints_deg.begin());
+        poses.push_back(pose);
+    }
+    return poses;
+}
 
 /// Three `point` rows a pose: value = dir . (measured - forward kinematics of the nominal arm).
 inline records::ReadingTable table(const setup::Setup& setup, const DenavitHartenberg& dh,

@@ -3,9 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
-#include <fstream>
 #include <numeric>
-#include <sstream>
 
 #include "base/random.h"
 #include "effects/settings.h"
@@ -51,25 +49,6 @@ arm::DenavitHartenberg worn() {
     real.a_mm = {0.2, -425.4, -391.9, 0.15, -0.2, 60.1};
     real.alpha_deg = {90.03, 0.02, -0.03, 89.96, -90.05, 0.0};
     return real;
-}
-
-/// The number of poses of one CSV file of the published data set.
-std::vector<arm::Pose> published(const std::string& path) {
-    std::ifstream file(path);
-    REQUIRE(file);
-    std::string line;
-    std::getline(file, line);
-    std::vector<arm::Pose> poses;
-    while (std::getline(file, line)) {
-        std::istringstream cells(line);
-        std::vector<double> v;
-        for (std::string cell; std::getline(cells, cell, ',');) v.push_back(std::stod(cell));
-        arm::Pose pose;
-        pose.measured_mm = Vector3(v.at(1), v[2], v[3]) - Vector3(v.at(4), v[5], v[6]);
-        std::copy_n(v.begin() + 7, 6, pose.joints_deg.begin());
-        poses.push_back(pose);
-    }
-    return poses;
 }
 
 }  // namespace
@@ -141,9 +120,9 @@ TEST_CASE("a real UR5 measured by a laser tracker: fitted on 1,000 poses, judged
     const setup::Setup setup = arm::setup(arm::ur5, 100);
     const std::string name = std::string(folder) + "/3D_UR5_uncalibrated_";
     const records::ReadingTable grid =
-        arm::table(setup, arm::ur5, published(name + "grid_cleaned.csv"));
+        arm::table(setup, arm::ur5, arm::published(name + "grid_cleaned.csv"));
     const records::ReadingTable fresh =
-        arm::table(setup, arm::ur5, published(name + "random_cleaned.csv"));
+        arm::table(setup, arm::ur5, arm::published(name + "random_cleaned.csv"));
     REQUIRE(grid.rows.size() == 3000);
     REQUIRE(fresh.rows.size() == 60);
     CHECK(arm::mean(arm::misses_mm(setup, fresh)) == Approx(2.57).margin(0.01));
