@@ -104,13 +104,12 @@ std::string changes_text(const diagnosis::Diagnosis& d) {
     for (const diagnosis::SessionFit& s : d.sessions)
         text += fmt::format("  {:<12} {} readings, rms {:.3f} -> {:.3f} um\n", s.name, s.readings,
                             s.rms_before_um, s.rms_after_um);
-    text += fmt::format("  {:<32} {:<10} {:>10} {:>10} {:>10} {:>9}\n", "parameter", "since",
-                        "before", "after", "change", "sigma");
+    text += fmt::format("  {:<24} {:<8} {:>8} {:>8} {:>8} {:>7}\n", "parameter", "since", "before",
+                        "after", "change", "sigma");
     for (const diagnosis::SessionChange* c : in_order(d)) {
         const ShopChange s = shop_change(*c);
-        text +=
-            fmt::format("{} {:<32} {:<10} {:>10} {:>10} {:>10} {:>9} {}\n", c->claimed ? '*' : ' ',
-                        s.name, c->since, s.before, s.after, s.change, s.sigma, s.unit);
+        text += fmt::format("{} {:<24} {:<8} {:>8} {:>8} {:>8} {:>7} {}\n", c->claimed ? '*' : ' ',
+                            s.name, c->since, s.before, s.after, s.change, s.sigma, s.unit);
     }
     return text;
 }
