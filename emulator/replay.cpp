@@ -69,10 +69,14 @@ DeviceRow device_row(const Observer& observer, const records::Reading& row,
 Replay::Replay(const setup::Setup& setup, const records::ReadingTable& table) : setup_(setup) {
     check_axes(setup, table);
     const std::vector<AxisSample> samples = records::samples_of(table);
-    const Observer nominal(setup_, {});
+    list_sessions(table);
+    std::deque<Observer> observers;
+    for (std::size_t k = 0; k < sessions_.size(); ++k)
+        observers.emplace_back(setup_of(k), EffectModels());
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
         const records::Reading& row = table.rows[r];
         if (row.device == records::Device::none) continue;
+        const Observer& nominal = observers[session_[rows_.size()]];
         try {
             DeviceRow ready = device_row(nominal, row, samples[r], touches_of(table));
             if (row.device == records::Device::touch)
@@ -87,15 +91,22 @@ Replay::Replay(const setup::Setup& setup, const records::ReadingTable& table) : 
     }
     list_unknown_sides(table);
     list_zeros(table);
-    list_sessions(table);
+}
+
+const setup::Setup& Replay::setup_of(std::size_t session) const {
+    const auto at = own_.find(session);
+    return at == own_.end() ? setup_ : at->second;
 }
 
 void Replay::list_sessions(const records::ReadingTable& table) {
-    for (const std::size_t r : rows_) {
-        const auto it = std::find(sessions_.begin(), sessions_.end(), table.rows[r].session);
+    for (const records::Reading& row : table.rows) {
+        if (row.device == records::Device::none) continue;
+        const auto it = std::find(sessions_.begin(), sessions_.end(), row.session);
         session_.push_back(static_cast<std::size_t>(it - sessions_.begin()));
-        if (it == sessions_.end()) sessions_.push_back(table.rows[r].session);
+        if (it == sessions_.end()) sessions_.push_back(row.session);
     }
+    for (std::size_t k = 0; k < sessions_.size(); ++k)
+        if (setup_.find_session(sessions_[k])) own_.emplace(k, setup_.in_session(sessions_[k]));
 }
 
 void Replay::list_zeros(const records::ReadingTable& table) {
@@ -134,7 +145,8 @@ double Replay::read(std::size_t i, const kinematics::ForwardModel& model,
                     const ReplayOffsets& offsets, const kinematics::Perturbation& extra) const {
     const PhysicalState state{model.poses(samples_[i].position, extra, spindle_angle(samples_[i])),
                               extra};
-    return reading_mm({setup_, of_session(offsets, session_[i]), contacts_[i], state});
+    return reading_mm(
+        {setup_of(session_[i]), of_session(offsets, session_[i]), contacts_[i], state});
 }
 
 std::vector<double> Replay::predict(const kinematics::Machine& machine,
@@ -142,7 +154,7 @@ std::vector<double> Replay::predict(const kinematics::Machine& machine,
                                     const EffectModels& models) const {
     std::deque<Observer> observers;  // an observer does not move
     for (std::size_t k = 0; k < std::max<std::size_t>(1, sessions_.size()); ++k)
-        observers.emplace_back(setup_, machine, models, of_session(offsets, k));
+        observers.emplace_back(setup_of(k), machine, models, of_session(offsets, k));
     std::vector<double> value_mm(size());
     for (std::size_t i = 0; i < size(); ++i) {
         AxisSample sample = samples_[i];

@@ -1,6 +1,7 @@
 // A table of readings asked again: every device row through the observer, and its derivatives.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,8 @@ class Replay {
     const AxisSample& sample(std::size_t i) const { return samples_[i]; }
     const Contact& contact(std::size_t i) const { return contacts_[i]; }
     const setup::Setup& setup() const { return setup_; }
+    /// With the values of the session ([[session]]), where the setup has some.
+    const setup::Setup& setup_of(std::size_t session) const;
 
     /// Sides that the table leaves open, one entry for each axis and session.
     const std::vector<UnknownSide>& unknown_sides() const { return unknown_; }
@@ -80,6 +83,7 @@ class Replay {
     void list_sessions(const records::ReadingTable& table);
 
     setup::Setup setup_;
+    std::map<std::size_t, setup::Setup> own_;  ///< by session: those with values of their own
     std::vector<std::size_t> rows_;
     std::vector<AxisSample> samples_;
     std::vector<Contact> contacts_;

@@ -315,6 +315,7 @@ BaseModel fit_base(const setup::Setup& setup, const records::ReadingTable& table
             fitted_parameter(slots[j], model.setup, typical(k) * fit.sigma(k)));
         tell_absurd_location(model, model.parameters.back(), table);
     }
+    keep_sessions(model.setup, replay);
     model.models = effects::active_models(model.setup);
     return model;
 }

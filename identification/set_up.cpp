@@ -150,10 +150,30 @@ std::vector<FreeQuantity> free_quantities(const setup::Setup& setup,
 void begin_sessions(setup::Setup& setup, const emulator::Replay& replay) {
     setup.zeros.assign(replay.zeros().size(), 0.0);
     for (const FreeQuantity& free : free_quantities(setup, replay)) {
-        if (free.place.session == 0) continue;
+        if (free.place.kind == Kind::zero) continue;
         SetUpQuantity first = free.place;
         first.session = 0;
-        setup.zeros.push_back(number_of(setup, first));
+        setup::Setup own = replay.setup_of(static_cast<std::size_t>(free.place.session));
+        const double begin = number_of(own, first);
+        if (free.place.session == 0)
+            number_of(setup, first) = begin;
+        else
+            setup.zeros.push_back(begin);
+    }
+}
+
+void keep_sessions(setup::Setup& fitted, const emulator::Replay& replay) {
+    if (replay.sessions().size() < 2) return;
+    for (const FreeQuantity& free : free_quantities(fitted, replay)) {
+        if (free.place.kind == Kind::zero) continue;
+        const std::string& session =
+            replay.sessions()[static_cast<std::size_t>(free.place.session)];
+        if (session.empty()) continue;
+        auto at = std::find_if(fitted.sessions.begin(), fitted.sessions.end(),
+                               [&](const auto& s) { return s.name == session; });
+        if (at == fitted.sessions.end()) at = fitted.sessions.insert(at, {session, {}});
+        const std::string quantity = free.name.substr(0, free.name.size() - session.size() - 1);
+        at->values[quantity] = number_of(fitted, free.place);
     }
 }
 
@@ -233,14 +253,16 @@ emulator::ReplayOffsets offsets_between(const setup::Setup& from, const setup::S
 }
 
 /// The setup as the k-th session has it.
-setup::Setup in_session(const setup::Setup& fitted, const std::vector<FreeQuantity>& quantities,
-                        int session) {
-    setup::Setup own = fitted;
+setup::Setup in_session(const emulator::Replay& replay, setup::Setup fitted,
+                        const std::vector<FreeQuantity>& quantities, int session) {
+    const auto k = static_cast<std::size_t>(session);
+    const bool has_own = replay.setup().find_session(replay.sessions()[k]) != nullptr;
+    setup::Setup own = has_own ? replay.setup_of(k) : fitted;
     for (const FreeQuantity& free : quantities) {
-        if (free.place.session != session) continue;
+        if (free.place.session != session || free.place.kind == Kind::zero) continue;
         SetUpQuantity first = free.place;
         first.session = 0;
-        number_of(own, first) = fitted.zeros.at(static_cast<std::size_t>(free.place.slot));
+        number_of(own, first) = number_of(fitted, free.place);
     }
     return own;
 }
@@ -248,15 +270,25 @@ setup::Setup in_session(const setup::Setup& fitted, const std::vector<FreeQuanti
 }  // namespace
 
 emulator::ReplayOffsets offsets_to(const emulator::Replay& replay, const setup::Setup& fitted) {
-    const setup::Setup& from = replay.setup();
-    emulator::ReplayOffsets offsets = offsets_between(from, fitted);
+    const std::vector<std::string>& sessions = replay.sessions();
+    const bool plain = sessions.empty() || !replay.setup().find_session(sessions.front());
+    emulator::ReplayOffsets offsets;
+    if (plain) offsets = offsets_between(replay.setup(), fitted);
     const std::size_t zeros = std::min(fitted.zeros.size(), replay.zeros().size());
-    offsets.zeros.assign(fitted.zeros.begin(),
-                         fitted.zeros.begin() + static_cast<std::ptrdiff_t>(zeros));
-    if (replay.sessions().size() < 2) return offsets;
-    const std::vector<FreeQuantity> quantities = free_quantities(from, replay);
-    for (int s = 1; s < static_cast<int>(replay.sessions().size()); ++s)
-        offsets.later_sessions.push_back(offsets_between(from, in_session(fitted, quantities, s)));
+    const auto end = fitted.zeros.begin() + static_cast<std::ptrdiff_t>(zeros);
+    if (plain && sessions.size() < 2) {
+        offsets.zeros.assign(fitted.zeros.begin(), end);
+        return offsets;
+    }
+    const std::vector<FreeQuantity> quantities = free_quantities(replay.setup(), replay);
+    const auto of = [&](int session) {
+        return offsets_between(replay.setup_of(static_cast<std::size_t>(session)),
+                               in_session(replay, fitted, quantities, session));
+    };
+    if (!plain) offsets = of(0);
+    offsets.zeros.assign(fitted.zeros.begin(), end);
+    for (int s = 1; s < static_cast<int>(sessions.size()); ++s)
+        offsets.later_sessions.push_back(of(s));
     return offsets;
 }
 

@@ -40,8 +40,11 @@ struct FreeQuantity {
 /// several sessions each anew for each of them ("S1.x_mm.tuesday").
 std::vector<FreeQuantity> free_quantities(const setup::Setup& setup,
                                           const emulator::Replay& replay);
-/// Room in the setup for the values of tests and later sessions; each begins at the setup's own.
+/// Room in the setup for the values of tests and later sessions; each begins at the setup's own, or
+/// at those of its [[session]].
 void begin_sessions(setup::Setup& setup, const emulator::Replay& replay);
+/// What a fit of several sessions found, as [[session]] entries of the setup.
+void keep_sessions(setup::Setup& fitted, const emulator::Replay& replay);
 /// The number itself.
 double& number_of(setup::Setup& setup, const SetUpQuantity& quantity);
 /// d reading / d quantity of device row i, from what its gradient says about machine and tool.

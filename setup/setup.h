@@ -116,6 +116,12 @@ constexpr AxisSides came_travelling_plus() {
 /// Where a rotary axis of a Hurco's part set-up crosses the plane across it: two of X, Y, Z, mm.
 using Centreline = std::array<std::optional<double>, 3>;
 
+/// [[session]]: what was found of the set-up on one day, in place of what stands elsewhere.
+struct SessionValues {
+    std::string name;                      ///< readings column session
+    std::map<std::string, double> values;  ///< by quantity as identify names it: "CMM.a_rad"
+};
+
 struct Setup {
     std::string name;
     std::string path;  ///< of the file, for messages
@@ -143,12 +149,16 @@ struct Setup {
     std::vector<Body> bodies;  ///< that G31 meets beside the spheres
     std::vector<Instrument> instruments;
     ModelSettings model;
+    std::vector<SessionValues> sessions;
     /// Zero of each test of a laser or autocollimator, mm or rad, as a fit found it (ZeroGroup of
     /// the replay); it belongs to the readings and is not written.
     std::vector<double> zeros;
 
     const Artefact* find_artefact(const std::string& name) const;
     const Instrument* find_instrument(const std::string& name) const;
+    const SessionValues* find_session(const std::string& name) const;
+    /// With the values of that session in their places; without a [[session]] of the name as it is.
+    Setup in_session(const std::string& name) const;
     /// A target that the tool carries, in S.
     Vector3 target_S_mm(const Artefact& target) const;
 };

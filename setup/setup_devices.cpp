@@ -2,6 +2,7 @@
 #include "base/units.h"
 #include "setup/artefact_keys.h"
 #include "setup/body_keys.h"
+#include "setup/session_keys.h"
 #include "setup/setup_reader.h"
 
 namespace trunnion::setup {
@@ -117,6 +118,7 @@ void read_devices(const TomlFile& file, Setup& setup) {
     read_artefacts(file, setup);
     read_bodies(file, setup);
     read_instruments(file, setup);
+    read_sessions(file, setup);
     if (const TomlValue* table = root.find("model"))
         read_model(file, *table, setup.machine.chain.names(), setup.model);
     if (const TomlValue* table = root.find("effects")) read_effects(file, *table, setup);

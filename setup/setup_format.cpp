@@ -7,6 +7,7 @@
 #include "setup/artefact_keys.h"
 #include "setup/body_keys.h"
 #include "setup/hurco_keys.h"
+#include "setup/session_keys.h"
 #include "setup/setup.h"
 #include "setup/toml_text.h"
 
@@ -339,6 +340,7 @@ std::string format_setup(const Setup& setup) {
     for (const Artefact& artefact : setup.artefacts) out += artefact_text(artefact);
     for (const Body& body : setup.bodies) out += body_text(body);
     for (const Instrument& instrument : setup.instruments) out += instrument_text(instrument);
+    for (const SessionValues& session : setup.sessions) out += session_text(session);
     return out + model_text(setup.model, setup.machine.chain.names());
 }
 

@@ -1,6 +1,7 @@
 // What belongs to a day begins anew, what belongs to the machine stays.
 #include <catch2/catch.hpp>
 
+#include "base/alarm.h"
 #include "base/units.h"
 #include "effects/settings.h"
 #include "identification/identify.h"
@@ -95,6 +96,57 @@ TEST_CASE("each day has its own pose and scale, the machine's error is common",
           "monday: the part was turned by 0.029 deg, shifted by (-0.044, 0.079, 0.01) mm, scaled "
           "by -34 ppm");
     CHECK_THAT(words[1], Catch::Contains("tuesday: the part was turned by 0.01107 deg"));
+}
+
+TEST_CASE("a written setup reads each session with its own values, alone and together",
+          "[identification][sessions]") {
+    const setup::Setup setup = machine();
+    setup::Setup real = setup;
+    real.effects.push_back({"XY.squareness", {{"angle_rad", {6e-5}}}});
+    const records::ReadingTable both = two_days(real, 2);
+    const auto result = identification::identify(setup, both, {"XY.squareness"});
+    std::vector<std::string> notes;
+    const setup::Setup written =
+        setup::parse_setup(setup::format_setup(result.setup), "out.toml", notes);
+    REQUIRE(written.sessions.size() == 2);
+    CHECK(written.find_session("tuesday")->values.at("CMM.z_mm") == Approx(-0.03).margin(1e-5));
+    CHECK(setup::format_setup(written) == setup::format_setup(result.setup));
+
+    records::ReadingTable tuesday = both;
+    std::erase_if(tuesday.rows, [](const auto& row) { return row.session != "tuesday"; });
+    records::ReadingTable friday = tuesday;
+    for (records::Reading& row : friday.rows) row.session = "friday";
+    const auto apart_um = [&](const records::ReadingTable& table) {
+        const records::ReadingTable read =
+            emulator::predicted(written, table, effects::active_models(written));
+        double most = 0.0;
+        for (std::size_t i = 0; i < table.rows.size(); ++i)
+            most = std::max(most, std::abs(*read.rows[i].value_mm - *table.rows[i].value_mm));
+        return 1e3 * most;
+    };
+    CHECK(apart_um(both) < 1e-3);
+    CHECK(apart_um(tuesday) < 1e-3);
+    CHECK(apart_um(friday) > 20.0);  // unknown: as the first one
+
+    // What the setup knows is where the next fit begins; nothing free: it stays.
+    setup::Setup held = written;
+    held.instruments[0].free_pose = held.instruments[0].free_scale = false;
+    CHECK(identification::identify(held, tuesday, {}).rms_after_um < 1e-3);
+    CHECK(identification::identify(held, both, {}).rms_after_um < 1e-3);
+    const auto again = identification::identify(written, both, {"XY.squareness"});
+    CHECK(again.rms_before_um < 1e-3);
+    CHECK(value_of(again, "CMM.z_mm.tuesday") == Approx(-0.03).margin(1e-5));
+}
+
+TEST_CASE("a session of a setup names places that the setup has", "[identification][sessions]") {
+    std::vector<std::string> notes;
+    const std::string text = setup::format_setup(machine());
+    for (const char* wrong : {"\"CMM.q_mm\" = 1", "\"S9.x_mm\" = 1", "\"cup.x_mm\" = 1"})
+        CHECK_THROWS_AS(
+            setup::parse_setup(text + "\n[[session]]\nname = \"a\"\n" + wrong + "\n", "s", notes),
+            InputError);
+    CHECK_THROWS_AS(setup::parse_setup(text + "\n[[session]]\n\"CMM.x_mm\" = 1\n", "s", notes),
+                    InputError);
 }
 
 TEST_CASE("two days taken for one leave what lies between them", "[identification][sessions]") {
