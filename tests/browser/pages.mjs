@@ -37,6 +37,10 @@ const readings = join(folder, "readings.csv"), prints = join(folder, "prints.txt
 call("pivot", "--write-programs", join(folder, "nc"));
 call("run", join(folder, "nc/O8003.nc"), "--programs", join(folder, "nc"), "--readings", readings,
      "--print", prints);
+const instrument = (name) => join(source, "docs/instruments", name);
+const positions = join(folder, "positions.csv");
+call("import", "axis-log", instrument("control_log.csv"), "--setup", instrument("machine.toml"),
+     "--out", positions);
 const pages = {
   run: ["run", program("bracket_g43_4.nc")],
   check: ["check", join(source, "programs/examples")],
@@ -48,6 +52,8 @@ const pages = {
   identify: ["identify", readings, "--setup", machine("bc_table.toml"), "--effects", "location"],
   import: ["import", "dprnt", prints, "--setup", machine("bc_table.toml"), "--out",
            join(folder, "imported.csv")],
+  control: ["diagnose", positions, "--program", instrument("control_part.nc"), "--setup",
+            instrument("machine.toml")],
   diagnose: ["diagnose", readings, "--setup", machine("bc_table.toml")],
 };
 for (const [name, words] of Object.entries(pages)) call(...words, "--html", page(name));

@@ -132,6 +132,18 @@ TEST_CASE("schemas: pivot, ballbar, volumetric, compensate and effects") {
     held(bench, "effects", "effects");
 }
 
+TEST_CASE("schemas: a control's log") {
+    const CommandBench bench;
+    const std::string csv = bench.file("log.csv"), setup = " --setup " + instrument("machine.toml");
+    held(bench, "import",
+         "import axis-log " + instrument("control_log.csv") + " --out " + csv + setup);
+    const Json gap =
+        held(bench, "diagnosis",
+             "diagnose " + csv + " --program " + instrument("control_part.nc") + setup);
+    CHECK(gap["of"] == "control");
+    CHECK(gap["causes"].size() > 0);
+}
+
 TEST_CASE("schemas: import, predict, identify and diagnose") {
     const CommandBench bench;
     const std::string csv = bench.file("laser.csv"), setup = " --setup " + instrument("bench.toml");
