@@ -111,7 +111,7 @@ struct Since {
     std::vector<std::string> before;
 };
 
-struct Ready {
+struct EffectColumns {
     const effects::Effect* effect;
     Material material;
     Eigen::Index first;
@@ -124,7 +124,7 @@ bool offered(const Prepared& p, const effects::Effect& effect, const Since& sinc
 }
 
 /// All forms of an effect whose columns stand in the design.
-void add_forms(Design& design, const Ready& ready, Eigen::Index first, const Since& since,
+void add_forms(Design& design, const EffectColumns& ready, Eigen::Index first, const Since& since,
                double log_prior) {
     const auto forms = simpler_forms(*ready.effect);
     const auto add = [&](const Takes& takes) {
@@ -143,7 +143,7 @@ void add_forms(Design& design, const Ready& ready, Eigen::Index first, const Sin
 /// Effects without keys, in all forms. Returns how many features they are.
 Eigen::Index add_effects(Design& design, const Prepared& prepared, const Whitener& whitener,
                          const Since& since) {
-    std::vector<Ready> list;
+    std::vector<EffectColumns> list;
     Eigen::Index all = 0;
     for (const effects::Effect& effect : prepared.catalogue) {
         if (!offered(prepared, effect, since)) continue;
@@ -151,14 +151,14 @@ Eigen::Index add_effects(Design& design, const Prepared& prepared, const Whitene
         all += list.back().material.columns.cols();
     }
     Eigen::MatrixXd white(prepared.base.residual_mm.size(), all);
-    for (const Ready& r : list)
+    for (const EffectColumns& r : list)
         white.middleCols(r.first, r.material.columns.cols()) = r.material.columns;
     whitener.apply(white);
     const Eigen::Index first = design.add_features(white);
     double prior = rules::effect_prior;
     if (!since.before.empty())
         prior -= std::log(static_cast<double>(prepared.replay.sessions().size() - 1));
-    for (const Ready& r : list) add_forms(design, r, first, since, prior);
+    for (const EffectColumns& r : list) add_forms(design, r, first, since, prior);
     return all;
 }
 

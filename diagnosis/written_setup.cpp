@@ -12,9 +12,9 @@ namespace {
 /// predicted there, but it does no harm either.
 constexpr double most_harm = 1.2;
 
-using Takes = std::function<bool(GroupKind, std::size_t group)>;
+using TakesMember = std::function<bool(GroupKind, std::size_t group)>;
 
-Model only(const Outcome& f, Model model, const Takes& takes) {
+Model only(const Outcome& f, Model model, const TakesMember& takes) {
     for (std::size_t k = model.members.size(); k-- > 0;)
         if (const std::size_t m = model.members[k]; !takes(f.design.group(m).kind, m))
             model = without(model, k);
@@ -63,7 +63,8 @@ std::vector<Model> candidates_of(const Outcome& f) {
         return k != GroupKind::table && k != GroupKind::driver;
     };
     std::vector<Model> list;
-    for (const Takes& takes : {Takes(all), Takes(causes), Takes(named), Takes(named_causes)}) {
+    for (const TakesMember& takes :
+         {TakesMember(all), TakesMember(causes), TakesMember(named), TakesMember(named_causes)}) {
         Model model = only(f, f.model, takes);
         if (std::any_of(list.begin(), list.end(),
                         [&](const Model& m) { return m.members == model.members; }))
