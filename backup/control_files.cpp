@@ -24,7 +24,7 @@ struct FileRow {
 constexpr FileRow file_rows[] = {
     {"CNC-PARA.TXT", Standing::obeyed}, {"EXT_WKZ.TXT", Standing::obeyed},
     {"TOOLOFST.TXT", Standing::obeyed}, {"MACRO.TXT", Standing::obeyed},
-    {"PITCH.TXT", Standing::known},     {"ALL-FLDR.TXT", Standing::known},
+    {"PITCH.TXT", Standing::obeyed},    {"ALL-FLDR.TXT", Standing::known},
     {"ALL-PROG.TXT", Standing::known},  {"TOOLLIFE.TXT", Standing::known},
     {"TOOLSIZE.TXT", Standing::known},  {"SYS-CONF.TXT", Standing::known},
     {"OPRT_HIS.TXT", Standing::known},

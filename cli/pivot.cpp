@@ -48,6 +48,9 @@ setup::Setup setup_of(const PivotOptions& o) {
     }
     offsets::Stores stores;
     backup::apply_backup(backup::read_backup(o.control), stores);
+    if (!setup::has_rotary_geometry(stores))
+        throw InputError("these files name no two real rotary axes (19680-19690): give --setup",
+                         {o.control});
     return setup::setup_of_control(stores, o.control);
 }
 

@@ -19,6 +19,7 @@
 #include "inputs/program_choice.h"
 #include "report/run_page.h"
 #include "report/run_report.h"
+#include "setup/control_axes.h"
 
 namespace trunnion::cli {
 namespace {
@@ -84,6 +85,13 @@ setup::Setup setup_of(const Options& o) {
     for (const std::string& text : o.injections)
         setup.effects.push_back(effects::parse_injection(text, catalogue));
     return setup;
+}
+
+/// The programs of a backup lie in its control's memory.
+std::vector<std::string> folders_of(const Options& o) {
+    std::vector<std::string> folders = o.folders;
+    if (!o.control.empty()) folders.push_back(o.control);
+    return folders;
 }
 
 emulator::RunOptions run_options(const Options& o, const setup::Setup& setup) {
@@ -165,7 +173,7 @@ int run_command(const Options& o) {
     if ((o.truth || o.trace_step_mm > 0.0 || o.trace_chord_mm > 0.0) && o.trace.empty())
         throw InputError("--truth, --trace-step and --trace-chord belong to --trace FILE");
     const setup::Setup setup = setup_of(o);
-    inputs::ProgramAndFolders program = inputs::open_program(o.program, o.folders);
+    inputs::ProgramAndFolders program = inputs::open_program(o.program, folders_of(o));
     emulator::RunOptions options = run_options(o, setup);
     const Interruption interruption;
     OutputFiles files;
@@ -179,7 +187,8 @@ int run_command(const Options& o) {
     print_notes(log.notes);
     print_notes(program.folders.announcements());
     if (o.json)
-        print_out("{}", report::run_json(log, setup.machine.chain, program.folders.used()));
+        print_out("{}",
+                  report::run_json(log, setup::all_machine_axes(setup), program.folders.used()));
     else if (o.print.empty())
         print_out("{}", log.printed);
     if (!o.json && !o.variables.empty()) print_out("{}", report::variables_text(log));
@@ -200,8 +209,9 @@ void add_run(CLI::App& app, Run& run) {
     reads_file(command->add_option("--setup", o->setup, "setup file (machines/bc_table.toml)"));
     reads_file(command->add_option("--programs", o->folders, "folder with more programs"))
         ->allow_extra_args(false);
-    reads_file(command->add_option("--control", o->control,
-                                   "a real control's backup folder, put over the setup"));
+    reads_file(command->add_option(
+        "--control", o->control,
+        "a real control's backup folder, put over the setup; its programs are found"));
     command->add_option("--seed", o->seed, "seed of the devices' noise (1)");
     writes_file(command->add_option("--trace", o->trace, "CSV with a row for each move"));
     // A move is sampled as a whole: finer than this fills the memory and tells nothing.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "setup/control_axes.h"
 
 namespace trunnion::compensation {
 namespace {
@@ -67,7 +68,7 @@ void FlatProgram::prepare(const motion::AxisMove& move) {
 /// Words of the axes that change; moves `at_` to what the decimals say.
 std::string FlatProgram::axis_words(const AxisPositions& to, bool all) {
     std::string words;
-    for (const kinematics::AxisGeometry& axis : setup_.machine.chain.axes()) {
+    for (const kinematics::AxisGeometry& axis : setup::all_machine_axes(setup_)) {
         const auto inside = [&](double v) { return axis.rotary ? rad_from_deg(v) : v; };
         const double wanted = axis.rotary ? deg_from_rad(to[axis.axis]) : to[axis.axis];
         const double scale = std::pow(10.0, decimals_);
@@ -105,7 +106,7 @@ void FlatProgram::block(const motion::AxisMove& move, const std::string& words) 
 /// By at least one digit.
 bool FlatProgram::moves(const AxisPositions& to) const {
     const double half = 0.5 * std::pow(10.0, -decimals_);
-    for (const kinematics::AxisGeometry& axis : setup_.machine.chain.axes())
+    for (const kinematics::AxisGeometry& axis : setup::all_machine_axes(setup_))
         if (std::abs(to[axis.axis] - at_[axis.axis]) >= (axis.rotary ? rad_from_deg(half) : half))
             return true;
     return false;

@@ -22,6 +22,7 @@ struct ControlAxis {
     std::optional<double> min, max;     ///< stored stroke limits, machine coordinates, mm or rad
     std::optional<double> rapid_speed;  ///< mm/s or rad/s
     std::optional<double> max_acceleration;  ///< mm/s^2 or rad/s^2
+    bool auxiliary = false;                  ///< moves neither work nor tool
 };
 
 struct ControlConfig {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/units.h"
+#include "offsets/axis_numbers.h"
 
 namespace trunnion::controller {
 
@@ -10,17 +11,8 @@ namespace {
 
 constexpr double default_corner_jump = 400.0;  // mm/min, deg/min: what handbooks set (assumed)
 
-/// Value of an axis parameter: the axis's own, or the one for all.
-std::optional<double> find_for_axis(const offsets::Parameters& parameters, int number,
-                                    int axis_number) {
-    const auto it = parameters.entry.find(number);
-    if (it == parameters.entry.end()) return std::nullopt;
-    const auto own = it->second.by_axis.find(axis_number);
-    if (own != it->second.by_axis.end()) return own->second;
-    return it->second.by_axis.empty() ? std::optional(it->second.value) : std::nullopt;
-}
 double for_axis(const offsets::Parameters& parameters, int number, int axis_number) {
-    return find_for_axis(parameters, number, axis_number).value_or(0.0);
+    return offsets::value_of_axis(parameters, number, axis_number).value_or(0.0);
 }
 
 void decode_axes(const offsets::Parameters& parameters, const ControlConfig& config,
@@ -57,7 +49,7 @@ void sort_axes(std::vector<ControlAxis>& axes, const offsets::Parameters& parame
         if (names != parameters.entry.end())
             for (const auto& [number, code] : names->second.by_axis)
                 if (static_cast<int>(code) == letter_of(axis.axis)) return number;
-        return 100 + static_cast<int>(index_of(axis.axis));
+        return (axis.auxiliary ? 200 : 100) + static_cast<int>(index_of(axis.axis));
     };
     std::stable_sort(axes.begin(), axes.end(),
                      [&](const ControlAxis& a, const ControlAxis& b) { return rank(a) < rank(b); });
@@ -68,12 +60,13 @@ void take_strokes(std::vector<ControlAxis>& axes, const offsets::Parameters& par
         ControlAxis& axis = axes[k];
         const double unit = axis.rotary ? rad_from_deg(1.0) : 1.0;
         const int number = static_cast<int>(k) + 1;
-        const auto top = find_for_axis(parameters, 1320, number);
-        const auto bottom = find_for_axis(parameters, 1321, number);
+        const auto top = offsets::value_of_axis(parameters, 1320, number);
+        const auto bottom = offsets::value_of_axis(parameters, 1321, number);
         const bool none = top && bottom && *top < *bottom;
         if (top) axis.max = none ? std::optional<double>() : *top * unit;
         if (bottom) axis.min = none ? std::optional<double>() : *bottom * unit;
-        if (const auto speed = find_for_axis(parameters, 1420, number); speed && *speed > 0.0)
+        if (const auto speed = offsets::value_of_axis(parameters, 1420, number);
+            speed && *speed > 0.0)
             axis.rapid_speed = *speed * unit / 60.0;
     }
 }
@@ -88,8 +81,9 @@ ControlSettings decode_settings(const offsets::Parameters& parameters,
     s.hurco = config.hurco;
     s.threading = config.threading;
     s.builder = config.builder;
-    s.has_rotary_axis = std::any_of(s.axes.begin(), s.axes.end(),
-                                    [](const ControlAxis& axis) { return axis.rotary; });
+    s.has_rotary_axis = std::any_of(s.axes.begin(), s.axes.end(), [](const ControlAxis& axis) {
+        return axis.rotary && !axis.auxiliary;
+    });
     s.g89_feeds_to_initial = config.g89_feeds_to_initial;
     s.tcp_frame = config.tcp_frame;
     if (config.dialect.generation == interpreter::ControlGeneration::fanuc_16i)

@@ -50,7 +50,8 @@ struct ControlSettings {
     std::array<std::array<double, axis_count>, 4> reference{};  ///< 1240-1243, mm and deg
 };
 
-/// Axis number of each letter: parameter 1020 where it is set, else X Y Z A B C U V W.
+/// Axis number of each letter: parameter 1020 where it is set, else X Y Z A B C U V W, auxiliary
+/// axes behind the others.
 void sort_axes(std::vector<ControlAxis>& axes, const offsets::Parameters& parameters);
 /// Strokes 1320, 1321 (mm, deg; the positive end below the negative one: no stroke) and rapid
 /// speeds 1420 (mm/min, deg/min) of axes in the order of their numbers, where the store has them.

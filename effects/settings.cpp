@@ -12,6 +12,7 @@
 #include "base/toml_reader.h"
 #include "base/units.h"
 #include "effects/effect_names.h"
+#include "emulator/control_compensation.h"
 
 namespace trunnion::effects {
 namespace {
@@ -220,6 +221,8 @@ void refuse_effect_name(const setup::Setup& setup, const std::string& name) {
 
 emulator::EffectModels active_models(const setup::Setup& setup) {
     emulator::EffectModels models;
+    if (auto compensation = emulator::control_compensation(setup))
+        models.push_back(std::move(compensation));
     if (setup.effects.empty()) return models;
     const Catalogue catalogue = make_catalogue(setup);
     for (const setup::EffectSetting& setting : setup.effects) {

@@ -24,7 +24,8 @@ setup::EffectSetting setting_of(const Effect& effect, const std::vector<double>&
 /// of the setup's file says it.
 [[noreturn]] void refuse_effect_name(const setup::Setup& setup, const std::string& name);
 
-/// Models of all effects that the setup switches on. Throws InputError for an unknown name.
+/// Models of all effects that the setup switches on, behind what its control compensates. Throws
+/// InputError for an unknown name.
 emulator::EffectModels active_models(const setup::Setup& setup);
 
 }  // namespace trunnion::effects

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/units.h"
+
 namespace trunnion::emulator {
 
 namespace {
@@ -19,30 +21,35 @@ std::vector<probe::Solid> walls(const setup::Body& body) {
             box({-out_x, -out_y, z - body.wall_mm}, {out_x, out_y, z})};
 }
 
-/// The machine on the move, read by a stylus that comes along it.
+/// The machine on the move, and the feeler that comes along it.
 class OnMove {
   public:
-    OnMove(const motion::AxisMove& move, const AxisSample& start, const Observer& observer)
-        : move_(move), start_(start), observer_(observer) {
+    OnMove(const motion::AxisMove& move, const AxisSample& start, const Feeler& feeler,
+           const Observer& observer)
+        : move_(move), start_(start), feeler_(feeler), observer_(observer) {
         const Vector3 way = move.parallel.linear(move.to) - move.parallel.linear(move.from);
         length_mm_ = way.norm();
-        contact_.device = records::Device::touch;
-        contact_.stylus = true;
+        if (!feeler.is_tool()) contact_.device = records::Device::touch;
+        contact_.stylus = !feeler.is_tool();
+        contact_.tip = feeler.is_tool();
         contact_.direction_M = length_mm_ > 0.0 ? Vector3(way / length_mm_) : Vector3::UnitZ();
         const kinematics::MachinePose poses = observer.nominal(start);
         contact_.direction_W = poses.pose_MW.rotation.transpose() * contact_.direction_M;
     }
 
-    Vector3 ball_W_mm(double s) const {
+    Vector3 middle_W_mm(double s) const {
         const PhysicalState state = observer_.at(sample(s), contact_);
-        const Vector3 tip_S = observer_.setup().probe->tip_S_mm + state.extra.tip_shift_mm;
+        const Vector3 tip_S = feeler_.middle_S_mm + state.extra.tip_shift_mm;
         return state.poses.pose_MW.inverse() * (state.poses.pose_MS * tip_S) -
                state.extra.work_shift_mm;
     }
     /// Pretravel: the skip comes later by this part of the move.
-    double later(double s) const {
+    double later(double s, const setup::Body& body) const {
         if (length_mm_ == 0.0) return 0.0;
-        return observer_.at(sample(s), contact_).extra.reading_mm / length_mm_;
+        const double later_mm = feeler_.is_tool()
+                                    ? mm_from_um(body.pretravel_um)
+                                    : observer_.at(sample(s), contact_).extra.reading_mm;
+        return later_mm / length_mm_;
     }
 
   private:
@@ -55,6 +62,7 @@ class OnMove {
 
     const motion::AxisMove& move_;
     const AxisSample& start_;
+    const Feeler& feeler_;
     const Observer& observer_;
     Contact contact_;
     double length_mm_ = 0.0;
@@ -62,10 +70,21 @@ class OnMove {
 
 }  // namespace
 
-std::vector<probe::Solid> solids_of(const setup::Body& body) {
+Feeler stylus_of(const setup::ProbeSettings& probe) {
+    return {probe.tip_S_mm, 0.5 * probe.ball_diameter_mm, 0.0};
+}
+
+Feeler feeler_of(const setup::PhysicalTool& tool, const motion::AxisMove& move,
+                 double spindle_rad) {
+    const bool turns = move.spindle_rpm != 0.0;
+    return {tool.tip_S_mm(spindle_rad, turns), tool.radius_mm(turns), tool.length_mm};
+}
+
+std::vector<probe::Solid> solids_of(const setup::Body& body, const Feeler& feeler) {
     const double radius = 0.5 * body.diameter_mm;
     const Vector3 half(0.5 * body.size_mm.x(), 0.5 * body.size_mm.y(), 0.0);
     const Vector3 low(0.0, 0.0, -body.height_mm);
+    if (feeler.is_tool() && body.kind != setup::Body::Kind::setter) return {};
     switch (body.kind) {
         case setup::Body::Kind::block:
             return {box({-half.x(), -half.y(), -body.size_mm.z()}, half)};
@@ -75,24 +94,30 @@ std::vector<probe::Solid> solids_of(const setup::Body& body) {
             return {{true, low, Vector3::Zero(), 0.0, radius}};
         case setup::Body::Kind::ring:
             return {{true, low, Vector3::Zero(), radius, radius + body.wall_mm}};
+        case setup::Body::Kind::setter: {
+            const double wider_mm = feeler.is_tool() ? feeler.radius_mm : 0.0;
+            const Vector3 reach(0.0, 0.0, -body.height_mm - feeler.length_mm);
+            return {{true, reach, Vector3::Zero(), 0.0, radius + wider_mm}};
+        }
     }
     return {};
 }
 
 std::optional<BodyTouch> touch_bodies(const motion::AxisMove& move, const AxisSample& start,
-                                      const Observer& observer) {
-    const OnMove on(move, start, observer);
-    const double radius_mm = 0.5 * observer.setup().probe->ball_diameter_mm;
+                                      const Feeler& feeler, const Observer& observer) {
+    const OnMove on(move, start, feeler, observer);
+    const double ball_mm = feeler.is_tool() ? 0.0 : feeler.radius_mm;
     std::optional<BodyTouch> first;
     for (const setup::Body& body : observer.setup().bodies) {
         const Pose pose_BW = body.pose_WB().inverse();
-        const std::vector<probe::Solid> solids = solids_of(body);
+        const std::vector<probe::Solid> solids = solids_of(body, feeler);
+        if (solids.empty()) continue;
         const auto s = probe::first_contact(
-            solids, [&](double t) { return Vector3(pose_BW * on.ball_W_mm(t)); }, radius_mm);
-        if (s && (!first || *s < first->contact_s)) first = {{*s, *s, body.name}};
+            solids, [&](double t) { return Vector3(pose_BW * on.middle_W_mm(t)); }, ball_mm);
+        if (s && (!first || *s < first->contact_s)) first = {{*s, *s, &body}};
     }
     if (!first) return first;
-    first->s = first->contact_s + on.later(first->contact_s);
+    first->s = first->contact_s + on.later(first->contact_s, *first->body);
     if (first->s > 1.0) return std::nullopt;
     first->s = std::max(0.0, first->s);
     return first;

@@ -7,6 +7,7 @@
 #include "base/units.h"
 #include "emulator/follow_move.h"
 #include "motion/tool_centre_point.h"
+#include "setup/control_axes.h"
 
 namespace trunnion::emulator {
 namespace {
@@ -14,9 +15,9 @@ namespace {
 /// Less is rounding of an axis that stands.
 constexpr double standing_rad = 1e-9;
 
-std::vector<Axis> axes_of(const kinematics::Chain& chain) {
+std::vector<Axis> axes_of(const std::vector<kinematics::AxisGeometry>& machine_axes) {
     std::vector<Axis> axes;
-    for (const kinematics::AxisGeometry& axis : chain.axes())
+    for (const kinematics::AxisGeometry& axis : machine_axes)
         if (is_letter(axis)) axes.push_back(axis.axis);
     return axes;
 }
@@ -62,17 +63,17 @@ MachineSink::MachineSink(const setup::Setup& setup, EffectModels effects,
       bar_(setup, options.seed ^ 0x5bd1e995u,  // another stream than the probe's
            options.automatic_ballbar),
       measure_(setup),
-      log_(axes_of(setup.machine.chain), setup.side_before, options.test),
+      log_(axes_of(setup.machine.chain.axes()), setup.side_before, options.test),
       history_(setup.side_before),
       test_(options.test) {
     for (const std::string& words : options.measure) measure_.obey(words, 0.0);
-    can_read_ =
-        setup.probe || setup.ballbar || !setup.artefacts.empty() || !options.measure.empty();
+    can_read_ = setup.probe || setup.ballbar || !setup.artefacts.empty() || !setup.tools.empty() ||
+                !options.measure.empty();
     for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
         has_rotary_ |= axis.rotary;
     if (has_rotary_) mode_ = plain_mode_ = PositioningMode::dpp;
     if (options.trace)
-        trace_.emplace(axes_of(setup.machine.chain), options.truth, options.trace_chunk);
+        trace_.emplace(axes_of(setup::control_axes(setup)), options.truth, options.trace_chunk);
 }
 
 void MachineSink::place(const AxisPositions& machine) {
@@ -210,7 +211,8 @@ motion::MoveResult MachineSink::move(const motion::AxisMove& move) {
     if (!read && bar_.running() && !bar_.commanded()) end_pass();
     const AxisPositions end = at_ = touch ? touch->stopped : move.to;
     clock_s_ += end_s * move.duration_s;
-    if (!read && !touch && can_read_) log_.passed(end, clock_s_, mode_);
+    const bool kept = touch && touch->row.device != records::Device::none;
+    if (!read && !kept && can_read_) log_.passed(end, clock_s_, mode_);
     if (options_.truth && !touch) follow(history_, move);
     if (options_.truth && touch) history_.advance(end);
     return {touch.has_value(), end, end_s};

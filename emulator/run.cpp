@@ -2,6 +2,7 @@
 
 #include "emulator/machine_sink.h"
 #include "emulator/measure_station.h"
+#include "setup/control_axes.h"
 
 namespace trunnion::emulator {
 namespace {
@@ -45,10 +46,9 @@ void append(std::vector<std::string>& to, std::vector<std::string> from) {
 
 controller::ControlConfig control_config(const setup::Setup& setup) {
     controller::ControlConfig config;
-    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
-        if (is_letter(axis))
-            config.axes.push_back({axis.axis, axis.rotary, axis.min, axis.max, axis.max_speed,
-                                   axis.max_acceleration});
+    for (const kinematics::AxisGeometry& axis : setup::control_axes(setup))
+        config.axes.push_back({axis.axis, axis.rotary, axis.min, axis.max, axis.max_speed,
+                               axis.max_acceleration, !setup.machine.chain.find(axis.axis)});
     config.dialect = setup.dialect;
     config.tcp_frame = setup.tcp_frame;
     config.work_positions_with_length = setup.work_positions_with_length;

@@ -7,8 +7,10 @@
 namespace trunnion::emulator {
 namespace {
 
-/// As offset T of the setup says; 0 for a tool that it does not know.
+/// As [tools] or offset T of the setup says; 0 for a tool that it does not know.
 double tool_length_mm(const setup::Setup& setup, int tool) {
+    if (const auto own = setup.tools.find(tool); own != setup.tools.end())
+        return own->second.length_mm;
     const auto& tools = setup.stores.tools.tool;
     const auto n = static_cast<std::size_t>(std::max(0, tool));
     return n == 0 || n >= tools.size() ? 0.0 : tools[n].length_mm();

@@ -7,9 +7,9 @@
 namespace trunnion::emulator {
 
 /// The physical tip in S during a move: the stylus when the setup's probe is in the spindle, else
-/// tool T, as long as offset T of the setup says, whatever H is in force. A tool that the setup
-/// does not know (none called, no length) is as long as the control believes. It points along Z of
-/// S, or as 19697 says: [machine] has no key for the spindle's direction.
+/// tool T, as long as [tools] or else offset T of the setup says, whatever H is in force. A tool
+/// that the setup does not know (none called, no length) is as long as the control believes. It
+/// points along Z of S, or as 19697 says: [machine] has no key for the spindle's direction.
 Vector3 physical_tip_S(const setup::Setup& setup, const motion::AxisMove& move,
                        double extension_mm = 0.0);
 

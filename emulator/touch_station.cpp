@@ -102,7 +102,14 @@ class Approach {
 
 }  // namespace
 
+const setup::PhysicalTool* TouchStation::tool_in_spindle(const motion::AxisMove& move) const {
+    const auto tool = setup_.tools.find(move.tool);
+    const bool is_probe = setup_.probe && move.tool == setup_.probe->tool;
+    return tool == setup_.tools.end() || is_probe ? nullptr : &tool->second;
+}
+
 bool TouchStation::mounted(const motion::AxisMove& move) const {
+    if (tool_in_spindle(move)) return true;
     if (!setup_.probe) return false;
     return setup_.probe->tool == 0 || move.tool == 0 || move.tool == setup_.probe->tool;
 }
@@ -110,6 +117,7 @@ bool TouchStation::mounted(const motion::AxisMove& move) const {
 std::optional<Touch> TouchStation::touch(const motion::AxisMove& move, records::Reading row,
                                          const Observer& observer, const ReadingLog& log) {
     std::optional<Touch> body = touch_body(move, row, observer, log);
+    if (tool_in_spindle(move)) return body;
     std::optional<Touch> sphere = touch_sphere(move, std::move(row), observer, log);
     return body && (!sphere || body->s < sphere->s) ? body : sphere;
 }
@@ -118,14 +126,18 @@ std::optional<Touch> TouchStation::touch(const motion::AxisMove& move, records::
 std::optional<Touch> TouchStation::touch_body(const motion::AxisMove& move, records::Reading row,
                                               const Observer& observer, const ReadingLog& log) {
     if (setup_.bodies.empty()) return std::nullopt;
-    row.commanded = move.from;
-    const auto found = touch_bodies(move, log.sample_of(row), observer);
+    row.commanded = move.to;
+    row.feed_mm_min = move.feed_mm_min;
+    const setup::PhysicalTool* tool = tool_in_spindle(move);
+    const Feeler feeler = tool ? feeler_of(*tool, move, row.spindle_rad) : stylus_of(*setup_.probe);
+    const auto found = touch_bodies(move, log.sample_of(row), feeler, observer);
     if (!found) return std::nullopt;
     Touch touch{found->s, {}, std::move(row)};
+    const double sigma_um = tool ? found->body->repeatability_um : setup_.probe->repeatability_um;
     if (const double length_mm =
             (move.parallel.linear(move.to) - move.parallel.linear(move.from)).norm();
-        length_mm > 0.0 && setup_.probe->repeatability_um > 0.0)
-        touch.s += mm_from_um(setup_.probe->repeatability_um) * noise_.normal() / length_mm;
+        length_mm > 0.0 && sigma_um > 0.0)
+        touch.s += mm_from_um(sigma_um) * noise_.normal() / length_mm;
     touch.s = std::clamp(touch.s, 0.0, 1.0);
     touch.stopped = move.at(touch.s);
     touch.row.device = records::Device::none;

@@ -1,4 +1,4 @@
-// The probe in the spindle, the spheres and bodies on the table: answers G31 moves.
+// Probe or tool in the spindle, spheres and bodies on the table: answers G31 moves.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,8 @@ class TouchStation {
     /// `setup` must outlive the station.
     TouchStation(const setup::Setup& setup, std::uint64_t seed) : setup_(setup), noise_(seed) {}
 
-    /// The probe is in the spindle: no tool called yet, or the one the setup names.
+    /// A touch can be felt: the probe is in the spindle (no tool called yet, or the one the setup
+    /// names), or a tool of [tools], which a setter feels.
     bool mounted(const motion::AxisMove& move) const;
     /// The first sphere or body that the stylus meets on the move; `row` holds what the shop set up
     /// and when the move started. The value is that of the row by the rules of a table; where the
@@ -30,6 +31,8 @@ class TouchStation {
                                const Observer& observer, const ReadingLog& log);
 
   private:
+    /// Of [tools]; nothing when the probe or an unknown tool is there.
+    const setup::PhysicalTool* tool_in_spindle(const motion::AxisMove& move) const;
     std::optional<Touch> touch_body(const motion::AxisMove& move, records::Reading row,
                                     const Observer& observer, const ReadingLog& log);
     std::optional<Touch> touch_sphere(const motion::AxisMove& move, records::Reading row,

@@ -24,6 +24,22 @@ int number_of_axis(Axis axis, const std::vector<Axis>& order) {
     return at == order.end() ? 0 : static_cast<int>(at - order.begin()) + 1;
 }
 
+int number_of_named_axis(const Parameters& parameters, Axis axis, const std::vector<Axis>& order) {
+    const auto names = parameters.entry.find(1020);
+    if (names != parameters.entry.end())
+        for (const auto& [number, code] : names->second.by_axis)
+            if (static_cast<int>(code) == letter_of(axis)) return number;
+    return number_of_axis(axis, order);
+}
+
+std::optional<double> value_of_axis(const Parameters& parameters, int parameter, int number) {
+    const auto it = parameters.entry.find(parameter);
+    if (it == parameters.entry.end()) return std::nullopt;
+    const auto own = it->second.by_axis.find(number);
+    if (own != it->second.by_axis.end()) return own->second;
+    return it->second.by_axis.empty() ? std::optional(it->second.value) : std::nullopt;
+}
+
 ParallelAxes parallel_axes(const Parameters& parameters, const std::vector<Axis>& order) {
     ParallelAxes out;
     const auto given = parameters.entry.find(1022);

@@ -17,6 +17,11 @@ std::optional<Axis> axis_of_number(const Parameters& parameters, int number,
 /// Number of an axis in that order (1020 is not read); 0 when it is not in it.
 int number_of_axis(Axis axis, const std::vector<Axis>& order);
 
+/// Number of an axis of that order: by 1020 where it names the axis.
+int number_of_named_axis(const Parameters& parameters, Axis axis, const std::vector<Axis>& order);
+/// Value of an axis parameter: the axis's own, or the one for all; nothing when it is absent.
+std::optional<double> value_of_axis(const Parameters& parameters, int parameter, int number);
+
 /// Parameter 1022 of U, V and W.
 ParallelAxes parallel_axes(const Parameters& parameters, const std::vector<Axis>& order);
 

@@ -9,6 +9,7 @@
 #include "python/loaded_setup.h"
 #include "python/signals.h"
 #include "report/run_report.h"
+#include "setup/control_axes.h"
 
 namespace trunnion::python {
 namespace py = pybind11;
@@ -69,7 +70,7 @@ FinishedRun run(const LoadedSetup& loaded, const RunRequest& request) {
     options.trace_chunk = [&out](std::string_view text) { out.trace.add(text); };
     emulator::RunLog log =
         emulator::run_program(loaded.setup, program.folders, program.program, options);
-    out.json = report::run_json(log, loaded.setup.machine.chain, program.folders.used());
+    out.json = report::run_json(log, setup::all_machine_axes(loaded.setup), program.folders.used());
     if (const auto& alarm = log.result.alarm)
         out.alarm_text = format_diagnostic(
             alarm->where, fmt::format("alarm {} {}", alarm->number, alarm->text), alarm->block);

@@ -27,9 +27,9 @@ Json alarm_json(const std::optional<Alarm>& alarm) {
             {"column", alarm->where.column},   {"block", alarm->block}};
 }
 
-Json position_json(const AxisPositions& q, const kinematics::Chain& chain) {
+Json position_json(const AxisPositions& q, const std::vector<kinematics::AxisGeometry>& axes) {
     Json out = Json::object();
-    for (const kinematics::AxisGeometry& axis : chain.axes()) {
+    for (const kinematics::AxisGeometry& axis : axes) {
         const double value = q[axis.axis];
         out[axis.name] = axis.rotary
                              ? parse_number(shortest_degrees(value)).value_or(deg_from_rad(value))
@@ -47,7 +47,7 @@ Json programs_json(const std::vector<interpreter::ProgramText>& programs) {
 
 }  // namespace
 
-std::string run_json(const emulator::RunLog& log, const kinematics::Chain& chain,
+std::string run_json(const emulator::RunLog& log, const std::vector<kinematics::AxisGeometry>& axes,
                      const std::vector<interpreter::ProgramText>& programs) {
     Json variables = Json::object();
     for (const auto& [number, value] : log.variables)
@@ -63,7 +63,7 @@ std::string run_json(const emulator::RunLog& log, const kinematics::Chain& chain
         {"time_s", r.time_s},
         {"path_mm", r.path_mm},
         {"final",
-         {{"machine", position_json(r.machine, chain)}, {"work", position_json(r.work, chain)}}},
+         {{"machine", position_json(r.machine, axes)}, {"work", position_json(r.work, axes)}}},
         {"modal", r.modal},
         {"variables", variables},
         {"programs", programs_json(programs)},

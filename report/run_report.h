@@ -9,7 +9,7 @@
 namespace trunnion::report {
 
 /// trunnion.run/1, one object; `programs`: the files that the run read, with their SHA-256.
-std::string run_json(const emulator::RunLog& log, const kinematics::Chain& chain,
+std::string run_json(const emulator::RunLog& log, const std::vector<kinematics::AxisGeometry>& axes,
                      const std::vector<interpreter::ProgramText>& programs);
 /// One line: status, blocks, moves, time, path.
 std::string run_summary(const emulator::RunLog& log);

@@ -16,7 +16,8 @@ struct KindRow {
 constexpr KindRow kinds[] = {{"block", Body::Kind::block, true, false},
                              {"pocket", Body::Kind::pocket, true, true},
                              {"boss", Body::Kind::boss, false, false},
-                             {"ring", Body::Kind::ring, false, true}};
+                             {"ring", Body::Kind::ring, false, true},
+                             {"setter", Body::Kind::setter, false, false}};
 
 const KindRow& row_of(Body::Kind kind) {
     return kinds[static_cast<std::size_t>(kind)];
@@ -27,7 +28,7 @@ const KindRow& read_kind(const TomlFile& file, const TomlValue& table) {
     if (!value) return kinds[0];
     for (const KindRow& row : kinds)
         if (file.text(*value) == row.name) return row;
-    file.fail(*value, "kind is \"block\", \"pocket\", \"boss\" or \"ring\"");
+    file.fail(*value, "kind is \"block\", \"pocket\", \"boss\", \"ring\" or \"setter\"");
 }
 
 void read_length(const TomlFile& file, const TomlValue& table, const char* key, bool belongs,
@@ -36,6 +37,20 @@ void read_length(const TomlFile& file, const TomlValue& table, const char* key, 
     if (!value) return;
     if (!belongs) file.fail(*value, std::string(key) + " does not belong to this kind");
     mm = file.positive(*value);
+}
+
+/// What a switch does to the reading; only a setter has a switch of its own.
+void read_signal(const TomlFile& file, const TomlValue& table, Body& body) {
+    const auto read = [&](const TomlValue* value, double& um) {
+        if (!value) return;
+        if (body.kind != Body::Kind::setter)
+            file.fail(*value,
+                      "pretravel_um and repeatability_um belong to a setter: [probe] has "
+                      "those of the probe");
+        um = file.number(*value);
+    };
+    read(table.find("pretravel_um"), body.pretravel_um);
+    read(table.find("repeatability_um"), body.repeatability_um);
 }
 
 Body read_body(const TomlFile& file, const TomlValue& table, const Setup& setup) {
@@ -59,6 +74,7 @@ Body read_body(const TomlFile& file, const TomlValue& table, const Setup& setup)
     read_length(file, table, "diameter_mm", !row.has_size, body.diameter_mm);
     read_length(file, table, "height_mm", !row.has_size, body.height_mm);
     read_length(file, table, "wall_mm", row.has_wall, body.wall_mm);
+    read_signal(file, table, body);
     return body;
 }
 
@@ -83,6 +99,9 @@ std::string body_text(const Body& body) {
         out += "diameter_mm = " + toml_number(body.diameter_mm) +
                "\nheight_mm = " + toml_number(body.height_mm) + '\n';
     if (row.has_wall) out += "wall_mm = " + toml_number(body.wall_mm) + '\n';
+    if (body.pretravel_um != 0.0) out += "pretravel_um = " + toml_number(body.pretravel_um) + '\n';
+    if (body.repeatability_um != 0.0)
+        out += "repeatability_um = " + toml_number(body.repeatability_um) + '\n';
     return out;
 }
 

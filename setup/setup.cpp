@@ -7,6 +7,7 @@
 #include "base/alarm.h"
 #include "base/read_file.h"
 #include "base/units.h"
+#include "setup/control_axes.h"
 #include "setup/hurco_keys.h"
 #include "setup/setup_reader.h"
 
@@ -30,6 +31,10 @@ void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
     if (const std::string wrong = believe_centrelines(setup, parameters); !wrong.empty())
         throw InputError("[control.hurco]: " + wrong, {setup.path, 0, 0});
     derive_fixture_groups(setup.machine, parameters);
+    if (const std::string axes = overcompensated_axes(setup); !axes.empty())
+        notes.push_back(setup.path + ": the control compensates backlash or pitch of " + axes +
+                        " (1851, 3620 on), which [machine] and [effects] do not have: what it "
+                        "adds is an error");
     std::size_t added = 0;
     for (const auto& [number, parameter] : parameters.entry) added += !given.contains(number);
     if (added > 0)

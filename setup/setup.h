@@ -18,6 +18,7 @@
 #include "offsets/stores.h"
 #include "positioning/tcp_frame.h"
 #include "setup/body.h"
+#include "setup/physical_tool.h"
 
 namespace trunnion::setup {
 
@@ -127,6 +128,9 @@ struct Setup {
     std::string path;  ///< of the file, for messages
     std::string chain_text;
     kinematics::Machine machine;
+    /// [machine] auxiliary: axes that carry neither work nor tool (pallet, tailstock). NC words
+    /// move them and their limits hold; no kinematics, no errors, no readings.
+    std::vector<kinematics::AxisGeometry> auxiliary;
     AxisSides side_before = came_travelling_plus();  ///< [machine] side: before the first move
     std::array<bool, axis_count> scale_encoder{};  ///< encoder = "scale": reads behind the backlash
     std::vector<EffectSetting> effects;            ///< backlash and pretravel keys too
@@ -147,6 +151,7 @@ struct Setup {
     std::optional<BallbarSettings> ballbar;
     std::vector<Artefact> artefacts;
     std::vector<Body> bodies;  ///< that G31 meets beside the spheres
+    PhysicalTools tools;       ///< [tools]: as they are, whatever the offsets say
     std::vector<Instrument> instruments;
     ModelSettings model;
     std::vector<SessionValues> sessions;

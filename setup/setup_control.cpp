@@ -1,9 +1,11 @@
 // [control]: dialect and stores of a setup file.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "base/numbers.h"
 #include "offsets/parameter_units.h"
+#include "setup/control_axes.h"
 #include "setup/hurco_keys.h"
 #include "setup/setup_reader.h"
 
@@ -84,11 +86,10 @@ double parameter_value(const TomlFile& file, const TomlValue& value) {
     return byte;
 }
 
-int axis_number(const std::string& key, const kinematics::Chain& chain) {
+int axis_number(const std::string& key, const Setup& setup) {
     if (const auto n = parse_number(key)) return *n >= 1 && *n <= 99 ? static_cast<int>(*n) : 0;
     int number = 0;
-    for (const kinematics::AxisGeometry& axis : chain.axes()) {
-        if (!is_letter(axis)) continue;
+    for (const kinematics::AxisGeometry& axis : control_axes(setup)) {
         ++number;
         if (key == axis.name) return number;
     }
@@ -97,7 +98,7 @@ int axis_number(const std::string& key, const kinematics::Chain& chain) {
 
 /// A value, or one for each axis: [..] in the control's order, { X = .., Y = .. } or { 1 = .. }.
 offsets::Parameter read_parameter(const TomlFile& file, const TomlValue& value,
-                                  const kinematics::Chain& chain) {
+                                  const Setup& setup) {
     offsets::Parameter parameter;
     if (value.kind == TomlValue::Kind::array) {
         for (std::size_t i = 0; i < value.items.size(); ++i)
@@ -105,7 +106,7 @@ offsets::Parameter read_parameter(const TomlFile& file, const TomlValue& value,
     } else if (value.kind == TomlValue::Kind::table) {
         for (const auto& [key, entry] : value.entries) {
             entry.used = true;
-            const int axis = axis_number(key, chain);
+            const int axis = axis_number(key, setup);
             if (axis < 1) file.fail(entry, "'" + key + "' is not an axis of this machine");
             parameter.by_axis[axis] = parameter_value(file, entry);
         }
@@ -120,7 +121,7 @@ void read_parameters(const TomlFile& file, const TomlValue& table, Setup& setup)
     for (const auto& [key, value] : file.table(table).entries) {
         value.used = true;
         const int number = whole_number(file, key, value, 0, 99999, "a parameter number");
-        setup.stores.parameters.entry[number] = read_parameter(file, value, setup.machine.chain);
+        setup.stores.parameters.entry[number] = read_parameter(file, value, setup);
         read.push_back(number);
     }
     // 1001 may stand anywhere, in the backup too.
@@ -150,16 +151,17 @@ void read_switch(const TomlFile& file, const TomlValue& control, const char* nam
 void read_clamps(const TomlFile& file, const TomlValue& table, Setup& setup) {
     for (const auto& [key, value] : file.table(table).entries) {
         value.used = true;
-        const auto axis = setup.machine.chain.names().find(key);
-        if (!axis || !is_letter(*setup.machine.chain.find(*axis)))
-            file.fail(value, "'" + key + "' is not an axis of this machine");
+        const auto axes = control_axes(setup);
+        const auto axis = std::find_if(axes.begin(), axes.end(),
+                                       [&name = key](const auto& a) { return a.name == name; });
+        if (axis == axes.end()) file.fail(value, "'" + key + "' is not an axis of this machine");
         const auto code = [&, &codes = value](const char* name, int otherwise) {
             const double m = file.find_number(file.table(codes), name).value_or(otherwise);
             if (m < 0 || m > 999 || m != static_cast<int>(m))
                 file.fail(codes, std::string(name) + " is an M code, 0 to 999");
             return static_cast<int>(m);
         };
-        controller::ClampCode clamp{*axis, code("clamp", 10), code("release", 11), true};
+        controller::ClampCode clamp{axis->axis, code("clamp", 10), code("release", 11), true};
         read_switch(file, value, "alarm", clamp.alarm);
         setup.clamps.push_back(clamp);
     }

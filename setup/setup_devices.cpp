@@ -4,6 +4,7 @@
 #include "setup/body_keys.h"
 #include "setup/session_keys.h"
 #include "setup/setup_reader.h"
+#include "setup/tool_keys.h"
 
 namespace trunnion::setup {
 namespace {
@@ -117,6 +118,7 @@ void read_devices(const TomlFile& file, Setup& setup) {
     if (const TomlValue* table = root.find("ballbar")) read_ballbar(file, *table, setup);
     read_artefacts(file, setup);
     read_bodies(file, setup);
+    read_physical_tools(file, setup);
     read_instruments(file, setup);
     read_sessions(file, setup);
     if (const TomlValue* table = root.find("model"))

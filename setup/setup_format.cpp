@@ -10,6 +10,7 @@
 #include "setup/session_keys.h"
 #include "setup/setup.h"
 #include "setup/toml_text.h"
+#include "setup/tool_keys.h"
 
 namespace trunnion::setup {
 namespace {
@@ -62,10 +63,8 @@ std::string curve_text(const kinematics::ErrorCurve& curve, bool rotary) {
     return "{ " + out + " }";
 }
 
-std::string axis_text(const kinematics::AxisGeometry& axis) {
-    std::string out = "\n[machine.axis." + axis.name + "]\n";
-    out += "direction = " + toml_numbers(axis.direction) + '\n';
-    if (axis.rotary) out += "point_mm = " + toml_numbers(axis.point_mm) + '\n';
+std::string travel_text(const kinematics::AxisGeometry& axis) {
+    std::string out;
     if (axis.min && axis.max)
         out += std::string(axis.rotary ? "limits_deg" : "limits_mm") + " = [" +
                position(axis.rotary, *axis.min) + ", " + position(axis.rotary, *axis.max) + "]\n";
@@ -76,6 +75,17 @@ std::string axis_text(const kinematics::AxisGeometry& axis) {
         out += std::string(axis.rotary ? "accel_deg_s2" : "accel_mm_s2") + " = " +
                position(axis.rotary, *axis.max_acceleration) + '\n';
     return out;
+}
+
+std::string axis_text(const kinematics::AxisGeometry& axis) {
+    return "\n[machine.axis." + axis.name + "]\ndirection = " + toml_numbers(axis.direction) +
+           '\n' + (axis.rotary ? "point_mm = " + toml_numbers(axis.point_mm) + '\n' : "") +
+           travel_text(axis);
+}
+
+std::string auxiliary_text(const std::vector<kinematics::AxisGeometry>& axes) {
+    const auto quoted = [](const kinematics::AxisGeometry& axis) { return toml_quoted(axis.name); };
+    return axes.empty() ? "" : "auxiliary = " + toml_list(axes, quoted) + '\n';
 }
 
 std::string axis_error_text(const kinematics::AxisGeometry& axis,
@@ -117,7 +127,8 @@ std::string sides_text(const Setup& setup) {
 std::string machine_text(const Setup& setup) {
     std::string out =
         "schema = \"trunnion.setup/1\"\n\n[machine]\nname = " + toml_quoted(setup.name) +
-        "\nchain = " + toml_quoted(setup.chain_text) + '\n' + sides_text(setup);
+        "\nchain = " + toml_quoted(setup.chain_text) + '\n' + auxiliary_text(setup.auxiliary) +
+        sides_text(setup);
     std::string errors;
     for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes()) {
         const kinematics::AxisErrors& own = setup.machine.errors.axis[index_of(axis.axis)];
@@ -125,6 +136,9 @@ std::string machine_text(const Setup& setup) {
         if (setup.scale_encoder[index_of(axis.axis)]) out += "encoder = \"scale\"\n";
         errors += axis_error_text(axis, own);
     }
+    for (const kinematics::AxisGeometry& axis : setup.auxiliary)
+        if (const std::string travel = travel_text(axis); !travel.empty())
+            out += "\n[machine.axis." + axis.name + "]\n" + travel;
     errors += spindle_error_text(setup.machine.errors.spindle);
     return errors.empty() ? out : out + "\n[machine.errors]\n" + errors;
 }
@@ -339,6 +353,7 @@ std::string format_setup(const Setup& setup) {
     if (setup.ballbar) out += ballbar_text(*setup.ballbar);
     for (const Artefact& artefact : setup.artefacts) out += artefact_text(artefact);
     for (const Body& body : setup.bodies) out += body_text(body);
+    out += physical_tools_text(setup.tools);
     for (const Instrument& instrument : setup.instruments) out += instrument_text(instrument);
     for (const SessionValues& session : setup.sessions) out += session_text(session);
     return out + model_text(setup.model, setup.machine.chain.names());

@@ -1,6 +1,7 @@
 // [machine]: chain, axes and geometric errors of a setup file.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/units.h"
@@ -112,9 +113,43 @@ void read_sides(const TomlFile& file, const TomlValue& sides, Setup& setup) {
     }
 }
 
+/// Letters beside the chain.
+void read_auxiliary(const TomlFile& file, const TomlValue& names, Setup& setup) {
+    for (const std::string& name : file.texts(names)) {
+        const auto axis = name.size() == 1 ? axis_of(name[0]) : std::nullopt;
+        if (!axis) file.fail(names, "an auxiliary axis is one of X Y Z A B C U V W");
+        const auto twice = [&](const auto& other) { return other.axis == *axis; };
+        if (setup.machine.chain.find(*axis) ||
+            std::any_of(setup.auxiliary.begin(), setup.auxiliary.end(), twice))
+            file.fail(names, "axis " + name + " stands twice, in the chain or here");
+        kinematics::AxisGeometry geometry;
+        geometry.axis = *axis;
+        geometry.name = name;
+        geometry.rotary = is_rotary(*axis);
+        setup.auxiliary.push_back(geometry);
+    }
+}
+
+/// Travel and speeds only.
+bool read_auxiliary_axis(const TomlFile& file, const std::string& name, const TomlValue& table,
+                         Setup& setup) {
+    for (kinematics::AxisGeometry& axis : setup.auxiliary) {
+        if (axis.name != name) continue;
+        for (const char* key : {"direction", "point_mm", "encoder", "backlash_mm", "backlash_rad"})
+            if (const TomlValue* value = file.table(table).find(key))
+                file.fail(*value, "axis " + name + " is auxiliary: it has travel and speeds only");
+        read_kind(file, table, axis);
+        read_limits(file, table, axis);
+        read_dynamics(file, table, axis);
+        return true;
+    }
+    return false;
+}
+
 void read_axes(const TomlFile& file, const TomlValue& axes, Setup& setup) {
     for (const auto& [name, value] : file.table(axes).entries) {
         value.used = true;
+        if (read_auxiliary_axis(file, name, value, setup)) continue;
         kinematics::AxisGeometry* axis = find_axis(setup.machine.chain, name);
         if (!axis) file.fail(value, "axis " + name + " does not stand in the chain");
         const std::size_t k = index_of(axis->axis);
@@ -230,6 +265,7 @@ void read_machine(const TomlFile& file, const TomlValue& machine, Setup& setup) 
     } catch (const InputError& error) {
         file.fail(*chain, error.message);
     }
+    if (const TomlValue* names = machine.find("auxiliary")) read_auxiliary(file, *names, setup);
     const TomlValue* axes = machine.find("axis");
     check_axes(file, *chain, axes, setup.machine.chain);
     if (axes) {

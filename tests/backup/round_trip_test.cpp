@@ -175,7 +175,8 @@ TEST_CASE("the table of parameters rises and says what becomes of each") {
         last = row.last;
     }
     CHECK(backup::standing_of_parameter(19703) == backup::Standing::obeyed);
-    CHECK(backup::standing_of_parameter(1851) == backup::Standing::known);
+    CHECK(backup::standing_of_parameter(1851) == backup::Standing::obeyed);
+    CHECK(backup::standing_of_parameter(1852) == backup::Standing::known);
     CHECK(backup::standing_of_parameter(2020) == backup::Standing::ignored);
     CHECK(backup::standing_of_file("TOOLOFST.TXT") == backup::Standing::obeyed);
     CHECK(backup::standing_of_file("SRAM.BIN") == backup::Standing::ignored);

@@ -6,6 +6,7 @@
 
 #include "base/alarm.h"
 #include "base/units.h"
+#include "effects/settings.h"
 #include "emulator/run.h"
 #include "interpreter/program_folders.h"
 
@@ -43,6 +44,7 @@ std::map<int, double> probed(const setup::Setup& setup, const std::string& start
         std::make_shared<const std::string>("%\nO1\nG90G21G17G54\nG43H1Z100.\nG0" + start +
                                             "\n#170=3.\n" + call + "\nM30\n" + shipped().substr(2));
     emulator::RunOptions options;
+    options.effects = effects::active_models(setup);
     for (int n = 135; n <= 143; ++n) options.wanted_variables.push_back(n);
     const emulator::RunLog log =
         emulator::run_program(setup, none, interpreter::ProgramText{"t.nc", *text, text}, options);
@@ -133,6 +135,70 @@ TEST_CASE("a ring tilted in the table's frame reads as its section does") {
     const double c = std::cos(rad_from_deg(3.0));
     const auto y = probed(ring, "X0Y0.\nZ-20.", "G65P8412Y50.F100.");
     CHECK(std::abs(y.at(138) - (44.0 / c + 6.0)) < exact);
+}
+
+TEST_CASE("pretravel: bores read larger, bosses smaller, by twice the way") {
+    const std::string effect = "[effects]\n\"probe.radius\" = { radius_mm = -0.008 }\n";
+    const auto bore = probed(mill("[[body]]\nname = \"r\"\nkind = \"ring\"\ncenter_mm = [0, 0, "
+                                  "0]\ndiameter_mm = 50\n" +
+                                  effect),
+                             "X0.5Y0.3\nZ-10.", "G65P8414D50.F100.");
+    CHECK(std::abs(bore.at(138) - 50.016) < exact);
+    CHECK(std::abs(bore.at(135)) < exact);
+    const auto boss = probed(mill("[[body]]\nname = \"b\"\nkind = \"boss\"\ncenter_mm = [0, 0, "
+                                  "0]\ndiameter_mm = 25\n" +
+                                  effect),
+                             "X0.Y0.Z15.", "G65P8414D25.Z-8.F100.");
+    CHECK(std::abs(boss.at(138) - 24.984) < exact);
+    const auto top = probed(
+        mill("[[body]]\nname = \"b\"\ncenter_mm = [0, 0, -5]\nsize_mm = [40, 30, 25]\n" + effect),
+        "X0Y0Z10.", "G65P8411Z-4.5F100.");
+    CHECK(std::abs(top.at(137) + 5.008) < exact);
+}
+
+TEST_CASE("a lagging drive: a bore reads larger by the gap, a web smaller, the middle is right") {
+    // Each touch comes from the side it moves to: the axis stands short by half of 12 um.
+    const std::string lag = "axis.X = { direction = [1, 0, 0], backlash_mm = -0.012 }\n";
+    const auto with_lag = [&](const std::string& body) {
+        std::vector<std::string> notes;
+        return setup::parse_setup(
+            "schema = \"trunnion.setup/1\"\n[machine]\nchain = \"w b X Y Z "
+            "t\"\n" +
+                lag +
+                "[control.tools]\n1 = { length_mm = 150.0 }\n[probe]\n"
+                "tip_mm = [0, 0, -150]\nball_diameter_mm = 6.0\n" +
+                body,
+            "t.toml", notes);
+    };
+    const auto bore = probed(with_lag("[[body]]\nname = \"p\"\nkind = \"pocket\"\ncenter_mm = [10, "
+                                      "20, 0]\nsize_mm = [40, 30, 25]\n"),
+                             "X11.Y19.\nZ-10.", "G65P8412X40.F100.");
+    CHECK(std::abs(bore.at(138) - 40.012) < exact);
+    CHECK(std::abs(bore.at(135) - 10.0) < exact);
+    const auto web = probed(
+        with_lag("[[body]]\nname = \"w\"\ncenter_mm = [10, 20, -5]\nsize_mm = [40, 30, 25]\n"),
+        "X11.Y19.Z10.", "G65P8412X40.Z-15.F100.");
+    CHECK(std::abs(web.at(138) - 39.988) < exact);
+    CHECK(std::abs(web.at(135) - 10.0) < exact);
+}
+
+TEST_CASE("axes out of square and too long: faces and bores as the machine sees them") {
+    // EC0Y leans the way of Y: the tip stands at (x - y sin, y cos). A face across X is met at
+    // x + y sin, one across Y at the same y everywhere.
+    const double g = 1e-3;
+    const setup::Setup leans =
+        mill("[[body]]\nname = \"b\"\ncenter_mm = [0, 0, 0]\nsize_mm = [80, 60, 20]\n",
+             "[0, 0, -150]", "errors.EC0Y_rad = 1e-3\n");
+    const auto corner = probed(leans, "X-60.Y-50.\nZ-10.", "G65P8416X-39.Y-31.I10.J10.Q15.F100.");
+    CHECK(std::abs(corner.at(143) - deg_from_rad(std::atan(std::sin(g)))) < exact);
+    CHECK(std::abs(corner.at(139)) < exact);
+    const double s = 300e-6;
+    const setup::Setup longer =
+        mill("[[body]]\nname = \"r\"\nkind = \"ring\"\ncenter_mm = [30, 0, 0]\ndiameter_mm = 50\n",
+             "[0, 0, -150]", "errors.EXX_mm = { slope = 300e-6 }\n");
+    const auto bore = probed(longer, "X30.Y0.\nZ-10.", "G65P8412X50.F100.");
+    CHECK(std::abs(bore.at(138) - (44.0 / (1.0 + s) + 6.0)) < exact);
+    CHECK(std::abs(bore.at(135) - 30.0 / (1.0 + s)) < exact);
 }
 
 TEST_CASE("a protected move stops with an alarm where something stands in the way") {

@@ -69,4 +69,60 @@ TEST_CASE("strokes and rapid speeds of the parameters are those of the machine")
     CHECK(again.machine.chain.find(Axis::X)->max == 400.0);
 }
 
+TEST_CASE("a backup of a mill without rotary axes makes a setup that loads and runs") {
+    offsets::Stores stores;
+    stores.parameters.entry[1020].by_axis = {{1, 88.0}, {2, 89.0}, {3, 90.0}, {4, 87.0}};
+    stores.parameters.entry[1320].by_axis = {{1, 400.0}, {2, 200.0}, {3, 0.0}, {4, 900.0}};
+    stores.parameters.entry[1321].by_axis = {{1, -400.0}, {2, -200.0}, {3, -500.0}, {4, 0.0}};
+    stores.parameters.entry[1420].by_axis = {{1, 30000.0}, {2, 30000.0}, {3, 24000.0}};
+    stores.parameters.entry[1851].by_axis = {{1, 12.0}, {2, 0.0}, {3, 3.0}};
+    stores.work.standard[0][Axis::Z] = -300.0;
+    stores.tools.tool[2].length_geometry_mm = 120.0;
+    const setup::Setup s = setup::setup_of_control(stores, "stick");
+    CHECK(s.chain_text == "w b X Y Z t");
+    REQUIRE(s.auxiliary.size() == 1);  // 1022 does not say that W runs beside Z
+    CHECK(s.auxiliary[0].max == 900.0);
+    std::vector<std::string> notes;
+    const setup::Setup again = setup::parse_setup(setup::format_setup(s), "again.toml", notes);
+    for (const std::string& note : notes) CHECK(note.find("compensates") == std::string::npos);
+    CHECK(again.machine.chain.find(Axis::Z)->min == -500.0);
+    CHECK(again.stores.tools.tool[2].length_mm() == 120.0);
+    CHECK(again.stores.work.standard[0][Axis::Z] == -300.0);
+    CHECK(setup::format_setup(again) == setup::format_setup(s));
+    // The errors that the control compensates are those of the machine: Y has none.
+    REQUIRE(again.effects.size() == 2);
+    CHECK(again.effects[0].name == "X.backlash");
+    CHECK(again.effects[0].parameters.at("gap_mm")[0] == Approx(-0.012));
+    CHECK(again.effects[1].parameters.at("gap_mm")[0] == Approx(-0.003));
+}
+
+TEST_CASE("1022 places W beside Z, and pitch data become an error of the machine") {
+    offsets::Stores stores = table_stores();
+    stores.parameters.entry[1020].by_axis = {{1, 88.0}, {2, 89.0}, {3, 90.0},
+                                             {4, 66.0}, {5, 67.0}, {6, 87.0}};
+    stores.parameters.entry[1022].by_axis = {{1, 1.0}, {2, 2.0}, {3, 3.0}, {6, 7.0}};
+    for (const auto& [number, first] : {std::pair{2, 10.0}, std::pair{5, 50.0}}) {
+        stores.parameters.entry[3620].by_axis[number] = first;
+        stores.parameters.entry[3621].by_axis[number] = first;
+        stores.parameters.entry[3622].by_axis[number] = first + 2.0;
+        stores.parameters.entry[3624].by_axis[number] = number == 2 ? 100.0 : 180.0;
+    }
+    stores.parameters.set(10011, 3.0);
+    stores.parameters.set(10051, 4.0);
+    stores.parameters.set(10052, -4.0);
+    const setup::Setup s = setup::setup_of_control(stores, "stick");
+    CHECK(s.chain_text == "w C B b W X Y Z t");
+    CHECK(s.machine.chain.find(Axis::W)->direction == Vector3::UnitZ());
+    const auto& errors = s.machine.errors.axis;
+    CHECK(errors[index_of(Axis::Y)].motion[1](100.0) == Approx(-0.003));
+    // A + command turns the table about -Z: the error about + Z is the datum itself.
+    const double at_half = errors[index_of(Axis::C)].motion[5](rad_from_deg(180.0));
+    CHECK(at_half == Approx(s.machine.chain.find(Axis::C)->direction.z() < 0.0
+                                ? rad_from_deg(0.004)
+                                : -rad_from_deg(0.004)));
+    std::vector<std::string> notes;
+    const setup::Setup again = setup::parse_setup(setup::format_setup(s), "again.toml", notes);
+    CHECK(setup::format_setup(again) == setup::format_setup(s));
+}
+
 }  // namespace trunnion

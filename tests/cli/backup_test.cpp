@@ -1,0 +1,87 @@
+// trunnion backup, and run with a backup, as a user calls them.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/command_bench.h"
+
+namespace {
+
+std::string punched(std::string text) {
+    std::string out;
+    for (const char c : text) out += c == '\n' ? std::string("\n\r\r") : std::string(1, c);
+    return out;
+}
+
+/// A three-axis mill with a pallet axis W whose place no parameter tells.
+struct Bench : CommandBench {
+    Bench() {
+        std::filesystem::create_directories(path / "bk");
+        write("bk/CNC-PARA.TXT",
+              punched("%(CNCID=3C7B5D01,F6914B1A)\nN01020Q1A1P88A2P89A3P90A4P87 \nN06071Q1L1P6 \n"
+                      "N01320Q1A1M500.0A2M300.0A3M0.0A4M900.0 \n"
+                      "N01321Q1A1M-500.0A2M-300.0A3M-600.0A4M0.0 \n"
+                      "N01420Q1A1M30000.0A2M30000.0A3M24000.0A4M6000.0 \n"
+                      "N01241Q1A1M0.0A2M0.0A3M-10.0A4M0.0 \nN01851Q1A1P12A2P0A3P4A4P0 \n"
+                      "N03620Q1A1P10 \nN03621Q1A1P10 \nN03622Q1A1P12 \nN03624Q1A1M100.0 \n%"));
+        write("bk/PITCH.TXT", punched("%\nN10011Q0P-3 \nN10012Q0P2 \n%"));
+        write("bk/ALL-FLDR.TXT",
+              punched("%\n&F=/MTB1/\nO9001(TOOL*CHANGE)\n#1=#4001\nG91G30P2Z0\nG31\nG#1\n"
+                      "#100=#100+1\nM99\n%"));
+        write("bk/SRAM.BIN", "x");
+        write("main.nc", "%\nO1\nG90G54\nT3M6\nG0X10.W800.\nM30\n");
+    }
+};
+
+}  // namespace
+
+TEST_CASE("backup load says what becomes of each value and file") {
+    const Bench bench;
+    REQUIRE(bench.trunnion("backup load " + bench.file("bk")) == 0);
+    const std::string out = bench.read("out.txt");
+    CHECK_THAT(out, Catch::Contains("1851 X\t12\tobeyed"));
+    CHECK_THAT(out, Catch::Contains("10011\t-3\tobeyed"));
+    CHECK_THAT(out, Catch::Contains("1420 W\t6000.0\tobeyed"));
+    CHECK_THAT(out, Catch::Contains("SRAM.BIN\t\t\tignored"));
+}
+
+TEST_CASE("the setup of a three-axis mill's backup loads, and its control compensates to nothing") {
+    const Bench bench;
+    const std::string setup = bench.file("mill.toml");
+    REQUIRE(bench.trunnion("backup load " + bench.file("bk") + " --setup-out " + setup) == 0);
+    REQUIRE(bench.trunnion("run " + bench.file("main.nc") + " --setup " + setup + " --programs " +
+                           bench.file("bk") + " --truth --trace " + bench.file("t.csv") +
+                           " --json --vars 100") == 0);
+    const auto run = nlohmann::json::parse(bench.read("out.txt"));
+    CHECK(run["final"]["machine"]["W"] == 800.0);
+    CHECK(run["final"]["machine"]["Z"] == -10.0);
+    CHECK(run["variables"]["100"] == 1.0);
+    CHECK(bench.read("err.txt").find("compensates") == std::string::npos);
+    // The tip stands where the control believes: X 10 exactly, though both have errors.
+    const std::string trace = bench.read("t.csv");
+    const std::string last = trace.substr(trace.rfind('\n', trace.size() - 2) + 1);
+    CHECK_THAT(trace, Catch::Contains("w_mm"));
+    std::stringstream cells(last);
+    std::vector<std::string> cell;
+    for (std::string c; std::getline(cells, c, ',');) cell.push_back(c);
+    CHECK(std::abs(std::stod(cell[cell.size() - 3]) - 10.0) < 1e-9);
+    // Without the machine's own errors the control's compensation shows, and is noted.
+    bench.write("plain.toml",
+                "[machine]\nchain = \"w b X Y Z t\"\nauxiliary = [\"W\"]\n[control]\n"
+                "backup = \"bk\"\n");
+    REQUIRE(bench.trunnion("run " + bench.file("main.nc") + " --setup " + bench.file("plain.toml") +
+                           " --programs " + bench.file("bk")) == 0);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("compensates backlash or pitch of X, Z"));
+}
+
+TEST_CASE("run --control finds the programs in the control's memory") {
+    const Bench bench;
+    bench.write("plain.toml", "[machine]\nchain = \"w b X Y Z t\"\nauxiliary = [\"W\"]\n");
+    const std::string words = "run " + bench.file("main.nc") + " --setup " +
+                              bench.file("plain.toml") + " --control " + bench.file("bk");
+    REQUIRE(bench.trunnion(words + " --vars 100") == 0);
+    CHECK_THAT(bench.read("out.txt"), Catch::Contains("#100 = 1"));
+    bench.write("far.nc", "%\nO1\nG90G0X500.5\nM30\n");
+    CHECK(bench.trunnion("run " + bench.file("far.nc") + " --setup " + bench.file("plain.toml") +
+                         " --control " + bench.file("bk")) == 3);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("OVERTRAVEL"));
+}
