@@ -9,6 +9,7 @@
 
 #include "base/alarm.h"
 #include "base/read_file.h"
+#include "interpreter/line_scan.h"
 
 namespace trunnion::interpreter {
 namespace fs = std::filesystem;
@@ -45,16 +46,16 @@ std::optional<int> number_of_file(const fs::path& path) {
     return length == stem.size() ? number : std::nullopt;
 }
 
+/// A picture or an executable without an ending is no program, whatever its lines begin with.
+bool is_text(std::string_view text) {
+    return text.substr(0, 4096).find('\0') == std::string_view::npos;
+}
+
 /// Calls `found` with the number of every program that begins in `text`.
 void programs_in(std::string_view text, const std::function<void(int)>& found) {
-    for (std::size_t i = 0; i < text.size();) {
-        const std::string_view line = text.substr(i);
-        if (line[0] == 'O' || line[0] == 'o' || line[0] == ':')
-            if (const auto number = leading_number(line.substr(1))) found(*number);
-        const std::size_t end = line.find('\n');
-        if (end == std::string_view::npos) return;
-        i += end + 1;
-    }
+    for (LineScan scan(text, start_of_text(text)); scan.next();)
+        if (scan.head().kind == LineKind::program && *scan.head().content != '<')
+            found(scan.head().number);
 }
 
 }  // namespace
@@ -120,8 +121,8 @@ const std::string* ProgramFolders::path_of(Shelf& shelf, int o_number) {
     if (!std::exchange(shelf.scanned, true))
         for (const std::string& path : shelf.files)
             if (has_program_ending(path))
-                programs_in(read_program(path).text,
-                            [&](int n) { shelf.by_content.emplace(n, path); });
+                if (const ProgramText file = read_program(path); is_text(file.text))
+                    programs_in(file.text, [&](int n) { shelf.by_content.emplace(n, path); });
     const auto held = shelf.by_content.find(o_number);
     return held != shelf.by_content.end() ? &held->second : nullptr;
 }

@@ -46,6 +46,26 @@ TEST_CASE("the user's folders are searched whole before the shipped ones") {
     CHECK_THAT(programs.announcements()[0], Catch::StartsWith("O777 is a shipped program ("));
 }
 
+TEST_CASE("programs of a file that a control punched: LF CR CR ends its lines") {
+    const Folder folder;
+    folder.write("ALL-FLDR.TXT",
+                 "%\n\r\r&F=/MTB1/\n\r\rO9001(TOOL)\n\r\rM99\n\r\rO9810\n\r\rM99\n\r\r%");
+    interpreter::ProgramFolders programs({folder.path.string()});
+    CHECK(programs.find(9001));
+    CHECK(programs.find(9810));
+    CHECK_FALSE(programs.find(9811));
+}
+
+TEST_CASE("a file with zero bytes is no program, whatever its lines begin with") {
+    const Folder folder;
+    folder.write("tool", std::string("\x7f"
+                                     "ELF\0\0\nO555\nM99\n",
+                                     18));
+    interpreter::ProgramFolders programs({folder.path.string()});
+    CHECK_FALSE(programs.find(555));
+    CHECK(programs.find(101));
+}
+
 TEST_CASE("programs are found by file name, then by what the files hold") {
     const Folder folder;
     interpreter::ProgramFolders programs({folder.path.string(), (folder.path / "b").string()});
