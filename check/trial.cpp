@@ -58,9 +58,10 @@ void add_alarm(const Alarm& alarm, const CheckSection& section, const interprete
     found.column = std::max(1, alarm.where.column);
     const std::string title = options.alarm_text ? options.alarm_text(alarm.number)
                                                  : fmt::format("alarm {}", alarm.number);
+    // What the alarm says behind the text of its number: "+ OVERTRAVEL ( SOFT 1 ) X".
+    const std::string text = title.substr(std::min(title.size(), title.find(' ') + 1));
     found.text = "a run stops here: " + title;
-    if (const auto at = alarm.text.find(" ("); at != std::string::npos)
-        found.text += alarm.text.substr(at);
+    if (alarm.text.starts_with(text)) found.text += alarm.text.substr(text.size());
     found.remedy = "Correct the block, or the state in which it is reached.";
     findings.add(std::move(found));
 }

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -23,6 +25,7 @@
 #include "controller/hurco_codes.h"
 #include "emulator/run.h"
 #include "inputs/program_choice.h"
+#include "inputs/shipped.h"
 #include "interpreter/program_folders.h"
 #include "regression/suite.h"
 #include "report/findings_page.h"
@@ -163,27 +166,96 @@ void run_without_devices(const setup::Setup& setup, const interpreter::ProgramTe
          row != nullptr ? row->remedy : ""});
 }
 
-int check(const CheckCommand& c) {
-    const setup::Setup setup = open_setup(c.setup);
-    const std::vector<std::string> files = files_of(c.paths);
-    SetupRules rules(setup);
-    std::vector<check::Finding> findings;
-    std::optional<setup::Setup> other;
-    if (!c.against.empty()) other = other_reading(setup, c.against);
-    for (const std::string& file : files) {
-        const interpreter::ProgramText program = interpreter::read_main_program(file);
-        interpreter::ProgramFolders programs = inputs::folders_of_file(program, c.folders);
+/// A machine that programs are checked on, with what is worked out once for all of them.
+struct CheckedMachine {
+    setup::Setup setup;
+    SetupRules rules{setup};
+    std::optional<setup::Setup> other;  ///< of --against
+
+    CheckedMachine(setup::Setup setup_, const std::string& against) : setup(std::move(setup_)) {
+        if (!against.empty()) other = other_reading(setup, against);
+    }
+
+    /// What shows without running it.
+    std::vector<check::Finding> read(const interpreter::ProgramText& program,
+                                     interpreter::ProgramFolders& programs) {
         check::CheckOptions options = rules.options();
         options.finds_program = [&](int number) { return programs.find(number).has_value(); };
         options.finds_named = [&](const std::string& name) {
             return programs.find(std::string_view(name)).has_value();
         };
-        const auto found = check::check_program(program, options);
+        return check::check_program(program, options);
+    }
+};
+
+bool names_strange_axis(const std::vector<check::Finding>& findings) {
+    return std::any_of(findings.begin(), findings.end(), [](const check::Finding& f) {
+        return f.rule == "alarm" && f.text.find("PS0009") != std::string::npos;
+    });
+}
+
+/// "(.. SETUP NAME)" in a program's head: the shipped machine of that name, else empty.
+std::string machine_named_in(std::string_view text) {
+    constexpr std::string_view key = "SETUP ";
+    const std::string_view head = text.substr(0, 400);
+    const std::size_t at = head.find(key);
+    std::string name;
+    for (std::size_t i = at + key.size(); at != head.npos && i < head.size(); ++i) {
+        const auto c = static_cast<unsigned char>(head[i]);
+        if (!std::isalnum(c) && c != '_') break;
+        name += static_cast<char>(std::tolower(c));
+    }
+    const std::string path = inputs::shipped("machines") + "/" + name + ".toml";
+    return std::filesystem::exists(path) ? path : "";
+}
+
+/// The machine of --setup; without it that which the program names, else the B-C table, and the A-C
+/// table for a program that commands A.
+class CheckedMachines {
+  public:
+    explicit CheckedMachines(const CheckCommand& c) : c_(c) { first(); }
+
+    CheckedMachine& for_program(const interpreter::ProgramText& program,
+                                interpreter::ProgramFolders& programs,
+                                std::vector<check::Finding>& found) {
+        CheckedMachine& use = machine(c_.setup.empty() ? machine_named_in(program.text) : c_.setup);
+        found = use.read(program, programs);
+        if (!c_.setup.empty() || !names_strange_axis(found)) return use;
+        CheckedMachine& other = machine(inputs::shipped("machines/ac_trunnion.toml"));
+        auto again = other.read(program, programs);
+        if (names_strange_axis(again)) return use;
+        print_notes({program.name + ": has words of an A axis, checked on " + other.setup.path});
+        found = std::move(again);
+        return other;
+    }
+    CheckedMachine& first() { return machine(c_.setup); }
+
+  private:
+    CheckedMachine& machine(const std::string& path) {
+        auto& known = machines_[path];
+        if (known) return *known;
+        known = std::make_unique<CheckedMachine>(open_setup(path), c_.against);
+        return *known;
+    }
+
+    const CheckCommand& c_;
+    std::map<std::string, std::unique_ptr<CheckedMachine>> machines_;
+};
+
+int check(const CheckCommand& c) {
+    CheckedMachines machines(c);
+    const std::vector<std::string> files = files_of(c.paths);
+    std::vector<check::Finding> findings;
+    for (const std::string& file : files) {
+        const interpreter::ProgramText program = interpreter::read_main_program(file);
+        interpreter::ProgramFolders programs = inputs::folders_of_file(program, c.folders);
+        std::vector<check::Finding> found;
+        const CheckedMachine& machine = machines.for_program(program, programs, found);
         findings.insert(findings.end(), found.begin(), found.end());
-        if (c.run) run_without_devices(setup, program, c, findings);
-        if (other) {
-            const auto apart =
-                differences_against(setup, *other, c.against, program, c.folders, c.max_blocks);
+        if (c.run) run_without_devices(machine.setup, program, c, findings);
+        if (machine.other) {
+            const auto apart = differences_against(machine.setup, *machine.other, c.against,
+                                                   program, c.folders, c.max_blocks);
             findings.insert(findings.end(), apart.begin(), apart.end());
         }
         print_notes(programs.announcements());
@@ -191,7 +263,7 @@ int check(const CheckCommand& c) {
     OutputFiles out;
     if (!c.page.html.empty()) {
         std::vector<std::string> read = files;
-        read.push_back(setup.path);
+        read.push_back(machines.first().setup.path);
         out.add(c.page.html,
                 finished_page(report::findings_page(findings, files), *c.command, c.page, read));
     }

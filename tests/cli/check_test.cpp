@@ -33,7 +33,8 @@ TEST_CASE("check: exit codes, folders, subprograms beside the file, --run") {
     CHECK_THAT(bench.out(), Catch::Contains("bad.nc:2:1") && Catch::Contains("in 2 files"));
     CHECK(bench.check("far.nc") == 1);  // beyond the stroke of the default machine
     CHECK(bench.check("far.nc --run") == 1);
-    CHECK_THAT(bench.out(), Catch::Contains("far.nc:2:") && Catch::Contains("OT0500"));
+    CHECK_THAT(bench.out(), Catch::Contains("far.nc:2:") &&
+                                Catch::Contains("OT0500 + OVERTRAVEL ( SOFT 1 ) X [alarm]"));
     CHECK(bench.check("nowhere.nc") == 2);
     CHECK(bench.check("good.nc --format xml") == 2);
 }
@@ -124,4 +125,26 @@ TEST_CASE("parameters of a setup change what a program does") {
     const std::string mapped = "O1\nM66\nM30\nO9001\n#100=7\nM99\n";
     CHECK(run("6071 = 66\n", mapped)["variables"]["100"] == 7.0);
     CHECK(run("", mapped)["variables"]["100"].is_null());
+}
+
+TEST_CASE("check: the programs that ship have no findings") {
+    const Bench bench;
+    CHECK(bench.check(std::string(TRUNNION_SOURCE_DIR) + "/programs") == 0);
+    CHECK_THAT(bench.out(), Catch::Contains("0 findings in"));
+}
+
+TEST_CASE("check: without --setup the machine is the one that a program names or has the axes of") {
+    const Bench bench;
+    bench.write("ac.nc", "O1\nG90 G54\nG0 A10. C20.\nM30\n");
+    CHECK(bench.check("ac.nc") == 0);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("ac_trunnion.toml"));
+    CHECK(bench.check("ac.nc --setup " + std::string(TRUNNION_SOURCE_DIR) +
+                      "/machines/bc_table.toml") == 1);
+    CHECK_THAT(bench.out(), Catch::Contains("PS0009"));
+    bench.write("named.nc", "O2 (SETUP HTM_EXERCISE_3)\nG0 Z500.\nM30\n");
+    CHECK(bench.check("named.nc") == 0);
+    bench.write("sheet.nc", "O3 (SETUP SHEET 4)\nG0 X9000.\nM30\n");
+    CHECK(bench.check("sheet.nc") == 1);
+    bench.write("both.nc", "O4\nG0 A1. B1.\nM30\n");  // a machine that does not ship
+    CHECK(bench.check("both.nc") == 1);
 }
