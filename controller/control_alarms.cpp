@@ -82,7 +82,9 @@ const std::vector<AlarmRow>& control_alarms() {
          "A control compensates the figure on the cylinder; this emulator does not.",
          "Program the cutter's centre there."},
         {9003, "EX", "NOT EMULATED ON A HURCO",
-         "The code moves something or turns an axis round; the emulator does not know how.",
+         "The code moves something or turns an axis round and the emulator does not know how, or "
+         "it "
+         "reads what only a Fanuc has.",
          "Leave the code out, or run the program on its machine."},
         {9004, "EX", "3-D ARC NOT COMPLETE",
          "The block behind G2.4 or G3.4 must be its end point; three points must not lie in a "

@@ -31,6 +31,7 @@ void set_group(Control& c, const GCode& code) {
 }
 
 void accept(Control& c, const GCode& code) {
+    if (code.group != ModalGroup::one_shot) set_group(c, code);
     c.mover.note(fmt::format("{} ({}) is accepted without effect on positions",
                              g_code_text(code.code10), code.text));
 }

@@ -18,6 +18,7 @@ constexpr GCode table[] = {
     {41, one_shot, Phase::reading, Action::accepted, "stop of the reading ahead"},
     {50, one_shot, Phase::shot, Action::accepted, "high-speed machining, G5 P10000 / P0"},
     {51, one_shot, Phase::shot, Action::accepted, "AI contour control"},
+    {54, one_shot, Phase::shot, Action::accepted, "high response vector control"},
     {71, one_shot, Phase::shot, Action::cylinder, "cylindrical interpolation"},
     {80, one_shot, Phase::shot, Action::accepted, "look-ahead control"},
     {90, one_shot, Phase::reading, Action::exact_stop, "exact stop"},
@@ -32,8 +33,11 @@ constexpr GCode table[] = {
     {190, plane, Phase::plane, Action::plane, "YZ plane"},
     {200, units, Phase::units, Action::units, "inch"},
     {210, units, Phase::units, Action::units, "mm"},
-    {220, stored_stroke, Phase::reading, Action::sets_group, "stored stroke check on"},
+    {220, stored_stroke, Phase::shot, Action::accepted,
+     "stored stroke check on; the zone of its words is not checked"},
     {230, stored_stroke, Phase::reading, Action::sets_group, "stored stroke check off"},
+    {250, one_shot, Phase::shot, Action::accepted, "spindle speed fluctuation detection off"},
+    {260, one_shot, Phase::shot, Action::accepted, "spindle speed fluctuation detection"},
     {270, one_shot, Phase::shot, Action::reference_check, "reference position check"},
     {280, one_shot, Phase::shot, Action::reference, "to the reference position"},
     {290, one_shot, Phase::shot, Action::from_reference, "from the reference position"},
@@ -42,6 +46,7 @@ constexpr GCode table[] = {
     {330, motion, Phase::motion, Action::thread, "thread cutting"},
     {390, one_shot, Phase::shot, Action::corner_arc, "corner arc of cutter compensation"},
     {400, cutter, Phase::offsets, Action::cutter, "cutter compensation off"},
+    {401, one_shot, Phase::reading, Action::accepted, "normal direction control off"},
     {410, cutter, Phase::offsets, Action::cutter, "cutter compensation, tool left"},
     {412, cutter, Phase::offsets, Action::five_axis_cutter,
      "cutter compensation for five axes, left"},
@@ -120,7 +125,7 @@ constexpr int highest_code10 = 10000;
 struct Alias {
     int code10, means10;
 };
-constexpr Alias aliases[] = {{1070, 71}, {1120, 121}, {1130, 131}};
+constexpr Alias aliases[] = {{1070, 71}, {1120, 121}, {1130, 131}, {1500, 401}};
 
 /// Row of each code * 10, or -1.
 std::array<std::int16_t, highest_code10> make_index() {

@@ -42,6 +42,11 @@ void ControlVariables::set(int number, double value, const char* comment) {
 }
 
 double ControlVariables::parameter(int number, int bit, int axis) {
+    // The five-axis group is Fanuc's: a Hurco keeps centrelines in its part set-up instead, and 0
+    // would be taken for one.
+    const bool five_axis = number >= 19680 && number <= 19749;
+    if (five_axis && c_.modal.settings.is_hurco())
+        raise_alarm(9003, "PRM[" + std::to_string(number) + "]");
     const auto it = c_.stores.parameters.entry.find(number);
     if (it == c_.stores.parameters.entry.end()) return 0.0;
     double value = it->second.value;
