@@ -15,7 +15,7 @@ std::string parameter_name(const effects::EffectParameter& p) {
     return p.component < 0 ? p.name : fmt::format("{}[{}]", p.name, "xyz"[p.component]);
 }
 
-std::string paragraph(const std::string& head, const std::string& words) {
+std::string headed_lines(const std::string& head, const std::string& words) {
     std::string text;
     constexpr std::size_t column = 10, width = 70;
     const auto lines = wrapped(words, width);
@@ -45,10 +45,10 @@ std::string effects_json(const std::vector<effects::Effect>& list) {
 
 std::string effect_text(const effects::Effect& effect) {
     std::string text = fmt::format("{}\n", effect.name);
-    text += paragraph("what", effect.what);
-    text += paragraph("cause", effect.cause);
-    text += paragraph("remedy", effect.remedy);
-    text += paragraph("formula", effect.formula);
+    text += headed_lines("what", effect.what);
+    text += headed_lines("cause", effect.cause);
+    text += headed_lines("remedy", effect.remedy);
+    text += headed_lines("formula", effect.formula);
     for (const effects::EffectParameter& p : effect.parameters)
         text += fmt::format("          {:<24} {:<8} typical {:.3g}\n", parameter_name(p), p.unit,
                             p.typical);
