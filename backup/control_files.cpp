@@ -117,7 +117,7 @@ void apply_backup(const ControlBackup& backup, offsets::Stores& stores) {
 
 void update_backup(ControlBackup& backup, const offsets::Stores& stores) {
     std::vector<BackupValue> values = list_values(backup);
-    // From the end of each file, so that the places of earlier values stay right.
+    // From the end of each file, so that the positions of earlier values remain valid.
     std::reverse(values.begin(), values.end());
     for (const BackupValue& v : values) {
         const double wanted = value_in(v, stores);

@@ -1,4 +1,4 @@
-// The files a Fanuc control writes to a USB stick: read, apply to the stores, write back.
+// The files that a Fanuc control writes to a USB stick: read, apply to the stores, write back.
 #pragma once
 
 #include <map>
@@ -10,30 +10,30 @@
 
 namespace trunnion::backup {
 
-/// The text files of one backup by name (upper case, e.g. "CNC-PARA.TXT"), bytes as read. A file
-/// that is not changed is written back byte for byte, whatever its line ends (LF, CRLF, LF CR CR).
+/// The text files of one backup by name (upper case, e.g. "CNC-PARA.TXT"), bytes as read. An
+/// unchanged file is written back byte for byte, whatever its line ends (LF, CRLF, LF CR CR).
 struct ControlBackup {
     std::string folder;
     std::map<std::string, std::string> files = {};
-    std::vector<std::string> ignored = {};  ///< other files of the folder, as they are called
+    std::vector<std::string> ignored = {};  ///< names of the other files of the folder
 };
 
-/// What the emulator does with a file or a parameter of a backup.
+/// How the emulator treats a file or a parameter of a backup.
 enum class Standing : unsigned char { obeyed, known, ignored };
 const char* text_of(Standing standing);
 /// Files with values are obeyed; programs and lists of the control are known.
 Standing standing_of_file(const std::string& name);
 
-/// Names of the files that have values.
+/// Names of the files with values.
 extern const std::vector<std::string> backup_file_names;
 
-/// Reads the files of a folder that a control writes, values and programs. Throws InputError when
+/// Reads the files of a folder written by a control, values and programs. Throws InputError when
 /// none of them has values.
 ControlBackup read_backup(const std::string& folder);
 void write_backup(const ControlBackup& backup, const std::string& folder);
 
-/// One value of a backup, named as a user would: "19700", "1320 axis 1", "G54 X", "H1 geometry",
-/// "#500". `line` from 1 in its file; `begin`, `size` delimit the value's text.
+/// One value of a backup with its usual name: "19700", "1320 axis 1", "G54 X", "H1 geometry",
+/// "#500". `line` from 1 in its file; `begin`, `size` delimit the text of the value.
 struct BackupValue {
     std::string file;
     std::string name;
@@ -46,18 +46,18 @@ struct BackupValue {
     int number =
         0;        ///< parameter, variable or tool number; work offset: 0 EXT, 1-6, 100 + P of G54.1
     int sub = 0;  ///< axis number, letter of the axis, or 10..13 of G10 L
-    bool inch = false;      ///< an 'I' value: inches in the file, mm in the stores
-    bool for_axis = false;  ///< a parameter's item A: `sub` is an axis number
+    bool inch = false;      ///< an 'I' value: inch in the file, mm in the stores
+    bool for_axis = false;  ///< item A of a parameter: `sub` is an axis number
 };
 
-/// Every value, file by file, in file order. Throws InputError (path, line, column) for a line of
-/// another form than docs/backup_files.md describes.
+/// Every value, file by file, in file order. Throws InputError (path, line, column) for a line
+/// whose form is not described in docs/backup_files.md.
 std::vector<BackupValue> list_values(const ControlBackup& backup);
 
-/// Puts the values into the stores. Throws InputError when 19680 names a mechanical type without a
+/// Writes the values to the stores. Throws InputError when 19680 names a mechanical type without a
 /// pivot (19700-19702 absent for tables).
 void apply_backup(const ControlBackup& backup, offsets::Stores& stores);
-/// Rewrites, in the files' own form, those values that differ from the stores.
+/// Rewrites, in the form of the file, those values that differ from the stores.
 void update_backup(ControlBackup& backup, const offsets::Stores& stores);
 
 }  // namespace trunnion::backup

@@ -38,7 +38,7 @@ std::vector<std::string> lines_of(const std::string& text) {
     return out;
 }
 
-/// "O9810", "<NAME>", with the folder before it; nothing for a line that starts no program.
+/// "O9810", "<NAME>", preceded by the folder; empty for a line that starts no program.
 std::string program_name(const std::string& line) {
     if (line[0] == 'O') return line.substr(0, line.find_first_not_of("0123456789", 1));
     return line[0] == '<' ? line.substr(0, line.find('>') + 1) : "";
@@ -60,7 +60,7 @@ std::map<Key, std::vector<std::string>> programs_of(const ControlBackup& backup)
     return out;
 }
 
-/// Names that SETVN gave: `SETVN500[PIVOT,,TOP]`.
+/// Names assigned by SETVN: `SETVN500[PIVOT,,TOP]`.
 std::map<int, std::string> variable_names(const ControlBackup& backup) {
     std::map<int, std::string> out;
     const auto found = backup.files.find("MACRO.TXT");
@@ -82,7 +82,7 @@ std::map<int, std::string> variable_names(const ControlBackup& backup) {
     return out;
 }
 
-/// Goes through both sorted maps; `differ` says whether equal keys differ.
+/// Merges both sorted maps; `differ` compares the values of equal keys.
 template <class Map, class Differ, class Add>
 void walk(const Map& a, const Map& b, const Differ& differ, const Add& add) {
     for (const auto& [key, value] : a) {

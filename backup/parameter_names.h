@@ -9,15 +9,15 @@
 namespace trunnion::backup {
 
 struct ParameterRow {
-    int first, last;  ///< numbers, both included
+    int first, last;  ///< first and last number, inclusive
     Standing standing;
     const char* name;
 };
-/// By number; numbers in none of the rows are ignored (kept, written back, without effect).
+/// By number; all other numbers are ignored (kept, written back, without effect).
 std::span<const ParameterRow> parameter_rows();
 
 Standing standing_of_parameter(int number);
-/// Empty when it is not in the table.
+/// Empty when the number is not in the table.
 std::string name_of_parameter(int number);
 
 }  // namespace trunnion::backup

@@ -33,7 +33,7 @@ double from_hex(std::string_view digits) {
     return std::bit_cast<double>(bits);
 }
 
-/// Reads one line left to right; `fail` says where it stopped making sense.
+/// Scans one line from left to right; `fail` reports the position of an error.
 struct LineScanner {
     std::string_view line;
     std::size_t offset;  ///< of the line in the file
@@ -207,7 +207,7 @@ bool is_hex_double(const BackupValue& v) {
     return v.kind == BackupValue::Kind::variable && v.text.size() == 16 && is_hex(v.text);
 }
 
-/// The offset vector a number of BackupValue stands for; const when the stores are.
+/// The offset vector of a BackupValue's number; const if the stores are.
 template <class S>
 auto work_offset(S& stores, int number) -> decltype(&stores.work.external) {
     if (number == 0) return &stores.work.external;
@@ -244,7 +244,7 @@ std::vector<BackupValue> scan_values(const std::string& file, std::string_view b
         while (!line.empty() &&
                (line.back() == '\r' || line.back() == ' ' || line.back() == '\x1a'))
             line.remove_suffix(1);
-        std::size_t lead = 0;  // LF CR CR: the two CR stand at the start of the next line
+        std::size_t lead = 0;  // LF CR CR: the two CR are at the start of the next line
         while (lead < line.size() && line[lead] == '\r') ++lead;
         LineScanner s{line.substr(lead), at + lead, number, file, path};
         scan_line(s, out);
@@ -256,7 +256,7 @@ std::vector<BackupValue> scan_values(const std::string& file, std::string_view b
 double stored_value(const BackupValue& v) {
     if (is_hex_double(v)) {
         const double number = from_hex(v.text);
-        // All F is taken for vacant (assumed; docs/backup_files.md), and whatever is no number.
+        // All F is taken as vacant (assumed; docs/backup_files.md), and so is any other NaN.
         return std::isnan(number) ? std::numeric_limits<double>::quiet_NaN() : number;
     }
     if (v.kind == BackupValue::Kind::parameter && is_bits(v.text)) {

@@ -10,10 +10,11 @@ namespace trunnion::inline base {
 
 namespace {
 
-constexpr std::size_t widest = 200;    ///< a longer line is shown around its column
-constexpr std::size_t longest = 1000;  ///< of a message: it may quote a file that is no text
+constexpr std::size_t widest = 200;    ///< a longer line is cut around its column
+constexpr std::size_t longest = 1000;  ///< maximum length of a message, which may quote a binary
+                                       ///< file
 
-/// The line, and the caret under its column; a tab stays one, so that both line up.
+/// The line, with the caret under its column; tabs are kept so that both align.
 std::string marked_line(std::string_view line, int column) {
     std::string out;
     std::size_t at = column > 0 ? static_cast<std::size_t>(column - 1) : 0;

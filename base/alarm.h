@@ -1,4 +1,4 @@
-// What stops an NC program, and what is said about a bad file.
+// Alarms that stop an NC program, and errors of input files.
 #pragma once
 
 #include <exception>
@@ -7,16 +7,15 @@
 
 namespace trunnion::inline base {
 
-/// A place in an NC program: name of the program (O number or file), line and column from 1.
+/// A position in an NC program: program name (O number or file), line and column from 1.
 struct SourceRef {
     std::string program;
     int line = 0;
     int column = 0;
 };
 
-/// An NC alarm as on the control's screen. The one exception of NC execution, caught in one place
-/// (Controller::run). `number` and `text` as in controller/alarms.h, e.g. 10 and
-/// "IMPROPER G-CODE".
+/// An NC alarm as on the control's screen. The only exception of NC execution, caught in one place
+/// (Controller::run). `number` and `text` as in controller/alarms.h, e.g. 10 and "IMPROPER G-CODE".
 class Alarm : public std::exception {
   public:
     Alarm(int number, std::string text, SourceRef where = {})
@@ -25,11 +24,11 @@ class Alarm : public std::exception {
 
     int number;
     std::string text;
-    SourceRef where;    ///< filled in by whoever knows it, innermost first; line 0 = not known yet
-    std::string block;  ///< the block's text
+    SourceRef where;    ///< set by the innermost function that knows it; line 0 = unknown so far
+    std::string block;  ///< text of the block
 };
 
-/// A bad file or option: becomes `path:line:column: error: message` with the line and a caret,
+/// A bad file or option. Reported as `path:line:column: error: message` with the line and a caret,
 /// exit code 2.
 class InputError : public std::exception {
   public:
@@ -38,11 +37,11 @@ class InputError : public std::exception {
     const char* what() const noexcept override { return message.c_str(); }
 
     std::string message;
-    SourceRef where;        ///< `program` holds the path
+    SourceRef where;        ///< `program` is the path
     std::string line_text;  ///< shown above the caret when not empty
 };
 
-/// `path:line:column: error: message`, then the line and a caret where they are known.
+/// `path:line:column: error: message`, then the line and a caret if they are known.
 std::string format_diagnostic(const SourceRef& where, const std::string& message,
                               const std::string& line_text);
 

@@ -1,4 +1,4 @@
-// How much a piece of work may use before it ends in order, as one value.
+// Limits of resources for a piece of work, as one value.
 #pragma once
 
 #include <chrono>
@@ -12,13 +12,13 @@ struct Budget {
     std::uint64_t blocks = 0;         ///< NC blocks executed
     std::uint64_t printed_bytes = 0;  ///< by DPRNT and BPRNT
     std::uint64_t rows = 0;           ///< readings
-    double time_s = 0.0;              ///< on the clock on the wall
+    double time_s = 0.0;              ///< wall clock time
     std::function<bool()> interrupted;
-    /// Told how far the work is, every few thousand blocks.
+    /// Called every few thousand blocks with the number of blocks.
     std::function<void(std::uint64_t blocks)> progress;
 };
 
-/// Which limit ended the work.
+/// The limit that ended the work.
 enum class BudgetLimit : unsigned char { none, blocks, printed_bytes, rows, time, interruption };
 /// "blocks", "printed_bytes", "rows", "time", "interruption"; "" for none.
 const char* name_of(BudgetLimit limit);
@@ -27,12 +27,12 @@ struct Spent {
     std::uint64_t blocks = 0, printed_bytes = 0, rows = 0;
 };
 
-/// Holds one piece of work to its budget. Time counts from the construction.
+/// Checks one piece of work against its budget. Time counts from construction.
 class BudgetMeter {
   public:
     explicit BudgetMeter(Budget budget) : budget_(std::move(budget)) {}
 
-    /// False when a limit is reached; `reached` then says which.
+    /// False when a limit is reached; `reached` then returns it.
     bool allows(const Spent& spent);
     BudgetLimit reached() const { return reached_; }
 

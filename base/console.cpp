@@ -17,8 +17,8 @@ namespace {
     throw InputError("standard output cannot be written: " + system_reason(errno));
 }
 
-/// Opens the null device the wrong way round: what uses this number then fails as if it were
-/// closed.
+/// Opens the null device in the opposite mode, so that any use of this descriptor fails as if it
+/// were closed.
 void occupy(int descriptor, int flags) {
     if (::fcntl(descriptor, F_GETFD) != -1) return;
     const int null = ::open("/dev/null", flags);

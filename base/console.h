@@ -1,4 +1,4 @@
-// Standard output, whose failure is an error, and standard error, whose failure nobody can be told.
+// Standard output, where a failure is an error, and standard error, where a failure is ignored.
 #pragma once
 
 #include <fmt/format.h>
@@ -7,11 +7,11 @@
 
 namespace trunnion::inline base {
 
-/// Appends to standard output. Throws InputError when it cannot be written.
+/// Appends to standard output. Throws InputError when writing fails.
 void write_out(std::string_view text);
-/// What was written so far has reached the system. Throws InputError when it has not.
+/// Flushes standard output to the system. Throws InputError when this fails.
 void finish_out();
-/// Writes to standard error; a failure is passed over.
+/// Writes to standard error; failures are ignored.
 void write_error(std::string_view text) noexcept;
 
 template <typename... Values>
@@ -23,9 +23,9 @@ void print_error(fmt::format_string<Values...> format, Values&&... values) {
     write_error(fmt::format(format, std::forward<Values>(values)...));
 }
 
-/// To be called first in main: closed standard streams are taken by streams that fail, so that no
-/// file of the user gets their number, and a closed pipe or a full quota is an error of the write
-/// instead of the end of the process.
+/// Must be called first in main. Closed standard streams are replaced by streams that fail, so that
+/// no user file gets their descriptor number. A closed pipe or a full quota becomes a write error
+/// instead of ending the process.
 void prepare_streams();
 
 }  // namespace trunnion::inline base

@@ -1,4 +1,4 @@
-// A file descriptor that closes itself, and reading and writing that do not stop half-way.
+// A file descriptor that closes itself, and complete reads and writes.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace trunnion::inline base {
 
-/// Owns one descriptor of the operating system; -1 owns none.
+/// Owns one file descriptor; -1: none.
 class FileHandle {
   public:
     FileHandle() = default;
@@ -24,18 +24,19 @@ class FileHandle {
 
     int descriptor() const { return descriptor_; }
     bool is_open() const { return descriptor_ >= 0; }
-    /// False when the system reports that earlier writes failed; the reason is in errno.
+    /// False when the system reports a failure of earlier writes; the reason is in errno.
     bool close();
 
   private:
     int descriptor_ = -1;
 };
 
-/// Writes all of `text`. False: it failed, the reason is in errno. Signals do not disturb it.
+/// Writes all of `text`, also when interrupted by signals. False on failure; the reason is in
+/// errno.
 bool write_all(int descriptor, std::string_view text);
-/// Reads at most `size` bytes, less only at the end of the file. -1: it failed, see errno.
+/// Reads `size` bytes, fewer only at the end of the file. -1 on failure, see errno.
 std::ptrdiff_t read_some(int descriptor, char* data, std::size_t size);
-/// The system's words for the value of errno.
+/// The system's message for a value of errno.
 std::string system_reason(int error);
 
 }  // namespace trunnion::inline base

@@ -12,7 +12,7 @@ std::string lower(std::string_view text) {
     return out;
 }
 
-/// Slips between two words (optimal string alignment).
+/// Edit distance between two words (optimal string alignment).
 std::size_t slips(const std::string& a, const std::string& b) {
     std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
@@ -33,7 +33,7 @@ std::size_t slips(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
-    constexpr std::size_t longest = 60;  // a mistyped word is short
+    constexpr std::size_t longest = 60;  // longer words are not searched
     const std::string meant = lower(word);
     if (meant.empty() || meant.size() > longest) return {};
     std::string best;

@@ -1,4 +1,4 @@
-// The word that a mistyped one was meant to be.
+// Suggestion for a mistyped word.
 #pragma once
 
 #include <string>
@@ -7,12 +7,13 @@
 
 namespace trunnion::inline base {
 
-/// The candidate that the fewest slips (a letter left out, added, changed, two swapped; case counts
-/// not) lead to `word`: at most one for every three letters, at least one. A candidate that begins
-/// with `word` (two letters and more) is meant too. Empty: none is near. Of equals the first.
+/// The candidate with the smallest edit distance to `word` (a letter missing, added, changed, or
+/// two swapped; case ignored): at most one edit for every three letters, at least one allowed. A
+/// candidate that starts with `word` (two letters or more) also counts. Of equals the first. Empty:
+/// no candidate is near.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
-/// ", did you mean 'run'?", or nothing.
+/// ", did you mean 'run'?", or an empty text.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace trunnion::inline base

@@ -19,7 +19,7 @@ std::string shortest(double value) {
 
 std::string shortest_degrees(double angle_rad) {
     const double middle = deg_from_rad(angle_rad);
-    // Most angles were typed with few decimals: the rounded number is then the one that was meant.
+    // Most angles were typed with few decimals; then the rounded number is the one typed.
     const double typed = std::round(middle * 1e6) / 1e6;
     if (rad_from_deg(typed) == angle_rad) return shortest(typed);
     std::string best;

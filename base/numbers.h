@@ -1,4 +1,4 @@
-// Numbers as text that read back to the same double, whatever the locale.
+// Numbers as text that reads back as the same double, independent of the locale.
 #pragma once
 
 #include <optional>
@@ -7,13 +7,13 @@
 
 namespace trunnion::inline base {
 
-/// The shortest text that reads back to the same double; "0" for -0. Throws InputError for what is
-/// not finite: no file with "nan" in it is written.
+/// The shortest text that reads back as the same double; "0" for -0. Throws InputError for a value
+/// that is not finite, so that no file contains "nan".
 std::string shortest(double value);
-/// An angle in degrees: the shortest text whose value, turned into rad again, is the same double
-/// (the nearest where no double of degrees does that).
+/// An angle in degrees: the shortest text whose value converts back to the same double in rad (or
+/// the nearest one if no double in degrees does).
 std::string shortest_degrees(double angle_rad);
-/// The whole of `text` as a finite number (leading blanks and one + allowed), or nothing.
+/// The whole of `text` as a finite number (leading blanks and one + allowed); empty otherwise.
 std::optional<double> parse_number(std::string_view text);
 
 }  // namespace trunnion::inline base

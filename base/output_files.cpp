@@ -21,7 +21,7 @@ namespace {
     throw InputError("cannot be written: " + system_reason(error), {path, 0, 0});
 }
 
-/// Signals that end a process wait while this lives.
+/// Blocks signals that end a process during its lifetime.
 class HeldSignals {
   public:
     HeldSignals() {
@@ -38,13 +38,14 @@ class HeldSignals {
     sigset_t before_;
 };
 
-/// The file behind all symbolic links, also where the last one points at nothing yet.
+/// The file behind all symbolic links, even if the last link points to a missing file.
 std::string behind_links(std::string path) {
     for (int links = 0; links < 40; ++links) {
         std::error_code none;
         const fs::path target = fs::read_symlink(path, none);
         if (none) return path;
-        path = (fs::path(path).parent_path() / target).string();  // an absolute target replaces all
+        path = (fs::path(path).parent_path() / target).string();  // an absolute target replaces the
+                                                                  // whole path
     }
     refuse(path, ELOOP);
 }
@@ -59,10 +60,11 @@ std::string name_beside(const std::string& path, unsigned attempt) {
     return (fs::path(folder_of(path)) / name).string();
 }
 
-constexpr unsigned most_attempts = 10000;  ///< names beside the target that may be taken
-constexpr int most_open = 200;             ///< descriptors: beyond, a complete file is closed
+constexpr unsigned most_attempts = 10000;  ///< number of names tried next to the target
+constexpr int most_open = 200;             ///< number of descriptors; beyond it complete files are
+                                           ///< closed
 
-/// Calls `make` with names beside `path` until one is free. False: it failed otherwise, see errno.
+/// Calls `make` with names next to `path` until one is free. False on any other failure, see errno.
 template <typename Make>
 bool with_free_name(const std::string& path, std::string& name, Make make) {
     for (unsigned attempt = 0; attempt < most_attempts; ++attempt) {
@@ -80,12 +82,12 @@ std::string link_of(int descriptor) {
 }  // namespace
 
 struct OutputFile::State {
-    std::string path;    ///< as the user gave it
-    std::string target;  ///< behind its links
-    std::string name;    ///< of the file that is not published yet; empty: it has none
+    std::string path;    ///< as given by the user
+    std::string target;  ///< with links resolved
+    std::string name;    ///< of the unpublished file; empty: it has no name
     FileHandle file;
     bool direct = false;  ///< a device or a pipe
-    mode_t mode = 0;      ///< of the file that will be replaced; 0: there is none
+    mode_t mode = 0;      ///< of the file to be replaced; 0: none
 
     void open_direct(const struct stat& existing);
     void open_unnamed();
@@ -123,7 +125,7 @@ void OutputFile::State::open_named() {
 
 void OutputFile::State::sync() {
     if (mode != 0 && ::fchmod(file.descriptor(), mode) != 0) refuse(path, errno);
-    // Some file systems have nothing to synchronise and say so.
+    // Some file systems do not support synchronisation and report that.
     if (::fsync(file.descriptor()) != 0 && errno != EINVAL && errno != ENOTSUP) refuse(path, errno);
 }
 
@@ -210,7 +212,7 @@ void OutputFiles::write() {
 }
 
 void make_folder(const std::string& path) {
-    if (path.empty()) return;  // the one we are in
+    if (path.empty()) return;  // our own object
     std::error_code error;
     fs::create_directories(path, error);
     if (error) throw InputError("this folder cannot be made: " + error.message(), {path, 0, 0});

@@ -1,4 +1,4 @@
-// The files that a command writes: each appears whole or not at all.
+// The output files of a command: each appears completely or not at all.
 #pragma once
 
 #include <memory>
@@ -9,11 +9,11 @@
 
 namespace trunnion::inline base {
 
-/// A file that is being written. A regular file has no name until `publish`: then it replaces the
-/// file of its path in one step, with that file's mode and behind its symbolic links; without
-/// `publish` nothing of it remains, even when the process is killed. (Where the file system knows
-/// no unnamed files it is `.trunnion_PID_N` in the same folder, and SIGKILL leaves it there.) A
-/// device or a pipe takes the text at once. All functions throw InputError with the path.
+/// A file being written. A regular file has no name until `publish`, which replaces the file at its
+/// path in one step, with that file's mode and behind its symbolic links. Without `publish` nothing
+/// remains, even when the process is killed. (On a file system without unnamed files it is
+/// `.trunnion_PID_N` in the same folder, and SIGKILL leaves it there.) A device or a pipe gets the
+/// text at once. All functions throw InputError with the path.
 class OutputFile {
   public:
     explicit OutputFile(std::string path);
@@ -22,7 +22,7 @@ class OutputFile {
     OutputFile& operator=(const OutputFile&) = delete;
 
     void append(std::string_view text);
-    /// All bytes are on the disk; only the name is missing.
+    /// Writes all bytes to the disk; only the name is then missing.
     void complete();
     void publish();
     const std::string& path() const;
@@ -32,8 +32,8 @@ class OutputFile {
     std::unique_ptr<State> state_;
 };
 
-/// The output files of one command, collected, then written together: when one cannot be written,
-/// none gets its name. "-" is standard output.
+/// The output files of one command, collected and then written together: when one cannot be
+/// written, none gets its name. "-" is standard output.
 class OutputFiles {
   public:
     void add(const std::string& path, std::string text);
@@ -50,7 +50,7 @@ class OutputFiles {
 /// Throws InputError with the path.
 void make_folder(const std::string& path);
 
-/// One file alone, or stdout for "-". Throws InputError as OutputFiles.
+/// Writes a single file, or standard output for "-". Throws InputError like OutputFiles.
 void write_output(const std::string& path, std::string text);
 
 }  // namespace trunnion::inline base

@@ -1,11 +1,12 @@
-// Seeded noise that gives the same numbers with every compiler and thread count.
+// Seeded noise with the same numbers for every compiler and thread count.
 #pragma once
 
 #include <cstdint>
 
 namespace trunnion::inline base {
 
-/// SplitMix64 with a Box-Muller normal: the standard distributions differ between libraries.
+/// SplitMix64 with Box-Muller for normal deviates, because the standard distributions differ
+/// between libraries.
 class SeededNoise {
   public:
     explicit SeededNoise(std::uint64_t seed) : state_(seed) {}

@@ -12,7 +12,8 @@
 namespace trunnion::inline base {
 namespace {
 
-constexpr std::size_t most_streamed = std::size_t{1} << 30;  ///< from what has no end of its own
+constexpr std::size_t most_streamed = std::size_t{1} << 30;  ///< limit for pipes and devices, which
+                                                             ///< have no end of their own
 
 [[noreturn]] void refuse(const std::string& path, const std::string& message) {
     throw InputError(message, {path, 0, 0});
@@ -33,7 +34,7 @@ bool same_state(const struct stat& a, const struct stat& b) {
            a.st_mtim.tv_nsec == b.st_mtim.tv_nsec;
 }
 
-/// Reads on to the end. `expected`: the size that the file should have.
+/// Reads to the end of the file. `expected`: its size.
 std::string read_to_end(int file, std::size_t expected, const std::string& path) {
     std::string text;
     for (std::size_t size = 0, room = expected + 1;; room = size + (1 << 16)) {

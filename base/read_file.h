@@ -1,13 +1,13 @@
-// Files read whole and at once: what changes on disk later does not change what was read.
+// Files are read completely and at once, so later changes on disk have no effect.
 #pragma once
 
 #include <string>
 
 namespace trunnion::inline base {
 
-/// The bytes of a file, a pipe or a device. Throws InputError with the path and the system's
-/// reason: when it is missing, is a folder, a read fails, or the file changes while it is read. A
-/// pipe or a device may give 1 GiB at most.
+/// The bytes of a file, a pipe or a device. Throws InputError with the path and the system's reason
+/// when it is missing, is a folder, cannot be read, or changes while being read. At most 1 GiB from
+/// a pipe or a device.
 std::string read_file(const std::string& path);
 /// The same; "-" is standard input.
 std::string read_file_or_input(const std::string& path);

@@ -12,7 +12,7 @@ namespace {
 using Words = std::array<std::uint32_t, 8>;
 
 constexpr std::size_t block_bytes = 64;
-/// The first 32 bits behind the point of the cube roots of the first 64 primes.
+/// The first 32 bits of the fractional parts of the cube roots of the first 64 primes.
 constexpr std::array<std::uint32_t, 64> constants{
     0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b5dba5, 0x3956c25b, 0x59f111f1, 0x923f82a4, 0xab1c5ed5,
     0xd807aa98, 0x12835b01, 0x243185be, 0x550c7dc3, 0x72be5d74, 0x80deb1fe, 0x9bdc06a7, 0xc19bf174,
@@ -29,7 +29,7 @@ std::uint32_t big_endian(std::string_view four) {
     return word;
 }
 
-/// The block's 16 words, and 48 more made of them.
+/// The 16 words of the block and 48 derived words.
 std::array<std::uint32_t, 64> schedule(std::string_view block) {
     std::array<std::uint32_t, 64> w;
     for (std::size_t t = 0; t < 16; ++t) w[t] = big_endian(block.substr(4 * t, 4));
@@ -56,7 +56,7 @@ void take_block(Words& hash, std::string_view block) {
     for (std::size_t i = 0; i < hash.size(); ++i) hash[i] += s[i];
 }
 
-/// What stands behind the last whole block, the bit 1, zeros, and the length in bits.
+/// The remainder after the last whole block, the bit 1, zeros, and the length in bits.
 std::string padded_rest(std::string_view text) {
     std::string rest(text.substr(text.size() / block_bytes * block_bytes));
     rest += '\x80';

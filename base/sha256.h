@@ -1,4 +1,4 @@
-// The SHA-256 of a text: says which file a result came from; the same digits as sha256sum prints.
+// SHA-256 of a text, to identify the input file of a result; same digits as sha256sum.
 #pragma once
 
 #include <string>

@@ -6,7 +6,7 @@ namespace trunnion::inline base {
 
 namespace {
 
-/// Length of the UTF-8 sequence that `lead` begins, 0 when none can.
+/// Length of the UTF-8 sequence that starts with `lead`; 0 when invalid.
 std::size_t sequence_length(unsigned char lead) {
     if (lead < 0x80) return 1;
     if (lead >= 0xC2 && lead < 0xE0) return 2;
@@ -14,7 +14,7 @@ std::size_t sequence_length(unsigned char lead) {
     return lead >= 0xF0 && lead < 0xF5 ? 4 : 0;
 }
 
-/// The second byte also decides: overlong forms, surrogates and values beyond U+10FFFF are refused.
+/// The second byte excludes overlong forms, surrogates and values beyond U+10FFFF.
 bool second_byte_fits(unsigned char lead, unsigned char second) {
     if (lead == 0xE0) return second >= 0xA0;
     if (lead == 0xED) return second < 0xA0;
@@ -48,7 +48,7 @@ std::string printable(std::string_view text) {
     const std::string valid = valid_utf8(text);
     for (std::size_t k = 0; k < valid.size(); ++k) {
         const auto byte = static_cast<unsigned char>(valid[k]);
-        // U+0080 to U+009F are controls in two bytes.
+        // U+0080 to U+009F are control characters of two bytes.
         const bool two = byte == 0xC2 && static_cast<unsigned char>(valid[k + 1]) < 0xA0;
         const bool control = two || (byte < 0x20 && byte != '\t') || byte == 0x7F;
         out += control ? '?' : valid[k];

@@ -1,4 +1,4 @@
-// Text of unknown origin made fit for a screen or a report.
+// Sanitises text of unknown origin for a screen or a report.
 #pragma once
 
 #include <string>
@@ -6,11 +6,13 @@
 
 namespace trunnion::inline base {
 
-/// Bytes that are not UTF-8 (comments of old controls) become '?': JSON and XML take nothing else.
+/// Replaces bytes that are not UTF-8 (comments of old controls) by '?', because JSON and XML
+/// require UTF-8.
 std::string valid_utf8(std::string_view text);
-/// The same, and control characters but the tab: nothing that a terminal would obey.
+/// The same, and also replaces control characters except tab, so that a terminal cannot interpret
+/// them.
 std::string printable(std::string_view text);
-/// Places that valid UTF-8 takes on a screen.
+/// Number of screen columns of valid UTF-8.
 std::size_t screen_width(std::string_view text);
 
 }  // namespace trunnion::inline base

@@ -60,7 +60,7 @@ void list_unused(const TomlValue& value, const std::string& name, const std::str
     for (const TomlValue& item : value.items) list_unused(item, name, path, notes);
 }
 
-/// The first key nobody asked for, with its whole name; nullptr: none.
+/// The first key that was not used, with its full name; nullptr if none.
 const TomlValue* first_unused(const TomlValue& value, std::string& name) {
     for (const auto& [key, child] : value.entries) {
         const std::string full = name.empty() ? key : name + '.' + key;
@@ -75,8 +75,8 @@ const TomlValue* first_unused(const TomlValue& value, std::string& name) {
     return nullptr;
 }
 
-/// Line of the first key that has too many parts; 0: none. The parser would go down a level for
-/// each of them until the stack is full.
+/// Line of the first key with too many parts; 0: none. The parser recurses for each part and would
+/// overflow the stack.
 int line_of_deep_key(std::string_view text) {
     constexpr std::ptrdiff_t most_dots = 64;
     int line = 1;
@@ -131,7 +131,7 @@ void TomlFile::fail(const TomlValue& at, const std::string& message) const {
 double TomlFile::number(const TomlValue& value) const {
     if (value.kind != TomlValue::Kind::number || !std::isfinite(value.number))
         fail(value, "a finite number is expected here");
-    constexpr double largest = 1e12;  // in any unit: beyond, squares and products overflow
+    constexpr double largest = 1e12;  // in any unit; larger values overflow in squares and products
     if (std::abs(value.number) > largest) fail(value, "a number of at most 1e12 is expected here");
     return value.number;
 }

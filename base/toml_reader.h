@@ -1,4 +1,4 @@
-// A TOML file as plain values that know their place, so that every message can point at it.
+// A TOML file as plain values with their positions, for messages.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,9 +24,9 @@ struct TomlValue {
     std::vector<TomlEntry> entries;  ///< of a table, in file order
     std::vector<TomlValue> items;    ///< of an array
     int line = 0, column = 0;
-    mutable bool used = false;  ///< asked for by the reader; the rest is noted as unknown
+    mutable bool used = false;  ///< read by the program; unused keys are reported as unknown
 
-    const TomlValue* find(std::string_view key) const;  ///< marks it used; nullptr when absent
+    const TomlValue* find(std::string_view key) const;  ///< marks it as used; nullptr when absent
 };
 
 struct TomlEntry {
@@ -34,12 +34,12 @@ struct TomlEntry {
     TomlValue value;
 };
 
-/// A parsed file. All functions that return a value throw InputError with its place when the value
-/// is of another kind.
+/// A parsed file. All functions that return a value throw InputError with its position when the
+/// value has another type.
 class TomlFile {
   public:
-    /// Throws InputError (line, column, text of the line) for text that is not TOML, and for a key
-    /// of more than 64 parts (each is a level of tables).
+    /// Throws InputError (line, column, text of the line) for invalid TOML, and for a key of more
+    /// than 64 parts (each is a level of tables).
     TomlFile(std::string text, std::string path);
 
     const TomlValue& root() const { return root_; }
@@ -59,9 +59,9 @@ class TomlFile {
     /// `parent.key` when present.
     std::optional<double> find_number(const TomlValue& parent, std::string_view key) const;
 
-    /// One line for each key nobody asked for.
+    /// One line for each unused key.
     std::vector<std::string> unknown_keys() const;
-    /// Throws InputError at the first of them.
+    /// Throws InputError at the first unused key.
     void refuse_unknown_keys() const;
 
   private:

@@ -1,4 +1,4 @@
-// Conversions between the units inside (mm, rad, s) and those of NC words, files and reports.
+// Conversions between internal units (mm, rad, s) and those of NC words, files and reports.
 #pragma once
 
 #include <numbers>

@@ -49,7 +49,7 @@ std::vector<AxisPositions> positions() {
     return all;
 }
 
-/// What a person writes for this one machine: two rotations about fixed points.
+/// Handwritten code for this one machine: two rotations about fixed points.
 Vector3 straight_line(const AxisPositions& q, const Vector3& tip_S) {
     const Vector3 p(10, -3, 40), c(12, 5, 60);
     Matrix3 rb, rc;

@@ -1,4 +1,4 @@
-// Arcs whose end is off their circle, and arcs without a plane, where it can be told from the text.
+// Arcs whose end is not on their circle, and arcs outside their plane, as far as the text shows it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,12 +20,12 @@ struct Plane {
 };
 constexpr Plane plane_xy{0, 1}, plane_zx{2, 0}, plane_yz{1, 2};
 
-/// Ten times the code. G20, G21, G40, G43, G49, G61, G64, G80, G94 leave position and plane.
+/// Code times ten. G20, G21, G40, G43, G49, G61, G64, G80, G94 do not change position or plane.
 constexpr std::array harmless{200, 210, 400, 430, 490, 610, 640, 800, 940};
-/// Canned cycles: they end the motion mode.
+/// Canned cycles cancel the motion mode.
 constexpr std::array cycles{730, 740, 760, 810, 820, 830, 840, 850, 860, 870, 880, 890};
 
-/// What is known of position and modes at a block; nothing where it was computed or jumped to.
+/// Known positions and modes at a block; unknown after computed words or jumps.
 class ArcCheck {
   public:
     ArcCheck(const CheckSection& section, const CheckOptions& options, Findings& findings)
@@ -78,7 +78,7 @@ class ArcCheck {
         }
     }
 
-    /// Calls may move and change modes; spindle and coolant do not.
+    /// Calls may move axes and change modes; spindle and coolant codes do not.
     void take_m(const interpreter::Item& item, bool& other) {
         const auto value = interpreter::constant_value(program_, item);
         if (!value || code10_of(*value) >= 900 || code10_of(*value) == 60) other = true;
@@ -108,7 +108,7 @@ class ArcCheck {
             check_centre(block, end_1, end_2);
     }
 
-    /// Way along one axis of the plane, from the start; false when it cannot be told.
+    /// Distance from the start along one axis of the plane; false when it is unknown.
     bool delta(const interpreter::Block& block, std::size_t axis, double& way) const {
         if (!has_word(block, std::string_view(&axis_letters[axis], 1))) return true;
         const auto value = word_value(program_, block, axis_letters[axis]);
@@ -181,7 +181,7 @@ class ArcCheck {
     std::optional<bool> absolute_;
     Plane plane_ = plane_xy;
     bool plane_named_ = false, plane_told_ = false;
-    int arc_ = -1;  ///< group 01: 0 1 2 3, -1 not known
+    int arc_ = -1;  ///< group 01: 0 1 2 3, -1 unknown
 };
 
 }  // namespace

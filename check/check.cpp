@@ -51,7 +51,7 @@ bool Findings::has_error(int line) const {
 
 namespace {
 
-/// The first of equal findings stays, with how many there are, when there are more than a few.
+/// If there are more than a few equal findings, only the first is kept, with their number.
 std::vector<Finding> one_for_each_cause(std::vector<Finding> found) {
     constexpr std::size_t few = 3;
     std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> same;

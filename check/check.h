@@ -1,4 +1,4 @@
-// Static findings on a program: what shows without running it.
+// Static findings on a program, without running it.
 #pragma once
 
 #include <functional>
@@ -31,41 +31,42 @@ struct CheckRule {
 };
 const std::vector<CheckRule>& check_rules();
 
-/// Carries out the words of blocks in order, as a run does.
+/// Executes the words of blocks in order, like a run.
 class Trial {
   public:
     virtual ~Trial() = default;
-    /// The alarm that stops the run here, or nothing.
+    /// The alarm that stops the run at this block; empty if none.
     virtual std::optional<Alarm> run(const interpreter::BlockWords& block) = 0;
-    /// The alarm of the words alone, whatever the program did before, or nothing.
+    /// The alarm found from the words alone, independent of earlier blocks; empty if none.
     virtual std::optional<Alarm> read(const interpreter::BlockWords& block) = 0;
-    /// The end of the program: what still waits goes out.
+    /// End of the program: executes what is still pending.
     virtual std::optional<Alarm> end() = 0;
 };
 
 struct CheckOptions {
     interpreter::Dialect dialect;
-    /// Does the control have this G code (434 is G43.4)? Not checked when empty.
+    /// True when the control has this G code (434 is G43.4). Empty: not checked.
     std::function<bool(int code10)> knows_g;
-    /// Is program O`number` known outside the file? Not checked when empty.
+    /// True when program O`number` exists outside the file. Empty: not checked.
     std::function<bool(int o_number)> finds_program;
-    /// Is the program `<name>` known outside the file? Not known when empty.
+    /// True when the program `<name>` exists outside the file. Empty: unknown.
     std::function<bool(const std::string& name)> finds_named;
-    /// Does this G or M code (434 is G43.4), or T with 0, call a program? Nothing does when empty.
+    /// True when this G or M code (434 is G43.4), or T with 0, calls a program. Empty: none does.
     std::function<bool(char letter, int code10)> calls_program;
-    /// "PS0007 ILLEGAL USE OF DECIMAL POINT". Only the number when empty.
+    /// "PS0007 ILLEGAL USE OF DECIMAL POINT". Empty: only the number is shown.
     std::function<std::string(int alarm)> alarm_text;
-    /// The alarm of reading or writing variable #number from #1000 on, 0: none. Not checked when
-    /// empty.
+    /// Alarm number for reading or writing variable #number from #1000 on; 0: none. Empty: not
+    /// checked.
     std::function<int(int number, bool writes)> variable_alarm;
-    /// A control that carries out blocks one after another. Not checked when empty.
+    /// A control that executes blocks one after another. Empty: not checked.
     std::function<std::unique_ptr<Trial>()> start_trial;
-    bool arc_centres_are_places = false;  ///< BNC: I J K are no way from the start
-    double arc_tolerance_mm = 0.02;  ///< radius at the arc's end against its start (parameter 3410)
+    bool arc_centres_are_places = false;  ///< BNC: I J K are positions, not distances from the
+                                          ///< start
+    double arc_tolerance_mm = 0.02;  ///< difference of the radii at start and end (parameter 3410)
 };
 
-/// All findings on one file, by line. Only what can be told for sure: computed values, positions
-/// behind jumps and machine data are left to a run.
+/// All findings on one file, by line. Reports only what is certain: computed values, positions
+/// after jumps and machine data are left to a run.
 std::vector<Finding> check_program(const interpreter::ProgramText& program,
                                    const CheckOptions& options);
 

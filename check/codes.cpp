@@ -1,4 +1,4 @@
-// G codes: unknown ones, and states that do not go together.
+// G codes: unknown codes, and incompatible states.
 #include <fmt/format.h>
 
 #include "check/section.h"
@@ -7,12 +7,12 @@ namespace trunnion::check {
 
 namespace {
 
-/// Modal states the checks follow, in the order the blocks are written.
+/// Modal states followed by the checks, in written order.
 struct Followed {
     bool compensation = false;  ///< G41, G42
     bool tool_centre = false;   ///< G43.4, G43.5
     bool tilted_plane = false;  ///< G68.2 to G68.4
-    bool indexed = false;       ///< G53.1, G53.6 turned the rotaries
+    bool indexed = false;       ///< G53.1 or G53.6 positioned the rotary axes
 };
 
 struct Effect {
@@ -34,7 +34,7 @@ std::string name_of_code(int code10) {
                             : fmt::format("G{}.{}", code10 / 10, code10 % 10);
 }
 
-/// A rotary word, and all of them are 0.
+/// True when the block has rotary words and all of them are 0.
 bool turns_to_zero(const interpreter::ParsedProgram& program, const interpreter::Block& block) {
     bool any = false;
     for (const char letter : {'A', 'B', 'C'}) {
@@ -60,7 +60,7 @@ void at_end(const Followed& state, const interpreter::Block& block, Findings& fi
 
 void check_codes(const CheckSection& section, const CheckOptions& options, Findings& findings) {
     const interpreter::ParsedProgram& program = *section.program;
-    // G43.4 of a Hurco is the linearisation, which M129 ends.
+    // G43.4 of a Hurco is the linearisation; M129 ends it.
     const bool hurco = options.dialect.family == interpreter::DialectFamily::hurco;
     Followed state;
     for (const interpreter::Block* block : section.blocks) {

@@ -1,4 +1,4 @@
-// Programs written for a lathe or for a Haas: recognised by codes that mean something else there.
+// Programs for a lathe or a Haas, recognised by codes with a different meaning there.
 #include <fmt/format.h>
 
 #include "check/section.h"
@@ -7,12 +7,12 @@ namespace trunnion::check {
 
 namespace {
 
-/// A block with this code and all of these letters is written for that family.
+/// A block with this code and all of these letters belongs to that family.
 struct Mark {
     const char* family;
     char letter;
     int code10;
-    const char* with;  ///< letters that stand in the block
+    const char* with;  ///< letters of the block
     const char* text;
 };
 constexpr Mark marks[] = {

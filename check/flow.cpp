@@ -1,4 +1,4 @@
-// Jumps, loops, calls and what is never reached.
+// Jumps, loops, calls and unreachable blocks.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -52,10 +52,10 @@ void close_loop(std::vector<OpenLoop>& loops, const interpreter::Block& block,
         }
 }
 
-/// The loops round a block, from the outermost: their DO blocks.
+/// The loops around a block, outermost first: their DO blocks.
 using Nest = std::vector<const interpreter::Block*>;
 
-/// A constant GOTO into a loop that does not hold the GOTO: its END has no DO that runs.
+/// A constant GOTO into a loop that does not contain the GOTO: its END has no active DO.
 void check_entries(const CheckSection& section,
                    const std::map<const interpreter::Block*, Nest>& nests, Findings& findings) {
     for (const auto& [block, nest] : nests)
@@ -79,7 +79,7 @@ void check_entries(const CheckSection& section,
 
 void check_statements(const CheckSection& section, Findings& findings) {
     std::vector<OpenLoop> loops;
-    std::map<const interpreter::Block*, Nest> nests;  // of blocks that jump or are jumped to
+    std::map<const interpreter::Block*, Nest> nests;  // of blocks that jump or are jump targets
     for (const interpreter::Block* block : section.blocks) {
         bool jumps = section.targets.contains(block->sequence_number);
         for (const interpreter::Item& item : section.program->items(*block))
@@ -103,7 +103,7 @@ void check_statements(const CheckSection& section, Findings& findings) {
                      "Every DO needs its END with the same number, nested loops inside.");
 }
 
-/// Nothing behind it runs unless something jumps there: GOTO, M30, M02, M99 without a condition.
+/// True when the next block is reached by a jump only: unconditional GOTO, M30, M02, M99.
 bool leaves(const interpreter::ParsedProgram& program, const interpreter::Block& block) {
     bool jump = false;
     for (const interpreter::Item& item : program.items(block)) {
@@ -128,7 +128,7 @@ void check_reach(const CheckSection& section, Findings& findings) {
     bool reached = true, told = false;
     for (const interpreter::Block* block : section.blocks) {
         if (is_entered(section, *block)) reached = true;
-        // A number alone may be what a caller's M99 P or M98 Q returns to.
+        // A block with a sequence number may be the target of a caller's M99 P or M98 Q.
         const bool numbered = block->sequence_number >= 0 && section.subprogram;
         if (!reached && !told && !numbered && block->items.count > 0 &&
             block->kind != interpreter::BlockKind::program) {
@@ -203,7 +203,7 @@ void check_calls(const interpreter::ParsedProgram& program,
             int column = 1;
             const auto number = called_program(program, *block, column);
             if (!number || known(*number)) continue;
-            // M98 P100005 may be ten times O0005 (by control generation).
+            // M98 P100005 may mean ten times O0005 (depends on the control generation).
             const bool m98 = has_code(program, *block, 'M', 980);
             if (m98 && *number > 9999 && known(*number % 10000)) continue;
             findings.add(

@@ -1,4 +1,4 @@
-// Carries out a main program as far as it runs straight on with constant words.
+// Executes a main program as far as it is sequential with constant words.
 #include <fmt/format.h>
 
 #include "check/section.h"
@@ -7,7 +7,7 @@ namespace trunnion::check {
 
 namespace {
 
-/// What a block means for a run that knows no variables and no devices.
+/// Meaning of a block for an execution without variables and devices.
 enum class Step { run, pass, end, unknown };
 
 bool is_call(char letter, int code10, const CheckOptions& options) {
@@ -16,7 +16,7 @@ bool is_call(char letter, int code10, const CheckOptions& options) {
     return own || (options.calls_program && options.calls_program(letter, code10));
 }
 
-/// Only variables of the language are set: nothing of the control changes.
+/// True when only variables of the language are set, so the control is unchanged.
 bool sets_own_variables(const interpreter::ParsedProgram& program,
                         const interpreter::Block& block) {
     for (const interpreter::Item& item : program.items(block))
@@ -50,7 +50,7 @@ Step step_of(const interpreter::ParsedProgram& program, const interpreter::Block
 void add_alarm(const Alarm& alarm, const CheckSection& section, const interpreter::Block& block,
                const CheckOptions& options, Findings& findings) {
     const int line = alarm.where.line > 0 ? alarm.where.line : block.line;
-    if (findings.has_error(line)) return;  // one finding for one cause
+    if (findings.has_error(line)) return;  // one finding for each cause
     Finding found;
     found.rule = "alarm";
     found.path = section.program->source.name;
@@ -70,8 +70,8 @@ void add_alarm(const Alarm& alarm, const CheckSection& section, const interprete
 
 namespace {
 
-/// The words that are left for the control when the language has taken those of M98, M198 or M99;
-/// nothing where the block's words are arguments or belong to a called program.
+/// The words left for the control after the language has taken those of M98, M198 or M99; empty
+/// when the words are arguments or belong to a called program.
 std::optional<interpreter::BlockWords> words_for_control(const interpreter::ParsedProgram& program,
                                                          const interpreter::Block& block,
                                                          const CheckOptions& options) {
@@ -94,7 +94,7 @@ std::optional<interpreter::BlockWords> words_for_control(const interpreter::Pars
     return out;
 }
 
-/// Behind the straight part, and in subprograms: what the words alone tell.
+/// After the sequential part, and in subprograms: checks of the words alone.
 void read_on(const CheckSection& section, std::size_t from, Trial& trial,
              const CheckOptions& options, Findings& findings) {
     for (std::size_t i = from; i < section.blocks.size(); ++i) {

@@ -1,4 +1,4 @@
-// Words that the control does not take, variables that it does not have.
+// Words not accepted by the control, and variables that it does not have.
 #include <fmt/format.h>
 
 #include "check/section.h"
@@ -36,7 +36,7 @@ void check_block_words(const interpreter::ParsedProgram& program, const interpre
             "Correct the word.");
 }
 
-/// 115 and 116 of a variable number.
+/// Alarms 115 and 116 of a variable number.
 int variable_alarm(int number, bool writes, const CheckOptions& options) {
     if (number == 0) return writes ? 116 : 0;
     if (number <= interpreter::local_count ||

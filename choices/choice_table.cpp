@@ -13,7 +13,7 @@ bool is_hurco(const Setup& setup) {
 
 struct Bit {
     int number, index;
-    const char *off, *on;  ///< what a control with the bit at 0, at 1 does
+    const char *off, *on;  ///< behaviour of a control with the bit 0, with the bit 1
 };
 constexpr Bit bits[] = {
     {1001, 0, "the machine counts in mm", "the machine counts in inches"},
@@ -187,7 +187,7 @@ std::vector<Choice> whole_table() {
              [blocks](const Setup& s) { return s.stores.parameters.get(19625, 3.0) == blocks; },
              [blocks](Setup& s) { s.stores.parameters.set(19625, blocks); }});
     add_block_skip(out);
-    add_controls(out);  // last: of equals the smaller change is named first
+    add_controls(out);  // last, because of equal rows the smaller change is named first
     return out;
 }
 

@@ -1,4 +1,4 @@
-// What a control may be built or set to do differently from the one of a setup: one table.
+// Possible differences between a control and that of a setup: one table of options and settings.
 #pragma once
 
 #include <functional>
@@ -13,18 +13,19 @@ namespace trunnion::choices {
 /// One value of one choice: "tcp_frame=rotary_zero", "5006#6=1", "dialect=hurco".
 struct Choice {
     std::string key, value;
-    std::string what;  ///< what a control with this value does, one sentence without a full stop
-    std::function<bool(const setup::Setup&)> holds;  ///< the setup's control does so already
+    std::string what;  ///< behaviour of a control with this value, one sentence without a full stop
+    std::function<bool(const setup::Setup&)> holds;  ///< true when the setup's control already has
+                                                     ///< the value
     std::function<void(setup::Setup&)> take;
 
     std::string name() const { return key + '=' + value; }
 };
 
-/// Every row: keys of [control] and [control.hurco], bits of parameters, generations, dialects.
-/// Rows that only a Hurco has hold for every other control: there they change nothing.
+/// All rows: keys of [control] and [control.hurco], bits of parameters, generations, dialects. Rows
+/// for a Hurco only hold for every other control, where they have no effect.
 const std::vector<Choice>& choice_table();
 
-/// The row that "KEY=VALUE" names; nothing where there is none such.
+/// The row named by "KEY=VALUE"; empty if there is none.
 std::optional<Choice> find_choice(const std::string& text);
 
 }  // namespace trunnion::choices

@@ -1,4 +1,4 @@
-// A setup's control run beside a log: path, pairs, and what lies between them.
+// A run of a setup's control compared with a log: path, pairs, and their distances.
 #pragma once
 
 #include "choices/pairing.h"
@@ -12,7 +12,7 @@ struct ComparedRun {
     double loss = 0.0;           ///< their sum
 };
 
-/// One program beside one log, asked again and again.
+/// Repeated comparison of one program with one log.
 class Comparer {
   public:
     Comparer(const LogView& log, const interpreter::ProgramText& program,
@@ -33,7 +33,7 @@ class Comparer {
     PathOptions options_;
 };
 
-/// The axes go the same way, within 1e-7 mm and deg.
+/// True when the axes move on the same path, within 1e-7 mm and deg.
 bool same_way(const ControlPath& a, const ControlPath& b);
 
 double sum_of(const std::vector<double>& values);

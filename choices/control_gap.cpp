@@ -18,17 +18,17 @@ namespace trunnion::choices {
 namespace {
 
 constexpr std::size_t most_where = 5;
-constexpr double quiet_mean = 1.5;   ///< mean loss of what is no gap
-constexpr double quiet_worst = 6.0;  ///< and its largest distance, in sigma
+constexpr double quiet_mean = 1.5;   ///< mean loss below which there is no gap
+constexpr double quiet_worst = 6.0;  ///< and the largest distance, in sigma
 constexpr double explained_from = 0.8, partly_from = 0.5;
-constexpr double least_left = 0.005;  ///< of the gap: a block that is said to stay
+constexpr double least_left = 0.005;  ///< of the gap: minimum for a block listed as remaining
 constexpr int draws = 400;
 
 double um(double mm) {
     return 1000.0 * mm;
 }
 
-/// Block of each row: the one that the log tells, else the one that the control is in there.
+/// Block of each row: the one given by the log, else the one of the control at that point.
 std::vector<int> blocks_of(const LogView& log, const ComparedRun& run) {
     std::vector<int> out(log.rows.size(), 0);
     for (const Pair& pair : run.pairs)
@@ -59,7 +59,7 @@ class Texts {
     const std::vector<interpreter::ProgramText>& all_;
 };
 
-/// What is said about runs of one log.
+/// Creates the results from runs of one log.
 class Teller {
   public:
     Teller(const LogOfProgram& log, const Texts& texts, const std::vector<int>& blocks)
@@ -76,7 +76,7 @@ class Teller {
     double noise_loss() const {
         return static_cast<double>(log_.view.axes.size() * log_.view.rows.size());
     }
-    /// The pair that lies farthest apart among the rows that `counts`.
+    /// The pair with the largest distance among the rows accepted by `counts`.
     template <class Counts>
     GapPlace worst(const ComparedRun& run, Counts counts) const {
         const Pair* most = nullptr;
@@ -95,9 +95,9 @@ class Teller {
         }
         return first == nullptr ? GapPlace{} : place(run, *first);
     }
-    /// `excess`: loss beyond noise that the shares are parts of.
+    /// `excess`: loss beyond noise, to which the shares refer.
     std::vector<GapBlock> where(const ComparedRun& run, double excess) const {
-        std::map<int, std::pair<double, double>> loss;  // and how many terms
+        std::map<int, std::pair<double, double>> loss;  // and the number of terms
         for (std::size_t row = 0; row < run.losses.size(); ++row) {
             loss[blocks_[row]].first += run.losses[row];
             loss[blocks_[row]].second += static_cast<double>(log_.view.axes.size());
@@ -115,7 +115,7 @@ class Teller {
         }
         return out;
     }
-    /// Part of the excess over the noise that is gone, as amplitude, with the spread of blocks.
+    /// Removed part of the excess over the noise, as amplitude, with its spread over blocks.
     GapShrink shrink(const std::vector<double>& before, const std::vector<double>& after) const {
         GapShrink out{mean_um(before), mean_um(after), 0.0, 0.0, 0.0};
         std::map<int, std::array<double, 3>> sums;
@@ -230,14 +230,15 @@ GapVerdict verdict_of(const ControlGap& gap) {
     return rivals ? GapVerdict::ambiguous : GapVerdict::explained;
 }
 
-/// Never more than the blocks that see the cause, and what all causes explain, allow.
+/// Limits the probability by the number of blocks that depend on the cause, and by the part
+/// explained by all causes.
 void cap_probability(GapCause& cause, double explained) {
     const double blocks = static_cast<double>(cause.blocks);
     cause.probability =
         std::min({cause.probability, (blocks + 1.0) / (blocks + 2.0), std::max(0.0, explained)});
 }
 
-/// A gap with structure that no row of the tables makes.
+/// Adds a structured gap that no row of the tables explains.
 void add_unknown(ControlGap& gap) {
     GapCause cause;
     cause.name = "unknown";
@@ -251,7 +252,7 @@ void add_unknown(ControlGap& gap) {
     gap.causes.push_back(cause);
 }
 
-/// A note where the program goes on behind the log.
+/// Adds a note if the program continues after the end of the log.
 void tell_rest(const ComparedRun& base, ControlGap& gap) {
     std::size_t last = 0;
     for (const Pair& pair : base.pairs) last = std::max<std::size_t>(last, pair.node);
@@ -318,7 +319,7 @@ ControlGap control_gap(const GapQuestion& question, interpreter::ProgramSource& 
     PathOptions first_look;
     first_look.ends_only = true;
     first_look.max_blocks = question.max_blocks;
-    path_of(question.setup, question.program, programs, first_look);  // finds what it calls
+    path_of(question.setup, question.program, programs, first_look);  // finds the called programs
     const std::vector<interpreter::ProgramText> all = called();
     LogOfProgram log = log_of_program(question.log, all);
     log.path.max_blocks = question.max_blocks;

@@ -25,7 +25,7 @@ ControlPosition place(const motion::AxisMove& m, double s) {
     return offsets::control_position_of(m.at(s));
 }
 
-/// How far the middle of a chord lies off the curve, the worst of `n` chords.
+/// Distance of the middle of a chord from the curve, maximum over `n` chords.
 double sag(const motion::AxisMove& m, int n) {
     double most = 0.0;
     for (int k = 0; k < n; ++k) {

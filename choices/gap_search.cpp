@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::size_t most_steps = 8;
 constexpr double least_gain = 4.0;     ///< of the score: odds of 50 to 1
-constexpr double least_shrink = 0.02;  ///< of the loss, on rows left out
+constexpr double least_shrink = 0.02;  ///< of the loss, on left-out rows
 constexpr double rival_gap = 3.0;      ///< of the score: odds of 20 to 1
 
-/// Scores of one log.
+/// Scores for one log.
 class Scorer {
   public:
     Scorer(const LogView& log, const std::vector<int>& blocks) {
@@ -34,7 +34,7 @@ class Scorer {
     double terms_ = 1.0, n_ = 1.0;
 };
 
-/// Losses when each fold is judged with the change only where the other folds call for it.
+/// Losses with each fold evaluated with the change only if the other folds support it.
 std::vector<double> decided_elsewhere(const std::vector<double>& before,
                                       const std::vector<double>& after,
                                       const std::vector<int>& blocks) {

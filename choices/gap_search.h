@@ -1,4 +1,4 @@
-// The search for causes of a control's gap: candidates, their scores, greedy choice.
+// Search for the causes of a control's gap: candidates, their scores, greedy selection.
 #pragma once
 
 #include <functional>
@@ -16,11 +16,11 @@ struct GapCandidate {
     std::function<void(setup::Setup&)> take;
     std::vector<FittedNumber> numbers;
     ComparedRun run;
-    std::vector<double> left_out;  ///< losses of the rows, each fold judged without it
-    double score = 0.0;            ///< log of its evidence, to a common constant
+    std::vector<double> left_out;  ///< losses of the rows, each evaluated without its fold
+    double score = 0.0;            ///< log evidence, up to a common constant
 };
 
-/// One accepted change with what is said of it.
+/// One accepted change with its results.
 struct GapStep {
     GapCandidate chosen;
     std::vector<std::string> rivals;
@@ -31,12 +31,13 @@ struct GapSearch {
     std::vector<GapStep> steps;
     setup::Setup setup;
     ComparedRun run;               ///< with all steps
-    std::vector<double> left_out;  ///< its losses, folds left out of each step's decision and fit
+    std::vector<double> left_out;  ///< its losses, with the folds left out of each step's decision
+                                   ///< and fit
     std::vector<std::string> unseen;
 };
 
 /// `blocks`: block of each row, from 0. Score: -n/2 ln(mean loss, at least 1) - k/2 ln n with n =
-/// blocks times axes: it knows no scale, so what stays unexplained tempers it.
+/// blocks times axes. It is independent of scale, so an unexplained remainder tempers it.
 GapSearch search_causes(const Comparer& comparer, const setup::Setup& setup,
                         const ComparedRun& before, const std::vector<int>& blocks,
                         const std::function<void(const char*)>& watch);

@@ -17,9 +17,10 @@ namespace trunnion::choices {
 namespace {
 
 constexpr std::size_t rows_for_noise = 50;
-constexpr double dense_rows_a_block = 8.0;  ///< from here on neighbours lie on one smooth motion
+constexpr double dense_rows_a_block = 8.0;  ///< with more rows a block, neighbours belong to one
+                                            ///< smooth motion
 
-/// N number in force at each line of a text, [0] for the lines before the first.
+/// Active N number at each line of a text, [0] for the lines before the first.
 std::vector<int> numbers_in(std::string_view text) {
     std::vector<int> out{0};
     int number = 0;
@@ -41,7 +42,7 @@ std::string file_of(const std::string& path) {
     return std::filesystem::path(path).filename().string();
 }
 
-/// Numbers of blocks as the log counts them.
+/// Block numbers in the numbering of the log.
 class BlockKeys {
   public:
     BlockKeys(const records::PositionLog& log, const std::vector<interpreter::ProgramText>& texts)
@@ -77,7 +78,8 @@ class BlockKeys {
     int count() const { return static_cast<int>(keys_.size()); }
 
   private:
-    /// Programs count where the log names one that is called; else a block is a block of any.
+    /// Programs are distinguished if the log names a called one; otherwise blocks of all programs
+    /// count alike.
     std::string program_of(const std::string& name) const {
         const std::string file = file_of(name);
         return knows_program_ && numbers_.contains(file) && file != main_ ? file : std::string();
@@ -109,7 +111,7 @@ class BlockKeys {
     bool by_number_ = false, knows_program_ = false;
 };
 
-/// Where an arc of the log stands at `part` of its way; the other axes go evenly.
+/// Position on an arc of the log at fraction `part`; the other axes are linear.
 AxisPositions on_arc(const records::LoggedArc& arc, const AxisPositions& from,
                      const AxisPositions& to, double part) {
     const auto xyz = [](const AxisPositions& q) {
@@ -130,7 +132,7 @@ AxisPositions on_arc(const records::LoggedArc& arc, const AxisPositions& from,
     return out;
 }
 
-/// Spread of one axis about a smooth motion: the middle third difference.
+/// Scatter of one axis about a smooth motion: third differences.
 double scatter(const LogView& view, Axis axis) {
     std::vector<double> size;
     for (std::size_t i = 3; i < view.rows.size(); ++i) {
@@ -163,7 +165,7 @@ void set_noise(const records::PositionLog& log, LogOfProgram& out) {
     }
     if (given) out.noise = LogNoise::given;
     double sum = 0.0;
-    for (LogView::Row& row : out.view.rows) {  // `weight` holds the log's sigma so far
+    for (LogView::Row& row : out.view.rows) {  // `weight` contains the log's sigma so far
         const double own = std::max(row.weight, sigma);
         row.weight = 1.0 / own;
         sum += own;

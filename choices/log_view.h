@@ -1,4 +1,4 @@
-// A position log beside the program that it was taken of: blocks, uncertainty, start.
+// A position log with its program: blocks, uncertainty, start.
 #pragma once
 
 #include <string>
@@ -15,21 +15,21 @@ const char* to_string(LogNoise noise);
 
 struct LogOfProgram {
     LogView view;
-    PathOptions path;  ///< how a path that is compared with this log is to be made
+    PathOptions path;  ///< options for a path to be compared with this log
     LogNoise noise = LogNoise::assumed;
     double sigma = 0.0;  ///< mean standard uncertainty of a position, mm or deg
     std::vector<std::string> notes;
 };
 
-/// `texts`: the main program first, then the programs that it calls. The uncertainty is what the
-/// log gives, else (dense samples) what scatters about a smooth motion by their third differences,
-/// at least that of the printed increment; never below `least_sigma`. N numbers count where every
-/// number of a column `block` is one of the program, else the numbers are lines. Throws InputError
+/// `texts`: the main program first, then the programs that it calls. The uncertainty is that of the
+/// log, else (dense samples) the scatter about a smooth motion from third differences, at least
+/// that of the printed increment, and never below `least_sigma`. A column `block` contains N
+/// numbers if all its values are N numbers of the program, else line numbers. Throws InputError
 /// with the log's line for a block that the program does not have.
 LogOfProgram log_of_program(const records::PositionLog& log,
                             const std::vector<interpreter::ProgramText>& texts);
 
-constexpr double least_sigma = 5e-5;         ///< mm or deg: less is beyond any control
-constexpr double least_sample_sigma = 1e-4;  ///< of samples: the chords of curves
+constexpr double least_sigma = 5e-5;         ///< mm or deg: below the resolution of any control
+constexpr double least_sample_sigma = 1e-4;  ///< of samples: because of the chords of curves
 
 }  // namespace trunnion::choices

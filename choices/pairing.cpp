@@ -12,9 +12,10 @@ using offsets::ControlPosition;
 using Indices = std::vector<std::size_t>;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr std::size_t most_cells = 4'000'000;  ///< of one block's table; beyond, a band of it
+constexpr std::size_t most_cells = 4'000'000;  ///< of one block's table; beyond it, only a band is
+                                               ///< computed
 constexpr std::size_t least_half_band = 40;
-constexpr std::size_t spacing_rows = 2;  ///< rows to each side that tell the distance of samples
+constexpr std::size_t spacing_rows = 2;  ///< rows on each side for the distance of samples
 
 /// Positions of the log's axes only.
 class Space {
@@ -28,7 +29,7 @@ class Space {
             sum += (a.value[i] - b.value[i]) * (a.value[i] - b.value[i]);
         return sum;
     }
-    /// Fraction of the point of the line a-b that is nearest to p.
+    /// Fraction of the point on the line a-b nearest to p.
     double nearest(const ControlPosition& a, const ControlPosition& b,
                    const ControlPosition& p) const {
         double along = 0.0, length = 0.0;
@@ -55,10 +56,11 @@ class Space {
     Indices index_;
 };
 
-/// The part of a table of m by n cells that is worked through, and the step into each cell.
+/// The evaluated part of a table of m by n cells, and the step into each cell.
 class Band {
   public:
-    /// `log_way`, `path_way`: how far along each row and node lies, as parts of all.
+    /// `log_way`, `path_way`: position of each row and node along its path, as fractions of the
+    /// total.
     Band(const std::vector<double>& log_way, const std::vector<double>& path_way) {
         const std::size_t m = log_way.size(), n = path_way.size();
         const std::size_t half =
@@ -126,7 +128,7 @@ class Pairer {
     const ControlPosition& row_at(std::size_t i) const { return log_.rows[i].at; }
     const ControlPosition& node_at(std::size_t k) const { return path_.nodes[k].at; }
 
-    /// Way from the first of `list` to each, as a part of all.
+    /// Path length from the first of `list` to each, as a fraction of the total.
     template <class At>
     static std::vector<double> ways(const Indices& list, const Space& space, At at) {
         std::vector<double> way(list.size(), 0.0);
@@ -141,7 +143,7 @@ class Pairer {
                 ways(
                     nodes, space_, [this](std::size_t k) -> auto& { return node_at(k); })};
     }
-    /// The last row of the log may stand anywhere: what would come after it is not known.
+    /// The last row of the log may be anywhere, because the following ones are unknown.
     bool ends_open(const Indices& rows) const { return rows.back() + 1 == log_.rows.size(); }
 
     void add(std::size_t row, std::size_t node, double fraction, const ControlPosition& apart,
@@ -190,7 +192,7 @@ class Pairer {
             most = std::max(most, space_.square(row_at(k), row_at(k + 1)));
         return std::sqrt(most);
     }
-    /// What lies between a node and the chord from row i on, less the distance of samples.
+    /// Distance between a node and the chord from row i on, minus the distance of samples.
     ControlPosition missed(std::size_t i, std::size_t k) const {
         const ControlPosition& from = row_at(i);
         const ControlPosition& to = row_at(std::min(i + 1, log_.rows.size() - 1));
@@ -201,7 +203,7 @@ class Pairer {
         for (double& value : apart.value) value *= kept;
         return apart;
     }
-    /// The row whose chord is on when i rows are placed.
+    /// The row whose chord is active when i rows are placed.
     static std::size_t placed(const Indices& rows, std::size_t i) {
         return i > 0 ? rows[i - 1] : rows[0] - std::min<std::size_t>(rows[0], 1);
     }
@@ -268,7 +270,7 @@ class Pairer {
         if (space_.square(apart, {}) > 0.0) add(i, k, 1.0, apart, false);
     }
 
-    /// Rows of blocks that do not move here: the control stands where the row before belongs.
+    /// Rows of blocks without motion here: the control is at the position of the previous row.
     void add_lonely_rows() {
         std::size_t node = 0;
         for (std::size_t i = 0; i < log_.rows.size(); ++i) {
@@ -278,7 +280,8 @@ class Pairer {
                 add_end(i, node);
         }
     }
-    /// Moves of blocks that the log does not have: the log stands where the node before belongs.
+    /// Moves of blocks that the log does not contain: the log is at the position of the previous
+    /// node.
     void add_lonely_nodes() {
         std::size_t last = 0;
         for (const Pair& pair : pairs_) last = std::max<std::size_t>(last, pair.node);

@@ -1,4 +1,4 @@
-// Which logged position belongs to which place of a control's path, and how far they lie apart.
+// Assignment of logged positions to points of a control's path, and their distances.
 #pragma once
 
 #include <cstddef>
@@ -10,38 +10,38 @@
 
 namespace trunnion::choices {
 
-/// What of a log the pairing works with: positions in mm and deg, a block key for each row.
+/// The data of a log used for pairing: positions in mm and deg, and a block key for each row.
 struct LogView {
     struct Row {
         offsets::ControlPosition at;
-        int key = -1;         ///< number of its block, -1: not told
+        int key = -1;         ///< number of its block, -1: not given
         double weight = 1.0;  ///< 1 / standard uncertainty, per mm or deg
-        int line = 0;         ///< of the log's file
-        bool end = false;     ///< the end of a move: it belongs to a node, not to a way
+        int line = 0;         ///< in the log's file
+        bool end = false;     ///< end of a move: belongs to a node, not to a segment
     };
     std::vector<Row> rows;
-    std::vector<Axis> axes;  ///< that the log tells
+    std::vector<Axis> axes;  ///< axes in the log
     bool ends = false;       ///< all rows are ends of moves
-    int keys = 0;            ///< how many blocks the log names; 0: it tells no blocks
-    /// Number of a block of the program; -1: the log does not name it.
+    int keys = 0;            ///< number of blocks named by the log; 0: none
+    /// Number of a block of the program; -1: not named by the log.
     std::function<int(const PathBlock&)> key_of;
 };
 
-/// A row beside a place of the path: from node - 1 (fraction 0) to node (1).
+/// A row with its point of the path: from node - 1 (fraction 0) to node (1).
 struct Pair {
     std::size_t row = 0;
     std::uint32_t node = 0;
     double fraction = 1.0;
     offsets::ControlPosition apart;  ///< log - control, mm and deg; axes without a column: 0
-    bool slides = false;             ///< the place along the segment is the nearest one, so that
-                                     ///< nothing is said about the direction of travel
+    bool slides = false;             ///< the point is the nearest one on the segment, so it
+                                     ///< contains no information along the direction of travel
 };
 
-/// Pairs in order within each block: a block's rows go with what its line did, first to last, by
-/// least squares (dynamic time warping). Samples are compared with the way itself, ends of moves
-/// with ends. Moves that the log passed over count too: a place of the path that no sample came
-/// near is paired with the nearest of the samples' chords, less the distance of samples. A degree
-/// counts as a millimetre. Nothing behind the last logged position counts.
+/// Pairs in order within each block: the rows of a block are matched with the path of its line by
+/// least squares (dynamic time warping). Samples are compared with segments, ends of moves with
+/// ends. Moves not sampled by the log are included: a point of the path far from all samples is
+/// paired with the nearest chord of the samples, minus the distance of samples. A degree counts as
+/// a millimetre. Points after the last logged position are ignored.
 std::vector<Pair> pair_up(const LogView& log, const ControlPath& path);
 
 /// Sum of squares of all pairs of a row, each axis divided by its uncertainty; one value a row.

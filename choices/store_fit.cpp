@@ -13,16 +13,17 @@ namespace {
 using Eigen::MatrixXd, Eigen::VectorXd;
 using offsets::ControlPosition;
 
-constexpr double step = 1e-3;  ///< mm or deg, of the derivatives
+constexpr double step = 1e-3;  ///< mm or deg, for the derivatives
 constexpr double least_influence = 1e-6;
-constexpr double least_change = 1e-4;  ///< mm or deg: the finest increment that anyone types
+constexpr double least_change = 1e-4;  ///< mm or deg: the smallest increment that is entered in
+                                       ///< practice
 constexpr double least_sigmas = 4.0;
-constexpr double least_part = 1e-3;   ///< of the loss, that one more number takes away
-constexpr double still_falls = 0.99;  ///< of the loss, from round to round
+constexpr double least_part = 1e-3;   ///< of the loss: minimum reduction by another number
+constexpr double still_falls = 0.99;  ///< of the loss, from iteration to iteration
 constexpr int most_rounds = 25;
 
-/// How each pair's control position moves with one stored number; nothing where the program then
-/// takes other moves.
+/// Derivative of each pair's control position with respect to one stored number; empty where the
+/// program then executes other moves.
 using Column = std::vector<ControlPosition>;
 
 ControlPosition at(const ControlPath& path, const Pair& pair) {
@@ -41,7 +42,7 @@ double dot(const ControlPosition& a, const ControlPosition& b, const std::vector
     return sum;
 }
 
-/// Takes out what lies along the segment of the pair.
+/// Removes the component along the segment of the pair.
 void take_out_travel(const ControlPath& path, const Pair& pair, const std::vector<Axis>& axes,
                      ControlPosition& v) {
     ControlPosition way;
@@ -72,7 +73,7 @@ std::optional<Column> column_of(const Comparer& comparer, const setup::Setup& se
     return most > least_influence ? std::optional(std::move(out)) : std::nullopt;
 }
 
-/// Normal equations of the pairs whose row is in `use`.
+/// Normal equations of the pairs with rows in `use`.
 struct Normal {
     MatrixXd matrix;
     VectorXd right;
@@ -99,7 +100,8 @@ Normal normal_of(const Comparer& comparer, const ComparedRun& run,
     return out;
 }
 
-/// Solves with so weak a pull to `otherwise` that it counts only where no pair sees a number.
+/// Solution with a weak pull towards `otherwise`, which matters only for numbers that no pair
+/// depends on.
 VectorXd solved(Normal normal, const VectorXd& otherwise) {
     const double pull = 1e-9 * std::max(normal.matrix.trace(), 1e-12);
     normal.matrix.diagonal().array() += pull;
@@ -155,7 +157,7 @@ class Fitter {
                 out.push_back(std::move(*column));
         return out;
     }
-    /// Leaves in `seen_` what the path depends on, and gives its columns.
+    /// Keeps in `seen_` the numbers that the path depends on, and returns their columns.
     std::vector<Column> keep_seen() {
         Numbers seen;
         std::vector<Column> out;
@@ -171,14 +173,14 @@ class Fitter {
     Normal whole() const {
         return normal_of(comparer_, run_, columns_, [](std::size_t) { return true; });
     }
-    /// What a fit leaves, in units of the log's variance, at least one.
+    /// Residual of a fit, in units of the log's variance, at least one.
     double scale(double loss) const {
         const double count = static_cast<double>(comparer_.log().rows.size()) *
                              static_cast<double>(comparer_.log().axes.size());
         return std::max(1.0, loss / count);
     }
-    /// `columns_` are those of `seen_`. Takes in the number that, fitted with those already in,
-    /// takes away most, if it stands out from its uncertainty; false when none does.
+    /// `columns_` are those of `seen_`. Adds the number that, fitted together with those already
+    /// included, reduces the loss most, if it is significant; false if there is none.
     bool add_number() {
         const Normal all = whole();
         std::vector<Eigen::Index> in;
@@ -202,7 +204,7 @@ class Fitter {
     Eigen::Index place_of(const StoredNumber* number) const {
         return std::find(seen_.begin(), seen_.end(), number) - seen_.begin();
     }
-    /// Loss that goes with number `k` beside those in; 0 where it does not stand out.
+    /// Loss removed by number `k` beside those included; 0 if it is not significant.
     double gain_with(const Normal& all, std::vector<Eigen::Index> in, Eigen::Index k) const {
         in.push_back(k);
         const Normal normal = part_of(all, in);
@@ -220,7 +222,7 @@ class Fitter {
         return take(solved(whole(), VectorXd::Zero(count()))) && run_.loss < still_falls * before;
     }
     Eigen::Index count() const { return static_cast<Eigen::Index>(numbers_.size()); }
-    /// Takes the step, or a half, a quarter of it, where the loss falls.
+    /// Applies the step, or half or a quarter of it, if the loss decreases.
     bool take(const VectorXd& x) {
         for (double part = 1.0; part > 0.2; part *= 0.5) {
             setup::Setup moved = setup_;
@@ -247,7 +249,8 @@ class Fitter {
                 out.numbers.push_back({number.name, number.unit, from, to, s[k]});
         }
     }
-    /// Each fold with the numbers that the others give; where they see none, with the old ones.
+    /// Each fold with the numbers fitted to the others; if these do not determine them, with the
+    /// old ones.
     std::vector<double> left_out(const std::vector<int>& folds) const {
         VectorXd back(count());
         for (Eigen::Index k = 0; k < count(); ++k) {
@@ -283,7 +286,8 @@ class Fitter {
     const ComparedRun& before_;
     setup::Setup setup_;
     ComparedRun run_;
-    Numbers seen_, numbers_;  ///< that the path depends on; of them, those that are fitted
+    Numbers seen_, numbers_;  ///< numbers that the path depends on, and those of them that are
+                              ///< fitted
     std::vector<Column> columns_;
 };
 

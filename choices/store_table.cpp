@@ -71,7 +71,7 @@ void add_tools(const Setup& setup, std::vector<Store>& out) {
     }
 }
 
-/// A parameter as a number; `otherwise` is what an absent one counts.
+/// A parameter as a number; `otherwise`: value of an absent parameter.
 StoredNumber parameter(int number, double otherwise) {
     return {
         std::to_string(number), "mm", [number, otherwise](Setup& s) -> double& {

@@ -1,4 +1,4 @@
-// Numbers that a control keeps and that may be stale: offsets, tools, pivot, reference positions.
+// Numbers stored in a control that may be stale: offsets, tools, pivot, reference positions.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ struct StoredNumber {
     std::function<double&(setup::Setup&)> in;
 };
 
-/// Numbers that are typed together.
+/// Numbers that are entered together.
 struct Store {
     std::string name;  ///< "G54", "H1.length", "pivot"
     std::string what;  ///< "work offset G54"
@@ -25,7 +25,7 @@ struct Store {
 };
 
 /// The stores that a program on this control may use: all of G54 to G59 and the external offset,
-/// G54.1 that are not zero, tools that are not zero, 5114 and 5115, reference positions, pivot.
+/// non-zero G54.1, non-zero tools, 5114 and 5115, reference positions, pivot.
 std::vector<Store> store_table(const setup::Setup& setup);
 
 }  // namespace trunnion::choices

@@ -16,9 +16,9 @@ namespace trunnion::cli {
 
 namespace {
 
-constexpr std::size_t most_findings = 50;  ///< of one program: more say nothing new
+constexpr std::size_t most_findings = 50;  ///< limit for one program
 
-/// A row of the table of choices, a control's name alone, or "NUMBER=VALUE" of a parameter.
+/// Applies a row of the table of options, a control's name alone, or "NUMBER=VALUE" of a parameter.
 bool take_choice(const std::string& what, setup::Setup& setup) {
     for (const char* const key : {"", "dialect=", "generation="})
         if (const auto choice = choices::find_choice(key + what)) {

@@ -1,4 +1,4 @@
-// check --against: the same setup with another control, choice or parameter.
+// check --against: the same setup with another control, option or parameter.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ namespace trunnion::cli {
 /// ("tcp_frame=start", "5006#6=1"), a parameter "5006=64", or the path of a setup. Throws
 /// InputError for anything else.
 setup::Setup other_reading(const setup::Setup& setup, const std::string& what);
-/// Findings of rule "reading": where the program would move differently on `other`.
+/// Findings of rule "reading": blocks of the program that would move differently on `other`.
 std::vector<check::Finding> differences_against(const setup::Setup& setup,
                                                 const setup::Setup& other, const std::string& name,
                                                 const interpreter::ProgramText& program,

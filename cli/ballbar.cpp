@@ -29,7 +29,7 @@ struct BallbarOptions {
     const CLI::App* command = nullptr;
 };
 
-/// --program and --kinematic-program only write; nothing runs.
+/// --program and --kinematic-program only write programs; nothing is run.
 int write_programs(const setup::Setup& setup, const BallbarOptions& o) {
     kinematics::Machine nominal = setup.machine;
     nominal.errors = {};
@@ -43,7 +43,7 @@ int write_programs(const setup::Setup& setup, const BallbarOptions& o) {
     return exit_done;
 }
 
-/// Location errors among the effects: the table counts what is truly left from them too.
+/// Location errors among the effects: the true remaining errors in the table include them.
 std::vector<ballbar::test::NamedError> injected_errors(const setup::Setup& setup) {
     const effects::Catalogue catalogue = effects::make_catalogue(setup);
     std::vector<ballbar::test::NamedError> errors;
@@ -78,7 +78,7 @@ ballbar::test::BallbarResult evaluate(const BallbarOptions& o, const setup::Setu
     return ballbar::test::evaluate_ballbar(setup, before, after);
 }
 
-/// Real passes know nothing of what a simulator would be told.
+/// Refuses options of the simulation together with real passes.
 void refuse_simulation_options(const BallbarOptions& o) {
     if (o.measured.size() > 2)
         throw InputError("ballbar takes one table of readings, or one before and one after");

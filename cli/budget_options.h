@@ -12,16 +12,16 @@ class App;
 
 namespace trunnion::cli {
 
-/// 0: no limit. An endless program ends by the first of these, exit code 4.
+/// 0: no limit. An endless program ends at the first limit reached, exit code 4.
 struct BudgetOptions {
     std::uint64_t blocks = 100'000'000, printed_bytes = 100'000'000, rows = 10'000'000;
     double time_s = 0.0;
 };
 
 void add_budget(CLI::App& command, BudgetOptions& limits);
-/// With Ctrl-C as one of the limits.
+/// The budget, with Ctrl-C as an additional limit.
 Budget budget_of(const BudgetOptions& limits);
-/// Says on stderr which limit ended the work; returns its exit code.
+/// Reports on stderr which limit ended the work; returns its exit code.
 int report_limit(BudgetLimit limit, std::uint64_t blocks);
 
 }  // namespace trunnion::cli

@@ -1,4 +1,4 @@
-// trunnion check: static findings on programs, and with --run what stops them.
+// trunnion check: static findings on programs, and with --run the alarm that stops them.
 #include "check/check.h"
 
 #include <fmt/format.h>
@@ -59,7 +59,7 @@ std::vector<std::string> files_of(const std::vector<std::string>& paths) {
     return files;
 }
 
-/// Codes that call programs by parameters 6050-6089 and 6001#5.
+/// True for codes that call programs by parameters 6050-6089 and 6001#5.
 bool calls_program(const interpreter::CodeCalls& calls, char letter, int code10) {
     if (letter == 'T') return calls.t_calls_9000;
     return letter == 'G' ? calls.g.contains(code10)
@@ -77,7 +77,7 @@ bool knows_g(const setup::Setup& setup, int code10) {
     return code10 == 650 || code10 == 660 || code10 == 661 || code10 == 670;  // of the language
 }
 
-/// The control of a setup, block by block.
+/// The control of a setup, executed block by block.
 class SetupTrial : public check::Trial {
   public:
     explicit SetupTrial(const setup::Setup& setup)
@@ -94,7 +94,7 @@ class SetupTrial : public check::Trial {
     controller::BlockTrial trial_;
 };
 
-/// What one setup's control says about programs; variables are asked once.
+/// The rules of one setup's control for programs; each variable is looked up once.
 class SetupRules {
   public:
     explicit SetupRules(const setup::Setup& setup)
@@ -153,7 +153,7 @@ void run_without_devices(const setup::Setup& setup, const interpreter::ProgramTe
                             "Look for an endless loop, or give --max-blocks."});
     if (!result.alarm) return;
     const Alarm& alarm = *result.alarm;
-    for (const check::Finding& known : findings)  // one finding for one cause
+    for (const check::Finding& known : findings)  // one finding for each cause
         if (known.path == program.name && known.line == alarm.where.line &&
             known.severity == check::Severity::error)
             return;

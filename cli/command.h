@@ -1,4 +1,4 @@
-// What every command of the program looks like to main.
+// The interface between a command and main.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ class App;
 
 namespace trunnion::cli {
 
-/// Set by the command that the user chose; returns the exit code of formats.md.
+/// Set by the chosen command; returns the exit code of formats.md.
 using Run = std::function<int()>;
 
 /// Each command adds its subcommand and options to `app` and, when chosen, sets `run`.

@@ -1,4 +1,4 @@
-// trunnion compare: are two programs, folders or suites the same machining?
+// trunnion compare: compares the machining of two programs, folders or suites.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -35,13 +35,13 @@ struct CompareCommand {
     double tol_feed = regression::Tolerances{}.feed_ratio,
            tol_time = regression::Tolerances{}.time_ratio;
     unsigned threads = 0;
-    std::uint64_t max_blocks = 100'000'000;  ///< an endless loop ends here, exit code 4
+    std::uint64_t max_blocks = 100'000'000;  ///< limit for an endless loop, exit code 4
     bool json = false, update = false, devices = false;
     PageOptions page;
     const CLI::App* command = nullptr;
 };
 
-/// The files of two programs, or the suite.
+/// The files of two programs, or the suite file.
 std::vector<report::PageInput> inputs_of(const CompareCommand& c) {
     std::vector<report::PageInput> inputs;
     for (const std::string& path : {c.a, c.b, c.suite, c.setup, c.setup_b})
@@ -50,7 +50,7 @@ std::vector<report::PageInput> inputs_of(const CompareCommand& c) {
     return inputs;
 }
 
-/// What the options ask for, the page with its origin.
+/// Writes the requested outputs, the page with its origin.
 void put_report(const CompareCommand& c, const regression::CompareReport& report,
                 report::ReportFormat format) {
     report::Page page;

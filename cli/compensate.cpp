@@ -1,4 +1,4 @@
-// trunnion compensate: the program with the machine's known errors taken out of its positions.
+// trunnion compensate: compensation of a program for the known errors of the machine.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

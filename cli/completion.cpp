@@ -1,4 +1,4 @@
-// trunnion completion: what a shell or man needs to know, made from the program's own options.
+// trunnion completion: input for shells and man, generated from the program's own options.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -43,7 +43,7 @@ std::string bash_text(const CLI::App& app) {
         fmt::join(command_names(app), " "), cases);
 }
 
-/// Inside single quotes and the brackets of zsh.
+/// Escapes text for single quotes and the brackets of zsh.
 std::string plain(std::string text) {
     for (char& c : text)
         if (c == '\'' || c == '[' || c == ']' || c == ':' || c == '\n') c = ' ';
@@ -89,7 +89,7 @@ std::string fish_text(const CLI::App& app) {
     return out;
 }
 
-/// Text of a man page: a backslash and a leading point or quote are its own signs.
+/// Escapes text for a man page: backslash, and a leading point or quote.
 std::string roff(const std::string& text) {
     std::string out;
     for (const char c : text) {

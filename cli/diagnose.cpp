@@ -1,4 +1,4 @@
-// trunnion diagnose: where the sim-to-real gap lies, which effect causes it, how far it shrinks.
+// trunnion diagnose: location of the sim-to-real gap, its causes, and its reduction.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -30,7 +30,7 @@ struct Options {
     const CLI::App* command = nullptr;
     std::optional<double> limit_um;
     bool json = false, allow_large = false;
-    std::string program;  ///< not empty: the readings are a control's log of it
+    std::string program;  ///< not empty: the readings are a control's log of this program
     std::vector<std::string> folders;
     std::uint64_t max_blocks = 10'000'000;
 };
@@ -39,8 +39,8 @@ std::string title_of(const std::vector<std::string>& readings) {
     return fmt::format("{}", fmt::join(readings, " + "));
 }
 
-/// Shows what it works on. Ctrl-C ends it; once the verdict stands only what is planned after it,
-/// `planning` lives then.
+/// Shows progress. Ctrl-C ends the diagnosis; once the verdict is complete it ends only the
+/// subsequent planning (`planning` is then set).
 diagnosis::Diagnosis diagnose_watched(const setup::Setup& setup, const records::ReadingTable& table,
                                       diagnosis::DiagnosisOptions how,
                                       std::optional<Interruption>& planning) {

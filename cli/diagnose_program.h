@@ -15,7 +15,7 @@ struct ProgramDiagnosis {
     std::uint64_t max_blocks = 10'000'000;
     PageOptions page;
     const CLI::App* command = nullptr;
-    double limit_um = -1.0;  ///< below 0: none
+    double limit_um = -1.0;  ///< negative: no limit
     bool json = false;
 };
 

@@ -1,5 +1,4 @@
-// trunnion effects: what a machine may have: the catalogue that --inject, identify and diagnose
-// share.
+// trunnion effects: the catalogue of effects used by --inject, identify and diagnose.
 #include <CLI/CLI.hpp>
 #include <memory>
 

@@ -1,4 +1,4 @@
-// trunnion help: a command's help, or a page on what all commands share.
+// trunnion help: the help of a command, or a page on common topics.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t help_columns = 80, text_column = 28;
 
-/// Made-up names stand for the user's own files.
+/// Invented names represent the user's own files.
 const std::map<std::string, std::vector<std::string>>& example_table() {
     static const std::map<std::string, std::vector<std::string>> table{
         {"ballbar",
@@ -49,7 +49,7 @@ const std::map<std::string, std::vector<std::string>>& example_table() {
     return table;
 }
 
-/// Left column, then the text from its own column on.
+/// Left column, then the text in its own column.
 std::string entry(const std::string& left, const std::string& text) {
     std::string out = "  " + left;
     const auto lines = report::wrapped(text, help_columns - text_column);

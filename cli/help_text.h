@@ -1,4 +1,4 @@
-// How --help looks: 80 columns, an example for each command.
+// Layout of --help: 80 columns, an example for each command.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@ class Option;
 
 namespace trunnion::cli {
 
-/// Gives the program and all its commands the form of the help and their examples. To be called
-/// when all options are there.
+/// Sets layout and examples of the help for the program and all its commands. Call it after all
+/// options have been added.
 void set_help(CLI::App& app);
 
 /// "--setup FILE", "PROGRAM".
 std::string option_words(const CLI::Option& option);
-/// What stands behind the name: FILE, NUMBER, N, TEXT; empty for a switch.
+/// The placeholder after the name: FILE, NUMBER, N, TEXT; empty for a switch.
 std::string value_word(const CLI::Option& option);
 
-/// Examples of a command, as typed; none for a name that is no command.
+/// Examples of a command as typed; empty for a name that is not a command.
 std::vector<std::string> examples_of(const std::string& command);
 
 }  // namespace trunnion::cli

@@ -39,19 +39,20 @@ struct Options {
     const CLI::App* command = nullptr;
 };
 
-/// What is fitted, and to what.
+/// The effects to fit, and the readings.
 struct Inputs {
     setup::Setup setup;
     records::ReadingTable table;
     std::vector<std::string> effects;
 };
 
-/// How many repetitions of `runs` a shard does.
+/// Number of repetitions of `runs` done by a shard.
 int planned(int runs, const regression::Shard& shard) {
     return (runs - shard.index + shard.count) / shard.count;
 }
 
-/// What to type for the axes' places, where they were fitted and the control has a place for them.
+/// Prints the values to enter for the axis locations, if they were fitted and the control has
+/// stores for them.
 void print_stores(const setup::Setup& identified, const identification::Identification& result) {
     const bool located =
         std::any_of(result.parameters.begin(), result.parameters.end(),
@@ -65,7 +66,7 @@ void print_stores(const setup::Setup& identified, const identification::Identifi
     if (stores) print_out("{}", report::stores_text(*stores, identified.dialect.family));
 }
 
-/// Shows how far it is; Ctrl-C leaves what the repetitions done so far say.
+/// Shows progress; after Ctrl-C the completed repetitions count.
 std::vector<identification::Repetition> repeat(const Inputs& in, const Options& options,
                                                const identification::Identification& fitted,
                                                const regression::Shard& shard) {
@@ -88,7 +89,7 @@ std::vector<identification::Repetition> repeat(const Inputs& in, const Options& 
     return identification::repeat_identification(in.setup, in.table, in.effects, plan, fitted);
 }
 
-/// One hash of everything that a repetition depends on.
+/// One hash of all inputs of a repetition.
 std::string hash_of(const Inputs& in) {
     std::string text = setup::format_setup(in.setup);
     for (const std::string& effect : in.effects) text += effect + '\n';
@@ -100,7 +101,7 @@ int report_interrupted(std::size_t done, int planned) {
     return exit_limit;
 }
 
-/// A shard of the repetitions: its part alone is written, for 'merge'.
+/// A shard of the repetitions writes only its part, for 'merge'.
 int identify_part(const Inputs& in, const Options& options,
                   const identification::Identification& fitted, const regression::Shard& shard) {
     report::RepetitionPart part{hash_of(in), options.runs, options.seed, fitted, {}};
@@ -113,7 +114,7 @@ int identify_part(const Inputs& in, const Options& options,
                : report_interrupted(part.repetitions.size(), mine);
 }
 
-/// What is left comes from the identified setup alone, as `predict` would say it.
+/// Residuals of the identified setup alone, as `predict` computes them.
 std::string page_of(const Options& options, const identification::Identification& result,
                     const records::ReadingTable& table) {
     const records::ReadingTable predicted =

@@ -51,7 +51,7 @@ std::string page_of(const Options& options, const setup::Setup& setup,
         *options.command, options.page);
 }
 
-/// A test's name as a file can have it.
+/// The name of a test as a file name.
 std::string file_name(std::string test) {
     for (char& c : test)
         if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';

@@ -12,7 +12,7 @@
 namespace trunnion::cli {
 namespace {
 
-/// The one thing that a signal handler can reach.
+/// The only object accessible to a signal handler.
 volatile std::sig_atomic_t interruption_asked = 0;
 
 constexpr std::array<int, 3> signals{SIGINT, SIGTERM, SIGHUP};
@@ -22,7 +22,7 @@ void ask_once(int signal) {
     std::signal(signal, SIG_DFL);
 }
 
-/// Without a total (0) there is no time left.
+/// Without a total (0) the remaining time is unknown.
 std::string pace_text(std::uint64_t done, std::uint64_t total, const char* things,
                       double passed_s) {
     const double rate_per_s = double(done) / passed_s;
@@ -42,8 +42,8 @@ Interruption::Interruption() {
     interruption_asked = 0;
     for (std::size_t i = 0; i < signals.size(); ++i) {
         before_[i] = std::signal(signals[i], ask_once);
-        // A parent that ignores Ctrl-C or the end of its terminal (nohup, a background job) wants
-        // it ignored here as well.
+        // If the parent ignores Ctrl-C or the end of its terminal (nohup, a background job), it
+        // remains ignored.
         if (before_[i] == SIG_IGN) std::signal(signals[i], SIG_IGN);
     }
 }

@@ -1,4 +1,4 @@
-// Work that takes long: a line of progress on a terminal, and Ctrl-C that ends it in order.
+// Long work: a progress line on a terminal, and Ctrl-C for an orderly end.
 #pragma once
 
 #include <chrono>
@@ -8,8 +8,8 @@
 
 namespace trunnion::cli {
 
-/// While it lives, the first Ctrl-C (or SIGTERM, SIGHUP) only sets `asked`; the second ends the
-/// program as usual. One at a time.
+/// While it exists, the first Ctrl-C (or SIGTERM, SIGHUP) only sets `asked`; the second one ends
+/// the program as usual. Only one object at a time.
 class Interruption {
   public:
     Interruption();
@@ -20,11 +20,11 @@ class Interruption {
     static bool asked();
 
   private:
-    void (*before_[3])(int);  ///< handlers of the three signals
+    void (*before_[3])(int);  ///< previous handlers of the three signals
 };
 
-/// One line on stderr, written over and over and wiped at the end; nothing with --quiet or where
-/// stderr is no terminal, and no counts in the first half second.
+/// One line on stderr, overwritten repeatedly and erased at the end. Nothing with --quiet or if
+/// stderr is not a terminal, and no counts during the first half second.
 class Progress {
   public:
     Progress();
@@ -32,11 +32,11 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// `text` is asked for only when it is time to show it.
+    /// `text` is called only when it is time to show it.
     void show(const std::function<std::string()>& text);
-    /// "30 of 200 repetitions, 12 a second, 14 s left"; the rate counts from the construction.
+    /// "30 of 200 repetitions, 12 a second, 14 s left"; the rate counts from construction.
     void count(std::uint64_t done, std::uint64_t total, const char* things);
-    /// The same for work that tells seldom where it is: shown at once.
+    /// The same for work with rare progress reports: shown at once.
     void stage(const std::string& text);
 
   private:

@@ -1,4 +1,4 @@
-// trunnion: parses the command line, runs one command, turns what it throws into messages and
+// trunnion: parses the command line, runs one command, converts exceptions into messages and exit
 // codes.
 #include <fmt/format.h>
 
@@ -66,7 +66,7 @@ int report_usage_error(const std::string& message) {
     return exit_bad_input;
 }
 
-/// The command that the words name, and the first word that stands where one is named and is none.
+/// The command named by the words, and the first word in the position of a command that is not one.
 struct NamedCommand {
     const CLI::App* command = nullptr;
     std::string unknown;  ///< empty: all are known
@@ -92,7 +92,7 @@ std::string no_such_command(const NamedCommand& named) {
                        did_you_mean(named.unknown, names));
 }
 
-/// Behind the message on a word that the command does not take: the option that was meant.
+/// Suggestion for an option that the command does not have.
 std::string meant_option(const CLI::App& command, const std::vector<std::string>& words) {
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options())
@@ -105,7 +105,7 @@ std::string meant_option(const CLI::App& command, const std::vector<std::string>
     return {};
 }
 
-/// --quiet and --verbose of every command.
+/// Adds --quiet and --verbose to every command.
 void add_talk(CLI::App& app) {
     for (CLI::App* command : app.get_subcommands({})) {
         CLI::Option* quiet = command->add_flag(
@@ -119,7 +119,7 @@ void add_talk(CLI::App& app) {
     }
 }
 
-/// What --verbose says when the work is done.
+/// Report of --verbose after the work.
 void tell_work(const CLI::App& app, double passed_s) {
     for (const CLI::App* command : app.get_subcommands())
         for (const report::PageInput& input : page_inputs(*command))

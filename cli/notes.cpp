@@ -6,7 +6,7 @@
 namespace trunnion::cli {
 namespace {
 
-/// Of the process, like the streams that it is about.
+/// Global, like the streams that it concerns.
 Talk chosen = Talk::usual;
 
 }  // namespace

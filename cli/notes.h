@@ -1,4 +1,4 @@
-// How much a command says beside its result: --quiet, --verbose.
+// Amount of messages besides the result: --quiet, --verbose.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 namespace trunnion::cli {
 
 enum class Talk : unsigned char { quiet, usual, verbose };
-/// Said once by main, as the options ask for it.
+/// Set once by main from the options.
 void set_talk(Talk talk);
 Talk talk();
 
-/// One line for each note on stderr, none with --quiet; a note brings its own place.
+/// Prints each note on stderr, none with --quiet; a note contains its own position.
 void print_notes(const std::vector<std::string>& notes);
 
 }  // namespace trunnion::cli

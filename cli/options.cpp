@@ -29,7 +29,7 @@ std::string count(const std::string& text) {
     return fault == std::errc{} && stop == end ? "" : "'" + text + "' is not 0, 1, 2, ...";
 }
 
-/// A variable of a script that is not set must not switch an output off.
+/// An unset variable in a script must not silently disable an output.
 std::string has_name(const std::string& path) {
     return path.empty() ? "a file name is empty" : "";
 }
@@ -57,14 +57,14 @@ std::vector<NamedFile> files_named(const CLI::App& command) {
     return files;
 }
 
-/// A device takes any number of texts.
+/// True when both are the same file. A device may be used several times.
 bool clash(const NamedFile& written, const NamedFile& other) {
     std::error_code unknown;
     return written.path == other.path && !written.path.empty() &&
            (written.text == "-" || !fs::is_character_file(written.path, unknown));
 }
 
-/// With --json standard output is one JSON object; --format sends it to --out instead.
+/// With --json standard output is one JSON object; --format then requires --out.
 void refuse_beside_json(const CLI::App& command, const std::vector<NamedFile>& files) {
     const CLI::Option* json = command.get_option_no_throw("--json");
     if (!json || json->count() == 0 || command.get_option_no_throw("--format")) return;

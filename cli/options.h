@@ -1,4 +1,4 @@
-// What options of all commands have in common: numbers that are finite, files that do not clash.
+// Common checks of options of all commands: finite numbers, files without conflicts.
 #pragma once
 
 #include <string>
@@ -11,18 +11,18 @@ class Option;
 
 namespace trunnion::cli {
 
-/// Marks an option that names a file (or folder) to read, or to write: shown so by --help.
+/// Marks an option that names a file (or folder) to read, or to write, as shown by --help.
 CLI::Option* reads_file(CLI::Option* option);
 CLI::Option* writes_file(CLI::Option* option);
-/// The number given is 0 or more.
+/// Requires a number >= 0.
 CLI::Option* not_negative(CLI::Option* option);
 
-/// Every number that an option of any command takes is finite, and whole without sign where it
-/// counts. To be called when all options are there.
+/// Requires finite numbers for all options of all commands, and integers without sign for counts.
+/// Call it after all options have been added.
 void check_numbers(CLI::App& app);
-/// Throws InputError when the options given would write a file that another reads or writes too.
+/// Throws InputError when an output file of the given options is also an input or another output.
 void refuse_clashing_files(const CLI::App& app);
-/// What the command line names to be read, in the order of the help; folders and "-" included.
+/// The input files of the command line, in the order of the help, including folders and "-".
 std::vector<std::string> files_read(const CLI::App& command);
 
 }  // namespace trunnion::cli

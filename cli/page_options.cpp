@@ -16,7 +16,7 @@
 namespace trunnion::cli {
 namespace {
 
-/// In single quotes where a shell would not take the word as it is.
+/// Quotes a word with single quotes where a shell requires it.
 std::string shell_word(const std::string& word) {
     constexpr const char* plain =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";

@@ -1,4 +1,4 @@
-// trunnion pivot: which pivot store is stale, and what to type; simulated or from readings.
+// trunnion pivot: the stale pivot store and the values to enter; simulated or from readings.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -39,7 +39,7 @@ struct PivotOptions {
     bool json = false, stores_alone = false;
 };
 
-/// A setup, a backup over it, or a machine made from a backup alone.
+/// A setup, a setup with a backup applied, or a machine from a backup alone.
 setup::Setup setup_of(const PivotOptions& o) {
     if (!o.setup.empty() || o.control.empty()) {
         setup::Setup setup = open_setup(o.setup);
@@ -58,7 +58,7 @@ bool is_table(const std::string& text) {
     return text.starts_with("#") || text.starts_with("index,");
 }
 
-/// Prints and tables of readings as error maps.
+/// Converts prints and tables of readings into error maps.
 pivot::PivotPrints read_maps(const PivotOptions& o, const setup::Setup& setup,
                              const setup::RotaryStores& stores) {
     const Axis first = stores.pivot.first.axis, second = stores.pivot.second.axis;
@@ -95,7 +95,7 @@ Vector3 stylus_of(const setup::Setup& setup) {
     return setup.probe ? setup.probe->tip_S_mm : Vector3(0, 0, -150);
 }
 
-/// Paths under a folder, each with the functions that it uses.
+/// Program files below a folder, each with the functions that it uses.
 std::vector<std::pair<std::string, std::vector<std::string>>> shop_programs(
     const std::string& folder, Axis first, Axis second) {
     std::vector<std::pair<std::string, std::vector<std::string>>> found;
@@ -176,7 +176,7 @@ report::PivotResult judge_readings(const PivotOptions& o, const setup::Setup& se
     return result;
 }
 
-/// No program runs: the maps are worked out for the setup's machine, measured or identified.
+/// No program runs: the maps are computed for the setup's machine, measured or identified.
 report::PivotResult from_known_machine(const PivotOptions& o, const setup::Setup& setup) {
     const pivot::PivotPlan plan = pivot::plan_pivot_test(setup);
     std::vector<pivot::PivotMap> maps =

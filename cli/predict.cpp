@@ -1,4 +1,4 @@
-// trunnion predict: the same table with what the emulator reads, without noise.
+// trunnion predict: the same table with the noise-free predictions of the emulator.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -24,7 +24,8 @@ struct Options {
     std::uint64_t seed = 1;
 };
 
-/// One row for each device row: its index, then d value / d parameter in mm (rad) for each unit.
+/// One row for each device row: its index, then d value / d parameter in mm (rad) per unit of the
+/// parameter.
 std::string jacobian_text(const identification::Sensitivity& found) {
     std::string out = "index";
     for (const identification::FitParameter& p : found.parameters)
@@ -38,7 +39,7 @@ std::string jacobian_text(const identification::Sensitivity& found) {
     return out;
 }
 
-/// Derivatives are worked out only when somebody asks for them.
+/// Computes the derivatives only when they are requested.
 std::optional<identification::Sensitivity> derivatives(const Options& options,
                                                        const setup::Setup& setup,
                                                        const records::ReadingTable& table) {

@@ -1,4 +1,4 @@
-// What identify, diagnose, predict and import share: the readings and the setup they are given.
+// Common parts of identify, diagnose, predict and import: readings and setup.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace trunnion::cli {
 
-/// Reads a table of readings of the setup's machine; notes go to stderr. Throws InputError with
-/// path and line.
+/// Reads a table of readings of the setup's machine; notes are printed on stderr. Throws InputError
+/// with path and line.
 records::ReadingTable load_readings(const std::string& path, const setup::Setup& setup);
-/// The same of several files, joined in the order given.
+/// The same for several files, joined in the given order.
 records::ReadingTable load_readings(const std::vector<std::string>& paths,
                                     const setup::Setup& setup);
 
-/// "a, b" as a and b.
+/// Splits "a, b" into a and b.
 std::vector<std::string> split_names(const std::string& text);
 
-/// Reads a setup and switches on what `inject` says. Throws InputError when `path` is empty:
-/// readings are never judged against a machine that nobody named.
+/// Reads a setup and adds the effects of `inject`. Throws InputError when `path` is empty: readings
+/// are never evaluated with a default machine.
 setup::Setup load_setup_option(const std::string& path,
                                const std::vector<std::string>& inject = {});
 

@@ -32,7 +32,7 @@ struct Options {
     double trace_step_mm = 0.0, trace_chord_mm = 0.0;
     bool truth = false, ballbar = false, json = false;
     PageOptions page;
-    const CLI::App* command = nullptr;  ///< as parsed, for the page's foot
+    const CLI::App* command = nullptr;  ///< as parsed, for the footer of the page
 };
 
 int whole(const std::string& text, const char* option) {
@@ -110,7 +110,7 @@ emulator::RunOptions run_options(const Options& o, const setup::Setup& setup) {
     return options;
 }
 
-/// An alarm or a limit ends a run as M30 does: the files tell what the control did until then.
+/// An alarm or a limit ends a run like M30: the files contain everything up to that point.
 void write_files(const Options& o, const emulator::RunLog& log, OutputFiles& files) {
     if (!o.readings.empty()) files.add(o.readings, records::format_readings(log.readings));
     if (!o.print.empty()) files.add(o.print, log.printed);
@@ -129,7 +129,7 @@ int exit_code(const emulator::RunLog& log) {
     return exit_alarm;
 }
 
-/// Shows how far it is; Ctrl-C ends the run as a limit does.
+/// Shows progress; Ctrl-C ends the run like a limit.
 emulator::RunLog run_watched(const setup::Setup& setup, inputs::ProgramAndFolders& program,
                              emulator::RunOptions options) {
     Progress progress;
@@ -137,7 +137,7 @@ emulator::RunLog run_watched(const setup::Setup& setup, inputs::ProgramAndFolder
     return emulator::run_program(setup, program.folders, program.program, options);
 }
 
-/// The page of a run needs the physical tip and curves that look like curves.
+/// The page of a run requires the physical tip, and samples dense enough for smooth curves.
 constexpr double page_chord_mm = 0.05;
 
 void follow_path(emulator::RunOptions& options, report::RunPath& path) {
@@ -214,7 +214,7 @@ void add_run(CLI::App& app, Run& run) {
         "a real control's backup folder, put over the setup; its programs are found"));
     command->add_option("--seed", o->seed, "seed of the devices' noise (1)");
     writes_file(command->add_option("--trace", o->trace, "CSV with a row for each move"));
-    // A move is sampled as a whole: finer than this fills the memory and tells nothing.
+    // Each move is sampled completely: smaller steps would fill the memory without benefit.
     command->add_option("--trace-step", o->trace_step_mm, "also a SAMPLE row every so many mm")
         ->check(CLI::Range(1e-3, 1e6, "0.001 to 1e6"));
     command

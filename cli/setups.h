@@ -1,4 +1,4 @@
-// The setup a command works on.
+// The setup of a command.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace trunnion::cli {
 
-/// inputs::open_setup, its notes on stderr.
+/// inputs::open_setup, with its notes printed on stderr.
 setup::Setup open_setup(const std::string& path);
 
 }  // namespace trunnion::cli

@@ -1,4 +1,4 @@
-// Which shard of a job a command does, and what its part is called.
+// The shard of a command, and the name of its part.
 #pragma once
 
 #include <optional>
@@ -8,11 +8,11 @@
 
 namespace trunnion::cli {
 
-/// What --shard says, else the environment of a job array (a note says so), else none. Throws
+/// From --shard, else from the environment of a job array (with a note), else none. Throws
 /// InputError.
 std::optional<regression::Shard> shard_of(const std::string& option);
 
-/// `{i}` in a file name is the number of the shard.
+/// Replaces `{i}` in a file name by the number of the shard.
 std::string shard_path(std::string path, const regression::Shard& shard);
 
 }  // namespace trunnion::cli

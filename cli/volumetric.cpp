@@ -1,4 +1,4 @@
-// trunnion volumetric: where in the working volume the tool point is off, and by which error.
+// trunnion volumetric: error of the tool point over the working volume, and its causes.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -28,7 +28,7 @@ struct Options {
     const CLI::App* command = nullptr;
 };
 
-/// A grid of five axes grows fast; each pose is kept.
+/// A grid of five axes grows fast, and every pose is stored.
 void check_size(const setup::Setup& setup, const volumetric::VolumetricOptions& options) {
     constexpr double most_poses = 3e6;
     double poses = 1.0;
@@ -39,7 +39,7 @@ void check_size(const setup::Setup& setup, const volumetric::VolumetricOptions& 
                                      poses, most_poses));
 }
 
-/// Shows how far it is; Ctrl-C ends the map with the poses that are done.
+/// Shows progress; Ctrl-C ends the map with the completed poses.
 volumetric::VolumetricMap watched_map(const setup::Setup& setup,
                                       const std::vector<std::string>& names,
                                       volumetric::VolumetricOptions options) {

@@ -15,7 +15,7 @@ namespace trunnion::compensation {
 namespace {
 
 constexpr int deepest_split = 16;
-constexpr double reach_mm = 500.0;  ///< lever of a rotary deviation, on the safe side
+constexpr double reach_mm = 500.0;  ///< upper bound for the lever arm of a rotary deviation
 
 Vector3 xyz(const AxisPositions& q) {
     return {q[Axis::X], q[Axis::Y], q[Axis::Z]};
@@ -28,7 +28,7 @@ AxisPositions between(const AxisPositions& a, const AxisPositions& b, double t) 
     return q;
 }
 
-/// Of two positions, rotary deviations as ways of their lever.
+/// Distance of two positions, with rotary deviations multiplied by the lever arm.
 double apart_mm(const AxisPositions& a, const AxisPositions& b) {
     double rotary = 0.0;
     for (const Axis axis : {Axis::A, Axis::B, Axis::C}) rotary += std::abs(a[axis] - b[axis]);
@@ -89,7 +89,7 @@ std::optional<FittedArc> fit_arc(const Vector3& a, const Vector3& m, const Vecto
     return arc;
 }
 
-/// Errors at one place.
+/// Errors at one position.
 CompensatedProgram::Worst errors_at(const emulator::BelievedTool& is,
                                     const emulator::BelievedTool& meant, bool turned) {
     CompensatedProgram::Worst errors;
@@ -99,14 +99,14 @@ CompensatedProgram::Worst errors_at(const emulator::BelievedTool& is,
     return errors;
 }
 
-/// The axes stand at machine zero, from the sides that the setup says.
+/// The axes at machine zero, having arrived from the sides given in the setup.
 records::TravelHistory at_start(const setup::Setup& setup) {
     records::TravelHistory history(setup.side_before);
     history.place({});
     return history;
 }
 
-/// Rewrites every move as it comes from the control.
+/// Rewrites every move received from the control.
 class RewritingSink : public motion::MotionSink {
   public:
     RewritingSink(const setup::Setup& setup, const emulator::EffectModels& effects,
@@ -148,14 +148,14 @@ class RewritingSink : public motion::MotionSink {
     const std::optional<SourceRef>& last_skip() const { return last_skip_; }
 
   private:
-    static constexpr double take_up_s = 0.05;  ///< for ways that only prepare
+    static constexpr double take_up_s = 0.05;  ///< duration of preparatory moves
 
     Correction corrected(const emulator::PathSampler& path, const PathStretch& stretch,
                          double s) const {
         return corrector_.corrected(path, stretch, s, written_);
     }
 
-    /// The block just written leads to s.
+    /// Records that the block just written ends at s.
     void note(const emulator::PathSampler& path, double s, CompensatedBlock::End end) {
         written_.advance(text_.position());
         out_.blocks.push_back(
@@ -172,14 +172,14 @@ class RewritingSink : public motion::MotionSink {
         if (text_.line(path.move, c.to, duration_s)) note(path, s, end_of(c));
     }
 
-    /// The rotaries begin, or cease, to correct the direction: they go there with the tip at rest.
+    /// Direction correction starts or ends: the rotary axes move there with the tip at rest.
     void begin_turned(const emulator::PathSampler& path, const PathStretch& stretch, bool turned) {
         turned_ = turned;
         pass_gap(path, stretch, 0.0, take_up_s, Axis::A, Axis::C);
         write_line(path, 0.0, corrected(path, stretch, 0.0), take_up_s);
     }
 
-    /// A spindle that turns round without M3, M4 or M5: G74 or G84.
+    /// Spindle reversal without M3, M4 or M5: G74 or G84.
     void note_tapping(const motion::AxisMove& move) {
         if (move.spindle_rpm * spindle_rpm_ < 0.0 && !spindle_commanded_ && !tapping_noted_) {
             tapping_noted_ = true;
@@ -198,8 +198,8 @@ class RewritingSink : public motion::MotionSink {
         if (text_.skip(path.move, c.to)) note(path, 1.0, end_of(c));
     }
 
-    /// Axes first.. to last that would end inside their gap go past it: in the air that harms
-    /// nothing.
+    /// Axes `first` to `last` that would end inside their gap pass through it: without cutting this
+    /// is harmless.
     void pass_gap(const emulator::PathSampler& path, const PathStretch& stretch, double s,
                   double duration_s, Axis first, Axis last) {
         constexpr double past_mm = 0.01, past_rad = 2e-5;
@@ -226,7 +226,7 @@ class RewritingSink : public motion::MotionSink {
             split_line(path, stretch, stretch.from, stretch.to, 0);
     }
 
-    /// Axes that turn round cross their gap before the tip goes on.
+    /// Axes that reverse take up their gap before the tip continues.
     void take_up(const emulator::PathSampler& path, const PathStretch& stretch) {
         const Correction c = corrected(path, stretch, stretch.from);
         AxisPositions turning = written_.position();
@@ -236,7 +236,7 @@ class RewritingSink : public motion::MotionSink {
             write_line(path, stretch.from, c, take_up_s);
     }
 
-    /// A straight move of the axes to b, halved until it is near the wanted path everywhere.
+    /// A straight move of the axes to b, bisected until it is within tolerance of the wanted path.
     void split_line(const emulator::PathSampler& path, const PathStretch& stretch, double a,
                     double b, int depth) {
         const Correction start = corrected(path, stretch, a), end = corrected(path, stretch, b);
@@ -251,7 +251,7 @@ class RewritingSink : public motion::MotionSink {
         split_line(path, stretch, middle, b, depth + 1);
     }
 
-    /// Places of a piece where an axis of the arc's plane waits inside its gap: of three.
+    /// Number of the three positions of a segment with an axis of the plane held inside its gap.
     int held_places(const emulator::PathSampler& path, const PathStretch& stretch, double a,
                     double b) const {
         int count = 0;
@@ -268,7 +268,7 @@ class RewritingSink : public motion::MotionSink {
 
     void split_arc(const emulator::PathSampler& path, const PathStretch& stretch, double a,
                    double b, int depth) {
-        constexpr int shortest_arc = 8;  // where an axis comes out of its gap, lines are as good
+        constexpr int shortest_arc = 8;  // where an axis leaves its gap, lines are equivalent
         const int held = held_places(path, stretch, a, b);
         if (held == 3 || (held > 0 && depth >= shortest_arc))
             return split_line(path, stretch, a, b, depth);
@@ -296,8 +296,8 @@ class RewritingSink : public motion::MotionSink {
     FlatProgram text_;
     CompensationOptions options_;
     CompensatedProgram& out_;
-    records::TravelHistory tracker_;  ///< of the original
-    records::TravelHistory written_;  ///< of the program written
+    records::TravelHistory tracker_;  ///< of the original program
+    records::TravelHistory written_;  ///< of the compensated program
     double clock_s_ = 0.0;
     bool turned_ = false;
     double spindle_rpm_ = 0.0;
@@ -305,7 +305,7 @@ class RewritingSink : public motion::MotionSink {
     std::optional<SourceRef> last_skip_;
 };
 
-/// Executes the program written and looks where the physical tip ends.
+/// Executes the compensated program and evaluates the physical tip at the block ends.
 class CheckingSink : public motion::MotionSink {
   public:
     CheckingSink(const setup::Setup& setup, const emulator::EffectModels& effects,

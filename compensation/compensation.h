@@ -1,4 +1,4 @@
-// A program with the machine's known errors taken out of its positions.
+// Compensation of a program for the known errors of the machine.
 #pragma once
 
 #include <string>
@@ -12,49 +12,51 @@ namespace trunnion::compensation {
 struct CompensationOptions {
     double tolerance_mm = 5e-5;  ///< deviation of the path between the points that are met exactly
     int decimals = 6;            ///< of the words written
-    double largest_turn_rad = 2e-3;  ///< a rotary axis is turned by at most this; 0: never
-    Budget budget = {};              ///< of each of the two runs; used up: no program is written
+    double largest_turn_rad = 2e-3;  ///< maximum correction of a rotary axis; 0: none
+    Budget budget = {};              ///< for each of the two runs; when used up, no program is
+                                     ///< written
 };
 
-/// One motion block of the program written.
+/// One motion block of the compensated program.
 struct CompensatedBlock {
-    /// An axis may have to end inside its gap, or goes past it first where nothing is cut.
+    /// in_gap: an axis ends inside its gap. past_gap: it first passes through the gap where nothing
+    /// is cut.
     enum class End : unsigned char { exact, in_gap, past_gap };
-    int line = 0;                  ///< of the original
-    int written_line = 0;          ///< of the program written
-    emulator::BelievedTool meant;  ///< at its end, as the control believed it
-    bool turned = false;           ///< the rotaries correct the tool's direction
+    int line = 0;                  ///< of the original program
+    int written_line = 0;          ///< in the compensated program
+    emulator::BelievedTool meant;  ///< believed tool at its end
+    bool turned = false;           ///< the rotary axes correct the tool direction
     End end = End::exact;
 };
 
 struct CompensatedProgram {
-    std::string program;  ///< flat: what the original executed, without loops and calls
+    std::string program;  ///< flat: the executed blocks of the original, without loops and calls
     std::vector<CompensatedBlock> blocks;
-    BudgetLimit limit = BudgetLimit::none;  ///< which one ended the work: `program` is empty then
-    controller::RunResult original, executed;  ///< of the original and of the program written
-    /// Largest errors at a block's end: of the tip; of the direction where the rotaries correct it;
-    /// of the direction where they keep their words.
+    BudgetLimit limit = BudgetLimit::none;     ///< the limit that ended the work; `program` is then
+                                               ///< empty
+    controller::RunResult original, executed;  ///< of the original and of the compensated program
+    /// Largest errors at block ends: tip position; tool direction where the rotary axes correct it;
+    /// tool direction where they keep their words.
     struct Worst {
         double tip_mm = 0.0, turned_rad = 0.0, kept_rad = 0.0;
         void include(const Worst& other);
     };
-    Worst before;  ///< of the original
-    Worst after;   ///< of the program written, executed
-    Worst in_gap;  ///< the same where an axis has turned round and is still inside its gap
+    Worst before;  ///< of the original program
+    Worst after;   ///< of the compensated program
+    Worst in_gap;  ///< the same where an axis has reversed and is still inside its gap
     std::vector<std::string> notes;
 };
 
-/// Executes the program on the setup's control and writes, for each move, axis words that put the
-/// physical tip (errors and effects of the setup) where the control believed the tip to be. Under
-/// tool centre point control and where rotary axes turn, both of them also bring the tool into the
-/// direction that the control believed; elsewhere (three axes, positioned planes, whose axes may be
-/// clamped) they keep their words and the direction keeps its error. Backlash follows the way of
-/// the corrected axes, in the order of the program: TipCorrector::corrected. Lines and arcs stay
-/// lines and arcs, split where one does not hold the tolerance; moves under G43.4, and arcs in
-/// inclined planes, become short lines. Cycles become the moves they are made of; tapping gets a
-/// note. G31 goes out with a corrected target as long as the program never asks where it touched.
-/// Throws InputError for programs that do (what they do next cannot be written beforehand) and for
-/// machines without X, Y and Z.
+/// Executes the program on the setup's control. Writes, for each move, axis words that put the
+/// physical tip (with errors and effects of the setup) on the believed tip. Tool direction: under
+/// tool centre point control and where rotary axes turn, both rotary axes also correct it.
+/// Elsewhere (three axes, positioned planes with possibly clamped axes) they keep their words, and
+/// the error of the direction remains. Backlash follows the motion of the corrected axes, in
+/// program order: TipCorrector::corrected. Lines and arcs remain lines and arcs, divided where
+/// necessary for the tolerance. Moves under G43.4, and arcs in inclined planes, become short lines.
+/// Cycles become their single moves; tapping gives a note. G31 is written with a corrected target
+/// if the program never reads the touched position. Throws InputError for programs that read it
+/// (their continuation cannot be written in advance) and for machines without X, Y and Z.
 CompensatedProgram compensate_program(const setup::Setup& setup,
                                       interpreter::ProgramSource& programs,
                                       const emulator::ProgramChoice& program,

@@ -65,7 +65,7 @@ void FlatProgram::prepare(const motion::AxisMove& move) {
     first_ = true;
 }
 
-/// Words of the axes that change; moves `at_` to what the decimals say.
+/// Words of the axes that change; sets `at_` to the written decimals.
 std::string FlatProgram::axis_words(const AxisPositions& to, bool all) {
     std::string words;
     for (const kinematics::AxisGeometry& axis : setup::all_machine_axes(setup_)) {
@@ -103,7 +103,7 @@ void FlatProgram::block(const motion::AxisMove& move, const std::string& words) 
     counted_ = text_.size();
 }
 
-/// By at least one digit.
+/// True when an axis changes by at least one digit.
 bool FlatProgram::moves(const AxisPositions& to) const {
     const double half = 0.5 * std::pow(10.0, -decimals_);
     for (const kinematics::AxisGeometry& axis : setup::all_machine_axes(setup_))

@@ -8,7 +8,7 @@
 namespace trunnion::compensation {
 namespace {
 
-constexpr double near_s = 1e-4;  ///< neighbours from which a direction is taken
+constexpr double near_s = 1e-4;  ///< step to the neighbours that give a direction
 
 Travel direction_at(const motion::AxisMove& move, double s) {
     const AxisPositions a = move.at(std::max(0.0, s - near_s)),
@@ -20,7 +20,8 @@ Travel direction_at(const motion::AxisMove& move, double s) {
     return travel;
 }
 
-/// Where axis i turns between a, where it runs in direction `sign`, and b, where it runs back.
+/// Reversal point of axis i between a, where it moves in direction `sign`, and b, where it moves
+/// back.
 double turning_place(const motion::AxisMove& move, std::size_t i, signed char sign, double a,
                      double b) {
     while (b - a > 1e-9) {

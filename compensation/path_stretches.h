@@ -1,4 +1,4 @@
-// Parts of a move in which no axis turns round.
+// Sections of a move without reversal of any axis.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace trunnion::compensation {
 
-/// Sign of the motion of each axis: -1, +1, 0 for one that stands.
+/// Sign of the motion of each axis: -1, +1, 0 at rest.
 using Travel = std::array<signed char, axis_count>;
 
 struct PathStretch {

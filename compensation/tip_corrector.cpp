@@ -13,7 +13,7 @@
 namespace trunnion::compensation {
 namespace {
 
-/// An axis with a gap that the program lets stand stays where it is rather than turn for less.
+/// An axis with a gap that is at rest in the program does not reverse for a correction below this.
 constexpr double rest_mm = 1e-5, rest_rad = 2e-8;
 
 bool rotaries_turn(const motion::AxisMove& move) {
@@ -22,14 +22,15 @@ bool rotaries_turn(const motion::AxisMove& move) {
     return false;
 }
 
-/// What to add to an angle corrected by `so_far_rad`: all of the wish while the sum is well within
-/// the limit, nothing in all when the sum would be far beyond it (and help little), smooth between.
+/// Additional correction of an angle already corrected by `so_far_rad`: the full wish while the sum
+/// is well within the limit; a total of zero when the sum would be far beyond it (and of little
+/// use); smooth in between.
 double within(double so_far_rad, double wish_rad, double limit_rad) {
     const double sum_rad = so_far_rad + wish_rad;
     return sum_rad / (1.0 + std::pow(sum_rad / limit_rad, 4)) - so_far_rad;
 }
 
-/// What the control does not believe to move the tool would be taken for an error.
+/// An axis unknown to the control would be treated as an error of the machine.
 void refuse_unknown_axes(const setup::Setup& setup) {
     std::vector<Axis> order;
     for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
@@ -76,7 +77,7 @@ emulator::BelievedTool TipCorrector::meant(const motion::AxisMove& move, double 
 
 namespace {
 
-/// Without a length in force the gauge point is meant, on which no tool has an effect.
+/// Without an active length the gauge point is meant, on which no tool effect acts.
 emulator::Contact contact(const setup::Setup& setup, const motion::AxisMove& move) {
     return move.tool_vector_mm.isZero(0.0) ? emulator::Contact{}
                                            : emulator::tip_contact(setup, move);
@@ -103,7 +104,7 @@ emulator::BelievedTool TipCorrector::truth(const emulator::PathSampler& path, do
     return tool_at(machine_.at(sample, contact(setup_, path.move)), path.move);
 }
 
-/// One step of both rotaries towards the meant direction.
+/// One step of both rotary axes towards the intended direction.
 void TipCorrector::turn(const emulator::PathSampler& path, double s,
                         const emulator::BelievedTool& meant, const Travel& travel, const Held& held,
                         AxisPositions& q) const {
@@ -124,8 +125,8 @@ void TipCorrector::turn(const emulator::PathSampler& path, double s,
     if (determinant > 1e-12 * a * b && determinant > 0.0)
         step = {(b * wish_of[0] - ab * wish_of[1]) / determinant,
                 (a * wish_of[1] - ab * wish_of[0]) / determinant};
-    // The axis that hardly moves the direction, or that waits, gets less than it asks; the other
-    // makes the best of it.
+    // The axis with little influence on the direction, or a held axis, gets less than requested;
+    // the other one minimises the remaining error.
     const std::size_t weak = stay[0] ? 0 : stay[1] ? 1 : a < b ? 0 : 1, strong = 1 - weak;
     const std::array<double, 2> at{now.first_rad, now.second_rad};
     step[weak] =
@@ -144,8 +145,8 @@ AxisPositions TipCorrector::solved(const emulator::PathSampler& path, double s,
     const emulator::BelievedTool wanted = meant(path.move, s);
     if (turns_tool(path.move))
         for (int i = 0; i < 3; ++i)
-            turn(path, s, wanted, travel, held, q);  // each step leaves 1e-4
-    // Axes X Y Z are the first three; the nominal machine is near enough here too.
+            turn(path, s, wanted, travel, held, q);  // each step leaves a remainder of 1e-4
+    // X Y Z are the first three axes; the nominal machine is accurate enough here.
     const Matrix3 by_axis =
         kinematics::tip_jacobian(nominal_, q, -path.move.tool_vector_mm).axis.leftCols<3>();
     const Matrix3 solve = by_axis.inverse();
@@ -162,7 +163,7 @@ double TipCorrector::digit(std::size_t axis) const {
     return is_rotary(all_axes[axis]) ? rad_from_deg(digit_mm_) : digit_mm_;
 }
 
-/// Travel with which the axes come to q; what no digit says moves nothing.
+/// Travel of the axes on arrival at q; a change below the written digits is no motion.
 Travel TipCorrector::arrival(const AxisPositions& q, const records::TravelHistory& written) const {
     Travel travel = written.travel();
     for (std::size_t i = 0; i < axis_count; ++i)
@@ -174,7 +175,7 @@ Travel TipCorrector::arrival(const AxisPositions& q, const records::TravelHistor
 
 Correction TipCorrector::corrected(const emulator::PathSampler& path, const PathStretch& stretch,
                                    double s, const records::TravelHistory& written) const {
-    // Rotaries first: what they do moves the linear axes.
+    // Rotary axes first, because they move the linear axes.
     constexpr std::array<std::size_t, axis_count> order{3, 4, 5, 0, 1, 2, 6, 7, 8};
     constexpr int most_rounds = 16;
     const AxisPositions& from = written.position();
@@ -182,7 +183,7 @@ Correction TipCorrector::corrected(const emulator::PathSampler& path, const Path
     for (std::size_t i = 0; i < axis_count; ++i)
         c.travel[i] = stretch.travel[i] != 0 ? stretch.travel[i] : written.travel()[i];
     Held held;
-    AxisPositions beyond;  // of held axes: where they should be
+    AxisPositions beyond;  // held axes: their wanted position
     c.wanted = solved(path, s, c.travel, held);
     for (int round = 0; round < most_rounds; ++round) {
         const Travel arrives = arrival(c.wanted, written);
@@ -202,7 +203,7 @@ Correction TipCorrector::corrected(const emulator::PathSampler& path, const Path
         c.held[i] = idle || arrival(turned, written)[i] != other[i];
         beyond.value[i] = (then_off < now_off ? turned : c.wanted).value[i];
         if (!c.held[i] || then_off < now_off) c.travel = other;
-        // The side of the gap that it stands on, or just over to the other.
+        // At the present side of the gap, or just on the other side.
         if (c.held[i])
             held[i] =
                 from.value[i] + (c.travel[i] == written.travel()[i] ? 0.0 : c.travel[i] * digit(i));

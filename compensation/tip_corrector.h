@@ -1,4 +1,4 @@
-// Axis positions at which the physical tool stands where and as the control believed it to.
+// Axis positions at which the physical tool has the believed position and direction.
 #pragma once
 
 #include "compensation/path_stretches.h"
@@ -8,43 +8,44 @@
 
 namespace trunnion::compensation {
 
-/// Where to send the axes.
+/// Target of the axes.
 struct Correction {
     AxisPositions to;
-    Travel travel{};  ///< with which they arrive
-    /// Axes that cannot get where they should without turning round first (a gap lies between), and
-    /// where they should be.
+    Travel travel{};  ///< direction in which they arrive
+    /// Axes that cannot reach the wanted position without reversing first (a gap lies between), and
+    /// the wanted positions.
     std::array<bool, axis_count> held{};
     AxisPositions wanted;
 };
 
 class TipCorrector {
   public:
-    /// `setup` must outlive the corrector. The tool is as long as the control believes.
-    /// `largest_turn_rad`: no rotary axis is taken further than this from its commanded angle for
-    /// the sake of the tool's direction (near the singular direction a tilt of a few urad would ask
-    /// for any angle); 0: never turned. `decimals` of the words that will say where to go. Throws
-    /// InputError when the machine has no X, Y or Z axis.
+    /// `setup` must outlive the corrector. The tool has its believed length. `largest_turn_rad`:
+    /// maximum correction of a rotary axis from its commanded angle for the tool direction (near
+    /// the singular direction a tilt of a few urad would require arbitrary angles); 0: none.
+    /// `decimals` of the words to be written. Throws InputError when the machine has no X, Y or Z
+    /// axis.
     TipCorrector(const setup::Setup& setup, const emulator::EffectModels& effects,
                  double largest_turn_rad = 0.0, int decimals = 6);
 
-    /// True when the direction is corrected too: tool centre point control or turning rotaries, on
-    /// a control that knows two of them. Where rotaries stand the program may have clamped them.
+    /// True when the direction is corrected too: tool centre point control or moving rotary axes,
+    /// on a control that knows two of them. Rotary axes at rest may be clamped by the program.
     bool turns_tool(const motion::AxisMove& move) const;
 
-    /// Believed tip and direction in W at s of a move: what the program means.
+    /// Believed tip and direction in W at s of a move: the intention of the program.
     emulator::BelievedTool meant(const motion::AxisMove& move, double s) const;
     /// Physical tip and direction in W at s.
     emulator::BelievedTool truth(const emulator::PathSampler& path, double s) const;
-    /// Where to go from where and as `written` stands, so that the true tip is the meant one (to
-    /// 1e-9 mm) and, where `turns_tool`, the direction too. Backlash and its kin follow the travel
-    /// of the axes on their corrected way; what is wanted of an axis may lie inside its gap: then
-    /// it is held on the nearer side of it. `stretch` holds s and tells how the program moves.
+    /// Axis positions, starting from `written`, that place the physical tip on the believed tip (to
+    /// 1e-9 mm) and, where `turns_tool`, the direction too. Backlash and similar effects follow the
+    /// travel of the axes on their corrected path. If the wanted position of an axis lies inside
+    /// its gap, the axis is held on the nearer side. `stretch` contains s and the directions of
+    /// motion of the program.
     Correction corrected(const emulator::PathSampler& path, const PathStretch& stretch, double s,
                          const records::TravelHistory& written) const;
 
   private:
-    using Held = std::array<std::optional<double>, axis_count>;  ///< positions of axes that wait
+    using Held = std::array<std::optional<double>, axis_count>;  ///< positions of held axes
 
     emulator::BelievedTool truth(const emulator::PathSampler& path, double s,
                                  const AxisPositions& q, const Travel& travel) const;
@@ -61,7 +62,7 @@ class TipCorrector {
     double largest_turn_rad_, digit_mm_;
 };
 
-/// Angle between two unit vectors, rad; exact for small ones.
+/// Angle between two unit vectors, rad; accurate for small angles.
 double angle_between(const Vector3& a, const Vector3& b);
 
 }  // namespace trunnion::compensation

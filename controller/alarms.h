@@ -1,4 +1,4 @@
-// All alarms that a program can meet, and how the control raises one.
+// All alarms that a program can raise, and the functions that raise them.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@
 
 namespace trunnion::controller {
 
-/// All alarms that a program can meet, rising by number.
+/// All alarms that a program can raise, in ascending order of number.
 const std::vector<AlarmRow>& alarm_table();
-/// The row of a number, or nullptr (3000 and above are the program's own).
+/// The row of a number, or nullptr (numbers from 3000 on belong to the NC program).
 const AlarmRow* find_alarm(int number);
 /// "PS0010 IMPROPER G-CODE", "MC3005 PROBE MISSED".
 std::string alarm_title(int number, std::string_view text);
 
-/// Throws the alarm with the table's text; `column` 0 when the place is the whole block.
+/// Throws the alarm with the text of the table; `column` 0: the whole block is at fault.
 [[noreturn]] void raise_alarm(int number, int column = 0);
-/// The same with words of one's own behind the text: "+ OVERTRAVEL (SOFT 1) X".
+/// The same with additional text: "+ OVERTRAVEL (SOFT 1) X".
 [[noreturn]] void raise_alarm(int number, const std::string& detail, int column = 0);
 
 }  // namespace trunnion::controller

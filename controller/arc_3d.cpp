@@ -14,11 +14,11 @@ std::optional<ProgramArc> arc_through(const Vector3& start, const Vector3& middl
     const Vector3 across = a.cross(b);
     if (across.norm() <= 1e-9 * a.norm() * b.norm() || b.norm() == 0.0) return std::nullopt;
     ProgramArc arc;
-    // The centre of the circle about a triangle, from its third corner.
+    // From the third corner to the centre of the circle through the triangle.
     const Vector3 to_centre =
         (a.squaredNorm() * b - b.squaredNorm() * a).cross(across) / (2.0 * across.squaredNorm());
     arc.centre = end + to_centre;
-    // start -> middle -> end turns positively about this normal.
+    // start -> middle -> end is a positive rotation about this normal.
     arc.normal = (middle - start).cross(end - middle).normalized();
     const Vector3 from = start - arc.centre, to = end - arc.centre;
     const double angle = std::atan2(arc.normal.dot(from.cross(to)), from.dot(to));
@@ -41,7 +41,7 @@ void Arc3d::move(const SortedWords& words, Modal& modal, Frames& frames, Mover& 
         return;
     }
     const offsets::ControlPosition middle = *std::exchange(on_the_way_, std::nullopt);
-    frames.program = middle;  // words of G91 count from there
+    frames.program = middle;  // incremental words (G91) start there
     const offsets::ControlPosition end = commanded_position(words, modal, frames);
     frames.program = start;
     const auto arc =

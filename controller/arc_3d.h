@@ -1,23 +1,23 @@
-// G2.4 and G3.4 of a Hurco: an arc in space through a point on the way to an end point.
+// G2.4 and G3.4 of a Hurco: an arc in space through an intermediate point.
 #pragma once
 
 #include "controller/mover.h"
 
 namespace trunnion::controller {
 
-/// The block with the code (and, while it stays in force, every other block) has the point on the
-/// way, the next block the end. Without rotary words. Throws alarm 9004.
+/// The block with the code (and, while the code is active, every other block) gives the
+/// intermediate point, the next block the end point. No rotary words. Throws alarm 9004.
 class Arc3d {
   public:
     void move(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover);
-    /// Behind the point on the way nothing but the end point may come.
+    /// After the intermediate point only the end point is allowed.
     void check_goes_on(const SortedWords& words) const;
 
   private:
     std::optional<offsets::ControlPosition> on_the_way_;
 };
 
-/// The arc from `start` through `middle` to `end`, mm; nothing when they lie in a line.
+/// The arc from `start` through `middle` to `end`, mm; empty for collinear points.
 std::optional<ProgramArc> arc_through(const Vector3& start, const Vector3& middle,
                                       const Vector3& end);
 

@@ -9,8 +9,8 @@ namespace trunnion::controller {
 
 namespace {
 
-/// R commands whose chord is longer by no more than this are half circles when 3410 is 0 (assumed:
-/// two least increments).
+/// With 3410 = 0 an R arc whose chord exceeds the diameter by no more than this is a half circle
+/// (assumed: two least increments).
 constexpr double chord_slack_mm = 0.002;
 
 void check_radii(const PlaneElement& figure, double tolerance_mm) {
@@ -36,7 +36,7 @@ PlanePoint centre_from_radius(PlanePoint start, PlanePoint end, double radius,
     const double half = 0.5 * chord, r = std::abs(radius);
     if (half - r > (rule.tolerance_mm > 0.0 ? rule.tolerance_mm : chord_slack_mm)) raise_alarm(20);
     const double rise = half < r ? std::sqrt((r - half) * (r + half)) : 0.0;
-    // Counter-clockwise with less than half a turn has its centre left of the chord.
+    // A counter-clockwise arc of less than half a turn has its centre to the left of the chord.
     const double side = (rule.clockwise ? -1.0 : 1.0) * (radius < 0.0 ? -1.0 : 1.0) * rise / chord;
     return {start.x + 0.5 * dx - side * dy, start.y + 0.5 * dy + side * dx};
 }

@@ -12,12 +12,12 @@ namespace trunnion::controller {
 
 namespace {
 
-/// Way of the tip while the rotaries stand.
+/// Path length of the tip with the rotary axes at rest.
 double linear_length(const motion::AxisMove& m) {
     return (m.parallel.linear(m.to) - m.parallel.linear(m.from)).norm();
 }
 
-/// The arc as the stages lay it into the machine. A mirror turns it round.
+/// The arc in machine coordinates. A mirror image reverses its direction.
 motion::ArcPath arc_in_machine(const Frames& frames, const ProgramArc& arc,
                                motion::MotionKind& kind) {
     motion::ArcPath path;
@@ -100,7 +100,7 @@ double AxisMover::duration(motion::MotionKind kind, double way) const {
     return std::max(commanded_time(modal_.block.feed, way, words_.column_of('F')), shortest);
 }
 
-/// What the move takes from modal state and frames.
+/// Copies data of modal state and frames into the move.
 void AxisMover::take_marks() {
     const motion::BlockMarks& marks = modal_.block;
     move_.spindle_rpm = marks.spindle_rpm;
@@ -116,7 +116,7 @@ void AxisMover::take_marks() {
     move_.transform = frames_.believed.transform ? &*frames_.believed.transform : nullptr;
 }
 
-/// A Hurco's rapid; nothing where the axes arrive together.
+/// A Hurco's rapid; empty when all axes arrive together.
 std::optional<motion::Dogleg> AxisMover::dogleg_of(const motion::AxisMove& move) const {
     const ControlSettings& settings = modal_.settings;
     if (!settings.is_hurco() || settings.hurco.rapids_are_interpolated) return std::nullopt;
@@ -125,7 +125,7 @@ std::optional<motion::Dogleg> AxisMover::dogleg_of(const motion::AxisMove& move)
     return way;
 }
 
-/// Everything is in `move_` but the marks. `way`: what F divides, mm.
+/// Completes `move_` with the marks and sends it. `way`: path length to which F refers, mm.
 motion::MoveResult AxisMover::send(motion::MotionKind kind, const offsets::ControlPosition& program,
                                    const offsets::ControlPosition& machine, double way) {
     motion::AxisMove& m = move_;
@@ -166,7 +166,7 @@ motion::MoveResult AxisMover::straight(motion::MotionKind kind,
     motion::AxisMove& m = move_;
     m.from = frames_.axes;
     m.to = offsets::axis_positions_of(machine);
-    if (m.to == m.from) {  // no way to go: nothing goes out
+    if (m.to == m.from) {  // no motion: nothing is sent
         frames_.machine = machine;
         frames_.program = target;
         return {};
@@ -226,7 +226,7 @@ motion::MoveResult AxisMover::along(motion::MotionKind kind, const MoveTarget& t
     m.duration_s = duration(kind, way.feed_length_mm);
     if (way.curve) {
         m.curve = way.curve;
-        // The axes may swing further out on the way than where they end.
+        // Between its ends the path may exceed a limit that neither end exceeds.
         const int parts = motion::curve_parts(m.from, m.to);
         for (int k = 1; k < parts; ++k) check_stroke(way.curve->at(static_cast<double>(k) / parts));
     }

@@ -1,4 +1,5 @@
-// The last stage in front of the door: limits, clamps, durations; keeps where the axes stopped.
+// The last stage before the sink: limits, clamps, durations. Keeps the positions where the axes
+// stopped.
 #pragma once
 
 #include <array>
@@ -19,57 +20,58 @@ namespace trunnion::controller {
 struct ProgramArc {
     Vector3 centre = Vector3::Zero();
     Vector3 normal = Vector3::UnitZ();
-    double sweep_rad = 0.0;  ///< signed about the normal
+    double sweep_rad = 0.0;  ///< signed, about the normal
 };
 
-/// A place that has been worked out: what the control counts, and where the axes go.
+/// A computed target: the control's position, and the axis positions.
 struct MoveTarget {
     offsets::ControlPosition program;  ///< program coordinates
     offsets::ControlPosition machine;  ///< mm and deg
     AxisPositions axes;                ///< mm and rad
 };
 
-/// How the axes get there: along a curve, an arc, or straight.
+/// How the axes move there: along a curve, on an arc, or straight.
 struct CurveMove {
     const motion::PathCurve* curve = nullptr;
     std::optional<motion::ArcPath> arc;
-    double length_mm = 0.0;       ///< of the programmed point's path
-    double feed_length_mm = 0.0;  ///< what F divides
+    double length_mm = 0.0;       ///< path length of the programmed point
+    double feed_length_mm = 0.0;  ///< path length to which F refers
 };
 
-/// Sends moves out with all that is in force in `modal` and `frames`. OT0500, OT0501 beyond a
-/// stored stroke, 9001 for a clamped axis, PS0011 and PS1202 without feed: before anything moves.
+/// Sends moves with everything active in `modal` and `frames`. OT0500, OT0501 beyond a stored
+/// stroke limit, 9001 for a clamped axis, PS0011 and PS1202 without feed: all before any motion.
 class AxisMover {
   public:
-    /// `words`: of the block that runs, for the columns of alarms.
+    /// `words`: of the block being executed, for the columns of alarms.
     AxisMover(const SortedWords& words, Modal& modal, Frames& frames, motion::MotionSink& sink);
 
-    /// Limits and clamps of the axes.
+    /// Takes limits and clamps of the axes.
     void configure(const ControlConfig& config);
     void parameters_changed();
 
-    /// A straight move of the tip by the coordinate stages alone. A target where the axes stand
-    /// sends nothing.
+    /// A straight move of the tip through the coordinate stages only. No output when the axes are
+    /// already at the target.
     motion::MoveResult straight(motion::MotionKind kind, const offsets::ControlPosition& target);
-    /// A straight move of the axes to a machine position (G53, G28); the program position follows.
+    /// A straight move of the axes to a machine position (G53, G28); the program position is
+    /// updated.
     void to_machine(motion::MotionKind kind, const offsets::ControlPosition& target);
     void arc(motion::MotionKind kind, const offsets::ControlPosition& target,
              const ProgramArc& arc);
     motion::MoveResult along(motion::MotionKind kind, const MoveTarget& target,
                              const CurveMove& way);
     void dwell(double duration_s);
-    /// The block behind an M code waits for its completion.
+    /// The block after an M code waits for its completion.
     void m_code(int code);
-    /// The next move begins at rest.
+    /// The next move starts from rest.
     void stop() { pace_.stop(); }
     void clamp(Axis axis, bool clamped) { clamped_[index_of(axis)] = clamped; }
-    /// The next move ends where the skip signal comes (G31).
+    /// The next move ends at the skip signal (G31).
     void until_skip(bool on) { move_.until_skip = on; }
     /// Before a run.
     void start_run();
 
     RunRecord record;
-    motion::AxisLimits limits;  ///< of the configuration and 1783
+    motion::AxisLimits limits;  ///< from the configuration and 1783
 
   private:
     motion::MoveResult send(motion::MotionKind kind, const offsets::ControlPosition& program,
@@ -87,7 +89,7 @@ class AxisMover {
     std::vector<ClampCode> clamps_;
     std::array<bool, axis_count> clamped_{};
     motion::Pace pace_;
-    motion::AxisMove move_;  ///< the one that goes out; fields that rarely change stay
+    motion::AxisMove move_;  ///< the move to be sent; fields that rarely change are kept
 };
 
 }  // namespace trunnion::controller

@@ -31,7 +31,7 @@ void run_phase(Control& c, Phase phase) {
     w.running_column = 0;
 }
 
-/// G92 S_ limits the speed of G96; S is no spindle command then.
+/// G92 S_ limits the speed of G96; S is then not a spindle command.
 void feed_speed_tool(const SortedWords& w, Modal& modal, const offsets::ControlPosition& program) {
     modal.block.feed.in_block = w.has('F');
     constexpr std::uint32_t fst =
@@ -56,7 +56,7 @@ void note_bare_words(const SortedWords& w, Modal& modal, Mover& mover) {
     }
 }
 
-/// G33: F is the lead, whatever the feed mode. PS0011 without F or while the spindle stands.
+/// G33: F is the lead in every feed mode. PS0011 without F or with the spindle stopped.
 void cut_thread(const SortedWords& w, Modal& modal, const Frames& frames, Mover& mover) {
     const double lead_mm = modal.block.feed.programmed * modal.units.unit_mm;
     const double mm_min = lead_mm * std::abs(modal.spindle.signed_rpm());
@@ -89,8 +89,8 @@ void run_motion(Control& c) {
                  commanded_position(w, c.modal, c.frames));
 }
 
-/// Does the block move although it has no axis word? An arc may have only its centre: a full
-/// circle. G43.5 turns the tool alone; R alone makes a hole in a canned cycle.
+/// True when the block moves without an axis word: an arc with only its centre is a full circle,
+/// G43.5 can turn the tool alone, and R alone makes a hole in a canned cycle.
 bool moves_by_itself(const SortedWords& w, const Modal& modal, const Frames& frames) {
     if (frames.length_moves || (w.has('R') && modal.in_cycle())) return true;
     const int code = modal.codes[ModalGroup::motion];
@@ -98,7 +98,7 @@ bool moves_by_itself(const SortedWords& w, const Modal& modal, const Frames& fra
     return (code == 20 || code == 30) && (w.present & tool_vector_letters);
 }
 
-/// H that belongs to no code of the block.
+/// True when the block has H without a code that uses it.
 bool h_alone(const SortedWords& w) {
     if (!w.has('H')) return false;
     for (std::size_t i = 0; i < w.code_count; ++i)
@@ -114,7 +114,7 @@ void set_motion_code(const SortedWords& w, Modal& modal) {
     modal.codes.set(ModalGroup::cycle, 800);
 }
 
-/// All that acts before the motion of the block.
+/// Everything that acts before the motion of the block.
 void prepare(Control& c) {
     SortedWords& w = c.words;
     if (w.phases & before_words) {
@@ -127,7 +127,7 @@ void prepare(Control& c) {
     set_motion_code(w, c.modal);
 }
 
-/// Codes, then the one-shot code or the motion.
+/// Executes the codes, then the one-shot code or the motion.
 void act(Control& c) {
     const SortedWords& w = c.words;
     if (w.phases)
@@ -143,7 +143,7 @@ void act(Control& c) {
     c.frames.length_moves = false;
 }
 
-/// TCP takes over, frames follow the rotaries.
+/// Tool centre point control starts; frames that depend on the rotary axes are updated.
 void follow_rotaries(const SortedWords& w, const Modal& modal, Frames& frames, Mover& mover) {
     take_over_tool_centre(w, modal, frames, mover);
     bool changed = frames.turn_fixture(modal.settings, frames.machine);
@@ -186,7 +186,7 @@ void execute(Control& c, const interpreter::BlockWords& block) {
 void execute_block(Control& c, const interpreter::BlockWords& block) try {
     execute(c, block);
 } catch (Alarm& alarm) {
-    const bool of_this_block = alarm.where.line == 0;  // a held move names its own line
+    const bool of_this_block = alarm.where.line == 0;  // a buffered move reports its own line
     if (of_this_block && alarm.where.column == 0) alarm.where.column = c.words.column_at_fault();
     throw;
 }

@@ -1,4 +1,4 @@
-// Carries out one block of words: the fixed order of a control, whatever order they are written in.
+// Executes one block of words in the fixed order of a control, independent of the written order.
 #pragma once
 
 #include "controller/control.h"
@@ -6,7 +6,7 @@
 
 namespace trunnion::controller {
 
-/// Carries out a block:
+/// Executes a block:
 ///   speed, feed and units codes - F S T - M codes that act before motion - plane, reading, work
 ///   offset, frame and offset codes - one-shot code or motion - M codes that act after motion.
 /// An alarm without a column gets that of the code or word at fault.

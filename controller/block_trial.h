@@ -1,4 +1,4 @@
-// A control on trial: blocks run one after another, nothing moves, the first refusal is told.
+// Trial execution: blocks run one after another without motion; the first alarm is returned.
 #pragma once
 
 #include <memory>
@@ -11,18 +11,18 @@
 
 namespace trunnion::controller {
 
-/// Does what a run does with the words of a program without jumps and variables, on stores of its
-/// own. Not for blocks whose outcome depends on devices (G31).
+/// Processes the words like a run, for a program without jumps and variables, on its own copy of
+/// the stores. Not for blocks whose result depends on devices (G31).
 class BlockTrial {
   public:
     BlockTrial(ControlConfig config, offsets::Stores stores);
     ~BlockTrial();
 
-    /// The alarm that stops the run at this block, nothing when it is carried out.
+    /// The alarm that stops the run at this block; empty when the block is executed.
     std::optional<Alarm> run(const interpreter::BlockWords& block);
-    /// The alarm of the words alone: codes, addresses, digits, the table of word rules.
+    /// The alarm found from the words alone: codes, addresses, digits, table of word rules.
     std::optional<Alarm> read(const interpreter::BlockWords& block);
-    /// What waits for a later block goes out, as at M30.
+    /// Executes what waits for a later block, as at M30.
     std::optional<Alarm> end();
 
   private:
@@ -30,8 +30,8 @@ class BlockTrial {
     std::unique_ptr<State> state_;
 };
 
-/// The alarm of reading (or writing) a variable from #1000 on: 115, 116, or 0. Only such as hold
-/// whatever the program did before.
+/// Alarm number for reading (or writing) a variable from #1000 on: 115, 116, or 0. Only alarms that
+/// do not depend on what the program did before.
 int variable_alarm(int number, bool writes, const ControlConfig& config,
                    const offsets::Stores& stores);
 

@@ -1,4 +1,4 @@
-// What a machine builder added to the control: G and M codes, variables.
+// G and M codes and variables that the machine builder added to the control.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace trunnion::controller {
 
-/// Codes are accepted without effect on positions. A G or M code that moves something needs a
-/// program behind it (parameters 6050-6089).
+/// The codes are accepted without effect on positions. A G or M code that moves something needs a
+/// program that it calls (parameters 6050-6089).
 struct BuilderProfile {
     std::vector<GCode> g_codes;
     std::vector<int> m_codes;                    ///< act before the motion of their block
-    std::vector<int> m_codes_after;              ///< act after it
-    std::vector<std::pair<int, int>> variables;  ///< first and last number: read and written freely
+    std::vector<int> m_codes_after;              ///< act after the motion
+    std::vector<std::pair<int, int>> variables;  ///< first and last number: readable and writable
 
     void add_g_code(int code10) {
         g_codes.push_back({code10, ModalGroup::one_shot, Phase::reading, Action::accepted,

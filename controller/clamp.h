@@ -5,7 +5,7 @@
 
 namespace trunnion::controller {
 
-/// M codes that clamp and release an axis; `alarm`: a move of the clamped axis is an alarm.
+/// M codes that clamp and release an axis. `alarm`: moving the clamped axis raises an alarm.
 struct ClampCode {
     Axis axis = Axis::C;
     int m_clamp = 10;
@@ -13,7 +13,7 @@ struct ClampCode {
     bool alarm = false;
 };
 
-/// Of a Hurco: the code that clamps; the next one releases.
+/// Hurco: the code that clamps; the code after it releases.
 struct HurcoClamp {
     Axis axis;
     int m_clamp;

@@ -6,7 +6,7 @@ namespace trunnion::controller {
 
 namespace {
 
-/// The way (deg) to |wanted| mod 360 in the direction of its sign.
+/// Distance (deg) to |wanted| mod 360 in the direction of its sign.
 double way_by_sign(double present, double wanted) {
     const double way = std::fmod(std::abs(wanted) - present, 360.0);
     if (std::signbit(wanted)) return way > 0.0 ? way - 360.0 : way;

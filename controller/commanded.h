@@ -1,18 +1,18 @@
-// The program position that the axis words of a block command: G90, G91, G16, shortest way.
+// The program position commanded by the axis words of a block: G90, G91, G16, shortest way.
 #pragma once
 
 #include "controller/frames.h"
 
 namespace trunnion::controller {
 
-/// From where `frames.program` stands. Under G16 with G90 the pole is the zero of the coordinates,
-/// with G91 the present position; each word absolute or incremental as written, and the angle in
-/// force is kept in `modal`. Absolute words of roll-over axes (1008#0) and under M126 go to the
-/// nearest turn, with 1008#1 in the direction of the word's sign.
+/// Starts at `frames.program`. Under G16 the pole is the origin with G90, the present position with
+/// G91; each word is absolute or incremental as written, and `modal` keeps the active angle.
+/// Absolute words of roll-over axes (1008#0) and under M126 move to the nearest turn; with 1008#1
+/// they move in the direction of the word's sign.
 offsets::ControlPosition commanded_position(const SortedWords& words, Modal& modal,
                                             const Frames& frames);
 
-/// At G16: the angle in force is that of the present position.
+/// At G16: the active angle is that of the present position.
 void start_polar_words(Modal& modal, const offsets::ControlPosition& position);
 
 }  // namespace trunnion::controller

@@ -1,5 +1,5 @@
-// The parts of a running control, put together once. Only the block's execution, the table of
-// actions and the system variables see it; every subject gets the parts that it needs.
+// The parts of a running control. Only block execution, the table of actions and the system
+// variables see all of them; every subject gets the parts that it needs.
 #pragma once
 
 #include "controller/arc_3d.h"
@@ -20,7 +20,7 @@ struct Control {
 
     ControlConfig config;
     offsets::Stores& stores;
-    SortedWords words;  ///< of the block that runs
+    SortedWords words;  ///< of the block being executed
     Modal modal;
     Frames frames;
     Mover mover;
@@ -35,9 +35,9 @@ struct Control {
     ClockVariables clock;
     ProgramPlace place;
     DataEntry data_entry = DataEntry::none;
-    bool moved = false;  ///< the block that ran moved an axis: G66 calls follow it
+    bool moved = false;  ///< the block moved an axis: G66 calls follow it
 
-    /// After parameters changed: settings, geometry and limits anew.
+    /// After a change of parameters: decodes settings, geometry and limits again.
     void parameters_changed();
 };
 

@@ -1,5 +1,5 @@
-// Number, text, cause, remedy. Texts as remembered from 30i / 0i-F screens (assumed unless
-// docs/sources.md marks the alarm); PS = program, OT = overtravel, MC = macro.
+// Number, text, cause, remedy. Texts are quoted from memory of 30i / 0i-F screens (assumed unless
+// docs/sources.md marks the alarm). PS = program, OT = overtravel, MC = macro.
 #include "controller/control_alarms.h"
 
 #include "positioning/tilted_plane.h"

@@ -1,4 +1,4 @@
-// The control's own alarms: number, text as on the screen, cause and remedy.
+// The control's own alarms: number, text as displayed, cause and remedy.
 #pragma once
 
 #include <vector>
@@ -7,13 +7,13 @@ namespace trunnion::controller {
 
 struct AlarmRow {
     int number;
-    const char* prefix;  ///< "PS", "OT", "MC": shown before the number
-    const char* text;    ///< as on the screen
+    const char* prefix;  ///< "PS", "OT", "MC": displayed before the number
+    const char* text;    ///< as displayed
     const char* cause;
     const char* remedy;
 };
 
-/// The rows of the control itself (the language and cutter compensation have their own).
+/// The alarms of the control itself (the language and cutter compensation have their own tables).
 const std::vector<AlarmRow>& control_alarms();
 
 }  // namespace trunnion::controller

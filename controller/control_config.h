@@ -1,4 +1,4 @@
-// What a control is built with: axes, dialect, clamps, switches and choices.
+// Configuration of a control: axes, dialect, clamps, switches and options.
 #pragma once
 
 #include <cstdint>
@@ -26,24 +26,25 @@ struct ControlAxis {
 };
 
 struct ControlConfig {
-    std::vector<ControlAxis> axes;  ///< in the control's order: axis number 1 is [0]
+    std::vector<ControlAxis> axes;  ///< in the order of the control: [0] is axis number 1
     interpreter::Dialect dialect;
     std::vector<ClampCode> clamps;
-    /// #5041.. and #5061.. include the tool length (docs/control.md, own choices: assumed).
+    /// #5041.. and #5061.. include the tool length (assumed: docs/control.md, own choices).
     bool work_positions_with_length = true;
-    /// G89 under G98: feeds all the way out to the initial level, as the reference paths do; false:
-    /// feeds to R and rapids on like G85 (Fanuc's drawing, from memory).
+    /// G89 under G98: feeds all the way out to the initial level, as in the reference paths. False:
+    /// feeds to R, then rapid, like G85 (Fanuc's drawing, from memory).
     bool g89_feeds_to_initial = true;
     std::vector<bool> skip_switches = std::vector<bool>(10, false);
-    bool threading = false;  ///< the control has G33
+    bool threading = false;  ///< option G33
     BuilderProfile builder;
     HurcoChoices hurco;
     bool optional_stop = false;    ///< M01 stops
-    std::uint64_t max_blocks = 0;  ///< 0: none
-    /// Asked every few thousand blocks with their number; false: the run ends with `limit`.
+    std::uint64_t max_blocks = 0;  ///< 0: no limit
+    /// Called every few thousand blocks with the number of blocks; when it returns false the run
+    /// ends with `limit`.
     std::function<bool(std::uint64_t blocks)> go_on;
-    std::int64_t clock_s = 0;  ///< #3011/#3012 and #3002 start here (seconds since 1970), so
-                               ///< that same inputs give the same bytes
+    std::int64_t clock_s = 0;  ///< start of #3011/#3012 and #3002 (seconds since 1970); a fixed
+                               ///< value, so that same inputs give the same bytes
     positioning::TcpFrame tcp_frame =
         positioning::TcpFrame::start;  ///< G43.4 with the table turned
 };

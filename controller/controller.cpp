@@ -62,8 +62,8 @@ void Controller::State::run_blocks() {
     }
 }
 
-/// Compensated moves that were worked out before the alarm's block still go out, unless their path
-/// is the fault; an alarm of theirs comes first.
+/// Compensated moves completed before the alarm's block are still sent, unless their path is the
+/// cause of the alarm. An alarm that they raise has priority.
 void Controller::State::release_held(Alarm& alarm) {
     for (const int number : {33, 34, 38, 41})
         if (alarm.number == number) return;
@@ -76,7 +76,7 @@ void Controller::State::release_held(Alarm& alarm) {
 
 namespace {
 
-/// The line of an alarm, when its program is this one.
+/// The source line of an alarm, when it belongs to this program.
 std::string line_of(const SourceRef& where, const interpreter::ProgramText& program) {
     if (where.program != program.name) return {};
     for (interpreter::LineScan scan(program.text, interpreter::start_of_text(program.text));

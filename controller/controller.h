@@ -1,4 +1,4 @@
-// The emulated control: runs NC programs on its stores and drives a MotionSink. BELIEF only.
+// The emulated control: runs NC programs on its stores and drives a MotionSink. Belief only.
 #pragma once
 
 #include <memory>
@@ -14,17 +14,18 @@
 namespace trunnion::controller {
 
 struct Control;
-/// Looks at the control: before the first block and after each one.
+/// Called before the first block and after each block.
 using BlockWatch = std::function<void(const Control&)>;
 
 class Controller {
   public:
-    /// `stores` is changed by the program (G10, system variables, #500...).
+    /// The program changes `stores` (G10, system variables, #500...).
     Controller(ControlConfig config, offsets::Stores& stores, interpreter::ProgramSource& programs,
                motion::MotionSink& sink, interpreter::Interpreter::Print print);
     ~Controller();
 
-    /// Runs a program from its first block to its end, alarm or limit. Alarms do not escape.
+    /// Runs a program from its first block to its end, an alarm or a limit. Alarms are returned,
+    /// not thrown.
     RunResult run(const interpreter::ProgramText& program);
     RunResult run(int o_number);
 
@@ -33,10 +34,10 @@ class Controller {
     double variable(int number) const;
     std::vector<int> used_common_variables() const;
 
-    /// Who looks on; for callers that compare or explain, who read the state in one place.
+    /// Observer for callers that compare or explain runs and need the whole state.
     void watch(BlockWatch watch);
 
-    /// Machine position the axes stand at before the run (default: all zero).
+    /// Machine position of the axes before the run (default: all zero).
     void place(const AxisPositions& machine);
 
   private:

@@ -10,7 +10,7 @@ offsets::ControlPosition ones() {
     return p;
 }
 
-/// Follows p' = factor p + shift by one more stage centre + f (p' - centre).
+/// Appends the stage centre + f (p' - centre) to the map p' = factor p + shift.
 void follow(const Coordinates::AxisFactor& stage, offsets::ControlPosition& factor,
             offsets::ControlPosition& shift) {
     for (std::size_t i = 0; i < axis_count; ++i) {

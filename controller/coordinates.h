@@ -1,4 +1,4 @@
-// From program words to the machine: every coordinate stage, compiled into one affine map.
+// From program words to machine coordinates: all coordinate stages, compiled into one affine map.
 #pragma once
 
 #include <array>
@@ -14,17 +14,17 @@ namespace trunnion::controller {
 ///   shaped  --local shift G52--> [--tilted plane--> ] --G92, work offset, external, G54.2--> tip
 ///   tip     --tool length--> machine (gauge point, mm and deg)
 ///
-/// Whoever changes a stage calls compile() and then lets the control derive its program position
-/// anew. Tool centre point control replaces the last step (motion/tool_centre_point.h).
+/// After changing a stage, call compile() and let the control derive its program position again.
+/// Tool centre point control replaces the last step (motion/tool_centre_point.h).
 class Coordinates {
   public:
-    /// G51.1 and G51: p' = centre + factor (p - centre), axis by axis.
+    /// G51.1 and G51, axis by axis: p' = centre + factor (p - centre).
     struct AxisFactor {
         offsets::ControlPosition centre;
         offsets::ControlPosition factor;
     };
-    /// G68: about `centre` (program coordinates after mirror and scaling), right-handed about
-    /// `axis`.
+    /// G68: right-handed rotation about `axis` through `centre` (program coordinates after mirror
+    /// and scaling).
     struct PlaneRotation {
         Vector3 centre = Vector3::Zero();
         Vector3 axis = Vector3::UnitZ();
@@ -34,22 +34,21 @@ class Coordinates {
     std::optional<AxisFactor> mirror;
     std::optional<AxisFactor> scaling;
     std::optional<PlaneRotation> rotation;
-    offsets::ControlPosition local;  ///< G52; inside a tilted plane along the plane's axes
-    /// G68.2: the feature frame in machine coordinates without tool length. While it is set it
+    offsets::ControlPosition local;  ///< G52; in a tilted plane along the plane's axes
+    /// G68.2: the feature frame in machine coordinates without tool length. While it is active it
     /// replaces `work_origin` for X Y Z; other axes keep their work offset.
     std::optional<Pose> feature_MF;
-    offsets::ControlPosition
-        plane_local;                    ///< G52 in force when G68.2 was given; part of work_origin
-    offsets::ControlPosition preset;    ///< G92
-    offsets::ControlPosition external;  ///< external offset
-    offsets::ControlPosition work;      ///< G54-G59 or G54.1 Pn
-    offsets::ControlPosition fixture;   ///< G54.2, turned with the table
-    offsets::ControlPosition length;    ///< tool length vector, tip to gauge point
+    offsets::ControlPosition plane_local;  ///< G52 active when G68.2 was given; part of work_origin
+    offsets::ControlPosition preset;       ///< G92
+    offsets::ControlPosition external;     ///< external offset
+    offsets::ControlPosition work;         ///< G54-G59 or G54.1 Pn
+    offsets::ControlPosition fixture;      ///< G54.2, rotated with the table
+    offsets::ControlPosition length;       ///< tool length vector, from tip to gauge point
 
     Coordinates() { compile(); }
     void compile();
 
-    /// Zero of the work frame in machine coordinates: all shifts but G52.
+    /// Origin of the work frame in machine coordinates: all shifts except G52.
     offsets::ControlPosition work_origin() const;
     offsets::ControlPosition machine_from_program(const offsets::ControlPosition& program) const {
         if (!is_shift_) return machine_general(program);
@@ -59,10 +58,10 @@ class Coordinates {
         return out;
     }
     offsets::ControlPosition program_from_machine(const offsets::ControlPosition& machine) const;
-    /// After mirror, scaling and 2-D rotation: what #5001 shows.
+    /// Position after mirror, scaling and 2-D rotation, as shown by #5001.
     offsets::ControlPosition shaped_from_program(const offsets::ControlPosition& program) const;
 
-    /// True while the map of X Y Z is a shift: arcs and feeds need no turning.
+    /// True when the map of X Y Z is a pure shift, so arcs and feeds need no transformation.
     bool is_shift() const { return is_shift_; }
     /// The linear part of the map of X Y Z.
     const Matrix3& linear() const { return linear_; }
@@ -74,7 +73,7 @@ class Coordinates {
     Matrix3 linear_ = Matrix3::Identity(), inverse_ = Matrix3::Identity();
     Matrix3 shape_ = Matrix3::Identity();
     offsets::ControlPosition shape_shift_;  ///< shaped = shape * program + shape_shift
-    offsets::ControlPosition factor_;       ///< of all axes, X Y Z unused
+    offsets::ControlPosition factor_;       ///< for the axes other than X Y Z
     offsets::ControlPosition total_;        ///< machine = linear * program + total
 };
 

@@ -14,7 +14,7 @@ bool is_round(const Modal& modal) {
     return modal.is(ModalGroup::motion, 20) || modal.is(ModalGroup::motion, 30);
 }
 
-/// Cutter radius in force, signed: + to the left of the path (G41), - to the right (G42).
+/// Active cutter radius, signed: + left of the path (G41), - right of it (G42).
 double offset_mm(const Modal& modal, const Frames& frames) {
     if (modal.cutter_is_off()) return 0.0;
     const auto number = static_cast<std::size_t>(modal.number.radius);
@@ -25,7 +25,7 @@ double offset_mm(const Modal& modal, const Frames& frames) {
     return (modal.is(ModalGroup::cutter, 410) ? value : -value) / scale;
 }
 
-/// The move of this block to `target`, straight.
+/// The straight move of this block to `target`.
 cutter::PathMove straight_move(const SortedWords& words, const Modal& modal, const Frames& frames,
                                const offsets::ControlPosition& target) {
     cutter::PathMove m;
@@ -42,14 +42,14 @@ cutter::PathMove straight_move(const SortedWords& words, const Modal& modal, con
     return m;
 }
 
-/// Type C: G40 stood alone, the tool shifts back to the programmed point.
+/// Type C, G40 alone in its block: the tool shifts back to the programmed point.
 cutter::PathMove shift_back(const SortedWords& words, const Modal& modal, const Frames& frames) {
     cutter::PathMove back = straight_move(words, modal, frames, frames.program);
     back.offset_mm = 0.0;
     return back;
 }
 
-/// One-shot codes that neither move nor change frames.
+/// True for one-shot codes that neither move nor change frames.
 bool keeps_path(const SortedWords& words, Action action) {
     if (action == Action::data_setting) {
         const double l = words.get('L', 10.0);

@@ -10,7 +10,7 @@ namespace trunnion::controller {
 
 namespace {
 
-/// BNC: distances down from the level where the cycle began.
+/// BNC: distances are measured down from the level where the cycle began.
 void take_distances(const CycleData& data, const Modal& modal, HoleOrder& hole) {
     hole.r = data.initial_level - data.level_r;
     hole.bottom = data.initial_level - data.depth;
@@ -63,7 +63,7 @@ void read_cycle_words(CycleData& data, const SortedWords& words, const Modal& mo
     if (words.has('P')) data.dwell_s = dwell_word_s(words, modal);
 }
 
-/// Under M128: I deep along the tool, from R above the point.
+/// Under M128: drills to depth I along the tool, starting R above the point.
 void drill_along_tool(const CycleRow& row, const SortedWords& words, Modal& modal,
                       const Frames& frames, Mover& mover) {
     const bool allowed = row.code10 != 760 && row.code10 != 870 && row.code10 != 880;
@@ -109,7 +109,7 @@ void run_cycle(CycleData& data, SortedWords& words, Modal& modal, const Frames& 
     read_cycle_words(data, words, modal);
     if (!words.has_axis() && !words.has('R')) return;
     const Axis normal = modal.plane().normal;
-    words.present &= ~SortedWords::bit(letter_of(normal));  // that word is the depth
+    words.present &= ~SortedWords::bit(letter_of(normal));  // this word is the depth
     const char times_word = words.has('K') ? 'K' : 'L';
     const int times = words.has(times_word) ? words.whole(times_word) : 1;
     const HoleOrder hole = order_of(data, modal);

@@ -16,7 +16,7 @@ int p_word(const SortedWords& words, int low, std::size_t high) {
     return p;
 }
 
-/// Axis words into a vector: overwritten under G90, added under G91.
+/// Writes axis words into a vector: replaced under G90, added under G91.
 void set_vector(const SortedWords& words, const Modal& modal, offsets::OffsetVector& vector) {
     for (const ControlAxis& entry : modal.settings.axes) {
         if (!words.has(entry.axis)) continue;
@@ -72,7 +72,7 @@ void set_fixture_set(const SortedWords& words, const Modal& modal,
 
 DataEntry set_data(const SortedWords& words, const Modal& modal, Frames& frames, Mover& mover) {
     offsets::Stores& stores = frames.stores();
-    const int l = words.has('L') ? words.whole('L') : 10;  // G10 P R: offset memory A
+    const int l = words.has('L') ? words.whole('L') : 10;  // G10 P R: tool offset memory A
     switch (l) {
         case 2:
         case 20:

@@ -10,7 +10,7 @@ namespace trunnion::controller {
 
 namespace {
 
-/// M31: the rotary counters go back into one turn of their sign (inferred); nothing moves.
+/// M31: rotary positions are reduced to one turn, keeping their sign (inferred); no motion.
 void unwind(const SortedWords&, Modal& modal, Frames& frames, Mover&) {
     offsets::ControlPosition machine = frames.machine;
     for (const ControlAxis& axis : modal.settings.axes)
@@ -31,7 +31,7 @@ void shortest_way_off(const SortedWords&, Modal& modal, Frames&, Mover&) {
     modal.shortest_way = false;
 }
 
-/// M128 takes the tool length in force; its programming frame lies on the table at rotary zero
+/// M128 uses the active tool length. Its programming frame lies on the table at rotary zero
 /// (inferred: the part set-up is a table frame).
 void start_management(const SortedWords&, Modal&, Frames& frames, Mover& mover) {
     const positioning::RotaryTransform& transform = frames.transform(5420);
@@ -44,13 +44,13 @@ void start_management(const SortedWords&, Modal&, Frames& frames, Mover& mover) 
     mover.frames_changed();
 }
 
-/// The linearisation of G43.4 ends with it (assumed).
+/// This also ends the linearisation of G43.4 (assumed).
 void end_management(const SortedWords&, Modal&, Frames& frames, Mover& mover) {
     cancel_tool_centre(frames, mover);
     frames.tip.along_line = false;
 }
 
-/// Length and radius of tool T count from here; nothing moves.
+/// Length and radius of tool T become active; no motion.
 void change_tool(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover) {
     modal.block.tool = modal.number.tool;
     if (!modal.settings.hurco.length_from_tool_change) return;
@@ -80,7 +80,7 @@ constexpr const char* guide = "Hurco 757-4002-505, contents";
 constexpr const char* post = "Autodesk post for Hurco, rev. 45628";
 constexpr const char* digest = "second-hand digest of a class workbook";
 
-// What the codes do in detail is inferred: docs/control.md, "Hurco".
+// The details of these codes are inferred: docs/control.md, "Hurco".
 constexpr DialectCode rows[] = {
     {6, false, change_tool, "tool change", post},
     {10, false, nullptr, "second coolant", post},

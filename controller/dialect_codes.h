@@ -1,4 +1,4 @@
-// M codes that mean something else on a control of another family: one row a difference.
+// M codes whose meaning differs on a control of another family: one row a difference.
 #pragma once
 
 #include "controller/mover.h"
@@ -9,7 +9,7 @@ namespace trunnion::controller {
 struct DialectCode {
     int m_code;
     bool after_motion;
-    /// nullptr: outputs and chips, which the emulator passes on.
+    /// nullptr: outputs and chip conveyor, passed on by the emulator.
     void (*act)(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover);
     const char* text;
     const char* source;

@@ -36,7 +36,8 @@ void accept(Control& c, const GCode& code) {
                              g_code_text(code.code10), code.text));
 }
 
-/// The tool side offset across a turning tool is not emulated: better an alarm than a wrong part.
+/// Radius compensation perpendicular to a turning tool is not emulated: an alarm is better than a
+/// wrong part.
 void refuse_five_axis_cutter(Control&, const GCode& code) {
     raise_alarm(5460, fmt::format("G{}.{}", code.code10 / 10, code.code10 % 10));
 }
@@ -70,7 +71,7 @@ constexpr ActionRow rows[] = {
      }},
     {Action::data_setting_end, [](Control& c, const GCode&) { c.data_entry = DataEntry::none; }},
     {Action::dwell, [](Control& c, const GCode&) { dwell(c.words, c.modal, c.mover); }},
-    {Action::exact_stop, [](Control&, const GCode&) {}},  // the move of the block looks for it
+    {Action::exact_stop, [](Control&, const GCode&) {}},  // evaluated by the move of the block
     {Action::feed_mode, [](Control& c, const GCode& g) { change_feed_mode(c.modal, g.code10); }},
     {Action::five_axis_cutter, refuse_five_axis_cutter},
     {Action::fixture_offset,
@@ -118,7 +119,7 @@ constexpr ActionRow rows[] = {
      [](Control& c, const GCode& g) {
          set_speed_mode(c.words, c.modal, g.code10, c.frames.program);
      }},
-    {Action::thread, set_group},  // a motion code: the block's motion carries it out
+    {Action::thread, set_group},  // a motion code, executed as the motion of the block
     {Action::tilted_plane,
      [](Control& c, const GCode& g) {
          c.plane_codes.define(c.words, c.modal, c.frames, c.mover, g.code10);

@@ -121,7 +121,7 @@ constexpr GCode table[] = {
 
 constexpr int highest_code10 = 10000;
 
-/// Other spellings of the same code.
+/// Other spellings of a code.
 struct Alias {
     int code10, means10;
 };

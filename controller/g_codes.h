@@ -1,4 +1,4 @@
-// The G codes: code, modal group, when it acts in a block, what it asks for.
+// The G codes: code, modal group, phase within the block, action.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,9 @@
 
 namespace trunnion::controller {
 
-/// What a code asks for; controller/g_actions.cpp says who does it.
+/// The action of a code; controller/g_actions.cpp maps it to its subject.
 enum class Action : std::uint8_t {
-    sets_group,  ///< only the code of its modal group
+    sets_group,  ///< only sets its modal group
     accepted,
     corner_arc,
     cutter,
@@ -54,17 +54,17 @@ enum class Action : std::uint8_t {
     work_offset,
 };
 
-/// Order in which the codes of one block act, whatever order they are written in.
+/// Order in which the codes of one block act, independent of the written order.
 enum class Phase : std::uint8_t {
     speed,        ///< G96 G97, before S
     feed,         ///< G93 G94 G95, before F
     units,        ///< G20 G21
     plane,        ///< G17 G18 G19
-    reading,      ///< G90 G91 G15 G98 G99 G61-G64: how words are read
-    work_offset,  ///< G54-G59 G54.1 G54.2: move nothing, words stay for the motion
-    frame,        ///< G50 G69 G50.1: cancels that leave the words to the motion
-    offsets,      ///< G40-G42 G43 G44 G49: the motion of the block goes with them
-    shot,         ///< uses the axis words itself: G4 G10 G28 G31 G51 G52 G53 G68 G92
+    reading,      ///< G90 G91 G15 G98 G99 G61-G64: interpretation of words
+    work_offset,  ///< G54-G59 G54.1 G54.2: no motion; axis words remain for the motion
+    frame,        ///< G50 G69 G50.1: cancel codes; axis words remain for the motion
+    offsets,      ///< G40-G42 G43 G44 G49: act together with the motion of the block
+    shot,         ///< codes that use the axis words themselves: G4 G10 G28 G31 G51 G52 G53 G68 G92
     cycle,        ///< G73-G89
     motion,       ///< group 01
 };

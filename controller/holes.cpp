@@ -28,7 +28,7 @@ constexpr CycleRow rows[] = {
     {890, Cut::straight, Leave::feed, true, "boring with dwell, feed out"},
 };
 
-/// Rows of a Hurco, before those above.
+/// Rows for a Hurco; they have priority over those above.
 constexpr CycleRow isnc_rows[] = {
     {842, Cut::tap_pecks, Leave::tap, true, "peck tapping", 1},
     {843, Cut::tap_pecks, Leave::tap, true, "peck tapping, left-hand", -1},
@@ -36,7 +36,7 @@ constexpr CycleRow isnc_rows[] = {
 constexpr CycleRow isnc_feeds_out = {860, Cut::straight, Leave::feed, false, "boring, feed out"};
 constexpr CycleRow bnc_tap = {880, Cut::tap_pecks, Leave::tap, true, "rigid tapping"};
 
-/// One hole: what it is made of and by whom.
+/// Execution of one hole.
 class Hole {
   public:
     Hole(const CycleRow& row, const HoleOrder& order, Modal& modal, const Frames& frames,
@@ -72,7 +72,8 @@ void Hole::go_to(motion::MotionKind kind, double level) {
     mover_.line(kind, target);
 }
 
-/// The tool point leaves the wall: by Q along the first axis of the plane (5148: +first, assumed).
+/// Shifts the tool point away from the wall: by Q along the first axis of the plane (5148: +first,
+/// assumed).
 void Hole::shift_tool(double by) {
     offsets::ControlPosition target = frames_.program;
     target[modal_.plane().first] += by;
@@ -85,8 +86,8 @@ void Hole::turn_spindle(int direction) {
     modal_.feed_changed();
 }
 
-/// G73: down by Q, back by 5114. G83: down by Q, out to R, in again to 5115 above the last depth.
-/// Taps: out to R by feed with the spindle reversed, and in again (assumed).
+/// G73: down by Q, retract by 5114. G83: down by Q, out to R, in again to 5115 above the last
+/// depth. Tapping: out to R by feed with reversed spindle, and in again (assumed).
 void Hole::peck() {
     if (at_.peck <= 0.0) raise_alarm(45);
     const double way = at_.bottom < at_.r ? -1.0 : 1.0;
@@ -109,7 +110,7 @@ void Hole::come_back(double done, double way) {
     go_to(motion::MotionKind::rapid, at_.r + way * std::max(0.0, done - back));
 }
 
-/// Out to R as the thread leads, and the spindle as before.
+/// Out to R with the lead of the thread; then the spindle direction is restored.
 void Hole::tap_out() {
     const int direction = modal_.spindle.direction;
     turn_spindle(-direction);
@@ -147,7 +148,7 @@ void Hole::leave() {
     }
 }
 
-/// G87: in beside the hole to R, back under it, feed up to Z, out beside the hole.
+/// G87: in beside the hole to R, shift back below it, feed up to Z, out beside the hole.
 void Hole::bore_back() {
     const int direction = modal_.spindle.direction;
     turn_spindle(0);

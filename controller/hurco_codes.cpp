@@ -36,10 +36,10 @@ constexpr HurcoCode rows[] = {
      {1540, work_offset, Phase::work_offset, Action::work_offset, "additional work coordinates"}},
 };
 
-/// Codes of a Fanuc that no source gives to a Hurco.
+/// Fanuc codes that no source documents for a Hurco.
 constexpr int fanuc_alone[] = {41,  50,  51,  71,  80,  121, 131, 413, 414, 415,
                                416, 424, 425, 426, 435, 531, 536, 542, 684, 911};
-/// ISNC's: BNC has other codes for units and tapping, and no G87.
+/// ISNC only: BNC has other codes for units and tapping, and no G87.
 constexpr int isnc_alone[] = {200, 210, 740, 870};
 
 bool holds(std::span<const int> codes, int code10) {

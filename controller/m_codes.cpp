@@ -10,8 +10,8 @@ namespace trunnion::controller {
 
 namespace {
 
-/// Assignments of M codes are the machine builder's; these are the usual ones. Others are noted
-/// once and passed on.
+/// M codes are assigned by the machine builder; these are the usual ones. Others are noted once and
+/// passed on.
 constexpr MCode rows[] = {
     {0, true, "program stop"},
     {1, true, "optional stop"},
@@ -38,7 +38,7 @@ bool holds(const std::vector<int>& codes, int code) {
     return std::find(codes.begin(), codes.end(), code) != codes.end();
 }
 
-/// These stop the reading ahead: a compensated path ends square before them.
+/// True for codes that stop look-ahead: a compensated path ends perpendicular before them.
 bool stops_reading(int code) {
     return code == 0 || code == 1 || code == 2 || code == 30;
 }

@@ -1,4 +1,4 @@
-// M codes: what they change in the control, and whether they act before or after the motion.
+// M codes: their effect in the control, and whether they act before or after the motion.
 #pragma once
 
 #include "controller/control_config.h"
@@ -6,7 +6,7 @@
 
 namespace trunnion::controller {
 
-/// What the control knows of an M code.
+/// An M code known to the control.
 struct MCode {
     int code;
     bool after_motion;
@@ -17,10 +17,10 @@ class MCodes {
   public:
     explicit MCodes(const ControlConfig& config);
 
-    /// Carries out the M codes of the block that act before its motion (M3 M4 M6 M8, releases), or
+    /// Executes the M codes of the block that act before its motion (M3 M4 M6 M8, releases), or
     /// after it (M0 M1 M2 M5 M9 M30 and clamps).
     void run(bool after_motion, SortedWords& words, Modal& modal, Frames& frames, Mover& mover);
-    /// M2 or M30 came.
+    /// M2 or M30 was executed.
     bool ended() const { return ended_; }
     void start_run() { ended_ = false; }
 

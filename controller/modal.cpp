@@ -19,8 +19,8 @@ void Modal::units_changed() {
     feed_changed();
 }
 
-/// Nine digits of least increments (30i, A-79348E p. 84), eight on a 16i (A-78712E p. 1416), for
-/// positions; eight digits for the rest (assumed).
+/// Positions: nine digits in least increments (30i, A-79348E p. 84), eight on a 16i (A-78712E p.
+/// 1416). Other words: eight digits (assumed).
 void Modal::set_largest_words() {
     constexpr std::string_view positions = "ABCIJKQRUVWXYZ";
     for (std::size_t i = 0; i < 26; ++i) {

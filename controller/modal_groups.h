@@ -1,4 +1,4 @@
-// Modal groups: one code in force for each, as #4001.. show them.
+// Modal groups: the active code of each, as shown by #4001...
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace trunnion::controller {
 
-/// Modal groups of Fanuc mill controls; the number is that of the manual, so #4000 + group reads
-/// it.
+/// Modal groups of Fanuc mill controls, numbered as in the manual: #4000 + group reads the active
+/// code.
 enum class ModalGroup : std::uint8_t {
     one_shot = 0,
     motion = 1,          // G0 G1 G2 G3
@@ -31,12 +31,12 @@ enum class ModalGroup : std::uint8_t {
     polar_words = 17,    // G15 G16
     polar_motion = 21,   // G12.1 G13.1
     mirror = 22,         // G50.1 G51.1
-    fixture = 23,        // G54.2, 0: P0
+    fixture = 23,        // G54.2; 0: P0
 };
 
 constexpr std::size_t modal_group_count = 24;
 
-/// What stands in a group when the power comes on (parameter 3402 changes some of them).
+/// Code of a group at power-on (parameter 3402 changes some of them).
 struct ModalGroupRow {
     ModalGroup group;
     int initial_code10;  ///< code * 10: G43.4 is 434
@@ -53,11 +53,11 @@ struct ModalCodes {
     }
     bool is(ModalGroup group, int code) const { return (*this)[group] == code; }
 
-    /// "G00", "G17", "G54.1": one for each group, in group order; G54.2 only while it is in force.
+    /// "G00", "G17", "G54.1": one for each group, in group order; G54.2 only while it is active.
     std::vector<std::string> texts() const;
 };
 
-/// The state at power-on: the table, changed by parameter 3402 (#0 G01, #1 G18, #2 G19, #3 G91).
+/// The state at power-on: the table, modified by parameter 3402 (#0 G01, #1 G18, #2 G19, #3 G91).
 ModalCodes initial_modal_codes(unsigned parameter_3402);
 
 /// "G01", "G43.4" from code * 10.

@@ -8,14 +8,14 @@
 
 namespace trunnion::controller {
 
-/// Where the language stands: #4114 and #4115.
+/// Position in the program, for #4114 and #4115.
 struct ProgramPlace {
     std::function<int()> sequence_number, program_number;  ///< empty: 0
 };
 
-/// #4001-#4130 the previous block, #4201.. the running one, #4401.. the interrupted one: the same
-/// here, because a macro statement runs when the blocks before it are done. Nothing for another
-/// number.
+/// #4001-#4130 previous block, #4201.. running block, #4401.. interrupted block. All three are
+/// equal here, because a macro statement runs after the blocks before it are complete. Empty for
+/// any other number.
 std::optional<double> modal_variable(int number, const Modal& modal, const ProgramPlace& place);
 
 }  // namespace trunnion::controller

@@ -76,7 +76,7 @@ void Mover::carry(const cutter::PathOutput& out) {
         round);
 }
 
-/// A move that waited goes out with the states of its block, which lies behind the one that runs.
+/// A buffered move is sent with the state of its own block, which precedes the running one.
 void Mover::take(const cutter::PathOutput& out) {
     if (out.m_code >= 0) return axes.m_code(out.m_code);
     if (out.dwell_s >= 0.0) return axes.dwell(out.dwell_s);

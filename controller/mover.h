@@ -1,5 +1,5 @@
-// What takes a commanded path to the axes: corners and cutter compensation, tool centre point
-// control or G54.2, then the axes.
+// Takes a commanded path to the axes: chamfers, corner radii and cutter compensation, then tool
+// centre point control or G54.2, then the axes.
 #pragma once
 
 #include "controller/axis_mover.h"
@@ -20,22 +20,22 @@ class Mover : private cutter::PathReceiver {
     RunRecord& record() { return axes.record; }
     void note(std::string text) { axes.record.note(std::move(text)); }
 
-    /// A straight move (G0, G1, G31) or an arc of the tip to a program position; it goes out now.
+    /// A straight move (G0, G1, G31) or an arc of the tip to a program position; sent immediately.
     motion::MoveResult line(motion::MotionKind kind, const offsets::ControlPosition& target);
     void arc(motion::MotionKind kind, const offsets::ControlPosition& target,
              const ProgramArc& arc);
-    /// The block's move goes through corners and cutter compensation.
+    /// Sends the block's move through corners and cutter compensation.
     void queue(const cutter::PathMove& move);
-    /// A dwell or an M code in its turn: at once when nothing waits.
+    /// A dwell or an M code in sequence; sent at once when nothing is buffered.
     void dwell(double duration_s);
     void m_code(int code);
 
-    /// Around a block that changes frames or moves by itself: everything waiting goes out and the
-    /// program position is that of the tool; afterwards it is the programmed one again.
+    /// Before and after a block that changes frames or moves by itself. pause() sends the buffer;
+    /// the program position is then that of the tool. resume() restores the programmed position.
     void pause();
     void resume(bool axes_moved);
-    /// After a coordinate stage changed: what waits goes out in the old frames, then the program
-    /// position is derived anew.
+    /// After a change of a coordinate stage: sends the buffer in the old frames, then derives the
+    /// program position again.
     void frames_changed();
 
   private:
@@ -52,7 +52,7 @@ class Mover : private cutter::PathReceiver {
 inline Vector3 unit_along(Axis axis) {
     return Vector3::Unit(static_cast<Eigen::Index>(index_of(axis)));
 }
-/// `point` in the plane, the third coordinate from `p`.
+/// `point` in the plane; the third coordinate is that of `p`.
 Vector3 in_space(const motion::PlaneAxes& plane, const offsets::ControlPosition& p,
                  PlanePoint point);
 

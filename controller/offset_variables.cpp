@@ -7,13 +7,13 @@ namespace trunnion::controller {
 
 namespace {
 
-/// A store's entry behind a variable number.
+/// The store entry of a variable number.
 struct Place {
     double* value = nullptr;
-    bool length = true;  ///< in mm: read and written in the unit in force
+    bool length = true;  ///< in mm: read and written in the active unit
 };
 
-/// Tool offsets, memory C. Rows as remembered; 6000#3 V15 swaps wear and geometry.
+/// Tool offsets, memory C. Rows quoted from memory; 6000#3 V15 exchanges wear and geometry.
 struct ToolRange {
     int first, count;
     double offsets::ToolOffset::*wear_order;
@@ -60,7 +60,7 @@ Place work_place(const ControlSettings& settings, offsets::WorkOffsets& work, in
     return {};
 }
 
-/// #5521.. P1 to #5661.. P8, 20 apart (assumed).
+/// #5521.. P1 to #5661.. P8, in steps of 20 (assumed).
 Place fixture_place(const ControlSettings& settings, offsets::FixtureOffsets& fixture, int number) {
     if (number < 5521 || number >= 5681) return {};
     offsets::FixtureOffset& set = fixture.set[static_cast<std::size_t>((number - 5521) / 20)];

@@ -22,7 +22,7 @@ offsets::ControlPosition shown_position(int row, const Modal& modal, const Frame
     }
 }
 
-/// Of axis number `n` from 0; nothing when there is no such axis.
+/// Component of axis `n`, counted from 0, in the active unit; empty when the axis does not exist.
 std::optional<double> in_units(const offsets::ControlPosition& p, int n, const Modal& modal) {
     if (n < 0 || n >= static_cast<int>(modal.settings.axes.size())) return std::nullopt;
     const ControlAxis& axis = modal.settings.axes[static_cast<std::size_t>(n)];

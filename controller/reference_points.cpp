@@ -7,7 +7,7 @@ namespace trunnion::controller {
 
 namespace {
 
-/// 1 for G28; P of G30, 2 when it is left out.
+/// 1 for G28; P of G30, default 2.
 int reference_number(const SortedWords& words, int code10) {
     if (code10 == 280) return 1;
     const int p = words.has('P') ? words.whole('P') : 2;

@@ -15,7 +15,7 @@ motion::MotionKind kind_in_force(const Modal& modal) {
     return modal.is(ModalGroup::motion, 0) ? motion::MotionKind::rapid : motion::MotionKind::linear;
 }
 
-/// From the tip to the spindle, in M; what is only rounding is none.
+/// Direction from tip to spindle, in M; components within rounding are set to zero.
 Vector3 tool_direction_M(const Frames& frames, const AxisPositions& axes) {
     if (!frames.believed.transform) return Vector3::UnitZ();
     const positioning::RotaryTransform& transform = *frames.believed.transform;
@@ -33,7 +33,8 @@ Stroke stroke_of(const motion::AxisLimits& limits, std::size_t i) {
     return {limits.min[i], open_z ? 0.0 : top};
 }
 
-/// mm along the tool until the first axis is at its end; 0 where it stands beyond.
+/// Distance (mm) along the tool until the first axis reaches its limit; 0 when it is already
+/// beyond.
 double way_to_end(const motion::AxisLimits& limits, const Vector3& at, const Vector3& direction) {
     double way = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 3; ++k) {
@@ -46,12 +47,12 @@ double way_to_end(const motion::AxisLimits& limits, const Vector3& at, const Vec
     return std::max(0.0, way);
 }
 
-/// `at` further along the tool: by L of the block, or to the end of a stroke.
+/// `at` moved along the tool: by L of the block, or to a stroke limit.
 Vector3 backed_off(const SortedWords& words, const motion::AxisLimits& limits, const Vector3& at,
                    const Vector3& direction) {
     if (words.has('L')) return at + words.length_mm('L') * direction;
     Vector3 out = at + way_to_end(limits, at, direction) * direction;
-    for (int k = 0; k < 3; ++k) {  // not beyond a stroke's end by rounding
+    for (int k = 0; k < 3; ++k) {  // rounding must not exceed a stroke limit
         const Stroke stroke = stroke_of(limits, static_cast<std::size_t>(k));
         const double end = std::clamp(out[k], stroke.min, stroke.max);
         if (direction[k] != 0.0 && std::abs(end - out[k]) < 1e-9) out[k] = end;
@@ -65,7 +66,7 @@ void go_to_xyz(const Vector3& at, const Modal& modal, const Frames& frames, Move
     mover.axes.to_machine(kind_in_force(modal), target);
 }
 
-/// The direction of I J K in W.
+/// Direction of I J K in W.
 Vector3 commanded_direction_W(const SortedWords& words, const Frames& frames) {
     const Vector3 vector = tool_vector(words).normalized();
     if (frames.tip.in_force)
@@ -73,7 +74,7 @@ Vector3 commanded_direction_W(const SortedWords& words, const Frames& frames) {
     return frames.plane ? Vector3(frames.plane->pose_PF.rotation * vector) : vector;
 }
 
-/// Where the axes stand with the tip on the program position `target` and these rotaries.
+/// Axis positions with the tip on the program position `target` and these rotary positions.
 Vector3 end_of(const offsets::ControlPosition& target, const AxisPositions& rotaries,
                const Frames& frames) {
     const Vector3 staged = offsets::xyz_of(frames.stages.machine_from_program(target));

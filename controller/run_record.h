@@ -1,4 +1,4 @@
-// What a run has done so far: moves, time, way, notes.
+// Totals of a run so far: moves, time, path length, notes.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct RunRecord {
     std::vector<std::string> notes;
     std::set<std::string, std::less<>> noted;
 
-    /// One line in the notes, the first time it is said.
+    /// Adds a line to the notes unless it is already there.
     void note(std::string text) {
         if (noted.insert(text).second) notes.push_back(std::move(text));
     }

@@ -1,4 +1,4 @@
-// What a run of a program left behind.
+// Result of running a program.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct RunResult {
     AxisPositions machine;           ///< final, mm and rad
     AxisPositions work;              ///< final, in the active work frame, mm and rad
     std::vector<std::string> modal;  ///< "G00", "G17", ... one for each modal group, in group order
-    bool reads_skip = false;         ///< the program asked where G31 touched (#5061..)
+    bool reads_skip = false;         ///< the program read the skip position (#5061..)
     std::vector<std::string> notes;  ///< unknown M codes, codes accepted without effect, ...
 };
 

@@ -9,7 +9,7 @@ namespace trunnion::controller {
 
 namespace {
 
-constexpr double default_corner_jump = 400.0;  // mm/min, deg/min: what handbooks set (assumed)
+constexpr double default_corner_jump = 400.0;  // mm/min, deg/min: usual in handbooks (assumed)
 
 double for_axis(const offsets::Parameters& parameters, int number, int axis_number) {
     return offsets::value_of_axis(parameters, number, axis_number).value_or(0.0);

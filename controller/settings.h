@@ -1,4 +1,4 @@
-// What the control reads from its parameters at each block, decoded once.
+// Parameters that the control needs at each block, decoded once.
 #pragma once
 
 #include <array>
@@ -11,16 +11,17 @@
 
 namespace trunnion::controller {
 
-/// Decoded CNC parameters. Numbers behind each field; where the store has no entry, the value here.
+/// Decoded CNC parameters. The parameter number follows each field; the initial value is used when
+/// the store has no entry.
 struct ControlSettings {
     std::vector<ControlAxis> axes;          ///< number 1 is [0]
     std::uint32_t axis_letters = 0;         ///< letters of the axes, bits as in SortedWords
-    double largest_position = 999999999.0;  ///< of a position word, in least increments
+    double largest_position = 999999999.0;  ///< limit of a position word, in least increments
     bool has_rotary_axis = false;
     bool threading = false;  ///< G33
     BuilderProfile builder;
     interpreter::DialectFamily family = interpreter::DialectFamily::fanuc;
-    HurcoChoices hurco;  ///< without meaning on a Fanuc
+    HurcoChoices hurco;  ///< no meaning on a Fanuc
     bool is_hurco() const { return family == interpreter::DialectFamily::hurco; }
     bool is_bnc() const { return is_hurco() && hurco.bnc; }
     bool g89_feeds_to_initial = true;  ///< own option, see ControlConfig
@@ -36,16 +37,16 @@ struct ControlSettings {
     double peck_clearance_mm = 1.0;  ///< 5115: G83 clearance (absent: 1 mm, assumed)
     bool length_shifts = false;      ///< 5006#6 TOS: G43 shifts the coordinates instead of moving
     int length_axis_type =
-        0;  ///< 5001#0 TLC, #1 TLB: 0 A (always Z), 1 B (normal of plane), 2 C (axis in block)
+        0;  ///< 5001#0 TLC, #1 TLB: 0 A (always Z), 1 B (normal of plane), 2 C (axis of the block)
     bool radius_is_diameter = false;         ///< 5004#2 ODI: D holds diameters
     cutter::CutterSettings cutter;           ///< 5003, 19607, 19625
     bool work_positions_with_length = true;  ///< #5041, #5061 include length (own option, see docs)
     bool wear_first = false;                 ///< 6000#3 V15: #2001 geometry instead of wear
     std::uint16_t rollover = 0;              ///< 1008#0 ROA by axis letter bit
     std::uint16_t rollover_signed = 0;       ///< 1008#1 RAB: such an axis turns by the word's sign
-    double least_surface_rpm = 0.0;          ///< 3771: least speed under G96
+    double least_surface_rpm = 0.0;          ///< 3771: minimum speed under G96
     double most_rpm = 99999.0;               ///< 3772; absent or 0: five digits (assumed)
-    int surface_axis_number = 1;  ///< 3770: radius axis of G96 without P; 0 and absent: 1
+    int surface_axis_number = 1;             ///< 3770: radius axis of G96 without P; 0 or absent: 1
     std::array<double, axis_count> corner_jump{};  ///< 1783, mm/min and deg/min; 0: 400 (assumed)
     std::array<std::array<double, axis_count>, 4> reference{};  ///< 1240-1243, mm and deg
 };
@@ -53,8 +54,9 @@ struct ControlSettings {
 /// Axis number of each letter: parameter 1020 where it is set, else X Y Z A B C U V W, auxiliary
 /// axes behind the others.
 void sort_axes(std::vector<ControlAxis>& axes, const offsets::Parameters& parameters);
-/// Strokes 1320, 1321 (mm, deg; the positive end below the negative one: no stroke) and rapid
-/// speeds 1420 (mm/min, deg/min) of axes in the order of their numbers, where the store has them.
+/// Reads stroke limits 1320, 1321 (mm, deg; no limit when the positive one is below the negative
+/// one) and rapid speeds 1420 (mm/min, deg/min) that are in the store. `axes` in the order of their
+/// numbers.
 void take_strokes(std::vector<ControlAxis>& axes, const offsets::Parameters& parameters);
 /// `config.axes` in the order of their numbers.
 ControlSettings decode_settings(const offsets::Parameters& parameters, const ControlConfig& config);

@@ -6,14 +6,15 @@ namespace trunnion::controller {
 
 namespace {
 
-/// A factor word: with a decimal point as it stands, else thousandths (5400#7 SCR, assumed 0.001).
+/// A scaling factor: as written with a decimal point, else in thousandths (5400#7 SCR, assumed
+/// 0.001).
 double factor_word(const SortedWords& words, char letter) {
     const double factor = words.get(letter) * (words.is_bare(letter) ? 0.001 : 1.0);
     if (factor == 0.0) raise_alarm(142, words.column_of(letter));
     return factor;
 }
 
-/// Centre from the axis words; the present position where an axis is not named.
+/// Centre from the axis words; the present position for axes without a word.
 offsets::ControlPosition centre_of(const SortedWords& words, const Modal& modal,
                                    const Frames& frames) {
     offsets::ControlPosition out = frames.program;
@@ -87,7 +88,7 @@ void set_rotation(const SortedWords& words, Modal& modal, Frames& frames, Mover&
         if (words.has(axis)) centre[axis] = words.axis_value(axis);
     rotation.centre = offsets::xyz_of(centre);
     rotation.axis = unit_along(plane.normal);
-    // R without a point: thousandths of a degree, or degrees with 3401#0 = 1.
+    // R without decimal point: thousandths of a degree, or degrees with 3401#0 = 1.
     rotation.angle_deg = words.has('R') ? words.angle_deg('R') : parameters.get(5410);
     const bool adds = !modal.absolute() && parameters.bit(5400, 0);  // RIN
     const auto& present = frames.stages.rotation;

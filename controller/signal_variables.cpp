@@ -23,7 +23,7 @@ double not_vacant(double value) {
     throw Alarm(3000 + n, std::string(comment));
 }
 
-/// #1032 and #1132: the bits of the singles as one number.
+/// #1032 and #1132: the single bits as one number.
 double word_of(int first, const Signals& signals) {
     double word = 0.0;
     for (int bit = 0; bit < 32; ++bit)

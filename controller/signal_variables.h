@@ -1,4 +1,4 @@
-// Variables of the machine's signals and of the clock: #1000-#1135, #3000-#3012.
+// Variables of machine signals and clocks: #1000-#1135, #3000-#3012.
 #pragma once
 
 #include <array>
@@ -13,20 +13,20 @@ namespace trunnion::controller {
 
 using Signals = std::map<int, double>;
 
-/// #1000-#1031 single inputs, #1032-#1035 words; #1100.. the outputs. Nothing for another number.
+/// #1000-#1031 single inputs, #1032-#1035 words; #1100.. outputs. Empty for any other number.
 std::optional<double> signal_variable(int number, const Signals& signals);
-/// Outputs only; false for another number.
+/// Outputs only; false for any other number.
 bool set_signal_variable(int number, double value, Signals& signals);
 
 /// #3000 alarm, #3001 timer (ms), #3002 hours, #3003, #3004, #3007 controls, #3006 stop with a
-/// message, #3011 date, #3012 time, #3901 and #3902 parts made and required (kept, not counted).
+/// message, #3011 date, #3012 time, #3901 and #3902 parts made and required (stored, not counted).
 class ClockVariables {
   public:
-    /// `clock_s`: when the run begins, seconds since 1970.
+    /// `clock_s`: start of the run, seconds since 1970.
     explicit ClockVariables(std::int64_t clock_s) : clock_s_(clock_s) {}
 
     std::optional<double> get(int number, double run_time_s) const;
-    /// False when the number cannot be written. #3000 throws the program's alarm with `comment`.
+    /// False when the number is not writable. #3000 throws the program's alarm with `comment`.
     bool set(int number, double value, std::string_view comment, Mover& mover);
 
   private:

@@ -22,7 +22,7 @@ bool touch(const offsets::ControlPosition& target, Mover& mover) {
     return touched;
 }
 
-/// M42: back on the way it came, no further than it started, and on to the target, slower.
+/// M42: retracts along the path, at most to its start, then moves to the target at the lower feed.
 bool touch_again(const offsets::ControlPosition& from, const offsets::ControlPosition& target,
                  Modal& modal, const Frames& frames, Mover& mover) {
     offsets::ControlPosition back = frames.program;

@@ -10,15 +10,15 @@ namespace trunnion::controller {
 
 namespace {
 
-/// Minutes for one turn at a radius: in proportion to it between the limits of speed.
+/// Minutes per revolution as a function of the radius: proportional to it between the speed limits.
 struct TurnTime {
-    double minutes_per_mm;  ///< of radius
+    double minutes_per_mm;  ///< per mm of radius
     double least, most;     ///< minutes
 
     double at(double radius_mm) const {
         return std::clamp(minutes_per_mm * std::abs(radius_mm), least, most);
     }
-    /// Integral of `at` from 0 to a radius.
+    /// Integral from 0 to a radius.
     double sum(double radius_mm) const {
         const double a = std::abs(radius_mm);
         const double low = least / minutes_per_mm, high = most / minutes_per_mm;

@@ -6,8 +6,8 @@
 
 namespace trunnion::controller {
 
-/// Variables without a meaning of the control's own: the extended P-CODE variables (six digits,
-/// from memory) and the ranges of the machine builder.
+/// Variables without a function in the control: the extended P-CODE variables (six digits, from
+/// memory) and the ranges of the machine builder.
 bool ControlVariables::is_free(int number) const {
     if (number >= 900000 && number <= 999999) return true;
     for (const auto& [first, last] : c_.config.builder.variables)

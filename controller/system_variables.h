@@ -1,5 +1,4 @@
-// System variables (#1000 and above) of the control: read and write of stores, positions, modal
-// state.
+// System variables (#1000 and above) of the control: access to stores, positions and modal state.
 #pragma once
 
 #include <map>
@@ -17,7 +16,7 @@ class ControlVariables : public interpreter::SystemVariables {
     void set(int number, double value, const char* comment) override;
     double parameter(int number, int bit, int axis) override;
 
-    /// The program asked where G31 touched (#5061..).
+    /// The program read the skip position (#5061..).
     bool reads_skip() const { return reads_skip_; }
     void start_run() { reads_skip_ = false; }
 
@@ -27,7 +26,7 @@ class ControlVariables : public interpreter::SystemVariables {
 
     Control& c_;
     bool reads_skip_ = false;
-    std::map<int, double> free_;  ///< #900000.. and those of the machine builder, vacant at first
+    std::map<int, double> free_;  ///< #900000.. and those of the machine builder; initially vacant
 };
 
 }  // namespace trunnion::controller

@@ -9,7 +9,7 @@ namespace trunnion::controller {
 
 namespace {
 
-constexpr int deepest_nesting = 8;  ///< G68.2 and G68.4 on top of it (assumed)
+constexpr int deepest_nesting = 8;  ///< of G68.2 and the G68.4 on top of it (assumed)
 
 positioning::PlaneWords plane_words(const SortedWords& words) {
     positioning::PlaneWords out;
@@ -19,7 +19,7 @@ positioning::PlaneWords plane_words(const SortedWords& words) {
     read(out.x, 'X', words.length_mm('X'));
     read(out.y, 'Y', words.length_mm('Y'));
     read(out.z, 'Z', words.length_mm('Z'));
-    // Angles and components of vectors: no inches.
+    // Angles and components of vectors are not converted from inch.
     read(out.i, 'I', words.angle_deg('I'));
     read(out.j, 'J', words.angle_deg('J'));
     read(out.k, 'K', words.angle_deg('K'));
@@ -172,7 +172,7 @@ positioning::Branch branch_of(const SortedWords& words) {
     return static_cast<positioning::Branch>(p);
 }
 
-/// Rotary positions that put the tool along the feature's Z.
+/// Rotary positions that align the tool with Z of the feature frame.
 positioning::RotaryChoice tool_axis_choice(const SortedWords& words, const Modal& modal,
                                            const Frames& frames) {
     if (const int column = words.column_of_first(SortedWords::axis_letters))
@@ -188,7 +188,7 @@ positioning::RotaryChoice tool_axis_choice(const SortedWords& words, const Modal
     return choice;
 }
 
-/// A program that indexes thousands of times is not repeated in the notes.
+/// Each choice is noted only once, because a program may index thousands of times.
 void note_choice(const positioning::RotaryTransform& transform,
                  const positioning::RotaryChoice& choice, const char* code, int line,
                  RunRecord& record) {
@@ -202,7 +202,7 @@ offsets::ControlPosition with_rotaries(const Frames& frames, const positioning::
     const offsets::PivotParameters& pivot = transform.pivot();
     const positioning::RotarySolution present = transform.rotaries(frames.axes);
     offsets::ControlPosition out =
-        frames.machine;  // an axis that stays keeps its degrees to the last bit
+        frames.machine;  // an axis that does not move keeps its position in deg bit by bit
     if (!pivot.first.hypothetical && s.first_rad != present.first_rad)
         out[pivot.first.axis] = deg_from_rad(s.first_rad);
     if (!pivot.second.hypothetical && s.second_rad != present.second_rad)
@@ -215,7 +215,7 @@ motion::MotionKind turning_kind(const Modal& modal) {
                                             : motion::MotionKind::rapid;
 }
 
-/// The tool whose tip G53.6 keeps.
+/// The tool whose tip position G53.6 keeps.
 Vector3 tool_to_keep(const SortedWords& words, const Frames& frames) {
     const Vector3& direction = frames.believed.transform->pivot().tool_direction;
     Vector3 out = frames.tool.vector_mm;

@@ -14,7 +14,7 @@ double arc_length(const motion::ArcPath& arc, const Vector3& from, const Vector3
     return std::hypot(bow, arc.normal.dot(to - from));
 }
 
-/// Standing rotaries: the axes themselves run on the arc.
+/// Rotary axes at rest: the arc of the axes themselves.
 motion::ArcPath arc_of_axes(const motion::ToolCentrePoint& tcp, const motion::ArcPath& arc_W,
                             const AxisPositions& to) {
     motion::ArcPath out = arc_W;
@@ -41,7 +41,7 @@ void TipMover::check_words() const {
                     column);
 }
 
-/// Where the stages put the tip without TCP, mm in M.
+/// The tip according to the stages without TCP, mm in M.
 Vector3 TipMover::staged_tip(const offsets::ControlPosition& machine) const {
     return offsets::xyz_of(machine) - offsets::xyz_of(frames_.stages.length);
 }
@@ -50,7 +50,8 @@ bool TipMover::turns(const AxisPositions& to) const {
     return !(tcp().transform->rotaries(frames_.axes) == tcp().transform->rotaries(to));
 }
 
-/// Rotary angles of the vector I J K (program frame), under G43.5 leaning towards the travel by Q.
+/// Sets the rotary angles for the vector I J K (program frame); under G43.5 inclined by Q towards
+/// the travel.
 void TipMover::orient_tool(const Vector3& travel_W, AxisPositions& rotaries) const {
     const Vector3 vector = frames_.stages.linear() * tool_vector(words_);
     const Vector3 n_W =
@@ -58,8 +59,8 @@ void TipMover::orient_tool(const Vector3& travel_W, AxisPositions& rotaries) con
     rotaries = with_tool_along(n_W, words_, modal_, frames_, rotaries);
 }
 
-/// Where the tip is, mm in W: as the program position says, so that a way that does not move is
-/// none.
+/// Tip position, mm in W, from the program position, so that a move without displacement has length
+/// zero.
 Vector3 TipMover::start_of_way() const {
     if (frames_.tip.keeps_program)
         return tcp().transform->tip_W(frames_.axes, tcp().tool_vector_mm);
@@ -92,7 +93,7 @@ bool TipMover::keeps_tip_on_way() const {
            modal_.settings.hurco.m128_keeps_tip_between_ends;
 }
 
-/// Rotaries alone: F counts degrees (19696#6 RFC = 1), or the axes run as fast as they may.
+/// Rotary axes alone: F counts degrees (19696#6 RFC = 1), or the axes move at maximum speed.
 double TipMover::feed_length(double tip_mm, const offsets::ControlPosition& machine) const {
     if (tip_mm > 1e-9) return tip_mm;
     if (!frames_.stores().parameters.bit(19696, 6)) return 0.0;
@@ -102,7 +103,7 @@ double TipMover::feed_length(double tip_mm, const offsets::ControlPosition& mach
     return std::sqrt(square) * modal_.units.unit_mm;
 }
 
-/// The program position: as commanded, with the angles that a vector led to.
+/// The program position: as commanded, with the angles that follow from a vector.
 offsets::ControlPosition TipMover::reached(offsets::ControlPosition target,
                                            const offsets::ControlPosition& machine) const {
     if (!frames_.tip.by_vector && !leads_tool(words_, modal_, frames_.tip)) return target;
@@ -123,7 +124,7 @@ motion::MoveResult TipMover::line(motion::MotionKind kind, const offsets::Contro
     return axes_.along(kind, tip.target, way);
 }
 
-/// The arc of program coordinates as the table sees it.
+/// The arc of program coordinates seen from the table.
 motion::ArcPath TipMover::arc_in_W(const ProgramArc& arc, const AxisPositions& rotaries) const {
     offsets::ControlPosition centre = frames_.program;
     offsets::set_xyz(centre, arc.centre);

@@ -1,4 +1,5 @@
-// Moves under G43.4, G43.5 and M128: the tip is led along its way on the work, the axes follow.
+// Moves under G43.4, G43.5 and M128: the tip follows its path on the workpiece, the axes follow the
+// tip.
 #pragma once
 
 #include "controller/axis_mover.h"
@@ -6,17 +7,18 @@
 
 namespace trunnion::controller {
 
-/// The stage in front of the axes while tool centre point control is in force (`frames.tip`). M128
-/// without G43.4 puts the tip right at the ends of blocks alone: the axes run straight between.
+/// The stage in front of the axes while tool centre point control is active (`frames.tip`). M128
+/// without G43.4 corrects the tip at block ends only; between them the axes move linearly.
 class TipMover {
   public:
     TipMover(const SortedWords& words, const Modal& modal, const Frames& frames, AxisMover& axes)
         : words_(words), modal_(modal), frames_(frames), axes_(axes) {}
 
-    /// A straight move of the tip on the work to a program position. PS5421 for words of the other
-    /// way to command the tool axis, and for an axis that no rotary position reaches.
+    /// A straight move of the tip, relative to the workpiece, to a program position. PS5421 when
+    /// the words command the tool axis in the wrong way (angles or vector), and for a tool
+    /// direction that no rotary position reaches.
     motion::MoveResult line(motion::MotionKind kind, const offsets::ControlPosition& target);
-    /// An arc of the tip on the work; PS5421 under G43.5.
+    /// An arc of the tip relative to the workpiece; PS5421 under G43.5.
     void arc(motion::MotionKind kind, const offsets::ControlPosition& target,
              const ProgramArc& arc);
 

@@ -19,8 +19,8 @@ std::string point_text(const Vector3& p) {
     return fmt::format("X{:.3f} Y{:.3f} Z{:.3f}", p.x() + 0.0, p.y() + 0.0, p.z() + 0.0);
 }
 
-/// The programmed point on the table by either frame, from the zero of the work; returns how far
-/// both are apart, mm, 0 within rounding.
+/// The programmed origin on the table by either frame. Returns their distance, mm; 0 within
+/// rounding.
 double note_frames(const Modal& modal, const Frames& frames, Mover& mover) {
     const positioning::RotaryTransform& transform = *frames.tip.starting->transform;
     const Vector3 tip_M = offsets::xyz_of(frames.stages.machine_from_program(frames.program)) -

@@ -15,15 +15,15 @@ Axis length_axis(const SortedWords& words, const Modal& modal) {
     raise_alarm(27);
 }
 
-/// The length of types A to C lies along one axis, which need not be X, Y or Z.
+/// The length of types A to C acts along one axis, which may be other than X, Y or Z.
 offsets::ControlPosition length_along(Axis axis, double length_mm) {
     offsets::ControlPosition out;
     out[axis] = length_mm;
     return out;
 }
 
-/// Shift type, or the length was left out at the reference position: the position display changes.
-/// Otherwise the program position stands and the axis goes to it.
+/// Shift type, or length removed at the reference position: the position display changes. Otherwise
+/// the program position is kept and the axis moves to it.
 void put_in_force(const offsets::ControlPosition& length, const Modal& modal, Frames& frames,
                   Mover& mover) {
     const offsets::ControlPosition program = frames.program;

@@ -9,7 +9,7 @@ namespace trunnion::controller {
 
 namespace {
 
-constexpr double square_enough = 0.01;  ///< cosine of the angle between the directions
+constexpr double square_enough = 0.01;  ///< maximum cosine of the angle between the directions
 constexpr std::uint32_t y_letters =
     SortedWords::bit('U') | SortedWords::bit('V') | SortedWords::bit('W');
 

@@ -5,11 +5,11 @@
 
 namespace trunnion::controller {
 
-/// Origin X Y Z in the frame of the work offset. A B C (deg): G68.2 turns about the fixed axes A,
-/// then B, then C, so the frame is Rz(C) Ry(B) Rx(A); G68.3 about the moved axes, Rx(A) Ry(B) Rz(C)
-/// (inferred from a post; a choice exchanges them). I J K and U V W: directions of X and Y, at
-/// right angles within 0.01. Moves nothing. Inside another plane it counts from that one. PS5457
-/// for wrong words, PS5456 inside a plane where planes do not stack.
+/// Origin X Y Z in the frame of the work offset. A B C (deg): G68.2 rotates about the fixed axes A,
+/// then B, then C, so the frame is Rz(C) Ry(B) Rx(A); G68.3 rotates about the moved axes, Rx(A)
+/// Ry(B) Rz(C) (inferred from a post processor; an option exchanges them). I J K and U V W:
+/// directions of X and Y, perpendicular within 0.01. No motion. Inside another plane the frame
+/// refers to that plane. PS5457 for invalid words, PS5456 inside a plane when planes do not stack.
 void set_transform_plane(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover,
                          int code10);
 

@@ -6,7 +6,7 @@ namespace trunnion::controller {
 
 double feed_word_unit(const SortedWords& words, const Modal& modal) {
     if (!words.is_bare('F') || modal.settings.bare_is_unit) return 1.0;
-    // Without a point and with 3401#0 = 0: 1 mm/min, 0.01 in/min, 0.01 mm/turn, 0.0001 in/turn.
+    // Without decimal point and with 3401#0 = 0: 1 mm/min, 0.01 in/min, 0.01 mm/rev, 0.0001 in/rev.
     const bool inch = modal.units.inch();
     if (modal.is(ModalGroup::feed_mode, 950)) return inch ? 0.0001 : 0.01;
     if (modal.is(ModalGroup::feed_mode, 940)) return inch ? 0.01 : 1.0;

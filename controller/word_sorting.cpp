@@ -10,7 +10,7 @@ namespace trunnion::controller {
 
 namespace {
 
-/// Addresses that a block may hold besides axes: all but E, N, O.
+/// Addresses allowed in a block besides axes: all but E, N, O.
 constexpr std::uint32_t known_letters =
     0x3FFFFFFU & ~(SortedWords::bit('E') | SortedWords::bit('N') | SortedWords::bit('O'));
 
@@ -51,7 +51,7 @@ void add_g(SortedWords& w, const ControlSettings& settings, const interpreter::W
     if (!code) raise_alarm(10, word.column);
     if (code->phase != Phase::motion) return add_code(w, settings, code, word.column);
     if (w.motion && settings.duplicates_alarm) raise_alarm(5074, word.column);
-    drop_cycle(w);  // G81 G0: the cycle is not carried out
+    drop_cycle(w);  // G81 G0: the cycle is not executed
     w.motion = code;
     w.motion_column = word.column;
 }

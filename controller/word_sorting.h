@@ -1,4 +1,4 @@
-// A block's words by letter, with its G and M codes looked up.
+// Sorts the words of a block by letter and looks up its G and M codes.
 #pragma once
 
 #include "controller/modal.h"
@@ -12,7 +12,8 @@ constexpr std::uint32_t phase_bit(Phase phase) {
 }
 
 /// Two codes of one group: the last one counts, or PS5074 by 3403#6. Throws PS0003 for a value with
-/// too many digits, PS0009 for an address the control does not have, PS0010 for an unknown G code.
+/// too many digits, PS0009 for an address that the control does not have, PS0010 for an unknown G
+/// code.
 void sort_words(const interpreter::BlockWords& block, const Modal& modal, SortedWords& words);
 
 }  // namespace trunnion::controller

@@ -21,7 +21,8 @@ double way_of(const PlaneElement& e) {
     return e.arc ? e.radius() * std::abs(e.sweep_rad) : length_of(e.end - e.start);
 }
 
-/// Axes of a figure in a plane that one axis pair maps in its own way; the others run evenly.
+/// Axes that follow a figure in a plane through the mapping of one axis pair; the other axes are
+/// linear in s.
 class FigureCurve : public motion::PathCurve {
   public:
     FigureCurve(const PlaneElement& figure, const AxisPositions& from, const AxisPositions& to)
@@ -38,7 +39,7 @@ class FigureCurve : public motion::PathCurve {
     AxisPositions from_, to_;
 };
 
-/// Radius axis and rotary axis follow a figure in the turning plane.
+/// A linear (radius) axis and a rotary axis follow a figure in the rotating plane.
 class PolarCurve : public FigureCurve {
   public:
     PolarCurve(const PlaneElement& figure, const AxisPositions& from, const AxisPositions& to,
@@ -52,7 +53,7 @@ class PolarCurve : public FigureCurve {
         out[axes_.rotary] = from_[axes_.rotary] + turned(s);
         return out;
     }
-    /// Angle passed about the pole up to s: in steps, so that a figure round the pole counts.
+    /// Angle about the pole up to s, accumulated in steps so that full turns about the pole count.
     double turned(double s) const {
         constexpr int steps = 64;
         double angle = 0.0;
@@ -70,7 +71,7 @@ class PolarCurve : public FigureCurve {
     PolarMotion axes_;
 };
 
-/// One linear axis and the rotary axis (radius * angle) follow a figure on the unrolled cylinder.
+/// A linear axis and the rotary axis (radius * angle) follow a figure on the developed cylinder.
 class CylinderCurve : public FigureCurve {
   public:
     CylinderCurve(const PlaneElement& figure, const AxisPositions& from, const AxisPositions& to,
@@ -94,7 +95,7 @@ class CylinderCurve : public FigureCurve {
     double radius_mm_;
 };
 
-/// A line or arc between two points of a plane whose centre words are given.
+/// A line or arc between two points of a plane, with its centre words.
 PlaneElement figure_of(const SortedWords& words, const Modal& modal,
                        const motion::PlaneAxes& letters, PlaneElement figure) {
     const int code = modal.codes[ModalGroup::motion];
@@ -108,7 +109,7 @@ std::optional<Axis> first_rotary(const SortedWords& words, const ControlSettings
     return std::nullopt;
 }
 
-/// 5460, 5461: the axis of a number; absent: as given.
+/// 5460, 5461: the axis of a number; `otherwise` when absent.
 Axis axis_by_number(const ControlSettings& settings, double number, Axis otherwise) {
     if (!(number >= 1.0) || number > static_cast<double>(settings.axes.size())) return otherwise;
     return settings.axes[static_cast<std::size_t>(number) - 1].axis;
@@ -145,7 +146,7 @@ void WrappedMotion::set_polar(Modal& modal, const Frames& frames, int code10) {
     polar.linear = axis_by_number(modal.settings, parameters.get(5460), Axis::X);
     polar.rotary = axis_by_number(modal.settings, parameters.get(5461), Axis::C);
     if (!modal.has_axis(polar.linear) || !modal.has_axis(polar.rotary)) raise_alarm(145);
-    polar.at.x = frames.program[polar.linear];  // the rotary axis stands at its zero of the figure
+    polar.at.x = frames.program[polar.linear];  // the rotary axis is at the zero of the figure
     polar_ = polar;
 }
 
@@ -159,7 +160,7 @@ void WrappedMotion::set_cylinder(const SortedWords& words, const Modal& modal) {
     if (radius > 0.0) cylinder_ = CylinderMotion{*axis, radius};
 }
 
-/// The words of the figure are taken out; the others move evenly.
+/// The words of the figure are removed; the other axes move linearly.
 void WrappedMotion::move_polar(SortedWords& words, Modal& modal, const Frames& frames,
                                Mover& mover) {
     PolarMotion& polar = *polar_;
@@ -190,8 +191,8 @@ void WrappedMotion::move_polar(SortedWords& words, Modal& modal, const Frames& f
     mover.axes.along(kind_of(modal), {target, machine, to}, along_curve(curve, figure));
 }
 
-/// Straight lines are straight for the axes as well. F is the speed on the cylinder: a rotary axis
-/// counts its way at the radius.
+/// Straight lines are straight for the axes as well. F is the speed on the cylinder surface: the
+/// rotary axis counts its angle times the radius.
 void WrappedMotion::move_cylinder_line(const SortedWords& words, Modal& modal, const Frames& frames,
                                        Mover& mover) {
     const offsets::ControlPosition target = commanded_position(words, modal, frames);
@@ -212,7 +213,7 @@ void WrappedMotion::move_cylinder_arc(const SortedWords& words, Modal& modal, co
                                       Mover& mover) {
     motion::PlaneAxes plane = modal.plane();
     if (!has_arc_words(words, plane)) raise_alarm(modal.settings.arc_needs_centre ? 22 : 176);
-    // The rotary axis stands for X in G18, else for Y (its linear direction by 1022, assumed).
+    // The rotary axis replaces X in G18, else Y (its linear direction by 1022, assumed).
     const Axis replaced = plane.first == Axis::Z ? Axis::X : Axis::Y;
     (plane.first == replaced ? plane.first : plane.second) = cylinder_->rotary;
     const offsets::ControlPosition target = commanded_position(words, modal, frames);

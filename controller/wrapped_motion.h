@@ -1,4 +1,4 @@
-// G12.1 and G7.1: figures programmed on a plane that a rotary axis turns or rolls up.
+// G12.1 and G7.1: figures programmed in a plane that a rotary axis turns, or on a cylinder.
 #pragma once
 
 #include <optional>
@@ -7,13 +7,13 @@
 
 namespace trunnion::controller {
 
-/// G12.1 in force: a linear axis is the radius, a rotary axis the angle. Program words: the linear
-/// axis in mm, the rotary letter in mm too (the hypothetical axis).
+/// Active G12.1: a linear axis is the radius, a rotary axis the angle. In program words both the
+/// linear axis and the rotary letter (the hypothetical axis) are in mm.
 struct PolarMotion {
     Axis linear = Axis::X, rotary = Axis::C;
-    PlanePoint at;  ///< where the figure stands in their plane, mm
+    PlanePoint at;  ///< present point of the figure in the plane, mm
 };
-/// G7.1 in force: the rotary axis counts as a length of radius * angle.
+/// Active G7.1: the rotary axis counts as a length of radius * angle.
 struct CylinderMotion {
     Axis rotary = Axis::C;
     double radius_mm = 0.0;
@@ -21,9 +21,10 @@ struct CylinderMotion {
 
 class WrappedMotion {
   public:
-    /// G12.1, G13.1: PS0145 under cutter compensation, G43.4, G54.2, G68.2 or without the axes.
+    /// G12.1, G13.1. PS0145 under cutter compensation, G43.4, G54.2, G68.2, or when the axes are
+    /// missing.
     void set_polar(Modal& modal, const Frames& frames, int code10);
-    /// G7.1 with a rotary word, its radius; 0 ends it. PS0175, PS0176.
+    /// G7.1 with a rotary word, which is the radius; 0 ends it. PS0175, PS0176.
     void set_cylinder(const SortedWords& words, const Modal& modal);
 
     bool polar() const { return polar_.has_value(); }

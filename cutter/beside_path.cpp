@@ -8,7 +8,7 @@ namespace trunnion::cutter {
 
 namespace {
 
-/// The tool must not run backwards along the side: the cutter does not fit.
+/// A reversed direction of travel beside the contour means that the cutter does not fit.
 void check_direction(const PathMove& m, const PlaneElement& way) {
     constexpr double slack_mm = 1e-6;
     if (!m.plane.arc) {
@@ -58,7 +58,7 @@ void BesidePath::line_to(const PathMove& m, PlanePoint end) {
 
 void BesidePath::run_beside(const PathMove& m, PlanePoint end) {
     const double before = last_offset_mm;
-    const bool free = before == 0.0 && m.offset_mm == 0.0;  // a corner alone
+    const bool free = before == 0.0 && m.offset_mm == 0.0;  // a corner without compensation
     const bool starts = !free && before == 0.0, ends = !free && m.offset_mm == 0.0;
     if (m.plane.arc && (starts || ends)) raise_cutter_alarm(34);
     PlaneElement way;

@@ -10,7 +10,7 @@ namespace {
 
 struct Corner {
     bool inside = false;
-    bool acute = false;  ///< outside, the path turns by more than 90 degrees
+    bool acute = false;  ///< outside corner where the path turns by more than 90 degrees
     bool straight = false;
     PlanePoint t1, t2;
     double offset = 0.0;
@@ -28,7 +28,7 @@ Corner corner_of(const PathMove& first, const PathMove& second) {
     return out;
 }
 
-/// Inside corner: both offset paths end where they meet.
+/// Inside corner: both offset paths end at their intersection.
 void inside_corner(BesidePath& path, const PathMove& first, const PathMove& second) {
     check_radius(first);
     check_radius(second);
@@ -38,7 +38,8 @@ void inside_corner(BesidePath& path, const PathMove& first, const PathMove& seco
     path.run_beside(first, *meeting);
 }
 
-/// Outside corner: straight pieces round the corner point; an arc ends square to its end first.
+/// Outside corner: straight segments round the corner point. After an arc the first one starts
+/// perpendicular to its end.
 void outside_corner(BesidePath& path, const PathMove& first, const PathMove& second,
                     const Corner& corner) {
     const PlanePoint p = first.plane.end;
@@ -53,7 +54,7 @@ void outside_corner(BesidePath& path, const PathMove& first, const PathMove& sec
     if (second.plane.arc) path.line_to(first, start2);
 }
 
-/// An arc of the cutter's radius round the end of `first`, to the point square to `direction`.
+/// An arc of cutter radius round the end of `first`, up to the point perpendicular to `direction`.
 void corner_arc(BesidePath& path, const PathMove& first, PlanePoint direction) {
     const double o = first.offset_mm;
     path.run_beside(first, square_to_end(first));
@@ -67,8 +68,8 @@ void corner_arc(BesidePath& path, const PathMove& first, PlanePoint direction) {
     path.send(first, arc, true);
 }
 
-/// Start-up: type A goes to the point square to the start of the second move; type B as if it had
-/// been compensated before, outside corners only.
+/// Start-up. Type A moves to the point perpendicular to the start of the second move. Type B moves
+/// as if compensation had been active before; it differs from A at outside corners only.
 void start_up(BesidePath& path, const PathMove& first, const PathMove& second) {
     const Corner corner = corner_of(first, second);
     if (!path.settings.startup_type_b || corner.inside || corner.straight)
@@ -105,7 +106,7 @@ void finish_first(BesidePath& path, const PathMove& first, const PathMove& secon
         return before == 0.0 ? path.run_beside(first, square_to_end(first))
                              : cancel(path, first, second);
     if (before == 0.0) return start_up(path, first, second);
-    if (first.offset_mm != second.offset_mm) {  // other side or other D
+    if (first.offset_mm != second.offset_mm) {  // different side or different D
         path.run_beside(first, square_to_end(first));
         return path.line_to(first, square_to_start(second));
     }

@@ -9,7 +9,8 @@ namespace trunnion::cutter {
 
 namespace {
 
-/// Point of the element at `way` mm from its end (or start), along it.
+/// Point on the element at distance `way` (mm along the element) before its end, or after its
+/// start.
 PlanePoint before_end(const PlaneElement& e, double way) {
     if (!e.arc) return e.end - way * tangent_at_end(e);
     const double turn = -std::copysign(way / e.radius(), e.sweep_rad);
@@ -23,7 +24,7 @@ PlanePoint after_start(const PlaneElement& e, double way) {
     return before_end(back, way);
 }
 
-/// Foot on the element of a point at a distance from it.
+/// Point of the element nearest to `p`.
 PlanePoint foot_on(const PlaneElement& e, PlanePoint p) {
     if (!e.arc) {
         const PlanePoint t = tangent_at_start(e);
@@ -40,7 +41,7 @@ PlaneElement chamfer(const PathMove& first, const PathMove& second) {
     return piece;
 }
 
-/// An arc that touches both sides.
+/// An arc tangent to both sides.
 PlaneElement rounding(const PathMove& first, const PathMove& second) {
     PlaneElement piece;
     const PlaneElement &a = first.plane, &b = second.plane;

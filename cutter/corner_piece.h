@@ -1,4 +1,4 @@
-// Chamfers and corner radii (,C and ,R) between two sides.
+// Chamfers and corner radii (,C and ,R) between two moves.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace trunnion::cutter {
 
-/// Shortens both sides and returns the piece between them; nothing where the path goes straight on.
-/// PS0052 when `second` is a rapid, PS0055 when a side is too short.
+/// Shortens both moves and returns the element between them; empty where the path continues
+/// straight. PS0052 when `second` is a rapid, PS0055 when a move is too short.
 std::optional<PathMove> take_corner(PathMove& first, PathMove& second);
 
 }  // namespace trunnion::cutter

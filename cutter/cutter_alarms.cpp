@@ -41,7 +41,7 @@ void place_alarm(Alarm& alarm, const motion::BlockMarks& marks) {
     if (alarm.where.line != 0) return;
     if (marks.program) alarm.where.program = *marks.program;
     alarm.where.line = marks.line;
-    alarm.where.column = 1;  // the words at hand are those of a later block
+    alarm.where.column = 1;  // the words at hand belong to a later block
 }
 
 }  // namespace trunnion::cutter

@@ -1,4 +1,4 @@
-// The alarms of cutter compensation and of corners between sides.
+// The alarms of cutter compensation, chamfers and corner radii.
 #pragma once
 
 #include <span>
@@ -10,15 +10,15 @@ namespace trunnion::cutter {
 
 struct CutterAlarm {
     int number;
-    const char* text;  ///< as on the screen
+    const char* text;  ///< as displayed
     const char* cause;
     const char* remedy;
 };
 
 std::span<const CutterAlarm> cutter_alarms();
-/// Throws the alarm of that number with its text and without a place.
+/// Throws the alarm `number` with its text, without a position.
 [[noreturn]] void raise_cutter_alarm(int number);
-/// An alarm without a place gets that of the block that the marks belong to.
+/// Gives an alarm without a position that of the block of the marks.
 void place_alarm(Alarm& alarm, const motion::BlockMarks& marks);
 
 }  // namespace trunnion::cutter

@@ -10,7 +10,7 @@ namespace trunnion::cutter {
 
 namespace {
 
-/// The alarms of a side belong to its block, not to the one that made it known.
+/// The alarms of a move belong to its own block, not to the later block that completed it.
 template <typename Work>
 void at_block(const motion::BlockMarks& marks, Work work) {
     try {
@@ -21,7 +21,7 @@ void at_block(const motion::BlockMarks& marks, Work work) {
     }
 }
 
-/// An arc whose start or end is its centre has no direction there.
+/// An arc that starts or ends at its centre has no direction there.
 void check_arc(const PathMove& m) {
     constexpr double tiny_mm = 1e-9;
     if (!m.plane.arc || m.offset_mm == 0.0) return;
@@ -46,7 +46,8 @@ void CutterPath::reset() {
     path_.held.block = 0;
 }
 
-/// Moves of other axes, dwells and M codes go out where the tool stands in the plane.
+/// Moves of other axes, dwells and M codes are sent with the tool at its present position in the
+/// plane.
 void CutterPath::run_idle() {
     const std::vector<PathOutput> idle = std::exchange(idle_, {});
     for (const PathOutput& out : idle) {
@@ -60,7 +61,7 @@ void CutterPath::run_idle() {
     }
 }
 
-/// Blocks without way in the plane that wait, the present one left out.
+/// Buffered blocks without motion in the plane, except the present one.
 int CutterPath::idle_blocks(int line) const {
     int count = 0, last = -1;
     for (const PathOutput& out : idle_) {
@@ -76,7 +77,7 @@ void CutterPath::release_when_done() {
     engaged_ = false;
 }
 
-/// From where the tool stands straight to the start of `move` beside it.
+/// A straight move from the tool position to the compensated start of `move`.
 void CutterPath::link_to(const PathMove& move) {
     PathMove link = move;
     link.plane.arc = false;
@@ -135,7 +136,8 @@ void CutterPath::compensate(const PathMove& move) {
         if (!first_) run_idle();
         return;
     }
-    // More idle blocks than the control reads ahead: the side before them has ended square.
+    // More blocks without motion than the look-ahead: the move before them ends perpendicular to
+    // its end point.
     if (first_ && idle_blocks(move.marks.line) > path_.settings.blocks_ahead) flush_compensation();
     ++path_.held.block;
     if (first_) {
@@ -144,15 +146,16 @@ void CutterPath::compensate(const PathMove& move) {
         path_.last_offset_mm = first.offset_mm;
         run_idle();
     } else if (move.offset_mm != 0.0 && (path_.last_offset_mm != 0.0 || starts_by_shift_)) {
-        // After a stop in mid-path the tool stands square to the last side and goes round the
-        // corner to the start of the next one; a start-up of type C begins so.
+        // After an interruption in mid-path the tool is perpendicular to the last move. It moves
+        // round the corner to the start of the next move. A start-up of type C begins in the same
+        // way.
         run_idle();
         link_to(move);
         path_.last_offset_mm = move.offset_mm;
     }
     starts_by_shift_ = false;
     first_ = move;
-    if (move.offset_mm == 0.0) flush_compensation();  // the way out needs no look ahead
+    if (move.offset_mm == 0.0) flush_compensation();  // cancelling needs no look-ahead
 }
 
 void CutterPath::add(const PathMove& move, const offsets::ControlPosition& program) {

@@ -25,7 +25,8 @@ void HeldMoves::check_crossing(const PathOutput& next) const {
 void HeldMoves::add(const PathOutput& out) {
     if (out.beside) check_crossing(out);
     ahead_.push_back(out);
-    constexpr std::size_t most = 256;  // a contour of depth moves alone holds nothing back for ever
+    constexpr std::size_t most = 256;  // limit, so that a contour of depth moves alone cannot fill
+                                       // the buffer
     const bool hold = (out.beside || !out.move.plane.moves()) && ahead_.size() < most;
     const auto held = static_cast<std::uint64_t>(hold ? blocks_ahead : 0);
     std::size_t done = 0;

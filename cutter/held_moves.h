@@ -1,5 +1,5 @@
-// Compensated moves on their way out. Some are held back, so that the interference check sees
-// several sides before the first of them goes out.
+// Compensated moves on their way out. Some are held back so that the interference check sees
+// several moves before the first one is sent.
 #pragma once
 
 #include <vector>
@@ -12,17 +12,17 @@ class HeldMoves {
   public:
     explicit HeldMoves(PathReceiver& receiver) : receiver_(receiver) {}
 
-    /// A move of the compensated point. PS0041 when it runs beside the contour and crosses a way
-    /// held back although the programmed sides do not touch. Which of the control's own tests finds
-    /// this is assumed.
+    /// A move of the compensated point. PS0041 when it runs beside the contour and crosses a move
+    /// held back although the programmed moves do not touch. Which of the control's own checks
+    /// finds this is assumed.
     void add(const PathOutput& out);
-    /// A dwell or an M code in its turn: at once when nothing waits.
+    /// A dwell or an M code in sequence; sent at once when the buffer is empty.
     void add_event(const PathOutput& event);
-    /// Everything held back goes out.
+    /// Sends all moves held back.
     void release();
     void clear() { ahead_.clear(); }
 
-    std::uint64_t block = 0;  ///< moves in the plane so far
+    std::uint64_t block = 0;  ///< number of moves in the plane so far
     int blocks_ahead = 3;     ///< how many of them are held back
 
   private:

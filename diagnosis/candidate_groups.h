@@ -9,34 +9,36 @@
 
 namespace trunnion::diagnosis {
 
-/// Simpler forms of an effect, each a choice of its linear parameters: a straightness without
-/// slope, single vectors where an effect has several (one artefact of many), the location of one
+/// Simpler forms of an effect, each with a subset of its linear parameters: straightness without
+/// slope, a single vector of an effect with several (one artefact of many), or the location of one
 /// axis.
 std::vector<std::function<bool(const effects::EffectParameter&)>> simpler_forms(
     const effects::Effect& effect);
 
-/// Catalogue effects without keys, in all forms; features first in the design. Returns how many
-/// features: what the textbook owns.
+/// Adds catalogue effects without keys, in all forms; their features come first in the design.
+/// Returns the number of features, i.e. those owned by textbook effects.
 Eigen::Index add_textbook_groups(Design& design, const Prepared& prepared,
                                  const Whitener& whitener);
 
-/// Effects without keys, location errors and all else that the simulation has, as changes that
-/// begin with the second session or a later one and stay. To be called next after the textbook's;
-/// returns how many features.
+/// Adds effects without keys, location errors and everything else in the simulation as changes that
+/// start in the second or a later session and remain. Call it directly after the textbook groups;
+/// returns the number of features.
 Eigen::Index add_change_groups(Design& design, const Prepared& prepared, const Whitener& whitener);
 
-/// One group for an effect at one setting of its keys; nothing where no reading moves.
+/// Adds one group for an effect with given keys; empty when it moves no reading.
 std::optional<std::size_t> add_keyed_group(Design& design, const Prepared& prepared,
                                            const Whitener& whitener, const effects::Effect& effect,
                                            std::vector<double> keys);
 
-/// Error motions of every axis in free form, one group for each correlation length.
+/// Adds error motions of every axis in free form, one group for each correlation length.
 void add_table_groups(Design& design, const Prepared& prepared, const Whitener& whitener);
 
-/// Zero of each test: a shift of the work for probes, an offset of the reading for others.
+/// Adds the zero of each test: a shift of the artefact for probes, an offset of the reading for
+/// other devices.
 void add_offset_groups(Design& design, const Prepared& prepared, const Whitener& whitener);
 
-/// Drivers beside all that the textbook owns, and as they are for saying where the gap lies.
+/// Adds drivers: orthogonal to all textbook effects for the search, and unprojected for locating
+/// the gap.
 void add_driver_groups(Design& design, const Prepared& prepared, const Whitener& whitener,
                        Eigen::Index owned);
 

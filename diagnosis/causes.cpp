@@ -9,7 +9,8 @@
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr double unseen_part = 0.7;  ///< of the prior: a parameter that is no better known
+constexpr double unseen_part = 0.7;  ///< fraction of the prior sigma: a larger posterior sigma
+                                     ///< means undetermined
 
 std::vector<identification::FitParameter> parameters_of(const ColumnGroup& group,
                                                         const Eigen::VectorXd& own,
@@ -48,7 +49,7 @@ std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorX
                               d < 3 ? "mm" : "rad",
                               !table.axis.rotary && d == effects::main_direction(table.axis)});
         }
-    constexpr int places = 36;  // of a whole turn, from its harmonics
+    constexpr int places = 36;  // points of a whole turn, from its harmonics
     for (std::size_t k = 0; k < table.directions.size() && table.knots.empty(); ++k)
         for (int j = 0; j < places; ++j) {
             const double q = 2.0 * pi * j / places;

@@ -1,4 +1,4 @@
-// A claim as the cause that commands print: parameters or table, with their uncertainty.
+// Converts a claim into a cause for output: parameters or table, with uncertainty.
 #pragma once
 
 #include "diagnosis/solution.h"
@@ -14,10 +14,10 @@ struct FoundModel {
     const Solution& solution;
     const Eigen::MatrixXd& covariance;  ///< of the solution
 };
-/// Without its held-out figures.
+/// Without its held-out results.
 Cause cause_of(const FoundModel& found, const Claim& claim);
 
-/// Directions of an effect's parameters that these readings cannot show.
+/// Directions of an effect's parameters that these readings do not determine.
 std::vector<identification::Inseparable> unseen_of(const Design::Entry& entry);
 
 }  // namespace trunnion::diagnosis

@@ -12,7 +12,8 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// Does the model hold a change of some of the group's parameters from the same session on?
+/// True when the model contains a change of some of the group's parameters from the same session
+/// on.
 bool told_already(const Outcome& f, const ColumnGroup& group) {
     return std::any_of(f.model.members.begin(), f.model.members.end(), [&](std::size_t m) {
         const ColumnGroup& other = f.design.group(m);
@@ -23,7 +24,7 @@ bool told_already(const Outcome& f, const ColumnGroup& group) {
     });
 }
 
-/// What the simulation has, and causes of all sessions.
+/// True for effects of the simulation, and for causes of all sessions.
 bool of_interest(const Outcome& f, const effects::Effect& effect) {
     return modelled(f.prepared, effect) ||
            std::any_of(f.model.members.begin(), f.model.members.end(), [&](std::size_t m) {
@@ -31,7 +32,7 @@ bool of_interest(const Outcome& f, const effects::Effect& effect) {
            });
 }
 
-/// Of the forms of one change the whole effect; of the location that of each axis.
+/// Of the forms of a change the whole effect; of the location that of each axis.
 bool right_form(const Outcome& f, const ColumnGroup& group) {
     if (group.effect->name == "location") {
         const auto axis_of = [&](std::size_t j) {
@@ -64,7 +65,7 @@ void add(std::vector<SessionChange>& list, const ColumnGroup& group, const Eigen
     }
 }
 
-/// The parameter as a setup has it, in its unit.
+/// The value of the parameter in a setup, in its unit.
 double value_in(const setup::Setup& setup, const effects::Catalogue& catalogue,
                 const identification::FitParameter& p) {
     if (p.location) return setup.machine.errors.location(*p.location);
@@ -80,7 +81,7 @@ double value_in(const setup::Setup& setup, const effects::Catalogue& catalogue,
     return 0.0;
 }
 
-/// Each change begins where the model's earlier ones end.
+/// Each change starts from the sum of the model's earlier ones.
 void add_befores(const Outcome& f, const Solution& solution, std::vector<SessionChange>& list) {
     const setup::Setup first =
         setup_with(f.prepared, f.design, f.model, without_changes(f.design, f.model, solution));

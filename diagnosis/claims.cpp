@@ -20,8 +20,8 @@ double log_sum(const std::vector<double>& values) {
     return most + std::log(sum);
 }
 
-/// Block scores of a member against what noise would make of them: 1 when blocks are independent,
-/// less when the remainder follows the member over whole blocks.
+/// Tempering exponent: compares block scores of a member with those expected from noise. 1 when
+/// blocks are independent; smaller when the residual follows the member over whole blocks.
 double temper(const Sizes& sizes, std::size_t k, const Folds& folds) {
     std::vector<double> score(folds.fold.size(), 0.0), own(folds.fold.size(), 0.0);
     for (std::size_t i = 0; i < folds.group.size(); ++i) {
@@ -39,7 +39,8 @@ double temper(const Sizes& sizes, std::size_t k, const Folds& folds) {
     return 1.0 / std::max(1.0, expected > 0.0 ? square / expected : 1.0);
 }
 
-/// Weight of the models that hold member k among: the chosen one, without it, with it replaced.
+/// Posterior weight of the models that contain member k, relative to: the chosen model, the model
+/// without it, and those with it replaced.
 double evidence_probability(Design& design, const Offer& held, const std::vector<Offer>& others,
                             double zeta) {
     const double own = held.gain.best + design.group(held.group).log_prior;
@@ -58,7 +59,7 @@ double evidence_probability(Design& design, const Offer& held, const std::vector
     return std::exp(zeta * own - all) + (with != 0.0 ? std::exp(with - all) : 0.0);
 }
 
-/// Other causes that explain nearly as much in the member's place.
+/// Other causes that explain nearly as much in place of the member.
 void name_rivals(const Design& design, const Offer& held, const std::vector<Offer>& others,
                  Claim& claim) {
     const double most = rules::rival_limit(held.explained());
@@ -130,7 +131,7 @@ std::vector<Claim> claims_of(Design& design, const Model& model, const Sizes& si
         name_rivals(design, worth[k], others, claim);
         claims.push_back(std::move(claim));
     }
-    if (own > rules::most_own)  // parts cancel: none of them is what it seems
+    if (own > rules::most_own)  // contributions cancel, so none of them is reliable
         for (Claim& claim : claims) claim.probability = std::min(claim.probability, doubtful);
     std::stable_sort(claims.begin(), claims.end(),
                      [](const Claim& a, const Claim& b) { return a.share > b.share; });

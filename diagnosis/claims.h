@@ -1,4 +1,4 @@
-// What the chosen model claims: share, probability and rivals of each cause.
+// Claims of the chosen model: share, probability and rivals of each cause.
 #pragma once
 
 #include "diagnosis/heldout.h"
@@ -6,14 +6,14 @@
 
 namespace trunnion::diagnosis {
 
-/// How large everything is, in whitened squares.
+/// Sizes of all parts, in whitened squares.
 struct Sizes {
     double floor = 1.0;          ///< variance of the noise of one reading
-    double whole = 0.0;          ///< E: causes together, remainder beyond noise, drivers, zeros
+    double whole = 0.0;          ///< E: all causes together, residual beyond noise, drivers, zeros
     std::vector<double> square;  ///< |c_k|^2 of each member
     std::vector<double> along;   ///< c_k . sum of all causes
     Eigen::MatrixXd parts;       ///< rows x members
-    Eigen::VectorXd remainder;   ///< what the model leaves, rows
+    Eigen::VectorXd remainder;   ///< whitened residual of the model, rows
 };
 /// `large` marks zeros that are part of the gap.
 Sizes sizes_of(Design& design, const Model& model, double floor, const std::vector<bool>& large);
@@ -26,15 +26,16 @@ struct Claim {
     double probability = 0.0;
     std::vector<std::string> rivals;
     std::vector<std::size_t> rival_groups;
-    bool interpolates = true;  ///< a table: places left out are predicted
+    bool interpolates = true;  ///< a table that predicts left-out positions
 };
 
-/// What readings left out say about one member.
+/// Evidence of left-out readings about one member.
 struct Support {
-    Saving saving;  ///< of leaving it in against leaving it out
+    Saving saving;  ///< reduction of the loss by including it
 };
 
-/// Causes above the background, largest share first. `heldout`: H, which no probability exceeds.
+/// Causes above the background, largest share first. `heldout`: H, the upper limit of every
+/// probability.
 std::vector<Claim> claims_of(Design& design, const Model& model, const Sizes& sizes,
                              const std::vector<Support>& support, const Folds& folds,
                              double heldout);

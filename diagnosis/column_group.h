@@ -9,13 +9,13 @@
 
 namespace trunnion::diagnosis {
 
-/// What a group may be called. Only the first three are causes.
+/// Kinds of groups. Only the first three are causes.
 enum class GroupKind : unsigned char {
-    textbook,  ///< a catalogue effect in the form of the textbook
+    textbook,  ///< a catalogue effect in textbook form
     table,     ///< an error motion of an axis in free form
-    periodic,  ///< a catalogue effect at one setting of its keys: ripple, drift, slip
-    offset,    ///< zero of each test; noise while it is small, a place when it is large
-    driver     ///< "where": anything that follows time, place, speed, mode
+    periodic,  ///< a catalogue effect with given keys: ripple, drift, slip
+    offset,    ///< zero of each test; noise while small, part of the gap when large
+    driver     ///< "where": any dependence on position, time, speed, mode
 };
 inline bool is_cause(GroupKind kind) {
     return kind == GroupKind::textbook || kind == GroupKind::table || kind == GroupKind::periodic;
@@ -23,7 +23,7 @@ inline bool is_cause(GroupKind kind) {
 
 /// Error motions of one axis in free form: values at knots, or harmonics of a whole turn.
 struct TableForm {
-    kinematics::AxisGeometry axis;  ///< as the chain has it
+    kinematics::AxisGeometry axis;  ///< as in the chain
     std::vector<int> directions;    ///< 0..5 = X Y Z (mm), A B C (rad), along and about + axes of M
     std::vector<double> knots;      ///< mm or rad, rising; empty: harmonics
     int first_order = 0, orders = 0;  ///< cos, sin of each order
@@ -31,7 +31,7 @@ struct TableForm {
         return knots.empty() ? 2 * orders : static_cast<Eigen::Index>(knots.size());
     }
 };
-/// Size of one unit of a table's feature: 5 um or 40 urad.
+/// Size of one unit of a table's feature: 5 um or 40 urad, returned in mm or rad.
 double table_unit(int direction);
 
 struct ColumnGroup {
@@ -42,10 +42,10 @@ struct ColumnGroup {
     std::vector<double> keys;                 ///< of the effect; linear parameters 0
     std::vector<std::size_t> parameters;      ///< of the effect, one for each column
     TableForm table;
-    std::vector<Eigen::Index> features;  ///< columns of the design that it combines
-    Eigen::MatrixXd shape;               ///< features x columns; empty: one column a feature
-    double log_prior = 0.0;              ///< of being there
-    /// A change between sessions: the first session that has it, and those before, which have not.
+    std::vector<Eigen::Index> features;  ///< columns of the design that the group combines
+    Eigen::MatrixXd shape;               ///< features x columns; empty: one column for each feature
+    double log_prior = 0.0;              ///< log of the prior probability of being present
+    /// A change between sessions: the first session with it, and the earlier sessions without it.
     std::string since;
     std::vector<std::string> before;
     bool is_change() const { return !before.empty(); }
@@ -56,18 +56,18 @@ struct ColumnGroup {
 
 bool has_keys(const effects::Effect& effect);
 
-/// Rows of sessions before a change are zero: it moves no reading there.
+/// Sets the rows of sessions before a change to zero.
 void drop_sessions(Eigen::MatrixXd& columns, const emulator::Replay& replay,
                    const std::vector<std::string>& before);
 
-/// Derivatives of the readings by the values of a table at its knots (or by its harmonics), mm for
-/// one table_unit; direction after direction.
+/// Derivatives of the readings with respect to the values of a table at its knots (or its
+/// harmonics), mm for one table_unit; direction after direction.
 Eigen::MatrixXd table_features(const emulator::Replay& replay,
                                const std::vector<kinematics::Perturbation>& gradient,
                                const TableForm& table);
 
-/// Columns of a cause on any readings, mm for one usual change. Offsets and drivers have none:
-/// they predict nothing.
+/// Columns of a cause for any readings, mm for one typical change. Offsets and drivers have none,
+/// because they predict nothing.
 Eigen::MatrixXd columns_on(const emulator::Replay& replay,
                            const std::vector<kinematics::Perturbation>& gradient,
                            const ColumnGroup& group);

@@ -59,7 +59,7 @@ Eigen::VectorXd Design::product_of(const std::vector<Eigen::Index>& features) co
     return product;
 }
 
-/// Columns of features side by side; without a copy where they stand side by side already.
+/// Columns of features side by side; not copied if they are already adjacent.
 Eigen::Map<const Eigen::MatrixXd> Design::gathered(const std::vector<Eigen::Index>& list,
                                                    Eigen::MatrixXd Block::*part,
                                                    Eigen::MatrixXd& storage) const {
@@ -92,7 +92,8 @@ Eigen::MatrixXd Design::gram_of(const std::vector<Eigen::Index>& a,
     return gram;
 }
 
-/// Neighbours share features (the lengths of a table): their products are worked out once.
+/// Consecutive groups share features (the correlation lengths of a table), so the last products are
+/// cached.
 const Design::Products& Design::of_features(const std::vector<Eigen::Index>& features) {
     if (last_.features == features) return last_;
     last_ = {features, gram_of(features, features), {}};

@@ -1,14 +1,14 @@
-// Whitened columns of all groups, set-up projected out, with the products that a search needs.
+// Whitened columns of all groups, set-up projected out, with the products required by a search.
 //
 // Rows        whitened readings, then one row for each calibrated value of the set-up (a known
 // value
 //             is one more reading).
-// Features    raw material of the groups: derivatives by single parameters, by knots of a table.
-//             A group combines features linearly (ColumnGroup::shape), so that all correlation
-//             lengths of a table share one set of knots.
-// Products    of features with the data and within one group are worked out when they are added;
+// Features    derivatives by single parameters, or by knots of a table. A group combines features
+//             linearly (ColumnGroup::shape), so that all correlation lengths of a table share one
+//             set of knots.
+// Products    of features with the data, and within one group, are computed when they are added;
 //             products of a member with the columns of all groups when it first becomes a member.
-//             Every later question (search, solution) is answered from these small matrices.
+//             Search and solution then use only these small matrices.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,25 +24,27 @@ namespace trunnion::diagnosis {
 
 class Design {
   public:
-    /// `known` whitened set-up columns, `data` whitened residuals, `rows` how many count.
+    /// `known`: whitened set-up columns; `data`: whitened residuals; `rows`: number of rows that
+    /// count.
     Design(Eigen::MatrixXd known, Eigen::VectorXd data, double rows);
 
-    /// Whitened features (fewer rows than the design: the rest is zero); returns the first's index.
+    /// Adds whitened features (missing rows are zero); returns the index of the first one.
     Eigen::Index add_features(const Eigen::MatrixXd& white);
-    /// Groups whose features stand in the design; returns the index of the group.
+    /// Adds a group whose features are in the design; returns the index of the group.
     std::size_t add(ColumnGroup group);
-    /// A group orthogonal to all features up to `owned` (those of the textbook effects).
+    /// Adds a group made orthogonal to all features below `owned` (those of the textbook effects).
     std::size_t add_beside(ColumnGroup group, Eigen::Index owned);
 
     struct Entry {
         ColumnGroup group;
         Eigen::MatrixXd gram;     ///< of its columns, set-up projected out
         Eigen::VectorXd product;  ///< with the data
-        double whole = 0.0;       ///< squared sum of its columns before the projection
+        double whole = 0.0;       ///< squared sum of its columns before projection
         bool hidden = false;
-        Eigen::Index first = 0;  ///< of its columns among those of all groups
-        std::optional<estimation::ReducedGroup> reduced;  ///< its gram
-        /// Set-up does not swallow it, and a usual change moves the readings.
+        Eigen::Index first = 0;  ///< index of its first column among those of all groups
+        std::optional<estimation::ReducedGroup> reduced;  ///< of its gram
+        /// True when a typical change moves the readings noticeably and the set-up cannot absorb
+        /// it.
         bool visible() const;
     };
     const std::vector<Entry>& groups() const { return groups_; }
@@ -53,32 +55,33 @@ class Design {
     const estimation::Projection& projection() const { return projection_; }
     double rows() const { return rows_; }
     double freedom() const { return rows_ - static_cast<double>(projection_.rank()); }
-    /// Whitened columns of a group, set-up not projected out: rows x columns.
+    /// Whitened columns of a group without projecting out the set-up: rows x columns.
     Eigen::MatrixXd columns(std::size_t group) const;
-    /// Those columns times coefficients.
+    /// These columns times coefficients.
     Eigen::VectorXd combined(std::size_t group, const Eigen::VectorXd& coefficients) const;
 
     estimation::GroupEquations equations(const std::vector<std::size_t>& members);
     /// Products of the members' columns with those of other groups, side by side in their order.
     Eigen::MatrixXd cross(const std::vector<std::size_t>& members,
                           const std::vector<std::size_t>& groups);
-    /// Products of all groups' columns (Entry::first) with what members with these coefficients
-    /// leave of the data.
+    /// Products of all groups' columns (Entry::first) with the residual of the data after members
+    /// with these coefficients.
     Eigen::VectorXd left(const std::vector<std::size_t>& members,
                          const Eigen::VectorXd& coefficients);
-    /// Products of set-up (first) and members, none projected out, with each other and the data.
+    /// Products of set-up (first) and members, without projection, with each other and with the
+    /// data.
     struct Normal {
         Eigen::MatrixXd gram;
         Eigen::VectorXd product;
     };
     Normal normal(const std::vector<std::size_t>& members);
-    /// Features as they are, whatever groups make of them: information and product with the data.
+    /// Information and product with the data of single features, independent of groups.
     estimation::GroupInformation of(const std::vector<Eigen::Index>& features) const {
         return {gram_of(features, features), product_of(features)};
     }
-    /// The group is offered no longer.
+    /// Excludes the group from further offers.
     void hide(std::size_t group) { groups_[group].hidden = true; }
-    /// Part of a group's squared columns that some features cannot follow.
+    /// Fraction of a group's squared columns outside the span of some features.
     double outside(std::size_t group, const std::vector<Eigen::Index>& features) const;
 
   private:
@@ -90,7 +93,7 @@ class Design {
     struct Products {
         std::vector<Eigen::Index> features;
         Eigen::MatrixXd gram;
-        Eigen::VectorXd whole;  ///< squared length of each feature, set-up not projected out
+        Eigen::VectorXd whole;  ///< squared length of each feature, without projection
     };
     const Block& block_of(Eigen::Index feature) const;
     Eigen::Map<const Eigen::MatrixXd> gathered(const std::vector<Eigen::Index>& list,
@@ -116,15 +119,15 @@ class Design {
     std::vector<Block> blocks_;
     std::vector<Entry> groups_;
     Products last_;
-    /// Of each member: with the columns of groups, from the first group to the latest one seen; its
-    /// part inside the set-up.
+    /// For each member: its products with the columns of all groups seen so far, and its component
+    /// within the set-up.
     struct Seen {
         Eigen::MatrixXd products;
         std::size_t groups = 0;
         Eigen::MatrixXd coordinates;
     };
     std::map<std::size_t, Seen> seen_;
-    mutable Eigen::MatrixXd inverse_;  ///< of the owned features' gram
+    mutable Eigen::MatrixXd inverse_;  ///< inverse gram of the owned features
 };
 
 }  // namespace trunnion::diagnosis

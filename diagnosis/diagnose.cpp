@@ -21,11 +21,12 @@
 namespace trunnion::diagnosis {
 namespace {
 
-/// Of a longer table as many are chosen evenly: they name causes of a hundredth of the noise.
+/// From a longer table this number is selected evenly: enough to identify causes of a hundredth of
+/// the noise.
 constexpr std::size_t most_readings = 10000;
-constexpr int most_rounds = 3;         ///< of search, noise and bent readings
-constexpr double bend_sigma = 0.25;    ///< of a reading: less than this is no bend
-constexpr double outlier_sigma = 1e3;  ///< a reading that is left out has so many sigma
+constexpr int most_rounds = 3;         ///< of search, noise and linearisation
+constexpr double bend_sigma = 0.25;    ///< of a reading: a smaller nonlinearity is ignored
+constexpr double outlier_sigma = 1e3;  ///< sigma of an excluded reading, relative to its own
 constexpr int first_keys = 2;
 
 /// Rows, noise and columns of one round.
@@ -33,7 +34,7 @@ struct Round {
     std::vector<bool> used;
     NoiseBelief noise;
     Eigen::VectorXd sigma_mm;
-    bool over_sessions = false;  ///< may the machine have changed between them?
+    bool over_sessions = false;  ///< may the machine have changed between sessions?
 };
 
 NoiseBelief belief_of(const Prepared& p, const Eigen::VectorXd& residual_mm,
@@ -65,7 +66,7 @@ void leave_out(const Prepared& p, const std::vector<std::size_t>& rows, Round& r
     }
 }
 
-/// Whitened set-up and data, with one more row for each calibrated value.
+/// Whitened set-up and data, with an additional row for each calibrated value.
 Design empty_design(const Prepared& p, const Whitener& whitener, const std::vector<bool>& used) {
     std::vector<std::size_t> calibrated;
     for (std::size_t j = 0; j < p.base.parameters.size(); ++j)
@@ -88,7 +89,7 @@ Design empty_design(const Prepared& p, const Whitener& whitener, const std::vect
     return {std::move(known), std::move(data), rows};
 }
 
-/// Settings of keyed effects that promise most beside a model.
+/// Adds the most promising settings of keyed effects beside a model.
 void add_keyed(Design& design, const Prepared& p, const Whitener& whitener, KeySearch& keys,
                const Model& beside, int count) {
     const KeySearch::Remainder left = keys.remainder(
@@ -100,7 +101,7 @@ void add_keyed(Design& design, const Prepared& p, const Whitener& whitener, KeyS
     }
 }
 
-/// A group with the keys of one member refined on what the other causes leave.
+/// A group with the keys of one member refined on the residual of the other causes.
 std::optional<std::size_t> refined_group(Design& design, const Prepared& p,
                                          const Whitener& whitener, const Model& model,
                                          std::size_t position) {
@@ -118,8 +119,9 @@ Model without_drivers(const Design& design, Model model) {
     return model;
 }
 
-/// Members whose keys are refined, and grown again from there. Drivers are left out meanwhile: they
-/// take what a wrong key leaves, and then hide that it is wrong. The better model.
+/// Refines the keys of members, and grows the model again from there. Drivers are excluded
+/// meanwhile, because they would absorb the residual of a wrong key and conceal it. Returns the
+/// better model.
 Model with_refined_keys(Design& design, const SearchSetting& setting, const Prepared& p,
                         const Whitener& whitener, Model model) {
     Model trial = without_drivers(design, model);
@@ -136,7 +138,7 @@ Model with_refined_keys(Design& design, const SearchSetting& setting, const Prep
     return trial.score > model.score ? trial : model;
 }
 
-/// Ripples of an axis in the place of its positioning in free form, which may follow them.
+/// Adds ripples of an axis in place of its free-form positioning error, which may imitate them.
 void add_ripples_instead(Design& design, const Prepared& p, const Whitener& whitener,
                          KeySearch& keys, const Model& model) {
     for (std::size_t k = 0; k < model.members.size(); ++k) {
@@ -181,7 +183,7 @@ Model carried_over(const Searched& earlier, Design& design, const Prepared& p,
     return model;
 }
 
-/// All groups, and the model that the search finds; a later round starts from the earlier model.
+/// All groups, and the model found by the search; a later round starts from the earlier model.
 Searched search_of(const Prepared& p, const Round& round, KeySearch& keys,
                    const Searched* earlier) {
     const Whitener whitener(p.replay, p.blocks, round.noise.model, round.sigma_mm);
@@ -211,13 +213,13 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys,
         if (model.score < before + 1.0) break;
     }
     model = without_idle_members(design, setting, p, std::move(model), round.used);
-    setting.refine = {};  // what it refers to ends here
+    setting.refine = {};  // its references end here
     return {std::move(design), std::move(setting), std::move(model)};
 }
 
-/// Large effects bend the readings (a stylus that meets a sphere aside): what the emulator reads
-/// with the model takes the place of the straight line. False when that changed next to nothing.
-/// One setup reads all sessions here: changes between them stay straight.
+/// Large effects make the readings nonlinear (the stylus touches the sphere off-axis): replaces the
+/// linear prediction of the model by that of the emulator. False when the change was negligible.
+/// One setup is used for all sessions here, so changes between them remain linear.
 bool straighten(Prepared& p, Searched& s) {
     const Solution solution = without_changes(s.design, s.model, solved(s.design, s.model));
     const setup::Setup setup = setup_with(p, s.design, s.model, solution);
@@ -245,8 +247,8 @@ bool same_noise(const NoiseModel& a, const NoiseModel& b) {
     return true;
 }
 
-/// What the first model shows about the round: wild readings, other noise, bent readings. False:
-/// nothing that calls for another search.
+/// Applies what the first model reveals about the round: outliers, other noise, nonlinear readings.
+/// False: no further search is needed.
 bool corrected(Prepared& p, Searched& s, Round& round) {
     const Eigen::VectorXd left = left_mm(p, s.design, s.model, solved(s.design, s.model));
     bool changed = false;
@@ -319,7 +321,7 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
     Searched s = search_of(p, round, *keys, nullptr);
     for (int k = 1; k < most_rounds; ++k) {
         const bool turned = retake_sides(p, s.design, s.model);
-        if (turned) keys.emplace(p.replay, p.base);  // its columns are those of other sides
+        if (turned) keys.emplace(p.replay, p.base);  // its columns were computed for other sides
         if (!corrected(p, s, round) && !turned) break;
         s = search_of(p, round, *keys, &s);
     }

@@ -17,12 +17,14 @@
 namespace trunnion::diagnosis {
 namespace {
 
-/// Of an interval of the shrink: draws go along derivatives, but readings bend, and what is
-/// compared is another fit of the set-up.
+/// Minimum half width of an interval of the shrink: the draws are linearised, and the comparison
+/// uses another fit of the set-up.
 constexpr double least_half_width = 0.01;
-constexpr double effects_tried = 60.0;  ///< by which the chance of an effect is corrected
-constexpr double noise_is_off = 0.1;    ///< relative: a stated noise that is wrong
-constexpr double least_weight = 1e-4;   ///< of a model that may be true instead
+constexpr double effects_tried = 60.0;  ///< number of tests for which the significance of an effect
+                                        ///< is corrected
+constexpr double noise_is_off = 0.1;    ///< relative: larger deviations mean that the stated noise
+                                        ///< is wrong
+constexpr double least_weight = 1e-4;   ///< of an alternative model
 constexpr std::size_t most_truths = 24;
 
 Eigen::VectorXd noise_mm(const Outcome& f) {
@@ -50,7 +52,7 @@ double independent_readings(const Outcome& f) {
     return rows;
 }
 
-/// Shrink from left-out residuals (whitened), in um of the readings.
+/// Shrink from left-out whitened residuals, converted to um of the readings.
 HeldOut held_out(const Outcome& f, const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
     const Eigen::VectorXd noise = noise_mm(f) / std::sqrt(f.judgement.floor);
     HeldOut h;
@@ -64,7 +66,7 @@ HeldOut held_out(const Outcome& f, const Eigen::VectorXd& before, const Eigen::V
     return h;
 }
 
-/// The model with each member left out or replaced by a rival, beside the chosen one.
+/// The chosen model, and alternatives with each member left out or replaced by a rival.
 std::vector<PossibleTruth> possible_truths(const Outcome& f) {
     std::vector<PossibleTruth> truths{{f.model, 1.0}};
     const std::vector<Offer> worth = worth_of_members(f.design, f.model);
@@ -124,7 +126,7 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
     if (d.noise.source != NoiseSource::repeats) {
         const double chance = 3.0 / std::sqrt(2.0 * std::max(1.0, f.design.freedom()));
         const double nu = f.model.variances.nu;
-        // Of a gap that nothing explains nobody can say how much is noise.
+        // Of an unexplained gap the noise part is unknown.
         const bool unknown = f.judgement.gap && f.judgement.part < rules::partly;
         if (unknown || std::abs(std::log(nu)) > std::max(noise_is_off, chance))
             d.noise.source = NoiseSource::assumed;
@@ -169,7 +171,7 @@ double chance_of(const Outcome& f) {
     return std::min(1.0, effects_tried * estimation::chi_squared_tail(explained, width));
 }
 
-/// Free forms of one axis, none of them the main one: what they are together has no textbook name.
+/// Free forms of one axis without a dominant one: their sum has no textbook name.
 void merge_free_forms(const Outcome& f, std::vector<Claim>& claims) {
     for (const Axis axis : all_axes) {
         std::vector<std::size_t> forms;
@@ -202,7 +204,7 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
     return cause;
 }
 
-/// A named rival in all its forms: a measurement must tell the claim from each of them.
+/// A named rival in all its forms: a measurement must separate the claim from each of them.
 const ColumnGroup& fullest_form(const Design& design, std::size_t rival) {
     const ColumnGroup* fullest = &design.group(rival);
     for (const auto& entry : design.groups())
@@ -224,7 +226,7 @@ std::vector<AmbiguousPair> pairs_of(const Outcome& f, const std::vector<Claim>& 
     return pairs;
 }
 
-/// Left-out residual with the set-up and one member alone.
+/// Left-out residual with the set-up and a single member.
 HeldOut alone(const Outcome& f, std::size_t position, const ShrinkDraws& draws) {
     Model one{{f.model.members[position]},
               {{f.model.variances.tau[position]}, f.model.variances.nu},
@@ -241,7 +243,7 @@ HeldOut alone(const Outcome& f, std::size_t position, const ShrinkDraws& draws) 
 
 namespace {
 
-/// Held-out readings of their own have the last word: H is no more than what they show.
+/// Separate held-out readings are decisive: H is at most what they show.
 Judgement with_holdout(const Outcome& f, const records::ReadingTable* holdout) {
     Judgement judgement = f.judgement;
     if (holdout && judgement.gap)
@@ -249,7 +251,7 @@ Judgement with_holdout(const Outcome& f, const records::ReadingTable* holdout) {
     return judgement;
 }
 
-/// Of a table without a gap no change is told but what the set-up alone leaves of one.
+/// Without a gap, reports only changes that remain after fitting the set-up alone.
 void tell_sessions(const Outcome& f, const std::vector<Claim>& claims, Diagnosis& d) {
     d.sessions = sessions_of(f, d.before_um, d.after_um);
     const Model none{{}, {{}, f.model.variances.nu}, 0.0};
@@ -298,7 +300,7 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
         d.causes.push_back(cause_of({f.design, f.model, f.judgement, solution, covariance}, claim));
         d.causes.back().heldout = alone(f, claim.position, draws);
     }
-    // Causes that readings left out do not bear out are not written, so they shrink nothing.
+    // Causes not confirmed by left-out readings are not written, so they reduce nothing.
     const bool written = f.judgement.part > 0.0;
     d.after =
         held_out(f, f.judgement.left_before, written ? f.judgement.left : f.judgement.left_before);

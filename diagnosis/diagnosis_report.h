@@ -1,4 +1,4 @@
-// The last stage: what was found, as the values that commands print.
+// The last stage: the results as values for output.
 #pragma once
 
 #include "diagnosis/prepare.h"
@@ -6,7 +6,7 @@
 
 namespace trunnion::diagnosis {
 
-/// Everything that earlier stages found.
+/// Results of all earlier stages.
 struct Outcome {
     const Prepared& prepared;
     Design& design;
@@ -18,12 +18,12 @@ struct Outcome {
 };
 Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options);
 
-/// H of a table of its own: the part of its excess that `after` takes away, by sigma. 1 where the
-/// table shows no gap that something could be taken from.
+/// H of a separate table: the fraction of its excess that `after` removes, weighted by sigma. 1
+/// when the table shows no gap that could be reduced.
 double measured_part(const Outcome& found, const setup::Setup& after,
                      const records::ReadingTable& holdout);
 
-/// How far the gap shrinks on a table of its own, raw um; bootstrap over poses and passes.
+/// Reduction of the gap on a separate table, in um (not whitened); bootstrap over poses and passes.
 HeldOut measured_shrink(const Outcome& found, const setup::Setup& after,
                         const records::ReadingTable& holdout, std::uint64_t seed);
 

@@ -1,4 +1,4 @@
-// Where a gap lives: smooth functions of place, time, direction, mode, speed.
+// Location of a gap: smooth functions of position, time, direction, mode, speed.
 
 #include <fmt/format.h>
 
@@ -13,14 +13,14 @@
 namespace trunnion::diagnosis {
 namespace {
 
-/// A driver: functions of each row; each is multiplied by every carrier (a way in which a reading
-/// can move: machine directions, table directions, an axis).
+/// A driver: functions of each row. Each function is multiplied by every carrier (a way in which a
+/// reading can move: machine directions, table directions, an axis).
 struct Driver {
     std::string by, component, text;
-    std::vector<std::vector<double>> columns;  ///< by column, one entry a row
+    std::vector<std::vector<double>> columns;  ///< by column, one entry for each row
 };
 
-constexpr double usual_mm = 5e-3;  ///< size of what follows a driver
+constexpr double usual_mm = 5e-3;  ///< typical size of a dependence on a driver
 
 using RowFunction = std::function<double(std::size_t)>;
 
@@ -77,8 +77,8 @@ class DriverList {
     std::vector<RowFunction> machine_axes() const { return {machine(0), machine(1), machine(2)}; }
     std::vector<RowFunction> table_axes() const { return {table(0), table(1), table(2)}; }
 
-    /// Smooth functions of a position: polynomials of the range, or harmonics of a whole turn, and
-    /// a step at zero.
+    /// Smooth functions of a position: polynomials over the range, or harmonics of a whole turn,
+    /// and a step at zero.
     std::vector<RowFunction> smooth(const RowFunction& q, double low, double high, bool turn,
                                     int order) const {
         std::vector<RowFunction> list;

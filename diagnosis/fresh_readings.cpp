@@ -10,11 +10,11 @@ namespace trunnion::diagnosis {
 namespace {
 
 constexpr std::size_t most_poses = 48, most_passes = 16, most_samples = 60;
-constexpr double later = 1.3;  ///< times the length of the session: when the last of them is taken
+constexpr double later = 1.3;  ///< time of the last fresh reading, in lengths of the session
 constexpr double faster = 1.5;
-constexpr double most_tilt_rad = 1.0;  ///< of the bar
+constexpr double most_tilt_rad = 1.0;  ///< maximum tilt of the bar
 
-/// The rows of one pose or pass in the table, with the device-less ones that lead to it.
+/// The rows of one pose or pass in the table, with the preceding rows without device.
 struct Visit {
     records::Device device = records::Device::none;
     std::vector<std::size_t> rows;
@@ -41,7 +41,7 @@ std::vector<Visit> visits_of(const records::ReadingTable& table, const emulator:
     return visits;
 }
 
-/// `most` of them at even steps.
+/// `most` of them in equal steps.
 std::vector<Visit> some_of(const std::vector<Visit>& all, bool bar, std::size_t most) {
     std::vector<Visit> those, chosen;
     for (const Visit& v : all)
@@ -51,7 +51,7 @@ std::vector<Visit> some_of(const std::vector<Visit>& all, bool bar, std::size_t 
     return chosen;
 }
 
-/// Grows the table of fresh rows visit by visit.
+/// Builds the table of fresh rows visit by visit.
 class FreshTable {
   public:
     FreshTable(const setup::Setup& setup, const records::ReadingTable& table, std::uint64_t seed)
@@ -66,7 +66,7 @@ class FreshTable {
         session_s_ = table.rows.back().time_s - start_s_;
     }
 
-    /// Rotary angles move towards those of `other`, each by its own part of the way.
+    /// Each rotary angle moves by its own fraction towards that of `other`.
     void add_pose(const Visit& visit, const Visit& other) {
         const AxisPositions here = table_.rows[visit.rows.back()].commanded;
         const AxisPositions there = table_.rows[other.rows.back()].commanded;
@@ -83,8 +83,8 @@ class FreshTable {
         }
     }
 
-    /// The same path, sampled between the old samples, at another speed; the bar hangs obliquely
-    /// when a rotary axis turns.
+    /// The same path, sampled between the old samples, at another speed; with a moving rotary axis
+    /// the bar is inclined.
     void add_pass(const Visit& visit) {
         const double speed = std::pow(faster, 2.0 * random_.uniform() - 1.0);
         const double part = random_.uniform();
@@ -122,7 +122,7 @@ class FreshTable {
         return rotation_about(axis.normalized(), most_tilt_rad * (2.0 * random_.uniform() - 1.0));
     }
 
-    /// From the feature to the device's ball, in M.
+    /// Vector from the feature to the device's ball, in M.
     Vector3 apart(const records::Reading& row) const {
         const kinematics::MachinePose poses = forward_.poses(row.commanded);
         const Vector3 ball_S = row.device == records::Device::ballbar ? setup_.ballbar->cup_S_mm
@@ -136,7 +136,7 @@ class FreshTable {
         return Vector3::Zero();
     }
 
-    /// Moves the linear axes so that the device's ball goes by `way_M`.
+    /// Moves the linear axes such that the device's ball moves by `way_M`.
     void shift(records::Reading& row, const Vector3& way_M) const {
         for (const bool of_work : {true, false}) {
             const auto& side = of_work ? setup_.machine.chain.work : setup_.machine.chain.tool;
@@ -153,7 +153,7 @@ class FreshTable {
         shift(row, before - apart(row));
     }
 
-    /// The bar turned by `tilt`, seen from the table.
+    /// The bar rotated by `tilt`, as seen from the table.
     void tilt_bar(records::Reading& row, const Matrix3& tilt) const {
         const Matrix3 table = forward_.poses(row.commanded).pose_MW.rotation;
         const Vector3 bar = apart(row);

@@ -1,4 +1,4 @@
-// Readings that could be taken next: like those at hand, at other places, speeds and times.
+// Simulated future readings: similar to the present ones, at other positions, speeds and times.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,11 @@
 
 namespace trunnion::diagnosis {
 
-/// Where fresh readings would be taken, and what each parameter would change there. Poses of the
-/// probe: rotary angles between those of two measured poses, the stylus at the same place beside
-/// the sphere. Passes of the ballbar: at places between those sampled, up to 1.5 times faster or
-/// slower, oblique where a rotary axis turns. At any time of the session and a third beyond. What
-/// two explanations share on the readings at hand (a ripple and its alias, a lag and a spike) they
-/// do not share here.
+/// Positions of fresh readings, and the derivatives of all parameters there. Probe: rotary angles
+/// between those of two measured poses, the stylus at the same position relative to the sphere.
+/// Ballbar: positions between the samples, up to 1.5 times faster or slower, inclined where a
+/// rotary axis turns. Times: within the session and up to a third beyond. Explanations that
+/// coincide on the present readings (a ripple and its alias, a lag and a spike) differ on these.
 class FreshReadings {
   public:
     FreshReadings(const identification::BaseModel& base, const effects::Catalogue& catalogue,
@@ -23,9 +22,9 @@ class FreshReadings {
     /// Rows of each pose or pass.
     const std::vector<NoiseBlock>& blocks() const { return blocks_; }
     std::size_t rows() const { return replay_->size(); }
-    /// Derivatives (mm for one typical change) by the parameters of the base model.
+    /// Derivatives with respect to the parameters of the base model, mm for one typical change.
     const Eigen::MatrixXd& base() const { return base_; }
-    /// Columns of a cause, as columns_on has them for the readings at hand.
+    /// Columns of a cause, as columns_on() gives them for the present readings.
     Eigen::MatrixXd columns(const ColumnGroup& group) const {
         return columns_on(*replay_, gradient_, group);
     }
@@ -34,7 +33,7 @@ class FreshReadings {
     std::optional<emulator::Replay> replay_;
     std::vector<NoiseBlock> blocks_;
     std::vector<kinematics::Perturbation> gradient_;
-    Eigen::MatrixXd base_;  ///< by the parameters of the base model
+    Eigen::MatrixXd base_;  ///< with respect to the parameters of the base model
 };
 
 }  // namespace trunnion::diagnosis

@@ -11,7 +11,8 @@
 namespace trunnion::diagnosis {
 namespace {
 
-/// Set-up quantities lie within so many typical sizes: directions that a fold does not see stay.
+/// Set-up quantities are within this number of typical sizes; directions that a fold does not
+/// determine stay constant.
 constexpr double set_up_range = 20.0;
 constexpr std::size_t sectors = 24;  ///< of a whole turn
 
@@ -85,7 +86,7 @@ void LeftOut::retune(const std::vector<bool>& fitted, const estimation::Variance
     for (Fold& fold : fold_) fold.covariance.resize(0, 0);
 }
 
-/// Columns of the marked members, those of the set-up first where `known`.
+/// Column indices of the marked members, preceded by those of the set-up if `known`.
 std::vector<Eigen::Index> LeftOut::columns_of(const std::vector<bool>& members, bool known) const {
     std::vector<Eigen::Index> columns;
     for (Eigen::Index k = 0; known && k < known_; ++k) columns.push_back(k);
@@ -94,8 +95,8 @@ std::vector<Eigen::Index> LeftOut::columns_of(const std::vector<bool>& members, 
     return columns;
 }
 
-/// Coefficients without the fold's rows; zero for members that take no part. A few members less:
-/// the full fit under the condition that theirs are zero.
+/// Coefficients without the rows of the fold; zero for members that are not fitted. If only a few
+/// members are missing: the full fit under the condition that their coefficients are zero.
 Eigen::VectorXd LeftOut::fit(const Fold& fold, const std::vector<bool>& fitted) const {
     std::vector<bool> absent = fitted;
     absent.flip();
@@ -177,7 +178,8 @@ Folds path_folds(const std::vector<NoiseBlock>& blocks, const emulator::Replay& 
                  const std::vector<Axis>& axes) {
     Folds folds;
     folds.group.assign(replay.size(), 0);
-    std::map<std::vector<long>, int> paths;  // by the ends of all axes, in mm or centiradians
+    std::map<std::vector<long>, int> paths;  // by the end positions of all axes, in mm or
+                                             // centiradians
     for (const NoiseBlock& block : blocks) {
         const auto own = static_cast<int>(folds.fold.size());
         int fold = own % Folds::count;

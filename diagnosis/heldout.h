@@ -1,4 +1,4 @@
-// Readings that took no part in the fit: the loss of a model on blocks and on places left out.
+// Cross-validation: loss of a model on left-out blocks and left-out positions.
 #pragma once
 
 #include "diagnosis/prepare.h"
@@ -6,39 +6,40 @@
 
 namespace trunnion::diagnosis {
 
-/// Mean of squared whitened readings left out, by block.
+/// Sum of squared whitened left-out residuals, and number of rows, for each block.
 struct BlockLoss {
     std::vector<double> square, rows;
     double mean() const;
 };
-/// Paired t of the loss that `with` saves against `without`, over blocks that see any difference.
+/// Paired t statistic of the loss that `with` saves against `without`, over blocks with any
+/// difference.
 struct Saving {
     double t = 0.0, blocks = 0.0;
 };
 Saving saving_of(const BlockLoss& without, const BlockLoss& with);
 
-/// Fits of set-up and members to all but one fold, for any choice of the members that predict.
+/// Fits of set-up and members to all folds but one, for any selection of predicting members.
 class LeftOut {
   public:
-    /// `group` of each row (blocks; negative: never left out), `fold` of each group. The members'
-    /// variances are those of `model`.
+    /// `group`: block of each row (negative: never left out); `fold`: fold of each block. The
+    /// members' variances are those of `model`.
     LeftOut(Design& design, const Model& model, const Folds& folds, const std::vector<bool>& used);
 
-    /// Other variances of the members that `fitted` marks, in their order.
+    /// Sets the variances of the members marked by `fitted`, in their order.
     void retune(const std::vector<bool>& fitted, const estimation::Variances& variances);
-    /// Members of `fitted` take part in the fit, those of `predicting` also in the prediction.
+    /// Members of `fitted` are fitted; those of `predicting` also contribute to the prediction.
     Eigen::VectorXd residual(const std::vector<bool>& fitted,
                              const std::vector<bool>& predicting) const;
     BlockLoss loss(const std::vector<bool>& fitted, const std::vector<bool>& predicting) const;
 
   private:
-    /// One fold: its rows, and the normal equations of all others.
+    /// One fold: its rows, and the normal equations of all other rows.
     struct Fold {
         std::vector<Eigen::Index> rows;
         Eigen::MatrixXd out, gram;  ///< columns of its rows; products over all other rows
         Eigen::VectorXd data, product;
-        /// With all members fitted: mean and covariance (over the noise), from which any smaller
-        /// fit follows. Empty until asked for.
+        /// With all members fitted: mean and covariance (divided by the noise variance), from which
+        /// any smaller fit follows. Empty until needed.
         mutable Eigen::MatrixXd covariance;
         mutable Eigen::VectorXd mean;
     };
@@ -47,17 +48,18 @@ class LeftOut {
 
     Folds folds_;
     std::vector<bool> used_;
-    Eigen::VectorXd precision_;  ///< prior, over the noise
+    Eigen::VectorXd precision_;  ///< of the prior, relative to the noise
     Eigen::Index known_ = 0;
     std::vector<Eigen::Index> first_, size_;
     std::vector<Fold> fold_;
 };
 
-/// Whole places of an axis left out together, its ends never: does a table hold between places?
+/// Leaves out whole positions of an axis, never its ends, to test whether a table is valid between
+/// positions.
 Folds place_folds(const emulator::Replay& replay, const TableForm& table);
 
-/// Passes over the same path left out together (whatever the feed and the way round), poses of
-/// probes and targets one by one: does a model hold on paths that were not measured?
+/// Leaves out all passes over the same path together (any feed and direction), and poses of probes
+/// and targets one by one, to test whether a model is valid on unmeasured paths.
 Folds path_folds(const std::vector<NoiseBlock>& blocks, const emulator::Replay& replay,
                  const std::vector<Axis>& axes);
 

@@ -8,12 +8,13 @@
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr std::size_t rough_count = 600, fine_count = 2400;  ///< rows at most
+constexpr std::size_t rough_count = 600, fine_count = 2400;  ///< maximum number of rows
 constexpr std::size_t finalists = 12;
-/// Chi-squared by which a ripple of typical size differs from its alias; less is no difference.
+/// Minimum chi-squared between a ripple of typical size and its alias; below it they count as
+/// equal.
 constexpr double alias_square = 4.0;
 
-/// A fixed scatter of about `count` rows, without the rhythm of poses and passes.
+/// A fixed selection of about `count` rows without the periodicity of poses and passes.
 std::vector<std::size_t> scattered_rows(std::size_t all, std::size_t count) {
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < all; ++i) {
@@ -23,7 +24,7 @@ std::vector<std::size_t> scattered_rows(std::size_t all, std::size_t count) {
     return rows;
 }
 
-/// Information of columns beside others (`half`: Beside::half of them), with a weak prior; nothing
+/// Information of columns beside others (`half`: Beside::half of them), with a weak prior; empty
 /// when they move no reading.
 std::optional<Eigen::LLT<Eigen::MatrixXd>> information(const Eigen::MatrixXd& weighted,
                                                        const Eigen::MatrixXd& half) {
@@ -34,7 +35,7 @@ std::optional<Eigen::LLT<Eigen::MatrixXd>> information(const Eigen::MatrixXd& we
     return square.llt();
 }
 
-/// Every combination of the grids of an effect's keys, the first key fastest.
+/// All combinations of the key grids of an effect, the first key varying fastest.
 std::vector<std::vector<double>> grid_of(const effects::Effect& effect) {
     std::vector<std::vector<double>> list{effect.zeros()};
     for (std::size_t j = effect.parameters.size(); j-- > 0;) {
@@ -86,8 +87,8 @@ Eigen::MatrixXd KeySearch::columns(const effects::Effect& effect, const std::vec
     return a;
 }
 
-/// The first two orders of a ripple: on positions in whole steps a fine ripple may be the alias of
-/// one of them, which is positioning and no ripple. Empty for effects that count no periods.
+/// The first two orders of a ripple. On equidistant positions a fine ripple may be the alias of one
+/// of them, which is a positioning error and no ripple. Empty for effects without a period.
 Eigen::MatrixXd KeySearch::first_orders(const effects::Effect& effect) const {
     Eigen::MatrixXd all(static_cast<Eigen::Index>(rough_rows_.size()), 0);
     for (std::size_t j = 0; j < effect.parameters.size(); ++j) {

@@ -1,4 +1,4 @@
-// Where to look for keys: pitches, periods, time constants and moments that promise most.
+// Search for the most promising keys: pitches, periods, time constants and times.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -11,14 +11,14 @@
 
 namespace trunnion::diagnosis {
 
-/// The key that counts periods to a turn of a rotary axis.
+/// Name of the key with the number of periods in one turn of a rotary axis.
 inline constexpr std::string_view periods_key = "periods_per_turn";
 
-/// Columns that are fitted beside others and take their part of what those could explain.
+/// Columns fitted beside others, which absorb part of what those explain.
 class Beside {
   public:
     explicit Beside(Eigen::MatrixXd weighted);
-    /// h of columns a, g of b: the fit beside leaves of a^T b only a^T b - h^T g.
+    /// h of columns a, g of b: after the fit beside, a^T b is reduced to a^T b - h^T g.
     Eigen::MatrixXd half(const Eigen::MatrixXd& weighted) const;
 
   private:
@@ -26,33 +26,33 @@ class Beside {
     Eigen::LLT<Eigen::MatrixXd> factor_;
 };
 
-/// Tries the grids of effects with keys on residuals. Columns of the effects depend on positions
-/// only: they are worked out once, on a fixed scatter of rows, and serve every residual.
+/// Evaluates the grids of effects with keys on residuals. The columns of an effect depend on
+/// positions only, so they are computed once, on a fixed selection of rows, and used for every
+/// residual.
 class KeySearch {
   public:
     KeySearch(const emulator::Replay& replay, const identification::BaseModel& base);
 
-    /// A residual (mm) with the columns that left it (mm, base first) and that are fitted anew
-    /// beside an effect.
+    /// A residual (mm) with the columns (mm, base first) that are fitted again beside an effect.
     struct Remainder {
-        Eigen::VectorXd rough, fine;  ///< of the scattered rows, in sigma
+        Eigen::VectorXd rough, fine;  ///< of the selected rows, in sigma
         Beside others;                ///< on the fine rows
         Eigen::VectorXd rough_half, fine_half;
     };
     Remainder remainder(const Eigen::VectorXd& left_mm, const Eigen::MatrixXd& fitted) const;
 
-    /// The best few settings of an effect's keys by weighted least squares on a remainder; best
-    /// first, none next to another on the grid.
+    /// The best local maxima on the key grid of an effect, by weighted least squares on a residual;
+    /// best first.
     std::vector<std::vector<double>> best(const effects::Effect& effect, const Remainder& remainder,
                                           int count);
 
   private:
     struct Setting {
         std::vector<double> values;
-        Eigen::MatrixXd rough;               ///< weighted columns on the rough scatter
-        Eigen::MatrixXd half;                ///< of these beside the base
+        Eigen::MatrixXd rough;               ///< weighted columns on the rough rows
+        Eigen::MatrixXd half;                ///< half of these beside the base
         Eigen::LLT<Eigen::MatrixXd> factor;  ///< of their information beside the base
-        Eigen::MatrixXd fine;                ///< on the fine scatter, empty until asked for
+        Eigen::MatrixXd fine;                ///< on the fine rows, empty until needed
     };
     std::vector<Setting>& settings_of(const effects::Effect& effect);
     std::vector<Setting> worked_out(const effects::Effect& effect) const;
@@ -65,7 +65,7 @@ class KeySearch {
     const identification::BaseModel& base_;
     std::vector<std::size_t> rough_rows_, fine_rows_;
     Eigen::VectorXd rough_weight_, fine_weight_;  ///< 1 / sigma of those rows
-    Beside beside_;                               ///< the base on the rough ones
+    Beside beside_;                               ///< the base on the rough rows
     std::map<const effects::Effect*, std::vector<Setting>> settings_;
 };
 

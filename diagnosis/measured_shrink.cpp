@@ -1,4 +1,4 @@
-// How far the gap shrinks on readings of their own.
+// Reduction of the gap on separate readings.
 #include <algorithm>
 #include <cmath>
 
@@ -10,11 +10,11 @@
 namespace trunnion::diagnosis {
 namespace {
 
-/// Squares before and after, with what each expects from noise alone, by block, mm^2.
+/// Squares before and after, with their expectation from noise alone, by block, mm^2.
 struct SquaredSums {
     std::vector<double> before, after, noise, rows;
     double independent = 0.0;
-    double whitened_before = 0.0, whitened_after = 0.0;  ///< over the variance of the noise
+    double whitened_before = 0.0, whitened_after = 0.0;  ///< divided by the variance of the noise
 };
 
 double shrink_of(double before, double after, double noise) {
@@ -64,7 +64,7 @@ double measured_part(const Outcome& f, const setup::Setup& setup,
                      const records::ReadingTable& holdout) {
     const SquaredSums sums = sums_of(f, setup, holdout);
     const double rows = total(sums.rows), excess = sums.whitened_before - rows;
-    const double chance = 3.0 * std::sqrt(2.0 * rows);  // three sigma of the noise's own square
+    const double chance = 3.0 * std::sqrt(2.0 * rows);  // three sigma of the squared noise itself
     if (excess < chance) return 1.0;
     return (sums.whitened_before - sums.whitened_after) / excess;
 }
@@ -81,7 +81,7 @@ HeldOut measured_shrink(const Outcome& f, const setup::Setup& setup,
               shrink_of(before, after, noise),
               0.0,
               0.0};
-    // The noise of these few readings may by chance be smaller or larger than its variance says.
+    // The noise of these few readings may by chance differ from its variance.
     const double doubt =
         std::hypot(f.noise.model.doubt, std::sqrt(2.0 / std::max(1.0, sums.independent)));
     SeededNoise random(seed);

@@ -9,7 +9,7 @@
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr double sample_deg = 5.0;  ///< of a pass
+constexpr double sample_deg = 5.0;  ///< between samples of a pass
 
 }  // namespace
 

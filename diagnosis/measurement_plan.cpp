@@ -105,7 +105,7 @@ AxisPositions MeasurementPlan::rotary_at(const std::vector<double>& angles_deg,
     return at;
 }
 
-/// Linear axes so that `tip_S` meets a point of the table.
+/// Linear axes that put `tip_S` on a point of the table.
 MeasurementPlan::Target MeasurementPlan::aim(const AxisPositions& rotary, const Vector3& target_W,
                                              const Vector3& tip_S) const {
     Target target{rotary, true};
@@ -147,12 +147,12 @@ double MeasurementPlan::clear_mm() const {
     return z->max ? std::min(wanted, *z->max - 1.0) : wanted;
 }
 
-/// The PC is told where the axes stand.
+/// Tells the PC the axis positions.
 void MeasurementPlan::print_place() {
     result_.program += "M98P8102\n";
 }
 
-/// A device-less row where the axes stand.
+/// A row without device at the axis positions.
 void MeasurementPlan::pass_through(const AxisPositions& at) {
     records::Reading row = state_;
     row.commanded = at;
@@ -193,7 +193,7 @@ void MeasurementPlan::define_sides() {
 }
 
 Measurement MeasurementPlan::done() {
-    result_.minutes = (time_s_ - start_s_) / 60.0 + 5.0;  // five minutes to get ready
+    result_.minutes = (time_s_ - start_s_) / 60.0 + 5.0;  // five minutes for preparation
     result_.program =
         head_text() + result_.program +
         fmt::format("G53 G0 Z{:.4f}\n#149=#0\nDPRNT[MEASUREMENT*END]\nPCLOS\nM30\n%\n", clear_mm());

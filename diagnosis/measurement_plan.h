@@ -1,5 +1,4 @@
-// Builds one ready measurement: the readings it would give, row by row, and the NC program that
-// takes them.
+// Builds one ready measurement: the rows that it would give, and the NC program that takes them.
 #pragma once
 
 #include <functional>
@@ -10,29 +9,29 @@
 
 namespace trunnion::diagnosis {
 
-constexpr double sphere_start_mm = 40.0;  ///< over a sphere's centre, where O8100 begins
-/// To the step that the program prints (0.0001 mm or deg).
+constexpr double sphere_start_mm = 40.0;  ///< above the centre of a sphere, where O8100 starts
+/// Rounds to the step printed by the program (0.0001 mm or deg).
 double plan_rounded(double v, double step);
 
-/// Rows and program grow together, so that what is predicted is what the program does. Spheres are
-/// found by O8100 (programs/sphere9.nc): nine touches. Positions are machine coordinates rounded to
-/// 0.0001 mm or deg; those that the machine cannot reach are left out.
+/// Rows and program are built together, so that the predicted rows are those of the program.
+/// Spheres are measured by O8100 (programs/sphere9.nc) with nine touches. Positions are machine
+/// coordinates rounded to 0.0001 mm or deg; unreachable positions are omitted.
 class MeasurementPlan {
   public:
-    /// `start_s`: when it begins, on the clock of the readings so far.
+    /// `start_s`: start time on the clock of the present readings.
     MeasurementPlan(const setup::Setup& setup, std::string name, std::string text, double start_s);
 
-    /// First of all: every axis but Z goes 1 mm or deg aside and back, so that its side is known. Z
-    /// comes down to whatever it measures.
+    /// Must be called first: every axis but Z moves 1 mm or deg aside and back, so that its side is
+    /// known. Z is approached from above in any case.
     void define_sides();
 
     bool has_sphere() const { return !spheres_.empty() && setup_.probe.has_value(); }
     bool has_bar() const { return !pivots_.empty() && setup_.ballbar.has_value(); }
     std::size_t rotary_count() const { return rotary_.size(); }
-    /// Range of a rotary axis inside its limits and +-80 degrees (first axis) or a whole turn.
+    /// Range of a rotary axis within its limits, at most +-80 degrees (first axis) or a whole turn.
     std::pair<double, double> range_deg(std::size_t k) const;
 
-    // What the operator sets up; told to the PC by the program.
+    // Settings of the operator, told to the PC by the program.
     void spindle(double degrees);
     void load(double kilograms);
     void temperature(double celsius);
@@ -40,17 +39,17 @@ class MeasurementPlan {
     void extension(double longer_mm);
     void wait(double seconds);
 
-    /// Finds a sphere at rotary angles (deg) reached from `approach` deg below. False, and nothing
-    /// added, when an axis would leave its range.
+    /// Measures a sphere at rotary angles (deg) approached from `approach` deg below. False, and
+    /// nothing is added, when an axis would leave its range.
     bool sphere(std::size_t which, const std::vector<double>& angles_deg, double approach_deg);
-    /// Finds the first sphere at home, then at these angles by way of a store: dpp (the program
-    /// turns the point about G54) or rtcp (G43.4, parameters 19700-19705).
+    /// Measures the first sphere at home, then at these angles by means of a store: dpp (the
+    /// program rotates the point about G54) or rtcp (G43.4, parameters 19700-19705).
     void sphere_by_store(PositioningMode mode, const std::vector<std::vector<double>>& angles_deg,
                          double approach_deg);
-    /// Touches around a sphere's equator at `azimuths` equal steps.
+    /// Touches around a sphere's equator in `azimuths` equal steps.
     void azimuth_touches(const std::vector<double>& angles_deg, int azimuths);
 
-    /// Circle about the centre pivot, plane 0 XY (whole), 1 YZ, 2 ZX (upper halves).
+    /// Circle about the centre pivot, plane 0 XY (full), 1 YZ, 2 ZX (upper halves).
     void circle(int plane, double feed_mm_min, bool clockwise);
     /// A rotary axis turns and the linear axes follow, bar along direction 0 X, 1 Y, 2 Z.
     void turn(std::size_t rotary, bool up, int bar_direction);
@@ -67,14 +66,14 @@ class MeasurementPlan {
     void pass_through(const AxisPositions& at);
     void go(const AxisPositions& at, bool linear);
     void go_clear();
-    /// Machine Z for changing the rotary angles, as far up as the axis allows.
+    /// Machine Z for changing the rotary angles, as high as the axis allows.
     double clear_mm() const;
     void print_place();
     std::string head_text() const;
     std::string sheet() const;
     void tell(const std::string& words);
     void stop(const std::string& what);
-    /// Rows of the nine touches of O8100, begun `above` over the sphere at `center`.
+    /// Rows of the nine touches of O8100, starting above the sphere at `center`.
     void nine_touches(const setup::Artefact& sphere, const AxisPositions& center);
     void touch(const AxisPositions& stand_off, const AxisPositions& end, const Vector3& direction,
                const std::string& feature);
@@ -97,7 +96,7 @@ class MeasurementPlan {
     std::vector<kinematics::AxisGeometry> rotary_;
     std::vector<setup::Artefact> spheres_, pivots_;
     double time_s_, start_s_;
-    std::vector<std::string> stops_;  ///< what the operator is asked for
+    std::vector<std::string> stops_;  ///< requests to the operator
     std::string overwrites_ = "G59";
 };
 

@@ -1,4 +1,4 @@
-// Spheres found and touched: rows and program of a measurement.
+// Measured and touched spheres: rows and program of a measurement.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -97,7 +97,7 @@ bool MeasurementPlan::sphere(std::size_t which, const std::vector<double>& angle
     return true;
 }
 
-/// Where the sphere was found at home: into #520-#522 relative to G54, or into G55.
+/// Stores the position of the sphere at home: in #520-#522 relative to G54, or in G55.
 void MeasurementPlan::keep_home(bool dpp) {
     if (dpp) {
         result_.program += fmt::format(
@@ -118,7 +118,7 @@ void MeasurementPlan::keep_home(bool dpp) {
         above_mm, tip_z, zeros, -tip_z);
 }
 
-/// The gauge point above the turned sphere as a postprocessor would place it: relative to G54.
+/// The gauge point above the rotated sphere as a post processor would compute it: relative to G54.
 void MeasurementPlan::lead_by_g54(const AxisPositions& rotary) {
     const Vector3 tip = tip_S();
     Vector3 g54 = Vector3::Zero();
@@ -135,7 +135,7 @@ void MeasurementPlan::lead_by_g54(const AxisPositions& rotary) {
                                    point(1, 0.0), point(2, above_mm));
 }
 
-/// The same by tool centre point control; the control turns the point about 19700-19705.
+/// The same by tool centre point control; the control rotates the point about 19700-19705.
 void MeasurementPlan::lead_by_tcp(const AxisPositions& before, const AxisPositions& rotary) {
     const Vector3 over_W =
         setup_.machine.poses(rotary).pose_MW.rotation.transpose() * (above_mm * Vector3::UnitZ());
@@ -162,7 +162,7 @@ void MeasurementPlan::sphere_by_store(PositioningMode mode,
     const auto& tool = setup_.machine.chain.tool;
     if (std::any_of(tool.begin(), tool.end(),
                     [](const kinematics::AxisGeometry& a) { return a.rotary; }))
-        return;  // what leads the tool below is that of a table
+        return;  // the code below is for tables only
     const setup::Artefact& sphere = spheres_.front();
     if (!this->sphere(0, {0.0, 0.0}, approach_deg)) return;
     const bool dpp = mode == PositioningMode::dpp;

@@ -1,4 +1,4 @@
-// Head of a measurement's program: the operator's sheet, and what the PC must know first.
+// Head of a measurement's program: the operator's sheet, and the first messages to the PC.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace trunnion::diagnosis {
 namespace {
 
-/// As an NC comment can hold it.
+/// The text in a form allowed in an NC comment.
 std::string comment(std::string text) {
     for (char& c : text) {
         c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
@@ -31,7 +31,7 @@ std::string with_stars(std::string text) {
 
 }  // namespace
 
-/// What to mount, set and type, from what the plan did.
+/// What to mount, set and type for the plan.
 std::string MeasurementPlan::sheet() const {
     std::string text = comment("operator's sheet");
     const auto uses = [&](records::Device device, const std::string& feature) {

@@ -9,7 +9,7 @@
 namespace trunnion::diagnosis {
 namespace {
 
-/// Angles spread over both rotary axes, off any regular grid.
+/// Angles distributed over both rotary axes without a regular grid.
 std::vector<std::vector<double>> spread_angles(const MeasurementPlan& plan, int count) {
     const auto [low, high] = plan.range_deg(0);
     std::vector<std::vector<double>> list;
@@ -18,7 +18,7 @@ std::vector<std::vector<double>> spread_angles(const MeasurementPlan& plan, int 
     return list;
 }
 
-/// So many reachable poses; both sides of approach in turn.
+/// Adds this number of reachable poses, with alternating sides of approach.
 void spread(MeasurementPlan& plan, int poses, double approach_deg = 6.0) {
     int found = 0, tried = 0;
     for (const auto& angles : spread_angles(plan, 4 * poses)) {
@@ -132,7 +132,9 @@ const std::vector<Ready>& ready_list() {
          "ballbar circles in XY and ZX, then with each rotary axis turning, bar along X, Y and Z, "
          "out and back",
          true, [](MeasurementPlan& p) {
-             for (const int plane : {0, 2}) p.circle(plane, 1000.0, false);  // cup and length
+             for (const int plane : {0, 2})
+                 p.circle(plane, 1000.0, false);  // determines cup and
+                                                  // length
              for (std::size_t k = 0; k < p.rotary_count(); ++k)
                  for (int direction = 0; direction < 3; ++direction)
                      for (const bool up : {true, false}) p.turn(k, up, direction);
@@ -144,7 +146,7 @@ const std::vector<Ready>& ready_list() {
 
 namespace {
 
-/// The programs are NC programs that place a tip by X, Y and Z words.
+/// True when a tip can be positioned by X, Y and Z words, as the NC programs do.
 bool takes_words(const kinematics::Chain& chain) {
     const auto axes = chain.axes();
     return chain.find(Axis::X) && chain.find(Axis::Y) && chain.find(Axis::Z) &&

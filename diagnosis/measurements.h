@@ -1,4 +1,4 @@
-// The list of measurements that may be asked for next, as rows to be predicted and as NC programs.
+// The list of possible next measurements, as rows for prediction and as NC programs.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace trunnion::diagnosis {
 
-/// One ready measurement: what to do in words, the rows that its program reads, the program
-/// (O8900, calls O8100) and how long it takes.
+/// One ready measurement: description, the rows that its program reads, the program (O8900, calls
+/// O8100) and its duration.
 struct Measurement {
     std::string name, text, program;
     records::ReadingTable table;
     double minutes = 0.0;
 };
 
-/// All measurements that this machine and its artefacts allow. `start_s`: when they would begin, on
-/// the clock of the readings so far.
+/// All measurements possible with this machine and its artefacts. `start_s`: start time on the
+/// clock of the present readings.
 std::vector<Measurement> ready_measurements(const setup::Setup& setup, double start_s);
 
 }  // namespace trunnion::diagnosis

@@ -12,7 +12,7 @@
 namespace trunnion::diagnosis {
 namespace {
 
-/// Columns of one set of rows: base (by name), claimed and rival, in sigma.
+/// Columns for one set of rows: base (by name), claimed and rival, in sigma.
 struct Block {
     std::vector<std::string> names;
     Eigen::MatrixXd base;
@@ -25,7 +25,7 @@ std::vector<std::string> names_of(const std::vector<identification::FitParameter
     return names;
 }
 
-/// A measurement worked out: rows, derivatives and base columns.
+/// A prepared measurement: rows, derivatives and base columns.
 struct Worked {
     Measurement measurement;
     std::optional<emulator::Replay> replay;
@@ -56,7 +56,8 @@ Eigen::MatrixXd effect_block(const emulator::Replay& replay,
     return weight.asDiagonal() * columns_on(replay, gradient, group);
 }
 
-/// Squared part of `target` that neither base nor rival can follow; base columns joined by name.
+/// Squared part of `target` that neither base nor rival can reproduce; base columns are matched by
+/// name.
 class Mimic {
   public:
     void add(const Block& block, const Eigen::MatrixXd& rival, const Eigen::VectorXd& target) {
@@ -69,7 +70,8 @@ class Mimic {
         pieces_.push_back({place, block.base, rival, target});
     }
 
-    /// Without the rival: all that the base cannot follow, the target's contribution.
+    /// Without the rival: the part that the base cannot reproduce, i.e. the contribution of the
+    /// target.
     double left(bool with_rival = true) const {
         const auto q = with_rival ? pieces_.front().rival.cols() : 0;
         const auto p = static_cast<Eigen::Index>(names_.size()) + q;
@@ -99,7 +101,7 @@ class Mimic {
     std::vector<Piece> pieces_;
 };
 
-/// Times the loss at which a rival is dropped: room for the noise of the new readings.
+/// Factor on the loss at which a rival is dropped, for the noise of the new readings.
 constexpr double settled_margin = 1.5;
 
 NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& list,
@@ -123,7 +125,7 @@ NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& l
                  effect_block(*w.replay, w.gradient, w.weight, *pair.claimed) * pair.values);
         const double lost = then.left(), gain = 0.5 * (lost - before);
         if (gain < 3.0) continue;
-        // As far as it settles the matter, for each minute; more than settled is worth no more.
+        // Degree of separation for each minute; beyond full separation there is no further benefit.
         const double settled =
             std::min(1.0, lost / (settled_margin * rules::rival_limit(then.left(false))));
         if (settled * settled / w.measurement.minutes <= rate) continue;

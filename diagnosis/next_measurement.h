@@ -1,4 +1,4 @@
-// What to measure next, so that two effects which these readings cannot tell apart come apart.
+// The next measurement, chosen to separate two effects that these readings cannot distinguish.
 #pragma once
 
 #include "diagnosis/column_group.h"
@@ -7,17 +7,17 @@
 
 namespace trunnion::diagnosis {
 
-/// An effect as fitted, and one that could be it instead.
+/// A fitted effect and a rival that could replace it.
 struct AmbiguousPair {
     const ColumnGroup* claimed = nullptr;
     Eigen::VectorXd values;  ///< of the claimed columns, in typical changes
     const ColumnGroup* rival = nullptr;
 };
 
-/// For each pair the ready measurement with the largest predicted discrimination a minute: half the
-/// chi-squared that the rival, refitted with the base on old and new rows together, cannot follow,
-/// beyond what it cannot follow already. Pairs that no measurement separates say so. `go_on` is
-/// asked between its steps: false ends it with the pairs that are done.
+/// For each pair, the ready measurement with the largest predicted discrimination for each minute:
+/// half the chi-squared that the rival, refitted with the base on old and new rows together, cannot
+/// reproduce, beyond the present value. Reports pairs that no measurement separates. `go_on` is
+/// called between steps; false ends the planning with the pairs completed so far.
 std::vector<NextMeasurement> plan_next(const Prepared& prepared,
                                        const std::vector<AmbiguousPair>& pairs,
                                        const std::function<bool()>& go_on);

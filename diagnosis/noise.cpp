@@ -26,8 +26,7 @@ Eigen::MatrixXd touch_covariance(const emulator::Replay& replay,
     return v;
 }
 
-/// Innovations of "memory + white": what the Kalman filter of the shared state expects at each
-/// step.
+/// Innovations of "memory + white" noise: the Kalman filter of the shared state predicts each step.
 struct PassFilter {
     explicit PassFilter(const DeviceNoise& noise)
         : memory(noise.memory),
@@ -48,8 +47,8 @@ struct PassFilter {
     }
 };
 
-/// Do two readings in a row of one test share an error: the same pose of a probe or target, the
-/// same approach of a pass?
+/// True when two consecutive readings of one test share an error: the same pose of a probe or
+/// target, or the same approach of a pass.
 bool shares_block(const records::ReadingTable& table, const records::Reading& before,
                   const records::Reading& row, std::size_t size) {
     constexpr std::size_t most = 64;

@@ -1,4 +1,4 @@
-// The noise of readings: how large, and how neighbours share it.
+// The noise of readings: its size, and its correlation between neighbours.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,12 +18,14 @@ enum class NoiseSource : unsigned char { given, repeats, assumed };
 ///   others   scale^2
 struct DeviceNoise {
     double scale = 1.0;
-    double shared = 0.0;  ///< part of the variance that neighbours share
-    double memory = 0.9;  ///< of the shared part, from one ballbar sample to the next
+    double shared = 0.0;  ///< fraction of the variance shared by neighbours
+    double memory = 0.9;  ///< correlation of the shared part from one ballbar sample to the next
 
-    /// Independent readings that know as much about the variance as `rows` of these.
+    /// Number of independent readings with the same information about the variance as `rows` of
+    /// these.
     double independent(double rows) const {
-        const double m2 = memory * memory;  // 0 for touches: eight neighbours, directions at random
+        const double m2 = memory * memory;  // 0 for touches: eight neighbours with random
+                                            // directions
         const double pairs = m2 > 0.0 ? 2.0 * m2 / (1.0 - m2) : 8.0 / 3.0;
         return rows / (1.0 + shared * shared * pairs);
     }
@@ -32,13 +34,13 @@ struct DeviceNoise {
 struct NoiseModel {
     DeviceNoise sphere, touch, ballbar, linear, angle, point, axis;
     NoiseSource source = NoiseSource::given;
-    double doubt = 0.0;  ///< relative standard error of the variance, when repeats set it
+    double doubt = 0.0;  ///< relative standard error of the variance, if estimated from repeats
     const DeviceNoise& of(records::Device device) const;
     DeviceNoise& of(records::Device device);
 };
 
-/// Device rows that share an error: the touches (or components) of one pose, the samples of one
-/// ballbar pass. Each device row is in exactly one.
+/// Device rows that share an error: the touches (or components) of one pose, or the samples of one
+/// ballbar pass. Each device row belongs to exactly one block.
 struct NoiseBlock {
     records::Device device = records::Device::none;
     std::vector<Eigen::Index> rows;
@@ -51,7 +53,7 @@ class Whitener {
   public:
     Whitener(const emulator::Replay& replay, std::vector<NoiseBlock> blocks,
              const NoiseModel& noise, const Eigen::VectorXd& sigma_mm);
-    /// Every column of `m` (mm) becomes independent with variance 1.
+    /// Whitens every column of `m` (mm): independent rows with variance 1.
     void apply(Eigen::MatrixXd& m) const;
     Eigen::VectorXd apply(const Eigen::VectorXd& v) const;
 
@@ -65,17 +67,17 @@ class Whitener {
     Eigen::VectorXd sigma_mm_;
 };
 
-/// Noise from repeated poses and repeated passes: the differences of their residuals, freed of a
-/// shift between the two. Devices without enough repeats keep what `start` says; `source` tells
-/// whether repeats set it.
+/// Noise from repeated poses and passes: differences of their residuals, after removing a shift
+/// between the two. Devices without enough repeats keep the values of `start`; `source` says
+/// whether repeats were used.
 NoiseModel noise_from_repeats(const emulator::Replay& replay, const records::ReadingTable& table,
                               const std::vector<NoiseBlock>& blocks,
                               const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& sigma_mm,
                               const NoiseModel& start);
 
-/// Noise from what a fit left over, by maximum likelihood: shared part, memory and a scale within
-/// 0.6..1.45 of what was stated (any scale when nothing was). `freedom` = share of the rows'
-/// freedom that the fit left.
+/// Noise from the residuals of a fit, by maximum likelihood: shared part, memory, and a scale
+/// within 0.6..1.45 of the stated one (any scale if none was stated). `freedom`: remaining fraction
+/// of the degrees of freedom after the fit.
 NoiseModel noise_from_residuals(const emulator::Replay& replay,
                                 const std::vector<NoiseBlock>& blocks,
                                 const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& sigma_mm,

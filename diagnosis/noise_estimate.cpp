@@ -1,4 +1,4 @@
-// Estimates of the noise model: from repeats, or from what a fit left over.
+// Estimates of the noise model, from repeats or from the residuals of a fit.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -11,12 +11,12 @@
 namespace trunnion::diagnosis {
 namespace {
 
-/// A stretch of values that follow one device's noise model, in units of sigma, with the rows whose
-/// directions shape the shared part.
+/// A sequence of values with the noise model of one device, in units of sigma, and the rows whose
+/// directions define the shared part.
 struct Stretch {
     std::vector<Eigen::Index> rows;
     Eigen::VectorXd value;
-    bool free_shift = false;  ///< a shift of the machine is between the two passes of a difference
+    bool free_shift = false;  ///< the two passes of a difference may be shifted by the machine
 };
 
 double touch_likelihood(const emulator::Replay& replay, const Stretch& s,
@@ -37,8 +37,8 @@ double touch_likelihood(const emulator::Replay& replay, const Stretch& s,
            static_cast<double>(n) * log_scale - llt.matrixLLT().diagonal().array().log().sum();
 }
 
-/// Innovations of the values and of `shift` columns under the noise of one pass; the columns are
-/// profiled out with their loss of freedom (restricted likelihood).
+/// Log likelihood of the values from their innovations under the noise of one pass. The `shift`
+/// columns are profiled out with their loss of freedom (restricted likelihood).
 double pass_likelihood(const emulator::Replay& replay, const Stretch& s, const DeviceNoise& noise) {
     const double scale2 = noise.scale * noise.scale;
     const double shared = scale2 * noise.shared, white = scale2 * (1.0 - noise.shared) + 1e-12;
@@ -64,7 +64,8 @@ double pass_likelihood(const emulator::Replay& replay, const Stretch& s, const D
     }
     if (!s.free_shift) return sum - 0.5 * square(0, 0);
     Eigen::Matrix3d normal = square.bottomRightCorner<3, 3>();
-    normal.diagonal().array() += 1e-6;  // a bar that stays in a plane says nothing across it
+    normal.diagonal().array() += 1e-6;  // a bar that stays in a plane gives no information
+                                        // perpendicular to it
     const Eigen::LLT<Eigen::Matrix3d> llt(normal);
     const Vector3 half = llt.matrixL().solve(square.bottomLeftCorner<3, 1>());
     return sum - 0.5 * (square(0, 0) - half.squaredNorm()) -
@@ -92,15 +93,15 @@ double rms(const std::vector<Stretch>& stretches) {
     return std::sqrt(sum / std::max(1.0, count));
 }
 
-/// Neighbours share noise over at most a tenth of a pass (0.9 to 0.97 from sample to sample): what
-/// lasts longer is no noise but something that happened to the machine.
+/// Correlation of the noise between neighbours is limited to a tenth of a pass (0.9 to 0.97 from
+/// sample to sample): anything longer is a change of the machine, not noise.
 double longest_memory(const std::vector<Stretch>& stretches) {
     std::vector<double> samples;
     for (const Stretch& s : stretches) samples.push_back(static_cast<double>(s.value.size()));
     return std::clamp(std::exp(-10.0 / std::max(1.0, estimation::median(samples))), 0.9, 0.97);
 }
 
-/// Maximum likelihood within bounds on the scale; the shared part must win by `worth` nats.
+/// Maximum likelihood within bounds on the scale; the shared part must gain at least `worth` nats.
 DeviceNoise estimate(const emulator::Replay& replay, records::Device device,
                      const std::vector<Stretch>& stretches, double low, double high) {
     DeviceNoise plain;
@@ -144,7 +145,7 @@ DeviceNoise estimate(const emulator::Replay& replay, records::Device device,
     return best;
 }
 
-/// What makes two device rows repeats of each other, but for the pass they belong to.
+/// Key of repeats: device rows with equal keys repeat each other in different passes.
 using Key = std::tuple<int, int, int, std::vector<long>, std::vector<int>>;
 
 Key key_of(const emulator::Replay& replay, const records::ReadingTable& table, std::size_t i) {
@@ -185,8 +186,8 @@ std::vector<std::pair<std::size_t, std::size_t>> repeated_blocks(
     return pairs;
 }
 
-/// Takes out of the differences what a shift of the machine between passes leaves: a vector for
-/// each ballbar pass (within the likelihood), one that grows with time over all probe rows.
+/// Removes the effect of a shift of the machine between passes from the differences: one vector for
+/// each ballbar pass (within the likelihood), and one that grows with time over all probe rows.
 void remove_shift(const emulator::Replay& replay, records::Device device,
                   std::vector<Stretch>& stretches) {
     const auto detrend = [&](const std::vector<Stretch*>& group) {
@@ -253,7 +254,7 @@ NoiseModel noise_from_repeats(const emulator::Replay& replay, const records::Rea
             continue;
         }
         remove_shift(replay, device, list);
-        for (Stretch& s : list)  // a few wild differences must not set the noise
+        for (Stretch& s : list)  // a few outliers must not determine the noise
             s.value = s.value.cwiseMax(-6.0).cwiseMin(6.0);
         noise.of(device) = estimate(replay, device, list, 0.05, 4.0);
         const double independent = noise.of(device).independent(static_cast<double>(count));

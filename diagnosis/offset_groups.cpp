@@ -1,4 +1,4 @@
-// The zero of each test: scatter of zeroing is noise, one large zero is a place.
+// The zero of each test: scatter of zeros is noise, a single large zero is part of the gap.
 #include <cmath>
 #include <map>
 
@@ -9,13 +9,13 @@ namespace trunnion::diagnosis {
 namespace {
 
 constexpr Eigen::Index most_tests = 60;
-constexpr double usual_mm = 1e-3;  ///< scatter of a zero
+constexpr double usual_mm = 1e-3;  ///< typical scatter of a zero
 
 bool probes(const emulator::Contact& contact) {
     return contact.device == records::Device::sphere || contact.device == records::Device::touch;
 }
 
-/// Index of each device row's test among those that `takes`, -1 for other rows.
+/// Index of each device row's test among those accepted by `takes`, -1 for other rows.
 std::vector<Eigen::Index> tests_of(const Prepared& p,
                                    const std::function<bool(const emulator::Contact&)>& takes,
                                    Eigen::Index& count) {

@@ -5,7 +5,7 @@
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr double promising = 25.0;  ///< weighted squares that an effect must explain: five sigma
+constexpr double promising = 25.0;  ///< minimum weighted squares explained by an effect: five sigma
 
 std::vector<identification::FoundSide> sides_for(
     Prepared& p, const std::vector<identification::KeyedEffect>& by) {
@@ -16,7 +16,7 @@ void take_plus(Prepared& p) {
     for (const std::size_t k : p.open_sides) p.replay.assume_side(k, 1);
 }
 
-/// Not in the model yet, without keys, and some open side changes what it does.
+/// True for effects that are not yet in the model, have no keys, and depend on an unknown side.
 bool may_join(const Prepared& p, const effects::Effect& effect,
               const std::vector<identification::KeyedEffect>& taken) {
     if (modelled(p, effect) || has_keys(effect)) return false;

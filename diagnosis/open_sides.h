@@ -1,4 +1,4 @@
-// Sides from which axes came before their first motion, where the table leaves them open.
+// Sides from which axes arrived before their first motion, where the table does not give them.
 #pragma once
 
 #include "diagnosis/prepare.h"
@@ -6,12 +6,13 @@
 
 namespace trunnion::diagnosis {
 
-/// Before the search: open sides as those effects fit best that they change, the most promising
-/// first, as long as one explains much beside those taken; + where none does.
+/// Before the search: sets unknown sides to those that fit best with the effects depending on them,
+/// the most promising effect first, as long as one explains much beside those already taken.
+/// Otherwise + is kept.
 void take_promising_sides(Prepared& prepared);
 
-/// Open sides as the causes of a model fit best together. True when one is another than before:
-/// columns of effects are those of other sides then.
+/// Sets unknown sides to those that fit best with all causes of a model. True when one changed; the
+/// columns of the effects must then be computed again.
 bool retake_sides(Prepared& prepared, const Design& design, const Model& model);
 
 }  // namespace trunnion::diagnosis

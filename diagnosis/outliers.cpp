@@ -12,9 +12,9 @@ namespace trunnion::diagnosis {
 namespace {
 
 constexpr double wild_sigma = 4.5;
-constexpr double least_deviation = 0.5;  ///< of the noise: the scale is never taken as smaller
+constexpr double least_deviation = 0.5;  ///< minimum scale, relative to the noise
 
-/// Residuals of the set-up alone over their own standard deviation, rows of `used` fitted.
+/// Residuals of the set-up fit to the rows of `used`, divided by their own standard deviation.
 Eigen::VectorXd studentised(const identification::BaseModel& base, const std::vector<bool>& used) {
     Eigen::VectorXd weight = base.sigma_mm.cwiseInverse();
     for (Eigen::Index i = 0; i < weight.size(); ++i)
@@ -25,13 +25,13 @@ Eigen::VectorXd studentised(const identification::BaseModel& base, const std::ve
     return left.array() / own.max(0.05).sqrt();
 }
 
-/// The largest of n normal numbers is seldom larger.
+/// A value that the maximum of n normal deviates rarely exceeds.
 double largest_by_chance(double n) {
     return std::sqrt(2.0 * std::log(std::max(2.0, n))) + 1.0;
 }
 
-/// Do these rows lie in neighbouring blocks (poses, passes), three of them or more? One bad pose
-/// may spoil all its readings; blocks at random leave few neighbours side by side.
+/// True when the rows are in three or more neighbouring blocks (poses, passes). One bad pose may
+/// spoil all its readings; random blocks rarely are neighbours.
 bool crowded(const std::vector<std::size_t>& rows, const std::vector<NoiseBlock>& blocks) {
     std::vector<std::size_t> block_of;
     for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -49,8 +49,8 @@ bool crowded(const std::vector<std::size_t>& rows, const std::vector<NoiseBlock>
     return 10 * pairs > 4 * hit.size();
 }
 
-/// The same along one pass, whose readings are one block: rows at random leave less than a fifth of
-/// the mean distance between 18 of 100 neighbours.
+/// The same within one pass, whose readings are one block. With random rows 18 of 100 neighbours
+/// are closer than a fifth of the mean distance.
 bool crowded(const std::vector<std::size_t>& rows, std::size_t all) {
     if (rows.size() <= 8) return false;
     const std::size_t close = std::max<std::size_t>(2, all / (5 * rows.size()));

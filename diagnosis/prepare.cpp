@@ -23,7 +23,7 @@ Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
     });
     int pass = 0;
     for (const NoiseBlock& block : blocks) {
-        // Of few servo logs parts are left out, of many whole ones.
+        // With few servo logs parts of them are left out, with many whole ones.
         const bool bar = block.device == records::Device::ballbar ||
                          (block.device == records::Device::axis && logs < Folds::count);
         const std::size_t pieces = bar ? std::min<std::size_t>(6, 1 + block.rows.size() / 8) : 1;

@@ -12,8 +12,8 @@ namespace {
 constexpr std::size_t least_places = 8;
 constexpr double least_turns = 2.0, most_hole = 0.4, least_spacings = 2.0, least_outside = 0.2;
 
-/// Step of a grid that holds all places, some of its nodes perhaps empty; 0 where there is none.
-/// Periods below two steps look like longer ones there.
+/// Step of a grid that contains all positions, possibly with empty nodes; 0 if there is none. On
+/// it, periods below two steps are aliases of longer ones.
 double grid_step(const std::vector<double>& places) {
     double step = places.back() - places.front();
     for (std::size_t k = 1; k < places.size(); ++k)
@@ -32,7 +32,7 @@ double largest_hole(const std::vector<double>& places, double period) {
     return hole;
 }
 
-/// Axis and period of a ripple; nothing for other effects with keys.
+/// Axis and period of a ripple; empty for other effects with keys.
 struct Ripple {
     Axis axis;
     double period;

@@ -1,4 +1,4 @@
-// Ripples need places: which periods of an axis its positions can show.
+// Periods of ripples that the positions of an axis can resolve.
 #pragma once
 
 #include <optional>
@@ -7,13 +7,13 @@
 
 namespace trunnion::diagnosis {
 
-/// A period (mm or rad) is shown by 8 distinct places or more, two whole turns inside the range, no
-/// hole in the phase above 0.4 of a turn, and, where all places lie on an even grid, two of its
-/// steps or more.
+/// A period (mm or rad) is resolved by at least 8 distinct positions over at least two periods,
+/// without a gap in the phase above 0.4 of a period and, if all positions are on an equidistant
+/// grid, with at least two of its steps in a period.
 bool shows_period(std::vector<double> places, double period);
 
-/// The effect at one setting of its keys, when the positions of its axis can show it and no
-/// textbook effect of that axis is the same on these readings (a fifth of its columns or more lies
+/// Adds the effect with given keys if the positions of its axis resolve it and no textbook effect
+/// of that axis is equivalent on these readings (at least a fifth of its squared columns must be
 /// outside theirs).
 std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& prepared,
                                                const Whitener& whitener,

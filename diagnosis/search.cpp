@@ -7,12 +7,13 @@ namespace trunnion::diagnosis {
 namespace {
 
 constexpr std::size_t most_members = 12;
-constexpr std::size_t tried = 4;       ///< best offers that are tuned at each step
-constexpr std::size_t looked_at = 20;  ///< offers whose gain is worked out exactly
-constexpr double better = 0.5;         ///< nats by which a swap must be better
-constexpr std::size_t swap_tried = 3;  ///< offers tried in the place of a member
+constexpr std::size_t tried = 4;       ///< number of best offers tuned at each step
+constexpr std::size_t looked_at = 20;  ///< number of offers whose exact gain is computed
+constexpr double better = 0.5;         ///< minimum gain of a swap, nats
+constexpr std::size_t swap_tried = 3;  ///< offers tried in place of a member
 constexpr int rounds = 2;
-constexpr double tuning_gain = 10.0;  ///< nats that new variances may add to a changed model
+constexpr double tuning_gain = 10.0;  ///< maximum gain by tuning the variances of a changed model,
+                                      ///< nats
 
 bool in(const Model& model, std::size_t group) {
     return std::find(model.members.begin(), model.members.end(), group) != model.members.end();
@@ -30,7 +31,8 @@ Offer offer_of(const Design& design, std::size_t k, const estimation::GroupInfor
     return offer;
 }
 
-/// Of many groups those few that add most at least: the exact gain costs the square of the model.
+/// Of many groups, keeps the few with the largest lower bound of their gain, because the exact gain
+/// costs the square of the model size.
 void keep_best(std::vector<std::size_t>& offered, Design& design, const Model& model,
                const estimation::GivenMembers& given) {
     if (offered.size() <= looked_at || model.members.empty()) return;
@@ -58,7 +60,7 @@ std::vector<std::size_t> zeros(const Design& design) {
     return list;
 }
 
-/// The member that joined last, with better keys where it has any.
+/// Refines the keys of the member added last.
 Model refined_last(Design& design, const SearchSetting& setting, Model model) {
     const std::size_t last = model.members.size() - 1;
     if (!setting.refine || design.group(model.members[last]).kind != GroupKind::periodic)
@@ -71,7 +73,7 @@ Model refined_last(Design& design, const SearchSetting& setting, Model model) {
     return trial.score > model.score ? trial : model;
 }
 
-/// One step: the best few offers are tuned, the best score stays.
+/// One step: tunes the best few offers and keeps the one with the best score.
 bool grow(Design& design, const SearchSetting& setting, Model& model, bool with_zeros) {
     Model best = model;
     std::size_t count = 0;
@@ -120,7 +122,7 @@ Model swapped(Design& design, const SearchSetting& setting, Model model) {
     return model;
 }
 
-/// The score with the variances as they are: tuning adds a few nats at most.
+/// The score with unchanged variances; tuning adds a few nats at most.
 double rough_score(Design& design, const SearchSetting& setting, const Model& model) {
     double score = estimation::restricted_likelihood(design.equations(model.members),
                                                      model.variances, setting.noise) -
@@ -133,8 +135,8 @@ bool named(GroupKind kind) {
     return kind == GroupKind::textbook || kind == GroupKind::periodic;
 }
 
-/// A free form makes room for a named effect: it goes, or takes another length, and the best named
-/// effect joins.
+/// Replaces a free form by a named effect: the free form is removed or gets another length, and the
+/// best named effect is added.
 Model paired(Design& design, const SearchSetting& setting, Model model) {
     for (std::size_t position = 0; position < model.members.size(); ++position) {
         const std::size_t held = model.members[position];

@@ -13,13 +13,13 @@ namespace {
 
 constexpr int draw_count = 400;
 constexpr std::size_t probe_stretches =
-    24;  ///< into which the poses of the probe are cut, in order
+    24;  ///< number of parts into which the probe poses are divided, in order
 
-/// Effects with many parameters often have few of them: with this chance those that the readings
-/// leave open are small, in units of their typical size.
+/// Effects with many parameters are often sparse: with this probability the undetermined parameters
+/// are small, in units of their typical size.
 constexpr double sparse_chance = 0.5, sparse_scale = 0.3;
 
-/// Index of a truth drawn with its weight.
+/// Index of a model drawn by its weight.
 std::size_t pick(const std::vector<PossibleTruth>& truths, double at) {
     double sum = 0.0;
     for (const PossibleTruth& t : truths) sum += t.weight;
@@ -29,14 +29,15 @@ std::size_t pick(const std::vector<PossibleTruth>& truths, double at) {
     return truths.size() - 1;
 }
 
-/// Fresh readings are few and elsewhere: squared exponential weights leave as much as a sixth of
-/// the stretches.
+/// Fresh readings are few and at other positions: squared exponential weights leave effectively a
+/// sixth of the stretches.
 double stretch_weight(SeededNoise& random) {
     const double even = -std::log(random.uniform());
     return even * even;
 }
 
-/// Is there a remainder at all? Evidence for a normal mean of unit information against zero.
+/// Probability that there is a remainder: evidence for a normal mean with unit information against
+/// zero.
 double chance_of_remainder(const std::vector<Missed>& missed) {
     double sum = 0.0, square = 0.0;
     for (const Missed& m : missed) {
@@ -60,12 +61,12 @@ double remainder_per_row(const std::vector<Missed>& missed, double noise_factor,
     return rows > 0.0 ? sum / rows : 0.0;
 }
 
-/// Directions of the set-up that the readings leave open by more than a typical size.
+/// Directions of the set-up that the readings leave undetermined by more than a typical size.
 Eigen::MatrixXd open_set_up(const Design& design) {
     Eigen::MatrixXd information = design.known().transpose() * design.known();
-    if (information.size() == 0) return information;  // nothing is free
+    if (information.size() == 0) return information;  // no free set-up quantity
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(information);
-    const auto open = (solver.eigenvalues().array() < 1.0).count();  // they rise
+    const auto open = (solver.eigenvalues().array() < 1.0).count();  // in ascending order
     return solver.eigenvectors().leftCols(open);
 }
 
@@ -105,14 +106,16 @@ ShrinkDraws::ShrinkDraws(Design& design, const FreshReadings& fresh,
 
 void ShrinkDraws::draw_all() {
     const double real = chance_of_remainder(setting_.missed);
-    std::map<std::pair<std::size_t, bool>, Solution> solutions;  // of truth, sparse; when drawn
+    std::map<std::pair<std::size_t, bool>, Solution> solutions;  // by model and sparsity; computed
+                                                                 // when drawn
     const auto solution_of = [&](std::size_t truth, bool narrow) -> const Solution& {
         const auto [at, is_new] = solutions.try_emplace({truth, narrow});
         const Model& model = truths_[truth].model;
         if (is_new) at->second = solved(design_, narrow ? sparse(model) : model);
         return at->second;
     };
-    // What the set-up leaves open here (cup and pivot shifted together) the next one fits anew.
+    // Undetermined directions of the present set-up (e.g. a common shift of cup and pivot) are
+    // fitted again by the next one.
     const Eigen::MatrixXd open = open_set_up(design_);
     SeededNoise random(setting_.seed);
     const auto count = static_cast<Eigen::Index>(rows_.size());
@@ -146,13 +149,13 @@ void ShrinkDraws::draw_all() {
     read_.noalias() = columns_ * machines;
 }
 
-/// A mean square as noisy readings show it once the expected noise is taken off.
+/// A mean square as estimated from noisy readings after subtracting the expected noise.
 double ShrinkDraws::as_read(double square, const Draw& draw, double along) const {
     return std::max(0.0, square + draw.noise * std::sqrt(2.0 / setting_.independent) * draw.off +
                              2.0 * std::sqrt(square * draw.noise / setting_.independent) * along);
 }
 
-/// Squares of what a prediction x misses of each drawn machine, weighted over the stretches.
+/// Squared prediction error of x for each drawn machine, weighted over the stretches.
 std::vector<double> ShrinkDraws::squares_off(const Eigen::VectorXd& x) const {
     const Eigen::VectorXd said = columns_ * x;
     std::vector<double> sums;
@@ -167,7 +170,7 @@ std::vector<double> ShrinkDraws::squares_off(const Eigen::VectorXd& x) const {
     return sums;
 }
 
-/// The columns of all truths once, in the order of the stretches of fresh readings.
+/// The columns of all models, once, in the order of the stretches of fresh readings.
 void ShrinkDraws::take_places(const FreshReadings& fresh) {
     places_ = fresh.base().cols();
     for (const PossibleTruth& t : truths_)

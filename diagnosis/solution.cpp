@@ -6,7 +6,7 @@
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr double set_up_range = 20.0;  ///< typical sizes: directions that nothing sees stay
+constexpr double set_up_range = 20.0;  ///< typical sizes: unobservable directions stay constant
 
 kinematics::ErrorCurve::Harmonic& harmonic_of(kinematics::ErrorCurve& curve, double order) {
     for (kinematics::ErrorCurve::Harmonic& h : curve.harmonics)
@@ -14,7 +14,7 @@ kinematics::ErrorCurve::Harmonic& harmonic_of(kinematics::ErrorCurve& curve, dou
     return curve.harmonics.emplace_back(kinematics::ErrorCurve::Harmonic{order, 0.0, 0.0});
 }
 
-/// The sum of two tables stands at the places of both.
+/// The sum of two tables has the positions of both.
 void add_table(kinematics::ErrorCurve& curve, const std::vector<double>& at,
                const Eigen::VectorXd& value) {
     kinematics::ErrorCurve own, old;

@@ -1,4 +1,4 @@
-// Errors of any shape: free forms of the error motions of every axis.
+// Errors of any form: free forms of the error motions of every axis.
 #include <algorithm>
 #include <cmath>
 
@@ -10,14 +10,14 @@
 namespace trunnion::diagnosis {
 namespace {
 
-/// One family of error motions of an axis, and what the textbook's form of it owns.
+/// One family of error motions of an axis, and the functions that belong to its textbook form.
 struct Family {
     const char* name;
-    bool rotary, along, angular;  ///< along: the axis's own direction, else across it
+    bool rotary, along, angular;  ///< along: in the axis's own direction, else perpendicular to it
     bool all_angles;              ///< all three directions
-    std::size_t knots;            ///< at most
-    Eigen::Index shapes;          ///< of one direction, at most
-    int owned;                    ///< polynomials, or harmonics of a turn
+    std::size_t knots;            ///< maximum
+    Eigen::Index shapes;          ///< maximum for one direction
+    int owned;                    ///< number of polynomials, or of harmonics of a turn
 };
 constexpr Family families[] = {{".positioning", false, true, false, false, 40, 24, 2},
                                {".straightness", false, false, false, false, 24, 12, 3},
@@ -29,7 +29,7 @@ constexpr Family families[] = {{".positioning", false, true, false, false, 40, 2
 constexpr double whole_turn_rad = 5.0;  ///< a wider range counts as a whole turn
 constexpr double least_range_mm = 1.0, least_range_rad = 0.05;
 constexpr int last_order = 24;
-constexpr double soft_orders[] = {4.0, 12.0};  ///< harmonics fall off beyond these
+constexpr double soft_orders[] = {4.0, 12.0};  ///< harmonics decrease beyond these
 
 std::vector<double> places_of(const Prepared& p, Axis axis) {
     std::vector<double> places;
@@ -55,7 +55,7 @@ Eigen::MatrixXd for_each_direction(const Eigen::MatrixXd& shape, std::size_t dir
     return all;
 }
 
-/// What the textbook's form can be at the knots: polynomials, or harmonics of part of a turn.
+/// The textbook form at the knots: polynomials, or harmonics of part of a turn.
 Eigen::MatrixXd owned_at(const Family& family, const std::vector<double>& knots) {
     if (!family.rotary) return estimation::polynomials_at(knots, family.owned);
     Eigen::MatrixXd owned(static_cast<Eigen::Index>(knots.size()), 2 + 2 * family.owned);

@@ -11,8 +11,8 @@
 namespace trunnion::diagnosis {
 namespace {
 
-/// A column that moves no reading by this many sigma when its parameter changes as usual is left
-/// out.
+/// Columns that move every reading by less than this number of sigma for a typical change are
+/// omitted.
 constexpr double dead_column = 1e-6;
 
 using Takes = std::function<bool(const effects::EffectParameter&)>;
@@ -22,8 +22,8 @@ struct Material {
     Eigen::MatrixXd columns;  ///< mm
 };
 
-/// Columns of the linear parameters in the textbook's form that move any reading; none is moved in
-/// the sessions `before`.
+/// Columns of the linear parameters in textbook form that move any reading; zero in the sessions
+/// `before`.
 Material material_of(const Prepared& p, const effects::Effect& effect,
                      const std::vector<double>& keys, const std::vector<std::string>& before = {}) {
     Material m;
@@ -60,8 +60,8 @@ ColumnGroup group_of(const effects::Effect& effect, std::vector<double> keys,
     return group;
 }
 
-/// Prior of key settings: even over their grids, but even in the logarithm where the grid counts
-/// periods: a period and its alias fit alike, and the coarse one is what machines have.
+/// Prior of key values: uniform over their grids, but uniform in the logarithm for numbers of
+/// periods. A period and its alias fit equally well, and machines have the coarse one.
 double log_prior_of_keys(const effects::Effect& effect, const std::vector<double>& keys) {
     double sum = 0.0;
     for (std::size_t j = 0; j < keys.size(); ++j) {
@@ -84,7 +84,8 @@ std::vector<std::function<bool(const effects::EffectParameter&)>> simpler_forms(
     for (const effects::EffectParameter& p : effect.parameters) {
         if (p.component >= 0 && !p.is_key()) vectors.insert(p.name);
     }
-    // ISO 230-1: straightness is what departs from the mean line; the line is squareness.
+    // ISO 230-1: straightness is the deviation from the mean line; the slope of that line is
+    // squareness.
     if (effect.name.ends_with(".straightness"))
         forms.push_back([](const effects::EffectParameter& p) {
             return p.name.find("_p1_") == std::string::npos;
@@ -105,7 +106,7 @@ std::vector<std::function<bool(const effects::EffectParameter&)>> simpler_forms(
 
 namespace {
 
-/// A change between sessions: nothing before it. Without sessions before: no change.
+/// A change between sessions, without effect before it. No sessions before: not a change.
 struct Since {
     std::string session;
     std::vector<std::string> before;
@@ -117,13 +118,13 @@ struct EffectColumns {
     Eigen::Index first;
 };
 
-/// A change may be one of what the simulation has already.
+/// A change may concern an effect that the simulation already contains.
 bool offered(const Prepared& p, const effects::Effect& effect, const Since& since) {
     if (effect.parameters.empty() || has_keys(effect)) return false;
     return !since.before.empty() || !modelled(p, effect);
 }
 
-/// All forms of an effect whose columns stand in the design.
+/// Adds all forms of an effect whose columns are in the design.
 void add_forms(Design& design, const EffectColumns& ready, Eigen::Index first, const Since& since,
                double log_prior) {
     const auto forms = simpler_forms(*ready.effect);
@@ -140,7 +141,7 @@ void add_forms(Design& design, const EffectColumns& ready, Eigen::Index first, c
     for (const Takes& takes : forms) add(takes);
 }
 
-/// Effects without keys, in all forms. Returns how many features they are.
+/// Adds effects without keys, in all forms. Returns the number of features.
 Eigen::Index add_effects(Design& design, const Prepared& prepared, const Whitener& whitener,
                          const Since& since) {
     std::vector<EffectColumns> list;

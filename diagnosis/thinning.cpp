@@ -9,7 +9,8 @@ namespace {
 
 using records::Device;
 
-/// Velocities and reversals come from differences of rows: of a turn one row in 3 degrees stays.
+/// Velocities and reversals are computed from differences of rows, so one row in every 3 degrees of
+/// a turn is kept.
 constexpr std::size_t least_of_pass = 120;
 
 bool is_pass(Device device) {
@@ -17,7 +18,7 @@ bool is_pass(Device device) {
            device == Device::angle;
 }
 
-/// A place in 0..n-1 that looks random but is the same each time.
+/// A reproducible pseudo-random index in 0..n-1.
 std::size_t scattered(std::size_t stretch, std::size_t n) {
     return static_cast<std::size_t>(((stretch + 1) * std::uint64_t{0x9E3779B97F4A7C15}) >> 33) % n;
 }
@@ -82,7 +83,7 @@ class Thinner {
     const records::ReadingTable& table_;
     std::size_t step_, poses_ = static_cast<std::size_t>(-1);
     const records::Reading* pose_ = nullptr;
-    std::map<std::string, std::size_t> seen_, length_;  ///< rows of each pass: so far, in all
+    std::map<std::string, std::size_t> seen_, length_;  ///< rows of each pass: so far, in total
     std::vector<records::Reading> kept_, waiting_;
 };
 
@@ -92,7 +93,7 @@ std::optional<records::ReadingTable> thinned(const records::ReadingTable& table,
     std::size_t all = 0;
     for (const records::Reading& row : table.rows) {
         if (row.device == Device::none) continue;
-        if (!row.value_mm) return std::nullopt;  // refused later, wherever it stands
+        if (!row.value_mm) return std::nullopt;  // refused later in any case
         ++all;
     }
     if (all <= most) return std::nullopt;

@@ -12,7 +12,7 @@
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr std::size_t most_places = 6;  ///< listed in "where"
+constexpr std::size_t most_places = 6;  ///< in the list "where"
 
 GroupKind kind_of(const Design& design, const Model& model, std::size_t position) {
     return design.group(model.members[position]).kind;
@@ -35,7 +35,7 @@ std::vector<bool> large_zeros(Design& design, const Model& model) {
     });
 }
 
-/// Does a table predict at places of its axis that were left out?
+/// True when a table predicts left-out positions of its axis.
 bool holds_between(Design& design, const Prepared& prepared, const Model& model,
                    std::size_t position, const std::vector<bool>& used) {
     const ColumnGroup& group = design.group(model.members[position]);
@@ -54,7 +54,8 @@ double share_of_tables(const Sizes& sizes, const std::vector<bool>& those) {
     return sum;
 }
 
-/// Is there more than noise? Without a driver the evidence must be confirmed by readings left out.
+/// True when there is more than noise. Without a driver the evidence must be confirmed by left-out
+/// readings.
 bool is_gap(const Design& design, const Model& model, const Judgement& j, const Sizes& sizes,
             const Saving& saving) {
     if (std::any_of(j.large.begin(), j.large.end(), [](bool b) { return b; })) return true;

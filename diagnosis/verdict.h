@@ -1,5 +1,5 @@
-// One number decides the verdict: the part of the excess that the model takes away on readings left
-// out.
+// The verdict, determined by one number: the fraction of the excess on left-out readings that the
+// model removes.
 #pragma once
 
 #include "diagnosis/claims.h"
@@ -7,24 +7,26 @@
 
 namespace trunnion::diagnosis {
 
-/// The noise that the search and the verdict take as given.
+/// The noise assumed by search and verdict.
 struct NoiseBelief {
     NoiseModel model;
-    estimation::NoisePrior prior;  ///< of the noise left in whitened readings
-    double most = 1e300;           ///< variance of whitened noise above which it is no noise
+    estimation::NoisePrior prior;  ///< of the noise in whitened readings
+    double most = 1e300;           ///< maximum variance of whitened noise; anything larger is not
+                                   ///< noise
 };
 
-/// What readings left out say about a model.
+/// Results of the left-out readings for a model.
 struct Judgement {
     double floor = 1.0;                ///< variance of the noise, whitened
-    double before = 0.0, after = 0.0;  ///< mean squares left out: set-up alone, with the causes
+    double before = 0.0, after = 0.0;  ///< mean squares of left-out residuals: set-up alone, with
+                                       ///< the causes
     double part = 0.0;                 ///< H = (before - after) / (before - floor (1 + rank / n))
     bool gap = false;
     bool between_places = true;
     std::vector<bool> large;         ///< members that are large zeros
-    std::vector<bool> interpolates;  ///< members: tables that hold between their places
+    std::vector<bool> interpolates;  ///< members: tables valid between their positions
     std::vector<Support> support;    ///< of each member
-    Eigen::VectorXd left;            ///< whitened residuals left out, with the causes
+    Eigen::VectorXd left;            ///< whitened left-out residuals, with the causes
     Eigen::VectorXd left_before;     ///< ... with the set-up alone
 };
 Judgement judged(Design& design, const Prepared& prepared, const Model& model,
@@ -32,11 +34,11 @@ Judgement judged(Design& design, const Prepared& prepared, const Model& model,
 
 Verdict verdict_of(const Judgement& judgement, const std::vector<Claim>& claims);
 
-/// Members that readings left out do not miss are taken away, the weakest first.
+/// Removes members without benefit for left-out readings, the weakest first.
 Model without_idle_members(Design& design, const SearchSetting& setting, const Prepared& prepared,
                            Model model, const std::vector<bool>& used);
 
-/// Drivers that the readings follow when only the set-up is fitted, strongest first.
+/// Drivers that the readings depend on when only the set-up is fitted, strongest first.
 std::vector<DriverShare> where_of(const Design& design, double floor);
 
 }  // namespace trunnion::diagnosis

@@ -8,8 +8,8 @@
 namespace trunnion::diagnosis {
 namespace {
 
-/// On paths left out, of the loss of the set-up alone: an effect that only one path shows cannot be
-/// predicted there, but it does no harm either.
+/// Limit of the loss on left-out paths, relative to the set-up alone: an effect seen on one path
+/// only cannot be predicted there, but does no harm either.
 constexpr double most_harm = 1.2;
 
 using TakesMember = std::function<bool(GroupKind, std::size_t group)>;
@@ -31,7 +31,7 @@ bool is_large(const Outcome& f, std::size_t group) {
     return f.judgement.large[static_cast<std::size_t>(at - f.model.members.begin())];
 }
 
-/// Loss on readings left out when causes and small zeros alone predict.
+/// Loss on left-out readings when only causes and small zeros predict.
 BlockLoss loss_of(const Outcome& f, const Model& model, const Folds& folds) {
     const LeftOut left(f.design, model, folds, f.used);
     std::vector<bool> predicting;
@@ -52,7 +52,7 @@ bool harms_paths(const Outcome& f, const Model& model, const Model& none) {
     return loss_of(f, model, paths).mean() > most_harm * loss_of(f, none, paths).mean();
 }
 
-/// What was found less what does not predict, the fullest first.
+/// The found model without the parts that do not predict, the most complete one first.
 std::vector<Model> candidates_of(const Outcome& f) {
     const auto all = [&](GroupKind, std::size_t m) { return holds(f, m); };
     const auto causes = [&](GroupKind k, std::size_t m) {
@@ -76,7 +76,7 @@ std::vector<Model> candidates_of(const Outcome& f) {
     return list;
 }
 
-/// The best of the candidates on readings left out; that without causes where none is better.
+/// The best candidate on left-out readings; the one without causes if none is better.
 Model chosen(const Outcome& f) {
     const Model none = only(f, f.model, [&](GroupKind k, std::size_t m) {
         return k == GroupKind::offset && !is_large(f, m);

@@ -1,14 +1,14 @@
-// The setup that a diagnosis writes: of what was found, what predicts.
+// The setup written by a diagnosis: the found causes that predict.
 #pragma once
 
 #include "diagnosis/diagnosis_report.h"
 
 namespace trunnion::diagnosis {
 
-/// Causes that predict readings left out surely better than the set-up alone, as they are written:
-/// without drivers and large zeros, without tables that fail between their places, and, where a
-/// table is among them, no worse on whole paths left out. Where nothing does: the re-identified
-/// setup without causes.
+/// The causes that predict left-out readings significantly better than the set-up alone in their
+/// written form: without drivers and large zeros, without tables that fail between their positions
+/// and, if there is a table among them, no worse on whole left-out paths. If there are none: the
+/// re-identified setup without causes.
 setup::Setup written_setup(const Outcome& found);
 
 }  // namespace trunnion::diagnosis

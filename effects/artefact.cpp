@@ -1,4 +1,4 @@
-// The artefact is not where or what it should be: position, form, slip during the test.
+// Deviations of the artefact: position, form, slip during the test.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +8,7 @@
 namespace trunnion::effects {
 namespace {
 
-/// 0, 1, ... count - 1: a key that picks one artefact of the setup.
+/// 0, 1, ... count - 1: grid of a key that selects one artefact of the setup.
 std::vector<double> indices(std::size_t count) {
     std::vector<double> grid;
     for (std::size_t k = 0; k < std::max<std::size_t>(count, 1); ++k)
@@ -16,14 +16,14 @@ std::vector<double> indices(std::size_t count) {
     return grid;
 }
 
-/// Second-order form of a sphere: five harmonics of the outward normal in W.
+/// Second-order form deviation of a sphere: five harmonics of the outward normal in W.
 double form(const Vector3& n, std::span<const double> value) {
     return value[0] * (n.x() * n.x() - n.y() * n.y()) + value[1] * 2.0 * n.x() * n.y() +
            value[2] * 2.0 * n.x() * n.z() + value[3] * 2.0 * n.y() * n.z() +
            value[4] * (1.5 * n.z() * n.z() - 0.5);
 }
 
-/// Moments at which one artefact may have slipped: between its readings, evenly over them.
+/// Candidate times of a slip of one artefact: between its readings, evenly distributed.
 std::vector<double> slip_times(const DataExtent& extent, int count) {
     std::vector<double> all;
     for (const auto& times : extent.times_s) {
@@ -85,7 +85,8 @@ Effect artefact_form(const std::vector<setup::Artefact>& artefacts) {
         if (contact.device == records::Device::touch) {
             out.reading_mm -= form(contact.direction_W, value);
         } else if (contact.touches > 0) {
-            // Turn M into W with the two directions known in both: only the component read matters.
+            // Rotates M into W by the direction known in both frames; only the component read
+            // matters.
             const Matrix3 turn_WM =
                 Eigen::Quaterniond::FromTwoVectors(contact.direction_M, contact.direction_W)
                     .toRotationMatrix();

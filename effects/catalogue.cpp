@@ -16,7 +16,7 @@ constexpr AxisMaker linear_effects[] = {
     linear_scale,    linear_straightness,   linear_angular,      linear_cyclic,
     linear_backlash, linear_reversal_spike, linear_lateral_play, linear_play_load};
 
-/// The first rotary axis that carries the work: the one that gravity loads.
+/// The first rotary axis on the work side: the one that gravity loads.
 const kinematics::AxisGeometry* tilting_axis(const kinematics::Chain& chain) {
     for (const kinematics::AxisGeometry& axis : chain.work)
         if (axis.rotary) return &axis;
@@ -32,7 +32,8 @@ void append_axis_effects(Catalogue& list, const kinematics::Chain& chain) {
     }
 }
 
-/// The axes that NC words and stores count on: a G54 is set in X, Y and Z.
+/// True when the machine has X, Y and Z, which NC words and stores require (a G54 is set in X, Y
+/// and Z).
 bool has_basic_axes(const kinematics::Chain& chain) {
     const AxisNames names = chain.names();
     return names.find("X") && names.find("Y") && names.find("Z");
@@ -59,7 +60,7 @@ std::string parameter_text(const Effect& effect) {
 
 namespace {
 
-/// A servo log shows what the drive does up to the encoder, not where the machine is.
+/// A servo log shows the behaviour of the drive up to the encoder, not the position of the machine.
 void hide_from_encoders(Effect& effect) {
     effect.add = [add = std::move(effect.add), seen = effect.seen_by](
                      const AxisSample& sample, const emulator::Contact& contact,

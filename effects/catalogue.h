@@ -1,4 +1,4 @@
-// All effects that a machine may have: the one list that running, identifying and diagnosing share.
+// The catalogue of all effects of a machine, shared by run, identify and diagnose.
 #pragma once
 
 #include <optional>
@@ -12,9 +12,9 @@ namespace trunnion::effects {
 
 using Catalogue = std::vector<Effect>;
 
-/// Every effect of formats.md for this machine and its artefacts, one for each axis it concerns.
+/// All effects of formats.md for this machine and its artefacts, one for each axis concerned.
 Catalogue make_catalogue(const setup::Setup& setup, const DataExtent& extent = {});
-/// Spans of a table of readings.
+/// Time span and positions of a table of readings.
 DataExtent extent_of(const setup::Setup& setup, const records::ReadingTable& table);
 
 const Effect* find_effect(const Catalogue& catalogue, const std::string& name);

@@ -1,4 +1,4 @@
-// What the control itself does to the path: rounding, chords, wrong pivot stores.
+// Effects of the control on the path: rounding, chords, wrong pivot stores.
 #include <cmath>
 
 #include "base/units.h"
@@ -11,7 +11,7 @@ double rounding_error(double value, double increment) {
     return increment > 0.0 ? std::round(value / increment) * increment - value : 0.0;
 }
 
-/// Linear acceleration and speed of the commanded path, mm and s.
+/// Acceleration and speed of the commanded path of the linear axes, mm and s.
 struct PathTurn {
     Vector3 acceleration = Vector3::Zero();
     double speed = 0.0;
@@ -35,7 +35,7 @@ std::vector<double> block_lengths() {
     return grid;
 }
 
-/// Nominal rotations of the table's rotary axes, from the bed: first, and first times second.
+/// Nominal rotations of the rotary table axes, from the bed: first, and first times second.
 struct TableRotation {
     Matrix3 first = Matrix3::Identity(), both = Matrix3::Identity();
 };

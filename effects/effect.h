@@ -1,4 +1,4 @@
-// An effect: a named way in which the real machine may differ from its simulation.
+// An effect: a named difference between the real machine and its simulation.
 #pragma once
 
 #include <functional>
@@ -11,23 +11,26 @@
 
 namespace trunnion::effects {
 
-/// One scalar of an effect. A linear parameter enters the perturbation proportionally and is 0 when
-/// the effect is off; a key (pitch, time constant, moment) shapes it and is searched over `grid`.
+/// One scalar of an effect. The perturbation is proportional to a linear parameter, which is 0 when
+/// the effect is off. A key (period, time constant, time) changes its form nonlinearly and is
+/// searched over `grid`.
 struct EffectParameter {
-    std::string name;  ///< as in files and JSON, with its unit: "gap_rad"
+    std::string name;  ///< name in files and JSON, with its unit: "gap_rad"
     std::string unit;
-    double typical = 1.0;  ///< linear: standard deviation expected in the trade; key: usual value
-    int component = -1;    ///< 0.. of a vector parameter of this name
+    double typical = 1.0;  ///< linear: expected standard deviation; key: usual value
+    int component = -1;    ///< index in a vector parameter of this name; -1: scalar
     std::vector<double> grid =
-        {};              ///< a key: values to try first, rising; empty for a linear parameter
-    bool refine = true;  ///< a key may lie between grid values
-    bool usual = true;   ///< false: lets the form deviate from the textbook's; what only such
-                         ///< parameters explain counts as not explained
-    std::optional<kinematics::ErrorName> location = {};  ///< the location error that this is
+        {};              ///< key: start values for the search, rising; empty for a linear parameter
+    bool refine = true;  ///< a key may take values between those of the grid
+    bool usual = true;   ///< false: deviation from the textbook form. Variance explained only by
+                         ///< these parameters is reported as unexplained
+    std::optional<kinematics::ErrorName> location = {};  ///< the location error that the parameter
+                                                         ///< is
     bool is_key() const { return !grid.empty(); }
 };
 
-/// Adds what the effect does at one reading; `value` in the order of `parameters`.
+/// Adds the effect at one reading to `out` (units and frames: kinematics::Perturbation; sign:
+/// actual - nominal). `value` in the order of `parameters`, in their units.
 using EffectFunction =
     std::function<void(const AxisSample& sample, const emulator::Contact& contact,
                        std::span<const double> value, kinematics::Perturbation& out)>;
@@ -36,19 +39,19 @@ using EffectFunction =
 enum class SeenBy : unsigned char { no_encoder, scale, any_encoder };
 
 struct Effect {
-    std::string name;    ///< as in formats.md: "C.backlash"
-    std::string what;    ///< one sentence for the shop: what it is
-    std::string cause;   ///< what usually causes it
-    std::string remedy;  ///< what to do
+    std::string name;    ///< name in formats.md: "C.backlash"
+    std::string what;    ///< one sentence for the workshop: what it is
+    std::string cause;   ///< usual causes
+    std::string remedy;  ///< remedy
     std::string formula;
     std::vector<EffectParameter> parameters;
     EffectFunction add;
     SeenBy seen_by = SeenBy::no_encoder;
 
-    std::vector<double> zeros() const;  ///< every linear parameter 0, keys at their usual value
+    std::vector<double> zeros() const;  ///< linear parameters 0, keys at their usual value
 };
 
-/// The effect switched on with values for all its parameters.
+/// The effect with the given parameter values, in the order of `parameters`.
 std::shared_ptr<const emulator::EffectModel> make_model(const Effect& effect,
                                                         std::vector<double> values);
 

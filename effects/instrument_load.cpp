@@ -1,4 +1,4 @@
-// Gain of a sensor, and play that the load changes.
+// Sensor gain, and play that depends on the load.
 #include "effects/models.h"
 
 namespace trunnion::effects {

@@ -1,4 +1,4 @@
-// Errors of a linear axis's drive: ballscrew ripple, backlash, reversal spike, lateral play.
+// Errors of the drive of a linear axis: ballscrew ripple, backlash, reversal spike, lateral play.
 #include <algorithm>
 #include <cmath>
 
@@ -41,11 +41,12 @@ Effect linear_backlash(const kinematics::AxisGeometry& axis) {
 
 namespace {
 
-constexpr double law_radius_mm = 100.0;  ///< an angle of the path is given as way on this circle
-constexpr double law_speed_mm_s = 10.0;  ///< a time is given as way at this speed
-constexpr double long_ago_mm = 1e6;      ///< of an axis that stands: what decays is gone
+constexpr double law_radius_mm = 100.0;  ///< an angle of the path is expressed as distance on this
+                                         ///< circle
+constexpr double law_speed_mm_s = 10.0;  ///< a time is expressed as distance at this speed
+constexpr double long_ago_mm = 1e6;      ///< axis at rest: anything that decays has vanished
 
-/// Angle (rad) by which the path has turned since the axis stood still: from its direction.
+/// Angle (rad) by which the path direction has turned since the axis was at rest.
 double angle_since_quadrant(Axis axis, const AxisSample& sample) {
     const Vector3 v(sample.velocity[Axis::X], sample.velocity[Axis::Y], sample.velocity[Axis::Z]);
     const double along = std::abs(sample.velocity[axis]);
@@ -55,13 +56,13 @@ double angle_since_quadrant(Axis axis, const AxisSample& sample) {
     return slows ? pi - angle : angle;
 }
 
-/// Time since the axis began to move, from its way and speed at even acceleration (s); on a circle
-/// 2 tan(phi / 2) for phi, 2 % too long after half a radian.
+/// Time (s) since the axis started to move, from distance and speed at constant acceleration. On a
+/// circle it gives 2 tan(phi / 2) instead of phi, i.e. 2 % too much after half a radian.
 double time_since_reversal(double way_mm, double speed_mm_s) {
     return 2.0 * way_mm / speed_mm_s;
 }
 
-/// The argument of the decay by law 0, 1 or 2, mm.
+/// Argument of the decay, mm, by law 0 (angle of the path), 1 (distance) or 2 (time).
 double way_of(double law, Axis axis, const AxisSample& sample) {
     const double since_mm = sample.since_reversal[index_of(axis)];
     if (law == 0.0) return law_radius_mm * angle_since_quadrant(axis, sample);

@@ -1,4 +1,5 @@
-// Geometric errors of a linear axis along its travel: scale, straightness, angles, squareness.
+// Geometric errors of a linear axis along its travel: positioning, straightness, angles,
+// squareness.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,9 +9,9 @@
 namespace trunnion::effects {
 namespace {
 
-constexpr double reach_mm = 200.0;  ///< travel at which polynomial coefficients are quoted
+constexpr double reach_mm = 200.0;  ///< travel at which polynomial coefficients are specified
 
-/// sum over n of value[n] (q / reach)^(first + n).
+/// Sum over n of value[n] (q / reach)^(first + n).
 double polynomial(double q, int first, std::span<const double> value) {
     double sum = 0.0, power = first == 1 ? q / reach_mm : q * q / (reach_mm * reach_mm);
     for (const double v : value) {

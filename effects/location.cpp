@@ -1,4 +1,4 @@
-// Location errors of the axes: where their lines really are.
+// Location errors: the actual position and orientation of the axis lines.
 #include <fmt/format.h>
 
 #include "effects/models.h"
@@ -12,8 +12,9 @@ struct Place {
     int direction;
 };
 
-/// Two positions and two tilts of a rotary axis, across its line. Of linear axes with letters XY,
-/// YZ and ZX squareness are effects of their own; one of another name has its two tilts here.
+/// Rotary axis: two positions and two tilts perpendicular to its line. Linear axes X, Y, Z: the
+/// squareness errors XY, YZ and ZX are effects of their own. Linear axis with another name: two
+/// tilts.
 std::vector<Place> places_of(const kinematics::Chain& chain) {
     std::vector<Place> places;
     for (const kinematics::AxisGeometry& axis : chain.axes())
@@ -32,7 +33,7 @@ EffectParameter parameter_of(const Place& place) {
     return p;
 }
 
-/// What one location error of this size adds to the axis's error motion.
+/// Contribution of one location error to the error motion of its axis.
 void add_place(const Place& place, double value, const AxisSample& sample,
                kinematics::Perturbation& out) {
     SmallMotion& motion = out.motion[index_of(place.axis.axis)];
@@ -41,7 +42,7 @@ void add_place(const Place& place, double value, const AxisSample& sample,
         motion.shift_mm(k) += value;
     else if (place.axis.rotary)
         motion.tilt_rad(k - 3) += value;
-    else  // it leans the way, not the slide
+    else  // inclines the direction of travel, not the slide
         motion.shift_mm += value * sample.position[place.axis.axis] *
                            Vector3::Unit(k - 3).cross(place.axis.direction);
 }

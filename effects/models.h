@@ -1,15 +1,15 @@
-// The makers of all effects; the catalogue calls them for each axis of a machine.
+// Factory functions of all effects; the catalogue calls them for each axis of a machine.
 #pragma once
 
 #include "effects/effect.h"
 
 namespace trunnion::effects {
 
-/// What a set of readings spans: where keys are searched.
+/// Extent of a set of readings, for the search range of keys.
 struct DataExtent {
     double start_s = 0.0;
     double end_s = 7200.0;
-    std::vector<std::vector<double>> times_s;  ///< of the rows of each artefact, rising
+    std::vector<std::vector<double>> times_s;  ///< times of the rows of each artefact, rising
 };
 
 Effect location_effect(const kinematics::Chain& chain);
@@ -27,7 +27,7 @@ Effect linear_cyclic(const kinematics::AxisGeometry& axis);
 Effect linear_backlash(const kinematics::AxisGeometry& axis);
 Effect linear_reversal_spike(const kinematics::AxisGeometry& axis);
 Effect linear_lateral_play(const kinematics::AxisGeometry& axis);
-/// XY, YZ or ZX: `moving` is the axis that is out of square, tilted about direction `about`.
+/// XY, YZ or ZX: `moving` is the axis with the squareness error, tilted about direction `about`.
 Effect squareness(const std::string& plane, const kinematics::AxisGeometry& moving, int about);
 Effect servo_mismatch(const kinematics::Chain& chain);
 Effect servo_contour(const kinematics::Chain& chain);
@@ -47,25 +47,27 @@ Effect control_chord(const kinematics::Chain& chain);
 Effect clamp_shift(const kinematics::Chain& chain);
 Effect linear_play_load(const kinematics::AxisGeometry& axis);
 Effect sensor_gain();
-/// The three of chains whose tool side turns (they need a rotary axis there).
+/// Three effects of chains with a rotary axis on the tool side (required there).
 Effect gravity_tool(const kinematics::Chain& chain);
 Effect chain_collimation(const kinematics::Chain& chain);
 Effect chain_flexure(const kinematics::Chain& chain);
 Effect pivot_g54(const kinematics::Chain& chain);
 Effect pivot_p1970x(const kinematics::Chain& chain);
 
-// Small helpers shared by the makers.
+// Helper functions for the factories.
 
-/// Cosine and sine of orders 1, 2, ... of an angle: values[2 (n - 1)] cosine, then sine.
+/// Harmonic sum of orders 1, 2, ... of an angle: values[2 (n - 1)] is the cosine, the next one the
+/// sine coefficient.
 double harmonic_sum(double angle_rad, std::span<const double> values);
-/// Parameters PREFIX cosN_UNIT and PREFIX sinN_UNIT whose typical size falls as 1 / N.
+/// Appends parameters PREFIX cosN_UNIT and PREFIX sinN_UNIT with typical sizes proportional to 1 /
+/// N.
 void append_harmonics(std::vector<EffectParameter>& list, const std::string& prefix,
                       const std::string& unit, int orders, double typical, int usual_orders);
-/// 0 for an axis along X (or about it), 1 for Y, 2 for Z: the largest component of its direction.
+/// 0 for an axis along (or about) X, 1 for Y, 2 for Z: the largest component of its direction.
 int main_direction(const kinematics::AxisGeometry& axis);
-/// Values from `low` to `high` with a constant ratio.
+/// Values from `low` to `high` in geometric progression.
 std::vector<double> geometric_grid(double low, double high, int count);
-/// "EXC", "EAC": ISO 230 name of an error motion, direction 0..5 = X Y Z A B C.
+/// "EXC", "EAC": ISO 230 name of an error motion; direction 0..5 = X Y Z A B C.
 std::string motion_name(int direction, const kinematics::AxisGeometry& axis);
 /// "C" + ".backlash".
 std::string effect_name(const kinematics::AxisGeometry& axis, const char* what);

@@ -1,4 +1,4 @@
-// Instrument effects: pretravel lobes, stylus radius, runout, tool and ballbar length.
+// Effects of instruments: pretravel lobes, stylus radius, runout, tool and ballbar length.
 #include <cmath>
 
 #include "effects/models.h"
@@ -7,8 +7,8 @@
 namespace trunnion::effects {
 namespace {
 
-/// Pretravel in approach direction `d_M`: lobes over the azimuth in the spindle's own frame, fading
-/// towards the pole. `value`: cosine and sine of orders 2 and 3.
+/// Pretravel in approach direction `d_M`: lobes over the azimuth in the spindle's own frame,
+/// decreasing towards the pole. `value`: cosine and sine of orders 2 and 3.
 double pretravel(const Vector3& d_M, double spindle_rad, std::span<const double> value) {
     const double across = std::hypot(d_M.x(), d_M.y());
     if (across < 1e-9) return 0.0;

@@ -1,4 +1,4 @@
-// Errors of a rotary axis's angle: zero offset, positioning, gear error, backlash.
+// Angular errors of a rotary axis: zero offset, positioning, gear error, backlash.
 #include <cmath>
 
 #include "base/units.h"

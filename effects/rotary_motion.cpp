@@ -1,4 +1,4 @@
-// Error motions of a rotary axis: radial, axial, tilt, as harmonics of its angle.
+// Error motions of a rotary axis (radial, axial, tilt) as harmonics of its angle.
 #include "effects/models.h"
 
 namespace trunnion::effects {

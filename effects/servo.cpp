@@ -1,4 +1,4 @@
-// What the drives do while they move: lag that differs between axes, and circles that shrink.
+// Dynamic errors of the drives: lag mismatch between axes, and circle contraction.
 #include "effects/models.h"
 
 namespace trunnion::effects {

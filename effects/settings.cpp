@@ -40,7 +40,7 @@ constexpr Unit units[] = {{"um", "mm", 1e-3},
     throw InputError(message, {"--inject", 1, static_cast<int>(at) + 1}, text);
 }
 
-/// Reads "name", "=", numbers and units from one option's text.
+/// Parses "name", "=", numbers and units of one option.
 class Scanner {
   public:
     explicit Scanner(const std::string& text) : text_(text) {}
@@ -89,7 +89,7 @@ class Scanner {
     [[noreturn]] void fail(const std::string& message) const { refuse(message, text_, at_); }
 
   private:
-    /// The unit that follows a number, in that of the parameter.
+    /// Factor of the unit after a number, in the parameter's unit.
     double factor_of_unit(const std::string& unit) {
         const std::size_t before = at_;
         const std::string name = word();
@@ -178,7 +178,7 @@ setup::EffectSetting setting_of(const Effect& effect, const std::vector<double>&
 
 namespace {
 
-/// The file that the setup came from, read again to tell a place in it.
+/// The file of the setup, read again to report positions in it.
 TomlFile file_of(const setup::Setup& setup) {
     return {read_file(setup.path), setup.path};
 }
@@ -195,7 +195,7 @@ const TomlValue* find_value(const TomlValue* table, const std::string& key) {
     throw InputError("[effects]: " + message, {setup.path, 0, 0});
 }
 
-/// Each parameter alone, for its place.
+/// Checks each parameter separately, for its position.
 void check_parameters(const setup::Setup& setup, const Effect& effect,
                       const setup::EffectSetting& setting) {
     for (const auto& parameter : setting.parameters) try {

@@ -1,4 +1,4 @@
-// What weight and clamping do to the table.
+// Effects of load and clamping on the table.
 #include <cmath>
 
 #include "effects/models.h"

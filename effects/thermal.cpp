@@ -1,4 +1,4 @@
-// Heat: the spindle drifts with time, the scales grow with temperature.
+// Thermal effects: drift of the spindle with time, expansion of the scales with temperature.
 #include <algorithm>
 #include <cmath>
 

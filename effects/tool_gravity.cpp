@@ -1,4 +1,4 @@
-// Effects of chains whose tool side turns: heads, arms, telescopes.
+// Effects of chains with a rotary tool side: heads, arms, telescopes.
 #include <cmath>
 
 #include "effects/models.h"
@@ -6,14 +6,14 @@
 namespace trunnion::effects {
 namespace {
 
-/// An axis of the tool side where the commanded positions carry it.
+/// A tool-side axis at the commanded positions.
 struct CarriedAxis {
     kinematics::AxisGeometry axis;
-    Matrix3 carrier_M;  ///< rotation of what carries it
+    Matrix3 carrier_M;  ///< rotation of its carrier
     Vector3 direction_M, point_M_mm;
 };
 
-/// All axes of the tool side, from the bed outwards, and last the origin of S.
+/// All tool-side axes, from the bed outwards, and finally the origin of S.
 std::vector<CarriedAxis> carried(const kinematics::Chain& chain, const AxisSample& sample) {
     std::vector<CarriedAxis> list;
     Pose pose;
@@ -34,8 +34,9 @@ std::vector<kinematics::AxisGeometry> rotary_of(const std::vector<kinematics::Ax
     return list;
 }
 
-/// Mean horizontal lever (m) of what an axis carries, signed as the turn that weight makes: the
-/// points of the rotary axes behind it stand for the masses, for the last one the origin of S.
+/// Mean horizontal lever (m) of the carried parts, with the sign of the rotation caused by their
+/// weight. The masses are represented by points of the following rotary axes; for the last axis by
+/// the origin of S.
 double lever_m(const std::vector<CarriedAxis>& list, std::size_t k) {
     double sum = 0.0, count = 0.0;
     const auto add = [&](const Vector3& mass_M_mm) {
@@ -49,7 +50,7 @@ double lever_m(const std::vector<CarriedAxis>& list, std::size_t k) {
     return sum / count;
 }
 
-/// Two unit vectors across an axis.
+/// Two unit vectors perpendicular to an axis.
 std::pair<Vector3, Vector3> across(const Vector3& direction) {
     const Vector3 first = direction.unitOrthogonal();
     return {first, direction.cross(first)};

@@ -1,4 +1,4 @@
-// The touches behind one found sphere centre, and what a form deviation does to that centre.
+// The touches behind one measured sphere centre, and the influence of form deviations on it.
 #pragma once
 
 #include <functional>
@@ -9,15 +9,16 @@
 namespace trunnion::effects {
 
 /// Outward normals (in M) of the touches of one sphere: the pole, then rings of four from the
-/// equator up. Centre and radius are fitted by least squares, as sphere cycles do.
+/// equator upwards. Centre and radius are fitted by least squares, as in sphere cycles.
 struct TouchPattern {
     std::vector<Vector3> outward_M;
-    Eigen::Matrix<double, 3, Eigen::Dynamic> response;  ///< centre shift for each radial deviation
+    Eigen::Matrix<double, 3, Eigen::Dynamic> response;  ///< centre shift, mm per mm of each radial
+                                                        ///< deviation
 
     Vector3 center_shift(const std::function<double(const Vector3& outward_M)>& deviation_mm) const;
 };
 
-/// The pattern of `touches` touches (at least 5); kept for the life of the program.
+/// The pattern of `touches` touches (at least 5); the reference stays valid.
 const TouchPattern& touch_pattern(int touches);
 
 }  // namespace trunnion::effects

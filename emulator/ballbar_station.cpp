@@ -12,15 +12,18 @@
 namespace trunnion::emulator {
 namespace {
 
-/// Places of a move at which "stays within range" is looked at.
+/// Number of positions of a move at which the range is checked.
 constexpr int range_checks = 16;
-/// A sample this close to the end of a move is at its end, not at the next one's beginning.
+/// A sample this close to the end of a move belongs to its end, not to the start of the next move.
 constexpr double end_rad = 1e-9;
 
-constexpr double farthest_reach_mm = 5000.0;  ///< of a point from a rotary axis, on the safe side
-constexpr double effects_mm = 5.0;            ///< more than errors and effects change a distance
+constexpr double farthest_reach_mm = 5000.0;  ///< upper bound for the distance of a point from a
+                                              ///< rotary axis
+constexpr double effects_mm = 5.0;            ///< upper bound for the change of a distance by
+                                              ///< errors and effects
 
-/// No two points of the machine come nearer to each other than by this between two positions.
+/// Upper bound for the change of the distance between two points of the machine from one position
+/// to the other, mm.
 double farthest_way_mm(const AxisPositions& a, const AxisPositions& b) {
     double way_mm = 0.0;
     for (const Axis axis : all_axes)
@@ -51,7 +54,7 @@ void BallbarStation::start(double time_s) {
     angle_left_rad_ = 0.0;
 }
 
-/// Ball-to-ball length - nominal length without effects.
+/// Ball-to-ball length - nominal length without effects, mm.
 double BallbarStation::nominal_mm(const motion::AxisMove& move, double s,
                                   const setup::Artefact& pivot, const records::Reading& row) const {
     const ballbar::Ballbar bar{setup_.ballbar->cup_with(row.extension_mm), pivot.center_W_mm,
@@ -70,7 +73,8 @@ bool BallbarStation::stays_in_range(const motion::AxisMove& move, const setup::A
     return true;
 }
 
-/// Told to read: the pivot that the bar reaches best. Automatic: one it reaches all the way.
+/// With BALLBAR ON: the pivot that the bar reaches best. Automatic: a pivot within range during the
+/// whole move.
 void BallbarStation::choose_pivot(const motion::AxisMove& move, const records::Reading& row) {
     if (commanded_ && pivot_) return;
     const bool looks = commanded_ || (automatic_ && move.kind != motion::MotionKind::rapid);
@@ -148,7 +152,7 @@ void BallbarStation::read_pass(const Observer& observer, ReadingLog& log,
     }
 }
 
-/// Rows beyond the range keep their place in the path, without a reading.
+/// Rows beyond the range remain in the path, without a reading.
 void BallbarStation::stop(const Observer& observer, ReadingLog& log) {
     if (!moves_.empty()) {
         const std::span<records::Reading> rows = log.pass();

@@ -11,32 +11,32 @@
 
 namespace trunnion::emulator {
 
-/// When it reads: between the lines `BALLBAR ON name` and `BALLBAR OFF` that the program prints to
-/// its PC, or, when asked to (`automatic`), along every feed move that stays within the range of
-/// the transducer from end to end. The rows of a pass are kept without values; when it ends they
-/// are read as any table of readings is.
+/// It reads between the lines `BALLBAR ON name` and `BALLBAR OFF` that the program prints to its PC
+/// or, with `automatic`, along every feed move that stays within the range of the transducer. The
+/// rows of a pass are stored without values; at the end of the pass they are evaluated like any
+/// table of readings.
 class BallbarStation {
   public:
     /// `setup` must outlive the station.
     BallbarStation(const setup::Setup& setup, std::uint64_t seed, bool automatic);
 
     void start(double time_s);
-    /// Ends a pass, reads its rows. Safe when none runs.
+    /// Ends a pass and evaluates its rows. No effect when no pass is active.
     void stop(const Observer& observer, ReadingLog& log);
     bool commanded() const { return commanded_; }
     bool running() const { return !moves_.empty(); }
-    /// A move may be read.
+    /// True when a move may be read.
     bool listens() const { return setup_.ballbar && (commanded_ || automatic_); }
-    /// From now on a reading every so many degrees of the swept angle.
+    /// From now on one reading every `degrees` of the swept angle.
     void sample_every(double degrees) { sample_deg_ = degrees; }
 
-    /// Rows along the move, begun at `row`'s time. False when the bar does not read.
+    /// Adds rows along the move, starting at the time of `row`. False when the bar does not read.
     bool record(const motion::AxisMove& move, const records::Reading& row, ReadingLog& log);
     std::vector<std::string> take_notes() { return std::move(notes_); }
 
   private:
     struct Place {
-        std::size_t row;  ///< of the log, the first of a move
+        std::size_t row;  ///< index in the log of the first row of the move
         std::string text;
     };
     double nominal_mm(const motion::AxisMove& move, double s, const setup::Artefact& pivot,
@@ -53,13 +53,13 @@ class BallbarStation {
     SeededNoise noise_;
     bool automatic_ = false, commanded_ = false;
     double start_s_ = 0.0;
-    double sample_deg_ = 0.0;      ///< above 0: instead of the setup's
-    double angle_left_rad_ = 0.0;  ///< to the next sample, when sampling by angle
+    double sample_deg_ = 0.0;      ///< > 0: replaces the spacing of the setup
+    double angle_left_rad_ = 0.0;  ///< angle to the next sample, when sampling by angle
     int passes_ = 0;
-    const setup::Artefact* pivot_ = nullptr;  ///< of the pass
-    std::vector<Place> moves_;                ///< of the pass
-    /// Of all pivots beyond the bar's range when the axes stood at `apart_at_`: until they have
-    /// gone that far nobody need look again.
+    const setup::Artefact* pivot_ = nullptr;  ///< of the current pass
+    std::vector<Place> moves_;                ///< of the current pass
+    /// Smallest distance (mm) of a pivot beyond the bar's range when the axes were at `apart_at_`:
+    /// no check is needed until they have moved that far.
     double apart_mm_ = -1.0;
     AxisPositions apart_at_;
     std::vector<std::string> notes_;

@@ -12,7 +12,7 @@ probe::Solid box(const Vector3& low, const Vector3& high) {
     return {false, low, high, 0.0, 0.0};
 }
 
-/// Four walls; they overlap at the corners.
+/// Four walls that overlap at the corners.
 std::vector<probe::Solid> walls(const setup::Body& body) {
     const double x = 0.5 * body.size_mm.x(), y = 0.5 * body.size_mm.y();
     const double out_x = x + body.wall_mm, out_y = y + body.wall_mm, z = -body.size_mm.z();
@@ -43,7 +43,7 @@ class OnMove {
         return state.poses.pose_MW.inverse() * (state.poses.pose_MS * tip_S) -
                state.extra.work_shift_mm;
     }
-    /// Pretravel: the skip comes later by this part of the move.
+    /// Pretravel delays the skip signal by this fraction of the move.
     double later(double s, const setup::Body& body) const {
         if (length_mm_ == 0.0) return 0.0;
         const double later_mm = feeler_.is_tool()

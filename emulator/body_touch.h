@@ -28,7 +28,7 @@ std::vector<probe::Solid> solids_of(const setup::Body& body, const Feeler& feele
 
 /// A contact with a body.
 struct BodyTouch {
-    double s = 1.0;          ///< of the move, where the skip latches
+    double s = 1.0;          ///< fraction of the move at which the skip signal latches
     double contact_s = 1.0;  ///< where the two meet
     const setup::Body* body = nullptr;
 };

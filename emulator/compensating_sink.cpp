@@ -28,8 +28,8 @@ motion::MoveResult CompensatingSink::move(const motion::AxisMove& move) {
     compensated.arc.reset();
     compensated.curve = &path;
     motion::MoveResult result = next_.move(compensated);
-    // The control shows positions as programmed: the correction, which hardly changes over its own
-    // size, is taken out again.
+    // The control displays positions as programmed, so the correction is subtracted again; over its
+    // own size it is practically constant.
     const AxisPositions again = compensation_(result.stopped);
     for (const Axis axis : all_axes) result.stopped[axis] += result.stopped[axis] - again[axis];
     return result;

@@ -1,4 +1,5 @@
-// A control with error compensation: every position goes through a map before the axes see it.
+// A control with error compensation: every position passes through a map before it reaches the
+// axes.
 #pragma once
 
 #include <functional>
@@ -7,10 +8,10 @@
 
 namespace trunnion::emulator {
 
-/// Position that the axes go to instead of the commanded one.
+/// Position of the axes for a commanded position.
 using Compensation = std::function<AxisPositions(const AxisPositions&)>;
 
-/// Between control and machine: hands on each move along its compensated path.
+/// Stage between control and machine: passes on each move along its compensated path.
 class CompensatingSink : public motion::MotionSink {
   public:
     CompensatingSink(motion::MotionSink& next, Compensation compensation);

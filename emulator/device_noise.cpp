@@ -5,7 +5,7 @@
 namespace trunnion::emulator {
 namespace {
 
-/// um or urad, in the order of records::Device.
+/// Default noise, um or urad, in the order of records::Device.
 constexpr double usual_noise[] = {0.0, 1.0, 1.0, 0.5, 0.5, 2.0, 10.0, 1.0};
 
 }  // namespace

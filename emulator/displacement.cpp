@@ -5,19 +5,19 @@
 namespace trunnion::emulator {
 namespace {
 
-/// The tool's frame as seen from the table.
+/// The tool frame seen from the table.
 Pose pose_WS(const kinematics::MachinePose& poses) {
     return poses.pose_MW.inverse() * poses.pose_MS;
 }
 
-/// Rotation vector of a small rotation.
+/// Rotation vector of a rotation, rad.
 Vector3 rotation_vector(const Matrix3& r) {
     const Eigen::AngleAxisd turn(r);
     return turn.angle() * turn.axis();
 }
 
-/// The declared place of the target on the tool; of one that stands on the table: where the tool
-/// is when it is there does not matter, only how far it moves.
+/// The declared position of the target on the tool. For a target on the table it is zero: only the
+/// displacement of the tool counts.
 Vector3 declared_S_mm(const setup::Setup& setup, const setup::Artefact& target) {
     return target.tool_S_mm ? setup.target_S_mm(target) : Vector3(Vector3::Zero());
 }

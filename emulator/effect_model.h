@@ -1,4 +1,4 @@
-// What an effect is to the emulator: something that adds to the machine at one reading.
+// Interface of an effect for the emulator: an addition to the machine at one reading.
 #pragma once
 
 #include <memory>
@@ -9,28 +9,32 @@
 
 namespace trunnion::emulator {
 
-/// What the instrument does at one reading: all that effects of probe, ballbar and artefact need
-/// beside the axis sample. `run` leaves it empty while no device reads.
+/// The measurement at one reading: all inputs of effects of probe, ballbar and artefact besides the
+/// axis sample. In `run` it is empty while no device reads.
 struct Contact {
     records::Device device = records::Device::none;
     int artefact = -1;                      ///< index in Setup::artefacts
-    Vector3 direction_M = Vector3::Zero();  ///< component read, approach, or cup to pivot
+    Vector3 direction_M = Vector3::Zero();  ///< component read, approach, or cup to pivot; unit
+                                            ///< vector
     Vector3 direction_W = Vector3::Zero();  ///< the same seen from the table
-    int instrument = -1;  ///< of a point row: index in Setup::instruments, -1 without one
-    Vector3 direction_I = Vector3::Zero(), commanded_I_mm = Vector3::Zero();  ///< of a point row
-    Pose believed_WS;            ///< of a linear or angle row: the tool by the declared control
-    int zero = -1;               ///< of such a row: its test, index in Replay::zeros
-    Axis axis = Axis::X;         ///< of an axis row
-    bool scale_encoder = false;  ///< its encoder sits behind the drive
-    double along_mm = 0.0;       ///< touch: from the commanded end to the sample, along direction_M
-    int touches = 0;             ///< of the pattern behind a sphere row, 0 = unknown
-    double extension_mm = 0.0;   ///< of stylus or cup, beyond the setup's
-    bool tip = false;            ///< no device reads: where the tip of the tool in the spindle is
-    bool stylus = false;         ///< that tool is the probe
+    int instrument = -1;                    ///< point row: index in Setup::instruments, -1 for none
+    Vector3 direction_I = Vector3::Zero(), commanded_I_mm = Vector3::Zero();  ///< point row, in the
+                                                                              ///< instrument's
+                                                                              ///< frame
+    Pose believed_WS;            ///< linear or angle row: pose of the tool in the declared control
+    int zero = -1;               ///< such a row: index of its test in Replay::zeros
+    Axis axis = Axis::X;         ///< axis row: the axis
+    bool scale_encoder = false;  ///< its encoder is behind the drive (linear scale)
+    double along_mm = 0.0;       ///< touch: distance along direction_M from the commanded end to
+                                 ///< the sample
+    int touches = 0;             ///< touches of the pattern behind a sphere row, 0 = unknown
+    double extension_mm = 0.0;   ///< additional length of stylus or cup beyond the setup
+    bool tip = false;            ///< no device reads: the position of the tool tip is evaluated
+    bool stylus = false;         ///< the tool is the probe
 };
 
-/// The physical model of one effect that is switched on: what it adds at one sample. Written in the
-/// effects room, one small file each; the emulator only calls it.
+/// The physical model of one active effect: its addition at one sample. Implemented in the room
+/// effects, one small file a subject.
 class EffectModel {
   public:
     virtual ~EffectModel() = default;

@@ -13,16 +13,16 @@ Vector3 xyz(const AxisPositions& q) {
     return {q[Axis::X], q[Axis::Y], q[Axis::Z]};
 }
 
-/// No axis has a part both of the circle and of the way along its normal.
+/// True when no axis has components both of the circle and of the motion along its normal.
 bool turns_in_plane(const motion::AxisMove& move) {
     const Vector3& n = move.arc->normal;
     const double rise = (xyz(move.to) - xyz(move.from)).dot(n);
     return std::abs(rise) < records::path_rounding.mm || n.cwiseAbs().maxCoeff() == 1.0;
 }
 
-/// Each axis to the last two places on the arc where it turned. An axis turns every half circle, so
-/// its directions at start and end tell how often: they are those just after the one and just
-/// before the other, where it may stand in a turning point.
+/// Advances each axis through its last two reversal points on the arc. An axis reverses every half
+/// circle, so the number of reversals follows from its directions at start and end: the direction
+/// just after the start and just before the end, because either may be a reversal point.
 void follow_turns(records::TravelHistory& history, const motion::AxisMove& move) {
     constexpr double little = 1e-9;
     const motion::ArcPath& arc = *move.arc;
@@ -57,7 +57,7 @@ void follow(records::TravelHistory& history, const motion::AxisMove& move) {
         const int steps = move.curve
                               ? 4 * motion::curve_parts(move.from, move.to)
                               : std::max(2, static_cast<int>(16.0 * std::abs(move.arc->turns)));
-        const bool hardly_turns = move.curve && steps == 4;  // the hot path of G43.4
+        const bool hardly_turns = move.curve && steps == 4;  // inner loop of G43.4
         for (int k = 1; k < steps && !hardly_turns; ++k)
             history.advance(move.at(static_cast<double>(k) / steps));
         if (!hardly_turns) history.advance(move.at(1.0 - last_step));

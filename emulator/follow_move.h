@@ -1,4 +1,4 @@
-// A move of the control through the history of travel.
+// Passes a move of the control through the history of travel.
 #pragma once
 
 #include "motion/motion.h"
@@ -6,7 +6,7 @@
 
 namespace trunnion::emulator {
 
-/// Along a move to its end: axes that turn round on an arc or curve are seen to.
+/// Advances the history along a move to its end, including reversals on an arc or a curve.
 void follow(records::TravelHistory& history, const motion::AxisMove& move);
 
 }  // namespace trunnion::emulator

@@ -49,7 +49,7 @@ double ballbar_mm(const InstrumentView& view) {
     return ballbar::length_deviation_mm(view.state.poses, mounted) + view.state.extra.reading_mm;
 }
 
-/// One device: what it reads, on which kind of artefact, and what the setup must have for it.
+/// One device: its reading, the kind of artefact it reads, and the requirements on the setup.
 struct DeviceEntry {
     records::Device device;
     double (*read)(const InstrumentView&);

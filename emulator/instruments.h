@@ -1,4 +1,4 @@
-// What each device reads in one state of the machine: the list that the observer asks.
+// The reading of each device in one state of the machine: the table used by the observer.
 #pragma once
 
 #include "emulator/effect_model.h"
@@ -7,31 +7,31 @@
 
 namespace trunnion::emulator {
 
-/// Where the bodies and the device are at one sample.
+/// Poses of the bodies and contributions of the effects at one sample.
 struct PhysicalState {
     kinematics::MachinePose poses;
     kinematics::Perturbation
-        extra;  ///< what effects add: the device reads tip, work and reading shifts here
+        extra;  ///< contributions of effects; the device uses its tip, work and reading shifts
 };
 
-/// Set-up quantities that differ from the setup file's, mm.
+/// Differences of set-up quantities from the setup file, mm and rad.
 struct ReplayOffsets {
-    std::vector<Vector3> artefact;  ///< by artefact: of its centre in W, of a tool's target in S
+    std::vector<Vector3> artefact;  ///< by artefact: centre in W, or target of the tool in S
     struct InstrumentError {
         SmallMotion pose;
         double scale = 0.0;
     };
     std::vector<InstrumentError> instruments;
-    std::vector<double> zeros;  ///< of the tests of linear and angle rows, mm or rad
+    std::vector<double> zeros;  ///< tests of linear and angle rows, mm or rad
     Vector3 cup_S = Vector3::Zero();
-    double length = 0.0;                          ///< of the ballbar
+    double length = 0.0;                          ///< of the ballbar, mm
     setup::ExtensionErrors stylus_S, long_cup_S;  ///< by extension
-    /// Of the second session and on, in place of all but `zeros`: what belongs to a set-up begins
-    /// anew with each. Fewer than there are: a session without an entry is as the first one.
+    /// Offsets of the second and later sessions, replacing all but `zeros`: set-up quantities are
+    /// independent in each session. A session without an entry uses the first one.
     std::vector<ReplayOffsets> later_sessions = {};
 };
 
-/// One reading to be taken in one state.
+/// One reading in one state.
 struct InstrumentView {
     const setup::Setup& setup;
     const ReplayOffsets& offsets;
@@ -39,19 +39,20 @@ struct InstrumentView {
     const PhysicalState& state;
 };
 
-/// What the contact's device reads, mm (formats.md, "Readings"). A touch in a state that stands
-/// away from the contact: the rest of the way, as if the machine did not change on it, is counted
-/// in. Throws InputError without a place for a device that has no prediction.
+/// Reading of the contact's device, mm, rad for angle rows and rotary axes (formats.md,
+/// "Readings"). For a touch in a state away from the contact, the remaining distance is added as if
+/// the machine did not change along it. Throws InputError without position for a device without
+/// prediction.
 double reading_mm(const InstrumentView& view);
 
-/// From the centre of the contact's sphere to the stylus ball's.
+/// From the centre of the contact's sphere to the stylus ball centre, in M, mm.
 Vector3 centre_to_tip_M(const InstrumentView& view);
-/// Way from this state to where the stylus ball meets the sphere, as if the machine did not change
-/// on it.
+/// Distance from this state to the contact of the stylus ball with the sphere, as if the machine
+/// did not change along it.
 probe::WayToSphere way_to_contact(const InstrumentView& view);
 
-/// Ready to be read: the device's contact at a row's nominal pose. Throws InputError without a
-/// place when the setup lacks the device or the artefact.
+/// The device's contact at the nominal pose of a row. Throws InputError without position when the
+/// setup lacks the device or the artefact.
 Contact contact_of(const setup::Setup& setup, const kinematics::MachinePose& nominal,
                    const records::Reading& row);
 

@@ -12,7 +12,7 @@
 namespace trunnion::emulator {
 namespace {
 
-/// Less is rounding of an axis that stands.
+/// Smaller rotation is rounding of an axis at rest.
 constexpr double standing_rad = 1e-9;
 
 std::vector<Axis> axes_of(const std::vector<kinematics::AxisGeometry>& machine_axes) {
@@ -37,8 +37,8 @@ class MovePath : public motion::PathCurve {
     const motion::AxisMove& move_;
 };
 
-/// Length of the programmed point's path, or of the way of X Y Z if that is longer: under G43.4 the
-/// axes swing while the tip rests.
+/// Path length of the programmed point, or of X Y Z if that is longer: under G43.4 the axes may
+/// move while the tip is at rest.
 double longer_way_mm(const motion::AxisMove& move) {
     if (!move.curve) return move.length_mm;
     const int parts = 4 * motion::curve_parts(move.from, move.to);
@@ -60,7 +60,7 @@ MachineSink::MachineSink(const setup::Setup& setup, EffectModels effects,
       options_(options),
       machine_(setup, std::move(effects)),
       touch_(setup, options.seed),
-      bar_(setup, options.seed ^ 0x5bd1e995u,  // another stream than the probe's
+      bar_(setup, options.seed ^ 0x5bd1e995u,  // not the stream of the probe
            options.automatic_ballbar),
       measure_(setup),
       log_(axes_of(setup.machine.chain.axes()), setup.side_before, options.test),
@@ -92,7 +92,7 @@ void MachineSink::printed(std::string_view text) {
     }
 }
 
-/// The bar stops reading; rows to come belong to the test again.
+/// The bar stops reading; the following rows belong to the test again.
 void MachineSink::end_pass() {
     bar_.stop(machine_, log_);
     log_.set_test(test_);
@@ -133,8 +133,9 @@ void MachineSink::set_shop(std::string_view line) {
             bar_.sample_every(*degrees);
 }
 
-/// A move under a function sets the mode; a turn without any function is the program's own
-/// arithmetic (dpp). Probing moves after the function was cancelled keep what placed them.
+/// A move under a positioning function sets the mode; a rotation without any function means that
+/// the program does the arithmetic (dpp). Probing moves after the function was cancelled keep its
+/// mode.
 void MachineSink::follow_mode(const motion::AxisMove& move) {
     if (move.mode != PositioningMode::none && move.mode != PositioningMode::dpp)
         mode_ = move.mode;
@@ -157,7 +158,7 @@ void MachineSink::write_trace(const PathSampler& path, double end_s) {
     row(end_s, true);
 }
 
-/// Places (s) of the SAMPLE rows of a move, rising.
+/// Values of s for the SAMPLE rows of a move, ascending.
 std::vector<double> MachineSink::sample_places(const motion::AxisMove& move) const {
     std::vector<double> places;
     const double way_mm = options_.trace_step_mm > 0.0 ? longer_way_mm(move) : 0.0;
@@ -172,7 +173,7 @@ std::vector<double> MachineSink::sample_places(const motion::AxisMove& move) con
     return places;
 }
 
-/// What the shop set up for a reading taken from now on.
+/// A row with the operator's present settings.
 records::Reading MachineSink::row_now() const {
     records::Reading row;
     row.time_s = clock_s_;

@@ -1,4 +1,4 @@
-// Where belief meets reality: every move of the control drives the physical machine and its
+// The junction of belief and reality: every move of the control drives the physical machine and its
 // devices.
 #pragma once
 
@@ -19,26 +19,29 @@ namespace trunnion::emulator {
 struct SinkOptions {
     std::uint64_t seed = 1;
     bool trace = false;
-    double trace_step_mm = 0.0;   ///< above 0: SAMPLE rows at this distance along the path
-    double trace_chord_mm = 0.0;  ///< above 0: SAMPLE rows so close that X Y Z stay within this of
-                                  ///< the straight lines between rows
+    double trace_step_mm = 0.0;   ///< > 0: SAMPLE rows at this distance along the path
+    double trace_chord_mm = 0.0;  ///< > 0: SAMPLE rows so dense that X Y Z stay within this
+                                  ///< distance of the straight lines between rows
     bool truth = false;
-    bool automatic_ballbar = false;    ///< the bar reads without being told to
-    std::vector<std::string> measure;  ///< words for MeasureStation, before the program begins
-    TraceChunk trace_chunk;            ///< empty: the trace waits for take_trace
-    std::string test = "run";          ///< name of the test until the program names one
+    bool automatic_ballbar = false;    ///< the bar reads without BALLBAR ON
+    std::vector<std::string> measure;  ///< commands for MeasureStation before the program starts
+    TraceChunk trace_chunk;            ///< empty: the trace is returned by take_trace
+    std::string test = "run";          ///< test name until the program gives one
 };
 
 /// Advances the clock, follows the axes, answers G31 from the probe, reads the ballbar, writes the
-/// trace. Lines that the program prints steer it as a PC on the serial line would be steered:
-/// `TEST words` names the test, `BALLBAR ON words` and `BALLBAR OFF` bound a pass. A name is the
-/// words joined by '_', in lower case except single letters: RADIAL A POS is radial_A_pos. What the
-/// operator set up is told the same way: SPINDLE 180, LOAD 80, TEMPERATURE 24, CLAMPED 1, EXTENSION
-/// 60 (deg, kg, deg C, 0 or 1, mm). SAMPLE 5: the ballbar reads every 5 degrees of the swept angle.
-/// POSITIONS DIRECT: turns without a function come from no store (empty mode); POSITIONS STORE ends
-/// that. MEASURE LINEAR R1 X: other devices (MeasureStation). MODE RTCP (DPP, RTDFO, TW, DIRECT):
-/// so the axes are placed until a move says otherwise. Readings are those of the rows that are
-/// written: device_row and Observer, as predict asks.
+/// trace. Lines printed by the program control it, like a PC on the serial line:
+///   TEST words         names the test: the words joined by '_', in lower case except single
+///                      letters (RADIAL A POS is radial_A_pos)
+///   BALLBAR ON words   starts a pass, BALLBAR OFF ends it
+///   SPINDLE 180, LOAD 80, TEMPERATURE 24, CLAMPED 1, EXTENSION 60
+///                      settings of the operator (deg, kg, deg C, 0 or 1, mm)
+///   SAMPLE 5           the ballbar reads every 5 degrees of the swept angle
+///   POSITIONS DIRECT   rotations without a function use no store (empty mode), until POSITIONS
+///   STORE
+///   MEASURE LINEAR R1 X  other devices (MeasureStation)
+///   MODE RTCP          (DPP, RTDFO, TW, DIRECT) positioning function until a move sets another
+/// Readings are evaluated on the rows that are written, with device_row and Observer as in predict.
 class MachineSink : public motion::MotionSink {
   public:
     /// `setup` must outlive the sink.
@@ -51,7 +54,7 @@ class MachineSink : public motion::MotionSink {
 
     double clock_s() const { return clock_s_; }
     std::size_t readings() const { return log_.size(); }
-    /// Ends what still reads.
+    /// Ends all devices that still read.
     records::ReadingTable take_readings();
     std::string take_trace() { return trace_ ? trace_->take() : std::string(); }
     std::vector<std::string> take_notes() { return bar_.take_notes(); }
@@ -79,11 +82,11 @@ class MachineSink : public motion::MotionSink {
     AxisPositions at_;
     double clock_s_ = 0.0;
     bool has_rotary_ = false;
-    bool can_read_ = false;  ///< there is a device, so the way to its readings counts
+    bool can_read_ = false;  ///< a device exists, so the path to its readings must be kept
     PositioningMode mode_ = PositioningMode::none;  ///< function that positioned the rotary axes
-    PositioningMode plain_mode_ = PositioningMode::none;  ///< of turns without a function
+    PositioningMode plain_mode_ = PositioningMode::none;  ///< mode of rotations without a function
     records::ShopState shop_;
-    std::string test_;  ///< of readings outside passes
+    std::string test_;  ///< name for readings outside passes
     std::string line_;
 };
 

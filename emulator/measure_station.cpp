@@ -15,7 +15,7 @@ namespace {
 
 constexpr double most_hz = 1e5;
 
-/// A control prints capital letters only.
+/// Compares without case, because a control prints capital letters only.
 bool same_name(std::string_view a, std::string_view b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
         return std::toupper(static_cast<unsigned char>(x)) ==
@@ -106,7 +106,7 @@ void MeasureStation::obey(std::string_view text, double time_s) {
     logged_.clear();
 }
 
-/// `now` is a row of a device; the rest is what the shop and the control say about `row`.
+/// `now` is the row of a device; `row` gives the settings of operator and control.
 template <typename Place>
 void MeasureStation::take_log(const records::Reading& row, double duration_s, const Place& place,
                               ReadingLog& log) {

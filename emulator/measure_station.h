@@ -1,4 +1,4 @@
-// Laser, autocollimator, tracker and servo log beside a running program: the rows that they take.
+// Rows of laser, autocollimator, tracker and servo log during a program.
 #pragma once
 
 #include <string>
@@ -12,14 +12,14 @@
 
 namespace trunnion::emulator {
 
-/// Told by words, of the program (`DPRNT[MEASURE*LINEAR*R1*X]`) or of the person who runs it:
+/// Commands, from the program (`DPRNT[MEASURE*LINEAR*R1*X]`) or from the user:
 ///     LINEAR R1 X        a laser reads target R1 along X (Y, Z) of M
-///     ANGLE R1 Z         an autocollimator reads the tool's turn about Z
+///     ANGLE R1 Z         an autocollimator reads the rotation of the tool about Z
 ///     POINT R1 TRACKER   an instrument reads R1, three rows; without a name: the only one, or none
-///     AXIS X 250         a log of the axis, so many times a second (100)
-///     OFF                all of them end
-/// The first three read whenever the axes stand for a dwell (G4), as their software does; a log
-/// reads along moves and dwells. Rows come without a value: `fill_readings` reads them.
+///     AXIS X 250         a servo log of the axis, samples a second (default 100)
+///     OFF                ends all of them
+/// The first three read whenever the axes are at rest for a dwell (G4), as their software does. A
+/// log reads during moves and dwells. Rows have no value until `fill_readings` evaluates them.
 class MeasureStation {
   public:
     /// `setup` must outlive the station.
@@ -29,9 +29,9 @@ class MeasureStation {
     void obey(std::string_view words, double time_s);
     bool logs() const { return !logged_.empty(); }
 
-    /// The axes stand at `row.commanded` from `row.time_s` on.
+    /// The axes are at rest at `row.commanded` from `row.time_s` on.
     void dwell(const records::Reading& row, double duration_s, ReadingLog& log);
-    /// `row`: of the begin of the move.
+    /// `row`: at the start of the move.
     void record(const motion::AxisMove& move, const records::Reading& row, ReadingLog& log);
 
   private:
@@ -49,7 +49,7 @@ class MeasureStation {
     double step_s_ = 0.01, next_s_ = 0.0;
 };
 
-/// Device rows without a value get what the observer reads on the whole table, as `predict` does,
+/// Evaluates device rows without a value with the observer on the whole table, as in `predict`,
 /// with the noise of `device_noise`.
 void fill_readings(const setup::Setup& setup, const EffectModels& effects, std::uint64_t seed,
                    records::ReadingTable& table);

@@ -8,7 +8,7 @@ namespace {
 constexpr double root_mm = 1e-11;
 constexpr int most_steps = 12;
 
-/// The sample moved along the touch's direction: X Y Z, as far as the machine has them.
+/// Moves the sample along the direction of the touch: X Y Z, as far as the machine has them.
 void move_along(const kinematics::Chain& chain, double way_mm, AxisSample& sample,
                 Contact& contact) {
     contact.along_mm += way_mm;
@@ -71,7 +71,8 @@ TouchReading Observer::touch(const AxisSample& sample, const Contact& contact) c
         if (std::abs(left_mm) < root_mm) return result;
         if (i == 0) first_mm = result.contact_mm;
     }
-    // Effects that jump (rounding to an increment): halve a bracket about the first guess.
+    // Effects with steps (rounding to an increment): bisection of a bracket about the first
+    // estimate.
     double reach_mm = 0.1;
     while (reach_mm < 100.0 &&
            !(look(first_mm - reach_mm) > 0.0 && look(first_mm + reach_mm) <= 0.0))

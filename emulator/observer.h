@@ -1,5 +1,5 @@
-// The one door to the physical machine: where its bodies are and what its devices read, with errors
-// and effects. run, predict, identify, diagnose, compensate, volumetric and --truth ask it.
+// The only access to the physical machine: poses of its bodies and readings of its devices, with
+// errors and effects. Used by run, predict, identify, diagnose, compensate, volumetric and --truth.
 #pragma once
 
 #include "emulator/instruments.h"
@@ -7,41 +7,46 @@
 
 namespace trunnion::emulator {
 
-/// For the errors of the spindle.
+/// Spindle angle for the errors of the spindle; empty while it turns.
 inline kinematics::SpindleAngle spindle_angle(const AxisSample& sample) {
     return sample.spindle_turns ? std::nullopt : kinematics::SpindleAngle(sample.spindle_rad);
 }
 
-/// A touch of a sphere along a straight line through the commanded end point.
+/// A touch of a sphere on a straight line through the commanded end point.
 struct TouchReading {
-    double contact_mm = 0.0;  ///< where the ball meets the sphere, from the end along the direction
-    double value_mm = 0.0;    ///< where the skip latches: later by what the probe adds
-    bool meets = true;        ///< false: the line passes the sphere by
+    double contact_mm = 0.0;  ///< contact of ball and sphere: signed distance from the end along
+                              ///< the direction
+    double value_mm = 0.0;    ///< position where the skip signal latches: later than the contact by
+                              ///< the probe's pretravel
+    bool meets = true;        ///< false: the line misses the sphere
 };
 
-/// Noise-free and, as far as the effects are, smooth. Same sample and contact: the same reading.
+/// Noise-free. Smooth in the setup as far as the effects are smooth. Same sample and contact give
+/// the same reading.
 class Observer {
   public:
-    /// `setup` must outlive the observer; `machine` and `offsets` may differ from it (a fit).
+    /// `setup` must outlive the observer; `machine` and `offsets` may differ from it (in a fit).
     Observer(const setup::Setup& setup, const kinematics::Machine& machine, EffectModels effects,
              ReplayOffsets offsets = {});
     Observer(const setup::Setup& setup, EffectModels effects)
         : Observer(setup, setup.machine, std::move(effects)) {}
 
     const setup::Setup& setup() const { return setup_; }
-    /// The machine at a sample; the contact says which device reads.
+    /// State of the machine at a sample; the contact defines the device.
     PhysicalState at(const AxisSample& sample, const Contact& contact) const;
-    /// The machine with its errors, without effects.
+    /// The machine with its errors but without effects.
     kinematics::MachinePose nominal(const AxisSample& sample) const;
-    /// What the contact's device reads, mm.
+    /// Reading of the contact's device, mm (rad for angular rows).
     double read(const AxisSample& sample, const Contact& contact) const;
-    /// The touch is a root along the line: effects are those at the axis positions of the contact,
-    /// found to 1e-11 mm where they change by less than the way, else to 1e-10 mm. The sample may
-    /// stand anywhere on the line (`contact.along_mm`).
+    /// Solves for the contact along the line, with the effects evaluated at the contact position.
+    /// Accuracy: 1e-11 mm when the effects change by less than the distance moved (fixed-point
+    /// iteration), else 1e-10 mm (bisection, for effects with steps). The sample may be anywhere on
+    /// the line (`contact.along_mm`).
     TouchReading touch(const AxisSample& sample, const Contact& contact) const;
-    /// Moves the sample to that contact.
+    /// Moves sample and contact to that position.
     void go_to_contact(AxisSample& sample, Contact& contact) const;
-    /// From the centre of the contact's sphere to the stylus ball, and how long that is in contact.
+    /// From the centre of the contact's sphere to the stylus ball (M, mm), and its length at
+    /// contact.
     Vector3 centre_to_tip_M(const AxisSample& sample, const Contact& contact) const;
     double reach_mm(const Contact& contact) const;
 

@@ -6,15 +6,15 @@
 namespace trunnion::emulator {
 namespace {
 
-constexpr double half_step = 1e-3;  ///< of s: neighbours from which motion is taken
+constexpr double half_step = 1e-3;  ///< step of s for central differences
 
-/// Positioning and G31 begin and end at rest, exact stops (G9, G61) end there.
+/// Positioning and G31 start and end at rest; exact stops (G9, G61) end at rest.
 bool at_rest(const motion::AxisMove& move, double s) {
     const bool stops = move.kind == motion::MotionKind::rapid || move.until_skip;
     return (stops && s <= 0.0) || ((stops || !move.gap_free) && s >= 1.0);
 }
 
-/// Second difference of the commanded path, mm/s^2 and rad/s^2; 0 for moves that take no time.
+/// Second difference of the commanded path, mm/s^2 and rad/s^2; 0 for moves of zero duration.
 AxisPositions acceleration(const motion::AxisMove& move, double s) {
     AxisPositions out;
     const double step_s = half_step * move.duration_s;

@@ -1,5 +1,5 @@
-// An axis sample at any place of a move, with velocity, direction of travel and time: for the trace
-// of the true tip and for compensation, which follow the path itself and not rows.
+// An axis sample at any point of a move, with velocity, direction of travel and time. For the trace
+// of the true tip and for compensation, which follow the path instead of rows.
 #pragma once
 
 #include "motion/motion.h"
@@ -8,7 +8,7 @@
 
 namespace trunnion::emulator {
 
-/// The move as the axes execute it, started at `start_s` on the clock. Borrows move and history.
+/// The move as executed by the axes, started at time `start_s`. References move and history.
 struct PathSampler {
     const motion::AxisMove& move;
     const records::TravelHistory& history;

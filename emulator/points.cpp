@@ -6,14 +6,14 @@
 namespace trunnion::emulator {
 namespace {
 
-/// Where a target is: in M, or from the table where the instrument says so.
+/// Position of a target: in M, or relative to the table when the instrument is set so, mm.
 Vector3 seen_mm(const setup::Artefact& target, const Vector3& place_mm,
                 const kinematics::MachinePose& poses, const setup::Instrument& instrument) {
     const Vector3 p_M_mm = (target.tool_S_mm ? poses.pose_MS : poses.pose_MW) * place_mm;
     return instrument.sees_table ? poses.pose_MW.inverse() * p_M_mm : p_M_mm;
 }
 
-/// In S of a target that the tool carries, else in W.
+/// Position in S for a target on the tool, else in W.
 Vector3 place_mm(const setup::Setup& setup, const setup::Artefact& target) {
     return target.tool_S_mm ? setup.target_S_mm(target) : target.center_W_mm;
 }
@@ -27,7 +27,7 @@ int instrument_index(const setup::Setup& setup, const std::string& name) {
     throw InputError("the setup has no instrument named '" + name + "'");
 }
 
-/// The setup's instrument with what a fit adds; one that stands in M without an [[instrument]].
+/// The instrument of the setup with the fit's corrections; without an [[instrument]] one at M.
 setup::Instrument instrument_of(const InstrumentView& view) {
     if (view.contact.instrument < 0) return {};
     const auto k = static_cast<std::size_t>(view.contact.instrument);

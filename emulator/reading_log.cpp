@@ -5,7 +5,7 @@
 namespace trunnion::emulator {
 namespace {
 
-/// Between rows of different positions, even where a move takes no time.
+/// Minimum time between rows of different positions, even for moves of zero duration.
 constexpr double shortest_time_s = 1e-6;
 
 }  // namespace

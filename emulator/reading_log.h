@@ -1,4 +1,4 @@
-// Readings of a run as they come, with the moves between them that tell directions of approach.
+// Readings of a run in sequence, with the moves between them that determine directions of approach.
 #pragma once
 
 #include <set>
@@ -11,34 +11,35 @@
 
 namespace trunnion::emulator {
 
-/// The table grows row by row; the history of travel grows with it, so that a reading is taken on
-/// the rows that are written.
+/// The table and the history of travel grow row by row, so that a reading is evaluated on the rows
+/// that are written.
 class ReadingLog {
   public:
     /// `sides`: of the axes before their first motion.
     ReadingLog(std::vector<Axis> axes, const AxisSides& sides, std::string test);
 
-    /// Name of the rows to come.
+    /// Test name of the following rows.
     void set_test(std::string test);
-    /// The same for a pass of a continuous device: a name given before gets a number.
+    /// The same for a pass of a continuous device: a name used before gets a number.
     void set_pass(const std::string& test);
-    /// A move that nothing reads. Kept only as far as it changes an axis's last direction of
-    /// travel.
+    /// A move without reading. Kept only if it changes the last direction of travel of an axis.
     void passed(const AxisPositions& to, double time_s, PositioningMode mode);
 
-    /// The sample of a row that would be added now.
+    /// The sample of a row if it were added now.
     AxisSample sample_of(records::Reading row) const;
-    /// Adds a row: numbers it, names its test, writes the kept moves before it as device-less rows.
+    /// Adds a row: numbers it, sets its test, and writes the moves kept before it as rows without
+    /// device.
     void add(records::Reading row);
 
-    /// Rows of the test in force at the end of the table, and their samples.
+    /// Rows of the current test at the end of the table, and their samples.
     std::span<records::Reading> pass();
     std::vector<AxisSample> pass_samples() const;
 
     const std::string& test() const { return test_; }
     std::size_t size() const { return table_.rows.size(); }
     bool empty() const { return table_.rows.empty() && stops_.empty(); }
-    /// The table, with a column for each quantity that a row sets beside its usual value.
+    /// The table, with a column for each quantity that some row sets to a value other than the
+    /// default.
     records::ReadingTable take();
 
   private:
@@ -47,10 +48,10 @@ class ReadingLog {
 
     records::ReadingTable table_;
     std::string test_;
-    std::set<std::string> names_;     ///< given so far
+    std::set<std::string> names_;     ///< names used so far
     records::Stops stops_;            ///< since the last row
     records::TravelHistory history_;  ///< of all rows
-    /// Where the way before is not known: the first row of this stretch, and the history there.
+    /// First row since the path was last unknown, and the history there.
     std::size_t stretch_ = 0;
     records::TravelHistory before_stretch_;
 };

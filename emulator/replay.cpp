@@ -152,7 +152,7 @@ double Replay::read(std::size_t i, const kinematics::ForwardModel& model,
 std::vector<double> Replay::predict(const kinematics::Machine& machine,
                                     const ReplayOffsets& offsets,
                                     const EffectModels& models) const {
-    std::deque<Observer> observers;  // an observer does not move
+    std::deque<Observer> observers;  // a deque, because an observer cannot be moved
     for (std::size_t k = 0; k < std::max<std::size_t>(1, sessions_.size()); ++k)
         observers.emplace_back(setup_of(k), machine, models, of_session(offsets, k));
     std::vector<double> value_mm(size());
@@ -205,7 +205,7 @@ kinematics::Perturbation Replay::gradient(std::size_t i, const kinematics::Forwa
 }
 
 double dot(const kinematics::Perturbation& gradient, const kinematics::Perturbation& delta) {
-    // Component by component: independent sums that a processor adds side by side.
+    // Component by component: independent sums that vectorise.
     Vector3 sum = gradient.tip_shift_mm.cwiseProduct(delta.tip_shift_mm);
     Vector3 tilts = gradient.work_shift_mm.cwiseProduct(delta.work_shift_mm);
     double axes = gradient.reading_mm * delta.reading_mm;

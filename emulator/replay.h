@@ -1,4 +1,5 @@
-// A table of readings asked again: every device row through the observer, and its derivatives.
+// Repeated evaluation of a table of readings: every device row through the observer, and its
+// derivatives.
 #pragma once
 
 #include <map>
@@ -9,32 +10,32 @@
 
 namespace trunnion::emulator {
 
-/// A row whose device reads: what effects and device see. run and predict both begin here.
+/// A row with a reading device: inputs of effects and device. Common start of run and predict.
 struct DeviceRow {
     AxisSample sample;
     Contact contact;
 };
-/// Linear axes have no side at a sphere row: its touches (`touches` of them, 0: unknown) come from
-/// opposite ones. Where nothing tells a side it is taken as +. Throws InputError without a place
-/// when the setup lacks the device or the artefact.
+/// At a sphere row the linear axes have no side, because its touches (`touches` of them, 0:
+/// unknown) arrive from opposite sides. An unknown side is taken as +. Throws InputError without
+/// position when the setup lacks the device or the artefact.
 DeviceRow device_row(const Observer& observer, const records::Reading& row,
                      const AxisSample& sample, int touches = 0);
 
-/// Device rows of one axis before whose first motion nothing tells the side, in one session.
+/// Device rows of one axis and session before whose first motion the side is unknown.
 struct UnknownSide {
     Axis axis = Axis::X;
     std::vector<std::size_t> rows;  ///< device rows
     signed char taken = 1;
 };
 
-/// Rows of a laser or autocollimator between two zeroings.
+/// Rows of a laser or autocollimator between two settings of its zero.
 struct ZeroGroup {
     std::string test, session;
     bool angular = false;
-    std::vector<std::size_t> rows;  ///< device rows, the first one defines the zero
+    std::vector<std::size_t> rows;  ///< device rows; the first one defines the zero
 };
 
-/// All device rows of a table, ready to be predicted many times.
+/// All device rows of a table, prepared for many predictions.
 class Replay {
   public:
     /// Throws InputError when a row names an artefact or device that the setup does not have, or an
@@ -43,35 +44,37 @@ class Replay {
 
     std::size_t size() const { return rows_.size(); }
     std::size_t table_row(std::size_t i) const { return rows_[i]; }
-    /// A touch: at the contact as the machine without effects makes it.
+    /// A touch: at its contact on the machine without effects.
     const AxisSample& sample(std::size_t i) const { return samples_[i]; }
     const Contact& contact(std::size_t i) const { return contacts_[i]; }
     const setup::Setup& setup() const { return setup_; }
-    /// With the values of the session ([[session]]), where the setup has some.
+    /// The setup with the values of the session ([[session]]), if it has any.
     const setup::Setup& setup_of(std::size_t session) const;
 
-    /// Sides that the table leaves open, one entry for each axis and session.
+    /// Sides not given by the table, one entry for each axis and session.
     const std::vector<UnknownSide>& unknown_sides() const { return unknown_; }
-    /// From here on the k-th of them is taken as `side`, -1 or +1; + until then.
+    /// Sets the k-th unknown side to -1 or +1 (initially +1).
     void assume_side(std::size_t k, signed char side);
     signed char side(std::size_t k) const { return unknown_[k].taken; }
 
-    /// Tests of `linear` and `angle` rows, one entry for each test and session: their zero is free.
+    /// Tests of `linear` and `angle` rows, one entry for each test and session; their zeros are
+    /// free.
     const std::vector<ZeroGroup>& zeros() const { return zeros_; }
 
-    /// Names of the sessions, in the order of their first device rows; one without a name where the
-    /// table has no column for them.
+    /// Names of the sessions, in the order of their first device rows; a single empty name when the
+    /// table has no session column.
     const std::vector<std::string>& sessions() const { return sessions_; }
     std::size_t session(std::size_t i) const { return session_[i]; }
 
-    /// Readings of all device rows, mm; `linear` and `angle` rows count from the first of their
-    /// test. `machine` may differ from the setup's (location errors).
+    /// Noise-free readings of all device rows, mm (rad for angular rows). `linear` and `angle` rows
+    /// are relative to the first of their test. `machine` may differ from that of the setup
+    /// (location errors).
     std::vector<double> predict(const kinematics::Machine& machine, const ReplayOffsets& offsets,
                                 const EffectModels& models) const;
     std::vector<double> predict(const EffectModels& models) const;
 
-    /// d reading / d Perturbation of device row i by central differences, as a Perturbation whose
-    /// entries are the derivatives (mm/mm, mm/rad).
+    /// Derivatives of device row i with respect to the entries of a Perturbation by central
+    /// differences, returned as a Perturbation (mm/mm, mm/rad).
     kinematics::Perturbation gradient(std::size_t i, const kinematics::ForwardModel& model,
                                       const ReplayOffsets& offsets) const;
 
@@ -83,7 +86,7 @@ class Replay {
     void list_sessions(const records::ReadingTable& table);
 
     setup::Setup setup_;
-    std::map<std::size_t, setup::Setup> own_;  ///< by session: those with values of their own
+    std::map<std::size_t, setup::Setup> own_;  ///< by session: those with their own values
     std::vector<std::size_t> rows_;
     std::vector<AxisSample> samples_;
     std::vector<Contact> contacts_;
@@ -91,10 +94,10 @@ class Replay {
     std::vector<UnknownSide> unknown_;
     std::vector<ZeroGroup> zeros_;
     std::vector<std::string> sessions_;
-    std::vector<std::size_t> session_;  ///< of each device row
+    std::vector<std::size_t> session_;  ///< session of each device row
 };
 
-/// Sum of products of all entries: the change of a reading for a small `delta`.
+/// Sum of products of all entries: first-order change of a reading for a small `delta`.
 double dot(const kinematics::Perturbation& gradient, const kinematics::Perturbation& delta);
 
 /// The table with value_mm of every device row replaced by its noise-free prediction.

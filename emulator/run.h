@@ -1,4 +1,4 @@
-// Runs an NC program on a setup: control, machine, devices, and what came of it.
+// Runs an NC program on a setup: control, machine, devices, and the result.
 #pragma once
 
 #include <cstdint>
@@ -19,41 +19,43 @@ namespace trunnion::emulator {
 struct RunOptions {
     std::uint64_t seed = 1;
     bool trace = false;
-    double trace_step_mm = 0.0;        ///< above 0: SAMPLE rows at this distance along the path
-    double trace_chord_mm = 0.0;       ///< above 0: SAMPLE rows that follow curves this closely
-    bool truth = false;                ///< physical tip in the trace
-    bool automatic_ballbar = false;    ///< the bar reads where it can, without BALLBAR ON
-    std::vector<std::string> measure;  ///< words for MeasureStation
-    TraceChunk trace_chunk;            ///< receives the trace as it grows; empty: RunLog::trace_csv
-    Budget budget;                     ///< used up: the run ends with `limit`
-    std::map<int, double> variables;   ///< set before the run
-    std::vector<int> wanted_variables;  ///< reported after it; none: all common ones in use
-    AxisPositions start;                ///< where the axes stand before the run
+    double trace_step_mm = 0.0;         ///< > 0: SAMPLE rows at this distance along the path
+    double trace_chord_mm = 0.0;        ///< > 0: SAMPLE rows within this distance of curves
+    bool truth = false;                 ///< write the physical tip to the trace
+    bool automatic_ballbar = false;     ///< the bar reads wherever it can, without BALLBAR ON
+    std::vector<std::string> measure;   ///< commands for MeasureStation
+    TraceChunk trace_chunk;             ///< receives the trace in pieces; empty: RunLog::trace_csv
+    Budget budget;                      ///< when used up, the run ends with `limit`
+    std::map<int, double> variables;    ///< set before the run
+    std::vector<int> wanted_variables;  ///< reported after the run; empty: all common variables in
+                                        ///< use
+    AxisPositions start;                ///< axis positions before the run
     EffectModels effects;
-    Compensation compensation;  ///< of the control, when set; readings and trace hold the
+    Compensation compensation;  ///< compensation of the control; readings and trace contain the
                                 ///< compensated positions
 };
 
-/// What a run did.
+/// Result of a run.
 struct RunLog {
     controller::RunResult result;
-    BudgetLimit limit = BudgetLimit::none;  ///< which one ended the run
+    BudgetLimit limit = BudgetLimit::none;  ///< the limit that ended the run
     std::string printed;
     records::ReadingTable readings;
     std::string trace_csv;
     std::map<int, double> variables;  ///< NaN: vacant
-    offsets::Stores stores;           ///< as the program left them
+    offsets::Stores stores;           ///< after the program
     std::vector<std::string> notes;
 };
 
-/// A program's text or its O number in the source.
+/// The text of a program, or its O number in the source.
 using ProgramChoice = std::variant<interpreter::ProgramText, int>;
 
-/// Runs on a copy of the setup. Same inputs and seed: the same log. NC alarms are in the result.
+/// Runs on a copy of the setup. Same inputs and seed give the same log. NC alarms are in the
+/// result.
 RunLog run_program(const setup::Setup& setup, interpreter::ProgramSource& programs,
                    const ProgramChoice& program, const RunOptions& options);
 
-/// What the control knows of the machine's axes.
+/// The control's knowledge of the machine's axes.
 controller::ControlConfig control_config(const setup::Setup& setup);
 
 }  // namespace trunnion::emulator

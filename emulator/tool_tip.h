@@ -1,4 +1,4 @@
-// The physical tip of the tool in the spindle, whatever the control believes.
+// The physical tip of the tool in the spindle, independent of the control's belief.
 #pragma once
 
 #include "emulator/observer.h"
@@ -13,10 +13,10 @@ namespace trunnion::emulator {
 Vector3 physical_tip_S(const setup::Setup& setup, const motion::AxisMove& move,
                        double extension_mm = 0.0);
 
-/// What effects of the tool ask for when no device reads but its tip is wanted.
+/// Contact for effects of the tool when no device reads but the tip is evaluated.
 Contact tip_contact(const setup::Setup& setup, const motion::AxisMove& move);
 
-/// Where that tip is in W, effects included.
+/// Position of that tip in W, mm, effects included.
 Vector3 physical_tip_W(const PhysicalState& state, const Vector3& tip_S_mm);
 
 }  // namespace trunnion::emulator

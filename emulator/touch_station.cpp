@@ -9,7 +9,7 @@
 namespace trunnion::emulator {
 namespace {
 
-/// Only X, Y and Z move, straight: the line of the row is that of the move.
+/// True when only X, Y and Z move, on a straight line: then it is also the line of the row.
 bool is_plain(const motion::AxisMove& move) {
     if (move.arc || move.curve) return false;
     for (const Axis axis : all_axes)
@@ -19,7 +19,7 @@ bool is_plain(const motion::AxisMove& move) {
     return true;
 }
 
-/// A move towards one sphere, and where its ball touches.
+/// A move towards one sphere, and the contact of its ball.
 class Approach {
   public:
     Approach(const motion::AxisMove& move, records::Reading row, const Observer& observer,
@@ -34,7 +34,7 @@ class Approach {
         row_.direction_M = length_mm_ > 0.0 ? Vector3(way / length_mm_) : Vector3::UnitZ();
     }
 
-    /// With the row's value, without noise; s is that of the contact. Nothing when the ball passes.
+    /// With the row's value, without noise; s is that of the contact. Empty when the ball misses.
     std::optional<Touch> on(const std::string& sphere) {
         row_.feature = sphere;
         row_.time_s = start_s_ + move_.duration_s;
@@ -58,7 +58,7 @@ class Approach {
         return done(part(touch.contact_mm), touch.value_mm);
     }
 
-    /// The skip signal is there before the move begins: it stops at once, and nothing was measured.
+    /// The skip signal is present before the move starts: it stops at once, without a measurement.
     std::optional<Touch> in_contact(DeviceRow at) {
         at.sample.position = move_.from;
         if (observer_.centre_to_tip_M(at.sample, at.contact).norm() >
@@ -122,7 +122,7 @@ std::optional<Touch> TouchStation::touch(const motion::AxisMove& move, records::
     return body && (!sphere || body->s < sphere->s) ? body : sphere;
 }
 
-/// No reading: the setup's features and the tables of readings know spheres alone.
+/// No reading: features of the setup and tables of readings have spheres only.
 std::optional<Touch> TouchStation::touch_body(const motion::AxisMove& move, records::Reading row,
                                               const Observer& observer, const ReadingLog& log) {
     if (setup_.bodies.empty()) return std::nullopt;

@@ -11,9 +11,9 @@
 namespace trunnion::emulator {
 
 struct Touch {
-    double s = 1.0;  ///< of the move, where the skip latched
+    double s = 1.0;  ///< fraction of the move at which the skip signal latched
     AxisPositions stopped;
-    records::Reading row;  ///< with its value; no device when no linear axis moved
+    records::Reading row;  ///< with its value; without device when no linear axis moved
 };
 
 class TouchStation {
@@ -24,9 +24,9 @@ class TouchStation {
     /// A touch can be felt: the probe is in the spindle (no tool called yet, or the one the setup
     /// names), or a tool of [tools], which a setter feels.
     bool mounted(const motion::AxisMove& move) const;
-    /// The first sphere or body that the stylus meets on the move; `row` holds what the shop set up
-    /// and when the move started. The value is that of the row by the rules of a table; where the
-    /// move also turns rotary axes or runs along a curve, that of the path.
+    /// The first sphere or body that the stylus touches on the move. `row` contains the operator's
+    /// settings and the start time. The value follows the rules of a table of readings; if the move
+    /// also turns rotary axes or follows a curve, it is that of the path.
     std::optional<Touch> touch(const motion::AxisMove& move, records::Reading row,
                                const Observer& observer, const ReadingLog& log);
 

@@ -20,7 +20,7 @@ void append_integer(std::string& out, Integer value) {
     out.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr);
 }
 
-/// A program's name as a CSV cell.
+/// Appends a program name as a CSV cell.
 void append_name(std::string& out, const std::string* name) {
     if (!name) return;
     if (name->find_first_of(",\"\r\n") == std::string::npos) {
@@ -56,7 +56,8 @@ void TraceNumber::set_angle(double angle_rad) {
 
 char* TraceNumber::write(char* out) const {
     *out = ',';
-    std::memcpy(out + 1, text_.data(), text_.size());  // a fixed length is one or two instructions
+    std::memcpy(out + 1, text_.data(), text_.size());  // a fixed length compiles to one or two
+                                                       // instructions
     return out + 1 + size_;
 }
 

@@ -1,4 +1,4 @@
-// The trace of a run as CSV: one row a programmed move, samples along it when asked for.
+// The trace of a run as CSV: one row a programmed move, with samples along it on request.
 #pragma once
 
 #include <array>
@@ -14,24 +14,24 @@
 
 namespace trunnion::emulator {
 
-/// Believed tip and unit vector from tip to spindle in W at machine positions q of a move.
+/// Believed tip and unit vector from tip to spindle, in W, at machine positions q of a move.
 struct BelievedTool {
     Vector3 tip_W_mm = Vector3::Zero();
     Vector3 direction_W = Vector3::UnitZ();
 };
 BelievedTool believed_tool(const motion::AxisMove& move, const AxisPositions& q);
 
-/// Receives the trace piece by piece, whole lines.
+/// Receives the trace piece by piece, in whole lines.
 using TraceChunk = std::function<void(std::string_view)>;
 
-/// A number with its text: most columns of a row say what they said in the row before.
+/// A number with cached text, because most columns of a row repeat the previous value.
 class TraceNumber {
   public:
-    /// The shortest text that reads back to the same double.
+    /// Formats the shortest text that reads back as the same double.
     void set(double value);
-    /// The same, told in degrees.
+    /// The same, in degrees.
     void set_angle(double angle_rad);
-    /// Appends ",number" at `out`, where `room` bytes are free; returns the text's end.
+    /// Appends ",number" at `out`, which must have `room` bytes; returns the end of the text.
     char* write(char* out) const;
 
     static constexpr std::size_t room = 33;
@@ -42,16 +42,16 @@ class TraceNumber {
     std::array<char, room - 1> text_{};
 };
 
-/// Columns as in formats.md.
+/// Columns: formats.md.
 class TraceWriter {
   public:
-    /// Without `chunk` the whole text waits for `take`.
+    /// Without `chunk` the whole text is returned by `take`.
     TraceWriter(std::vector<Axis> axes, bool truth, TraceChunk chunk = {});
 
     /// A row at `s` of a move; `true_tip_W` only with truth. `end` false: a SAMPLE row.
     void add(const motion::AxisMove& move, double s, double time_s, bool end,
              const Vector3* true_tip_W);
-    /// What was not handed out yet.
+    /// Text not yet passed to `chunk`.
     std::string take() { return std::move(text_); }
 
   private:
@@ -61,7 +61,7 @@ class TraceWriter {
     bool truth_ = false;
     TraceChunk chunk_;
     std::uint64_t rows_ = 0;
-    std::vector<TraceNumber> numbers_;  ///< of the row, in the order of the columns
+    std::vector<TraceNumber> numbers_;  ///< values of the row, in the order of the columns
     std::string text_;
 };
 

@@ -1,10 +1,10 @@
-// Tail probabilities of the distributions that decide whether a difference is more than chance.
+// Tail probabilities of the distributions used in significance tests.
 #pragma once
 
 namespace trunnion::estimation {
 
-// All values are exact to about 1e-14 relative (Boost.Math's incomplete gamma and beta functions).
-// Arguments outside the domain (freedom <= 0, NaN) give 1: nothing is shown.
+// Relative accuracy about 1e-14 (incomplete gamma and beta functions of Boost.Math). Arguments
+// outside the domain (freedom <= 0, NaN) give 1, i.e. not significant.
 
 double chi_squared_tail(double value, double freedom);              ///< P(X > value)
 double f_tail(double value, double numerator, double denominator);  ///< P(F > value)

@@ -60,7 +60,8 @@ Eigen::MatrixXd smooth_shapes(const std::vector<double>& knots, double length,
     const Projection own(owned);
     covariance = own.beside(own.beside(covariance).transpose());
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
-    const Eigen::VectorXd value = eigen.eigenvalues().reverse();  // they rise
+    const Eigen::VectorXd value = eigen.eigenvalues().reverse();  // eigenvalues are in ascending
+                                                                  // order
     Eigen::Index columns = 0;
     while (columns < std::min(most, count) && value(columns) > 1e-4 * value(0)) ++columns;
     return eigen.eigenvectors().rowwise().reverse().leftCols(columns) *

@@ -1,13 +1,11 @@
-// Errors of any shape along an axis: knots, and smooth shapes between them.
+// Errors of any form along an axis: knots, and smooth functions between them.
 //
 // Model       E(q) = sum_j V_j(q) b_j, b ~ N(0, tau^2 I): a Matern-3/2 process of unit variance and
-// a
-//             given correlation length on knots, linear between them, less the polynomials or
-//             harmonics that a textbook effect owns (orthogonal to them at the knots).
-// Symbols     K knots at q_1 < ... < q_K; `shape` is K x columns, its columns are eigenvectors of
-// the
-//             knots' covariance times the root of the eigenvalue, largest first.
-// Fails       never; fewer than two places: no knots, no shapes.
+//             given correlation length on knots, linear between them, made orthogonal at the knots
+//             to the polynomials or harmonics that belong to a textbook effect.
+// Symbols     K knots at q_1 < ... < q_K; `shape` is K x columns: eigenvectors of the covariance of
+//             the knots, times the square root of the eigenvalue, largest first.
+// Failure     none. Fewer than two positions give no knots and no shapes.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,20 +14,21 @@
 
 namespace trunnion::estimation {
 
-/// Every distinct place (nearer than 1e-6 of the range is one place) while there are at most
-/// `most`, else that many evenly over the range.
+/// All distinct positions (closer than 1e-6 of the range counts as equal) if there are at most
+/// `most`, else `most` positions evenly over the range.
 std::vector<double> knots_of(std::vector<double> places, std::size_t most);
 
-/// The knot before q and the weight of the one after it: q = (1 - w) knot[k] + w knot[k + 1].
-/// Beyond the ends the end knot has all weight. Needs two knots or more.
+/// The knot before q and the weight of the next one: q = (1 - w) knot[k] + w knot[k + 1]. Beyond
+/// the ends the end knot has all the weight. Requires two knots or more.
 std::pair<Eigen::Index, double> place_between(const std::vector<double>& knots, double q);
 
-/// Correlation lengths worth trying: 1/2, 1/4, 1/8, 1/16 of the range, none below 0.6 of the median
-/// spacing of the knots.
+/// Candidate correlation lengths: 1/2, 1/4, 1/8, 1/16 of the range, as far as they are at least 0.6
+/// of the median knot spacing.
 std::vector<double> correlation_lengths(const std::vector<double>& knots);
 
-/// Shapes of one length at the knots. `owned` (K x p): functions that the shapes must not hold.
-/// At most `most` columns; shapes below 1e-4 of the largest variance are left out.
+/// Shapes of one correlation length at the knots, K x columns. `owned` (K x p): functions to which
+/// the shapes are made orthogonal. At most `most` columns; shapes with less than 1e-4 of the
+/// largest variance are omitted.
 Eigen::MatrixXd smooth_shapes(const std::vector<double>& knots, double length,
                               const Eigen::MatrixXd& owned, Eigen::Index most);
 

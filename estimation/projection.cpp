@@ -7,7 +7,7 @@
 namespace trunnion::estimation {
 namespace {
 
-constexpr double rounding = 1e-8;  ///< of the largest direction
+constexpr double rounding = 1e-8;  ///< relative to the largest direction
 
 }  // namespace
 

@@ -7,7 +7,8 @@
 namespace trunnion::estimation {
 namespace {
 
-/// Gauss-Jordan with full pivoting on the rows of `basis`: the same space with few entries each.
+/// Gauss-Jordan elimination with full pivoting on the rows of `basis`: a basis of the same space
+/// with few non-zero entries.
 std::vector<Eigen::VectorXd> sparse_basis(Eigen::MatrixXd basis) {
     std::vector<Eigen::VectorXd> result;
     for (Eigen::Index r = 0; r < basis.rows(); ++r) {

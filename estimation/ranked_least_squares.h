@@ -1,14 +1,17 @@
-// Linear least squares from normal equations; directions that no reading sees are named.
+// Linear least squares from normal equations; reports directions that the readings do not
+// determine.
 //
-// Model       y = A x + e, e ~ N(0, 1): rows are readings over their sigma, columns are derivatives
-//             for one typical change of an unknown. So x counts typical changes, and an entry of
-//             the information matrix A'A is "how many sigma does a typical change make", squared.
-// Rank        a direction v of x is not seen when a typical change along it moves all readings
-//             together by less than `threshold` sigma: |A v| < threshold.
-// Policy      the one regularisation of this project's fits: directions that are not seen stay as
-//             they are (x has no part along them); all others are fitted without any ridge. Known
-//             values with an uncertainty enter as further rows, never as a ridge.
-// Fails       never. No unknown: everything is empty. All directions unseen: x is zero.
+// Model       y = A x + e, e ~ N(0, 1): rows are readings divided by their sigma, columns are
+//             derivatives with respect to unknowns in units of their typical change. So x counts
+//             typical changes, and A'A contains squared signal-to-noise ratios of typical changes.
+// Rank        a direction v of x is unobservable when a typical change along it moves all readings
+//             together by less than `threshold` sigma: |A v| < threshold. Eigenvalues of A'A below
+//             1e-13 of the largest are rounding and count as unobservable too.
+// Policy      the only regularisation of the fits in this project: x has no component along
+//             unobservable directions; all others are fitted without any ridge. Known values with
+//             an uncertainty enter as additional rows, never as a ridge.
+// Failure     none. Without unknowns everything is empty. If all directions are unobservable, x =
+// 0.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,31 +19,33 @@
 
 namespace trunnion::estimation {
 
-/// Orthonormal directions of p unknowns: those that readings see, with their information, and the
-/// k others.
+/// Orthonormal directions of p unknowns: the observable ones with their information, and the k
+/// unobservable ones.
 struct Directions {
     Eigen::MatrixXd seen;         ///< p x (p - k)
-    Eigen::VectorXd information;  ///< p - k, of the seen ones, rising
+    Eigen::VectorXd information;  ///< p - k, of the observable directions, rising
     Eigen::MatrixXd unseen;       ///< p x k
 
-    /// p x p: the inverse of the information matrix over the seen directions.
+    /// p x p: the inverse of the information matrix on the observable directions.
     Eigen::MatrixXd inverse() const {
         return seen * information.cwiseInverse().asDiagonal() * seen.transpose();
     }
 };
-/// Directions with less information than `least`, or than `part` of the largest, are not seen. The
-/// rounding of normal equations is about 1e-16 of the largest.
+/// Directions with less information than `least`, or than `part` of the largest, are unobservable.
+/// Rounding of the normal equations is about 1e-16 of the largest.
 Directions directions_above(const Eigen::MatrixXd& information, double least, double part = 1e-13);
-/// The `unseen` directions with the least information are not seen, whatever they have: for
-/// symmetries that are exact at another place of a nonlinear model.
+/// The `unseen` directions with the least information are unobservable, whatever their information:
+/// for symmetries that are exact at another point of a nonlinear model.
 Directions directions_beside(const Eigen::MatrixXd& information, Eigen::Index unseen);
 
-/// p unknowns, k of them (or combinations) not seen.
+/// p unknowns, k unobservable directions.
 struct LinearFit {
-    Eigen::VectorXd value;                    ///< p; the smallest of all solutions
-    Eigen::MatrixXd covariance;               ///< p x p, of the seen directions
-    Eigen::VectorXd sigma;                    ///< p; NaN for an unknown with an unseen part
-    std::vector<Eigen::VectorXd> null_space;  ///< k sparse vectors of p entries, largest entry 1
+    Eigen::VectorXd value;                    ///< p; the solution of smallest norm
+    Eigen::MatrixXd covariance;               ///< p x p, without the unobservable directions
+    Eigen::VectorXd sigma;                    ///< p; NaN for an unknown with an unobservable
+                                              ///< component
+    std::vector<Eigen::VectorXd> null_space;  ///< k sparse vectors of p entries, largest entry 1;
+                                              ///< entries below 1e-3 are zero
 };
 
 /// `information` = A'A (p x p, symmetric), `gradient` = A'y (p).

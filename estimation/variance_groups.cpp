@@ -16,7 +16,7 @@ double size_at(double step) {
     return smallest * std::pow(largest / smallest, step / (sizes - 1));
 }
 
-/// A reduced group with one product: its gain by size.
+/// A reduced group with one product: gain as a function of the size.
 struct Chain {
     const ReducedGroup& group;
     Eigen::VectorXd turned;
@@ -28,7 +28,7 @@ struct Peak {
     double step, gain;
 };
 
-/// The best size near the grid's best: two parabolas in the logarithm of the size.
+/// Refines the best size of the grid by two parabolas in the logarithm of the size.
 Peak refined(const Chain& chain, Peak at) {
     for (const double h : {1.0, 0.25}) {
         const double left = chain.gain(size_at(at.step - h)),
@@ -59,10 +59,10 @@ Eigen::MatrixXd scaled_gram(const GroupEquations& equations, const Eigen::Vector
     return m;
 }
 
-constexpr double least_size = 1e-3;  ///< below it a group is as good as absent
+constexpr double least_size = 1e-3;  ///< groups below this size count as absent
 
-/// Standard deviation of a remainder `square` with `freedom`, beside what is known beforehand:
-/// Newton's method for its logarithm.
+/// Standard deviation that maximises the likelihood of a remainder `square` with `freedom` degrees
+/// of freedom and the prior: Newton's method for its logarithm.
 double best_noise(double square, double freedom, const NoisePrior& prior) {
     const double weight = 1.0 / (prior.spread * prior.spread);
     double log_nu = 0.5 * std::log(std::max(1e-12, square) / std::max(1.0, freedom));
@@ -76,7 +76,7 @@ double best_noise(double square, double freedom, const NoisePrior& prior) {
     return std::exp(log_nu);
 }
 
-/// The noise that the remainder asks for, all variances of groups as they are.
+/// Noise estimated from the remainder with the variances of the groups fixed.
 double remaining_noise(const GroupEquations& equations, const GivenMembers& given,
                        const NoisePrior& prior) {
     if (equations.product.size() == 0) return best_noise(equations.square, equations.rows, prior);
@@ -94,7 +94,7 @@ double likelihood_of(const GroupEquations& equations, const GivenMembers& given,
            0.5 * off * off;
 }
 
-/// Variances with the factorisation that belongs to them.
+/// Variances with their factorisation.
 struct Step {
     Variances variances;
     GivenMembers given;
@@ -111,7 +111,7 @@ std::vector<GroupInformation> each_beside(const GroupEquations& equations,
     const Eigen::VectorXd mean = all.mean();
     for (std::size_t g = 0; g < equations.groups(); ++g) {
         const Eigen::Index first = equations.first(g), count = equations.size[g];
-        // R is lower triangular: rows above the group's first are zero in its columns.
+        // R is lower triangular: the rows above the group's first row are zero in its columns.
         const auto own = all.half().block(first, first, all.half().rows() - first, count);
         const Eigen::LLT<Eigen::MatrixXd> covariance(own.transpose() * own);
         GroupInformation alone;
@@ -131,7 +131,7 @@ Variances one_sweep(const GroupEquations& equations, const Step& from, const Noi
     return next;
 }
 
-/// L becomes L^-1, half by half: the products are products of whole matrices.
+/// Inverts L in place by recursive halving, so that most products are products of whole matrices.
 void invert_lower(Eigen::Ref<Eigen::MatrixXd> l) {
     constexpr Eigen::Index small = 24;
     const Eigen::Index n = l.rows(), top = n / 2, rest = n - top;
@@ -233,7 +233,7 @@ double ReducedGroup::gain(const Eigen::VectorXd& turned, double factor, double t
     for (Eigen::Index i = 0; i < diagonal_.size(); ++i) {
         const double side = i > 0 ? own * beside_(i - 1) : 0.0, part = side / pivot;
         forward = turned(i) - part * forward;
-        // The exact pivots of I + something positive are never below 1.
+        // The exact pivots of I + a positive semidefinite matrix are never below 1.
         pivot = std::max(1.0, 1.0 + own * diagonal_(i) - part * side);
         quadratic += forward * forward / pivot;
         product *= pivot;

@@ -1,17 +1,17 @@
-// Groups of columns with a variance each: restricted likelihood, what one group adds, the solution.
+// Groups of columns with one variance each: restricted likelihood, gain of one group, solution.
 //
 // Model       y = N a + sum_g A_g b_g + e on whitened rows; a free, b_g ~ N(0, tau_g^2 I),
 //             e ~ N(0, nu^2 I). Columns are scaled so that tau = 1 is the usual size of the effect.
-// Symbols     J: columns of all members side by side (m of them); G = A_J'A_J and h = A_J'y after N
-//             was projected out; D = diag(tau); n' = n - rank N.
-// Likelihood  of everything but a (restricted, REML), against no members and nu = 1:
+// Symbols     J: columns of all members side by side (m of them); G = A_J'A_J and h = A_J'y after
+//             projecting out N; D = diag(tau); n' = n - rank N.
+// Likelihood  restricted (REML, a eliminated), relative to no members and nu = 1:
 //               L = -1/2 [n' ln nu^2 + ln|I + D G D / nu^2| + (y'y - z'z / nu^2) / nu^2 - y'y]
 //                   - 1/2 ((ln nu - l0) / s)^2,      z = chol(I + D G D / nu^2)^-1 D h
-//             The last term is what is known about the noise beforehand.
-// Assumes     independent rows of variance nu^2, groups independent of each other. Correlated noise
-//             must be whitened before; wild rows must be left out before.
-// Fails       never: a group with tau = 0 is as if it were not there; columns that are zero or
-//             repeat each other are harmless, since every direction has a prior.
+//             The last term is the prior of the noise.
+// Assumes     independent rows of variance nu^2, and groups independent of each other. Correlated
+//             noise must be whitened and outliers removed beforehand.
+// Failure     none. A group with tau = 0 has no effect. Columns that are zero or linearly dependent
+//             are harmless, since every direction has a prior.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -32,7 +32,7 @@ struct GroupEquations {
     Eigen::Index first(std::size_t group) const;
 };
 
-/// What is believed about ln nu before the data speak: mean l0 and standard deviation s.
+/// Prior of ln nu: mean l0 and standard deviation s.
 struct NoisePrior {
     double log_mean = 0.0;
     double spread = 0.3;
@@ -46,23 +46,24 @@ struct Variances {
 double restricted_likelihood(const GroupEquations& equations, const Variances& variances,
                              const NoisePrior& prior);
 
-/// One group on its own: the information about b and its product with the data, over nu^2.
+/// One group alone: the information about b and its product with the data, divided by nu^2.
 struct GroupInformation {
     Eigen::MatrixXd information;  ///< k x k
     Eigen::VectorXd product;      ///< k
 };
 
-/// Members with their variances, ready to say what they leave of another group. One factorisation
-/// L L' = I + D G D / nu^2 and its inverse serve all questions.
+/// Members with their variances, for evaluating what they leave to another group. One factorisation
+/// L L' = I + D G D / nu^2 and its inverse are used throughout.
 class GivenMembers {
   public:
     GivenMembers(const GroupEquations& equations, const Variances& variances);
 
-    /// `cross` = A_J'A_g (m x k), `gram` = A_g'A_g, `product` = A_g'y, all beside N.
+    /// Information of a group after the members. `cross` = A_J'A_g (m x k), `gram` = A_g'A_g,
+    /// `product` = A_g'y, all beside N.
     GroupInformation leave(const Eigen::MatrixXd& cross, const Eigen::MatrixXd& gram,
                            const Eigen::VectorXd& product) const;
-    /// The same in two steps, of which the first may serve many groups side by side:
-    /// L^-1 D cross / nu^2.
+    /// The same in two steps; the first one may be used for many groups side by side: L^-1 D cross
+    /// / nu^2.
     Eigen::MatrixXd taken(const Eigen::MatrixXd& cross) const;
     GroupInformation leave_beside(const Eigen::Ref<const Eigen::MatrixXd>& taken,
                                   const Eigen::MatrixXd& gram,
@@ -81,14 +82,14 @@ class GivenMembers {
     Eigen::VectorXd z_;
 };
 
-/// The information of a group after Householder's reduction: tridiagonal in a basis of its own, so
-/// that the likelihood at any size costs one pass along the diagonal. May stand for many products.
+/// The information of a group after Householder reduction: tridiagonal in its own basis, so that
+/// the likelihood for any size costs one pass along the diagonal. May be used for many products.
 class ReducedGroup {
   public:
     explicit ReducedGroup(const Eigen::MatrixXd& information);
     /// A product in that basis.
     Eigen::VectorXd turned(Eigen::VectorXd product) const;
-    /// gain_at of `factor` times the information.
+    /// The same as gain_at, for `factor` times the information.
     double gain(const Eigen::VectorXd& turned, double factor, double tau) const;
 
   private:
@@ -96,28 +97,29 @@ class ReducedGroup {
     Eigen::MatrixXd basis_;
 };
 
-/// What one group adds to the log likelihood.
+/// Gain of the log likelihood by one group.
 struct GroupGain {
-    double mean = 0.0;  ///< log of the likelihood ratio, mean over 26 sizes 0.01..1000 (log grid)
-    double best = 0.0;  ///< at the best size
+    double mean = 0.0;  ///< log of the mean likelihood ratio over 26 sizes 0.01..1000 (log grid)
+    double best = 0.0;  ///< gain at the best size
     double tau = 0.0;   ///< the best size
 };
-/// At one size: sum_i -1/2 ln(1 + tau^2 l_i) + 1/2 tau^2 q_i^2 / (1 + tau^2 l_i).
+/// At one size: sum_i -1/2 ln(1 + tau^2 l_i) + 1/2 tau^2 q_i^2 / (1 + tau^2 l_i), with l_i the
+/// eigenvalues of the information and q_i the product in its eigenvectors.
 double gain_at(const GroupInformation& group, double tau);
 GroupGain group_gain(const GroupInformation& group);
-/// The same for `factor` times a reduced information. What members take of the information makes
-/// the true gain larger: with all of it this is the least that the group can add.
+/// The same for `factor` times a reduced information. Members reduce the information and thereby
+/// increase the true gain, so the full information gives a lower bound.
 GroupGain group_gain(const ReducedGroup& group, const Eigen::VectorXd& product, double factor);
 
-/// Each group beside all the others at their variances, from one factorisation: with P the block
-/// of the covariance that belongs to group g, its information alone is P^-1 - I / tau_g^2.
+/// Each group beside all the others at their variances, from one factorisation: with P the block of
+/// the covariance that belongs to group g, its information alone is P^-1 - I / tau_g^2.
 std::vector<GroupInformation> each_beside_others(const GroupEquations& equations,
                                                  const Variances& variances);
 
-/// Variances that maximise the restricted likelihood, from `start`: in each sweep every group gets
-/// the size that serves best beside the others as they were, then the noise the size that the
-/// remainder asks for; a sweep that lowers the likelihood is halved (in logarithms). Ends when a
-/// sweep gains less than 0.01 or `sweeps` are done.
+/// Variances that maximise the restricted likelihood, from `start`. In each sweep every group gets
+/// its best size beside the others at their previous sizes, then the noise is estimated from the
+/// remainder. A sweep that lowers the likelihood is halved (in logarithms). Ends when a sweep gains
+/// less than 0.01 or after `sweeps` sweeps.
 Variances maximise_likelihood(const GroupEquations& equations, Variances start,
                               const NoisePrior& prior, int sweeps);
 

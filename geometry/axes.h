@@ -1,4 +1,4 @@
-// Machine axes by letter, and positions of all of them.
+// Machine axes by letter, and their positions.
 #pragma once
 
 #include <array>
@@ -24,16 +24,16 @@ constexpr bool is_rotary(Axis axis) {
     return axis == Axis::A || axis == Axis::B || axis == Axis::C;
 }
 
-/// The axis of a letter (upper case), or nothing.
+/// The axis of an upper-case letter; empty for any other character.
 constexpr std::optional<Axis> axis_of(char letter) {
     for (const Axis axis : all_axes)
         if (letter_of(axis) == letter) return axis;
     return std::nullopt;
 }
 
-/// One scalar for each axis letter: mm for linear axes, rad for rotary ones. Letters that a machine
-/// does not have stay 0. As a position: the commanded machine coordinate (the word's sign, before
-/// `direction` of the setup file turns it into a motion of a body).
+/// One scalar for each axis letter: mm for linear axes, rad for rotary axes. Letters that a machine
+/// does not have stay 0. Used as a position, it is the commanded machine coordinate with the sign
+/// of the NC word, before `direction` of the setup file converts it into a motion of a body.
 struct AxisPositions {
     std::array<double, axis_count> value{};
 
@@ -42,28 +42,30 @@ struct AxisPositions {
     friend bool operator==(const AxisPositions&, const AxisPositions&) = default;
 };
 
-/// Side from which each axis came (sign of its last move): +1, -1, or 0 where nobody knows.
+/// Side from which each axis arrived, i.e. the sign of its last move: +1, -1, or 0 when unknown.
 using AxisSides = std::array<signed char, axis_count>;
 
-/// The believed positioning function under which a motion was commanded: the `mode` of readings.
+/// The believed positioning function under which a motion was commanded: column `mode` of readings.
 enum class PositioningMode : unsigned char { none, dpp, rtdfo, rtcp, tw };
 
-/// Axis positions with all that an unmodelled effect may depend on.
+/// Axis positions with everything that an effect may depend on.
 struct AxisSample {
     AxisPositions position;      ///< commanded machine coordinates, mm and rad
-    AxisPositions velocity;      ///< mm/s and rad/s, 0 for a standing axis
+    AxisPositions velocity;      ///< mm/s and rad/s, 0 for an axis at rest
     AxisPositions acceleration;  ///< mm/s^2 and rad/s^2, commanded
-    AxisSides travel{};  ///< side from which each axis came; 0: a turning point, or not known
-    std::array<bool, axis_count> side_unknown{};      ///< nothing tells the side: travel is assumed
-    std::array<double, axis_count> since_reversal{};  ///< mm or rad travelled since the axis turned
-    /// The axis began its test at a turning point and has not turned since: whether it came there
-    /// from the other side (a run-up) no row tells; since_reversal counts as if it had.
+    AxisSides travel{};  ///< side from which each axis arrived; 0: at a reversal, or unknown
+    std::array<bool, axis_count> side_unknown{};      ///< the side is not known; `travel` is
+                                                      ///< assumed
+    std::array<double, axis_count> since_reversal{};  ///< mm or rad travelled since the last
+                                                      ///< reversal
+    /// The axis started its test at a reversal point and has not reversed since. No row tells
+    /// whether it arrived there from the other side (a run-up); since_reversal assumes that it did.
     std::array<bool, axis_count> run_up_unknown{};
-    double path_mm = 0.0;  ///< of the linear axes since the test began
+    double path_mm = 0.0;  ///< travelled by the linear axes since the test began
     double time_s = 0.0;
     double feed_mm_min = 0.0;
     double spindle_rad = 0.0;
-    bool spindle_turns = false;  ///< at speed: only what lasts a whole turn counts
+    bool spindle_turns = false;  ///< at speed: only values averaged over a full turn count
     double temperature_c = 20.0;
     double load_kg = 0.0;
     bool clamped = false;

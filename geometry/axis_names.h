@@ -1,4 +1,4 @@
-// What the axes of one machine are called, and which of them turn.
+// Names and kinds (linear, rotary) of the axes of one machine.
 #pragma once
 
 #include <array>
@@ -10,13 +10,13 @@
 
 namespace trunnion::inline geometry {
 
-/// Latin letters in lower case, all else as it is.
+/// Latin letters converted to lower case; all other characters are unchanged.
 std::string lower_case(std::string_view text);
 
-/// Names by slot. `Axis` is a slot: NC words and all that the control believes mean the letter that
-/// owns it; the physical machine may have an axis of another name and kind there. A letter of ISO
-/// 841 stands in its own slot, any other name in a slot that no letter of the chain wants; an empty
-/// name: the machine has no such axis. By default all nine letters.
+/// Axis names by slot. `Axis` is a slot. For NC words and the control it is the letter that owns
+/// the slot; on the physical machine an axis of another name and kind may use it. A letter of ISO
+/// 841 always uses its own slot; any other name uses a slot whose letter is not in the chain. An
+/// empty name means that the machine has no such axis. Default: all nine letters.
 struct AxisNames {
     std::array<std::string, axis_count> name{"X", "Y", "Z", "A", "B", "C", "U", "V", "W"};
     std::array<bool, axis_count> rotary{false, false, false, true, true, true, false, false, false};
@@ -27,7 +27,7 @@ struct AxisNames {
     std::optional<Axis> find(std::string_view text) const;
     std::optional<Axis> find_column(std::string_view column) const;
 
-    /// "x_mm", "j1_deg".
+    /// Name of the column of readings: "x_mm", "j1_deg".
     std::string column(Axis axis) const;
 
     friend bool operator==(const AxisNames&, const AxisNames&) = default;

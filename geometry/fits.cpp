@@ -10,13 +10,15 @@
 namespace trunnion::inline geometry {
 namespace {
 
-constexpr double singular = 1e-12;  // relative: below it points count as collinear or coplanar
+constexpr double singular = 1e-12;  // relative threshold: smaller singular values mean collinear or
+                                    // coplanar points
 
-/// Centroid and scale, so that every fit works on numbers around 1.
+/// Shifts and scales the points to coordinates of the order of 1, for the conditioning of every
+/// fit.
 template <class Vector>
 struct Normalised {
     Vector mean;
-    double scale = 0.0;  ///< rms distance from the mean; 0: coincident points
+    double scale = 0.0;  ///< rms distance from the mean; 0 for coincident points
     std::vector<Vector> points;
 
     explicit Normalised(std::span<const Vector> raw) : mean(Vector::Zero()) {
@@ -24,7 +26,7 @@ struct Normalised {
         for (const Vector& p : raw) mean += p / count;
         double square = 0.0;
         for (const Vector& p : raw) square += (p - mean).squaredNorm() / count;
-        // Coincident to the rounding of their coordinates: no shape left to fit.
+        // Within the rounding of their coordinates the points coincide: no shape can be fitted.
         if (std::sqrt(square) > 1e-15 * mean.norm()) scale = std::sqrt(square);
         for (const Vector& p : raw)
             points.push_back(scale > 0.0 ? Vector((p - mean) / scale) : Vector(Vector::Zero()));
@@ -38,7 +40,7 @@ double rms_distance(std::span<const Vector> points, const Vector& center, double
     return std::sqrt(sum / static_cast<double>(points.size()));
 }
 
-/// Central moments of normalised points, z = x^2 + y^2.
+/// Central moments of the normalised points; z = x^2 + y^2.
 struct Moments {
     double xx = 0, yy = 0, xy = 0, xz = 0, yz = 0, zz = 0;
 
@@ -58,8 +60,8 @@ struct Moments {
     double cov_xy() const { return xx * yy - xy * xy; }
 };
 
-/// Coefficients, rising powers of eta, of the characteristic polynomial of M a = eta N a for each
-/// constraint N (Chernov's forms). Kasa's eta is 0: its polynomial is eta itself.
+/// Coefficients, in rising powers of eta, of the characteristic polynomial of M a = eta N a for
+/// each constraint N (Chernov). Kasa's fit has eta = 0, so its polynomial is eta itself.
 std::array<double, 5> characteristic(const Moments& m, CircleMethod method) {
     const double z = m.z(), cov = m.cov_xy(), var_z = m.zz - z * z;
     const double a1 = var_z * z + 4.0 * cov * z - m.xz * m.xz - m.yz * m.yz;
@@ -75,7 +77,8 @@ std::array<double, 5> characteristic(const Moments& m, CircleMethod method) {
     }
 }
 
-/// Smallest non-negative root: Newton from 0 rises to it monotonically and stops at rounding.
+/// Smallest non-negative root. Newton's method from 0 approaches it monotonically from below and
+/// stops at rounding.
 double smallest_root(const std::array<double, 5>& a) {
     const auto value = [&](double e) {
         return a[0] + e * (a[1] + e * (a[2] + e * (a[3] + e * a[4])));
@@ -93,7 +96,7 @@ double smallest_root(const std::array<double, 5>& a) {
     return eta;
 }
 
-/// How the radius follows from eta: R^2 = |c|^2 + z + factor * eta.
+/// Factor of eta in R^2 = |c|^2 + z + factor * eta.
 double radius_factor(CircleMethod method) {
     switch (method) {
         case CircleMethod::pratt:
@@ -119,8 +122,8 @@ std::optional<CircleFit> fit_algebraic(const std::vector<Vector2>& points, Circl
     return fit;
 }
 
-/// Gauss-Newton on |p - c| - R; unknowns centre and, unless it is known, radius. Returns the
-/// inverse of the normal matrix.
+/// Gauss-Newton on |p - c| - R. Unknowns: the centre and, unless it is given, the radius. Returns
+/// the inverse of the normal matrix.
 template <int dim, class Vector>
 Eigen::Matrix<double, dim + 1, dim + 1> refine(std::span<const Vector> points, Vector& center,
                                                double& radius, bool radius_known) {
@@ -149,7 +152,7 @@ Eigen::Matrix<double, dim + 1, dim + 1> refine(std::span<const Vector> points, V
     return normal.ldlt().solve(Normal::Identity());
 }
 
-/// Centre and radius in normalised units by linear least squares; nothing when coplanar.
+/// Centre and radius in normalised units by linear least squares; empty for coplanar points.
 std::optional<SphereFit> linear_sphere(const std::vector<Vector3>& points) {
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Eigen::Vector4d right = Eigen::Vector4d::Zero();

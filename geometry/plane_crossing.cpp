@@ -10,8 +10,8 @@ namespace trunnion::inline geometry {
 namespace {
 
 constexpr double slack_mm = 1e-6;
-/// A line that enters a circle by less than this half chord touches it: the depth is then below
-/// 1e-6 mm for every radius above 0.5 mm.
+/// A half chord below this counts as tangency: the line then enters the circle by less than 1e-6 mm
+/// for every radius above 0.5 mm.
 constexpr double tangent_mm = 1e-3;
 
 struct Points {

@@ -17,7 +17,8 @@ double direction(PlanePoint v) {
     return std::atan2(v.y, v.x);
 }
 
-/// Points on the line p + s t at distance r from centre: the one nearer to `near`.
+/// The point on the line p + s t at distance r from `centre` that is nearer to `near`; empty when
+/// the line does not reach the circle.
 std::optional<PlanePoint> line_circle(PlanePoint p, PlanePoint t, PlanePoint centre, double r,
                                       PlanePoint near) {
     const double foot = dot(centre - p, t);
@@ -73,7 +74,7 @@ double length_of(PlanePoint a) {
 double sweep_of(PlanePoint centre, PlanePoint start, PlanePoint end, bool clockwise) {
     const PlanePoint r0 = start - centre, r1 = end - centre;
     const double angle = std::atan2(cross(r0, r1), dot(r0, r1));
-    constexpr double same = 1e-9;  // rad: rounding of a full circle's end point
+    constexpr double same = 1e-9;  // rad: rounding of the end point of a full circle
     if (clockwise) return angle >= -same ? angle - 2.0 * pi : angle;
     return angle <= same ? angle + 2.0 * pi : angle;
 }

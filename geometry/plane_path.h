@@ -1,4 +1,4 @@
-// Lines and arcs in a plane: tangents, offset curves and where they meet.
+// Lines and arcs in a plane: tangents, offset curves and their intersections.
 #pragma once
 
 #include <optional>
@@ -9,12 +9,12 @@ struct PlanePoint {
     double x = 0.0, y = 0.0;
 };
 
-/// A line or an arc in the plane in force, mm.
+/// A line or an arc in the active plane, mm.
 struct PlaneElement {
     PlanePoint start, end;
     bool arc = false;
     PlanePoint centre;
-    double sweep_rad = 0.0;  ///< signed, of arcs
+    double sweep_rad = 0.0;  ///< signed angle of an arc, positive counter-clockwise
 
     bool moves() const;
     double radius() const;
@@ -30,22 +30,22 @@ inline PlanePoint left_of(PlanePoint t) {
     return {-t.y, t.x};
 }
 
-/// Signed angle from start to end about the centre, in (0, 2 pi] counter-clockwise, negative
-/// clockwise; equal directions are a full turn.
+/// Signed angle from start to end about the centre: in (0, 2 pi] counter-clockwise, negative
+/// clockwise. Equal directions give a full turn.
 double sweep_of(PlanePoint centre, PlanePoint start, PlanePoint end, bool clockwise);
 
-/// Unit tangents in the direction of travel.
+/// Unit tangents in the direction of travel, at the start and at the end.
 PlanePoint tangent_at_start(const PlaneElement& e);
 PlanePoint tangent_at_end(const PlaneElement& e);
-/// Radius of the arc moved by `offset` to its left (positive) or right.
+/// Radius of the arc offset by `offset` to its left (positive) or right (negative), mm.
 double offset_radius(const PlaneElement& e, double offset);
-/// Where both elements, moved to their left by `offset`, meet next to `corner`; nothing when they
-/// do not meet.
+/// Intersection, nearest to `corner`, of both elements offset to their left; empty when the offset
+/// elements do not meet.
 std::optional<PlanePoint> offset_meeting(const PlaneElement& first, double first_offset,
                                          const PlaneElement& second, double second_offset,
                                          PlanePoint corner);
-/// The element between two points of it (or of a curve at a distance): arcs keep their centre, the
-/// sweep follows the shift of start and end.
+/// Part of the element, or of its offset curve, between two of its points. Arcs keep their centre;
+/// the sweep is adapted to the new start and end.
 PlaneElement between(const PlaneElement& e, PlanePoint start, PlanePoint end);
 
 }  // namespace trunnion::inline geometry

@@ -21,8 +21,8 @@ inline Matrix3 rotation_about(const Vector3& axis, double angle_rad) {
     return Eigen::AngleAxisd(angle_rad, axis).toRotationMatrix();
 }
 
-/// exp([tilt]x): the exact rotation of a rotation vector (rad), orthogonal at any size. Small ones
-/// by the series, whose first neglected term is below the rounding of a double.
+/// exp([tilt]x): the exact rotation of a rotation vector (rad), orthogonal for any size. Below 0.01
+/// rad a series is used whose first neglected term is below the rounding of a double.
 inline Matrix3 rotation_of(const Vector3& tilt_rad) {
     const double square = tilt_rad.squaredNorm();
     if (square > 1e-4) {
@@ -36,8 +36,8 @@ inline Matrix3 rotation_of(const Vector3& tilt_rad) {
            k * (tilt_rad * tilt_rad.transpose() - square * Matrix3::Identity());
 }
 
-/// A rigid transform. `pose_AB` holds frame B seen from frame A: p_AQ = pose_AB * p_BQ, and
-/// pose_AC = pose_AB * pose_BC.
+/// A rigid transform. `pose_AB` is frame B seen from frame A: p_AQ = pose_AB * p_BQ, and pose_AC =
+/// pose_AB * pose_BC.
 struct Pose {
     Matrix3 rotation = Matrix3::Identity();
     Vector3 translation_mm = Vector3::Zero();
@@ -58,8 +58,8 @@ struct Pose {
     }
 };
 
-/// Six small numbers in a named frame: error = actual - nominal, along and about that frame's +
-/// axes (ISO 230-1).
+/// Small shift and rotation in a named frame: error = actual - nominal, along and about the + axes
+/// of that frame (ISO 230-1).
 struct SmallMotion {
     Vector3 shift_mm = Vector3::Zero();
     Vector3 tilt_rad = Vector3::Zero();

@@ -15,9 +15,10 @@
 namespace trunnion::identification {
 namespace {
 
-constexpr double absurd_mm = 5.0;  ///< a residual that no machine has: units, frame or setup wrong
+constexpr double absurd_mm = 5.0;  ///< limit of a plausible residual; beyond it units, frame or
+                                   ///< setup are wrong
 constexpr double absurd_rms_mm = 0.5;
-constexpr double absurd_rad = 0.03;  ///< of a location error
+constexpr double absurd_rad = 0.03;  ///< limit of a plausible location error
 
 using Slot = Unknowns::Slot;
 
@@ -33,7 +34,7 @@ double location_value(const setup::Setup& setup, const FitParameter& fit) {
     return fit.location ? setup.machine.errors.location(*fit.location) : 0.0;
 }
 
-/// Weighted squares of the residuals and of what calibrated values are off.
+/// Weighted sum of squares of the residuals and of the deviations from calibrated values.
 double misfit(const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& weight,
               const setup::Setup& setup, const std::vector<Slot>& slots) {
     double sum = residual_mm.cwiseProduct(weight).squaredNorm();
@@ -43,8 +44,8 @@ double misfit(const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& weight,
     return sum;
 }
 
-/// Takes the step, or a part of it where the whole one makes all fit worse: along a direction that
-/// is hardly seen it may lead far beyond where derivatives hold.
+/// Applies the step, or a fraction of it when the whole step makes the fit worse: along a weakly
+/// observable direction it may leave the range in which the derivatives are valid.
 void take_step(BaseModel& model, const emulator::Replay& replay, const std::vector<Slot>& slots,
                const Eigen::VectorXd& weight, const Eigen::VectorXd& step) {
     const double before = misfit(model.residual_mm, weight, model.setup, slots);
@@ -60,7 +61,7 @@ void take_step(BaseModel& model, const emulator::Replay& replay, const std::vect
     }
 }
 
-/// Weight of each row: 1 / sigma, less for rows that stand out (Huber at 3 sigma of the median).
+/// Weight of each row: 1 / sigma, reduced for outliers (Huber at 3 sigma of the median).
 Eigen::VectorXd row_weights(const BaseModel& model, const Eigen::VectorXd& r) {
     std::vector<double> size;
     for (Eigen::Index i = 0; i < r.size(); ++i) size.push_back(std::abs(r(i)) / model.sigma_mm(i));
@@ -89,7 +90,7 @@ void take_measured(BaseModel& model, const records::ReadingTable& table,
     }
 }
 
-/// What no machine has: refused, or noted when it is meant.
+/// Implausible results are refused, or noted when the user declared them as intended.
 void tell_absurd(BaseModel& model, bool meant, const std::string& what, const SourceRef& where) {
     const std::string message = what +
                                 " after fitting: wrong units (um for mm?), wrong frame, or "
@@ -115,7 +116,7 @@ void tell_absurd_residuals(BaseModel& model, const emulator::Replay& replay,
                     {table.path, 0, 0});
 }
 
-/// A location error that no assembly has means that the setup describes another machine.
+/// An implausible location error means that the setup describes another machine.
 void tell_absurd_location(BaseModel& model, const FitParameter& p,
                           const records::ReadingTable& table) {
     if (p.effect == "location" && std::isfinite(p.sigma) &&
@@ -142,7 +143,7 @@ void name_null_space(BaseModel& model, const std::vector<Slot>& slots,
     }
 }
 
-/// Measured readings, their noise, derivatives and residuals at the setup as it is written.
+/// Measured readings, their noise, derivatives and residuals for the setup as given.
 BaseModel start_model(const setup::Setup& setup, const records::ReadingTable& table,
                       const emulator::Replay& replay) {
     BaseModel model;
@@ -166,8 +167,8 @@ Eigen::VectorXd typical_of(const std::vector<Slot>& slots) {
     return typical;
 }
 
-/// What is known of a parameter beforehand, as one further row of the normal equations; unknowns
-/// in units of `typical`.
+/// Adds the prior of a parameter as one further row of the normal equations; unknowns in units of
+/// `typical`.
 void add_prior(const FitParameter& prior, const setup::Setup& setup, Eigen::Index j,
                Eigen::MatrixXd& information, Eigen::VectorXd& gradient) {
     if (prior.prior_sigma <= 0.0) return;
@@ -176,8 +177,8 @@ void add_prior(const FitParameter& prior, const setup::Setup& setup, Eigen::Inde
     gradient(j) += pull * pull * (prior.prior_value - location_value(setup, prior)) / prior.typical;
 }
 
-/// Gauss-Newton with robust weights; the model's setup moves to the solution. Returns the last
-/// step's fit, in units of `typical`.
+/// Gauss-Newton with robust weights; changes the model's setup to the solution. Returns the fit of
+/// the last step, in units of `typical`.
 estimation::LinearFit iterate(BaseModel& model, const emulator::Replay& replay,
                               const std::vector<Slot>& slots, const Eigen::VectorXd& typical) {
     estimation::LinearFit fit;

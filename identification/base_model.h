@@ -1,4 +1,5 @@
-// The simulation fitted to readings: modelled effects and set-up re-identified, residuals left.
+// The base model: simulation fitted to readings. Re-identifies modelled effects and set-up
+// quantities; returns the residuals.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,16 +17,17 @@ struct FitParameter {
     std::string effect, name, unit;
     int component = -1;
     double typical = 1.0;  ///< in `unit`
-    double value = 0.0;    ///< in `unit`: the correction found, or the total for a location error
-    double sigma = 0.0;    ///< of `value`; NaN when it cannot be told apart
-    double sigma_monte_carlo = 0.0;  ///< the same by repetition, 0 when that was not asked for
+    double value = 0.0;    ///< in `unit`: the correction found; for a location error the total
+    double sigma = 0.0;    ///< standard uncertainty of `value`; NaN when it is not separable
+    double sigma_monte_carlo = 0.0;  ///< the same from Monte Carlo repetition; 0 if not requested
     double prior_value = 0.0;
     double prior_sigma = 0.0;  ///< 0: no prior
     std::optional<kinematics::ErrorName> location = {};
     SetUpQuantity set_up = {};
 };
 
-/// Parameters that cannot be told apart: moving along `direction` (in their units) changes nothing.
+/// Inseparable parameters: a change along `direction` (in their units, largest entry 1) changes no
+/// reading.
 struct Inseparable {
     std::vector<std::string> names;
     std::vector<double> direction;
@@ -36,7 +38,8 @@ std::string full_name(const FitParameter& parameter);
 /// "1 dp_mm[y] - 1 dd_mm[y]": the change that no reading shows.
 std::string to_string(const Inseparable& group);
 
-/// One sigma of each device row, mm, and whether every row had one in the table or in the setup.
+/// Standard deviation of each device row, mm (rad for angular rows), and whether table or setup
+/// gave it for every row.
 struct RowNoise {
     Eigen::VectorXd sigma_mm;
     bool given = true;
@@ -44,56 +47,61 @@ struct RowNoise {
 RowNoise row_noise(const setup::Setup& setup, const records::ReadingTable& table,
                    const emulator::Replay& replay);
 
-/// A replay with the fitted base and all that a linear analysis of what remains needs. mm inside.
+/// A replay with the fitted base, and all data for a linear analysis of its residuals. mm and rad.
 struct BaseModel {
-    setup::Setup setup;  ///< as fitted: loads again, predicts the same
+    setup::Setup setup;  ///< fitted; loads again and gives the same predictions
     std::vector<FitParameter> parameters;
     std::vector<Inseparable> inseparable;
-    emulator::EffectModels models;                   ///< of effects that the setup switched on
-    std::vector<kinematics::Perturbation> gradient;  ///< of each device row
-    Eigen::MatrixXd columns;  ///< d reading / d parameter, for one typical change, mm
+    emulator::EffectModels models;                   ///< effects active in the setup
+    std::vector<kinematics::Perturbation> gradient;  ///< derivatives of each device row with
+                                                     ///< respect to a Perturbation
+    Eigen::MatrixXd columns;  ///< derivative of each device row (row) by each parameter (column)
+                              ///< times its typical size, mm
     Eigen::VectorXd measured_mm, residual_mm, start_residual_mm, sigma_mm;
     bool noise_given = true;
-    Eigen::MatrixXd covariance;  ///< of the parameters, in their units
+    Eigen::MatrixXd covariance;  ///< of the parameters, in their units; without unobservable
+                                 ///< directions
     int rank = 0;
-    std::vector<std::string> notes;  ///< large residuals that were meant
+    std::vector<std::string> notes;  ///< large residuals declared as intended
 };
 
-/// Throws InputError when a device row has no value, and on residuals that no machine can have
-/// (units, frames or the setup of another machine), unless they are meant: by `allow_large` of the
-/// setup's model or by a `sigma_mm` of the row itself. Then a note tells them.
+/// Fits the base by Gauss-Newton with Huber weights, at most 8 iterations, ranked least squares in
+/// each (estimation/ranked_least_squares.h). Inseparable parameters keep the combination with the
+/// smallest change. Throws InputError when a device row has no value, and for implausible residuals
+/// (wrong units, frames or setup) unless they are declared as intended by `allow_large` of the
+/// setup's model or by a `sigma_mm` of the row; then they are noted.
 BaseModel fit_base(const setup::Setup& setup, const records::ReadingTable& table,
                    const emulator::Replay& replay, const effects::Catalogue& catalogue,
                    const std::vector<std::string>& effects);
 
-/// Derivatives of the device rows by parameter j of an effect whose keys are in `values`, mm for
-/// one typical change.
+/// Derivatives of the device rows with respect to parameter j of an effect with the keys in
+/// `values`, times its typical size; mm (rad for angular rows).
 Eigen::VectorXd effect_column(const emulator::Replay& replay,
                               const std::vector<kinematics::Perturbation>& gradient,
                               const effects::Effect& effect, const std::vector<double>& values,
                               std::size_t j);
 
-/// The unknowns that a replay has for this setup and these effects, and their derivatives.
+/// The unknowns of a replay with this setup and these effects, and their derivatives.
 struct BaseColumns {
     std::vector<FitParameter> parameters;
-    Eigen::MatrixXd columns;  ///< mm for one typical change
+    Eigen::MatrixXd columns;  ///< derivative times typical size, mm
 };
 BaseColumns base_columns(const setup::Setup& setup, const emulator::Replay& replay,
                          const effects::Catalogue& catalogue,
                          const std::vector<std::string>& effects,
                          const std::vector<kinematics::Perturbation>& gradient);
 
-/// The same for some rows only.
+/// The same for a subset of the rows.
 Eigen::VectorXd effect_column(const emulator::Replay& replay,
                               const std::vector<kinematics::Perturbation>& gradient,
                               const effects::Effect& effect, const std::vector<double>& values,
                               std::size_t j, const std::vector<std::size_t>& rows);
 
-/// Moves a fitted setup by a further step of the base parameters, in units of their typical size.
+/// Changes a fitted setup by a further step of the base parameters, in units of their typical size.
 void shift_base(setup::Setup& setup, const BaseModel& base, const effects::Catalogue& catalogue,
                 const Eigen::VectorXd& step);
 
-/// The setup with an effect's values added: location errors to the machine, others to [effects].
+/// Adds the values of an effect to the setup: location errors to the machine, others to [effects].
 void add_effect(setup::Setup& setup, const effects::Effect& effect,
                 const std::vector<double>& values);
 

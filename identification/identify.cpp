@@ -21,7 +21,7 @@ bool keyed(const effects::Effect& effect) {
                        [](const effects::EffectParameter& p) { return p.is_key(); });
 }
 
-/// Bounds of a key's search: the grid's values on both sides, none of them next to it.
+/// Bounds for the search of a key: the next grid values on both sides that differ by more than 3 %.
 std::pair<double, double> neighbours(const std::vector<double>& grid, double value) {
     double low = grid.front() * 0.7, high = grid.back() * 1.4;
     for (const double g : grid) {
@@ -40,7 +40,8 @@ double rms_um(const Eigen::VectorXd& v) {
 
 namespace {
 
-/// A moment between two readings changes nothing anywhere between them: the middle, not an edge.
+/// A time between two readings has the same effect anywhere between them: take the middle of that
+/// interval.
 double middle_of_plateau(const std::function<double(double)>& gain_at, double key,
                          std::pair<double, double> bracket) {
     const double best = gain_at(key), tiny = 1e-6 * (bracket.second - bracket.first);
@@ -94,7 +95,7 @@ std::vector<double> refine_keys(const emulator::Replay& replay, const BaseModel&
             if (std::max(fa, fb) <= best) break;
             best = std::max(fa, fb);
             keys[j] = fa > fb ? a : b;
-            // At an end of the bracket: the best lies beyond, look again from there.
+            // The optimum at an end of the bracket lies beyond it: search again from there.
             const double edge = 0.02 * (to - from);
             if (keys[j] > from + edge && keys[j] < to - edge) break;
         }
@@ -129,7 +130,7 @@ std::vector<double> search_keys(const emulator::Replay& replay, const BaseModel&
 
 namespace {
 
-/// Each keyed effect at the keys that explain most beside those found before it.
+/// For each effect with keys, the keys that explain most beside the effects found before it.
 std::vector<KeyedEffect> search_all_keys(const emulator::Replay& replay, const BaseModel& base,
                                          const effects::Catalogue& catalogue,
                                          const std::vector<std::string>& effects) {
@@ -155,7 +156,7 @@ std::vector<KeyedEffect> search_all_keys(const emulator::Replay& replay, const B
     return list;
 }
 
-/// Fitted amplitudes beside the keys.
+/// Enters the fitted amplitudes.
 void take_values(const BaseModel& base, std::vector<KeyedEffect>& effects) {
     for (KeyedEffect& e : effects)
         for (std::size_t j = 0; j < e.values.size(); ++j)

@@ -3,8 +3,8 @@
 namespace trunnion::identification {
 namespace {
 
-/// Columns are derivatives for one usual change: a direction that moves all readings together by
-/// less than this many sigma is not seen (the threshold of solve_ranked).
+/// Columns are derivatives for one typical change: a direction that moves all readings together by
+/// less than this number of sigma is unobservable (the threshold of solve_ranked).
 constexpr double unseen_sigma = 0.05;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What effects with keys explain beside the base: the goal of every search for keys.
+// Gain of effects with keys beside the base: the objective of every key search.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,21 +9,21 @@
 
 namespace trunnion::identification {
 
-/// An effect with keys in a fit. `values` in the order of its parameters.
+/// An effect with keys in a fit; `values` in the order of its parameters.
 struct KeyedEffect {
     const effects::Effect* effect = nullptr;
     std::vector<double> values;
-    std::vector<std::size_t> free;  ///< keys that may lie between grid values
+    std::vector<std::size_t> free;  ///< keys that may take values between those of the grid
 };
 
-/// Fall of the weighted squared sum of `left_mm` (no unit: rows over their sigma) when effects at
-/// given keys join the base in the fit; their other parameters have any value. What `replay` and
-/// `base` hold must outlive it.
+/// Reduction of the weighted squared sum of `left_mm` (dimensionless: rows divided by their sigma)
+/// when effects with given keys are added to the base in the fit, with free values of their other
+/// parameters. `replay` and `base` must outlive it.
 class KeyGain {
   public:
     KeyGain(const emulator::Replay& replay, const BaseModel& base, const Eigen::VectorXd& left_mm);
 
-    /// Keys stand in the `values`; other values there count for nothing.
+    /// Uses the keys in `values`; other values are ignored.
     double operator()(const std::vector<KeyedEffect>& effects) const;
     double operator()(const effects::Effect& effect, const std::vector<double>& values) const {
         return (*this)({{&effect, values, {}}});

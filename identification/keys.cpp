@@ -1,4 +1,4 @@
-// Keys of several effects together: a bounded search, and what their uncertainty adds.
+// Simultaneous search of the keys of several effects, and their contribution to the uncertainty.
 #include "identification/keys.h"
 
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace trunnion::identification {
 namespace {
 
-/// A search moves the free keys of `effects`.
+/// A search that changes the free keys of `effects`.
 struct KeySearchGoal {
     KeyGain gain;
     std::vector<KeyedEffect> effects;
@@ -27,7 +27,7 @@ double objective(const std::vector<double>& keys, std::vector<double>&, void* da
     return goal.gain(goal.effects);
 }
 
-/// Change of each reading for one unit of key `j` of a fitted effect.
+/// Derivative of each reading with respect to key `j` of a fitted effect.
 Eigen::VectorXd key_column(const emulator::Replay& replay, const BaseModel& base,
                            const effects::Effect& effect, std::vector<double> values,
                            std::size_t j) {
@@ -78,7 +78,7 @@ void refine_together(const emulator::Replay& replay, const BaseModel& base,
     double best = 0.0;
     try {
         search.optimize(keys, best);
-    } catch (const nlopt::roundoff_limited&) {  // the best so far stands in `keys`
+    } catch (const nlopt::roundoff_limited&) {  // `keys` contains the best point so far
     } catch (const std::runtime_error&) {
         return;
     }

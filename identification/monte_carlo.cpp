@@ -15,7 +15,7 @@ namespace trunnion::identification {
 
 namespace {
 
-/// Everything that all repetitions read and none changes.
+/// Data that all repetitions read and none changes.
 struct Repeated {
     const setup::Setup& setup;
     const std::vector<std::string>& effects;
@@ -26,7 +26,7 @@ struct Repeated {
     std::uint64_t seed;
 };
 
-/// `exact` with noise of each device row's sigma.
+/// `exact` plus noise with the sigma of each device row.
 records::ReadingTable noisy(const Repeated& of, SeededNoise random) {
     records::ReadingTable table = of.exact;
     for (std::size_t i = 0; i < of.replay.size(); ++i)
@@ -35,7 +35,8 @@ records::ReadingTable noisy(const Repeated& of, SeededNoise random) {
     return table;
 }
 
-/// The seed of one repetition: neighbours of one stream would share its numbers.
+/// The generator of one repetition, with a seed of its own: repetitions that continue one stream
+/// would share numbers.
 SeededNoise noise_of(std::uint64_t seed, int index) {
     const std::uint64_t stream = SeededNoise(seed).bits();
     return SeededNoise(SeededNoise(stream + static_cast<std::uint64_t>(index)).bits());
@@ -50,11 +51,11 @@ Repetition repeat_once(const Repeated& of, int index) {
     return result;
 }
 
-/// What the threads share.
+/// Data shared by the threads.
 struct Work {
     std::atomic<int> next = 0;
     std::atomic<bool> stop = false;
-    std::mutex mutex;  ///< guards what follows
+    std::mutex mutex;  ///< protects the following members
     std::vector<Repetition> done;
     std::exception_ptr failed;
 };

@@ -8,15 +8,15 @@
 namespace trunnion::identification {
 namespace {
 
-/// 0.999 quantile of F with two terms and many degrees of freedom, rounded up: fewer terms and few
-/// readings need more, and get it by their own scatter.
+/// 0.999 quantile of F with two terms and many degrees of freedom, rounded up. Fewer terms and few
+/// readings require more, which their own scatter provides.
 constexpr double chance_f = 7.0;
 
 bool bends(const effects::EffectParameter& p) {
     return !p.is_key() && !p.usual;
 }
 
-/// An effect that has both: its textbook's form, and terms beyond it.
+/// True for an effect with both its textbook form and further terms.
 bool may_bend(const effects::Effect& effect) {
     const auto& list = effect.parameters;
     return std::any_of(list.begin(), list.end(), bends) &&
@@ -37,7 +37,7 @@ double weighted_squares(const BaseModel& model) {
     return model.residual_mm.cwiseQuotient(model.sigma_mm).squaredNorm();
 }
 
-/// What leaving the terms out costs, in units of the scatter that stays with them.
+/// Increase of the misfit without the terms, in units of the scatter that remains with them.
 double cost(const BaseModel& with, const BaseModel& without) {
     const double dof = std::max(
         1.0, static_cast<double>(with.residual_mm.size()) - static_cast<double>(with.rank));
@@ -53,7 +53,7 @@ double value_of(const BaseModel& model, const std::string& effect, const std::st
     return 0.0;
 }
 
-/// Slope (ppm) of the best straight line through the curve at the places read.
+/// Slope (ppm) of the best straight line through the curve at the positions read.
 std::string straight_line(const FitInputs& in, const BaseModel& model, const std::string& effect) {
     const std::string name = effect.substr(0, effect.find('.'));
     const auto axis = in.setup.machine.chain.names().find(name);

@@ -1,5 +1,5 @@
-// Terms of an effect that let it bend away from the textbook's form: fitted where the readings ask
-// for them, else held at 0.
+// Terms of an effect that deviate from its textbook form: fitted if the readings require them, else
+// held at 0.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace trunnion::identification {
 
-/// What a fit takes, but for the catalogue.
+/// Input of a fit, without the catalogue.
 struct FitInputs {
     const setup::Setup& setup;
     const records::ReadingTable& table;
@@ -17,10 +17,10 @@ struct FitInputs {
     const std::vector<std::string>& effects;
 };
 
-/// Fits with all terms (fit_base); then without those terms of an effect that are not usual
-/// (EffectParameter::usual), where leaving them out costs no more than chance does (F test at
-/// 0.001). What is held at 0 becomes a key of the catalogue with the value 0. `notes` gets a
-/// sentence for each effect that bends or is held straight.
+/// Fits with all terms (fit_base), then without the unusual terms of an effect
+/// (EffectParameter::usual) if omitting them is not significant (F test at 0.001). A term held at 0
+/// becomes a key of the catalogue with the value 0. `notes` gets a sentence for each effect that is
+/// fitted with or held without these terms.
 BaseModel fit_needed_terms(const FitInputs& in, effects::Catalogue& catalogue,
                            std::vector<std::string>& notes);
 

@@ -10,7 +10,7 @@ namespace {
 
 using Kind = SetUpQuantity::Kind;
 
-/// What the device rows of a replay use.
+/// Items used by the device rows of a replay.
 struct Used {
     std::set<int> artefacts, instruments;
     std::set<std::pair<bool, double>> extensions;  ///< of the stylus (true) or the cup
@@ -46,7 +46,8 @@ bool is_free(const setup::Artefact& artefact) {
     return artefact.tool_S_mm ? artefact.free_tool : artefact.free_center;
 }
 
-/// What a fit moves: readings of a target count from its declared place, which stays.
+/// The quantity that a fit changes. The declared position of a target is kept, because its readings
+/// are relative to it.
 Vector3& place_of(setup::Artefact& artefact) {
     return artefact.kind == setup::Artefact::Kind::target ? artefact.found_mm
                                                           : artefact.center_W_mm;
@@ -74,7 +75,7 @@ double artefact_derivative(const SetUpQuantity& quantity, const emulator::Contac
     return (on_tool ? gradient.tip_shift_mm : gradient.work_shift_mm)(quantity.component);
 }
 
-/// Of first order in the pose: p' = p + shift + tilt x p + scale p.
+/// First order in the pose: p' = p + shift + tilt x p + scale p.
 double instrument_derivative(const SetUpQuantity& quantity, const emulator::Contact& contact) {
     if (contact.instrument != quantity.index || contact.device != records::Device::point)
         return 0.0;
@@ -105,7 +106,7 @@ void add_zeros(std::vector<FreeQuantity>& list, const emulator::Replay& replay) 
 
 namespace {
 
-/// Those that one session sees.
+/// The quantities observable in one session.
 std::vector<FreeQuantity> quantities_of(const setup::Setup& setup, const Used& used) {
     std::vector<FreeQuantity> list;
     for (int k = 0; k < static_cast<int>(setup.artefacts.size()); ++k) {
@@ -252,7 +253,7 @@ emulator::ReplayOffsets offsets_between(const setup::Setup& from, const setup::S
     return offsets;
 }
 
-/// The setup as the k-th session has it.
+/// The setup in the k-th session.
 setup::Setup in_session(const emulator::Replay& replay, setup::Setup fitted,
                         const std::vector<FreeQuantity>& quantities, int session) {
     const auto k = static_cast<std::size_t>(session);

@@ -12,7 +12,7 @@ namespace {
 
 using Kind = SetUpQuantity::Kind;
 
-/// Pose and scale of one instrument in one session, as far as the readings see them.
+/// Pose and scale of one instrument in one session, as far as they are observable.
 struct Found {
     Vector3 shift_mm = Vector3::Zero(), tilt_rad = Vector3::Zero();
     std::array<bool, 7> seen{};
@@ -20,7 +20,7 @@ struct Found {
     std::string session;
 };
 
-/// Behind the number: "Tracker.a_rad.tuesday".
+/// Session part of a name: "Tracker.a_rad.tuesday".
 std::string session_of(const std::string& name) {
     const std::size_t unit = name.find('.');
     const std::size_t dot = unit == std::string::npos ? unit : name.find('.', unit + 1);

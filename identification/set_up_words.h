@@ -1,4 +1,4 @@
-// What was found about a set-up, in words: a part that was turned is no fault of the machine.
+// Set-up results in words: a rotated part is not an error of the machine.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace trunnion::identification {
 
-/// One sentence for each instrument's pose and scale, for each session, with what the readings see
-/// of it: "tuesday: the part was turned by 0.029 deg, shifted by (-0.044, 0.079, 0) mm".
+/// One sentence for the observable pose and scale of each instrument in each session: "tuesday: the
+/// part was turned by 0.029 deg, shifted by (-0.044, 0.079, 0) mm".
 std::vector<std::string> set_up_words(const setup::Setup& setup,
                                       const std::vector<FitParameter>& parameters);
 

@@ -19,7 +19,7 @@ std::string name_of(const emulator::Replay& replay, const records::ReadingTable&
     return table.names[side.axis] + (session.empty() ? "" : " of " + session);
 }
 
-/// Open sides that one of the models sees, as the replay takes them now.
+/// Unknown sides that influence one of the models, with the present assumption of the replay.
 std::vector<FoundSide> seen_sides(const emulator::Replay& replay,
                                   const records::ReadingTable& table,
                                   const std::vector<std::size_t>& open,
@@ -34,7 +34,7 @@ std::vector<FoundSide> seen_sides(const emulator::Replay& replay,
     return list;
 }
 
-/// Turns one side after the other until none fits better.
+/// Reverses one side after the other until no reversal improves the fit.
 void settle(std::vector<FoundSide>& sides, emulator::Replay& replay,
             const std::function<double()>& misfit) {
     if (sides.empty()) return;

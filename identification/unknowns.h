@@ -1,4 +1,4 @@
-// The unknowns of a fit: their place in the setup, their derivatives, a step along them.
+// The unknowns of a fit: location in the setup, derivatives, and a step along them.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,15 +9,15 @@
 
 namespace trunnion::identification {
 
-/// Where the unknowns of a fit live: first those of effects, then those of the set-up.
+/// The unknowns of a fit: first those of effects, then those of the set-up.
 class Unknowns {
   public:
     Unknowns(const setup::Setup& setup, const emulator::Replay& replay,
              const effects::Catalogue& catalogue, const std::vector<std::string>& effects);
 
     struct Slot {
-        const effects::Effect* effect = nullptr;  ///< nullptr: of the set-up, `fit.set_up`
-        std::size_t parameter = 0;                ///< of the effect
+        const effects::Effect* effect = nullptr;  ///< nullptr: a set-up quantity, `fit.set_up`
+        std::size_t parameter = 0;                ///< index in the effect
         FitParameter fit;
     };
     const std::vector<Slot>& slots() const { return slots_; }
@@ -31,10 +31,11 @@ class Unknowns {
     std::vector<Slot> slots_;
 };
 
-/// d reading / d unknown of each device row, mm for one typical change.
+/// Derivative of each device row with respect to each unknown, times its typical size; mm (rad for
+/// angular rows).
 Eigen::MatrixXd columns_of(const std::vector<Unknowns::Slot>& slots, const emulator::Replay& replay,
                            const std::vector<kinematics::Perturbation>& gradient);
-/// Applies a step of the fit (in units) to the setup.
+/// Applies a step of the fit (in the units of the unknowns) to the setup.
 void apply_step(setup::Setup& setup, const std::vector<Unknowns::Slot>& slots,
                 const Eigen::VectorXd& step);
 

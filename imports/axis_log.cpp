@@ -7,7 +7,7 @@
 namespace trunnion::imports {
 namespace {
 
-/// A row of each axis that has both its positions in this line; where one is missing, none.
+/// Writes a row for each axis with both positions in this line.
 void write_row(const TextTable& table, std::size_t i, const std::vector<records::TableCell>& cells,
                LogColumns& log, records::Reading row, RowWriter& rows) {
     const std::string block =

@@ -11,7 +11,7 @@
 namespace trunnion::imports {
 namespace {
 
-/// One circle about the pivot, as the program commanded it.
+/// One circle about the pivot as commanded by the program.
 struct Circle {
     int plane = 0;  ///< 0 XY, 1 YZ, 2 ZX
     double sense = 1.0;
@@ -22,7 +22,7 @@ struct Circle {
 struct BarColumns {
     std::optional<NumberColumn> angle;
     NumberColumn value;
-    bool radius = false;  ///< whole lengths, not deviations
+    bool radius = false;  ///< complete lengths instead of deviations
 };
 
 [[noreturn]] void ask(const TextTable& table, const std::string& what) {
@@ -66,7 +66,7 @@ BarColumns columns_of(const TextTable& table, const Facts& facts) {
     return columns;
 }
 
-/// Angles of the rows, rad: told, or even steps from start to end in time.
+/// Angles of the rows, rad: given, or in equal steps from start to end in time.
 std::vector<double> angles_of(const TextTable& table, const BarColumns& columns,
                               const Circle& circle, const std::vector<double>& times) {
     std::vector<double> angles;
@@ -84,7 +84,7 @@ std::vector<double> angles_of(const TextTable& table, const BarColumns& columns,
     return angles;
 }
 
-/// A recording passes the angles in the sense that is told; 359 to 0 is a step forwards.
+/// A recording traverses the angles in the given direction, so 359 to 0 is a step forwards.
 void unwrap(const TextTable& table, const Circle& circle, std::vector<double>& angles) {
     for (std::size_t i = 1; i < angles.size(); ++i) {
         angles[i] = angles[i - 1] + std::remainder(angles[i] - angles[i - 1], 2.0 * pi);
@@ -95,7 +95,7 @@ void unwrap(const TextTable& table, const Circle& circle, std::vector<double>& a
     }
 }
 
-/// Without times of their own the rows follow from angle and feed.
+/// Without a time column the times follow from angle and feed.
 void fill_times(const Circle& circle, double length_mm, const std::vector<double>& angles,
                 std::vector<double>& times) {
     const double speed = circle.feed_mm_min ? *circle.feed_mm_min / 60.0 / length_mm : 0.0;
@@ -111,7 +111,7 @@ class BarRows {
         if (!setup.ballbar) throw InputError("the setup has no [ballbar]", {setup.path});
     }
 
-    /// Gauge point that puts the cup on the circle, the rotary axes standing: machine positions.
+    /// Machine positions that put the cup on the circle, rotary axes at rest.
     AxisPositions on_circle(const Circle& circle, double angle_rad) const {
         const Eigen::Index a = circle.plane, b = (circle.plane + 1) % 3;
         Vector3 along = Vector3::Zero();
@@ -127,7 +127,7 @@ class BarRows {
     }
 
   private:
-    /// The formula holds for slides along X, Y and Z of M; on a machine of another kind it says so.
+    /// The formula is valid for slides along X, Y and Z of M; other machines are refused.
     void check(const AxisPositions& q, const Vector3& cup_M) const {
         const auto poses = nominal_.poses(q);
         const Vector3 between =
@@ -141,7 +141,7 @@ class BarRows {
     }
 
     const setup::Setup& setup_;
-    kinematics::Machine nominal_;  ///< what the control believes, whatever errors are known
+    kinematics::Machine nominal_;  ///< the control's belief, without known errors
     const setup::Artefact& pivot_;
     AxisPositions at_;
 };

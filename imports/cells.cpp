@@ -29,7 +29,8 @@ bool is_blank(char c) {
     return c == ' ' || c == '\t';
 }
 
-/// Most lines in a row that `separator` cuts into as many cells, two or more.
+/// Largest number of consecutive lines that `separator` splits into the same number of cells, two
+/// or more.
 std::size_t longest_run(const std::vector<records::TableLine>& lines, char separator) {
     std::size_t best = 0, run = 0;
     std::ptrdiff_t last = 0;
@@ -42,7 +43,7 @@ std::size_t longest_run(const std::vector<records::TableLine>& lines, char separ
     return best;
 }
 
-/// "0,5  1,25": what stands between blanks are numbers with a decimal comma.
+/// "0,5  1,25": numbers with decimal comma, separated by blanks.
 bool commas_between_blanks(const std::vector<records::TableLine>& lines) {
     const Dialect comma{' ', true};
     for (const records::TableLine& line : lines) {
@@ -106,7 +107,7 @@ void drop_empty_end(std::vector<records::TableCell>& cells) {
 bool is_missing(std::string_view text) {
     static constexpr std::array<std::string_view, 9> words{"-",  "--",   "---",  "nan", "n/a",
                                                            "na", "n.a.", "null", "#n/a"};
-    if (text.find_first_not_of('*') == std::string_view::npos) return true;  // empty too
+    if (text.find_first_not_of('*') == std::string_view::npos) return true;  // also when empty
     std::string lower(text);
     for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return std::find(words.begin(), words.end(), lower) != words.end();
@@ -128,7 +129,7 @@ Dialect dialect_of(const std::vector<records::TableLine>& lines) {
     Dialect dialect{' ', false};
     std::size_t best = 1;
     for (const char candidate : {'\t', ';', ',', '|'}) {
-        // Commas beside ; or tabs, and between blanks, are decimal marks.
+        // With ; or tabs, and between blanks, commas are decimal marks.
         if (candidate == ',' && (best > 1 || commas_between_blanks(lines))) continue;
         const std::size_t run = longest_run(lines, candidate);
         if (run <= best) continue;

@@ -1,4 +1,4 @@
-// One line of a file cut into cells, and what a cell holds.
+// Splitting of a line into cells, and interpretation of a cell.
 #pragma once
 
 #include <optional>
@@ -9,29 +9,29 @@
 
 namespace trunnion::imports {
 
-/// How the numbers of a file are written.
+/// Format of the numbers of a file.
 struct Dialect {
-    char separator = ',';  ///< a blank: runs of blanks and tabs count as one
+    char separator = ',';  ///< a blank: consecutive blanks and tabs count as one
     bool decimal_comma = false;
 
     std::optional<double> find_number(std::string_view text) const;
 };
 
-/// Cells of a line; a line of blanks too.
+/// Cells of a line, also of a blank line.
 std::vector<records::TableCell> cells_of(const records::TableLine& line, char separator);
-/// The same, only two blanks or a tab separate: "Soll X   Ist X" has two.
+/// The same, separated only by two blanks or a tab: "Soll X   Ist X" has two cells.
 std::vector<records::TableCell> cells_apart(std::string_view text);
-/// Without the empty cells at the end, which spreadsheets add.
+/// Removes empty cells at the end, which spreadsheets add.
 void drop_empty_end(std::vector<records::TableCell>& cells);
 
-/// Empty, "-", "nan", "n/a", "***": no value was taken here.
+/// Empty, "-", "nan", "n/a", "***": a missing value.
 bool is_missing(std::string_view text);
-/// Any cell is a number.
+/// True when any cell is a number.
 bool has_number(const std::vector<records::TableCell>& cells, const Dialect& dialect);
-/// A line that a table can hold: a number, a time or a mark for a missing value in some cell.
+/// True for a line that can belong to a table: some cell is a number, a time or a missing value.
 bool is_data(const std::vector<records::TableCell>& cells, const Dialect& dialect);
-/// The dialect of these lines: the separator that cuts the most lines in a row alike. Throws
-/// InputError (place) where a comma may be separator and decimal mark at once.
+/// The dialect of these lines: the separator that splits the most consecutive lines alike. Throws
+/// InputError (with position) where a comma may be both separator and decimal mark.
 Dialect dialect_of(const std::vector<records::TableLine>& lines);
 
 }  // namespace trunnion::imports

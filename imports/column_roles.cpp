@@ -119,14 +119,14 @@ bool take_axis(ColumnRole& role, char letter) {
         role, std::string(1, static_cast<char>(std::toupper(static_cast<unsigned char>(letter)))));
 }
 
-/// Letters of a word, and the digits behind them.
+/// The letters of a word, and the digits after them.
 std::pair<std::string, std::string> parts_of(const std::string& word) {
     const std::size_t last = word.find_last_not_of("0123456789");
     const std::size_t cut = last == std::string::npos ? 0 : last + 1;
     return {word.substr(0, cut), word.substr(cut)};
 }
 
-/// An axis of the machine with a name of its own: "J3" for "j3", "joint 3", "a3", "axis 3".
+/// An axis of the machine with its own name: "J3" for "j3", "joint 3", "a3", "axis 3".
 std::optional<std::string> named_axis(const std::string& word, const std::string& next,
                                       const AxisNames& axes) {
     static const std::set<std::string> joints{"joint", "axis", "gelenk", "achse", "j",
@@ -171,7 +171,7 @@ void take_word(ColumnRole& role, Word word) {
     }
 }
 
-/// "x", "x1", "actual", "xact", "posx".
+/// Interprets one word: "x", "x1", "actual", "xact", "posx".
 bool understand(ColumnRole& role, std::string_view word) {
     if (const auto it = words().find(word); it != words().end()) {
         take_word(role, it->second);

@@ -1,4 +1,4 @@
-// Which column of a file holds what, and its numbers in mm, rad and s.
+// Assignment of columns, and their numbers in mm, rad and s.
 #pragma once
 
 #include <optional>
@@ -11,40 +11,41 @@
 
 namespace trunnion::imports {
 
-/// The words of a name in lower case: "X1_ActualPosition" is x1, actual, position.
+/// The words of a name in lower case: "X1_ActualPosition" gives x1, actual, position.
 std::vector<std::string> words_of(const std::string& name);
 /// Lower case, letters and digits only.
 std::string plain_name(const std::string& name);
 
-/// The column with one of these names (plain); throws InputError when two have one.
+/// The column with one of these names (in the form of plain_name()); throws InputError when two
+/// columns match.
 std::optional<std::size_t> find_column(const TextTable& table,
                                        const std::vector<std::string>& names);
 
-/// A column as numbers of one quantity.
+/// A column of numbers of one quantity.
 struct NumberColumn {
     std::size_t index = 0;
     double factor = 1.0;  ///< to mm, rad or s
 };
-/// The unit stands with the column, else in `otherwise`; throws InputError where neither tells it,
-/// or where the unit is one of another quantity.
+/// The unit comes from the column, else from `otherwise`; throws InputError when neither gives it,
+/// or when it belongs to another quantity.
 NumberColumn number_column(const TextTable& table, std::size_t index, Quantity quantity,
                            const std::string& otherwise);
-/// The first list of names that a column has (find_column).
+/// The column for the first list of names that matches (find_column).
 std::optional<std::size_t> find_first_column(const TextTable& table,
                                              const std::vector<std::vector<std::string>>& lists);
-/// One number; an empty cell, or a unit behind the number, throws InputError with its place.
+/// One number. An empty cell, or a unit after the number, throws InputError with its position.
 double number_in(const TextTable& table, std::size_t row,
                  const std::vector<records::TableCell>& cells, const NumberColumn& column);
 
 /// Times of the rows of one file.
 class TimeColumn {
   public:
-    /// The column told, or one named `time`, `time_s`, `timestamp`, `date` ..., or a date beside a
-    /// time of day; without one the fact step_s; without that one minute a row, with a note.
+    /// The given column, or one named `time`, `time_s`, `timestamp`, `date` ..., or a date next to
+    /// a time of day; else the fact step_s; else one minute a row, with a note.
     TimeColumn(const TextTable& table, const Facts& facts,
                std::optional<std::size_t> column = std::nullopt);
 
-    /// Seconds; absolute where the file has dates. Throws InputError for a text that is no time.
+    /// Seconds; absolute if the file has dates. Throws InputError for a text that is not a time.
     double time_s(const TextTable& table, std::size_t row,
                   const std::vector<records::TableCell>& cells) const;
     bool is_column(std::size_t k) const { return column_ == k || date_ == k; }

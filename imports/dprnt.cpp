@@ -1,4 +1,4 @@
-// What a measuring program printed while it ran: every move and touch, and the stores in force.
+// The printed output of a measuring program: all moves and touches, and the active stores.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,16 +15,16 @@
 namespace trunnion::imports {
 namespace {
 
-/// More beside the way is another line, not the rounding of a number that was printed.
+/// A larger distance from the path means another line, not rounding of a printed number.
 constexpr double most_beside_mm = 0.05;
-/// A stylus ball farther from every sphere touches something else.
+/// A stylus ball farther from every sphere touches another object.
 constexpr double most_off_sphere_mm = 20.0;
-constexpr double store_digits_mm = 1e-6;  ///< more than the digits of a store
+constexpr double store_digits_mm = 1e-6;  ///< more than the rounding of a printed store
 
 struct PrintedRow {
     records::Reading row;
     int line = 0;
-    int run = 1;  ///< of the file: which program printed it
+    int run = 1;  ///< number of the program run within the file
 };
 
 /// The axes in the order in which a control numbers them.
@@ -35,7 +35,7 @@ std::vector<Axis> numbered_axes(const setup::Setup& setup) {
     return axes;
 }
 
-/// One file while its lines come.
+/// One file while its lines are being read.
 class PrintedRun {
   public:
     PrintedRun(const setup::Setup& setup, const ImportFile& file, std::vector<std::string>& notes)
@@ -53,7 +53,7 @@ class PrintedRun {
 
     void read();
     const std::vector<PrintedRow>& rows() const { return rows_; }
-    /// "603 touches in 8 tests", with the number of runs where there are several.
+    /// "603 touches in 8 tests", with the number of runs if there are several.
     std::string words() const;
     int runs() const { return runs_; }
 
@@ -100,7 +100,7 @@ class PrintedRun {
     double unit_mm_ = 1.0, time_s_ = 0.0;
     std::size_t touches_ = 0, tests_ = 0;
     int runs_ = 0;
-    std::optional<PrintedLine> running_;  ///< head of the program whose END is to come
+    std::optional<PrintedLine> running_;  ///< head of the program that has not yet ended
     bool timed_ = false;
 };
 
@@ -228,7 +228,7 @@ void PrintedRun::at(const PrintedLine& line) {
     stands_ = q;
 }
 
-/// The sphere whose surface the stylus ball is nearest to, by the setup.
+/// The sphere nearest to the stylus ball, according to the setup.
 std::string PrintedRun::sphere_at(const PrintedLine& line, const AxisPositions& skip) const {
     const auto poses = setup_.machine.poses(skip);
     const Vector3 tip_M = poses.pose_MS * setup_.probe->tip_with(shop_.extension_mm);
@@ -304,7 +304,7 @@ std::vector<std::string> columns_of(const std::vector<PrintedRow>& rows) {
     return columns;
 }
 
-/// `--with session=each`: each program of each file is a set-up of its own.
+/// `--with session=each`: each program run of each file is a separate session.
 void write_runs(const std::vector<PrintedRow>& printed, const Facts& facts, int& session,
                 RowWriter& rows) {
     const bool each = facts.text("session") == "each";

@@ -20,7 +20,7 @@ const std::set<std::string>& known_keys() {
     return keys;
 }
 
-/// Other words for a key, as head lines of measuring software have them.
+/// Other names of a key in the head lines of measuring software.
 const std::map<std::string, std::string>& other_words() {
     static const std::map<std::string, std::string> words{
         {"feedrate", "feed"},   {"feed rate", "feed"}, {"feed_mm_min", "feed"},
@@ -114,7 +114,7 @@ AxisPositions positions_told(const setup::Setup& setup, const std::string& text)
         if (!axis || !value)
             throw InputError("at: '" + std::string(word) + "' does not read Y=100 for an axis of " +
                              setup.path);
-        // value_or: the compiler does not see that the value is there.
+        // value_or, because the compiler does not see that there is a value.
         const double told = value.value_or(0.0);
         at[*axis] = turns(setup, *axis) ? rad_from_deg(told) : told;
     }

@@ -1,4 +1,4 @@
-// What the file itself does not tell: `--with key=value`, else lines above its table.
+// Facts not contained in the file itself: `--with key=value`, else lines above its table.
 #pragma once
 
 #include <map>
@@ -12,18 +12,18 @@
 
 namespace trunnion::imports {
 
-/// One import: the keys that its kind knows are in docs/readings.md.
+/// Facts of one import; the keys of each kind are in docs/readings.md.
 class Facts {
   public:
-    /// `told`: "key=value" each. Throws InputError for a text without `=`, a key that no import
-    /// has, and a key told twice.
+    /// `told`: "key=value" each. Throws InputError for a text without `=`, an unknown key, and a
+    /// duplicate key.
     explicit Facts(const std::vector<std::string>& told);
-    /// These facts, and beside them those that the head lines of a file tell.
+    /// These facts, completed by those of the head lines of a file.
     Facts with_head_of(const TextTable& table) const;
 
     bool has(const std::string& key) const { return facts_.contains(key); }
     std::string text(const std::string& key, const std::string& otherwise = "") const;
-    /// A number above 0; throws InputError for another text.
+    /// A number above 0; throws InputError for any other text.
     std::optional<double> positive(const std::string& key) const;
     std::optional<double> number(const std::string& key) const;
 
@@ -31,16 +31,16 @@ class Facts {
     std::map<std::string, std::string> facts_;
 };
 
-/// The axis that `name` says ("X", "x", "X1", "X-axis", "J1"); nothing when the machine has none
-/// such.
+/// The axis named `name` ("X", "x", "X1", "X-axis", "J1"); empty when the machine does not have it.
 std::optional<Axis> axis_named(const setup::Setup& setup, const std::string& name);
-/// The machine's own axis may turn under the letter of a slide.
+/// True for a rotary axis; the machine's own axis may be rotary although its letter is that of a
+/// slide.
 bool turns(const setup::Setup& setup, Axis axis);
-/// "Y=100 B=-30" (mm, deg): positions of axes that the file does not tell. Throws InputError for
-/// an axis that the machine does not have.
+/// "Y=100 B=-30" (mm, deg): positions of axes not contained in the file. Throws InputError for an
+/// axis that the machine does not have.
 AxisPositions positions_told(const setup::Setup& setup, const std::string& text);
-/// The artefact of these kinds that `feature` names, or the only one there is. Throws InputError
-/// that says which setup lacks what.
+/// The artefact of this kind named `feature`, or the only one. Throws InputError with the missing
+/// item and the setup.
 const setup::Artefact& artefact_for(const setup::Setup& setup, const std::string& feature,
                                     setup::Artefact::Kind kind);
 

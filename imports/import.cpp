@@ -25,7 +25,8 @@ void append_utf8(std::uint32_t code, std::string& out) {
     }
 }
 
-/// The text as UTF-8; what a spreadsheet saved as UTF-16 too, where its byte order mark says so.
+/// The text as UTF-8, converted from UTF-16 (as saved by spreadsheets) if its byte order mark says
+/// so.
 std::string utf8_of(const ImportFile& file) {
     const bool little = file.text.starts_with("\xFF\xFE"), big = file.text.starts_with("\xFE\xFF");
     if (!little && !big) return file.text;

@@ -27,23 +27,23 @@ struct ImportRequest {
     const setup::Setup& setup;
     const std::vector<ImportFile>& files;
     Facts facts;
-    ImportFile map;  ///< of kind table: which column is what; empty path: none
+    ImportFile map;  ///< kind table: assignment of columns; empty path: none
 };
 
 struct Imported {
     std::string readings;              ///< CSV of records/readings.h
-    std::vector<std::string> summary;  ///< what was understood, a line for each file and finding
-    std::vector<std::string> notes;    ///< what was assumed
+    std::vector<std::string> summary;  ///< interpretation, one line for each file and finding
+    std::vector<std::string> notes;    ///< assumptions
 };
 
-/// Throws InputError (path, line, column) for what is not understood; then nothing is to be
-/// written.
+/// Throws InputError (path, line, column) for anything not understood; nothing must be written
+/// then.
 Imported import_readings(ImportKind kind, const ImportRequest& request);
 
-/// The tables of all files, one behind the other.
+/// The tables of all files, in order.
 std::vector<TextTable> tables_of(const ImportRequest& request, std::vector<std::string>& notes);
 
-// One function a kind; import_readings chooses.
+// One function for each kind, called by import_readings.
 Imported import_ballbar(const ImportRequest& request);
 Imported import_iso230_2(const ImportRequest& request);
 Imported import_points(const ImportRequest& request);

@@ -1,4 +1,4 @@
-// A laser's or autocollimator's table of ISO 230-2: targets, runs and directions of one axis.
+// ISO 230-2 table of a laser or autocollimator: targets, runs and directions of one axis.
 #include "records/iso230_2.h"
 
 #include <fmt/format.h>
@@ -15,10 +15,10 @@
 namespace trunnion::imports {
 namespace {
 
-constexpr double overrun_mm = 1.0;  ///< before the first target of a run; a row without a device
+constexpr double overrun_mm = 1.0;  ///< before the first target of a run; a row without device
 const double overrun_rad = rad_from_deg(1.0);
 
-/// ISO 841: what a positive command moves of the tool against the work, or turns.
+/// ISO 841: direction in which a + command moves (or turns) the tool relative to the workpiece.
 Vector3 direction_M(const setup::Setup& setup, Axis axis) {
     const kinematics::Chain& chain = setup.machine.chain;
     const bool carries_work =
@@ -26,7 +26,7 @@ Vector3 direction_M(const setup::Setup& setup, Axis axis) {
     return carries_work ? Vector3(-chain.find(axis)->direction) : chain.find(axis)->direction;
 }
 
-/// What moves, and its name.
+/// The moving axis and its name.
 struct MovedAxis {
     Axis axis = Axis::X;
     bool rotary = false;
@@ -98,8 +98,8 @@ Vector3 unit_vector(const std::string& key, const std::string& letter) {
     return Vector3::Unit(static_cast<Eigen::Index>(d));
 }
 
-/// What was read while the axis moved: its position; or, where that is told, how straight it runs
-/// (`along`) and how it pitches, yaws or rolls (`about`).
+/// The quantity read while the axis moved: its position or, if stated, its straightness (`along`)
+/// or its pitch, yaw or roll (`about`).
 struct WhatWasRead {
     bool angular = false;
     Vector3 direction_M;

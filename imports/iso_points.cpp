@@ -18,7 +18,7 @@ namespace {
 
 using Cells = std::vector<records::TableCell>;
 
-/// A table and what is known of its numbers.
+/// A table and the known facts about its numbers.
 struct Source {
     const TextTable& table;
     const Facts& facts;
@@ -54,7 +54,7 @@ bool close(double values, double apart, double targets) {
     return targets > 0.0 && apart < 0.05 * targets && values > 0.5 * targets;
 }
 
-/// Values are read as positions when that is said, or when they follow the targets.
+/// Values are positions if the user says so, or if they follow the targets.
 bool holds_positions(const std::vector<IsoPoint>& points, const Source& source) {
     if (source.facts.has("values")) return source.facts.text("values") == "positions";
     if (source.quantities.value != source.quantities.target) return false;
@@ -67,7 +67,7 @@ bool holds_positions(const std::vector<IsoPoint>& points, const Source& source) 
     return close(values, apart, targets);
 }
 
-/// A pass runs as its direction says, whatever the order in the file.
+/// Sorts a pass by its direction, independent of the order in the file.
 void sort_pass(std::vector<IsoPoint>& pass) {
     std::stable_sort(pass.begin(), pass.end(), [](const IsoPoint& a, const IsoPoint& b) {
         return a.direction > 0 ? a.target < b.target : a.target > b.target;
@@ -80,7 +80,7 @@ void step_times(const Facts& facts, std::vector<IsoPoint>& points) {
         points[k].time_s = step_s * static_cast<double>(k);
 }
 
-/// As measured: run 1 up, run 1 down, run 2 up ...
+/// In measured order: run 1 up, run 1 down, run 2 up ...
 bool before(const RunName& a, const RunName& b) {
     return std::pair(a.run, -a.direction) < std::pair(b.run, -b.direction);
 }
@@ -112,14 +112,14 @@ std::vector<RunColumn> run_columns(const TextTable& table, std::size_t target,
     return runs;
 }
 
-/// "Mean", "2 s" below the targets are results, no targets.
+/// "Mean" or "2 s" below the targets: results, not targets.
 bool is_result_row(const Source& source, const Cells& cells) {
     const std::string_view text = cells[source.target].text;
     return !text.empty() && !source.table.find_number(text) &&
            std::isalpha(static_cast<unsigned char>(text.front())) != 0;
 }
 
-/// Columns beside the targets, one for each run and direction.
+/// Columns next to the targets, one for each run and direction.
 std::vector<IsoPoint> matrix_points(const Source& source, const std::vector<RunColumn>& runs) {
     std::vector<IsoPoint> points;
     Cells cells;
@@ -187,7 +187,7 @@ struct ListColumns {
     std::optional<std::size_t> run, direction, axis;
 };
 
-/// A value without a unit that stands beside its target is a position, in the target's unit.
+/// A value without unit next to its target is a position, in the unit of the target.
 double list_factor(const Source& source, std::size_t column) {
     const TextTable& table = source.table;
     if (!table.columns()[column].unit.empty() || source.facts.has("unit"))
@@ -252,7 +252,7 @@ IsoPoint list_point(const Source& source, const ListColumns& columns, std::size_
     return point;
 }
 
-/// One value a line, with or without columns of run, direction and axis.
+/// One value a line, with or without columns for run, direction and axis.
 std::vector<IsoSeries> listed_series(const Source& source, Imported& result) {
     const TextTable& table = source.table;
     const ListColumns columns = list_columns(source);

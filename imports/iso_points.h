@@ -1,4 +1,4 @@
-// Values of an ISO 230-2 table in the order taken, however the table is laid out.
+// Values of an ISO 230-2 table in measured order, for any table layout.
 #pragma once
 
 #include <string>
@@ -19,19 +19,19 @@ struct IsoPoint {
 
 /// The values of one axis in one table.
 struct IsoSeries {
-    std::string axis;  ///< as the file names it; empty: it does not
+    std::string axis;  ///< name in the file; empty: not given
     std::vector<IsoPoint> points;
-    bool dated = false;  ///< times count from 1970
+    bool dated = false;  ///< times are seconds since 1970
 };
 
-/// What the numbers of a table are: of the axis, and of the device that read them.
+/// Quantities of a table: of the axis, and of the device that read it.
 struct IsoQuantities {
     Quantity target = Quantity::length, value = Quantity::length;
 };
 
-/// Targets in rows and a column for each run and direction; or runs in rows and a column for each
-/// target; or one value a line, for one axis or several. Passes in the order taken. Throws
-/// InputError with its place; `result.notes` gets what was assumed.
+/// Layouts: targets in rows and a column for each run and direction; runs in rows and a column for
+/// each target; one value a line, for one axis or several. Returns passes in measured order. Throws
+/// InputError with position; `result.notes` gets the assumptions.
 std::vector<IsoSeries> read_iso_points(const TextTable& table, const Facts& facts,
                                        const IsoQuantities& quantities, Imported& result);
 

@@ -21,7 +21,7 @@ std::string usual_unit(bool rotary, Rate rate) {
     return rotary ? "deg" : "mm";
 }
 
-/// Whether the error is actual - commanded (+1) or commanded - actual.
+/// Sign of the error: actual - commanded (+1) or commanded - actual (-1).
 double sign_of_error(const TextTable& table, const TextColumn& column, Role role,
                      const Facts& facts) {
     const std::string sign = facts.text("sign", role == Role::error ? "+" : "");
@@ -40,7 +40,8 @@ std::optional<NumberColumn>& place_of(AxisColumns& axis, const ColumnRole& role)
     return role.role == Role::actual ? axis.actual : axis.error;
 }
 
-/// Speeds that the encoder told are no commanded motion; a position is one of the two or the error.
+/// Actual speeds from the encoder are no commanded motion; a position column must be commanded,
+/// actual or error.
 bool wanted(const ColumnRole& role) {
     return role.rate == Rate::position ? role.role != Role::none : role.role != Role::actual;
 }
@@ -55,7 +56,8 @@ AxisColumns& columns_of(LogColumns& log, const setup::Setup& setup, Axis axis) {
     return log.axes.back();
 }
 
-/// A name without a letter ("commanded", "actual position") is about the axis that is told.
+/// A column name without axis letter ("commanded", "actual position") refers to the axis given by
+/// the user.
 std::optional<ColumnRole> role_in(const TextColumn& column, const AxisNames& names,
                                   const Facts& facts) {
     if (auto role = role_of(column.name, names)) return role;
@@ -63,7 +65,7 @@ std::optional<ColumnRole> role_in(const TextColumn& column, const AxisNames& nam
                              : std::nullopt;
 }
 
-/// "Az" beside "Az error" or "Az actual": as commanded.
+/// "Az" next to "Az error" or "Az actual": the commanded position.
 void take_plain(const TextTable& table, std::size_t k, const Facts& facts, AxisColumns& columns,
                 LogColumns& log) {
     if (columns.commanded || !(columns.actual || columns.error || log.block)) {
@@ -94,7 +96,7 @@ std::optional<BlockColumnFound> find_block_column(const TextTable& table) {
     const auto number = find_column(table, {"block", "blocknumber", "sequence", "sequencenumber",
                                             "sequenceno", "satz", "satznummer"});
     if (number) return BlockColumnFound{*number, false};
-    for (std::size_t k = 0; k < table.columns().size(); ++k)  // "n" may count the rows
+    for (std::size_t k = 0; k < table.columns().size(); ++k)  // "n" may be the number of the row
         if (table.columns()[k].name == "N") return BlockColumnFound{k, false};
     return std::nullopt;
 }

@@ -1,4 +1,4 @@
-// Commanded and read positions of axes in the columns of a log.
+// Commanded and read axis positions in the columns of a log.
 #pragma once
 
 #include <optional>
@@ -23,12 +23,12 @@ struct AxisColumns {
     const std::optional<NumberColumn>& place() const { return commanded ? commanded : actual; }
 };
 
-/// Which column tells the block of a row, as line of the program or as N number.
+/// The column with the block of a row, as a line of the program or an N number.
 struct BlockColumnFound {
     std::size_t column = 0;
     bool is_line = false;
 };
-/// By its name: line, N, block, sequence number; nothing where none tells it.
+/// By its name: line, N, block, sequence number; empty if there is none.
 std::optional<BlockColumnFound> find_block_column(const TextTable& table);
 
 struct LogColumns {
@@ -37,31 +37,32 @@ struct LogColumns {
     bool units_assumed = false;
     std::optional<BlockColumnFound> block;
 
-    /// Positions alone, beside the blocks of a program: no axis has both of its own.
+    /// True for positions only, with the blocks of a program: no axis has both commanded and actual
+    /// positions.
     bool places_only() const;
 };
 
-/// By the names of the columns and the facts axis, unit and sign. Throws InputError (header line)
-/// where no axis has both positions, or the sign of an error is not told. With `blocks` a column
-/// may tell the blocks of a program; then positions alone are enough.
+/// From the column names and the facts axis, unit and sign. Throws InputError (header line) when no
+/// axis has both positions, or when the sign of an error is not given. With `blocks` a column may
+/// give the blocks of a program; positions alone are then sufficient.
 LogColumns log_columns(const TextTable& table, const setup::Setup& setup, const Facts& facts,
                        const TimeColumn& time, bool blocks = false);
 
-/// What one line says of one axis: mm or rad.
+/// Values of one axis in one line: mm or rad.
 struct LogEntry {
     double commanded = 0.0, error = 0.0;  ///< error: read - commanded
 };
-/// Nothing where one of the two is missing.
+/// Empty when one of the two is missing.
 std::optional<LogEntry> log_entry(const TextTable& table, std::size_t row,
                                   const std::vector<records::TableCell>& cells,
                                   const AxisColumns& axis);
-/// A number that may be missing.
+/// A number; empty when it is missing.
 std::optional<double> number_or_none(const TextTable& table, std::size_t row,
                                      const std::vector<records::TableCell>& cells,
                                      const std::optional<NumberColumn>& column);
 /// "X, B (with commanded speed)": the axes that were read.
 std::string axes_words(const LogColumns& log);
-/// Units assumed, values missing, columns that are not used.
+/// Units assumed, missing values, unused columns.
 std::vector<std::string> log_notes(const TextTable& table, const LogColumns& log);
 
 }  // namespace trunnion::imports

@@ -8,10 +8,10 @@
 namespace trunnion::imports {
 namespace {
 
-/// Readings in a row at one target.
+/// Consecutive readings at one target.
 struct Stand {
     std::size_t begin = 0, count = 0;
-    int came = 0, goes = 0;  ///< direction of the step before and behind it
+    int came = 0, goes = 0;  ///< direction of the step before and after it
 };
 
 std::vector<Stand> stands_of(const std::vector<IsoPoint>& points) {
@@ -31,7 +31,7 @@ std::vector<Stand> stands_of(const std::vector<IsoPoint>& points) {
     return stands;
 }
 
-/// How often each target is read in passing; 1 where nothing is passed.
+/// Number of readings at each target in passing; 1 if none is passed.
 std::size_t readings_a_stand(const std::vector<Stand>& stands) {
     std::size_t least = 0;
     for (std::size_t k = 1; k + 1 < stands.size(); ++k)

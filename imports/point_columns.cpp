@@ -18,7 +18,7 @@ std::optional<std::size_t> component_of(const std::string& letter) {
     return letter.size() == 1 && d != std::string_view::npos ? std::optional(d) : std::nullopt;
 }
 
-/// A coordinate without a word ("x") is a measured one.
+/// A coordinate name without further word ("x") is a measured one.
 ThreeColumns& place_of(PointColumns& columns, Role role) {
     if (role == Role::commanded) return columns.nominal;
     return role == Role::error ? columns.error : columns.measured;
@@ -46,7 +46,7 @@ void take(const TextTable& table, std::size_t k, const ColumnRole& role, const s
     place = number_column(table, k, Quantity::length, unit);
 }
 
-/// "X", "Y", "Z" (or "x-coordinate") in the first row's cell.
+/// True for "X", "Y", "Z" (or "x-coordinate") in the cell of the first row.
 bool names_coordinate(const TextTable& table, std::size_t column) {
     Cells cells;
     table.read(0, cells);
@@ -54,7 +54,7 @@ bool names_coordinate(const TextTable& table, std::size_t column) {
     return role && component_of(role->axis);
 }
 
-/// A line for each coordinate: name, axis, nominal, actual, deviation.
+/// One line for each coordinate: name, axis, nominal, actual, deviation.
 bool take_lines(const TextTable& table, const Facts& facts, PointColumns& columns) {
     const auto coordinate =
         find_first_column(table, {{"coordinate", "coord", "koordinate"},
@@ -94,7 +94,7 @@ std::optional<double> number(const TextTable& table, std::size_t row, const Cell
     return number_in(table, row, cells, *column);
 }
 
-/// Nominal and measured from any two of nominal, measured and their difference.
+/// Computes nominal and measured from any two of nominal, measured and their difference.
 void fill(const TextTable& table, std::size_t row, const Cells& cells, const PointColumns& columns,
           std::pair<std::size_t, std::size_t> from_to, MeasuredPoint& point) {
     const auto [from, d] = from_to;
@@ -150,7 +150,7 @@ std::vector<MeasuredPoint> measured_points(const TextTable& table, const PointCo
         const records::TableCell& cell = cells[*columns.coordinate];
         const auto role = role_of(cell.plain());
         const auto d = role ? component_of(role->axis) : std::nullopt;
-        if (!d) continue;  // a diameter or a distance, no coordinate
+        if (!d) continue;  // a diameter or a distance, not a coordinate
         const std::string own = columns.name ? cells[*columns.name].plain() : "";
         if (points.empty() || own != name || points.back().measured[*d])
             points.push_back({i, {}, {}, {}});

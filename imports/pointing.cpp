@@ -1,4 +1,4 @@
-// Angles that one or two rotary axes took, read from outside: a resolver against a reference, a
+// Angles of one or two rotary axes, measured externally: a resolver against a reference, a
 // telescope against stars.
 #include <fmt/format.h>
 
@@ -11,14 +11,14 @@
 namespace trunnion::imports {
 namespace {
 
-/// A component of the rotation that is read.
+/// A measured component of the rotation.
 struct Component {
     std::string test;
     Vector3 direction_M;
     double angle_rad = 0.0;
 };
 
-/// The machine's axes that were read, the carrying one first.
+/// The measured axes of the machine, the carrying one first.
 class Mount {
   public:
     Mount(const TextTable& table, const setup::Setup& setup, const LogColumns& log)
@@ -39,9 +39,9 @@ class Mount {
 
     const std::vector<AxisColumns>& axes() const { return axes_; }
 
-    /// One axis: the rotation about it. Two: the line of sight stands across both when all axes are
-    /// at zero; read are the turn about the second axis and the one across it and the line of
-    /// sight, which is as wide as the sky shows it.
+    /// One axis: the rotation about it. Two axes: the line of sight is perpendicular to both when
+    /// all axes are at zero; measured are the rotation about the second axis, and the rotation
+    /// perpendicular to it and to the line of sight, as an angle on the sky.
     std::vector<Component> components(const AxisPositions& at,
                                       const std::vector<double>& errors_rad) const {
         const Vector3 last = direction_M(axes_.back().axis, at);
@@ -65,7 +65,7 @@ class Mount {
         return nullptr;
     }
 
-    /// Of a tool-side axis, where those that carry it have brought it.
+    /// Direction of a tool-side axis with its carriers at their positions.
     Vector3 direction_M(Axis axis, const AxisPositions& at) const {
         Matrix3 carried = Matrix3::Identity();
         for (const kinematics::AxisGeometry& a : setup_.machine.chain.tool) {

@@ -13,7 +13,7 @@
 namespace trunnion::imports {
 namespace {
 
-/// Where the declared control puts a target, in the frame that the instrument reads.
+/// Position of a target in the declared control, in the frame of the instrument.
 class CommandedTarget {
   public:
     CommandedTarget(const setup::Setup& setup, const setup::Artefact& target,
@@ -33,9 +33,9 @@ class CommandedTarget {
     }
     Vector3 read(const AxisPositions& at) const { return pose_ * point(at); }
 
-    /// X, Y and Z that bring the target to the nominal point, the other axes as they stand: the way
-    /// is linear in them. A coordinate that is not told leaves its axis where it stands. Nothing
-    /// when they do not move it.
+    /// X Y Z that bring the target to the nominal point with the other axes unchanged; the position
+    /// is linear in them. An axis without a coordinate keeps its position. Empty when the axes do
+    /// not move the target.
     std::optional<AxisPositions> reach(AxisPositions at,
                                        const std::array<std::optional<double>, 3>& nominal) const {
         constexpr std::array linear{Axis::X, Axis::Y, Axis::Z};
@@ -65,7 +65,7 @@ class CommandedTarget {
 
   private:
     const setup::Setup& setup_;
-    kinematics::Machine nominal_;  ///< what the control believes, whatever errors are known
+    kinematics::Machine nominal_;  ///< the control's belief, without known errors
     const setup::Artefact& target_;
     bool on_table_;
     Pose pose_;
@@ -79,7 +79,7 @@ const setup::Instrument* instrument_of(const setup::Setup& setup, const std::str
     return found;
 }
 
-/// The target that the points are of: the only one, or the one named.
+/// The target of the points: the only one, or the one named.
 struct PointFile {
     const TextTable& table;
     const PointColumns& columns;
@@ -114,7 +114,7 @@ AxisPositions positions_of(const PointFile& file, const MeasuredPoint& point,
     return *reached;
 }
 
-/// A row for each coordinate that was measured.
+/// Writes a row for each measured coordinate.
 void write_point(const PointFile& file, const MeasuredPoint& point,
                  const std::vector<records::TableCell>& cells, records::Reading row,
                  RowWriter& rows) {
@@ -132,11 +132,12 @@ void write_point(const PointFile& file, const MeasuredPoint& point,
     }
 }
 
-/// A pose that is free for each session takes six numbers of it: three points at least.
+/// A free pose has six parameters for each session: at least three points are required.
 void check_pose(const PointFile& file, const setup::Instrument* instrument) {
     if (!instrument || !instrument->free_pose) return;
     constexpr std::size_t fewest = 3;
-    std::map<std::string, std::pair<std::size_t, std::size_t>> sessions;  // first row, points
+    std::map<std::string, std::pair<std::size_t, std::size_t>> sessions;  // first row, number of
+                                                                          // points
     std::vector<records::TableCell> cells;
     for (const MeasuredPoint& point : file.points) {
         file.table.read(point.row, cells);

@@ -34,7 +34,7 @@ std::string axes_of(const setup::Setup& setup) {
     return out;
 }
 
-/// Commanded before actual; errors and speeds say no place.
+/// Commanded positions have priority over actual ones; errors and speeds are no positions.
 bool is_better(Role a, Role b) {
     return a == Role::commanded && b != Role::commanded;
 }
@@ -109,7 +109,7 @@ std::optional<records::LoggedArc> arc_in(const TextTable& table, std::size_t row
         {value[0], value[1], value[2]}, {value[3], value[4], value[5]}, value[6]};
 }
 
-/// Digits behind the point; 15 for a number with an exponent.
+/// Digits after the point; 15 for a number with an exponent.
 int decimals_of(std::string_view text) {
     if (text.find_first_of("eE") != std::string_view::npos) return 15;
     const std::size_t point = text.find_last_of(".,");
@@ -130,7 +130,7 @@ records::LoggedPosition row_of(const TextTable& table, std::size_t i, const Cell
     return row;
 }
 
-/// The least increment that the numbers of a log show.
+/// The least increment visible in the numbers of a log.
 class PrintedStep {
   public:
     explicit PrintedStep(const PositionColumns& columns) : columns_(columns) {}
@@ -145,13 +145,13 @@ class PrintedStep {
             most_ = std::max(most_, decimals);
         }
     }
-    /// Where numbers drop their zeros, few decimals say nothing.
+    /// If trailing zeros are omitted, few decimals give no information.
     double step() const {
         return fewest_ == most_ && most_ > 0 ? step_ : std::min(step_, usual_step);
     }
 
   private:
-    static constexpr double usual_step = 1e-3;  ///< mm or deg, of most controls
+    static constexpr double usual_step = 1e-3;  ///< mm or deg, usual for controls
     const PositionColumns& columns_;
     double step_ = 1.0;
     int fewest_ = 99, most_ = 0;

@@ -7,7 +7,7 @@
 namespace trunnion::imports {
 namespace {
 
-/// Blanks, `%` and XON, XOFF and their like.
+/// Removes blanks, `%`, XON, XOFF and similar characters.
 std::string_view bare(std::string_view line) {
     const auto idle = [](char c) { return static_cast<unsigned char>(c) <= ' ' || c == '%'; };
     while (!line.empty() && idle(line.front())) line.remove_prefix(1);

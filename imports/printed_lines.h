@@ -1,4 +1,4 @@
-// What a measuring program printed by DPRNT, line by line.
+// The DPRNT output of a measuring program, line by line.
 #pragma once
 
 #include <optional>
@@ -9,23 +9,23 @@
 
 namespace trunnion::imports {
 
-/// One line with its place.
+/// One line with its position.
 struct PrintedLine {
-    std::string_view text;  ///< without blanks around it
+    std::string_view text;  ///< trimmed
     int number = 0;
     std::string_view path;
 
     [[noreturn]] void fail(const std::string& message, std::size_t column = 0) const;
-    /// Up to the first blank.
+    /// The text up to the first blank.
     std::string_view word() const;
-    /// Number behind a letter that follows a blank. DPRNT writes the sign first and blanks for
-    /// leading zeros: "B-  90.0000". Throws InputError when it is missing or no finite number.
+    /// Number after a letter that follows a blank. DPRNT prints the sign first and blanks for
+    /// leading zeros: "B-  90.0000". Throws InputError when it is missing or not finite.
     double number_behind(char letter) const;
     Vector3 vector_behind(std::string_view three_letters) const;
 };
 
-/// Takes the next line off `text`; nullopt at its end. Empty lines, `%` and the control characters
-/// of a serial line are passed over. `number` counts all lines.
+/// Removes and returns the next line of `text`; empty at its end. Skips empty lines, `%` and the
+/// control characters of a serial line. `number` counts all lines.
 std::optional<PrintedLine> next_line(std::string_view& text, int& number, std::string_view path);
 
 }  // namespace trunnion::imports

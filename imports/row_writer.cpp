@@ -10,15 +10,15 @@
 namespace trunnion::imports {
 namespace {
 
-constexpr double pause_s = 60.0;          ///< between two files whose clocks both began at zero
-constexpr double night_s = 4.0 * 3600.0;  ///< a longer pause begins a session
-/// Between rows of different positions that carry the same time stamp.
+constexpr double pause_s = 60.0;          ///< between two files whose clocks both started at zero
+constexpr double night_s = 4.0 * 3600.0;  ///< a longer pause starts a new session
+/// Time between rows with different positions but equal time stamps.
 constexpr double shortest_s = 1e-6;
 
-/// mm, rad, mm/s: what is read back may be 1e9 mm or degrees at most (records/table_line.h).
+/// mm, rad, mm/s: the reader accepts at most 1e9 mm or degrees (records/table_line.h).
 constexpr double largest = 1e7;
 
-/// A number that no machine has is a slip of columns or units; a table with it would not be read.
+/// An impossible number is caused by wrong columns or units; a table with it would not be readable.
 void refuse_huge(const records::Reading& row, const SourceRef& place) {
     bool huge = false;
     for (const double v :

@@ -1,4 +1,4 @@
-// Readings of an import in the order taken: numbers them, keeps the clock, remembers their source.
+// Readings of an import in sequence: numbers the rows, keeps the clock, records their source.
 #pragma once
 
 #include <string>
@@ -10,28 +10,28 @@
 
 namespace trunnion::imports {
 
-/// Rows go to text at once: a servo log of a million rows is never a table of readings.
+/// Rows are converted to text at once: a servo log of a million rows is never held as a table of
+/// readings.
 class RowWriter {
   public:
-    /// `columns`: optional columns that rows of this import fill (source and, where it is told,
-    /// session are added).
+    /// `columns`: optional columns used by this import (source and, if given, session are added).
     RowWriter(const setup::Setup& setup, const std::string& kind, std::vector<std::string> columns,
               bool directions, bool degrees);
-    /// One more column behind the others, which readings do not know: the block of a program. To be
-    /// called before the first row.
+    /// Adds a last column that readings do not have: the block of a program. Call it before the
+    /// first row.
     void add_column(const std::string& name);
 
-    /// Rows that follow come from this file. A clock that starts at zero again goes on a minute
+    /// The following rows belong to this file. A clock that restarts at zero continues one minute
     /// after the last row.
     void begin_file(const std::string& path, const Facts& facts);
     void begin_file(const TextTable& table, const Facts& facts) { begin_file(table.path(), facts); }
-    /// Times of this file count from 1970: a pause of four hours begins a session, which is named
-    /// after its day unless the file or `--with session=` names one.
+    /// Times of this file are seconds since 1970: a pause of four hours starts a new session named
+    /// after its day, unless the file or `--with session=` gives a name.
     void name_days() { dated_ = true; }
-    /// A further program in the same file: its clock may begin anew, as that of a file may.
+    /// Another program run in the same file: its clock may restart.
     void begin_run() { begins_ = true; }
-    /// `row.time_s` is the file's; throws InputError when it runs back within the session.
-    /// `line`: of the file, 0 for a row that no line says; `more`: text in the added column.
+    /// `row.time_s` is the time in the file; throws InputError when it decreases within a session.
+    /// `line`: in the file, 0 for a generated row; `more`: text in the added column.
     void add(records::Reading row, int line, const std::string& more = "");
     int count() const { return index_; }
     std::string take() { return std::move(text_); }
@@ -47,7 +47,7 @@ class RowWriter {
     std::string day_;  ///< session of the day
     double day_s_ = 0.0;
     double shift_s_ = 0.0, last_s_ = 0.0;
-    double last_file_s_ = 0.0;  ///< the same by the file's clock
+    double last_file_s_ = 0.0;  ///< the same by the clock of the file
     AxisPositions last_at_;
 };
 

@@ -1,4 +1,4 @@
-// Run and direction in the name of a column or row: "1+", "Run 2 up", "3 rueck", "2-".
+// Run and direction from the name of a column or row: "1+", "Run 2 up", "3 rueck", "2-".
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 namespace trunnion::imports {
 
 struct RunName {
-    int run = 0, direction = 0;  ///< 0: not told
-    bool other = false;          ///< a word that says something else: "mean up"
+    int run = 0, direction = 0;  ///< 0: not given
+    bool other = false;          ///< contains a word of another meaning: "mean up"
 };
 
-/// +1 or -1 for a word of a direction, 0 for another one.
+/// +1 or -1 for a word of a direction, 0 for any other word.
 int direction_of(std::string word);
 RunName run_name(const std::string& name);
 

@@ -1,4 +1,4 @@
-// Any CSV, with a small map (TOML) that says which column is what.
+// Any CSV file, with a map (TOML) that assigns its columns.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,29 +13,29 @@
 namespace trunnion::imports {
 namespace {
 
-/// One key of the map: a text or number for every row, or a column (less another one).
+/// One key of the map: a constant text or number, or a column (minus another one).
 struct Source {
     std::string name;  ///< of the readings column
     records::StoreCell store;
     std::string constant;
     std::optional<NumberColumn> column, minus;
     std::optional<std::size_t> text_column, time_column;
-    double factor = 1.0;  ///< of the column's value, to the unit of the readings column
+    double factor = 1.0;  ///< from the column to the unit of the readings column
 };
 
 using Sources = std::vector<Source>;
 
 struct Map {
     Sources common;
-    std::vector<Sources> readings;  ///< rows of each line
+    std::vector<Sources> readings;  ///< generated rows of each line
     std::vector<std::string> columns;
     bool directions = false;
 };
 
-/// What a readings column is told in.
+/// Quantity and unit of a readings column.
 struct Told {
-    std::optional<Quantity> quantity;  ///< nothing: a text
-    double per_inside = 1.0;           ///< mm, rad, s to the unit of the column
+    std::optional<Quantity> quantity;  ///< empty: a text
+    double per_inside = 1.0;           ///< from mm, rad, s to the unit of the column
 };
 
 Told told_in(const std::string& name) {
@@ -161,7 +161,7 @@ class MapReader {
     AxisNames names_;
 };
 
-/// Puts one line's values into a row.
+/// Converts the values of one line into a row.
 class LineReader {
   public:
     LineReader(const TextTable& table, const TimeColumn& time) : table_(table), time_(time) {}
@@ -177,7 +177,7 @@ class LineReader {
 
   private:
     void fill(const Source& source, records::Reading& reading) const {
-        if (source.time_column) return;  // TimeColumn reads it, dates too
+        if (source.time_column) return;  // read by TimeColumn, which also reads dates
         records::TableLine line = table_.line(row_);
         records::TableCell cell{source.constant, 1, false};
         std::string text;
@@ -202,7 +202,8 @@ class LineReader {
     std::vector<records::TableCell> cells_;
 };
 
-/// A map can ask for rows that no reading is: they are refused here, not by the next command.
+/// Checks the generated rows here, because a map may produce invalid readings; otherwise the next
+/// command would fail.
 void check_rows(const std::string& readings, const std::string& map_path, const AxisNames& names) {
     std::vector<std::string> notes;
     try {

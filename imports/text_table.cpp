@@ -12,10 +12,10 @@
 namespace trunnion::imports {
 namespace {
 
-/// Lines that decide how a file is written and where a table begins.
+/// Number of lines examined to determine the format and the start of a table.
 constexpr std::size_t sample_lines = 200;
 constexpr std::size_t longest_unit = 10;  ///< letters
-constexpr std::size_t longest_head = 30;  ///< lines between two tables
+constexpr std::size_t longest_head = 30;  ///< maximum number of lines between two tables
 
 using Line = TextTable::Line;
 using Cells = std::vector<records::TableCell>;
@@ -30,7 +30,7 @@ bool one_of(char c, std::string_view set) {
     return set.find(c) != std::string_view::npos;
 }
 
-/// "[3]" counts, it is no unit.
+/// "[3]" is an index, not a unit.
 bool is_index(std::string_view text) {
     return text.find_first_not_of("0123456789") == std::string_view::npos;
 }
@@ -41,7 +41,7 @@ std::string unit_in(const records::TableCell& cell) {
     return unit;
 }
 
-/// "# time x": the names that plotting tools write behind a comment mark.
+/// "# time x": names after a comment mark, as plotting tools write them.
 std::string_view without_mark(std::string_view text) {
     const std::size_t begin = text.find_first_not_of("#%");
     return begin == std::string_view::npos ? std::string_view() : text.substr(begin);
@@ -61,13 +61,13 @@ bool begins_with_number(std::string_view text) {
     return k != std::string_view::npos && one_of(text[k], "0123456789+-.");
 }
 
-/// Numbers alone, or behind one name as in "Position;0;100;200".
+/// True for numbers only, or after a single name as in "Position;0;100;200".
 bool mostly_numbers(const Cells& cells, const Dialect& dialect) {
     const auto number = [&](const auto& cell) { return dialect.find_number(cell.text); };
     return std::all_of(cells.begin() + 1, cells.end(), number) && cells.size() > 1;
 }
 
-/// Of a row: an axis moves over numbers; "Feed;1000" stands above a table.
+/// True for a row of numbers of an axis; "Feed;1000" is a line above a table.
 bool row_like(const Cells& cells, const Dialect& dialect) {
     if (cells.size() < 2 || !is_data(cells, dialect)) return false;
     const std::string_view first = cells.front().text;
@@ -89,7 +89,7 @@ TextColumn column_named(const std::string& name, int column) {
     const std::size_t cut = text.find_last_of("_/ ,");
     if (cut != std::string::npos && cut > 0) {
         const std::string unit(records::without_blanks(text.substr(cut + 1)));
-        // "x_m" may be an axis; "time_s", "err um" and "angle / deg" are units.
+        // "x_m" may be an axis name; "time_s", "err um" and "angle / deg" contain units.
         if (find_unit(unit) && !is_index(unit.substr(0, 1))) {
             std::string left(records::without_blanks(text.substr(0, cut)));
             while (left.ends_with('/') || left.ends_with('_') || left.ends_with(','))
@@ -134,7 +134,7 @@ bool TextTable::is_units(const Line& line) const {
     return units > 0 && 2 * words <= units && !has_number(names, dialect_);
 }
 
-/// Rows, two at most, that stand behind lines[header] and have as many cells as it has names.
+/// Number of rows (at most two) after lines[header] with as many cells as it has names.
 std::size_t TextTable::rows_behind(const std::vector<Line>& lines, std::size_t header) const {
     std::size_t first = header + 1;
     if (first < lines.size() && is_units(lines[first])) ++first;
@@ -153,8 +153,8 @@ std::size_t TextTable::rows_behind(const std::vector<Line>& lines, std::size_t h
     return count;
 }
 
-/// The first line of names with two rows behind it; of the first table else that of the widest row,
-/// of a further one none.
+/// The first line of names with two rows after it. If there is none: in the first table the line of
+/// the widest row, in a further table none.
 std::size_t TextTable::find_header(const std::vector<Line>& lines, std::size_t begin) const {
     const std::size_t end = std::min(lines.size(), begin + sample_lines);
     for (std::size_t i = begin; i < end; ++i)
@@ -188,7 +188,7 @@ void TextTable::read_header(const std::vector<Line>& lines, std::size_t at) {
         columns_.push_back(column_named(cell.plain(), cell.column));
 }
 
-/// Columns as told; the first line of numbers that has as many.
+/// Columns as given by the user; the first line with as many numbers.
 std::size_t TextTable::first_told_row(const std::vector<Line>& lines, std::size_t begin,
                                       const std::string& told) {
     Cells names;
@@ -208,7 +208,7 @@ std::size_t TextTable::first_told_row(const std::vector<Line>& lines, std::size_
         {path_, 1, 1});
 }
 
-/// A short line such as "Section;2" with names and rows of another table soon behind it.
+/// A short line such as "Section;2", closely followed by names and rows of another table.
 bool TextTable::leads_to_header(const std::vector<Line>& lines, std::size_t at) const {
     const std::size_t end = std::min(lines.size(), at + longest_head);
     for (std::size_t i = at + 1; i < end && !begins_with_number(lines[i].text); ++i)
@@ -216,7 +216,7 @@ bool TextTable::leads_to_header(const std::vector<Line>& lines, std::size_t at) 
     return false;
 }
 
-/// Up to a line of words that is no row: the end, or the head of another table.
+/// Takes rows up to a text line, i.e. the end or the head of another table.
 void TextTable::take_rows(const std::vector<Line>& lines, std::size_t begin) {
     for (end_ = begin; end_ < lines.size(); ++end_) {
         const Line& line = lines[end_];
@@ -231,7 +231,7 @@ void TextTable::take_rows(const std::vector<Line>& lines, std::size_t begin) {
     }
 }
 
-/// A line that holds units alone below the names: "s;mm;mm".
+/// A line with units only below the names: "s;mm;mm".
 void TextTable::take_units() {
     if (rows_.empty() || !is_units(rows_.front())) return;
     const Cells names = cells(rows_.front());
@@ -242,7 +242,7 @@ void TextTable::take_units() {
     rows_.erase(rows_.begin());
 }
 
-/// Lines above the table, "Feed: 1000" or "# plane = XY" or "Feed;1000".
+/// Lines above the table: "Feed: 1000", "# plane = XY" or "Feed;1000".
 void TextTable::read_head(const std::vector<Line>& lines, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
         std::string_view text = lines[i].text;

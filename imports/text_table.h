@@ -11,15 +11,15 @@
 
 namespace trunnion::imports {
 
-/// One column of the header line. "Pos X [mm]" has the name "Pos X" and the unit "mm".
+/// One column of the header line: "Pos X [mm]" has the name "Pos X" and the unit "mm".
 struct TextColumn {
-    std::string name, unit;  ///< unit: as written, empty where the file tells none
-    int column = 1;          ///< where the name stands, from 1
+    std::string name, unit;  ///< unit: as written, empty if the file gives none
+    int column = 1;          ///< position of the name, from 1
 };
-/// "Pos X [mm]", "Pos X (mm)", "pos_x / mm".
+/// Splits "Pos X [mm]", "Pos X (mm)", "pos_x / mm".
 TextColumn column_named(const std::string& text, int column);
 
-/// Rows are split when they are asked for: a log of a million rows stays a text.
+/// Rows are split on demand: a log of a million rows remains a text.
 class TextTable {
   public:
     /// One line of the file.
@@ -29,10 +29,10 @@ class TextTable {
     };
     using Head = std::map<std::string, std::string>;
 
-    /// The first table at or behind lines[begin], which ends before a line of words that is no row
-    /// of it. `told`: names of the columns where no line has them, comma between. Throws
-    /// InputError (place) for lines without a table and quotes that are not closed; behind the
-    /// first table there may be none: then it has no rows.
+    /// The first table at or after lines[begin]; it ends before a text line that is not one of its
+    /// rows. `told`: comma-separated column names if no line has them. Throws InputError (with
+    /// position) for lines without a table and for unclosed quotes. After the first table there may
+    /// be none; it then has no rows.
     TextTable(const std::vector<Line>& lines, std::size_t begin, std::string path, Dialect dialect,
               const std::string& told = "");
 
@@ -44,12 +44,13 @@ class TextTable {
     std::string dialect_words() const;
 
     std::size_t size() const { return rows_.size(); }
-    std::size_t end() const { return end_; }  ///< of the lines: the first one behind the table
-    /// Cells of row `i`; throws InputError when it has not as many as the header.
+    std::size_t end() const { return end_; }  ///< index of the first line after the table
+    /// Cells of row `i`; throws InputError when their number differs from the header.
     void read(std::size_t i, std::vector<records::TableCell>& cells) const;
     records::TableLine line(std::size_t i) const { return {rows_[i].text, rows_[i].number, path_}; }
     records::TableLine header_line() const { return {header_.text, header_.number, path_}; }
-    /// The cell as a number, decimal comma understood. Throws InputError with its place.
+    /// The cell as a number, with decimal comma if the file uses it. Throws InputError with its
+    /// position.
     double number(std::size_t i, const records::TableCell& cell, std::string_view what) const;
     std::optional<double> find_number(std::string_view text) const {
         return dialect_.find_number(text);
@@ -83,9 +84,9 @@ class TextTable {
     std::size_t end_ = 0;
 };
 
-/// Every table of a file, the first one first: what stands above one holds for those behind it.
-/// `told`: as TextTable. Throws InputError (place) for a text without a table. The text must
-/// outlive them. `notes` gets a line for text behind the last table.
+/// All tables of a file in order; head lines of a table also apply to the following ones. `told`:
+/// as for TextTable. Throws InputError (with position) for a text without a table. The text must
+/// outlive them. `notes` gets a line for text after the last table.
 std::vector<TextTable> tables_of(std::string_view text, const std::string& path,
                                  const std::string& told, std::vector<std::string>& notes);
 

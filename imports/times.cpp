@@ -28,7 +28,7 @@ bool skip(std::string_view& text, char c) {
     return true;
 }
 
-/// Three numbers with the same mark between them.
+/// Three numbers separated by the same mark.
 std::optional<std::array<int, 3>> three(std::string_view& text, char mark) {
     std::array<int, 3> parts{};
     std::string_view left = text;
@@ -50,20 +50,21 @@ std::optional<double> day(int year, int month, int of_month) {
     return 86400.0 * static_cast<double>(days.count());
 }
 
-/// The date that `text` begins with; nothing, and `text` as it was, when there is none.
+/// Removes and returns a date at the start of `text`; if there is none, returns empty and leaves
+/// `text` unchanged.
 std::optional<double> take_date(std::string_view& text) {
     if (const auto iso = three(text, '-')) return day((*iso)[0], (*iso)[1], (*iso)[2]);
     if (const auto german = three(text, '.')) return day((*german)[2], (*german)[1], (*german)[0]);
     if (const auto slash = three(text, '/')) {
         const auto [a, b, c] = *slash;
         if (a > 31) return day(a, b, c);
-        if (a <= 12 && b <= 12 && a != b) return std::nullopt;  // which one is the month?
+        if (a <= 12 && b <= 12 && a != b) return std::nullopt;  // month and day are ambiguous
         return a > 12 ? day(c, b, a) : day(c, a, b);
     }
     return std::nullopt;
 }
 
-/// Seconds with a fraction behind point or comma.
+/// Seconds with a fraction after point or comma.
 std::optional<double> take_seconds(std::string_view& text) {
     const auto seconds = whole(text, 2);
     if (!seconds || *seconds > 60) return std::nullopt;

@@ -1,4 +1,4 @@
-// Time stamps as files write them, in seconds.
+// Time stamps in usual file formats, in seconds.
 #pragma once
 
 #include <optional>
@@ -7,15 +7,15 @@
 
 namespace trunnion::imports {
 
-/// A date with a time of day (2024-03-01T08:15:30.250Z, 2024-03-01 08:15:30, 01.03.2024 08:15:30,
-/// 03/25/2024 8:15 PM), as seconds since 1970 in its own time zone (an offset +01:00 is taken
-/// off); or a time of day alone (08:15:30), as seconds since midnight. Nothing for another text, a
-/// day that no calendar has, and 01/02/2024, which is two days.
+/// A date with time of day (2024-03-01T08:15:30.250Z, 2024-03-01 08:15:30, 01.03.2024 08:15:30,
+/// 03/25/2024 8:15 PM), as seconds since 1970 in its own time zone (an offset +01:00 is
+/// subtracted); or a time of day alone (08:15:30), as seconds since midnight. Empty for any other
+/// text, an invalid date, and an ambiguous one such as 01/02/2024.
 std::optional<double> seconds_of(std::string_view text);
 
-/// The day that a text begins with, as 2024-03-01; nothing where seconds_of reads none.
+/// The day at the start of a text, as 2024-03-01; empty when seconds_of() reads none.
 std::optional<std::string> day_in(std::string_view text);
-/// The day of a moment in seconds since 1970.
+/// The day of a time in seconds since 1970.
 std::string day_of(double time_s);
 
 }  // namespace trunnion::imports

@@ -11,7 +11,7 @@
 namespace trunnion::imports {
 namespace {
 
-/// Lower case, without blanks; both signs for micro (U+00B5, U+03BC) and Latin-1's as u.
+/// Lower case, without blanks; both micro signs (U+00B5, U+03BC) and that of Latin-1 become u.
 std::string plain(std::string_view name) {
     std::string out;
     for (std::size_t k = 0; k < name.size(); ++k) {

@@ -1,4 +1,4 @@
-// Units as files name them, and what turns a number into mm, rad or s.
+// Units by their names in files, and factors to mm, rad or s.
 #pragma once
 
 #include <optional>
@@ -13,8 +13,8 @@ struct Unit {
     double factor;  ///< to mm, rad, s, mm/s, rad/s, mm/s^2; 1 for deg C
 };
 
-/// "um", "µm", "arcsec", "ms", "mm/min", "deg/s" ..., "0.1um" for a count of such steps; nothing
-/// for a word that is no unit.
+/// "um", "µm", "arcsec", "ms", "mm/min", "deg/s" ..., "0.1um" for a count of such steps; empty for
+/// an unknown unit.
 std::optional<Unit> find_unit(std::string_view name);
 
 }  // namespace trunnion::imports

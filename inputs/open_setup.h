@@ -1,4 +1,4 @@
-// The setup that a command or a script works on.
+// The setup of a command or a script.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace trunnion::inputs {
 
-/// Loads a setup file, backup folder included; an empty path is machines/bc_table.toml. `notes`:
-/// what was derived or is not known, a line each.
+/// Loads a setup file including its backup folder; an empty path means machines/bc_table.toml.
+/// `notes`: derived values and unknown keys, one line each.
 setup::Setup open_setup(const std::string& path, std::vector<std::string>& notes);
 
 }  // namespace trunnion::inputs

@@ -11,7 +11,7 @@ namespace trunnion::inputs {
 namespace fs = std::filesystem;
 namespace {
 
-/// programs/ and the folders in it; none when nothing is installed.
+/// programs/ and its subfolders; empty if nothing is installed.
 std::vector<std::string> shipped_folders() try {
     const std::string root = shipped("programs");
     std::vector<std::string> folders{root};
@@ -46,7 +46,7 @@ interpreter::ProgramFolders folders_of_file(const interpreter::ProgramText& prog
     const std::string own = fs::path(program.name).parent_path().string();
     folders.push_back(own.empty() ? "." : own);
     std::vector<std::string> ours = shipped_folders();
-    if (is_one_of(folders.back(), ours)) {  // a shipped program asks for its fellows
+    if (is_one_of(folders.back(), ours)) {  // a shipped program may call other shipped programs
         folders.insert(folders.end(), ours.begin(), ours.end());
         ours.clear();
     }
@@ -67,7 +67,7 @@ ProgramAndFolders open_program(const std::string& name, std::vector<std::string>
     const auto number = o_number(name);
     if (!number) throw InputError("no such program, or it cannot be read", {name, 0, 0});
     if (!interpreter::ProgramFolders(folders).holds(
-            *number)) {  // asked for by its number: ours may serve
+            *number)) {  // called by number: a shipped program may be used
         folders.insert(folders.end(), ours.begin(), ours.end());
         ours.clear();
     }

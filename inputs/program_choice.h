@@ -1,4 +1,4 @@
-// The program a command or a script works on: a file, or an O number in the program folders.
+// The program of a command or a script: a file, or an O number in the program folders.
 #pragma once
 
 #include <string>
@@ -9,17 +9,19 @@
 
 namespace trunnion::inputs {
 
-/// Folders searched for programs: those given, the program's own, then what ships with the product.
+/// Search folders of programs: the given ones, that of the program, then those shipped with the
+/// product.
 struct ProgramAndFolders {
     emulator::ProgramChoice program;
     interpreter::ProgramFolders folders;
 };
 
-/// `folders`, then the file's own, then what ships; the file itself before all of them.
+/// `folders`, then the file's own folder, then the shipped ones; the file itself has priority over
+/// all of them.
 interpreter::ProgramFolders folders_of_file(const interpreter::ProgramText& program,
                                             std::vector<std::string> folders);
 
-/// Throws InputError when there is no such file and no such O number.
+/// Throws InputError when neither the file nor the O number exists.
 ProgramAndFolders open_program(const std::string& name, std::vector<std::string> folders);
 
 }  // namespace trunnion::inputs

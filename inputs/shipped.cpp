@@ -10,7 +10,7 @@ namespace trunnion::inputs {
 namespace fs = std::filesystem;
 namespace {
 
-/// The folders that may hold machines/ and programs/, in the order of search.
+/// The folders that may contain machines/ and programs/, in search order.
 std::vector<fs::path> homes() {
     std::vector<fs::path> folders;
     if (const char* home = std::getenv("TRUNNION_HOME"); home && *home) folders.emplace_back(home);

@@ -5,10 +5,10 @@
 
 namespace trunnion::inputs {
 
-/// A folder or file that ships with the product ("machines/bc_table.toml", "programs"). It is
-/// looked for in the folder that TRUNNION_HOME names, then beside the program and its parent
-/// folders (a build inside the source tree, or share/trunnion of an installation), then where this
-/// build was installed or made. Throws InputError that lists these places when it is nowhere.
+/// A folder or file that ships with the product ("machines/bc_table.toml", "programs"). Search
+/// order: the folder named by TRUNNION_HOME; the folder of the program and its parents (a build
+/// inside the source tree, or share/trunnion of an installation); the folder where this build was
+/// installed or built. Throws InputError that lists these folders when it is not found.
 std::string shipped(const std::string& relative);
 
 }  // namespace trunnion::inputs

@@ -1,4 +1,4 @@
-// The alarms of the language: number, screen text, cause and remedy as one table.
+// The alarms of the language as one table: number, displayed text, cause and remedy.
 #pragma once
 
 #include <span>
@@ -10,18 +10,18 @@ namespace trunnion::interpreter {
 
 struct AlarmInfo {
     int number;
-    const char* text;  ///< as on the screen, without the number ("PS0112 ZERO DIVIDE" is 112)
+    const char* text;  ///< as displayed, without the number ("PS0112 ZERO DIVIDE" is 112)
     const char* cause;
     const char* remedy;
 };
 
-/// Rising by number. Spellings are those of the 30i list from memory (assumed).
+/// In ascending order of number. Spellings of the 30i list, from memory (assumed).
 std::span<const AlarmInfo> language_alarms();
 /// The row of `number`, or nullptr.
 const AlarmInfo* language_alarm(int number);
 
-/// Throws the alarm with the screen text, `: detail` behind it, and the column (0: not known). The
-/// line and the program are filled in by whoever runs the block.
+/// Throws the alarm with the displayed text, then `: detail`, and the column (0: unknown). The
+/// caller that runs the block adds line and program.
 [[noreturn]] void raise_language_alarm(int number, int column = 0, const std::string& detail = {});
 
 }  // namespace trunnion::interpreter

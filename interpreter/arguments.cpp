@@ -7,10 +7,10 @@
 namespace trunnion::interpreter {
 namespace {
 
-/// Local variable of A to Z; 0: cannot pass an argument (I, J, K are counted, see below).
+/// Local variable number of A to Z; 0: passes no argument (I, J, K are counted, see below).
 constexpr std::array<signed char, 26> variable_of{1, 2, 3, 7,  8,  9,  0,  11, 4,  5,  6,  0,  13,
                                                   0, 0, 0, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26};
-/// G66.1 passes these too.
+/// Additional arguments of G66.1.
 constexpr int extra_variable(char letter) {
     return letter == 'G' ? 10 : letter == 'L' ? 12 : letter == 'N' ? 14 : letter == 'P' ? 16 : 0;
 }
@@ -32,7 +32,7 @@ void pass_arguments(const WordValue* first, const WordValue* last, const Argumen
                     Locals& locals) {
     locals.fill(vacant);
     int set = 0;        // of I J K, from 0
-    char previous = 0;  // letter last met in this set
+    char previous = 0;  // previous letter of this set
     for (const WordValue* word = first; word != last; ++word) {
         const char letter = word->letter;
         if (letter < 'A' || letter > 'Z') raise_language_alarm(129, word->column);

@@ -1,4 +1,4 @@
-// Words of a macro call -> local variables (argument specifications I and II).
+// Passes words of a macro call to local variables (argument specifications I and II).
 #pragma once
 
 #include "interpreter/block_words.h"
@@ -7,20 +7,20 @@
 namespace trunnion::interpreter {
 
 struct ArgumentRules {
-    /// Parameter 3401#0 = 1: `X10` passes 10. 0: ten least increments for the letters of positions.
+    /// Parameter 3401#0 = 1: `X10` passes 10. 0: ten least increments for position addresses.
     bool whole_numbers_as_written = true;
     double increments_per_unit = 1000.0;
-    /// G66.1 and parameter-called macros of that kind also pass G, L, N and P.
+    /// G66.1 and G codes that call macros in the same way also pass G, L, N and P.
     bool pass_all = false;
 };
 
-/// Fills `locals` (the rest becomes vacant) from the words [first, last). I J K may come
-/// repeatedly: the n-th set goes to #(3n+1).. . Alarm 129 for G, L, N, O, P; 1095 beyond ten sets.
+/// Sets `locals` from the words [first, last); all others become vacant. I J K may be repeated: set
+/// n goes to #(3n+1)... Alarm 129 for G, L, N, O, P; 1095 for more than ten sets.
 void pass_arguments(const WordValue* first, const WordValue* last, const ArgumentRules& rules,
                     Locals& locals);
 
-/// M98 P: a program number with the repeats packed in front of its last four digits, unless L says
-/// the repeats.
+/// M98 P: a program number. Digits in front of its last four are the repeat count, unless L gives
+/// it.
 struct SubprogramCall {
     int program = 0;
     int repeats = 1;

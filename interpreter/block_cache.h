@@ -1,4 +1,5 @@
-// Compiled blocks of text that runs again, found by place and linked to their successors.
+// Compiled blocks of text that is executed repeatedly, found by position and linked to their
+// successors.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 namespace trunnion::interpreter {
 
-/// Where a jump leads; `block` is -1 until it was compiled.
+/// Target of a jump; `block` is -1 until it is compiled.
 struct JumpTarget {
     TextPlace place;
     int block = -1;
@@ -21,8 +22,8 @@ class BlockCache {
     int find(int file, std::uint64_t byte) const;
     int add(int file, const Block& block);
 
-    /// When full, the rest of the text is read anew each time; after `patience` such blocks the
-    /// runner starts over with an empty cache, so that a new loop gets its place.
+    /// When the cache is full, further text is parsed at each execution. After `patience` such
+    /// blocks the runner clears the cache, so that a new loop is cached.
     bool full() const;
     static constexpr std::size_t patience = 1u << 17;
     void clear();
@@ -46,7 +47,7 @@ class BlockCache {
 
     std::size_t slot(std::uint64_t key) const;
 
-    std::vector<Entry> table_;  ///< open addressing; empty until the first block comes
+    std::vector<Entry> table_;  ///< open addressing; empty until the first block is added
 };
 
 }  // namespace trunnion::interpreter

@@ -13,9 +13,9 @@ bool is_name_character(char c) {
     return is_letter(c) || is_digit(c) || c == '+' || c == '-' || c == '_' || c == '.' || c == ' ';
 }
 
-constexpr std::size_t most_items = 4096;  ///< of a block, so that a line of any length ends soon
+constexpr std::size_t most_items = 4096;  ///< per block, so that a line of any length ends
 
-/// Letters whose least increment is that of positions; ROUND in them keeps it.
+/// Letters with the least increment of positions; ROUND in them keeps it.
 bool takes_increment(char letter) {
     return std::strchr("ABCIJKQRUVWXYZ", letter) != nullptr;
 }
@@ -30,14 +30,14 @@ Block BlockParser::run() {
     return block_;
 }
 
-/// `E` alone in a line: the last line of a Hurco's program.
+/// `E` alone in a line is the last line of a Hurco program.
 bool BlockParser::is_hurco_end(char c) const {
     if (c != 'E' || options_.dialect.family != DialectFamily::hurco) return false;
     const char* const rest = skip_blanks(in_.p + 1, in_.end);
     return rest == in_.end || is_line_end(*rest) || *rest == control_z;
 }
 
-/// False: the line is no block (end of record, folder line).
+/// False when the line is not a block (end of record, folder line).
 bool BlockParser::start() {
     const char c = in_.peek_raw();
     const bool over = in_.begin == in_.end || (in_.p != in_.end && *in_.p == control_z);
@@ -48,7 +48,7 @@ bool BlockParser::start() {
     return false;
 }
 
-/// One item at `c`; false: the block ends here.
+/// Parses one item at `c`; false when the block ends here.
 bool BlockParser::item(char c) {
     const std::uint16_t column = in_.column();
     const bool first = !words_ && !statements_;
@@ -158,7 +158,7 @@ void BlockParser::number_word() {
     block_.sequence_number = static_cast<int>(n.value);
 }
 
-/// `/` and `/1`..`/9`: false when the switch drops the rest of the block.
+/// `/` and `/1`..`/9`: false when the skip switch drops the rest of the block.
 bool BlockParser::skip() {
     const std::uint16_t column = in_.column();
     ++in_.p;
@@ -219,7 +219,7 @@ void BlockParser::word_value(Item& item) {
     if (in_.peek() == '.') raise_language_alarm(7, in_.column());
 }
 
-/// Listings show the end of block as ';': accepted where nothing follows.
+/// Listings show the end of block as ';': accepted at the end of a line.
 void BlockParser::semicolon() {
     const std::uint16_t column = in_.column();
     ++in_.p;

@@ -1,4 +1,4 @@
-// Text of one block -> Block and its items and expressions in a Code.
+// Parses the text of one block into a Block with its items and expressions in a Code.
 #pragma once
 
 #include <array>
@@ -11,28 +11,28 @@
 
 namespace trunnion::interpreter {
 
-/// Names that SETVN gave to variables: `#[#NAME]`.
+/// Names assigned to variables by SETVN: `#[#NAME]`.
 using VariableNames = std::map<std::string, int, std::less<>>;
-/// Takes `NAME,NAME,,NAME` of SETVN into `names`, the first for variable `number`.
+/// Adds `NAME,NAME,,NAME` of SETVN to `names`, starting with variable `number`.
 void read_names(std::string_view list, int number, VariableNames& names);
 
 struct ParseOptions {
     Dialect dialect;
-    /// Block skip switches [1]..[9]; a set one drops the rest of the block.
+    /// Block skip switches [1]..[9]; an active switch drops the rest of the block.
     std::array<bool, 10> skip{};
     bool keep_skips = false;  ///< keep `/n` as items (for printing and checking)
     const VariableNames* names = nullptr;
 };
 
-/// Brackets may be nested this deep (control.md 2.8); those of functions do not count (assumed).
+/// Maximum nesting of brackets (control.md 2.8); function brackets do not count (assumed).
 constexpr int bracket_levels = 5;
-/// Brackets of any kind, so that no text exhausts the stack (assumed).
+/// Maximum nesting of brackets of any kind, which bounds the stack (assumed).
 constexpr int function_levels = 30;
-/// No expression needs more places on the evaluation stack.
+/// No expression needs a deeper evaluation stack.
 constexpr int expression_stack = 48;
 
-/// Reads the block that starts at `byte` (its line number is given) and appends its parts to `out`.
-/// Faults are thrown as Alarm with the column. `byte` at the end of the text: end_of_record.
+/// Parses the block that starts at `byte` (its line number is given) and appends its parts to
+/// `out`. Errors are thrown as Alarm with the column. At the end of the text: end_of_record.
 Block parse_block(std::string_view text, std::uint64_t byte, int line, const ParseOptions& options,
                   Code& out);
 

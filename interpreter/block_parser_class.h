@@ -1,4 +1,4 @@
-// Reads one block. Words and programs stand in block_parser.cpp, macro statements in
+// Parser of one block. Words and programs are in block_parser.cpp, macro statements in
 // statement_parser.cpp.
 #pragma once
 
@@ -61,8 +61,8 @@ class BlockParser {
     std::string_view text_;
     Block block_;
     bool words_ = false, statements_ = false, computed_ = false;
-    bool closed_ = false;      ///< a jump or loop statement was read: nothing may follow
-    bool macro_call_ = false;  ///< G65, G66: ROUND in an argument gives a whole number
+    bool closed_ = false;      ///< a jump or loop statement was read; nothing may follow
+    bool macro_call_ = false;  ///< G65, G66: ROUND in an argument gives an integer
     bool program_ = false;
 };
 

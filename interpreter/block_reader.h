@@ -1,4 +1,4 @@
-// Characters of one block: blanks and comments skipped, places counted. Internal to the parser.
+// Characters of one block: skips blanks and comments, counts positions. Internal to the parser.
 #pragma once
 
 #include <string_view>
@@ -10,7 +10,7 @@ namespace trunnion::interpreter {
 
 class BlockReader {
   public:
-    /// What `peek` gives where the block ends.
+    /// Value of `peek` at the end of the block.
     static constexpr char at_end = '\0';
 
     BlockReader(std::string_view text, std::uint64_t byte, bool nested_comments, Code& out)
@@ -22,18 +22,19 @@ class BlockReader {
           out_(out),
           first_comment_(out.comments.size()) {}
 
-    /// Next character that counts, upper case, not consumed; at_end at the line's or text's end.
+    /// Next significant character in upper case, not consumed; at_end at the end of the line or
+    /// text.
     char peek();
-    /// Same for blanks only: the first character behind them, as written.
+    /// Skips blanks only and returns the next character as written.
     char peek_raw();
     std::uint16_t column() const;
-    /// Consumes `c` or raises `alarm`.
+    /// Consumes `c`, or raises `alarm`.
     void expect(char c, int alarm);
 
     const char* const begin;
     const char* p;
     const char* const end;
-    bool leading = true;  ///< neither an item nor '=' was read yet
+    bool leading = true;  ///< no item and no '=' was read yet
 
   private:
     void read_comment();
@@ -42,7 +43,7 @@ class BlockReader {
     bool nested_comments_;
     Code& out_;
     std::size_t first_comment_;
-    static constexpr std::size_t most_comments = 4096;  ///< of a block; more are passed over
+    static constexpr std::size_t most_comments = 4096;  ///< per block; further comments are ignored
 };
 
 }  // namespace trunnion::interpreter

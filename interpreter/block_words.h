@@ -1,4 +1,4 @@
-// What the language hands to the control: the words of one block with their values.
+// The interface from the language to the control: the words of one block with their values.
 #pragma once
 
 #include <array>
@@ -7,20 +7,21 @@
 
 namespace trunnion::interpreter {
 
-/// A word after its expression was evaluated.
+/// A word with its evaluated expression.
 struct WordValue {
     double value = 0.0;
     char letter = 0;            ///< upper case
-    bool decimal_point = true;  ///< false: written as a bare integer, so parameter 3401#0 and the
-                                ///< increment system decide what it means; variables count as true
-    bool vacant = false;        ///< `X#1` with #1 vacant: the control drops the word
-    std::uint16_t column = 0;   ///< from 1, of the letter
+    bool decimal_point = true;  ///< false: written as an integer without point, so that parameter
+                                ///< 3401#0 and the increment system define its unit; variables
+                                ///< count as true
+    bool vacant = false;        ///< `X#1` with #1 vacant: the control ignores the word
+    std::uint16_t column = 0;   ///< of the letter, from 1
 };
 
-/// The words of one block in the order written, without N, O, macro statements and comments.
-/// A comma word (`,R2.` `,C1.`) has the lower-case letter 'r' or 'c'.
+/// The words of one block in written order, without N, O, macro statements and comments. A comma
+/// word (`,R2.` `,C1.`) has the lower-case letter 'r' or 'c'.
 struct BlockWords {
-    static constexpr std::size_t capacity = 48;  ///< more words in one block: alarm
+    static constexpr std::size_t capacity = 48;  ///< more words raise an alarm
 
     std::array<WordValue, capacity> words;
     std::size_t count = 0;

@@ -1,4 +1,4 @@
-// A block as written, as plain data: items in order, expressions as flat reverse Polish code.
+// A block as written, as plain data: items in order, expressions as reverse Polish code.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ enum class OpCode : std::uint8_t {
     local,
     common,
     system,
-    indirect,  // operands
+    indirect,  // operand count
     negate,
     add,
     subtract,
@@ -57,11 +57,11 @@ enum class OpCode : std::uint8_t {
 /// One step of an expression.
 struct Op {
     OpCode code = OpCode::vacant;
-    std::uint16_t column = 0;  ///< from 1, where an alarm of this step points to
+    std::uint16_t column = 0;  ///< from 1, for alarms of this step
     std::int32_t number = 0;   ///< variable number of local, common, system
     union {
         double value = 0.0;  ///< constant
-        std::uint32_t slot;  ///< common: place in the store
+        std::uint32_t slot;  ///< common variable: index in the store
     };
 };
 
@@ -71,7 +71,7 @@ struct Span {
 };
 
 enum class ItemKind : std::uint8_t {
-    word,      ///< letter, value or expression `a`
+    word,      ///< letter; value or expression `a`
     skip,      ///< `/n`: number; the rest of the block is optional
     assign,    ///< #value = a, or #[b] = a
     if_goto,   ///< condition a; the next item is the go_to
@@ -85,37 +85,37 @@ enum class ItemKind : std::uint8_t {
     dprnt,
     bprnt,
     print_text,   ///< part of a print statement: characters b of Code::text
-    print_value,  ///< part of a print statement: a in number.digits
-    setvn         ///< variable `value` and on get the names b of Code::text
+    print_value,  ///< part of a print statement: a in the format number.digits
+    setvn         ///< variable `value` and the following get the names b of Code::text
 };
 
 struct Item {
     ItemKind kind = ItemKind::word;
-    char letter = 0;          ///< upper case; comma words lower case; '<' for the
-                              ///< called name of `M98<NAME>`: characters b of Code::text
+    char letter = 0;          ///< upper case; comma words lower case; '<' for the called name of
+                              ///< `M98<NAME>`: characters b of Code::text
     std::uint8_t number = 0;  ///< loop, skip switch, digits before the point
-    std::uint8_t digits = 0;  ///< digits behind the point of print_value
+    std::uint8_t digits = 0;  ///< digits after the point of print_value
     std::uint16_t column = 0;
     bool decimal_point = true;
     bool negative = false;  ///< word `X-#1`: the sign keeps a vacant value vacant
-    double value = 0.0;     ///< where the expression `a` (target `b`) is empty
+    double value = 0.0;     ///< used when the expression `a` (target `b`) is empty
     Span a, b;
     std::int32_t link = -1;  ///< jumps: index into the runner's links
 };
 
 struct Comment {
-    std::uint64_t byte = 0;  ///< of the text behind '('
+    std::uint64_t byte = 0;  ///< of the text after '('
     std::uint32_t size = 0;
     std::uint16_t column = 0;  ///< of the '('
-    bool leading = false;      ///< stands before the first item or '='
+    bool leading = false;      ///< precedes the first item or '='
 };
 
-/// What a line is besides its items.
+/// Kind of a line.
 enum class BlockKind : std::uint8_t {
-    words,          ///< all values constant: nothing to evaluate
+    words,          ///< all values are constant; no evaluation needed
     computed,       ///< words with expressions
     statements,     ///< macro statements
-    program,        ///< begins a program (O, ':' or <name>); may hold items all the same
+    program,        ///< starts a program (O, ':' or <name>); may also have items
     end_of_record,  ///< '%', Ctrl-Z, the end of the text, or a folder line `&F=..`
 };
 
@@ -125,12 +125,12 @@ struct Block {
     std::int32_t line = 0;   ///< from 1
     std::int32_t sequence_number = -1;
     std::int32_t o_number = -1;
-    std::int32_t next = -1;      ///< the runner's link to the block behind
+    std::int32_t next = -1;      ///< the runner's link to the next block
     Span items, comments, name;  ///< name: offset from `byte` and size, without < >
     BlockKind kind = BlockKind::words;
 };
 
-/// Where parsed blocks put their parts.
+/// Storage for the parts of parsed blocks.
 struct Code {
     std::vector<Item> items;
     std::vector<Op> ops;

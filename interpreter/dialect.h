@@ -1,4 +1,4 @@
-// Dialects: a value given to the language and to the control, one table of differences.
+// Dialects: a value given to the language and to the control, with one table of differences.
 #pragma once
 
 namespace trunnion::interpreter {
@@ -6,7 +6,7 @@ namespace trunnion::interpreter {
 enum class DialectFamily : unsigned char { fanuc, hurco };
 enum class ControlGeneration : unsigned char { fanuc_16i, fanuc_30i, fanuc_0i_f };
 
-/// The differences that matter to the language. Rows and sources in docs/control.md.
+/// The differences relevant to the language. Rows and sources are in docs/control.md.
 struct Dialect {
     DialectFamily family = DialectFamily::fanuc;
     ControlGeneration generation = ControlGeneration::fanuc_30i;

@@ -134,7 +134,8 @@ double power(double base, double exponent, const Op& op) {
     return in_range(result, op);
 }
 
-/// Comparison with Fanuc's vacancy rule: vacant equals only vacant; in the others it counts 0.
+/// Comparison with Fanuc's rule for vacant: EQ and NE distinguish vacant from 0; the other
+/// operators treat it as 0.
 bool compare(OpCode code, double a, double b) {
     if (code == OpCode::equal) return a == b || (is_vacant(a) && is_vacant(b));
     if (code == OpCode::not_equal) return !(a == b || (is_vacant(a) && is_vacant(b)));
@@ -150,7 +151,7 @@ double divide(double a, double b, const Op& op) {
     return in_range(a / b, op);
 }
 
-/// Operators that are not worth a place in the loop below.
+/// Operators that are too rare for the loop below.
 double binary(const Op& op, double a, double b, const EvaluationRules& rules) {
     switch (op.code) {
         case OpCode::modulo:

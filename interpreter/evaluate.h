@@ -1,4 +1,4 @@
-// Runs the reverse Polish code of an expression.
+// Evaluates the reverse Polish code of an expression.
 #pragma once
 
 #include "interpreter/code.h"
@@ -12,12 +12,13 @@ struct EvaluationRules {
     double increments_per_unit = 1000.0;  ///< ROUND inside an NC word; ADP
 };
 
-/// The value of `code`: vacant only when it is nothing but a vacant variable. Vacant counts 0 in
-/// arithmetic; EQ and NE tell vacant from 0. Angles in degrees. Alarms carry the column.
+/// The value of `code`; vacant only when the expression is a single vacant variable. In arithmetic
+/// vacant counts as 0; EQ and NE distinguish vacant from 0. Angles in degrees. Alarms have the
+/// column.
 double evaluate(const Op* code, std::uint32_t count, const Memory& memory,
                 const EvaluationRules& rules);
 
-/// A value used as a number of something: rounded; vacant is 0. Alarm 110 beyond 9 digits.
+/// Rounds a value that is used as a number of something; vacant is 0. Alarm 110 beyond 9 digits.
 int whole_number(double value, int column);
 
 }  // namespace trunnion::interpreter

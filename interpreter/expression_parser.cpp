@@ -6,7 +6,7 @@
 namespace trunnion::interpreter {
 namespace {
 
-constexpr std::size_t most_ops = 65536;  ///< of a block, so that a line of any length ends soon
+constexpr std::size_t most_ops = 65536;  ///< per block, so that a line of any length ends
 
 std::uint32_t size_of(const Code& code) {
     return static_cast<std::uint32_t>(code.ops.size());
@@ -56,7 +56,7 @@ void ExpressionParser::emit(OpCode code, std::uint16_t column, int operands) {
     out_.ops.push_back(op);
 }
 
-/// Left to right over the operators of `level`; tighter ones first.
+/// Left-associative operators of `level`; operators of higher precedence are parsed first.
 void ExpressionParser::binary(Precedence level) {
     const auto tighter = static_cast<Precedence>(static_cast<int>(level) + 1);
     const auto operand = [&] { level == Precedence::product ? unary() : binary(tighter); };
@@ -104,8 +104,8 @@ void ExpressionParser::number() {
     out_.ops.back().value = n.value;
 }
 
-/// `[..]` that groups: five inside each other. Brackets of functions do not count (assumed), but
-/// have a limit of their own.
+/// A grouping `[..]`, nested at most five levels. Function brackets do not count (assumed), but
+/// have their own limit.
 void ExpressionParser::bracket() {
     if (++brackets_ > bracket_levels) raise_language_alarm(118, in_.column());
     open();
@@ -113,7 +113,7 @@ void ExpressionParser::bracket() {
     --brackets_;
 }
 
-/// '[' and what stands behind it, up to ',' or ']'.
+/// '[' and its content up to ',' or ']'.
 void ExpressionParser::open() {
     in_.expect('[', 1131);
     if (++depth_ > function_levels) raise_language_alarm(118, in_.column() - 1);
@@ -141,7 +141,7 @@ void ExpressionParser::function(OpCode code, std::uint16_t column) {
     emit(code, column, 1);
 }
 
-/// The second bracket of FUNCTION[a]/[b]; nothing is taken where no bracket follows the slash.
+/// The second bracket of FUNCTION[a]/[b]; nothing is consumed if no bracket follows the slash.
 bool ExpressionParser::slash_bracket() {
     const char* const before = in_.p;
     if (in_.peek() == '/') {
@@ -197,7 +197,7 @@ void ExpressionParser::load(std::uint16_t column) {
     if (slot >= 0) out_.ops.back().slot = static_cast<std::uint32_t>(slot);
 }
 
-/// '#' and what names the variable: true with a constant `number`, false with code for it.
+/// '#' and the variable's name: true with a constant `number`, false with code for it.
 bool ExpressionParser::reference(int& number) {
     in_.expect('#', 114);
     const char c = in_.peek();
@@ -218,7 +218,7 @@ bool ExpressionParser::reference(int& number) {
     return true;
 }
 
-/// `[#NAME]` with a name that SETVN gave; -1 (and nothing consumed) when it is not of that form.
+/// `[#NAME]` with a name given by SETVN; -1 (nothing consumed) for any other form.
 int ExpressionParser::named_variable() {
     const char* const before = in_.p;
     const std::size_t comments = out_.comments.size();

@@ -1,4 +1,4 @@
-// Expressions and variable references -> reverse Polish code. Internal to the parser.
+// Parses expressions and variable references into reverse Polish code. Internal to the parser.
 #pragma once
 
 #include "interpreter/block_parser.h"
@@ -12,13 +12,13 @@ class ExpressionParser {
     ExpressionParser(BlockReader& in, const ParseOptions& options, Code& out)
         : in_(in), options_(options), out_(out), first_op_(out.ops.size()) {}
 
-    /// sum level, or with comparisons.
+    /// sum level, or including comparisons
     Span expression(Precedence lowest);
-    /// `#n` or `#[..]` as a value: what a word or GOTO may hold besides a number.
+    /// `#n` or `#[..]` as a value: allowed in a word or GOTO besides a number.
     Span variable();
     /// `[..]`
     Span bracketed();
-    /// The number of a variable behind '#': constant in `number`, or code in the returned span.
+    /// The number of a variable after '#': constant in `number`, or code in the returned span.
     Span variable_number(int& number);
 
     bool round_to_increment = false;  ///< ROUND inside an NC word
@@ -44,8 +44,8 @@ class ExpressionParser {
     const ParseOptions& options_;
     Code& out_;
     std::size_t first_op_;
-    int brackets_ = 0;  ///< open ones that group
-    int depth_ = 0;     ///< open ones of any kind
+    int brackets_ = 0;  ///< open grouping brackets
+    int depth_ = 0;     ///< open brackets of any kind
     int stack_ = 0;
 };
 

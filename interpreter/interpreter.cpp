@@ -77,7 +77,7 @@ std::string Interpreter::block_text() const {
     const char* const first =
         text.data() + std::min<std::size_t>(state_->current.byte, text.size());
     const char* const end = find_line_end(first, text.data() + text.size());
-    constexpr std::ptrdiff_t longest = 4096;  // enough to be shown
+    constexpr std::ptrdiff_t longest = 4096;  // maximum length for display
     return {first, first + std::min(longest, end - first)};
 }
 

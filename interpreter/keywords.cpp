@@ -31,7 +31,7 @@ constexpr FunctionRow functions[] = {
     {"POW", OpCode::pow},   {"ADP", OpCode::adp},     {"PRM", OpCode::prm},
 };
 
-/// Fanuc's order: * / MOD AND before + - OR XOR before comparisons (docs/control.md).
+/// Fanuc's precedence: * / MOD AND before + - OR XOR before comparisons (docs/control.md).
 struct OperatorRow {
     const char* word;
     OpCode code;
@@ -54,7 +54,7 @@ constexpr OperatorRow operators[] = {
     {"LE", OpCode::less_equal, Precedence::comparison},
 };
 
-/// Letters of `word` that stand at `p`: 0 unless at least two do (or all of a one-letter word).
+/// Number of letters of `word` at `p`: 0 unless at least two match (or all of a one-letter word).
 std::size_t matched(const char* word, const char* p, const char* end) {
     std::size_t n = 0;
     while (word[n] != 0 && p + n != end && upper(p[n]) == word[n]) ++n;

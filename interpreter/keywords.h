@@ -1,4 +1,4 @@
-// Macro words, which a control also takes shortened to two or more letters.
+// Macro keywords; a control also accepts them shortened to two or more letters.
 #pragma once
 
 #include <cstdint>
@@ -22,15 +22,16 @@ enum class Keyword : std::uint8_t {
     setvn
 };
 
-/// The statement word at `p` (at least two of its letters), or none. Moves `p` past it.
+/// The statement keyword at `p` (at least two of its letters), or none. Moves `p` past it.
 Keyword read_keyword(const char*& p, const char* end);
 
-/// The function at `p`, moved past it; false when there is none. `round_increment` is never given.
+/// The function at `p`; moves `p` past it. False when there is none. Never returns
+/// `round_increment`.
 bool read_function(const char*& p, const char* end, OpCode& function);
 
 enum class Precedence : std::uint8_t { none, comparison, sum, product };
 
-/// The operator at `p` (symbol or word), moved past it; Precedence::none when there is none.
+/// The operator (symbol or word) at `p`; moves `p` past it. Precedence::none when there is none.
 Precedence read_operator(const char*& p, const char* end, OpCode& op);
 
 /// Canonical spelling of an operator or function, or nullptr.

@@ -1,4 +1,4 @@
-// Characters, line ends and numbers as a control reads them; everything inline for the hot path.
+// Characters, line ends and numbers as a control reads them; inline for speed.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ constexpr bool is_letter(char c) {
     return upper(c) >= 'A' && upper(c) <= 'Z';
 }
 
-/// Past the line end at `p`: LF, CR, CR LF, or the control's own LF CR CR.
+/// Position after the line end at `p`: LF, CR, CR LF, or the control's own LF CR CR.
 inline const char* past_line_end(const char* p, const char* end) {
     if (*p++ == '\r') return p != end && *p == '\n' ? p + 1 : p;
     return end - p >= 2 && p[0] == '\r' && p[1] == '\r' ? p + 2 : p;
@@ -46,12 +46,12 @@ constexpr std::array<double, 16> powers_of_ten{1e0, 1e1, 1e2,  1e3,  1e4,  1e5, 
 
 struct Number {
     double value = 0.0;
-    int digits = 0;  ///< 0: there was no number
+    int digits = 0;  ///< 0: no number found
     bool point = false;
 };
 
-/// Digits with an optional point at `p`, correctly rounded: up to 15 digits as an exact integer
-/// over an exact power of ten, more through the library. Moves `p` past them.
+/// Reads digits with an optional point at `p`, correctly rounded: up to 15 digits as an exact
+/// integer divided by an exact power of ten, more digits through the library. Moves `p` past them.
 inline Number read_number(const char*& p, const char* end) {
     const char* const first = p;
     std::uint64_t mantissa = 0;

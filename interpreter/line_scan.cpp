@@ -5,7 +5,7 @@
 namespace trunnion::interpreter {
 namespace {
 
-/// Past blanks, whole comments and block skips.
+/// Skips blanks, whole comments and block skips.
 const char* skip_lead(const char* p, const char* end) {
     for (;;) {
         p = skip_blanks(p, end);
@@ -24,7 +24,7 @@ const char* skip_lead(const char* p, const char* end) {
     }
 }
 
-/// The number at `p` (blanks before it allowed), -1 when there is none.
+/// The number at `p` (blanks before it are allowed), -1 when there is none.
 int read_count(const char*& p, const char* end) {
     p = skip_blanks(p, end);
     const char* const first = p;

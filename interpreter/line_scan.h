@@ -1,4 +1,4 @@
-// A fast pass over the lines of a text that looks only at what a line begins with.
+// A fast scan over the lines of a text that only reads the beginning of each line.
 #pragma once
 
 #include <string_view>
@@ -8,9 +8,9 @@
 namespace trunnion::interpreter {
 
 enum class LineKind : unsigned char {
-    blank,  ///< nothing but blanks and comments
+    blank,  ///< only blanks and comments
     block,
-    program,  ///< begins with O, ':' or <name>
+    program,  ///< starts with O, ':' or <name>
     over      ///< '%', a folder line `&F=..`, or Ctrl-Z
 };
 
@@ -19,10 +19,10 @@ struct LineHead {
     TextPlace place;
     int number = 0;  ///< of a program
     int sequence_number = -1;
-    const char* content = nullptr;  ///< behind blanks, comments, skips and N
+    const char* content = nullptr;  ///< after blanks, comments, skips and N
 };
 
-/// Behind a byte order mark.
+/// Skips a byte order mark.
 TextPlace start_of_text(std::string_view text);
 
 class LineScan {
@@ -32,7 +32,7 @@ class LineScan {
     /// Moves to the next line; false at the end of the text.
     bool next();
     const LineHead& head() const { return head_; }
-    /// The start of the line behind the present one.
+    /// The start of the next line.
     TextPlace behind() const { return next_; }
 
   private:

@@ -1,4 +1,4 @@
-// The variables that the language keeps itself: locals by level and the common ones.
+// The variables owned by the language: local variables by level, and common variables.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace trunnion::interpreter {
 constexpr int local_count = 33;
 constexpr int common_count = 1100;
 
-/// Place of a common variable in the store (#100-#199, #500-#999, #98000-#98499), or -1.
+/// Index of a common variable in the store (#100-#199, #500-#999, #98000-#98499), or -1.
 constexpr int common_slot(int number, bool has_98000) {
     if (number >= 100 && number <= 199) return number - 100;
     if (number >= 500 && number <= 999) return number - 400;
@@ -30,10 +30,10 @@ class Memory {
     Memory(SystemVariables& system, bool has_98000);
 
     double get(int number) const;
-    /// `comment` goes on to the system variables (#3000 = 1(TEXT)).
+    /// `comment` is passed on to the system variables (#3000 = 1(TEXT)).
     void set(int number, double value, const char* comment = "");
 
-    Locals* locals = nullptr;  ///< of the running level
+    Locals* locals = nullptr;  ///< of the current level
     std::array<double, common_count> common;
     SystemVariables& system;
     bool has_98000;

@@ -23,7 +23,7 @@ void learn_names(ParsedProgram& program, const Block& block) {
                        static_cast<int>(item.value), program.names);
 }
 
-/// The old end-of-file mark: nothing behind it counts.
+/// The old end-of-file mark: everything after it is ignored.
 bool is_control_z(const ParsedProgram& program, const Block& block) {
     const std::string_view text = program.text(block);
     const std::size_t first = text.find_first_not_of(" \t");

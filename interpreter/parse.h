@@ -1,4 +1,4 @@
-// A whole file as plain data, without running it: for checking, comparing and printing.
+// A whole file as plain data, without executing it: for checking, comparing and printing.
 #pragma once
 
 #include <optional>
@@ -13,14 +13,15 @@
 
 namespace trunnion::interpreter {
 
-/// Every line of a file in order, blank ones too. Skip marks `/n` stay as items; switches do not
-/// count. Programs begin at blocks of kind `program`; kind `end_of_record` is '%' or a folder line.
+/// Every line of a file in order, including blank lines. Skip marks `/n` remain items; switches are
+/// ignored. A program starts at a block of kind `program`; kind `end_of_record` is '%' or a folder
+/// line.
 struct ParsedProgram {
     ProgramText source;
     Code code;
     std::vector<Block> blocks;
     std::vector<Alarm>
-        faults;           ///< lines that could not be read, with place and text; not in blocks
+        faults;           ///< lines that could not be parsed, with position and text; not in blocks
     VariableNames names;  ///< from SETVN
 
     std::span<const Item> items(const Block& block) const {
@@ -37,7 +38,7 @@ struct ParsedProgram {
     }
     /// The block as written, without its line end.
     std::string_view text(const Block& block) const;
-    /// `<NAME>` of a block that begins a program, without the brackets.
+    /// `<NAME>` of a block that starts a program, without the brackets.
     std::string_view name(const Block& block) const {
         return source.text.substr(block.byte + block.name.first, block.name.count);
     }
@@ -48,10 +49,11 @@ struct ParsedProgram {
 
 ParsedProgram parse_program(const ProgramText& source, const Dialect& dialect);
 
-/// The value of a word or jump target when it needs no variable: `X10.`, `X[5+5]` is not one.
+/// The value of a word or jump target written as a number: `X10.`; empty for expressions such as
+/// `X[5+5]`.
 std::optional<double> constant_value(const ParsedProgram& program, const Item& item);
 
-/// Equal in all that counts: N, O, name, items, expressions and comments; not places.
+/// True when N, O, name, items, expressions and comments are equal; positions are ignored.
 bool same_block(const ParsedProgram& a, const Block& block_a, const ParsedProgram& b,
                 const Block& block_b);
 

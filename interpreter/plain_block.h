@@ -1,4 +1,4 @@
-// The hot path: a block of plain words (letters with numbers) read in one pass from the text.
+// The inner loop: reads a block of plain words (letters with numbers) from the text in one pass.
 #pragma once
 
 #include <array>
@@ -8,11 +8,11 @@
 
 namespace trunnion::interpreter {
 
-/// Codes at which the language itself does something: calls, returns, G10 L85.
+/// Codes that the language itself executes: calls, returns, G10 L85.
 struct SpecialCodes {
     std::array<bool, 10000> g{};  ///< by G code * 10
     std::array<bool, 1000> m{};
-    bool large_m = false;  ///< some M code above 999 calls a program
+    bool large_m = false;  ///< an M code above 999 calls a program
     bool t = false;
 
     bool has(char letter, double value) const {
@@ -28,9 +28,9 @@ struct SpecialCodes {
     }
 };
 
-/// Reads the block at `p` into `out` when it holds nothing but blanks, comments, N and words with
-/// numbers, none of them special: then moves `p` to the next block and returns true. Otherwise `p`
-/// stays and the parser has to look at it.
+/// Reads the block at `p` into `out` if it has only blanks, comments, N and words with numbers, and
+/// no special code. Then moves `p` to the next block and returns true. Otherwise `p` is unchanged
+/// and the full parser must be used.
 inline bool read_plain_block(const char*& p, const char* end, const SpecialCodes& special,
                              BlockWords& out) {
     const char* const first = p;

@@ -13,13 +13,13 @@
 namespace trunnion::interpreter {
 namespace {
 
-/// Text of a part of an expression with what decides about brackets around it.
+/// Text of a part of an expression, with the data that decide about brackets.
 struct Part {
     std::string text;
     Precedence precedence = Precedence::none;  ///< none: a value, a function, a bracket
     bool negated = false;
-    bool open_call = false;  ///< ends in ATAN[..] or PRM[..]: a `/[` behind would belong to it
-    int depth = 0;           ///< brackets that group inside each other, as the parser counts them
+    bool open_call = false;  ///< ends in ATAN[..] or PRM[..]: a following `/[` would belong to it
+    int depth = 0;           ///< nested grouping brackets, as counted by the parser
 };
 
 std::string bracketed(const std::string& text) {
@@ -101,7 +101,7 @@ void ExpressionPrinter::step(const Op& op) {
     parts_.push_back(binary_part(op.code, left, right));
 }
 
-/// Operands of a call, joined as its code wants them.
+/// Operands of a call, joined as its code requires.
 void ExpressionPrinter::call(const Op& op) {
     const Part last = pop();
     const bool two = op.code == OpCode::atan2 || op.code == OpCode::pow ||
@@ -226,7 +226,8 @@ void BlockPrinter::assignment(const Item& item) {
     out_ += right.precedence == Precedence::comparison ? bracketed(right.text) : right.text;
 }
 
-/// `[a EQ b]`; where one bracket more were too deep, `[..] AND [..]` stands without it.
+/// `[a EQ b]`; where another bracket would exceed the nesting limit, `[..] AND [..]` is printed
+/// without it.
 std::string BlockPrinter::condition(const Item& item) const {
     const Part text = part(item.a);
     return text.text[0] == '[' && text.depth >= bracket_levels ? text.text : bracketed(text.text);

@@ -9,8 +9,9 @@
 namespace trunnion::interpreter {
 namespace {
 
-constexpr int outside = -2;                    ///< in place of a file's id: from the source alone
-constexpr std::size_t largest_index = 300000;  ///< N numbers kept for one program: 4.8 MB
+constexpr int outside = -2;                    ///< stands for a file id: from the source only
+constexpr std::size_t largest_index = 300000;  ///< maximum number of N numbers indexed for one
+                                               ///< program: 4.8 MB
 
 bool by_number(const Numbered& a, const Numbered& b) {
     return a.number != b.number ? a.number < b.number : a.byte < b.byte;
@@ -21,7 +22,7 @@ bool begins_other(const LineHead& head, const Section& section) {
            (head.kind == LineKind::program && head.place.byte > section.begin.byte);
 }
 
-/// The loop statement at a line's head: DO n > 0, END n < 0, neither 0.
+/// The loop statement at the beginning of a line: DO n > 0, END n < 0, neither 0.
 int loop_step(const LineHead& head, const char* end) {
     const char* p = head.content;
     if (p == end || !is_letter(*p)) return 0;
@@ -65,7 +66,7 @@ Section& ProgramFiles::section_at(ProgramFile& file, TextPlace place, int o_numb
     return *sections_.back();
 }
 
-/// Blank lines, `%` lines, folder lines and comments before the first program are passed over.
+/// Blank lines, `%` lines, folder lines and comments before the first program are skipped.
 Section& ProgramFiles::open(const ProgramText& text) {
     ProgramFile& file = add(text);
     std::optional<LineHead> first;
@@ -146,7 +147,7 @@ Section* ProgramFiles::find_outside(int number) {
 }
 
 void ProgramFiles::build_index(Section& section) {
-    for (auto& other : sections_) {  // one large index at a time keeps memory flat
+    for (auto& other : sections_) {  // only one large index at a time, to bound memory
         if (other->index.size() < largest_index / 10) continue;
         other->index = {};
         other->indexed = false;

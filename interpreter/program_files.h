@@ -1,4 +1,4 @@
-// The program texts in use, where programs begin in them, and where N numbers and ENDs stand.
+// The program texts in use, the programs in them, and the positions of N numbers and ENDs.
 #pragma once
 
 #include <cstdint>
@@ -24,24 +24,24 @@ struct Numbered {
     std::uint64_t byte = 0;
 };
 
-/// One file; its list of programs is built when a call first needs it.
+/// One file; its list of programs is built at the first call that needs it.
 struct ProgramFile {
     int id = 0;
     ProgramText text;
     bool listed = false;
-    std::vector<Numbered> programs;  ///< by O number, first of equal ones first
+    std::vector<Numbered> programs;  ///< by O number; of equal numbers the first in the text
 };
 
-/// One program: from its O number (or its first block) to the next one or the end of record.
+/// One program: from its O number (or its first block) to the next program or the end of record.
 struct Section {
     ProgramFile* file = nullptr;
     TextPlace begin;
     int o_number = 0;
-    std::uint64_t read_to = 0;  ///< text before this was executed already
-    int first_block = -1;       ///< runner's cache
+    std::uint64_t read_to = 0;  ///< the text before this was executed already
+    int first_block = -1;       ///< in the runner's cache
     bool indexed = false;
-    bool index_too_large = false;  ///< more N numbers than are kept: searched in the text each time
-    std::vector<Numbered> index;   ///< N numbers, by number then place
+    bool index_too_large = false;  ///< too many N numbers to index: the text is searched each time
+    std::vector<Numbered> index;   ///< N numbers, sorted by number, then position
 };
 
 class ProgramFiles {
@@ -50,21 +50,22 @@ class ProgramFiles {
 
     /// The first program of a text.
     Section& open(const ProgramText& text);
-    /// Program O`number`: in `near`'s file, in the first opened file, then from the source.
+    /// Program O`number`: searched in the file of `near`, in the first opened file, then in the
+    /// source.
     Section* find(int number, const Section* near);
-    /// Only from the source (M198).
+    /// Searched in the source only (M198).
     Section* find_outside(int number);
-    /// The program `<name>`: in `near`'s file, then from the source.
+    /// The program `<name>`: searched in the file of `near`, then in the source.
     Section* find(std::string_view name, const Section& near);
 
-    /// GOTO's rule: the next N`number` behind `after`, to the end of the program, then from its
-    /// start.
+    /// GOTO: the next N`number` after `after`, up to the end of the program, then from its start.
     std::optional<TextPlace> find_sequence(Section& section, int number, std::uint64_t after);
-    /// Behind the END `number` that closes the DO whose block ends at `from`, or nothing.
+    /// Position after the END `number` that closes the DO whose block ends at `from`; empty if
+    /// none.
     std::optional<TextPlace> find_loop_end(const Section& section, TextPlace from, int number);
 
     void forget_first_blocks();
-    /// Lines that all searches so far have passed.
+    /// Number of lines passed by all searches so far.
     std::uint64_t lines_searched() const { return lines_searched_; }
 
   private:
@@ -80,8 +81,8 @@ class ProgramFiles {
     std::vector<std::unique_ptr<Section>> sections_;
     std::uint64_t lines_searched_ = 0;
     std::map<std::string, Section*, std::less<>> named_;
-    std::map<std::pair<int, int>, Section*> found_;  ///< by file id (-1: none) and number;
-                                                     ///< missing ones too
+    std::map<std::pair<int, int>, Section*> found_;  ///< by file id (-1: none) and number; includes
+                                                     ///< numbers that were not found
 };
 
 }  // namespace trunnion::interpreter

@@ -51,7 +51,7 @@ bool is_text(std::string_view text) {
     return text.substr(0, 4096).find('\0') == std::string_view::npos;
 }
 
-/// Calls `found` with the number of every program that begins in `text`.
+/// Calls `found` with the number of every program that starts in `text`.
 void programs_in(std::string_view text, const std::function<void(int)>& found) {
     for (LineScan scan(text, start_of_text(text)); scan.next();)
         if (scan.head().kind == LineKind::program && *scan.head().content != '<')
@@ -102,7 +102,7 @@ void ProgramFolders::list(Shelf& shelf) {
     for (const std::string& folder : shelf.folders) {
         std::vector<std::string> names;
         for (const auto& entry : fs::directory_iterator(folder)) {
-            std::error_code unknown;  // a link that leads round in a circle is no program
+            std::error_code unknown;  // a circular link is not a program
             if (entry.is_regular_file(unknown)) names.push_back(entry.path().string());
         }
         std::sort(names.begin(), names.end());
@@ -113,7 +113,7 @@ void ProgramFolders::list(Shelf& shelf) {
     }
 }
 
-/// By the names of the files, then by what they hold; nullptr: in none of them.
+/// Searches by file name, then by content; nullptr when not found.
 const std::string* ProgramFolders::path_of(Shelf& shelf, int o_number) {
     list(shelf);
     if (const auto named = shelf.by_name.find(o_number); named != shelf.by_name.end())

@@ -9,32 +9,32 @@
 
 namespace trunnion::interpreter {
 
-/// What a file holds now; "-" is standard input. What is written to the file later changes nothing.
-/// Throws InputError when it cannot be read.
+/// The present content of a file; "-" is standard input. Later changes of the file have no effect.
+/// Throws InputError when the file cannot be read.
 ProgramText read_program(const std::string& path);
 
-/// The same for a program that is to be run or judged: one without any block is refused, because a
-/// file that a post or a copy left empty must not pass.
+/// The same for a program to be run or checked. A program without any block is refused, so that an
+/// empty file from a post processor or a failed copy does not pass.
 ProgramText read_main_program(const std::string& path);
 
-/// Looks for O1234 in the folders: files named O1234, O1234.nc (or .txt .tap .min .mpf .cnc .ngc
-/// .eia .iso .prg), 1234, 1234.nc, leading zeros free, upper or lower case; then any file that
-/// holds a line starting with O1234 or :1234, the way one file carries several programs. The user's
-/// folders are searched so, names and contents, before the shipped ones.
+/// Searches O1234 in the folders: first files named O1234, O1234.nc (or .txt .tap .min .mpf .cnc
+/// .ngc .eia .iso .prg), 1234, 1234.nc, with any number of leading zeros, in upper or lower case;
+/// then any file with a line that starts with O1234 or :1234, as in files with several programs.
+/// The user's folders are searched by name and content before the shipped ones.
 class ProgramFolders : public ProgramSource {
   public:
     /// `shipped`: folders of the product. Throws InputError when a folder is missing.
     explicit ProgramFolders(std::vector<std::string> folders,
                             std::vector<std::string> shipped = {});
 
-    /// Programs of this file are found before all others (the file that runs). It is searched when
-    /// the first subprogram is called, not before.
+    /// Programs of this file have priority over all others (the file being run). It is searched at
+    /// the first subprogram call.
     void add_file(const ProgramText& file);
-    /// The files given and those that calls found, each as it was read.
+    /// The files given and those found by calls, each with the content that was read.
     std::vector<ProgramText> used() const;
 
     bool holds(int o_number) { return look_up(o_number).has_value(); }
-    /// One line for each program that a call found only among the shipped ones.
+    /// One line for each program that a call found only in the shipped folders.
     const std::vector<std::string>& announcements() const { return announcements_; }
 
     std::optional<ProgramText> find(int o_number) override;
@@ -45,10 +45,10 @@ class ProgramFolders : public ProgramSource {
     struct Shelf {
         std::vector<std::string> folders;
         bool listed = false, scanned = false;
-        std::vector<std::string> files;  ///< in order of folders, then of names
+        std::vector<std::string> files;  ///< in the order of folders, then of names
         std::map<int, std::string> by_name, by_content;
     };
-    /// Each file is read when it is first called, and stays as it was then.
+    /// Each file is read at its first call; later changes have no effect.
     const ProgramText& read_once(const std::string& path);
     void scan_own_files();
     std::optional<ProgramText> look_up(int o_number);
@@ -61,7 +61,7 @@ class ProgramFolders : public ProgramSource {
     Shelf own_shelf_, shipped_;
     std::vector<std::string> announcements_;
     std::vector<ProgramText> given_;      ///< by add_file
-    std::vector<ProgramText> own_files_;  ///< of them, not yet searched
+    std::vector<ProgramText> own_files_;  ///< of these, not yet searched
     std::map<int, ProgramText> own_;
     std::map<std::string, ProgramText> read_;  ///< by path
 };

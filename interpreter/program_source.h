@@ -1,4 +1,4 @@
-// Where programs come from: the one small interface to the outside world.
+// Source of programs: the only interface of the language to the outside world.
 #pragma once
 
 #include <map>
@@ -9,9 +9,9 @@
 
 namespace trunnion::interpreter {
 
-/// The bytes of one file as they were when it was read, kept alive as long as anyone uses them.
+/// The bytes of one file when it was read, shared by all users.
 struct ProgramText {
-    std::string name;  ///< shown in messages: the path as given
+    std::string name;  ///< path as given, for messages
     std::string_view text;
     std::shared_ptr<const void> owner;
 };
@@ -19,13 +19,13 @@ struct ProgramText {
 class ProgramSource {
   public:
     virtual ~ProgramSource() = default;
-    /// The file that holds program O`number`, or nothing.
+    /// The file that contains program O`number`; empty if none.
     virtual std::optional<ProgramText> find(int o_number) = 0;
-    /// The file that holds the program called `<name>` (without the brackets), or nothing.
+    /// The file that contains the program `<name>` (without the brackets); empty if none.
     virtual std::optional<ProgramText> find(std::string_view name) = 0;
 };
 
-/// Programs held in memory, for tests and for callers who have no files.
+/// Programs in memory, for tests and for callers without files.
 class ProgramsInMemory : public ProgramSource {
   public:
     void add(int o_number, std::string text);

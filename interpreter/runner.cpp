@@ -53,8 +53,8 @@ void Interpreter::State::start(Section& section) {
 
 namespace {
 
-/// A program that jumps to and fro over empty lines executes few blocks and takes long: a block
-/// limit holds for them too, with this much more.
+/// A program that jumps between empty lines executes few blocks but takes long. The block limit
+/// therefore also limits the lines: so many for each block, plus a constant.
 constexpr std::uint64_t lines_of_a_block = 64, lines_without_blocks = 1000000;
 
 bool is_at_limit(std::uint64_t blocks, std::uint64_t passed, std::uint64_t most) {
@@ -78,7 +78,7 @@ bool Interpreter::State::limit_hit() {
     return limit;
 }
 
-/// Runs blocks until one holds words for the control.
+/// Runs blocks until one has words for the control.
 const BlockWords* Interpreter::State::step() {
     if (pending.kind != Pending::Kind::none) perform_pending();
     if (moved) call_after_motion();
@@ -100,7 +100,7 @@ const BlockWords* Interpreter::State::step() {
     return nullptr;
 }
 
-/// Reads the next block from the text and runs it; false when it was empty.
+/// Parses and runs the next block from the text; false when it was empty.
 bool Interpreter::State::first_reading(bool& give) {
     const std::string_view all = text();
     Section& section = *frame().section;
@@ -125,7 +125,7 @@ bool Interpreter::State::first_reading(bool& give) {
     return true;
 }
 
-/// Finds or makes the compiled block at `at`; false when the cache has no room for it now.
+/// Finds or compiles the block at `at`; false when the cache has no room.
 bool Interpreter::State::resolve() {
     Section& section = *frame().section;
     int index = cache.find(section.file->id, at.byte);
@@ -156,7 +156,7 @@ void Interpreter::State::flush_cache() {
     }
 }
 
-/// Runs one block; true when `words` are to be given out. `index` is its number in the cache or -1.
+/// Runs one block; true when `words` must be returned. `index`: its number in the cache, or -1.
 bool Interpreter::State::run(const Block& block, Code& code, int index) {
     current = {block.byte, block.line, index};
     if (block.sequence_number >= 0) sequence_number = block.sequence_number;
@@ -176,7 +176,7 @@ bool Interpreter::State::run(const Block& block, Code& code, int index) {
     return false;
 }
 
-/// The O block of this program, or the next program's, which ends this one.
+/// The O block of this program, or of the next one, which ends this program.
 bool Interpreter::State::program_block(const Block& block, Code& code, int index) {
     if (block.byte != frame().section->begin.byte) {
         end_of_section();
@@ -188,7 +188,7 @@ bool Interpreter::State::program_block(const Block& block, Code& code, int index
     return false;
 }
 
-/// No M30 and no M99: a main program ends; a called one returns (assumed).
+/// Neither M30 nor M99: a main program ends; a called program returns (assumed).
 void Interpreter::State::end_of_section() {
     if (frames.size() == 1) {
         ended = true;

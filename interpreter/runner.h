@@ -1,4 +1,4 @@
-// State of a program run: frames, places, the cache of compiled blocks. Internal to the
+// State of a program run: frames, positions, the cache of compiled blocks. Internal to the
 // interpreter.
 #pragma once
 
@@ -15,28 +15,28 @@
 
 namespace trunnion::interpreter {
 
-/// A block to run next: its place, and its number in the cache where that is known.
+/// The next block: its position, and its number in the cache if known.
 struct Place {
     std::uint64_t byte = 0;
-    int line = 0;  ///< 0: no place
+    int line = 0;  ///< 0: no position
     int block = -1;
 };
 
-/// One program that runs: the main program or a called one.
+/// A running program: the main program or a called one.
 struct Frame {
     Section* section = nullptr;
     Locals* locals = nullptr;
-    std::array<Place, 4> loops;        ///< [1..3]: the DO block of the loop that runs
-    std::array<int, 4> behind_loop{};  ///< [1..3]: the line behind its END
-    Place start;                       ///< where a repeat begins
-    Place back;                        ///< in the caller
+    std::array<Place, 4> loops;        ///< [1..3]: the DO block of the active loop
+    std::array<int, 4> behind_loop{};  ///< [1..3]: the line after its END
+    Place start;                       ///< start of a repeat
+    Place back;                        ///< return position in the caller
     int back_link = -1;
-    int repeats = 1;  ///< left, this one included
+    int repeats = 1;  ///< repeats left, including this one
     int macro_depth = 0;
     int sub_depth = 0;
     int modal_limit = 0;  ///< modal calls [0, limit) apply to motion of this program
     bool macro = false;
-    bool by_code = false;  ///< called by a G, M or T code: codes call nothing in here
+    bool by_code = false;  ///< called by a G, M or T code: codes do not call programs in it
 };
 
 /// G66, G66.1
@@ -47,10 +47,10 @@ struct ModalCall {
     bool every_block = false;
 };
 
-/// What the block just given out still has to do.
+/// Action that follows the block just returned.
 struct Pending {
     enum class Kind : unsigned char { none, subprogram, give_back } kind = Kind::none;
-    Section* named = nullptr;  ///< of M98<NAME>; else looked up by number when it is called
+    Section* named = nullptr;  ///< of M98<NAME>; otherwise looked up by number at the call
     int program = 0;
     int repeats = 1;
     int sequence_number = -1;
@@ -131,7 +131,7 @@ struct Interpreter::State {
 
     BlockCache cache;
     std::size_t cache_misses = 0;  ///< since it is full
-    Code scratch;                  ///< blocks met for the first time
+    Code scratch;                  ///< blocks executed for the first time
     std::vector<Frame> frames;
     std::vector<Locals> levels;    ///< by macro depth
     std::vector<Locals> repeated;  ///< arguments of a macro call with L, by macro depth
@@ -140,15 +140,15 @@ struct Interpreter::State {
 
     BlockWords words;
     Place at;            ///< the next block
-    int link_from = -1;  ///< cache link that leads to it and is not known yet
-    Place current;       ///< the block that runs
+    int link_from = -1;  ///< cache link that leads to it and is still open
+    Place current;       ///< the running block
     Pending pending;
     bool moved = false;
     bool ended = true;
     bool limit = false;
     std::uint64_t executed = 0;
-    std::uint64_t lines = 0;       ///< run, empty ones too
-    std::uint64_t look_up_at = 0;  ///< lines run or searched when a limit may be there
+    std::uint64_t lines = 0;       ///< lines executed, including empty ones
+    std::uint64_t look_up_at = 0;  ///< number of lines at which limits are checked next
     int sequence_number = 0;
 };
 

@@ -14,7 +14,8 @@ const CodeCalls::Call* find_call(const std::map<int, CodeCalls::Call>& calls, do
     return it == calls.end() ? nullptr : &it->second;
 }
 
-/// The eight bytes of a control's MACRO.TXT, most significant first; false: not sixteen hex digits.
+/// The eight bytes of a control's MACRO.TXT, most significant first; false when not sixteen hex
+/// digits.
 bool read_hex_double(std::string_view digits, double& value) {
     std::uint64_t bits = 0;
     if (digits.size() != 16) return false;
@@ -24,7 +25,7 @@ bool read_hex_double(std::string_view digits, double& value) {
     return true;
 }
 
-/// P, L and Q of calls and returns: whole numbers without a sign.
+/// P, L and Q of calls and returns: integers without sign.
 void check_words(const BlockWords& words, DialectFamily family) {
     if (const auto fault = find_word_fault(words, family, false))
         raise_language_alarm(fault->alarm, fault->column);
@@ -32,7 +33,7 @@ void check_words(const BlockWords& words, DialectFamily family) {
 
 }  // namespace
 
-/// `words` hold a code of the language. True: words remain for the control now.
+/// `words` contain a code of the language. True: words remain for the control.
 bool Interpreter::State::special_words(const Block& block, const Code& code) {
     const bool codes_call = !frame().by_code;
     Section* const named = take_name(block, code);
@@ -62,7 +63,7 @@ bool Interpreter::State::special_words(const Block& block, const Code& code) {
     return words.count > 0;
 }
 
-/// The program that `<NAME>` in the block names, taken out of it; nullptr when there is none.
+/// Removes `<NAME>` from the block and returns the program of that name; nullptr without a name.
 Section* Interpreter::State::take_name(const Block& block, const Code& code) {
     bool calls = false;
     std::size_t at_name = words.count;
@@ -92,7 +93,7 @@ void Interpreter::State::remove(std::size_t at_word) {
     --words.count;
 }
 
-/// The value of the first word with this letter, which is taken out of the block.
+/// Removes the first word with this letter from the block and returns its value.
 double Interpreter::State::take(char letter, double otherwise) {
     for (std::size_t i = 0; i < words.count; ++i) {
         if (words.words[i].letter != letter) continue;
@@ -140,7 +141,7 @@ void Interpreter::State::macro_call(std::size_t at_word, Section* named, bool mo
     start_macro(section, repeats, false);
 }
 
-/// Starts a macro with the words left in the block as arguments.
+/// Starts a macro with the remaining words of the block as arguments.
 void Interpreter::State::start_macro(Section& section, int repeats, bool by_code) {
     const auto depth = static_cast<std::size_t>(frame().macro_depth) + 1;
     if (depth >= levels.size())
@@ -175,7 +176,7 @@ void Interpreter::State::push(Section& section, int repeats, bool macro, bool by
     link_from = -1;
 }
 
-/// Gives the remaining words out first and calls afterwards, or calls at once.
+/// Returns the remaining words first and calls afterwards, or calls at once.
 bool Interpreter::State::give_or(Pending call) {
     pending = call;
     if (words.count > 0) return true;
@@ -207,7 +208,7 @@ bool Interpreter::State::subprogram_words(std::size_t at_word, Section* named, b
     return give_or(todo);
 }
 
-/// M99 P_ L_: P names the block of the caller to go on at, L sets the repeats that are left.
+/// M99 P_ L_: P is the block of the caller to continue at, L sets the remaining repeats.
 bool Interpreter::State::return_words(std::size_t at_word) {
     check_words(words, options.dialect.family);
     const int column = words.words[at_word].column;
@@ -254,7 +255,8 @@ bool Interpreter::State::tool_call(std::size_t at_word) {
     return give_or(todo);
 }
 
-/// G67 ends the latest modal call; without one it does nothing (posts write it to be safe).
+/// G67 cancels the latest modal call; without a modal call it has no effect (post processors output
+/// it as a precaution).
 bool Interpreter::State::cancel_modal(std::size_t at_word) {
     remove(at_word);
     if (modal_count > 0) --modal_count;
@@ -276,7 +278,7 @@ bool Interpreter::State::macro_file_value(const Block& block, const Code& code) 
     return true;
 }
 
-/// G66.1: the block itself is the list of arguments. False: not in this program.
+/// G66.1: the block itself is the argument list. False: not active in this program.
 bool Interpreter::State::call_every_block() {
     if (modal_count == 0 || frame().modal_limit < static_cast<int>(modal_count)) return false;
     ModalCall& call = modals[modal_count - 1];
@@ -290,7 +292,7 @@ bool Interpreter::State::call_every_block() {
     return true;
 }
 
-/// G66: the macro runs behind a block with motion. Its locals stay as it left them.
+/// G66: the macro runs after a block with motion. Its local variables keep their values.
 void Interpreter::State::call_after_motion() {
     moved = false;
     const auto level = std::min<std::size_t>(
@@ -320,8 +322,8 @@ void Interpreter::State::call_subprogram(const Pending& call) {
     if (place) frame().start = at = {place->byte, place->line, -1};
 }
 
-/// M99, or the end of a called program: `n` is the block of the caller to go on at (-1: behind the
-/// call), `repeats` the repeats left (-1: as they are).
+/// M99, or the end of a called program. `n`: block of the caller to continue at (-1: after the
+/// call); `repeats`: remaining repeats (-1: unchanged).
 void Interpreter::State::give_back(int n, int repeats) {
     Frame& f = frame();
     if (frames.size() == 1) {
@@ -341,14 +343,14 @@ void Interpreter::State::give_back(int n, int repeats) {
     if (n >= 0) jump(target);
 }
 
-/// M99 P: searched from the start of the program that goes on.
+/// M99 P: searched from the start of the program that continues.
 TextPlace Interpreter::State::target_of_return(const Frame& caller, int n) {
     const auto place = files.find_sequence(*caller.section, n, caller.section->begin.byte);
     if (!place) raise_language_alarm(78, 1, "N" + std::to_string(n));
     return *place;
 }
 
-/// The next of L repeats, with the arguments as they were passed.
+/// The next of L repeats, with the original arguments.
 void Interpreter::State::repeat() {
     Frame& f = frame();
     const auto depth = static_cast<std::size_t>(f.macro_depth);

@@ -1,4 +1,4 @@
-// Macro statements: assignments, jumps, loops and print-outs.
+// Macro statements: assignments, jumps, loops and print statements.
 #include "interpreter/alarms.h"
 #include "interpreter/print_output.h"
 #include "interpreter/runner.h"
@@ -6,7 +6,7 @@
 namespace trunnion::interpreter {
 namespace {
 
-/// A condition holds when it is not 0; a vacant one does not.
+/// A condition is true when it is not 0; a vacant one is false.
 bool holds(double condition) {
     return condition != 0.0 && !is_vacant(condition);
 }
@@ -45,7 +45,7 @@ void Interpreter::State::statements(const Block& block, Code& code, int index) {
     }
 }
 
-/// The comment that goes with `#3000 = 1(TEXT)`: the first behind the '=', or the block's first.
+/// The comment of `#3000 = 1(TEXT)`: the first one after the '=', or the first of the block.
 std::string Interpreter::State::comment_of(const Block& block, const Code& code) const {
     const Comment* chosen = nullptr;
     for (std::uint32_t i = 0; i < block.comments.count; ++i) {
@@ -127,7 +127,7 @@ void Interpreter::State::while_do(const Block& block, Item& item, int index) {
     follow(item.link);
 }
 
-/// Back to the DO, which must be this END's own: a jump into a loop has none that runs.
+/// Jumps back to the DO of this END. After a jump into a loop there is no active DO.
 void Interpreter::State::end_loop(const Item& item) {
     const Place& loop = frame().loops[item.number];
     if (loop.line == 0 || frame().behind_loop[item.number] != current.line + 1)

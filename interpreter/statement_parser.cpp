@@ -1,4 +1,4 @@
-// Macro statements: assignments, IF, WHILE, GOTO, print-outs, SETVN.
+// Macro statements: assignments, IF, WHILE, GOTO, print statements, SETVN.
 #include "interpreter/alarms.h"
 #include "interpreter/block_parser_class.h"
 
@@ -123,7 +123,7 @@ void BlockParser::jump(std::uint16_t column) {
     closed_ = true;
 }
 
-/// DPRNT[text#v[ab]..], BPRNT[text#v[d]..]; blanks do not count, `*` prints one.
+/// DPRNT[text#v[ab]..], BPRNT[text#v[d]..]; blanks are ignored, `*` prints a blank.
 void BlockParser::print_statement(ItemKind kind, std::uint16_t column) {
     add(kind, column);
     if (in_.peek_raw() != '[') raise_language_alarm(1143, in_.column());

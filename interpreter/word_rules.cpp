@@ -44,7 +44,7 @@ constexpr WordRule rows[] = {
     {'M', 990, 'L'},
 };
 
-/// Canned cycles share their rules.
+/// Common rules of the canned cycles.
 constexpr WordRule cycle_rows[] = {{'G', 730, 'P'}, {'G', 730, 'K'}, {'G', 730, 'L'}};
 
 int code10_of(const WordValue& word) {
@@ -56,7 +56,7 @@ bool is_fanuc_alone(const WordRule& rule) {
     return rule.letter == 'P' && (rule.code10 == 40 || rule.code10 == 682 || rule.code10 == 730);
 }
 
-/// The codes of a block: few, so a scan is quick.
+/// The codes of a block; there are few, so a linear scan is fast.
 class Codes {
   public:
     explicit Codes(const BlockWords& block) : block_(block) {
@@ -99,7 +99,7 @@ std::optional<WordFault> fault_of(const WordRule& rule, const WordValue& word) {
 std::optional<WordFault> apply(const WordRule& rule, const BlockWords& block, bool all_known) {
     bool found = false;
     for (const WordValue& word : block) {
-        found = found || word.letter == '<';  // the name of a program stands for P
+        found = found || word.letter == '<';  // a program name replaces P
         if (word.letter != rule.letter || word.vacant) continue;
         found = true;
         if (const auto fault = fault_of(rule, word)) return fault;

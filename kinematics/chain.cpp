@@ -12,7 +12,8 @@ Vector3 unit_of(Axis axis) {
     return Vector3::Unit(static_cast<Eigen::Index>(index_of(axis) % 3));
 }
 
-/// + moves the tool; a table axis therefore moves the work the other way (ISO 841).
+/// ISO 841: a + command moves the tool towards +, so an axis on the table side moves the workpiece
+/// the other way.
 void take_letter(AxisGeometry& geometry, Axis letter, bool carries_work) {
     geometry.axis = letter;
     geometry.rotary = is_rotary(letter);
@@ -37,7 +38,7 @@ bool is_name(std::string_view text) {
            std::all_of(text.begin(), text.end(), [&](char c) { return letter(c) || digit(c); });
 }
 
-/// Words that a chain, an error's name or a column of readings uses otherwise.
+/// Words that already have a meaning in a chain, an error name or a column of readings.
 bool is_taken(std::string_view text) {
     constexpr std::string_view taken[] = {"w",  "b",     "t",         "S",       "px",   "py",
                                           "pz", "value", "extension", "spindle", "sigma"};
@@ -56,7 +57,8 @@ void check_name(std::string_view text, const std::vector<AxisGeometry*>& before)
             throw InputError("axis " + std::string(text) + " stands twice in the chain");
 }
 
-/// The slots that other names than letters take: the last ones that no letter of the chain has.
+/// Slots for axes whose names are not ISO 841 letters: the last slots whose letters the chain does
+/// not use.
 std::vector<Axis> free_slots(const std::vector<AxisGeometry*>& axes) {
     std::vector<Axis> free;
     for (const Axis slot : all_axes)
@@ -70,7 +72,7 @@ std::vector<Axis> free_slots(const std::vector<AxisGeometry*>& axes) {
     return free;
 }
 
-/// `axes` in the order of the text.
+/// `axes` must be in the order of the text.
 void take_slots(const Chain& chain, const std::vector<AxisGeometry*>& axes) {
     const std::vector<Axis> free = free_slots(axes);
     std::size_t next = 0;
@@ -125,8 +127,7 @@ Chain parse_chain(std::string_view text) {
     Chain chain;
     chain.work.resize(static_cast<std::size_t>(bed - parts.begin()) - 1);
     chain.tool.resize(static_cast<std::size_t>(parts.end() - bed) - 2);
-    std::vector<AxisGeometry*>
-        axes;  // in the order of the text; nearest the bed is the first carrier
+    std::vector<AxisGeometry*> axes;  // in text order; the axis nearest the bed comes first
     for (auto it = chain.work.rbegin(); it != chain.work.rend(); ++it) axes.push_back(&*it);
     for (AxisGeometry& axis : chain.tool) axes.push_back(&axis);
     std::vector<AxisGeometry*> named;

@@ -1,4 +1,4 @@
-// The serial chain of a machine as ISO 10791-6 writes it, e.g. "w C B b X Y Z t".
+// The serial chain of a machine in the notation of ISO 10791-6, e.g. "w C B b X Y Z t".
 #pragma once
 
 #include <optional>
@@ -15,20 +15,20 @@ namespace trunnion::kinematics {
 /// One axis as the setup file describes it.
 struct AxisGeometry {
     Axis axis = Axis::X;     ///< its slot in positions and errors
-    std::string name = "X";  ///< as the chain calls it
+    std::string name = "X";  ///< its name in the chain
     bool rotary = false;
     Vector3 direction =
-        Vector3::UnitX();  ///< in M, all axes at zero, unit: what a + command does to
-                           ///< the carried body (table axes turn against the tool)
-    Vector3 point_mm =
-        Vector3::Zero();              ///< rotary: a point of the axis line, in M, all axes at zero
-    std::optional<double> min, max;   ///< travel limits, mm or rad
-    std::optional<double> max_speed;  ///< mm/s or rad/s
+        Vector3::UnitX();  ///< unit vector in M, all axes at zero: motion of the carried body for a
+                           ///< + command (table axes move against the tool)
+    Vector3 point_mm = Vector3::Zero();  ///< rotary only: a point on the axis line, in M, all axes
+                                         ///< at zero
+    std::optional<double> min, max;      ///< travel limits, mm or rad
+    std::optional<double> max_speed;     ///< mm/s or rad/s
     std::optional<double> max_acceleration;  ///< mm/s^2 or rad/s^2
 };
 
-/// Axes between the bed and the workpiece, and between the bed and the tool, each from the bed
-/// outwards: "w C B b X Y Z t" has work = {B, C} and tool = {X, Y, Z}.
+/// The axes between bed and workpiece, and between bed and tool. Each list starts at the bed: "w C
+/// B b X Y Z t" has work = {B, C} and tool = {X, Y, Z}.
 struct Chain {
     std::vector<AxisGeometry> work;
     std::vector<AxisGeometry> tool;
@@ -39,13 +39,14 @@ struct Chain {
     AxisNames names() const;
 };
 
-/// What an NC word addresses: an axis called by a letter of ISO 841.
+/// True when the axis has an ISO 841 letter, so that an NC word can address it.
 bool is_letter(const AxisGeometry& axis);
 
-/// Names only: directions and points at their defaults, kinds by letter (A B C turn; other names do
-/// not until the setup says so). A name is a letter and then letters and digits, at most nine axes.
-/// Throws InputError without a place when `text` is not w AXES b AXES t with each name once,
-/// whatever its case; the setup reader adds the place.
+/// Parses the axis names. Directions and points keep their defaults. A, B and C are rotary; axes
+/// with other names are linear until the setup file says otherwise. A name is a letter followed by
+/// letters and digits; a chain has at most nine axes. Throws InputError without a position (the
+/// setup reader adds it) when `text` is not "w AXES b AXES t" or when a name occurs twice. Names
+/// are compared without case.
 Chain parse_chain(std::string_view text);
 
 }  // namespace trunnion::kinematics

@@ -14,8 +14,8 @@ std::size_t direction_index(const ErrorName& name) {
     return directions.find(name.direction);
 }
 
-/// Slope of the smooth cubic at point i: that of the parabola through i and its two neighbours, or
-/// of the chord at the ends.
+/// Slope of the cubic at point i: the slope of the parabola through i and its two neighbours, or of
+/// the chord at either end.
 double knot_slope(const ErrorCurve& curve, std::size_t i) {
     const auto& x = curve.at;
     const auto& y = curve.value;

@@ -13,9 +13,9 @@
 
 namespace trunnion::kinematics {
 
-/// EXX, EC0A, ...: letter of the direction (X Y Z: along; A B C: about), and the axis it belongs
-/// to. `location` true: E?0? (position and orientation of the axis line); false: E?? (error
-/// motion).
+/// Name of a geometric error, e.g. EXX or EC0A: direction (X Y Z: translation; A B C: rotation) and
+/// the axis that it belongs to. `location` true: E?0?, position or orientation error of the axis
+/// line. False: E??, error motion.
 struct ErrorName {
     char direction = 'X';
     bool location = false;
@@ -25,11 +25,11 @@ struct ErrorName {
     friend bool operator==(const ErrorName&, const ErrorName&) = default;
 };
 
-/// "EX0C", "EA0J1"; nothing if it is none of an axis of `names`.
+/// Parses "EX0C" or "EA0J1". Empty when `text` is not an error name of an axis in `names`.
 std::optional<ErrorName> parse_error_name(std::string_view text, const AxisNames& names = {});
 std::string to_string(const ErrorName& name, const AxisNames& names = {});
 
-/// EXS, EA0S, ...: an error of the spindle. ISO 230-7 has no ECS: that is the way it turns.
+/// Name of a spindle error: EXS, EA0S, ... ISO 230-7 has no ECS, because the spindle turns about C.
 struct SpindleErrorName {
     std::size_t direction = 0;  ///< 0..4 = X Y Z A B
     bool location = false;
@@ -40,12 +40,11 @@ struct SpindleErrorName {
 std::optional<SpindleErrorName> parse_spindle_error_name(std::string_view text);
 std::string to_string(const SpindleErrorName& name);
 
-/// An error as a function of its axis's position (mm or rad in, mm or rad out): a value, the sum of
-/// constant + slope * q + harmonics + table.
+/// Error as a function of the position of its axis (input mm or rad, value mm or rad): constant +
+/// slope * q + harmonics + table.
 struct ErrorCurve {
     struct Harmonic {
-        double order =
-            1.0;  ///< per turn of a rotary axis; per mm * 2 pi / `period_mm` for a linear one
+        double order = 1.0;  ///< rotary axis: cycles a turn; linear axis: cycles in `period_mm`
         double cosine = 0.0;
         double sine = 0.0;
     };
@@ -53,18 +52,19 @@ struct ErrorCurve {
 
     double constant = 0.0;
     double slope = 0.0;
-    double period_mm = 0.0;  ///< of harmonics of a linear axis
+    double period_mm = 0.0;  ///< period of the harmonics of a linear axis
     std::vector<Harmonic> harmonics;
-    std::vector<double> at;  ///< table positions, rising
+    std::vector<double> at;  ///< table positions, strictly increasing
     std::vector<double> value;
     Interpolation interpolation = Interpolation::linear;
 
     bool is_zero() const;
-    double operator()(double q) const;  ///< held constant beyond the table's ends
-    double derivative(double q) const;  ///< d error / d q
+    double operator()(double q) const;  ///< beyond the ends of the table its contribution is
+                                        ///< constant
+    double derivative(double q) const;  ///< d error / d q, 0 from the table beyond its ends
 };
 
-/// All errors of one axis. Index 0..5 = X Y Z (mm), A B C (rad), along and about + axes of M.
+/// All errors of one axis, along and about the + axes of M: index 0..5 = X Y Z (mm), A B C (rad).
 struct AxisErrors {
     std::array<double, 6> location{};
     std::array<ErrorCurve, 6> motion{};
@@ -72,8 +72,8 @@ struct AxisErrors {
 
 struct GeometricErrors {
     std::array<AxisErrors, axis_count> axis{};
-    /// Of the spindle, along and about + axes of S: `location` of the mean line of its axis,
-    /// `motion` by its angle (constants and harmonics).
+    /// Spindle errors along and about the + axes of S. `location`: mean line of the spindle axis;
+    /// `motion`: function of the spindle angle (constants and harmonics).
     AxisErrors spindle;
 
     double& location(const ErrorName& name);

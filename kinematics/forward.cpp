@@ -13,7 +13,7 @@ Vector3 last_three(const std::array<double, 6>& v) {
     return {v[3], v[4], v[5]};
 }
 
-/// Rodrigues with one sine and cosine; `u` is a unit vector.
+/// Rodrigues' formula with one sine and one cosine; `u` is a unit vector.
 Matrix3 turn(const Vector3& u, double angle_rad) {
     const double c = std::cos(angle_rad), s = std::sin(angle_rad), k = 1.0 - c;
     const double kx = k * u.x(), ky = k * u.y(), kz = k * u.z();
@@ -83,8 +83,8 @@ MachinePose poses_of(const Machine& machine, const AxisPositions& q, const Pertu
     return poses;
 }
 
-/// Along the direction of travel; the error motion turns the carriage about the origin of its own
-/// frame, which has travelled with it.
+/// Moves the frame along the direction of travel. The error motion turns the carriage about the
+/// origin of its own frame, which travels with it.
 void carry_linear(const Link& link, double q, const SmallMotion* motion, Pose& pose) {
     Vector3 shift_mm = q * link.direction + link.carried_mm;
     if (motion) shift_mm += motion->shift_mm;
@@ -93,7 +93,8 @@ void carry_linear(const Link& link, double q, const SmallMotion* motion, Pose& p
         pose.rotation = pose.rotation * rotation_of(motion->tilt_rad);
 }
 
-/// About the axis line; errors along and about the carrier's axes, which are those of M at home.
+/// Turns the frame about the axis line. Errors act along and about the axes of the carrier, which
+/// coincide with M at home.
 void carry_rotary(const Link& link, double q, const SmallMotion* motion, Pose& pose) {
     Matrix3 r = turn(link.direction, q);
     Vector3 shift_mm = link.carried_mm;

@@ -1,4 +1,4 @@
-// One axis after the other: the forward kinematics of a chain, prepared once and evaluated often.
+// Forward kinematics of a chain, axis by axis: prepared once, evaluated often.
 #pragma once
 
 #include <array>
@@ -9,14 +9,15 @@
 
 namespace trunnion::kinematics {
 
-/// One axis with its location errors worked out; borrows the curves of its error motions.
+/// One axis with its location errors applied. Does not own the curves of its error motions:
+/// `curves` points into the AxisErrors given to make_link().
 struct Link {
     Axis axis = Axis::X;
     bool rotary = false;
-    Vector3 direction = Vector3::UnitX();  ///< in the frame of the carrier, all axes at zero
-    Vector3 point_mm = Vector3::Zero();    ///< q
+    Vector3 direction = Vector3::UnitX();  ///< unit vector in the carrier's frame, all axes at zero
+    Vector3 point_mm = Vector3::Zero();    ///< q: point on the axis line
     Vector3 carried_mm = Vector3::Zero();  ///< q + delta (rotary), delta (linear)
-    Matrix3 tilt = Matrix3::Identity();    ///< exp([eps]x) of the location tilts
+    Matrix3 tilt = Matrix3::Identity();    ///< exp([eps]x) of the location tilt
     bool tilted = false;
     std::uint8_t motions = 0;  ///< bit k: motion curve k is not zero
     const std::array<ErrorCurve, 6>* curves = nullptr;
@@ -24,16 +25,18 @@ struct Link {
 
 Link make_link(const AxisGeometry& geometry, const AxisErrors& errors);
 
-/// Location and error motion of the spindle: shift (mm) and tilt (rad) in S.
+/// Location and error motion of the spindle as shift (mm) and tilt (rad) in S. Without an angle
+/// (spindle turning) only the constants of the error motion count.
 SmallMotion spindle_location(const AxisErrors& spindle);
 SmallMotion spindle_motion(const AxisErrors& spindle, SpindleAngle spindle_rad);
 
-/// Carries `pose`, the end of the chain so far, over one more axis at `q` (mm or rad), from the bed
-/// outwards; `extra` (nullptr: none) is added to the axis's error motion.
+/// Appends one axis at position `q` (mm or rad) to `pose`, the end of the chain so far, counted
+/// from the bed outwards. `extra` (nullptr: none) is added to the error motion of the axis.
 void carry(const Link& link, double q, const SmallMotion* extra, Pose& pose);
 
-/// A machine prepared for many evaluations: no allocation, zero errors skipped. Keeps a copy of the
-/// error curves; later changes of the machine are not seen.
+/// A machine prepared for many evaluations: no allocation, zero errors are skipped. Gives the same
+/// poses as Machine. Keeps a copy of the error curves, so later changes of the machine have no
+/// effect.
 class ForwardModel {
   public:
     explicit ForwardModel(const Machine& machine);

@@ -5,13 +5,15 @@
 namespace trunnion::kinematics {
 namespace {
 
-/// d exp([e]x) = [J de]x exp([e]x): the left Jacobian of small rotation vectors (rad).
+/// Left Jacobian J of the rotation vector e (rad): d exp([e]x) = [J de]x exp([e]x). Series up to
+/// the third power; the neglected terms are of the order |e|^4 / 120.
 Matrix3 left_jacobian(const Vector3& e) {
     const Matrix3 x = skew(e);
     return Matrix3::Identity() + 0.5 * x + x * x / 6.0 + x * x * x / 24.0;
 }
 
-/// A rotation that some quantity adds, seen in M: columns `turn` about the point `centre_mm`.
+/// Rotations caused by three parameters, as the columns of `turn` in M, about the point
+/// `centre_mm`.
 struct Lever {
     Eigen::Matrix<double, 3, 3> turn = Matrix3::Zero();
     Vector3 centre_mm = Vector3::Zero();
@@ -19,10 +21,12 @@ struct Lever {
 
 struct LinkDerivatives {
     Matrix3 location_shift = Matrix3::Zero(), motion_shift = Matrix3::Zero();
-    Matrix3 location_direct = Matrix3::Zero();  ///< of a linear axis's tilts: they move, not turn
+    Matrix3 location_direct = Matrix3::Zero();  ///< tilts of a linear axis: they shift the frame
+                                                ///< without turning it
     Lever location_turn, motion_turn;
     Vector3 axis_shift = Vector3::Zero();  ///< d translation / d position
-    Vector3 axis_turn = Vector3::Zero();   ///< d rotation / d position, about the motion's centre
+    Vector3 axis_turn = Vector3::Zero();   ///< d rotation / d position, about the centre of the
+                                           ///< error motion
 };
 
 Vector3 shift_of(const AxisErrors& errors, double q) {
@@ -74,7 +78,7 @@ LinkDerivatives linear(const AxisGeometry& axis, const AxisErrors& errors, doubl
     return d;
 }
 
-/// Derivatives of all axes of one side, and the pose of its far end.
+/// Derivatives of all axes of one side of the chain, and the pose of its end.
 struct Side {
     std::vector<LinkDerivatives> links;
     Pose end;
@@ -92,7 +96,7 @@ Side differentiate(const std::vector<AxisGeometry>& axes, const GeometricErrors&
     return side;
 }
 
-/// Motion of the point p that a lever's turns cause, one column each.
+/// Displacement of the point p by the rotations of a lever, one column each.
 Matrix3 swing(const Lever& lever, const Vector3& p) {
     return -skew(p - lever.centre_mm) * lever.turn;
 }
@@ -129,7 +133,8 @@ TipJacobian tip_jacobian(const Machine& machine, const AxisPositions& commanded,
         for (SixColumns& six : *columns) six.setZero();
     out.tip_W_mm = to_W * (tip_M - work.end.translation_mm);
     fill(machine.chain.tool, tool, tip_M, to_W, out);
-    fill(machine.chain.work, work, tip_M, -to_W, out);  // the table moves away from under the tip
+    fill(machine.chain.work, work, tip_M, -to_W, out);  // a motion of the table displaces the tip
+                                                        // in W the other way
     const Matrix3 spindle_to_W = to_W * tool.end.rotation, tilted_to_W = spindle_to_W * tilted;
     out.spindle_location.leftCols<3>() = spindle_to_W;
     out.spindle_location.rightCols<3>() =

@@ -1,4 +1,4 @@
-// What each axis can do, as the control knows it.
+// Limits of the axes as the control knows them.
 #pragma once
 
 #include <array>
@@ -7,14 +7,15 @@
 
 namespace trunnion::motion {
 
-/// By axis letter, in what the axes are driven with (mm, rad, s). Speeds and accelerations are kept
-/// as their inverses: 0 means no limit, and letters without an axis have none.
+/// By axis letter, in mm or rad, and s. Speeds and accelerations are stored as inverses, so 0 means
+/// no limit. Letters without an axis have no limit.
 struct AxisLimits {
     std::array<double, axis_count> min, max;          ///< stored stroke
-    std::array<double, axis_count> seconds_per_unit;  ///< at the highest speed
-    std::array<double, axis_count> per_acceleration;  ///< s^2 per unit
-    std::array<double, axis_count> per_jump;          ///< s per unit: 1783 at corners
-    bool accelerates = false;  ///< some axis has an acceleration: moves take ramps
+    std::array<double, axis_count> seconds_per_unit;  ///< at maximum speed
+    std::array<double, axis_count> per_acceleration;  ///< inverse acceleration, s^2 per unit
+    std::array<double, axis_count> per_jump;          ///< s per unit: inverse speed change allowed
+                                                      ///< at corners (1783)
+    bool accelerates = false;  ///< at least one axis has an acceleration limit: moves are ramped
 };
 
 }  // namespace trunnion::motion

@@ -1,4 +1,4 @@
-// A rapid that is not interpolated: each axis runs at its own speed and waits for the slowest.
+// A rapid without interpolation: each axis runs at its own speed; the move ends with the slowest.
 #pragma once
 
 #include "motion/axis_limits.h"
@@ -6,17 +6,17 @@
 
 namespace trunnion::motion {
 
-/// s counts time: 1 is where the slowest axis arrives. Ramps are left out.
+/// s is time: s = 1 is the arrival of the slowest axis. Acceleration ramps are neglected.
 class Dogleg : public PathCurve {
   public:
     Dogleg(const AxisPositions& from, const AxisPositions& to, const AxisLimits& limits);
     AxisPositions at(double s) const override;
-    /// All axes arrive together: the way is a straight line.
+    /// True when all axes arrive together, so the path is a straight line.
     bool is_straight() const;
 
   private:
     AxisPositions from_, to_;
-    std::array<double, axis_count> pace_{};  ///< of an axis's own way: 1 / its part of the time
+    std::array<double, axis_count> pace_{};  ///< ratio of total duration to duration of the axis
 };
 
 }  // namespace trunnion::motion

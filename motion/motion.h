@@ -1,4 +1,4 @@
-// The one door out of the control: what it commands the axes to do.
+// The only output of the control: the axis motions that it commands.
 #pragma once
 
 #include <cstdint>
@@ -22,68 +22,69 @@ enum class MotionKind : std::uint8_t { rapid, linear, arc_cw, arc_ccw };  ///< G
 struct ArcPath {
     Vector3 centre_mm = Vector3::Zero();
     Vector3 normal = Vector3::UnitZ();
-    double turns =
-        0.0;  ///< positive counter-clockwise seen from the normal's tip, +-1 up to one turn
-    double sweep_rad = 0.0;  ///< total angle, same sign
+    double turns = 0.0;      ///< signed turns, positive counter-clockwise seen from the tip of the
+                             ///< normal; +-1 up to one turn
+    double sweep_rad = 0.0;  ///< total angle with the same sign
 };
 
-/// On the arc at s in [0, 1]: the radius goes evenly from that of the start to that of the end, the
-/// height along the normal too.
+/// Point of the arc at s in [0, 1], mm. Radius and height along the normal vary linearly between
+/// start and end.
 Vector3 point_on_arc(const ArcPath& arc, const Vector3& from, const Vector3& to, double s);
 
-/// ArcPath::turns of a sweep: whole turns begun, at least one, with its sign.
+/// ArcPath::turns of a sweep: number of turns begun, at least one, with the sign of the sweep.
 double turns_of(double sweep_rad);
 
-/// A believed path that is neither a line nor an arc of the axes: the tip is straight in the
-/// workpiece frame (G43.4), or on a cylinder (G7.1), or polar (G12.1). s runs from 0 to 1.
+/// A believed path that is neither a line nor an arc of the axes: straight for the tip in the
+/// workpiece frame (G43.4), on a cylinder (G7.1), or polar (G12.1). s runs from 0 to 1.
 class PathCurve {
   public:
     virtual ~PathCurve() = default;
     virtual AxisPositions at(double s) const = 0;
 };
 
-/// One move of the axes, in machine coordinates of the gauge point (mm, rad), tool length included.
+/// One move of the axes, in machine coordinates of the gauge point (mm, rad), including tool
+/// length.
 struct AxisMove {
     MotionKind kind = MotionKind::rapid;
-    bool until_skip = false;  ///< G31: stops where the skip signal comes
+    bool until_skip = false;  ///< G31: ends when the skip signal arrives
     bool gap_free = true;     ///< false: exact stop at the end (G9, G61)
     AxisPositions from, to;
     std::optional<ArcPath> arc;
     const PathCurve* curve = nullptr;  ///< valid during the call only
     double length_mm = 0.0;            ///< path length of the programmed point
-    double duration_s = 0.0;           ///< ramps included
-    double feed_mm_min = 0.0;          ///< between the ramps; 0 for G0
-    int tool = 0;                      ///< T in the spindle
-    int tool_offset = 0;               ///< H in force
-    double spindle_rpm = 0.0;          ///< signed: negative is M4
+    double duration_s = 0.0;           ///< with acceleration ramps
+    double feed_mm_min = 0.0;          ///< feed between the ramps; 0 for G0
+    int tool = 0;                      ///< T number of the tool in the spindle
+    int tool_offset = 0;               ///< active H number
+    double spindle_rpm = 0.0;          ///< signed: negative for M4
     bool coolant = false;
     PositioningMode mode = PositioningMode::none;
-    Vector3 tool_vector_mm =
-        Vector3::Zero();    ///< believed: from tip to gauge point, rotaries at zero
-    ParallelAxes parallel;  ///< believed: U V W beside X Y Z
+    Vector3 tool_vector_mm = Vector3::Zero();  ///< believed vector from the tip to the gauge point,
+                                               ///< rotary axes at zero
+    ParallelAxes parallel;                     ///< believed: U V W parallel to X Y Z
     const positioning::RotaryTransform* transform =
-        nullptr;  ///< believed kinematics, for tip and direction in W
+        nullptr;  ///< believed kinematics, for tip and tool direction in W
     int line = 0;
     std::uint64_t byte = 0;
-    const std::string* program = nullptr;  ///< name of the file
+    const std::string* program = nullptr;  ///< file name
 
     /// Axis positions at s in [0, 1] along the path.
     AxisPositions at(double s) const;
 };
 
 struct MoveResult {
-    bool skipped = false;   ///< the skip signal came before the end
-    AxisPositions stopped;  ///< where, when it did
-    double part = 1.0;      ///< of the move that was made: s
+    bool skipped = false;   ///< the skip signal arrived before the end
+    AxisPositions stopped;  ///< axis positions at the skip signal
+    double part = 1.0;      ///< fraction s of the move that was carried out
 };
 
-/// What the control drives: the emulator, a trace, a comparer.
+/// Receiver of the control's motions: the emulator, a trace, a comparison.
 class MotionSink {
   public:
     virtual ~MotionSink() = default;
     virtual MoveResult move(const AxisMove& move) = 0;
     virtual void dwell(double /*duration_s*/) {}
-    /// M codes that the control passes on (M0-M9, M19, clamps, unknown ones).
+    /// M codes passed on by the control (M0-M9, M19, clamps, unknown codes).
     virtual void m_code(int /*code*/) {}
 };
 

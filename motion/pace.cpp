@@ -18,12 +18,12 @@ AxisPositions scaled(const AxisPositions& rate, double factor) {
 
 }  // namespace
 
-/// mm of way a second at which no axis changes its speed by more than its jump.
+/// Path speed, mm/s, at which no axis exceeds its allowed speed change at the corner.
 double Pace::corner_speed(const AxisPositions& begin, const AxisLimits& limits) const {
     double worst = 0.0;
     for (std::size_t i = 0; i < axis_count; ++i)
         worst = std::max(worst, std::abs(begin.value[i] - end_rate_.value[i]) * limits.per_jump[i]);
-    return 1.0 / worst;  // infinity straight on
+    return 1.0 / worst;  // infinite on a straight continuation
 }
 
 double Pace::take(AxisMove& move, const AxisLimits& limits, double way) {

@@ -1,4 +1,4 @@
-// When a move is over: its rate by feed and axes, and what speeding up and slowing down add.
+// Duration of moves: path rate by feed and axis limits, and the time added by acceleration.
 #pragma once
 
 #include "motion/axis_limits.h"
@@ -7,15 +7,16 @@
 
 namespace trunnion::motion {
 
-/// Runs along with the moves that go out. Positioning, G31, exact stops (G9, G61), dwells and M
-/// codes begin and end at rest; cutting moves run into each other (G64) as fast as parameter 1783
-/// lets each axis change its speed at once (F_c = F / R_max of the automatic corner deceleration,
-/// B-63833EN-1 p. 354).
+/// Follows the moves that the control sends out. Positioning, G31, exact stops (G9, G61), dwells
+/// and M codes start and end at rest. Cutting moves are blended (G64): at a corner each axis may
+/// change its speed by the jump of parameter 1783 (F_c = F / R_max of the automatic corner
+/// deceleration, B-63833EN-1 p. 354).
 class Pace {
   public:
-    /// `move.duration_s`: at the commanded rate; becomes the time by which the run grows when it
-    /// ends with this move. `way`: what F divides, mm. Returns the time at the rate that feed and
-    /// axis speeds allow: what accelerations cost is in the duration alone, not in the feed.
+    /// Input: `move.duration_s` at the commanded rate. Output: `move.duration_s` is the time by
+    /// which the run grows if it ends with this move. `way`: path length to which F refers, mm.
+    /// Returns the duration (s) at the rate allowed by feed and axis speeds. Acceleration is
+    /// included in `duration_s` only, not in the feed.
     double take(AxisMove& move, const AxisLimits& limits, double way);
     void stop() { chain_.stop(); }
 
@@ -23,7 +24,7 @@ class Pace {
     double corner_speed(const AxisPositions& begin, const AxisLimits& limits) const;
 
     SpeedChain chain_;
-    AxisPositions end_rate_;  ///< of the move before, axis units a mm of way
+    AxisPositions end_rate_;  ///< axis units per mm of path at the end of the previous move
 };
 
 }  // namespace trunnion::motion

@@ -11,7 +11,7 @@ namespace {
 
 using PerAxis = std::array<double, axis_count>;
 
-/// The largest of |rate| * weight over the axes.
+/// Maximum of |rate| * weight over the axes.
 double largest(const AxisPositions& rate, const PerAxis& weight) {
     double worst = 0.0;
     for (std::size_t i = 0; i < axis_count; ++i)
@@ -46,7 +46,7 @@ PathRates rates_of_line(const AxisMove& m, const AxisLimits& limits) {
     return out;
 }
 
-/// On the way round each axis once runs as fast as its share of the circle's plane lets it.
+/// On a full circle every axis reaches its maximum share of the path speed once.
 PathRates rates_of_arc(const AxisMove& m, const AxisLimits& limits) {
     const ArcPath& arc = *m.arc;
     const auto xyz = [](const AxisPositions& q) {
@@ -71,9 +71,9 @@ PathRates rates_of_arc(const AxisMove& m, const AxisLimits& limits) {
     return out;
 }
 
-/// A curve that hardly turns counts as its chord: the hot path of G43.4.
+/// A curve with little rotation is treated as its chord: this is the inner loop of G43.4.
 PathRates rates_of_curve(const AxisMove& m, const AxisLimits& limits) {
-    constexpr double step = 1e-4;  // of s: the tangents at the ends
+    constexpr double step = 1e-4;  // step of s for the tangents at the ends
     const int parts = curve_parts(m.from, m.to);
     if (parts == 1) return rates_of_line(m, limits);
     PathRates out;

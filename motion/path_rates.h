@@ -1,4 +1,4 @@
-// How the axes run along a move: what their speeds and accelerations allow it.
+// Rates of the axes along a move, and the limits set by axis speed and acceleration.
 #pragma once
 
 #include "motion/axis_limits.h"
@@ -6,16 +6,19 @@
 
 namespace trunnion::motion {
 
-/// Of a move whose s runs from 0 to 1; axis units are mm and rad.
+/// Rates of a move with s from 0 to 1; axis units are mm and rad.
 struct PathRates {
-    AxisPositions start, end;         ///< d axis / d s; of curves 0 where nothing accelerates
-    double least_s = 0.0;             ///< the speeds let it take so long at constant ds/dt
-    double least_bend_s = 0.0;        ///< the same of v^2/r at the sharpest place
-    double least_acceleration = 0.0;  ///< s^2: its inverse is the highest d2s/dt2
+    AxisPositions start, end;         ///< d axis / d s; 0 for curves when no axis has an
+                                      ///< acceleration limit
+    double least_s = 0.0;             ///< minimum duration allowed by the axis speed limits at
+                                      ///< constant ds/dt, s
+    double least_bend_s = 0.0;        ///< minimum duration allowed by centripetal acceleration
+                                      ///< (v^2/r) at the sharpest bend, s
+    double least_acceleration = 0.0;  ///< s^2: inverse of the largest allowed d2s/dt2
 };
 
-/// A line by its ends; an arc by the tangent (speed, speeding up) and by its curvature, so v^2/r
-/// stays within the acceleration; a curve by looking at it, as finely as `curve_parts` says.
+/// Lines are evaluated at their ends. Arcs use tangent and curvature, so that v^2/r stays within
+/// the acceleration limit. Curves are sampled with `curve_parts` intervals.
 PathRates path_rates(const AxisMove& move, const AxisLimits& limits);
 
 }  // namespace trunnion::motion

@@ -5,7 +5,7 @@
 
 namespace trunnion::motion {
 
-/// The two axes of a plane and the one normal to it, in right-handed order.
+/// The two axes of a plane and its normal, in right-handed order.
 struct PlaneAxes {
     Axis first = Axis::X, second = Axis::Y, normal = Axis::Z;
     char centre_first = 'I', centre_second = 'J';  ///< I J, K I, J K

@@ -7,13 +7,12 @@ namespace trunnion::motion {
 
 namespace {
 
-/// Speed at one end of a link when it is `speed` at the other and all of the way changes it.
+/// Speed reachable at one end of a link from `speed` at the other end with full acceleration.
 double reach(double speed, const SpeedLink& link) {
     return std::sqrt(speed * speed + 2.0 * link.acceleration * link.way);
 }
 
-/// Joints that the control looks back at: what lies further before a stop is not slowed down for
-/// it.
+/// Maximum number of joints in the look-ahead; deceleration for a stop does not start earlier.
 constexpr std::size_t most_joints = 512;
 
 }  // namespace
@@ -44,8 +43,8 @@ double SpeedChain::add(const SpeedLink& link) {
     return std::max(growth_s, 0.0);
 }
 
-/// Walks back from the last link as far as speeds change; returns the last link that nothing
-/// behind it can change any more.
+/// Updates the entry speeds backwards from the last link until they no longer change. Returns the
+/// last link that later links cannot change.
 std::size_t SpeedChain::slow_down_before(std::size_t last, double& growth_s) {
     std::size_t settled = links_[last].entry == links_[last].top ? last : settled_;
     double exit = links_[last].entry;
@@ -53,7 +52,7 @@ std::size_t SpeedChain::slow_down_before(std::size_t last, double& growth_s) {
         Joined& joined = links_[k];
         const double braking = reach(exit, joined.link);
         const double entry = std::min(joined.top, braking);
-        const double time_s = braking < joined.top  // it slows down all the way
+        const double time_s = braking < joined.top  // decelerates over the whole link
                                   ? (entry - exit) / joined.link.acceleration
                                   : time_of_link_s(joined.link, entry, exit);
         growth_s += time_s - joined.time_s;

@@ -1,4 +1,4 @@
-// How long a chain of moves takes that need not stop between them: trapezoids of speed, joined.
+// Duration of a chain of moves without stops in between: joined trapezoidal speed profiles.
 #pragma once
 
 #include <cstddef>
@@ -6,42 +6,43 @@
 
 namespace trunnion::motion {
 
-/// One move of a chain. The way may be in any unit, as long as the chain keeps to it.
+/// One move of a chain. The path length may have any unit, the same for the whole chain.
 struct SpeedLink {
-    double way = 0.0;           ///< above 0
-    double speed = 0.0;         ///< highest, way/s
-    double acceleration = 0.0;  ///< along the way, way/s^2; infinity: none is needed
-    double entry = 0.0;  ///< highest speed where it begins, way/s; without effect after a stop
+    double way = 0.0;           ///< path length, above 0
+    double speed = 0.0;         ///< maximum speed, way/s
+    double acceleration = 0.0;  ///< along the path, way/s^2; infinite without limit
+    double entry = 0.0;         ///< maximum speed at its start, way/s; ignored after a stop
 };
 
-/// Time (s) of one link that is entered and left with these speeds (both within reach): it speeds
-/// up, runs at its highest speed if the way is long enough, and slows down.
+/// Duration (s) of one link with the given entry and exit speeds (both must be reachable): it
+/// accelerates, runs at maximum speed if the path is long enough, and decelerates.
 double time_of_link_s(const SpeedLink& link, double entry, double exit);
 
-/// The fastest run through all links since the last stop, each within its speed and acceleration,
-/// each joint within the entry speed of the link behind it, at rest at both ends. It is kept up
-/// to date link by link: a control that reads ahead slows down in time.
+/// The fastest motion through all links since the last stop: each link within its speed and
+/// acceleration, each joint within the entry speed of the following link, at rest at both ends.
+/// Updated link by link, like a control with look-ahead that decelerates in time.
 class SpeedChain {
   public:
-    /// Adds a link and returns by how much (s) the time of the chain grows when it ends here: the
-    /// way to the stop that the last link was charged with is taken back as far as none is needed.
+    /// Adds a link. Returns the growth (s) of the chain's duration if it ends here. The
+    /// deceleration to rest charged to the previous link is returned as far as it is no longer
+    /// needed.
     double add(const SpeedLink& link);
-    /// The next link begins at rest.
+    /// The next link starts from rest.
     void stop();
 
   private:
     struct Joined {
         SpeedLink link;
-        double top;    ///< fastest entry, counting what lies before
-        double entry;  ///< the same, able to stop at the chain's end
+        double top;    ///< maximum entry speed allowed by the preceding links
+        double entry;  ///< the same, such that the chain can still stop at its end
         double time_s;
     };
     std::size_t slow_down_before(std::size_t last, double& growth_s);
     void forget_settled();
 
     std::vector<Joined> links_;
-    std::size_t settled_ = 0;  ///< links before this one keep their times whatever follows
-    double owed_s_ = 0.0;      ///< a joint saved more than the link behind it took
+    std::size_t settled_ = 0;  ///< the durations of the links before this one are final
+    double owed_s_ = 0.0;      ///< time saved at a joint that exceeds the duration of the next link
 };
 
 }  // namespace trunnion::motion

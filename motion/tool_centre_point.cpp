@@ -104,7 +104,7 @@ void split(const PathCurve& curve, const Span& span, double tolerance_mm,
 
 std::vector<double> chord_steps(const PathCurve& curve, double tolerance_mm) {
     std::vector<double> steps{0.0};
-    // Four spans to begin with: a curve may come back to its own chord in the middle.
+    // Start with four intervals: a curve may cross its own chord in the middle.
     for (int i = 0; i < 4; ++i) {
         const double s0 = 0.25 * i, s1 = 0.25 * (i + 1);
         split(curve, {s0, s1, curve.at(s0), curve.at(s1), 2}, tolerance_mm, steps);

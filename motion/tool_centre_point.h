@@ -1,4 +1,4 @@
-// G43.4 and G43.5: the tip follows the work, the axes follow the tip.
+// G43.4 and G43.5: the path of the tip relative to the workpiece determines the axis motion.
 #pragma once
 
 #include <vector>
@@ -9,23 +9,23 @@
 
 namespace trunnion::motion {
 
-/// The believed tool centre point control in force. "Programmed tip": where the control's
-/// coordinate stages put the tip in M without it.
+/// The active believed tool centre point control. "Programmed tip": the tip in M that the
+/// coordinate stages of the control give without it.
 struct ToolCentrePoint {
     const positioning::RotaryTransform* transform = nullptr;
     Pose pose_WM0;              ///< programmed tip -> W, table-fixed frame
-    bool follows_work = false;  ///< WKP: the programmed tip is in M at the end of the block instead
+    bool follows_work = false;  ///< WKP: instead the programmed tip is in M at the end of the block
     Vector3 tool_vector_mm = Vector3::Zero();
 
-    /// `present`: the axes when G43.4 comes.
+    /// `present`: axis positions when G43.4 starts.
     static ToolCentrePoint start(const positioning::RotaryTransform& transform,
                                  const AxisPositions& present, positioning::TcpFrame frame,
                                  const Vector3& tool_vector_mm);
 
     Vector3 tip_W(const Vector3& programmed_M_mm, const AxisPositions& rotaries) const;
-    /// Inverse: the programmed tip that says where the axes stand.
+    /// Inverse: the programmed tip (mm, M) that corresponds to the axis positions.
     Vector3 programmed_tip_M(const AxisPositions& machine) const;
-    /// A direction in M (of the programmed frame) seen from W.
+    /// A direction of the programmed frame (in M) seen from W.
     Vector3 direction_W(const Vector3& programmed_M) const {
         return pose_WM0.rotation * programmed_M;
     }
@@ -34,23 +34,23 @@ struct ToolCentrePoint {
     }
 };
 
-/// The tip runs straight in W from one axis position to another, all other axes linear in s.
+/// The tip moves straight in W from one axis position to another; all other axes are linear in s.
 class TipLine : public PathCurve {
   public:
-    /// `start_W`, `end_W`: the tip there, mm.
+    /// `start_W`, `end_W`: tip at the two positions, mm.
     TipLine(const ToolCentrePoint& tcp, const AxisPositions& from, const AxisPositions& to,
             const Vector3& start_W, const Vector3& end_W)
         : tcp_(tcp), from_(from), to_(to), start_W_(start_W), end_W_(end_W) {}
     AxisPositions at(double s) const override;
 
   private:
-    const ToolCentrePoint& tcp_;  // these outlive the move that the path belongs to
+    const ToolCentrePoint& tcp_;  // referenced: must outlive the move
     const AxisPositions& from_;
     const AxisPositions& to_;
     Vector3 start_W_, end_W_;
 };
 
-/// The tip runs on an arc in W, rotaries linear in s; `arc` is in W.
+/// The tip moves on an arc in W, rotary axes linear in s; `arc` is given in W.
 class TipArc : public PathCurve {
   public:
     TipArc(const ToolCentrePoint& tcp, const AxisPositions& from, const AxisPositions& to,
@@ -66,17 +66,16 @@ class TipArc : public PathCurve {
     ArcPath arc_;
 };
 
-/// G43.5 Q: the tool axis leans by `lean_rad` from n towards the direction of travel (assumed);
-/// unchanged without travel across n.
+/// G43.5 Q: the tool axis is inclined by `lean_rad` from n_W towards the direction of travel
+/// (assumed). Unchanged without travel perpendicular to n_W.
 Vector3 leaned(const Vector3& n_W, const Vector3& travel_W, double lean_rad);
 
-/// Values of s, 0 and 1 included, between which the straight line of the axes stays within
-/// `tolerance_mm` of the curve (X Y Z; since rotaries run linearly that is the error of the tip
-/// too).
+/// Values of s, including 0 and 1, such that between them the linear axis motion stays within
+/// `tolerance_mm` of the curve (X Y Z; rotary axes are linear, so this is also the error of the
+/// tip).
 std::vector<double> chord_steps(const PathCurve& curve, double tolerance_mm);
 
-/// Into how many parts a curve is cut to look at it: one for each 5 deg of the axis that turns
-/// most.
+/// Number of intervals for sampling a curve: one for each 5 deg of the axis that turns most.
 int curve_parts(const AxisPositions& from, const AxisPositions& to);
 
 }  // namespace trunnion::motion

@@ -1,4 +1,4 @@
-// Positions as the control counts them: by axis letter, mm and deg; the door converts to rad.
+// Positions in the units of the control: by axis letter, mm and deg. They become rad on output.
 #pragma once
 
 #include "base/units.h"
@@ -8,7 +8,7 @@
 
 namespace trunnion::offsets {
 
-/// mm for linear axes, deg for rotary ones, so that what was typed reads back to the same double.
+/// mm for linear axes, deg for rotary axes, so that a typed value reads back as the same double.
 using ControlPosition = OffsetVector;
 
 inline Vector3 xyz_of(const ControlPosition& p) {
@@ -20,7 +20,7 @@ inline void set_xyz(ControlPosition& p, const Vector3& xyz) {
     p[Axis::Z] = xyz.z();
 }
 
-/// At the door: deg become rad, mm stay.
+/// Converts deg to rad; mm are unchanged.
 inline AxisPositions axis_positions_of(const ControlPosition& p) {
     AxisPositions out;
     for (std::size_t i = 0; i < axis_count; ++i) out.value[i] = p.value[i];

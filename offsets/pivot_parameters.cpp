@@ -12,7 +12,8 @@ namespace trunnion::offsets {
 
 namespace {
 
-/// Numbers of one rotary axis: the second axis's are five higher, its limits two.
+/// Parameter numbers of one rotary axis. Those of the second axis are higher by five, its limits by
+/// two.
 struct AxisNumbers {
     int axis, direction, inclination, rotation, hypothetical_angle, upper, lower, hypothetical_bit;
 };
@@ -40,7 +41,7 @@ Vector3 vector_at(const Parameters& parameters, int number) {
             finite_value(parameters, number + 2)};
 }
 
-/// Unit vector of X, Y, Z for 0, 1, 2; counted round.
+/// Unit vector of X, Y, Z for 0, 1, 2, modulo 3.
 Vector3 unit(int index) {
     return Vector3::Unit(index % 3);
 }
@@ -53,7 +54,7 @@ Vector3 decode_line(const Parameters& parameters, const AxisNumbers& numbers) {
     return std::cos(angle) * unit(direction - 4) + std::sin(angle) * unit(direction - 3);
 }
 
-/// 19741-19744 with both at 0 set no limit.
+/// 19741-19744: two zeros mean no limit.
 void decode_limits(const Parameters& parameters, const AxisNumbers& numbers, PivotAxis& axis) {
     const double upper = finite_value(parameters, numbers.upper);
     const double lower = finite_value(parameters, numbers.lower);
@@ -82,7 +83,8 @@ PivotAxis decode_axis(const Parameters& parameters, const AxisNumbers& numbers,
     return axis;
 }
 
-/// 19697 names the axis; 19698 turns it about the next letter, 19699 about the one after (assumed).
+/// 19697 is the axis; 19698 rotates it about the next letter, 19699 about the one after that
+/// (assumed).
 Vector3 decode_tool_direction(const Parameters& parameters) {
     const int direction = whole_value(parameters, 19697);
     if (direction < 0 || direction > 3) incorrect(19697);

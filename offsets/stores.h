@@ -1,4 +1,4 @@
-// The separate stores that together are all the control believes about machine and work.
+// The separate stores that contain all beliefs of the control about machine and workpiece.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace trunnion::offsets {
 
-/// An offset vector by axis letter in the control's own units: mm and deg, as typed at the control.
+/// An offset vector by axis letter in the units of the control: mm and deg, as typed.
 struct OffsetVector {
     std::array<double, axis_count> value{};
     double& operator[](Axis axis) { return value[index_of(axis)]; }
@@ -26,7 +26,7 @@ struct WorkOffsets {
     std::array<OffsetVector, 300> additional;  ///< [0] = G54.1 P1
 };
 
-/// G54.2 Pn: a fixture offset measured at reference angles. The control turns it with the table.
+/// G54.2 Pn: a fixture offset measured at reference angles. The control rotates it with the table.
 struct FixtureOffset {
     OffsetVector offset;            ///< mm along the linear axes
     OffsetVector reference_angles;  ///< deg of the rotary axes
@@ -35,7 +35,7 @@ struct FixtureOffsets {
     std::array<FixtureOffset, 8> set;  ///< [0] = P1
 };
 
-/// Memory C: length and radius, geometry and wear apart. Offset number 0 is no offset.
+/// Tool offset memory C: geometry and wear of length and radius. Offset number 0 means no offset.
 struct ToolOffset {
     double length_geometry_mm = 0.0;
     double length_wear_mm = 0.0;
@@ -48,13 +48,14 @@ struct ToolOffsets {
     std::vector<ToolOffset> tool = std::vector<ToolOffset>(1000);  ///< [n] = offset number n
 };
 
-/// One CNC parameter: a number or eight bits; `by_axis` where the control keeps one for each axis.
+/// One CNC parameter: a number or eight bits. `by_axis` holds the values of an axis parameter.
 struct Parameter {
     double value = 0.0;             ///< bit parameters: the byte as a number
     std::map<int, double> by_axis;  ///< axis number (1 X, 2 Y, 3 Z, ...) -> value
 };
 
-/// CNC parameters by number, 19680-19749 among them. Absent ones read as the control's default.
+/// CNC parameters by number, including 19680-19749. Absent parameters read as the control's
+/// default.
 struct Parameters {
     std::map<int, Parameter> entry;
 
@@ -65,14 +66,15 @@ struct Parameters {
     void set_bit(int number, int index, bool on);
 };
 
-/// Everything the control believes. Copyable; nothing in here knows the physical machine.
+/// All beliefs of the control. Copyable; independent of the physical machine.
 struct Stores {
     WorkOffsets work;
     FixtureOffsets fixture;
     ToolOffsets tools;
     Parameters parameters;
-    std::map<int, double> signals;    ///< #1000-#1035 input, #1100-#1135 output, preset by a setup
-    std::map<int, double> variables;  ///< #500-#999 kept between runs
+    std::map<int, double> signals;    ///< #1000-#1035 inputs, #1100-#1135 outputs, initial values
+                                      ///< from the setup
+    std::map<int, double> variables;  ///< #500-#999, kept between runs
 };
 
 }  // namespace trunnion::offsets

@@ -9,7 +9,7 @@ namespace trunnion::pivot {
 
 namespace {
 
-/// Letters and numbers of a program without comments; a number keeps its point.
+/// Letters and numbers of a program without comments; a number keeps its decimal point.
 struct Word {
     char letter = 0;
     std::string number;
@@ -39,7 +39,8 @@ std::vector<Word> words_of(std::string_view text) {
     return words;
 }
 
-/// What follows the letter of a rotary word: a number, a variable, an expression.
+/// True when a rotary word with this letter occurs: followed by a number, a variable or an
+/// expression.
 bool turns(std::string_view text, char letter) {
     for (std::size_t at = text.find(letter); at != std::string_view::npos;
          at = text.find(letter, at + 1)) {

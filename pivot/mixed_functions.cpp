@@ -6,7 +6,7 @@
 namespace trunnion::pivot {
 namespace {
 
-constexpr double fits_um = 3.0;  ///< scatter of a centre that no mix-up is looked for below
+constexpr double fits_um = 3.0;  ///< below this scatter of a centre no mix-up is searched
 constexpr double times_better = 3.0;
 
 std::vector<PivotMap> regrouped(std::vector<PivotMap> maps, const std::set<std::string>& moved) {
@@ -43,7 +43,7 @@ std::vector<std::string> mixed_functions(const PivotEvidence& evidence,
         for (std::size_t k = 0; k < names.size(); ++k)
             if ((set >> k & 1U) != 0) moved.insert(names[k]);
         const double noise_um = fit_pivot_machine(evidence, regrouped(maps, moved)).noise_um;
-        // Of equal ones the smaller set, which comes first, stands.
+        // Of equal sets the smaller one, which comes first, is kept.
         if (noise_um > 0.9 * best_um) continue;
         best_um = noise_um;
         mixed.assign(moved.begin(), moved.end());

@@ -1,4 +1,4 @@
-// Prints whose functions were mixed up: read under other names they fit a machine, as named not.
+// Detects prints with wrong function names: the readings fit a machine under other names only.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace trunnion::pivot {
 
-/// Functions that took their stores from the other group than their name says: with those counted
+/// Functions that used the stores of the other group than their name indicates: with these assigned
 /// to the other group the readings fit a machine three times better. Empty: none, or the readings
-/// already fit within 3 µm as named. `as_named` is the fit of `maps` as they are.
+/// fit within 3 µm as named. `as_named` is the fit of `maps` as given.
 std::vector<std::string> mixed_functions(const PivotEvidence& evidence,
                                          const std::vector<PivotMap>& maps,
                                          const PivotFit& as_named);

@@ -1,4 +1,4 @@
-// The machine behind error maps: Gauss-Newton with a free vector for each zeroing.
+// Fit of a machine to error maps: Gauss-Newton with a free vector for each zeroing.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,13 +12,13 @@ namespace trunnion::pivot {
 
 namespace {
 
-constexpr double reading_mm = 1e-3;  ///< weight of a reading while its scatter is not known
+constexpr double reading_mm = 1e-3;  ///< weight of a reading until its scatter is known
 
 double typical(const LineUnknown& unknown) {
     return unknown.tilt ? 1e-4 : 0.1;
 }
 
-/// The two directions across an axis, along machine axes where that is possible.
+/// Two directions perpendicular to an axis, along machine axes where possible.
 std::array<Vector3, 2> across(const Vector3& line) {
     Eigen::Index along = 0;
     line.cwiseAbs().maxCoeff(&along);
@@ -27,8 +27,8 @@ std::array<Vector3, 2> across(const Vector3& line) {
     return {a, line.cross(a)};
 }
 
-/// The zero position of a table axis reads as the place of the sphere, that of a head as a shift of
-/// the stylus ball: neither is an unknown of its own.
+/// The zero position of a table axis is equivalent to the sphere position, that of a head to a
+/// shift of the stylus ball; neither is a separate unknown.
 std::vector<LineUnknown> line_unknowns(const offsets::PivotParameters& pivot) {
     std::vector<LineUnknown> unknowns;
     for (const bool second : {false, true}) {
@@ -54,7 +54,7 @@ kinematics::Machine all_moved(kinematics::Machine machine, const std::vector<Lin
     return machine;
 }
 
-/// All points with the number of the zeroing that they were measured after.
+/// All points with the number of the preceding zeroing.
 struct Row {
     PivotGroup group;
     PivotPoint point;
@@ -121,7 +121,7 @@ Eigen::VectorXd MapFit::residual() const {
     return out;
 }
 
-/// Columns for one typical change each, rows over `reading_mm`.
+/// Columns for one typical change each; rows divided by `reading_mm`.
 Eigen::MatrixXd MapFit::jacobian() const {
     const Eigen::VectorXd scale = this->scale();
     const auto count = static_cast<Eigen::Index>(rows_.size());

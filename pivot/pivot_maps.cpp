@@ -25,7 +25,7 @@ void name_map(PivotMap& map, Axis first, Axis second) {
 
 ErrorCircle fit_circle(const PivotMap& map, const std::vector<PivotPoint>& points,
                        const Vector3& axis_M) {
-    // Across the axis a turning error is z = c + v exp(i theta): two complex unknowns.
+    // Perpendicular to the axis a rotating error is z = c + v exp(i theta): two complex unknowns.
     using Complex = std::complex<double>;
     const Vector3 a = axis_M.unitOrthogonal(), b = axis_M.cross(a);
     const auto n = static_cast<double>(points.size());
@@ -53,7 +53,7 @@ Vector3 moving_axis_M(const offsets::PivotParameters& pivot, const PivotMap& map
 
 namespace {
 
-/// DPP and G54.2: both table axes meet in G54.
+/// DPP and G54.2: both table axes intersect at G54.
 offsets::PivotParameters about_g54(const setup::RotaryStores& stores) {
     offsets::PivotParameters pivot = stores.pivot;
     pivot.table_point_mm = stores.g54;
@@ -86,7 +86,8 @@ PivotModel::PivotModel(const kinematics::Machine& machine, const setup::RotarySt
 Vector3 PivotModel::reached_mm(const AxisPositions& turned) const {
     AxisPositions q = turned;
     add_linear(q, sphere_mm_ - tip_S_mm_);
-    // The linear axes are nearly square: each pass shrinks what is left by their errors.
+    // The linear axes are nearly orthogonal: each iteration reduces the remainder by the factor of
+    // their errors.
     for (int pass = 0; pass < 8; ++pass) {
         const kinematics::MachinePose pose = machine_.poses(q);
         const Vector3 missing = pose.pose_MW * sphere_W_mm_ - pose.pose_MS * tip_S_mm_;

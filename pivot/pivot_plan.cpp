@@ -30,9 +30,9 @@ const PivotFunction* find_pivot_function(std::string_view name) {
 namespace {
 
 constexpr double step_deg = 15.0;
-constexpr double height_mm = 100.0;  ///< of the tip above the sphere on its way
-constexpr double margin_mm = 5.0;    ///< to the ends of travel
-constexpr int fewest_points = 5;     ///< of an arc worth measuring
+constexpr double height_mm = 100.0;  ///< height of the tip above the sphere during its motion
+constexpr double margin_mm = 5.0;    ///< distance to the travel limits
+constexpr int fewest_points = 5;     ///< minimum for an arc
 
 const setup::Artefact& sphere_of(const setup::Setup& setup) {
     for (const setup::Artefact& artefact : setup.artefacts)
@@ -57,8 +57,8 @@ bool square(const offsets::PivotAxis& axis) {
     return axis.line.cwiseAbs().maxCoeff() > 1.0 - 1e-9;
 }
 
-/// No group 7580-7588 can say that an inclined axis turns the offset; a Hurco has no G54.2, and its
-/// tilted planes are written in another way.
+/// No group 7580-7588 can describe rotation about an inclined axis. A Hurco has no G54.2, and its
+/// tilted planes are programmed differently.
 std::vector<PivotFunction> functions_of(const PivotPlan& plan) {
     const offsets::PivotParameters& pivot = plan.stores.pivot;
     std::vector<PivotFunction> functions;
@@ -88,7 +88,7 @@ struct Planner {
         return !axis ||
                ((!axis->min || angle >= *axis->min) && (!axis->max || angle <= *axis->max));
     }
-    /// X Y Z with the tip `above_mm` above the sphere, seen along the tool, within travel.
+    /// True when X Y Z are within travel for the tip `above_mm` above the sphere along the tool.
     bool reaches(const AxisPositions& turned, double above_mm) const {
         const Vector3 n_W = transform.tool_direction_W(turned);
         const AxisPositions q =
@@ -106,7 +106,7 @@ struct Planner {
         turned[plan.second()] = rad_from_deg(second_deg);
         return reaches(turned, 0.0) && reaches(turned, height_mm);
     }
-    /// The arc cut to the longest part that can be reached.
+    /// The arc reduced to its longest reachable part.
     PlannedMap cut(PlannedMap map) const {
         int best_start = 0, best = 0;
         for (int k = 0, run = 0; k < map.count; ++k) {
@@ -134,7 +134,8 @@ bool along_tool(const offsets::PivotParameters& pivot, const offsets::PivotAxis&
 
 std::vector<PlannedMap> maps_of(const Planner& planner) {
     const offsets::PivotParameters& pivot = planner.plan.stores.pivot;
-    // The axis along the tool turns, the other one tilts; of two that tilt the second turns.
+    // The axis parallel to the tool rotates, the other one tilts; if both tilt, the second counts
+    // as rotating.
     const bool first_tilts = !along_tool(pivot, pivot.first);
     std::vector<PlannedMap> maps;
     for (const double fixed_deg : {0.0, 90.0, 180.0}) {

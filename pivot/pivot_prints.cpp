@@ -15,9 +15,9 @@ namespace trunnion::pivot {
 
 namespace {
 
-constexpr double most_error_mm = 20.0;  ///< more is another unit or another machine
+constexpr double most_error_mm = 20.0;  ///< larger errors mean another unit or another machine
 
-/// One line with its place.
+/// One line with its position.
 struct PrintedLine {
     const std::string* path = nullptr;
     int number = 0;
@@ -26,8 +26,8 @@ struct PrintedLine {
     [[noreturn]] void refuse(const std::string& message, std::size_t column = 0) const {
         throw InputError(message, {*path, number, static_cast<int>(column) + 1}, std::string(text));
     }
-    /// Number behind `letter`. DPRNT writes the sign first and blanks for leading zeros:
-    /// "B-  90.0000".
+    /// Number after `letter`. DPRNT prints the sign first and blanks for leading zeros: "B-
+    /// 90.0000".
     double value(char letter, std::size_t from) const {
         const std::size_t at = text.find(letter, from);
         if (at == std::string_view::npos)
@@ -46,7 +46,7 @@ struct PrintedLine {
     }
 };
 
-/// Words apart by blanks.
+/// Words separated by blanks.
 std::vector<std::string_view> words_of(std::string_view text) {
     std::vector<std::string_view> words;
     for (std::size_t at = 0; at < text.size();) {
@@ -58,7 +58,7 @@ std::vector<std::string_view> words_of(std::string_view text) {
     return words;
 }
 
-/// #3011 as a date. A clock that was never set (1970) and a number that is no date tell nothing.
+/// #3011 as a date. Empty for a clock that was never set (1970) and for an invalid date.
 std::string date_of(double yyyymmdd) {
     if (!(yyyymmdd > 19800101.0 && yyyymmdd < 30000000.0)) return {};
     const int n = static_cast<int>(yyyymmdd), month = n / 100 % 100, day = n % 100;
@@ -71,7 +71,7 @@ std::string days(const std::set<std::string>& dates) {
     return dates.size() == 1 ? *dates.begin() : *dates.begin() + " to " + *dates.rbegin();
 }
 
-/// A run of one function while its lines come.
+/// A run of one function while its lines are being read.
 struct FunctionRun {
     PrintedLine head;
     int from_map = 0, to_map = 0;
@@ -187,7 +187,7 @@ void PrintReader::result(const PrintedLine& line, const std::string& function,
     if (word == "END") {
         run.ended = true;
     } else if (word.starts_with("ZERO")) {
-        prints_.spheres_mm[function] = line.xyz(function.size() + 5);  // behind "RTCP ZERO"
+        prints_.spheres_mm[function] = line.xyz(function.size() + 5);  // after "RTCP ZERO"
         ++prints_.zeroings;
     } else if (word.starts_with("MAP")) {
         point(line, run, word);
@@ -195,7 +195,7 @@ void PrintReader::result(const PrintedLine& line, const std::string& function,
 }
 
 void PrintReader::point(const PrintedLine& line, FunctionRun& run, std::string_view word) {
-    // "MAP1" or, where blanks stand for leading zeros, "MAP 1".
+    // "MAP1" or, with blanks for leading zeros, "MAP 1".
     const std::size_t number = static_cast<std::size_t>(word.data() - line.text.data()) + 3;
     const int map = std::atoi(std::string(line.text.substr(number)).c_str());
     if (map < run.from_map || map > run.to_map)

@@ -23,7 +23,7 @@ std::string filled(std::string text, const Words& words) {
     return text;
 }
 
-/// A number as an NC word wants it: always with a point.
+/// A number for an NC word: always with a decimal point.
 std::string number(double value) {
     std::string text = fmt::format("{:.10g}", value + 0.0);
     if (text.find('.') == std::string::npos) text += ".";
@@ -36,14 +36,14 @@ std::string point(const char* letters, const Vector3& v) {
     return text;
 }
 
-/// Line that turns #545 #546 #547 (or the point given) about an axis by the angle in `angle`.
+/// Line that rotates #545 #546 #547 (or the given point) about an axis by the angle in `angle`.
 std::string turn(const offsets::PivotAxis& axis, const std::string& angle,
                  const std::string& from = "X#545Y#546Z#547") {
     return "G65P8140" + from + point("IJK", axis.direction()) + "A" + angle + "\n";
 }
 
-/// Into #545 #546 #547: the tool's direction seen from the table; tilting heads leave it seen from
-/// the machine in #540 #541 #542.
+/// Sets #545 #546 #547 to the tool direction seen from the table; with tilting heads also #540 #541
+/// #542 to the direction seen from the machine.
 std::string tool_direction(const PivotPlan& plan) {
     const offsets::PivotParameters& pivot = plan.stores.pivot;
     std::string from = point("XYZ", pivot.tool_direction), text;
@@ -63,7 +63,7 @@ std::string tool_direction(const PivotPlan& plan) {
     return text;
 }
 
-/// The point found at home, turned with the table about G54.
+/// The point measured at home, rotated with the table about G54.
 std::string turned_point(const PivotPlan& plan) {
     const offsets::PivotParameters& pivot = plan.stores.pivot;
     std::string text = turn(pivot.second, "#531", "X#520Y#521Z#522");
@@ -113,8 +113,8 @@ struct FunctionText {
     std::string title, note, begin, lead, cancel;
 };
 
-/// Texts by name of the function. O8102 prints each move for the PC, MODE what placed the axes.
-/// lead: the tip #510 above the sphere, seen along the tool.
+/// Texts by name of the function. O8102 prints each move for the PC; MODE tells the positioning
+/// function. lead: the tip #510 above the sphere along the tool.
 FunctionText text_of(const std::string& name, bool hurco) {
     if (name == "DPP")
         return {"DPP: DIRECT PIVOT POINT, KINEMATICS IN THE PROGRAM",

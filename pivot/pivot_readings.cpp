@@ -30,7 +30,7 @@ std::string_view function_of(PositioningMode mode) {
     }
 }
 
-/// Rows of one found sphere.
+/// Rows of one measured sphere.
 struct Finding {
     std::vector<const records::Reading*> rows;
     const records::Reading& row() const { return *rows.front(); }
@@ -46,7 +46,7 @@ std::vector<Finding> findings_of(const records::ReadingTable& table, Axis first,
     std::vector<Finding> findings;
     bool apart = true;
     for (const records::Reading& row : table.rows) {
-        // A move of a rotary axis ends a finding; the moves between its touches do not.
+        // A move of a rotary axis ends a measurement; moves between its touches do not.
         if (!findings.empty() &&
             (std::abs(row.commanded[first] - findings.back().row().commanded[first]) > 1e-6 ||
              std::abs(row.commanded[second] - findings.back().row().commanded[second]) > 1e-6))
@@ -72,7 +72,7 @@ Vector3 by_components(const Finding& finding) {
     return a.ldlt().solve(b);
 }
 
-/// Where the targets lead: target = centre + k dir, k the same for all.
+/// Expected centre from the targets: target = centre + k dir, with a common k.
 Vector3 expected_centre(const Finding& finding) {
     Eigen::Matrix4d a = Eigen::Matrix4d::Zero();
     Eigen::Vector4d b = Eigen::Vector4d::Zero();
@@ -140,7 +140,7 @@ PivotPrints pivot_readings(const records::ReadingTable& table, Axis first, Axis 
             ++out.zeroings;
             continue;
         }
-        // One map a test and function: "dpp_map1" and "rtcp_map1" are the same map.
+        // One map for each test and function: "dpp_map1" and "rtcp_map1" are the same map.
         std::string name = row.test;
         if (const std::size_t at = name.find("map"); at != std::string::npos) name.erase(0, at);
         const int number =

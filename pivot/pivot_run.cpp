@@ -62,7 +62,7 @@ PivotDemonstration demonstrate_pivot(const setup::Setup& setup,
     emulator::RunOptions options;
     options.effects = effects::active_models(setup);
     for (std::size_t k = 0; k < demo.plan.functions.size(); ++k) {
-        options.seed = 4 * seed + k;  // each program gets its own repeatability
+        options.seed = 4 * seed + k;  // each program has its own repeatability
         demo.printed += print_of(setup, programs, folders, demo.plan.functions[k].program, options);
     }
     const PivotPrints prints =

@@ -10,22 +10,22 @@
 
 namespace trunnion::pivot {
 
-/// What a simulated test led to; the simulator knows the machine, so it also knows what is right.
+/// Result of a simulated test; the simulator knows the machine and thus the correct stores.
 struct PivotDemonstration {
     PivotPlan plan;
-    std::string printed;             ///< all programs, in their order
-    std::vector<PivotMap> maps;      ///< expected: by the machine as it is
-    PivotVerdict verdict;            ///< from the prints alone
-    setup::RotaryStores true_right;  ///< what the stores had to hold
+    std::string printed;             ///< output of all programs, in their order
+    std::vector<PivotMap> maps;      ///< expected: by the actual machine
+    PivotVerdict verdict;            ///< from the prints only
+    setup::RotaryStores true_right;  ///< correct values of the stores
 };
 
-/// The maps that a known machine leads to, worked out without running a program.
+/// The maps predicted by a known machine, computed without running a program.
 std::vector<PivotMap> modelled_maps(const PivotPlan& plan, const kinematics::Machine& machine,
                                     const Vector3& tip_S_mm);
 
-/// Runs `programs` (by file name, as pivot_programs writes them) on the setup; `folders` hold
-/// O8100. Throws Alarm with its place when a program alarms, InputError when the machine does not
-/// suit.
+/// Runs `programs` (by file name, as written by pivot_programs) on the setup; `folders` contain
+/// O8100. Throws Alarm with position when a program raises one, InputError when the machine is
+/// unsuitable.
 PivotDemonstration demonstrate_pivot(const setup::Setup& setup,
                                      const std::map<std::string, std::string>& programs,
                                      const std::vector<std::string>& folders,

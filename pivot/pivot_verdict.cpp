@@ -12,7 +12,7 @@ namespace trunnion::pivot {
 
 namespace {
 
-/// d right value / d unknown for each number, and with the covariance its sigma.
+/// Derivatives of the correct values by the unknowns; with the covariance they give the sigmas.
 std::vector<double> sigmas_of(const PivotVerdict& verdict) {
     const auto numbers = setup::store_numbers(verdict.right);
     const auto& unknowns = verdict.fit.unknowns;
@@ -42,7 +42,7 @@ bool measured(const std::vector<PivotMap>& maps, PivotGroup group) {
     return false;
 }
 
-/// Poses of a group; where it was not run those of the other one.
+/// Poses of a group; if it was not run, those of the other group.
 std::vector<PivotPoint> poses_of(const std::vector<PivotMap>& maps, PivotGroup group) {
     const bool own = measured(maps, group);
     std::vector<PivotPoint> poses;
@@ -80,7 +80,7 @@ GroupVerdict group_verdict(const PivotEvidence& evidence, const PivotVerdict& ve
     return out;
 }
 
-/// Largest difference of the two groups at one pose, typed.
+/// Largest difference of the two groups at one pose, with the new values.
 double agreement_um(const PivotModel& typed, const std::vector<PivotMap>& maps) {
     if (!measured(maps, PivotGroup::g54)) return 0.0;
     double worst = 0.0;
@@ -108,7 +108,7 @@ std::string along(const std::string& numbers, const offsets::PivotAxis& axis) {
                        letter_of(axis.axis));
 }
 
-/// Both axes under the table: the numbers of the dialect.
+/// Both axes in the table: the numbers of the dialect.
 std::vector<std::string> along_table_axes(const offsets::PivotParameters& pivot, bool hurco) {
     if (!hurco) return {along("19700-19702", pivot.first), along("19703-19705", pivot.second)};
     const auto line = [](const offsets::PivotAxis& axis) {

@@ -23,7 +23,8 @@ Axis group_axis(const offsets::Parameters& parameters, int number, const std::ve
     return *axis;
 }
 
-/// Tables of the usual kind: + turns them left-handed about +X, +Y, +Z (ISO 841).
+/// Groups of a usual rotary table: a + command turns the table left-handed about +X, +Y or +Z (ISO
+/// 841).
 std::vector<FixtureGroup> assumed_groups(const std::vector<Axis>& order) {
     constexpr FixtureGroup usual[] = {
         {Axis::C, Axis::Y, Axis::X}, {Axis::B, Axis::X, Axis::Z}, {Axis::A, Axis::Z, Axis::Y}};

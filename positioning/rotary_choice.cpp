@@ -9,10 +9,10 @@ namespace trunnion::positioning {
 
 namespace {
 
-constexpr double same_rad = 1e-9;  ///< moves that differ by less are equal
+constexpr double same_rad = 1e-9;  ///< differences below this count as equal
 constexpr double turn_rad = 2.0 * pi;
 
-/// What is compared, in this order; smaller is better.
+/// The criteria in order of priority; smaller is better.
 using Merit = std::array<double, 4>;
 
 double from_zero(double angle_rad) {
@@ -56,7 +56,7 @@ std::optional<double> nearest_turn(double angle_rad, double present_rad,
         turns = std::fmax(turns, std::ceil((*range.min_rad - same_rad - angle_rad) / turn_rad));
     const double found_rad = angle_rad + turns * turn_rad;
     if (range.max_rad && found_rad > *range.max_rad + same_rad) return std::nullopt;
-    // An axis that already stands there does not stir by rounding.
+    // Rounding must not move an axis that is already in position.
     return std::abs(found_rad - present_rad) < 1e-12 ? present_rad : found_rad;
 }
 

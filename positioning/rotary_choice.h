@@ -1,4 +1,4 @@
-// Which of the rotary solutions the control takes: G53.1, G53.6, G43.5.
+// Choice between the solutions for the rotary axes: G53.1, G53.6, G43.5.
 #pragma once
 
 #include <optional>
@@ -8,10 +8,10 @@
 
 namespace trunnion::positioning {
 
-/// P of G53.1: by the way, or by the sign of the axis that tilts the tool.
+/// P of G53.1: by the shortest move, or by the sign of the axis that tilts the tool.
 enum class Branch : int { nearest = 0, positive = 1, negative = 2 };
 
-/// Travel of the two rotary axes, rad; unlimited where empty.
+/// Travel of the two rotary axes, rad; an empty limit does not restrict.
 struct RotaryTravel {
     struct Range {
         std::optional<double> min_rad, max_rad;
@@ -20,21 +20,25 @@ struct RotaryTravel {
 };
 
 struct RotaryChoice {
-    std::optional<RotarySolution> chosen;       ///< nothing: out of reach or of travel
-    std::vector<RotarySolution> all;            ///< every branch, nearest turn within the travel
-    std::vector<RotarySolution> out_of_travel;  ///< branches that no turn brings into the travel
+    std::optional<RotarySolution> chosen;       ///< empty: direction out of reach or all solutions
+                                                ///< out of travel
+    std::vector<RotarySolution> all;            ///< all solutions within travel, each at its
+                                                ///< nearest turn
+    std::vector<RotarySolution> out_of_travel;  ///< solutions that no number of turns brings into
+                                                ///< the travel
 };
 
-/// Angles that point the tool along n_W from where the rotaries stand: least move of the master
-/// (mixed machines: of the table axis), then of the other, then the master nearest 0 (mod 360),
-/// then the other. Each angle is the nearest turn that the travel allows, so an axis at its end
-/// rewinds.
+/// Rotary angles that point the tool along the unit vector n_W. Criteria, in this order: shortest
+/// move of the master axis (of the table axis on a mixed machine); shortest move of the other axis;
+/// master angle nearest 0 (mod 360); other angle nearest 0. Moves that differ by less than 1e-9 rad
+/// count as equal. Each angle is the turn nearest `present` that the travel allows, so an axis near
+/// its limit rewinds. `choice.all` is empty when the direction is out of reach.
 RotaryChoice choose_rotaries(const RotaryTransform& transform, const Vector3& n_W,
                              const RotarySolution& present, const RotaryTravel& travel,
                              Branch branch = Branch::nearest);
 
-/// The turn of `angle_rad` (mod 2 pi) nearest to `present_rad` within the range; nothing when there
-/// is none.
+/// `angle_rad` plus the number of full turns that brings it nearest to `present_rad` within the
+/// range (limits widened by 1e-9 rad). Empty when no turn lies in the range.
 std::optional<double> nearest_turn(double angle_rad, double present_rad,
                                    const RotaryTravel::Range& range);
 

@@ -18,7 +18,8 @@ RotaryTransform::RotaryTransform(const offsets::PivotParameters& pivot) : pivot_
         place_table_lines();
 }
 
-/// A hypothetical first axis of a table tilts the second axis once and for all; W stays M at zero.
+/// A hypothetical first table axis tilts the second axis by a constant angle; W still coincides
+/// with M at zero.
 void RotaryTransform::place_table_lines() {
     if (pivot_.unit == offsets::MechanicalUnit::mixed) {
         second_.point_mm = pivot_.table_point_mm;
@@ -42,7 +43,7 @@ void RotaryTransform::place_tool_lines() {
     if (pivot_.second.hypothetical) second_fixed_rad_ = pivot_.second.hypothetical_rad;
 }
 
-/// Rodrigues' formula without building a matrix: the hot path of G43.4.
+/// Rodrigues' formula without a matrix: this is the inner loop of G43.4.
 inline Vector3 RotaryTransform::turned(const Line& line, const Turn& turn, const Vector3& v) {
     return turn.c * v + turn.s * line.u.cross(v) + ((1.0 - turn.c) * line.u.dot(v)) * line.u;
 }
@@ -96,7 +97,7 @@ inline Vector3 RotaryTransform::direction_to_W(const Turns& q, const Vector3& v_
     }
 }
 
-/// Where a point of the spindle frame S is, seen from (X, Y, Z) in M axes.
+/// Position of a point of the spindle frame S relative to (X, Y, Z), along the axes of M.
 inline Vector3 RotaryTransform::swing(const Turns& q, const Vector3& p_S) const {
     switch (pivot_.unit) {
         case offsets::MechanicalUnit::tool_tool:
@@ -206,7 +207,8 @@ bool same_angle(double a_rad, double b_rad) {
     return std::abs(std::remainder(a_rad - b_rad, 2.0 * pi)) < 1e-9;
 }
 
-/// The two directions that the turns bring together, with the sign of the first angle in it.
+/// The two directions that the rotations must align, and the sign with which the first angle
+/// enters.
 struct OrientProblem {
     Vector3 x, y;
     double first_sign;

@@ -8,10 +8,11 @@ namespace trunnion::positioning {
 
 namespace {
 
-constexpr double on_line = 1e-11;     ///< sine below which a direction counts as on an axis line
-constexpr double reach_slack = 1e-9;  ///< how far beyond its reach a direction may round
+constexpr double on_line = 1e-11;     ///< a direction with a smaller sine to an axis line counts as
+                                      ///< on the line
+constexpr double reach_slack = 1e-9;  ///< tolerance for directions at the limit of reach
 
-/// Angle in (-pi, pi] about `axis` from `from` to `to`; nothing when `from` lies on the line.
+/// Angle in (-pi, pi] about `axis` from `from` to `to`; empty when `from` lies on the axis line.
 std::optional<double> angle_about(const Vector3& axis, const Vector3& from, const Vector3& to) {
     const Vector3 lever = axis.cross(from);
     if (lever.norm() < on_line) return std::nullopt;
@@ -31,8 +32,8 @@ struct CommonVectors {
     Vector3 at[2];
 };
 
-/// Unit vectors on both cones. Taken on `base`, the narrower one: near its line the other cone's
-/// height would lose half of all digits.
+/// Unit vectors that lie on both cones. They are computed on `base`, the narrower cone: near its
+/// axis the height on the other cone would lose half of its digits.
 CommonVectors common_vectors(const Cone& base, const Cone& other) {
     CommonVectors common;
     const Vector3 cross = base.axis.cross(other.axis);

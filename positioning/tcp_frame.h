@@ -3,11 +3,11 @@
 
 namespace trunnion::positioning {
 
-/// To what the table-fixed frame of G43.4 is tied when it comes with the table turned
+/// The table-fixed programming frame of G43.4 when it starts with the table turned
 /// (docs/five_axis.md: depends on options).
 enum class TcpFrame : unsigned char {
-    start,       ///< the work frame as it lies then sticks to the table (15i manual)
-    rotary_zero  ///< the work frame lies on the table with its rotaries at zero
+    start,       ///< the work frame in its present position is fixed to the table (15i manual)
+    rotary_zero  ///< the work frame is fixed to the table as it lies with the rotary axes at zero
 };
 
 }  // namespace trunnion::positioning

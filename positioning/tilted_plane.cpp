@@ -8,7 +8,7 @@ namespace trunnion::positioning {
 
 namespace {
 
-constexpr double shortest_mm = 1e-6;  ///< points nearer than this are one point
+constexpr double shortest_mm = 1e-6;  ///< points closer than this count as one point
 constexpr double most_off_square_rad = rad_from_deg(5.0);
 
 [[noreturn]] void format_error(char letter, const char* what_is_wrong) {
@@ -46,7 +46,7 @@ Matrix3 about(int axis, double angle_rad) {
     return rotation_about(Vector3::Unit(axis), angle_rad);
 }
 
-/// The three digits of Q as axis indices 0 X, 1 Y, 2 Z.
+/// The three digits of Q as axis indices: 0 X, 1 Y, 2 Z.
 std::array<int, 3> axis_digits(const PlaneWords& w, int otherwise) {
     const int q = w.q ? whole('Q', *w.q) : otherwise;
     const std::array<int, 3> axis{q / 100 - 1, q / 10 % 10 - 1, q % 10 - 1};

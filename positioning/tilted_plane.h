@@ -1,4 +1,4 @@
-// The frames of G68.2, G68.3 and G68.4: where the tilted working plane lies on the work.
+// The frames of G68.2, G68.3 and G68.4: position and orientation of the tilted working plane.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace trunnion::positioning {
 
-/// The words of one G68.2, G68.3 or G68.4 block: mm, deg, or components of a vector; P and Q as
+/// The words of one G68.2, G68.3 or G68.4 block: mm, deg, or components of a vector. P and Q as
 /// written.
 struct PlaneWords {
     std::optional<double> x, y, z, i, j, k, r, p, q;
@@ -17,7 +17,7 @@ struct PlaneWords {
 
 constexpr const char* plane_format_error_text = "G68.2/G68.3 FORMAT ERROR";
 
-/// Alarm 5457: which address is at fault (0: one that is missing, or the whole block) and why.
+/// Alarm 5457 with the address at fault (0: a missing address or the whole block) and the reason.
 class PlaneFormatError : public Alarm {
   public:
     PlaneFormatError(char letter, const char* what_is_wrong)
@@ -27,20 +27,20 @@ class PlaneFormatError : public Alarm {
     const char* what_is_wrong;
 };
 
-/// Collects the blocks of one definition: P0, P1 and P4 need one block, P2 three or four, P3 two.
+/// Collects the blocks of one definition: P0, P1 and P4 take one block, P2 three or four, P3 two.
 class PlaneDefinition {
   public:
-    /// The feature frame seen from the work frame once all its blocks are there; nothing before.
-    /// Throws PlaneFormatError for a missing address, an unknown P or Q, a block out
-    /// of place, points on one line, vectors that are not square.
-    ///   P0: Euler angles I J K about moved axes, in the order of the digits of Q (313: Z-X-Z)
-    ///   P1: I about X, J about Y, K about Z of the work frame, in the order of the digits of Q
-    ///   (123) P2: Q1 origin, Q2 a point on +X, Q3 on the +Y side; Q0 first: shift along the plane,
-    ///   R P3: Q1 origin X Y Z, +X along I J K; Q2 +Z along I J K; 5 deg off square is too much P4:
-    ///   projection angles (assumed): I turns X about Y, J turns Y about X, K about the new Z
+    /// Adds a block. Returns the feature frame seen from the work frame when the definition is
+    /// complete, else empty. Throws PlaneFormatError for a missing address, an unknown P or Q, a
+    /// block out of order, collinear points, or vectors that are not perpendicular.
+    ///   P0: Euler angles I J K about the moved axes, in the order of the digits of Q (313: Z-X-Z)
+    ///   P1: I about X, J about Y, K about Z of the work frame, in the order given by Q (123)
+    ///   P2: Q1 origin, Q2 a point on +X, Q3 a point on the +Y side; Q0 first: shift, R
+    ///   P3: Q1 origin X Y Z and +X along I J K; Q2 +Z along I J K, at most 5 deg off perpendicular
+    ///   P4: projection angles (assumed): I turns X about Y, J turns Y about X, K about new Z
     /// R turns the frame about its new Z.
     std::optional<Pose> add(const PlaneWords& words);
-    /// Between the blocks of P2 and P3: no other block may come.
+    /// True between the blocks of P2 and P3: no other block is allowed there.
     bool pending() const { return form_ != 0; }
     void reset() { *this = {}; }
 
@@ -50,18 +50,19 @@ class PlaneDefinition {
     std::optional<Pose> add_point(const PlaneWords& words, int q);
     std::optional<Pose> add_vector(const PlaneWords& words, int q);
 
-    int form_ = 0;  ///< P of a definition that is not complete
+    int form_ = 0;  ///< P of the incomplete definition
     std::array<std::optional<PlaneWords>, 4> block_;
 };
 
-/// Parameters 12321 and 12322.
+/// Parameters 12321 (direction) and 12322 (threshold angle).
 struct VerticalAxis {
     Vector3 direction_P = Vector3::UnitZ();
     double threshold_rad = 0.0;
 };
 
-/// G68.3: Z along the tool, X = vertical x Z; when both are parallel within the threshold, X is the
-/// work frame's X made square to Z (assumed), or its Y where X lies along Z. R about Z.
+/// The frame of G68.3, seen from the work frame: Z along the tool, X = vertical x Z, then turned by
+/// R about Z. Singular case: when tool and vertical are parallel within the threshold, X is the
+/// work frame's X projected perpendicular to Z (assumed), or its Y when X is nearly parallel to Z.
 Pose plane_of_tool(const Vector3& tool_direction_P, const Vector3& origin_P_mm, double r_deg,
                    const VerticalAxis& vertical);
 

@@ -1,4 +1,4 @@
-// Where a point that moves first meets a surface: one search for spheres and for bodies.
+// First contact of a moving point with a surface; one search for spheres and solids.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,11 @@ namespace trunnion::probe {
 
 namespace closing_gap {
 
-constexpr double root_mm = 1e-10;          ///< well below the 1e-9 mm that is promised
-constexpr double shortest_step_mm = 2e-4;  ///< a grazing touch hidden in one is below 1e-6 mm deep
+constexpr double root_mm = 1e-10;          ///< well below the specified 1e-9 mm
+constexpr double shortest_step_mm = 2e-4;  ///< a contact that fits inside such a step is less than
+                                           ///< 1e-6 mm deep
 
-/// Largest speed |d way / ds| in mm, with a reserve for what lies between the samples.
+/// Maximum of |d way / ds| in mm over the samples, with a margin for the points between them.
 template <class Way>
 double speed_bound(const Way& way) {
     constexpr int samples = 32;
@@ -28,7 +29,7 @@ double speed_bound(const Way& way) {
     return 1.5 * most;
 }
 
-/// Root of a falling function between a (positive) and b (not positive): Illinois steps.
+/// Root of a decreasing function between a (positive) and b (not positive), by the Illinois method.
 template <class Gap>
 double root(const Gap& gap, double a, double gap_a, double b, double gap_b, double width) {
     int side = 0;
@@ -52,9 +53,10 @@ double root(const Gap& gap, double a, double gap_a, double b, double gap_b, doub
 
 }  // namespace closing_gap
 
-/// The first s in 0..1 at which `clearance_mm(way(s))` is zero, to 1e-9 mm; 0 where it is not
-/// positive at the begin; none where it stays positive. `way` gives a point in mm, `clearance_mm`
-/// changes by no more than the point moves (a distance less a radius does).
+/// The first s in [0, 1] at which `clearance_mm(way(s))` is zero, accurate to 1e-9 mm of path; 0
+/// when it is not positive at the start; empty when it remains positive. `way` returns a point in
+/// mm. `clearance_mm` must change by no more than the point moves (true for a distance minus a
+/// radius). Contacts less than 1e-6 mm deep may be missed.
 template <class Way, class Clearance>
 std::optional<double> first_closing(const Way& way, const Clearance& clearance_mm) {
     const auto gap = [&](double s) { return clearance_mm(way(s)); };
@@ -62,7 +64,7 @@ std::optional<double> first_closing(const Way& way, const Clearance& clearance_m
     if (g <= 0.0) return 0.0;
     const double speed_mm = closing_gap::speed_bound(way);
     if (speed_mm == 0.0) return std::nullopt;
-    while (s < 1.0) {  // the gap cannot close faster than the point moves
+    while (s < 1.0) {  // the clearance cannot close faster than the point moves
         const double next =
             std::min(1.0, s + std::max(g, closing_gap::shortest_step_mm) / speed_mm);
         const double g_next = gap(next);

@@ -10,7 +10,7 @@ namespace trunnion::probe {
 
 namespace {
 
-/// Distances beyond each pair of faces, to one number.
+/// Combines the signed distances to each pair of faces into one signed distance.
 template <int n>
 double outside_or_inside(const Eigen::Matrix<double, n, 1>& beyond) {
     const double outside = beyond.cwiseMax(0.0).norm();

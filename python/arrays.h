@@ -1,4 +1,4 @@
-// Values as numpy arrays; each array owns its numbers.
+// Values as numpy arrays; each array owns its data.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -13,7 +13,7 @@ namespace trunnion::python {
 pybind11::array_t<double> array_of(const std::vector<double>& values);
 /// Rows and columns as in the matrix.
 pybind11::array_t<double> array_of(const Eigen::MatrixXd& matrix);
-/// Name of each column -> its array, in order; words as a list.
+/// Dictionary from column names to arrays, in order; columns of words are lists.
 pybind11::dict dict_of(const CsvColumns& table);
 
 }  // namespace trunnion::python

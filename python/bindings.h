@@ -1,11 +1,11 @@
-// What each file of this room puts into the Python module.
+// Contribution of each file of this room to the Python module.
 #pragma once
 
 #include <pybind11/pybind11.h>
 
 namespace trunnion::python {
 
-/// InputError and Alarm become exceptions that know their place.
+/// Converts InputError and Alarm to exceptions with their position.
 void add_errors(pybind11::module_& m);
 void add_setups(pybind11::module_& m);
 void add_readings(pybind11::module_& m);
@@ -14,7 +14,7 @@ void add_runs(pybind11::module_& m);
 void add_fits(pybind11::module_& m);
 void add_comparisons(pybind11::module_& m);
 
-/// Work that holds no Python object: other threads of Python go on meanwhile.
+/// Work without Python objects: other Python threads continue meanwhile.
 using WithoutLock = pybind11::call_guard<pybind11::gil_scoped_release>;
 
 }  // namespace trunnion::python

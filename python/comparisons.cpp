@@ -56,7 +56,7 @@ void add_comparisons(py::module_& m) {
     py::class_<regression::SuiteCase>(m, "CompareRequest")
         .def(py::init([] {
             regression::SuiteCase like;
-            like.options.max_blocks = 100'000'000;  // an endless loop ends here
+            like.options.max_blocks = 100'000'000;  // limit for an endless loop
             return like;
         }))
         .def_readwrite("setup", &regression::SuiteCase::setup)

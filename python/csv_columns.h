@@ -1,4 +1,4 @@
-// A CSV table that arrives piece by piece, as columns of numbers and of words.
+// A CSV table that arrives in pieces, as columns of numbers and of words.
 #pragma once
 
 #include <string>
@@ -15,13 +15,13 @@ struct CsvColumn {
     std::vector<std::string> word;  ///< of a column of words
 };
 
-/// The table as run and predict write it: lines that begin with # are left out, the next one names
-/// the columns.
+/// The table in the format of run and predict: lines starting with # are skipped, the next line
+/// names the columns.
 class CsvColumns {
   public:
-    /// Names of the columns that hold words whatever is in them.
+    /// Names of the columns that contain words in any case.
     explicit CsvColumns(std::vector<std::string> words) : words_(std::move(words)) {}
-    /// Whole lines.
+    /// Adds whole lines.
     void add(std::string_view text);
     const std::vector<CsvColumn>& columns() const { return columns_; }
 

@@ -5,8 +5,8 @@ namespace trunnion::python {
 namespace py = pybind11;
 namespace {
 
-/// Raises one of the module's exceptions: its text as the command line prints it, its place as
-/// attributes.
+/// Raises an exception of the module: its text is that of the command line, its position is given
+/// as attributes.
 void raise(const char* name, const std::string& text, const SourceRef& where,
            const std::string& line_text) {
     const py::object type = py::module_::import("trunnion._native").attr(name);

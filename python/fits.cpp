@@ -39,7 +39,7 @@ setup::Setup with_large(const LoadedSetup& loaded, bool allow_large) {
     return setup;
 }
 
-/// Without a seed what the emulator reads, with one as the devices would.
+/// Without a seed the noise-free predictions, with one the simulated readings.
 ReadingTable predict(const LoadedSetup& loaded, const ReadingTable& table,
                      std::optional<std::uint64_t> seed) {
     if (seed) return identification::simulated(loaded.setup, table, *seed);

@@ -1,4 +1,4 @@
-// A setup as Python holds it.
+// A setup as an object of Python.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace trunnion::python {
 
 struct LoadedSetup {
     setup::Setup setup;
-    std::vector<std::string> notes;  ///< what was derived or is not known, a line each
+    std::vector<std::string> notes;  ///< derived values and unknown keys, one line each
 };
 
 }  // namespace trunnion::python

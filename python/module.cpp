@@ -1,4 +1,4 @@
-// The module trunnion._native; python/trunnion/__init__.py is what scripts import.
+// The module trunnion._native; scripts import python/trunnion/__init__.py.
 #include "python/bindings.h"
 
 namespace trunnion::python {

@@ -17,7 +17,7 @@ records::ReadingTable parse(const std::string& text, const std::string& path,
     return records::parse_readings(text, path, notes, setup.setup.machine.chain.names());
 }
 
-/// Several files are joined in the order given, as the commands do.
+/// Several files are joined in the given order, as in the commands.
 records::ReadingTable load(const std::vector<std::string>& paths, const LoadedSetup& setup) {
     if (paths.empty()) throw InputError("no file of readings is named");
     std::vector<records::ReadingTable> tables;
@@ -25,7 +25,7 @@ records::ReadingTable load(const std::vector<std::string>& paths, const LoadedSe
     return records::join_readings(std::move(tables));
 }
 
-/// The head lines, that of the sides included.
+/// The head lines, including that of the sides.
 std::map<std::string, std::string> comment(const records::ReadingTable& table) {
     auto lines = table.comment;
     const std::string sides = records::format_sides(table.axes, table.side_before, table.names);

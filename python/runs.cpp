@@ -15,9 +15,9 @@ namespace trunnion::python {
 namespace py = pybind11;
 namespace {
 
-/// What a script asks for; limits as in the command line.
+/// A run requested by a script; the limits are those of the command line.
 struct RunRequest {
-    std::string program;              ///< path or O number; of `text` its name in messages
+    std::string program;              ///< path or O number; with `text` its name in messages
     std::optional<std::string> text;  ///< the program itself
     std::vector<std::string> folders, measure;
     std::uint64_t seed = 1, max_blocks = 100'000'000, max_print = 100'000'000,

@@ -22,7 +22,7 @@ LoadedSetup parse(const std::string& text, const std::string& path) {
     return out;
 }
 
-/// The effect is checked at once: a wrong name or parameter is an error here.
+/// Checks the effect at once: a wrong name or parameter is an error here.
 LoadedSetup switched_on(const LoadedSetup& before, const std::string& name,
                         const std::map<std::string, std::vector<double>>& parameters) {
     LoadedSetup out = before;

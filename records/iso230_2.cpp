@@ -32,7 +32,7 @@ Spread spread_of(const std::vector<double>& values) {
     return result;
 }
 
-/// Largest and smallest number; NaN when any is NaN.
+/// Largest and smallest value; NaN when any value is NaN.
 class Range {
   public:
     void add(double v) {
@@ -86,7 +86,7 @@ void fill_both_ways(Iso230Figures& f) {
     f.repeatability_R = repeat.most();
 }
 
-/// The axis that stands elsewhere in one row than in another.
+/// The only axis whose position differs between the rows.
 Axis moving_axis(const ReadingTable& table, const std::vector<const Reading*>& rows) {
     std::set<Axis> moving;
     for (const Reading* row : rows)

@@ -1,4 +1,4 @@
-// Several tables of readings as one.
+// Joins several tables of readings.
 #include <algorithm>
 #include <set>
 
@@ -7,7 +7,7 @@
 namespace trunnion::records {
 namespace {
 
-constexpr double pause_s = 60.0;  ///< between two tables whose clocks both began at zero
+constexpr double pause_s = 60.0;  ///< between two tables whose clocks both started at zero
 
 bool has_spheres(const ReadingTable& table) {
     return std::any_of(table.rows.begin(), table.rows.end(),
@@ -31,7 +31,7 @@ void refuse_unlike(const ReadingTable& first, const ReadingTable& next) {
         throw InputError("another '# touches' than " + first.path, {next.path, 0, 0});
 }
 
-/// A table given twice would pass for repeats without noise.
+/// The same table given twice would look like repeats without noise.
 void refuse_same(const ReadingTable& first, const ReadingTable& next) {
     const auto same = [](const Reading& a, const Reading& b) {
         return a.commanded == b.commanded && a.value_mm == b.value_mm && a.device == b.device;
@@ -44,7 +44,7 @@ void refuse_same(const ReadingTable& first, const ReadingTable& next) {
                          {next.path, 0, 0});
 }
 
-/// A name that no earlier table used: "map", "map_2", ...
+/// A name not used by an earlier table: "map", "map_2", ...
 std::string free_name(const std::string& name, const std::set<std::string>& taken) {
     std::string candidate = name;
     for (int k = 2; taken.contains(candidate); ++k) candidate = name + '_' + std::to_string(k);

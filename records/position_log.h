@@ -1,4 +1,4 @@
-// Where a control's axes were while it ran a program, as its log tells.
+// Axis positions of a control while it ran a program, from its log.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace trunnion::records {
 
-/// Of a move that is an arc, as in a trace.
+/// Arc of a move, as in a trace.
 struct LoggedArc {
     Vector3 centre_mm = Vector3::Zero();
     Vector3 normal = Vector3::UnitZ();
@@ -20,21 +20,21 @@ struct LoggedArc {
 
 struct LoggedPosition {
     AxisPositions at;     ///< machine coordinates, mm and rad
-    int block = 0;        ///< line of the program, or N number; 0: not told
-    std::string program;  ///< as the log names it; empty: not told
+    int block = 0;        ///< line of the program, or N number; 0: not given
+    std::string program;  ///< name in the log; empty: not given
     std::optional<LoggedArc> arc;
-    bool end = false;       ///< the end of a move, not a sample along the way
-    double sigma_mm = 0.0;  ///< standard uncertainty, mm or deg; 0: not told
-    int line = 0;           ///< of the log's file
+    bool end = false;       ///< end of a move, not a sample along it
+    double sigma_mm = 0.0;  ///< standard uncertainty, mm or deg; 0: not given
+    int line = 0;           ///< in the log's file
 };
 
-/// What the numbers in `block` are.
+/// Meaning of the numbers in `block`.
 enum class BlockColumn : unsigned char { none, line, number };
 
 struct PositionLog {
     std::string path;
-    std::vector<Axis> axes;  ///< that the log tells
-    bool ends = false;       ///< a row is the end of a move; else a sample along the way
+    std::vector<Axis> axes;  ///< axes in the log
+    bool ends = false;       ///< a row is the end of a move; else a sample along it
     BlockColumn blocks = BlockColumn::none;
     double step = 0.0;  ///< least increment of the printed numbers, mm or deg
     std::vector<LoggedPosition> rows;

@@ -13,7 +13,7 @@ constexpr std::array<std::string_view, 8> device_names{"",       "sphere", "touc
                                                        "linear", "angle",  "point", "axis"};
 constexpr std::array<std::string_view, 5> mode_names{"", "dpp", "rtdfo", "rtcp", "tw"};
 
-/// "a, b or c", the empty name as "empty".
+/// "a, b or c"; the empty name is shown as "empty".
 template <class List>
 std::string choice(const List& names) {
     std::string out;
@@ -57,7 +57,7 @@ constexpr double same(double v) {
 using Convert = double (*)(double);
 using Format = std::string (*)(double);
 
-/// A number with a usual value where the cell is empty.
+/// A number with a default value for an empty cell.
 template <class Member>
 ReadingColumn usual(std::string_view name, Member member, double otherwise, Convert in = same,
                     Format out = shortest) {
@@ -86,7 +86,7 @@ ReadingColumn direction_column(std::string_view name, Eigen::Index k) {
             false};
 }
 
-/// Programmed point; the three cells of a row are all there or all empty.
+/// Programmed point; the three cells of a row are all filled or all empty.
 ReadingColumn point_column(std::string_view name, Eigen::Index k) {
     return {name,
             [=](Reading& row, const TableLine& line, const TableCell& cell) {
@@ -102,7 +102,7 @@ ReadingColumn point_column(std::string_view name, Eigen::Index k) {
             }};
 }
 
-/// A quantity that has a column in mm and one in degrees; all that a row fills are of one kind.
+/// A quantity with one column in mm and one in degrees; all filled cells of a row use the same one.
 struct TwoUnits {
     std::string_view mm, deg;
     std::optional<double> Reading::*member;
@@ -208,7 +208,8 @@ const ReadingColumn* find_reading_column(std::string_view name) {
 
 namespace {
 
-/// A letter of ISO 841, or a letter with a number (j7), then _mm or _deg: meant as an axis.
+/// True for a letter of ISO 841, or a letter with a number (j7), followed by _mm or _deg: meant as
+/// an axis.
 bool looks_like_axis(std::string_view column) {
     const std::size_t unit = column.rfind('_');
     if (unit == std::string_view::npos || unit == 0) return false;

@@ -12,7 +12,7 @@ namespace {
 
 using Cells = std::vector<TableCell>;
 
-/// What each column of the file stores; unknown ones store nothing.
+/// Storage function of each column of the file; unknown columns are ignored.
 struct Header {
     std::vector<StoreCell> stores;
     std::size_t time_cell = 0;
@@ -76,7 +76,7 @@ void check_schema(const TableLine& line, const ReadingTable& table) {
         line.fail("this version reads schema trunnion.readings/1", 1);
 }
 
-/// "X+ Y+ C-"; `line` is the head line that says so.
+/// Parses "X+ Y+ C-"; `line` is the head line.
 AxisSides read_sides(const TableLine& line, const ReadingTable& table) {
     AxisSides sides{};
     const auto column = [&](std::string_view at) {
@@ -106,14 +106,14 @@ void check_time(const TableLine& line, const TableCell& cell, const Reading& bef
         line.fail("same time_s as the row before, but other axis positions", cell.column);
 }
 
-/// The axis that a servo row is about.
+/// The axis of a servo row.
 Axis servo_axis(const TableLine& line, const Reading& row, const ReadingTable& table) {
     for (const Axis axis : table.axes)
         if (row.feature == table.names[axis]) return axis;
     line.fail("feature of an axis row is an axis of this table, not '" + row.feature + "'", 1);
 }
 
-/// A row is in degrees exactly where its device reads an angle.
+/// A row is in degrees if and only if its device reads an angle.
 void check_unit(const TableLine& line, Reading& row, const ReadingTable& table) {
     const bool angular =
         row.device == Device::angle ||
@@ -188,7 +188,7 @@ ReadingTable parse_readings(std::string_view text, const std::string& path,
 
 namespace {
 
-/// The columns of a table, those of the axes left out; value_mm and value_deg are the last.
+/// The columns of a table without those of the axes; value_mm and value_deg are the last.
 std::vector<const ReadingColumn*> written_columns(const ReadingTable& table, bool directions,
                                                   bool degrees) {
     std::vector<const ReadingColumn*> columns, values;

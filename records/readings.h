@@ -1,4 +1,4 @@
-// Readings: simulated and real alike, one scalar a row (formats.md, "Readings").
+// Readings, simulated and measured in the same form, one scalar a row (formats.md, "Readings").
 #pragma once
 
 #include <map>
@@ -28,10 +28,10 @@ struct Reading {
     Device device = Device::none;
     std::string feature;
     AxisPositions commanded;                ///< mm and rad (deg in the file)
-    std::optional<Vector3> point_W_mm;      ///< tip that the program meant
+    std::optional<Vector3> point_W_mm;      ///< programmed tip position
     Vector3 direction_M = Vector3::Zero();  ///< of a `point` row: in the instrument's frame
-    /// `value_mm`, `sigma_mm`, `velocity_mm_s` and `acceleration_mm_s2` are rad, rad/s, rad/s^2:
-    /// rows of an autocollimator, and servo rows of a rotary axis.
+    /// `value_mm`, `sigma_mm`, `velocity_mm_s` and `acceleration_mm_s2` are rad, rad, rad/s and
+    /// rad/s^2: rows of an autocollimator, and servo rows of a rotary axis.
     bool angular = false;
     std::optional<double> value_mm;
     double feed_mm_min = 0.0;
@@ -39,48 +39,48 @@ struct Reading {
     double temperature_c = 20.0;
     double load_kg = 0.0;
     bool clamped = false;
-    double extension_mm = 0.0;  ///< stylus ball or cup hangs so much lower than the setup says
+    double extension_mm = 0.0;  ///< additional length of stylus or cup beyond the setup
     std::optional<double> sigma_mm;
     std::optional<double> velocity_mm_s,
-        acceleration_mm_s2;  ///< commanded, of an `axis` row's axis
-    std::string session;     ///< day or set-up; a new one begins anew
+        acceleration_mm_s2;  ///< commanded, of the axis of an `axis` row
+    std::string session;     ///< day or set-up; a change starts a new session
     std::string instrument;  ///< name of an [[instrument]]; empty: the only one, or none
-    std::string source;      ///< file:line that an imported value came from
-    int line = 0;            ///< in the file, 0 when simulated
-    int part = 0;            ///< of a joined table: which file
+    std::string source;      ///< file:line of an imported value
+    int line = 0;            ///< line in the file, 0 when simulated
+    int part = 0;            ///< joined table: index of the file
 };
 
 struct ReadingTable {
-    std::string path;                            ///< of the file, for messages
-    std::vector<std::string> parts;              ///< of a joined table: path of each file
+    std::string path;                            ///< path of the file, for messages
+    std::vector<std::string> parts;              ///< joined table: path of each file
     std::map<std::string, std::string> comment;  ///< `# key = value`
-    AxisSides side_before{};  ///< head line `side`: of the first session; 0 where not told
-    std::map<int, AxisSides> part_sides;        ///< the same of the further files of a joined table
-    std::vector<Axis> axes;                     ///< machine axes with a column
-    AxisNames names;                            ///< of the machine; the letters by default
+    AxisSides side_before{};              ///< head line `side`, of the first session; 0: not given
+    std::map<int, AxisSides> part_sides;  ///< the same for the other files of a joined table
+    std::vector<Axis> axes;               ///< machine axes that have a column
+    AxisNames names;                      ///< of the machine; by default the letters
     std::vector<std::string> optional_columns;  ///< optional columns present, in file order
     std::vector<Reading> rows;
 };
 
-/// Reads the CSV text of a machine whose axes are called `names`. Throws InputError with line and
-/// column: a cell that is no number, a row that does not fit its device (direction no unit vector,
-/// degrees for mm, an axis without a column), a column of an axis that the machine lacks, time that
-/// runs back. Unknown columns are listed in `notes`.
+/// Parses the CSV text of a machine with axes `names`. Throws InputError with line and column for a
+/// cell that is not a number, a row that does not fit its device (direction not a unit vector,
+/// degrees instead of mm, an axis without column), a column of an axis that the machine lacks, or
+/// decreasing time. Unknown columns are listed in `notes`.
 ReadingTable parse_readings(std::string_view text, const std::string& path,
                             std::vector<std::string>& notes, const AxisNames& names = {});
-/// Several tables as one, in the order given: one that starts before the last one ended is taken as
-/// 60 s later, a test name that was used already gets a number. Throws InputError when the axes or
-/// the touch patterns differ.
+/// Joins tables in the given order. A table that starts before the previous one ended is shifted to
+/// 60 s after its end; a test name that is already used gets a number. Throws InputError when axes
+/// or touch patterns differ.
 ReadingTable join_readings(std::vector<ReadingTable> tables);
-/// Where a row stands, for messages.
+/// Position of a row, for messages.
 SourceRef place_of(const ReadingTable& table, const Reading& row);
-/// The same table as text; numbers read back to the same double.
+/// The table as text; numbers read back as the same double.
 std::string format_readings(const ReadingTable& table);
-/// The same text row by row, for tables too long to be kept. `head` (without its rows) must outlive
+/// The same text row by row, for tables too long for memory. `head` (without its rows) must outlive
 /// the writer.
 class ReadingWriter {
   public:
-    /// Whether any row has a direction, and one in degrees.
+    /// `directions`: some row has a direction; `degrees`: some row is in degrees.
     ReadingWriter(const ReadingTable& head, bool directions, bool degrees);
     std::string head_text() const;
     void append(const Reading& row, std::string& out) const;

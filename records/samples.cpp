@@ -7,7 +7,7 @@
 namespace trunnion::records {
 namespace {
 
-using Rows = std::vector<std::size_t>;  // of one test, in order
+using Rows = std::vector<std::size_t>;  // row indices of one test, in order
 
 AxisSample sample_of(const Reading& row) {
     AxisSample sample;
@@ -30,7 +30,7 @@ Vector3 linear_position(const Reading& row) {
     return {row.commanded[Axis::X], row.commanded[Axis::Y], row.commanded[Axis::Z]};
 }
 
-/// Rows of one test, as far as their differences are velocities.
+/// Rows of one test whose differences are velocities.
 class Pass {
   public:
     Pass(std::span<const Reading> all, const Rows& rows, const AxisNames& names)
@@ -55,7 +55,8 @@ class Pass {
     const Reading& row(std::size_t k) const { return all_[rows_[k]]; }
     double q(std::size_t k, Axis axis) const { return row(k).commanded[axis]; }
 
-    /// The rows of the moments before and after row k: a servo log has a row for each axis.
+    /// The nearest rows before and after row k at other times: a servo log has one row for each
+    /// axis.
     std::pair<std::size_t, std::size_t> neighbours(std::size_t k) const {
         std::size_t before = k, after = k;
         while (before > 0 && row(before).time_s == row(k).time_s) --before;
@@ -75,7 +76,7 @@ class Pass {
         if (sign != 0) sample.velocity[axis] = moved / time_s;
     }
 
-    /// Up to five rows of different moments around row k, k among them.
+    /// Up to five rows at different times around row k, including k.
     std::vector<std::size_t> moments(std::size_t k) const {
         std::vector<std::size_t> list{k};
         std::size_t first = k, last = k;
@@ -88,7 +89,7 @@ class Pass {
         return list;
     }
 
-    /// Second derivative at row k, from the parabola through the rows around it.
+    /// Second derivative at row k from a parabola through the neighbouring rows.
     double acceleration(std::size_t k, Axis axis) const {
         const std::vector<std::size_t> around = moments(k);
         if (around.size() < 5) return 0.0;
@@ -105,7 +106,7 @@ class Pass {
         return std::isfinite(fit(2)) ? fit(2) : 0.0;
     }
 
-    /// Commanded motion that the row itself tells stands in for differences.
+    /// Commanded motion given in the row itself replaces differences.
     void take_told(const Reading& reading, AxisSample& sample) const {
         if (reading.device != Device::axis) return;
         const auto axis = names_.find(reading.feature);
@@ -118,7 +119,7 @@ class Pass {
         if (reading.acceleration_mm_s2) sample.acceleration[*axis] = *reading.acceleration_mm_s2;
     }
 
-    /// Length of the path from row k - 1 to row k: the arc through three rows, not the chord.
+    /// Path length from row k - 1 to row k along the arc through three rows, not along the chord.
     double arc_mm(std::size_t k) const {
         const Vector3 a = linear_position(row(k - 1)), b = linear_position(row(k));
         const double chord = (b - a).norm();
@@ -139,7 +140,8 @@ bool dense(const Reading& a, const Reading& b) {
     return a.device == Device::ballbar && b.device == Device::ballbar && a.test == b.test;
 }
 
-/// Where each axis turned when it did so at row k: vertex of the parabola through its neighbours.
+/// Reversal point of each axis that reversed at row k: vertex of the parabola through its
+/// neighbours.
 AxisPositions turning_points(std::span<const Reading> rows, std::size_t k) {
     AxisPositions at = rows[k].commanded;
     for (std::size_t i = 0; i < axis_count; ++i) {
@@ -150,8 +152,8 @@ AxisPositions turning_points(std::span<const Reading> rows, std::size_t k) {
     return at;
 }
 
-/// An axis that starts at its turning point (a circle begun at a quadrant) moves three times as far
-/// in the second step as in the first.
+/// An axis that starts at its reversal point (a circle started at a quadrant) moves three times as
+/// far in the second step as in the first.
 void assume_turns(std::span<const Reading> rows, std::size_t k, TravelHistory& history) {
     if (k + 2 >= rows.size() || !dense(rows[k], rows[k + 1]) || !dense(rows[k], rows[k + 2]))
         return;
@@ -163,7 +165,7 @@ void assume_turns(std::span<const Reading> rows, std::size_t k, TravelHistory& h
     }
 }
 
-/// One row after the other through the history.
+/// Processes the rows in order through the history.
 class Walk {
   public:
     Walk(std::span<const Reading> rows, TravelHistory history) : rows_(rows), history_(history) {}
@@ -189,7 +191,7 @@ class Walk {
         history_.describe(samples_.back());
     }
 
-    /// An axis that turned before the last row: it did not go on to there.
+    /// The axis reversed before the last row, so it did not continue to that row.
     void look_back(std::size_t k, const AxisPositions& turned_at) {
         for (std::size_t i = 0; i < axis_count; ++i) {
             const double from = rows_[k - 2].commanded.value[i], at = rows_[k].commanded.value[i];
@@ -205,7 +207,7 @@ class Walk {
     std::vector<AxisSample> samples_;
 };
 
-/// Rows from `begin` on that share a session.
+/// End of the run of rows from `begin` in the same session.
 std::size_t session_end(const std::vector<Reading>& rows, std::size_t begin) {
     std::size_t end = begin;
     while (end < rows.size() && rows[end].part == rows[begin].part &&
@@ -214,7 +216,7 @@ std::size_t session_end(const std::vector<Reading>& rows, std::size_t begin) {
     return end;
 }
 
-/// Sides before the first row: what the head of its file says, for its first session.
+/// Sides before the first row: from the file head, for its first session.
 AxisSides sides_before(const ReadingTable& table, std::size_t begin) {
     if (begin == 0) return table.side_before;
     const auto known = table.part_sides.find(table.rows[begin].part);

@@ -1,4 +1,4 @@
-// Axis samples of the rows of a table: sides, velocities and distances by the contract's rules.
+// Axis samples of the rows of a table: sides, velocities and distances by the rules of the format.
 #pragma once
 
 #include <span>
@@ -9,27 +9,29 @@
 
 namespace trunnion::records {
 
-/// Rows of the device come so dense that their differences are velocities.
+/// True when rows of the device are so dense that their differences are velocities.
 bool is_continuous(Device device);
 
-/// AxisSample of each row, from positions and times alone (formats.md, "Readings").
-///   side (travel)   sign of the axis's last motion in the session, device-less rows included; an
-///                   axis that stands keeps it; before its first motion what `# side` says (first
+/// AxisSample of each row, from positions and times only (formats.md, "Readings").
+///   side (travel)   sign of the axis's last motion in the session, including rows without device;
+///                   kept while the axis is at rest; before its first motion from `# side` (first
 ///                   session), else `side_unknown` and 0
 ///   continuous rows velocity (q[i+1] - q[i-1]) / (t[i+1] - t[i-1]) within the test, one-sided at
-///                   its ends; travel is its sign, 0 at an exact turning point
+///                   its ends; travel is its sign, 0 at an exact reversal point
 ///   acceleration    parabola through five rows of the test, continuous rows only
-///   since_reversal  from where the axis turned (between dense rows: the vertex of the parabola
-///                   through three); it begins anew at a row of another test that follows a reading
-///                   directly, because nobody tells the way between them; before the first turn it
-///                   is beyond `no_reversal_seen`
-///   path_mm         way of X Y Z since the first row of the test
+///   since_reversal  distance from the reversal point (between dense rows: the vertex of the
+///                   parabola through three); restarts at a row of another test that directly
+///                   follows
+///                   a reading, because the path between them is unknown; before the first reversal
+///                   it
+///                   exceeds `no_reversal_seen`
+///   path_mm         path length of X Y Z since the first row of the test
 std::vector<AxisSample> samples_of(const ReadingTable& table);
-/// The same for rows of one session that follow what `history` saw.
+/// The same for rows of one session that continue `history`.
 std::vector<AxisSample> samples_of(std::span<const Reading> rows, const std::vector<Axis>& axes,
                                    TravelHistory history, const AxisNames& names = {});
 
-/// Nobody tells the way from one row to the next.
+/// True when the path from one row to the next is unknown.
 bool way_unknown(const Reading& from, const Reading& to);
 
 }  // namespace trunnion::records

@@ -7,17 +7,18 @@
 namespace trunnion::records {
 namespace {
 
-/// Moves kept between two readings before those that say nothing about a side are dropped.
+/// Maximum number of moves kept between two readings before moves without information about a side
+/// are dropped.
 constexpr std::size_t kept_stops = 64;
 
-/// Direction of travel of one axis; 0 when it stands.
+/// Direction of travel of one axis; 0 at rest.
 int direction(const AxisPositions& from, const AxisPositions& to, std::size_t axis) {
     const double step = to.value[axis] - from.value[axis];
     const double rounding = is_rotary(all_axes[axis]) ? rows_rounding.rad : rows_rounding.mm;
     return std::abs(step) < rounding ? 0 : step > 0.0 ? 1 : -1;
 }
 
-/// True when a -> c says the same about every axis's last direction as a -> b -> c.
+/// True when a -> c gives the same last direction of every axis as a -> b -> c.
 bool passes_through(const AxisPositions& a, const AxisPositions& b, const AxisPositions& c) {
     for (std::size_t i = 0; i < axis_count; ++i) {
         const int last = direction(b, c, i);
@@ -51,7 +52,7 @@ std::vector<Reading> Stops::before(const AxisPositions& end) const {
     return list;
 }
 
-/// Keeps the last motion of every axis, and where they stand.
+/// Keeps the last motion of every axis, and the last position.
 void Stops::prune() {
     std::vector<bool> needed(stops_.size(), false);
     needed.front() = needed.back() = true;

@@ -1,4 +1,4 @@
-// Where the axes stood between two readings: the moves that tell from which side each axis came.
+// Stops between two readings: the moves that determine from which side each axis arrived.
 #pragma once
 
 #include <string>
@@ -8,17 +8,19 @@
 
 namespace trunnion::records {
 
-/// The same place within the digits of a table of readings.
+/// True for equal positions within the digits of a table of readings.
 bool same_place(const AxisPositions& a, const AxisPositions& b);
 
-/// Keeps of the moves since the last reading what changes an axis's last direction of travel. A run
-/// and the text that its program prints come to the same rows by it.
+/// Keeps the moves since the last reading that change the last direction of travel of an axis. Thus
+/// a run and the text printed by its program give the same rows.
 class Stops {
   public:
-    /// A move without a reading ended here. `last`: the last row's place, nullptr before the first.
+    /// A move without a reading ended here. `last`: position of the last row, nullptr before the
+    /// first.
     void pass(const Reading& at, const AxisPositions* last);
     bool empty() const { return stops_.empty(); }
-    /// The moves before a reading at `end`, as device-less rows; a stop at `end` itself is none.
+    /// The moves before a reading at `end`, as rows without device; a stop at `end` itself is
+    /// omitted.
     std::vector<Reading> before(const AxisPositions& end) const;
     void clear() { stops_.clear(); }
 

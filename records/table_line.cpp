@@ -13,7 +13,7 @@ bool blank(char c) {
     return c == ' ' || c == '\t';
 }
 
-/// Behind the quote that closes the one at `open`; npos where none does.
+/// Position after the quote that closes the one at `open`; npos if there is none.
 std::size_t behind_quote(std::string_view text, std::size_t open) {
     for (std::size_t at = text.find('"', open + 1); at != std::string_view::npos;
          at = text.find('"', at + 2))
@@ -61,7 +61,8 @@ double TableLine::number_of(const TableCell& cell, std::string_view what) const 
     if (!value)
         fail(std::string(what) + ": '" + std::string(cell.text) + "' is not a finite number",
              cell.column);
-    constexpr double largest = 1e9;  // mm, deg, s, mm/min: beyond, squares and products overflow
+    constexpr double largest = 1e9;  // mm, deg, s, mm/min: larger values overflow in squares and
+                                     // products
     if (std::abs(*value) > largest)
         fail(std::string(what) + ": " + std::string(cell.text) + " is beyond 1e9", cell.column);
     return *value;

@@ -1,4 +1,4 @@
-// One line of a CSV table, split in cells that know their column, for messages with a place.
+// One line of a CSV table, split into cells that know their column, for messages with position.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 namespace trunnion::records {
 
 struct TableCell {
-    std::string_view text;  ///< without quotes and blanks around it; "" inside quotes stays two
+    std::string_view text;  ///< without enclosing quotes and blanks; "" inside quotes stays doubled
     int column = 1;         ///< of the first character, from 1
     bool quoted = false;
 
-    std::string plain() const;  ///< with "" inside quotes as one
+    std::string plain() const;  ///< with "" inside quotes reduced to one
 };
 
 struct TableLine {
@@ -21,16 +21,16 @@ struct TableLine {
     std::string_view path;
 
     [[noreturn]] void fail(const std::string& message, int column) const;
-    /// Throws InputError where a quote is not closed or text stands behind one.
+    /// Throws InputError for an unclosed quote or text after a closing quote.
     void split(char separator, std::vector<TableCell>& cells) const;
     /// Throws InputError unless the cell is a finite number with a decimal point.
     double number_of(const TableCell& cell, std::string_view what) const;
 };
 
 std::string_view without_blanks(std::string_view text);
-/// Takes the next line off `text`, without its line end (LF, CRLF or a lone CR).
+/// Removes and returns the next line of `text`, without its line end (LF, CRLF or a lone CR).
 std::string_view take_line(std::string_view& text);
-/// The text as a cell: in quotes where it needs them.
+/// The text as a cell, quoted if necessary.
 std::string cell_text(const std::string& text);
 
 }  // namespace trunnion::records

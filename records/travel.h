@@ -1,53 +1,53 @@
-// The one history of travel: the side from which each axis came, and how far it went since it
-// turned.
+// The history of travel: from which side each axis arrived, and its distance since reversal.
 #pragma once
 
 #include "geometry/axis_names.h"
 
 namespace trunnion::records {
 
-/// since_reversal of an axis that nobody saw turning: more than this (mm or rad).
+/// since_reversal of an axis whose reversal was not observed is larger than this (mm or rad).
 constexpr double no_reversal_seen = 1e6;
 
-/// Less motion than this is the rounding of an axis that stands.
+/// Smaller motion is rounding of an axis at rest.
 struct Rounding {
     double mm = 0.0, rad = 0.0;
 };
-/// Readings are written with six decimals, mm and deg.
+/// For readings, which are written with six decimals, mm and deg.
 extern const Rounding rows_rounding;
-/// Of positions that are not written.
+/// For positions that are not written to a file.
 constexpr Rounding path_rounding{1e-9, 1e-9};
 
-/// Follows the axes from position to position. The side of an axis is the sign of its last motion;
-/// an axis that stands keeps it. The distance since reversal counts from where the axis turned; it
-/// begins anew where the way between two positions is not known.
+/// Follows the axes from position to position. The side of an axis is the sign of its last motion
+/// and is kept at rest. The distance since reversal starts at the reversal point; it restarts where
+/// the path between two positions is unknown.
 class TravelHistory {
   public:
-    /// `before`: sides before the first motion, 0 where nothing tells them.
+    /// `before`: sides before the first motion, 0 where unknown.
     explicit TravelHistory(const AxisSides& before = {}, const Rounding& rounding = path_rounding,
                            const AxisNames& names = {});
 
-    /// The axes stand here, however they came.
+    /// Sets the positions; the path to them is unknown.
     void place(const AxisPositions& position);
-    /// They went here, no axis turning on the way. `turned_at`: where axes that turned at the last
-    /// position really did; nullptr: there. The first position ever is that of `place`.
+    /// Moves to the position without reversal on the way. `turned_at`: actual reversal points of
+    /// axes that reversed at the last position; nullptr: that position. The first position must be
+    /// set by `place`.
     void advance(const AxisPositions& position, const AxisPositions* turned_at = nullptr);
     void advance(std::size_t axis, double value, const double* turned_at = nullptr);
-    /// What went before says nothing about reversals; sides stay.
+    /// Forgets reversals; sides are kept.
     void begin_anew();
-    /// The axis stands at a turning point; whether it came there from the other side is not known.
+    /// The axis is at a reversal point; whether it arrived there from the other side is unknown.
     void assume_turned(std::size_t axis);
 
     bool placed() const { return placed_; }
-    /// No axis moved since `begin_anew`.
+    /// True when no axis has moved since `begin_anew`.
     bool begun() const { return direction_ == AxisSides{}; }
-    /// Less motion than this is none, mm or rad.
+    /// Smaller motion counts as none, mm or rad.
     double rounding(std::size_t axis) const { return rounding_[axis]; }
     const AxisPositions& position() const { return last_; }
     const AxisSides& travel() const { return side_; }
-    /// The axis turned with the last motion.
+    /// The axis reversed with the last motion.
     bool just_turned(std::size_t axis) const { return just_turned_[axis]; }
-    /// Fills travel, since_reversal and run_up_unknown.
+    /// Sets travel, since_reversal and run_up_unknown.
     void describe(AxisSample& sample) const;
 
   private:

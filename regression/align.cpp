@@ -14,7 +14,8 @@ bool close(const std::array<double, 3>& p, const std::array<double, 3>& q, doubl
 
 // Sequences ------------------------------------------------------------------------------------
 
-/// Myers' greedy walk with the whole trace kept; empty when more than `most_edits` are needed.
+/// Greedy algorithm of Myers with its whole trace kept; empty when more than `most_edits` are
+/// needed.
 class MyersWalk {
   public:
     MyersWalk(const Keys& a, const Keys& b, IndexPair from, IndexPair to)
@@ -82,10 +83,10 @@ class MyersWalk {
     const Keys &a_, &b_;
     IndexPair from_;
     long n_, m_;
-    std::vector<std::vector<std::int32_t>> trace_;  ///< [d]: furthest x of the diagonals -d..d
+    std::vector<std::vector<std::int32_t>> trace_;  ///< [d]: furthest x on the diagonals -d..d
 };
 
-/// The longest part of `pairs` (rising in a) that rises in b too.
+/// The longest subsequence of `pairs` (rising in a) that also rises in b.
 std::vector<IndexPair> longest_rising(const std::vector<IndexPair>& pairs) {
     std::vector<std::size_t> tails, before(pairs.size(), pairs.size());
     for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -110,7 +111,7 @@ std::vector<IndexPair> longest_rising(const std::vector<IndexPair>& pairs) {
 
 namespace {
 
-/// Of two passes, or of what is kept of one.
+/// For two passes, or for the stored data of one.
 template <typename P, typename Q>
 bool alike_shapes(const P& p, const Q& q, const Tolerances& t) {
     const double place = 2.0 * t.position_mm;
@@ -122,7 +123,7 @@ bool alike_shapes(const P& p, const Q& q, const Tolerances& t) {
 }  // namespace
 
 bool alike(const Pass& p, const Pass& q, const Tolerances& t) {
-    // Without a cut it is the way to the end or to another tool: alike wherever it begins.
+    // Without a cut it is the path to the end or to another tool: alike wherever it begins.
     if (!p.cuts() || !q.cuts()) return p.tool == q.tool && p.cuts() == q.cuts();
     return alike_shapes(p, q, t);
 }
@@ -135,7 +136,7 @@ bool PassIds::alike_look(const Look& p, const Pass& q) const {
 PassIds::PassIds(const Tolerances& tolerances)
     : tolerances_(tolerances), cell_mm_(64.0 * tolerances.position_mm) {}
 
-/// Found again by the cells of a grid that the centroid may lie in.
+/// Found by the grid cells that may contain the centroid.
 std::uint32_t PassIds::id_of(const Pass& pass) {
     for (int corner = 0; corner < 8; ++corner) {
         const auto range = by_cell_.equal_range(cell(pass, corner));
@@ -150,7 +151,7 @@ std::uint32_t PassIds::id_of(const Pass& pass) {
     return id;
 }
 
-/// corner: -1 the centroid's own cell, 0 to 7 that of a point a little beside it.
+/// corner -1: the centroid's own cell; 0 to 7: that of a slightly shifted point.
 std::uint64_t PassIds::cell(const Pass& pass, int corner) const {
     std::uint64_t h = pass.tool + 1;
     if (!pass.cuts()) return ~h;

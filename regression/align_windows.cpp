@@ -1,4 +1,4 @@
-// The alignment of two long sequences: window by window, then what is left over on both sides.
+// Alignment of two long sequences: window by window, then the unmatched items of both sides.
 #include <algorithm>
 
 #include "regression/align.h"
@@ -7,7 +7,7 @@ namespace trunnion::regression {
 
 namespace {
 
-/// Pairs what runs in the same order; what stands between two pairs is one gap.
+/// Pairs items in the same order; the items between two pairs are one gap.
 class WindowedAligner {
   public:
     WindowedAligner(const AlignSource& source, const AlignLimits& limits,
@@ -29,7 +29,7 @@ class WindowedAligner {
         ++i_, ++j_;
     }
 
-    /// Aligns what lies ahead up to a corner that is sure; false: nothing there matches.
+    /// Aligns the next window up to a reliable corner; false: no match in it.
     bool window() {
         for (std::uint64_t size = limits_.window;; size *= 4) {
             size = std::min(size, limits_.most_window);
@@ -50,7 +50,8 @@ class WindowedAligner {
         }
     }
 
-    /// Behind the last match in the first three quarters: what follows may match beyond the window.
+    /// The position after the last match in the first three quarters: later items may match beyond
+    /// the window.
     static IndexPair sure_corner(const std::vector<IndexPair>& pairs, std::uint64_t size,
                                  bool any) {
         IndexPair end;
@@ -86,7 +87,7 @@ class WindowedAligner {
     Keys keys_a_, keys_b_;
 };
 
-/// The items of all gaps that are alike on both sides: they were moved to another place.
+/// Items of all gaps that are alike on both sides, i.e. moved to another place.
 class MovedItems {
   public:
     MovedItems(const AlignSource& source, const std::vector<PassPair>& pairs) {
@@ -109,7 +110,7 @@ class MovedItems {
     }
     bool empty() const { return to_b_.empty(); }
 
-    /// A gap as its moved items (runs of them are one) and what is left of both sides.
+    /// Splits a gap into its moved items (runs are combined) and the rest of both sides.
     template <typename Emit>
     void split(const PassPair& gap, const Emit& emit) const {
         std::uint64_t i = gap.a.first, j = gap.b.first;
@@ -173,7 +174,7 @@ class MovedItems {
 void align(const AlignSource& source, const AlignLimits& limits,
            const std::function<void(const PassPair&)>& found) {
     if (!limits.reordering) return WindowedAligner(source, limits, found).run();
-    std::vector<PassPair> pairs;  // with runs of `same` as one
+    std::vector<PassPair> pairs;  // with runs of `same` combined
     WindowedAligner(source, limits, [&pairs](const PassPair& pair) {
         if (pair.pairing == Pairing::same && !pairs.empty() &&
             pairs.back().pairing == Pairing::same) {

@@ -1,4 +1,4 @@
-// A vector as plain numbers, as reports keep it.
+// A vector as plain numbers, as stored in reports.
 #pragma once
 
 #include <array>

@@ -76,7 +76,7 @@ void AttributeComparer::close_window() {
         add(RegionKind::feed, w.a, w.b, feed_a, feed_b, length_mm);
 }
 
-/// The same change goes on: it is one difference, across rapids too.
+/// Continuation of the same change: one difference, also across rapids.
 bool AttributeComparer::continues(const PathRegion& r, RegionKind kind, double value_a,
                                   double value_b) const {
     if (r.kind != kind) return false;

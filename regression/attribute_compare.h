@@ -1,4 +1,4 @@
-// Feed, spindle, coolant and tool along two stretches that take the same path.
+// Feed, spindle, coolant and tool along two stretches with the same path.
 #pragma once
 
 #include <cstdint>
@@ -8,23 +8,24 @@
 
 namespace trunnion::regression {
 
-/// Takes parts of a segment of A and of one of B that agree as paths, in order, and adds a region
+/// Takes parts of a segment of A and of one of B whose paths agree, in order, and adds a region
 /// where they differ in feed, spindle, coolant or tool.
 ///
-/// A feed that is commanded (G94) counts segment by segment. One that follows from length and time
-/// (G93, or rotary axes turn) is as uncertain as the length: a chord of 0.05 mm rounded to 0.001 mm
-/// is 1 % longer or shorter. It is judged as length over time of windows, at least 4 tolerances /
-/// feed ratio long (4 mm by default), and what remains of the tolerance is allowed for.
+/// A commanded feed (G94) is compared segment by segment. A feed that follows from length and time
+/// (G93, or with moving rotary axes) is as uncertain as the length: a chord of 0.05 mm rounded to
+/// 0.001 mm is 1 % longer or shorter. It is compared as length over time in windows of at least 4
+/// tolerances / feed ratio (4 mm by default), and the remaining uncertainty of the length is
+/// allowed for.
 class AttributeComparer {
   public:
     AttributeComparer(SegmentWindow& a, SegmentWindow& b, const Tolerances& tolerances)
         : a_(a), b_(b), tolerances_(tolerances) {}
 
     void begin(std::vector<PathRegion>& regions);
-    /// The parts are `length_a_mm`, `length_b_mm` long.
+    /// The parts have the lengths `length_a_mm` and `length_b_mm`.
     void pair(std::uint64_t i, std::uint64_t j, double length_a_mm, double length_b_mm);
-    /// Ends a stretch: takes out what differs nowhere along more than four position tolerances,
-    /// because corners of both paths need not lie at the same place.
+    /// Ends a stretch. Removes differences shorter than four position tolerances, because the
+    /// corners of both paths may be at different places.
     void end();
 
   private:
@@ -44,7 +45,7 @@ class AttributeComparer {
     std::vector<PathRegion>* regions_ = nullptr;
     std::size_t first_region_ = 0;
     Window window_;
-    double gone_mm_ = 0.0;  ///< along A, to the end of the pair at hand
+    double gone_mm_ = 0.0;  ///< path length along A, up to the end of the present pair
 };
 
 }  // namespace trunnion::regression

@@ -22,7 +22,7 @@ struct WrittenWord {
     std::string text() const { return letter + number; }
 };
 
-/// The words, N aside; nothing for macro statements.
+/// The words without N; empty for macro statements.
 std::vector<WrittenWord> words_of(const std::string& block) {
     std::vector<WrittenWord> words;
     bool comment = false;
@@ -46,7 +46,7 @@ std::vector<WrittenWord> words_of(const std::string& block) {
     return words;
 }
 
-/// What only one side has, after words with the same letter and value are taken from both.
+/// Removes words with equal letter and value from both sides.
 void cancel(std::vector<WrittenWord>& a, std::vector<WrittenWord>& b) {
     for (std::size_t i = 0; i < a.size();) {
         const auto same = std::find_if(b.begin(), b.end(), [&](const WrittenWord& q) {
@@ -76,7 +76,7 @@ bool same_letters(const std::vector<WrittenWord>& a, const std::vector<WrittenWo
                       [](const auto& p, const auto& q) { return p.letter == q.letter; });
 }
 
-/// The property that holds for every pair of words, if one does.
+/// The property that holds for every pair of words, if there is one.
 template <typename Holds>
 bool all_pairs(const std::vector<WrittenWord>& a, const std::vector<WrittenWord>& b,
                const Holds& holds) {
@@ -93,7 +93,7 @@ bool near(double a, double b) {
     return std::abs(a - b) <= 0.002 + 1e-6 * std::abs(a);
 }
 
-/// I J K measured from the start on one side and from the program zero on the other.
+/// I J K relative to the start on one side, and to the program zero on the other.
 std::string centre_cause(const std::vector<WrittenWord>& a, const std::vector<WrittenWord>& b,
                          const std::array<std::optional<double>, 3>& start) {
     const auto shifted = [&](double sign) {
@@ -108,7 +108,7 @@ std::string centre_cause(const std::vector<WrittenWord>& a, const std::vector<Wr
     return {};
 }
 
-/// A name for what happened to the values, in front of them.
+/// A name for the change of the values, to precede them.
 std::string value_cause(const std::vector<WrittenWord>& a, const std::vector<WrittenWord>& b) {
     const auto pairs = [&](const auto& holds) { return all_pairs(a, b, holds); };
     if (pairs([](const auto& p, const auto& q) { return p.point() && !q.point(); }))

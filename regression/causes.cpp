@@ -30,14 +30,15 @@ unsigned explaining(DifferenceKind kind) {
     }
 }
 
-/// Only said where nothing before them in the table explains: they follow from others.
+/// Reported only if no earlier field of the table explains the difference, because these follow
+/// from others.
 bool follows_from_others(const std::string& name) {
     return name == "cutter radius" || name == "tool length" || name == "work zero" ||
            name == "work zero of the rotary axes" || name == "motion" || name == "local shift" ||
            name == "angles of the tilted plane" || name == "feed" || name == "speed";
 }
 
-/// May differ for a while before a path shows it.
+/// True for fields that may differ for a while before the path shows it.
 bool can_lie_hidden(const std::string& name, bool arc) {
     if (name == "plane") return arc;
     return name == "units" || name == "feed mode" || name == "radius number" ||
@@ -46,7 +47,7 @@ bool can_lie_hidden(const std::string& name, bool arc) {
            name == "feed";
 }
 
-/// What is only on one side needs no state as a cause: its block is its place.
+/// An item on one side only needs no state as its cause: its block is its position.
 bool says_all(DifferenceKind kind) {
     return kind == DifferenceKind::only_a || kind == DifferenceKind::only_b;
 }
@@ -68,11 +69,12 @@ class Explainer {
 
   private:
     struct Found {
-        std::string cause, group;  ///< clusters with one group are one difference; empty: alone
+        std::string cause, group;  ///< clusters with the same group are one difference; empty:
+                                   ///< separate
         CausePlace a, b;
     };
 
-    /// One cause, or the same words at the same place, is one difference.
+    /// The same cause, or the same words at the same place, is one difference.
     void add(const Found& found, const PathCluster& cluster) {
         std::vector<std::string> keys;
         if (!found.group.empty()) keys.push_back(found.group);
@@ -162,7 +164,7 @@ class Explainer {
         return found;
     }
 
-    /// One field in words; the first one gives the place.
+    /// One field in words; the first one gives the position.
     std::string say(const SnapshotField& field, std::uint64_t i, std::uint64_t j, bool places,
                     Found& found) {
         const std::uint64_t at_a = a_.at(i), at_b = b_.at(j);
@@ -176,7 +178,7 @@ class Explainer {
         if (places) {
             found.a = {row_a.line, row_a.program};
             found.b = {row_b.line, row_b.program};
-            // What one side lacks has no block there: the next one that moves stands for it.
+            // A side without this change has no block for it; the next moving block stands for it.
             if (a_changed && !b_changed) found.b = beside(path_b_, row_a.first_segment, i, j);
             if (b_changed && !a_changed) found.a = beside(path_a_, row_b.first_segment, j, i);
         }
@@ -186,7 +188,7 @@ class Explainer {
         return fmt::format("{} instead of {}", text_b, text_a);
     }
 
-    /// B's block in the place of A's line writes it, although it was in force before.
+    /// True when B's block in place of A's line sets it, although it was already active.
     bool written_in_b(std::uint32_t line_a, const std::string& text) {
         if (in_.gaps == nullptr) return false;
         const auto cause = in_.gaps->before(static_cast<int>(line_a), 0);
@@ -194,7 +196,7 @@ class Explainer {
                cause->what.find(text + " ") != std::string::npos;
     }
 
-    /// The block of the other side that stands as far before the difference.
+    /// The block of the other side at the same distance before the difference.
     static CausePlace beside(SegmentWindow& path, std::uint64_t entry, std::uint64_t own,
                              std::uint64_t other) {
         if (path.size() < 2) return {};
@@ -204,8 +206,8 @@ class Explainer {
         return {s.line, s.program};
     }
 
-    /// The block that moves is there on one side alone: what is in force at the next one says
-    /// nothing.
+    /// The moving block exists on one side only: the states at the next block do not explain
+    /// anything.
     Found by_missing_block(std::uint64_t i, std::uint64_t j) {
         if (in_.gaps == nullptr) return {};
         const CausePlace a = place(path_a_, i), b = place(path_b_, j);
@@ -222,8 +224,8 @@ class Explainer {
         return found;
     }
 
-    /// The block of a pass that one side alone has, where the other side has it with other words
-    /// (K2 instead of K3).
+    /// The block of a pass on one side only, if the other side has it with other words (K2 instead
+    /// of K3).
     Found by_own_block(bool in_a, std::uint64_t i, std::uint64_t j) {
         if (in_.gaps == nullptr) return {};
         const CausePlace a = place(path_a_, i), b = place(path_b_, j);
@@ -232,7 +234,7 @@ class Explainer {
         return cause ? found_at(*cause, a, b) : Found{};
     }
 
-    /// G41 or G42 at one of both: the next blocks turn the end of this one.
+    /// G41 or G42 on either side: the following blocks change the end of this one.
     bool beside_contour(std::uint64_t i, std::uint64_t j) {
         if (a_.empty() || b_.empty()) return false;
         constexpr std::size_t cutter = 7;
@@ -240,8 +242,8 @@ class Explainer {
                b_.row(b_.at(j)).state.modal10[cutter] > 400;
     }
 
-    /// The change written last before these lines; under G41 and G42, or where there is none, one
-    /// that follows close.
+    /// The last written change before these lines; under G41 and G42, or if there is none, one
+    /// shortly after them.
     std::optional<WrittenCause> written_near(int line_a, int line_b, bool read_ahead) {
         constexpr int ahead = 3;
         auto behind = in_.gaps->before(line_a, line_b);
@@ -284,7 +286,7 @@ class Explainer {
         for (const ExplainedCluster& e : result_)
             if (is_moved(e)) largest_mm = std::max(largest_mm, e.cluster.position_mm);
         for (ExplainedCluster& e : result_) {
-            const bool between =  // the ways from one shifted section to the next
+            const bool between =  // the paths between shifted sections
                 e.cluster.kind == DifferenceKind::path &&
                 (e.cluster.position_mm < 1.5 * largest_mm ||
                  explains(moved, e.cluster, pivot_input()));

@@ -1,4 +1,4 @@
-// Why two paths differ: what the controls have in force, and what the blocks say.
+// Causes of differences between two paths: active states of the controls, and words of the blocks.
 #pragma once
 
 #include <optional>
@@ -11,22 +11,22 @@
 
 namespace trunnion::regression {
 
-/// What explaining needs beside the clusters.
+/// Input of the explanation besides the clusters.
 struct CauseInput {
     const RecordedRun& a;
     const RecordedRun& b;
-    WrittenGaps* gaps = nullptr;  ///< nullptr: no texts to look at (a golden)
+    WrittenGaps* gaps = nullptr;  ///< nullptr: no text available (a golden)
     const std::optional<positioning::RotaryTransform>& transform;
     Tolerances tolerances;
 };
 
-/// Finds a cause for each cluster and makes one of those that share it. A state explains a
-/// difference when it begins to differ where the paths begin to differ: two posts that use other
-/// functions all along differ in states without harm.
+/// Finds a cause for each cluster and combines clusters with the same cause. A state explains a
+/// difference if it starts to differ where the paths do: two post processors with different
+/// functions differ in states all along without consequence.
 std::vector<ExplainedCluster> explain(const std::vector<PathCluster>& clusters,
                                       const CauseInput& input);
 
-/// "G43.4 begins with the table turned ..." where a side does so; empty otherwise.
+/// "G43.4 begins with the table turned ..." if a side does so; empty otherwise.
 std::string frame_hint(const RecordedRun& run, const char* side);
 
 }  // namespace trunnion::regression

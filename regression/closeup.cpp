@@ -12,7 +12,7 @@ namespace {
 
 using Points = std::vector<PathPoint>;
 
-/// The points of a stretch, from where it begins.
+/// The points of a stretch, including its start.
 Points points_of(const PathRecord& record, Stretch stretch, const Tolerances& tolerances) {
     constexpr std::uint64_t longest = 400;
     SegmentWindow path(record.segments());
@@ -47,7 +47,7 @@ Vector3 nearest_on(const Points& line, const Vector3& place) {
     return best;
 }
 
-/// A point of a line, the way the line takes there, and the nearest point of the other line.
+/// A point of a line, the direction of the line there, and the nearest point of the other line.
 struct Farthest {
     Vector3 place = Vector3::Zero(), way = Vector3::Zero(), other = Vector3::Zero();
     Vector3 axis = Vector3::UnitZ();

@@ -1,4 +1,4 @@
-// The place where two stretches of path lie farthest apart, with the paths around it.
+// The place where two stretches have their largest distance, with the surrounding paths.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace trunnion::regression {
 
-/// Nothing where a side has no path near, or where the stretches lie within the tolerance. Long
-/// stretches are looked at in their first 400 segments.
+/// Empty where a side has no path nearby, or where the stretches are within tolerance. Of long
+/// stretches only the first 400 segments are examined.
 std::optional<ComparePicture::Closeup> closeup_of(const PathRecord& a, Stretch in_a,
                                                   const PathRecord& b, Stretch in_b,
                                                   const Tolerances& tolerances);

@@ -33,7 +33,7 @@ ComparePicture::Line thin_line(const PathRecord& record, Stretch stretch, std::u
     return line;
 }
 
-/// Cuts and the rapids between them; of many passes evenly chosen ones.
+/// Cuts and the rapids between them; if there are many passes, an even selection.
 void draw_path(const PathRecord& record, const Tolerances& tolerances,
                std::vector<ComparePicture::Line>& cuts, std::vector<ComparePicture::Line>& rapids) {
     constexpr std::uint64_t most_passes = 300, most_points = 3000;
@@ -55,7 +55,7 @@ bool holds(const PathRegion& region, const PictureInput& in) {
            (in.worst_b.first >= region.b.first && in.worst_b.first < region.b.last);
 }
 
-/// The first region that lies apart, and the worst place unless it is the same.
+/// The first region with different paths, and the worst place unless it is the same.
 void add_closeups(const std::vector<PathRegion>& regions, const PictureInput& in,
                   ComparePicture& picture) {
     for (std::size_t k = 0; k < regions.size() && picture.closeups.empty(); ++k) {

@@ -1,4 +1,4 @@
-// Both paths thinned out for the picture of a report.
+// Both paths, thinned out for the picture of a report.
 #pragma once
 
 #include <vector>
@@ -9,16 +9,16 @@
 
 namespace trunnion::regression {
 
-/// Both paths and where they lie farthest apart.
+/// Both paths and the place of their largest distance.
 struct PictureInput {
     const PathRecord &a, &b;
     const Tolerances& tolerances;
     Stretch worst_a, worst_b;
-    std::size_t worst_difference = 0;  ///< to which that place belongs
+    std::size_t worst_difference = 0;  ///< the difference to which that place belongs
 };
 
-/// Cuts and rapids of both sides, of many passes evenly chosen ones, the first regions as marks,
-/// the first one that lies apart and the worst place from near. Nothing without regions.
+/// Cuts and rapids of both sides (an even selection of many passes), the first regions as marks,
+/// and close-ups of the first different region and of the worst place. Nothing without regions.
 void draw_paths(const std::vector<PathRegion>& marked_regions, const PictureInput& input,
                 ComparePicture& picture);
 

@@ -49,7 +49,7 @@ class ProgramComparer {
         return std::move(result_);
     }
 
-    /// A golden in the place of A: only its path is known.
+    /// A golden in place of A: only its path is known.
     Comparison run_against(const PathRecord& golden) {
         result_.by = Layer::path;
         run_b_.emplace(record_run(setup_b_, b_,
@@ -62,7 +62,7 @@ class ProgramComparer {
     }
 
   private:
-    /// Replaces what an earlier layer found; true when this one decides.
+    /// Replaces the result of an earlier layer; true when this layer decides.
     bool by_layer(Layer layer) {
         result_.by = layer;
         equal_so_far_ = true;
@@ -100,7 +100,7 @@ class ProgramComparer {
         return equal || stopped();
     }
 
-    /// A deeper layer will say what differs, so these only have to say that something does.
+    /// A deeper layer describes the differences, so these layers only have to detect one.
     bool only_verdict() const { return !options_.by; }
     void written(Layer layer) {
         const WrittenSide a = written_side(a_, setup_a_, run_a_),
@@ -111,7 +111,7 @@ class ProgramComparer {
             describe_written(layer, a, b, options_.most_differences, result_);
     }
 
-    /// A program that may call others is what it is together with them: only a run tells which.
+    /// A program that may call others must be compared together with them; only a run shows which.
     WrittenSide written_side(const interpreter::ProgramText& program, const setup::Setup& setup,
                              const std::optional<RecordedRun>& run) {
         const bool calls =
@@ -143,7 +143,7 @@ class ProgramComparer {
             if (!hint.empty()) result_.notes.push_back(hint);
     }
 
-    /// States of different machines differ by nature, and a golden has none.
+    /// States of different machines differ anyway, and a golden has none.
     std::vector<ExplainedCluster> explained(const PathComparison& found, PathSpace space) {
         if (run_a_ && one_control() && space == PathSpace::tip)
             return explain(found.clusters,
@@ -178,7 +178,7 @@ class ProgramComparer {
     /// Two states of the stores of one machine: both are seen through A's.
     bool one_machine() const { return &setup_a_ != &setup_b_ && same_machine(setup_a_, setup_b_); }
 
-    /// An alarm or a limit: no deeper layer can say more.
+    /// An alarm or a limit: no deeper layer adds information.
     bool stopped() const { return run_a_ && !ran_to_the_end() && result_.by == Layer::path; }
     bool ran_to_the_end() const {
         return run_a_->result.status == controller::RunStatus::ok &&
@@ -208,7 +208,7 @@ class ProgramComparer {
 
     bool one_control() const { return &setup_a_ == &setup_b_ || one_machine(); }
 
-    /// Adds the layer `functions` to an equal one before it.
+    /// Appends the layer `functions` to an equal layer before it.
     bool by_functions() {
         if (!one_control()) {
             left_.emplace_back("M codes, dwells and modes (another machine)");
@@ -216,7 +216,7 @@ class ProgramComparer {
         }
         functions(true);
         const bool equal = result_.differences.empty();
-        // The layer that made both equal stays the last one.
+        // The layer that found both equal remains the last one.
         const auto place = equal && !result_.layers.empty() ? std::prev(result_.layers.end())
                                                             : result_.layers.end();
         result_.layers.insert(place, {Layer::functions, equal});
@@ -240,7 +240,7 @@ class ProgramComparer {
                 "other stores)");
     }
 
-    /// The first block that writes stores or variables and is written differently.
+    /// The first differently written block that writes stores or variables.
     void place_value(Difference& d) {
         const auto written = written_gaps().first_that_writes();
         if (!written || d.a.line > 0) return;
@@ -251,7 +251,7 @@ class ProgramComparer {
         lines_b_.show(d.b);
     }
 
-    /// Both stop with one alarm: what runs before it says nothing about the rest.
+    /// Both stop with the same alarm: the part before it does not represent the rest.
     bool same_alarm() const {
         const auto &p = run_a_->result, &q = run_b_->result;
         return p.alarm && q.alarm && p.alarm->number == q.alarm->number;
@@ -269,13 +269,13 @@ class ProgramComparer {
         return true;
     }
 
-    /// Parameter 3401 is not given, so numbers without a point were taken as whole units: equal
-    /// only when the programs are equal too where they are least increments.
+    /// Parameter 3401 is not given, so numbers without point were taken as whole units. The
+    /// programs are equal only if they are also equal with least increments.
     void as_increments() {
         if (!run_a_->reads_bare_words && !run_b_->reads_bare_words) return;
         setup::Setup setup = setup_a_;
         setup.stores.parameters.entry[3401] = {};
-        for (RecordedRun* run : {&*run_a_, &*run_b_}) {  // what they hold was compared
+        for (RecordedRun* run : {&*run_a_, &*run_b_}) {  // their content was compared
             run->path = {};
             run->blocks = {};
         }
@@ -295,7 +295,7 @@ class ProgramComparer {
 
     Comparison run_as_increments() {
         record(PathSpace::tip);
-        if (same_alarm()) return {};  // nobody runs them that way
+        if (same_alarm()) return {};  // nobody runs them with this setting
         by_layer(Layer::path);
         finish();
         return std::move(result_);
@@ -353,7 +353,7 @@ class ProgramComparer {
         result_.differences.insert(result_.differences.begin(), std::move(d));
     }
 
-    /// The block that an alarm of one side comes from, as far as the words tell.
+    /// The block that caused an alarm of one side, as far as the words show it.
     void place_alarm(Difference& d, const controller::RunResult& run, bool side_is_a) {
         if (!run_a_ || (run_a_->result.alarm && run_b_->result.alarm)) return;
         const int line = run.alarm->where.line;
@@ -378,7 +378,7 @@ class ProgramComparer {
     std::optional<WrittenGaps> gaps_;
     std::optional<positioning::RotaryTransform> transform_;
     std::vector<std::string> left_;  ///< what was not compared
-    bool equal_so_far_ = true;       ///< of the layer at hand, where it keeps no differences
+    bool equal_so_far_ = true;       ///< of the current layer, if it keeps no differences
     Comparison result_;
 };
 

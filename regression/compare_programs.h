@@ -1,4 +1,4 @@
-// Are two programs the same machining? The layers, from what is written to what it does.
+// Compares the machining of two programs, in layers from the text to its result.
 #pragma once
 
 #include <optional>
@@ -14,18 +14,18 @@ namespace trunnion::regression {
 
 struct CompareOptions {
     Tolerances tolerances;
-    std::optional<Layer> by;  ///< nothing: from the top until one layer is equal
+    std::optional<Layer> by;  ///< empty: from the top until one layer is equal
     std::vector<std::string> program_folders;
     std::size_t most_differences = 1000;
     std::uint64_t max_blocks = 0;
-    std::string call;      ///< both programs are called by this block ("G65 P9814 D25.4")
-    bool devices = false;  ///< the setups' probes and artefacts answer G31
+    std::string call;      ///< block that calls both programs ("G65 P9814 D25.4")
+    bool devices = false;  ///< the probes and artefacts of the setups answer G31
 };
 
-/// Compares two programs on one or two setups (the same object: one). Bad NC programs are results.
-/// Without `by` the layers are text, words, blocks, then path and functions (only these where the
-/// setups differ); effects and functions where neither program moves anything. Where both stop with
-/// the same alarm, the words say what changed.
+/// Compares two programs on one or two setups (the same object: one). Errors in NC programs are
+/// results. Without `by` the layers are text, words, blocks, then path and functions (only these if
+/// the setups differ); effects and functions if neither program moves anything. If both stop with
+/// the same alarm, the words show the change.
 Comparison compare_programs(const interpreter::ProgramText& a, const setup::Setup& setup_a,
                             const interpreter::ProgramText& b, const setup::Setup& setup_b,
                             const CompareOptions& options);

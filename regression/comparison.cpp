@@ -18,7 +18,7 @@ double gravity(const Difference& d) {
         case DifferenceKind::tool:
             return 1e6 + d.position_mm;
         case DifferenceKind::function:
-            return 10.0;  // M3 or a dwell that is missing: no distance tells; as bad as 10 mm
+            return 10.0;  // a missing M3 or dwell has no distance; it counts like 10 mm
         case DifferenceKind::reordered:
             return 1e-6;
         default:
@@ -53,7 +53,7 @@ std::vector<ExpectedDifference> no_longer_occurring(const CompareReport& report)
     for (const ExpectedDifference& e : report.expected) {
         const auto shows = [&](const Comparison& c) {
             if (!e.case_name.empty() && e.case_name != c.name) return false;
-            // A program that was not compared to its end says nothing.
+            // A program that was not compared to its end does not count.
             if (c.status == CompareStatus::limit || c.status == CompareStatus::bad_input)
                 return true;
             return std::any_of(c.differences.begin(), c.differences.end(), [&](const auto& d) {

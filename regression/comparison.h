@@ -1,4 +1,4 @@
-// The result of a comparison: plain values that every report format is written from.
+// The result of a comparison: plain values from which every report format is written.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace trunnion::regression {
 
-/// The layers, from what is written to what it does.
+/// The layers, from the text to its result.
 enum class Layer : std::uint8_t { text, words, blocks, path, functions, axes, effects };
 constexpr std::array<const char*, 7> layer_names{"text",      "words", "blocks", "path",
                                                  "functions", "axes",  "effects"};
@@ -16,13 +16,14 @@ constexpr const char* name_of(Layer layer) {
     return layer_names[static_cast<std::size_t>(layer)];
 }
 
-/// A place in one of the programs: line from 1 (0: none), the block there and its neighbours.
+/// A position in one of the programs: line from 1 (0: none), its block and its neighbours.
 struct ComparePlace {
     std::string program;
     int line = 0;
-    int last_line = 0;  ///< where the difference ends, >= line
+    int last_line = 0;  ///< end of the difference, >= line
     std::string block;
-    std::vector<std::string> context;  ///< lines around, the place's own one at `context_at`
+    std::vector<std::string> context;  ///< surrounding lines; the line of the position is at
+                                       ///< `context_at`
     int context_at = 0;
 };
 
@@ -49,11 +50,11 @@ constexpr const char* name_of(DifferenceKind kind) {
     return difference_names[static_cast<std::size_t>(kind)];
 }
 
-/// One cluster: the same change in `count` places, the first of which is shown.
+/// One cluster: the same change in `count` places, of which the first is shown.
 struct Difference {
     DifferenceKind kind = DifferenceKind::path;
     std::string what;   ///< one sentence
-    std::string cause;  ///< what of it is known: "H2 instead of H3"; stands in `what` too
+    std::string cause;  ///< known cause: "H2 instead of H3"; also part of `what`
     ComparePlace a, b;
     double position_mm = 0.0;
     double direction_deg = 0.0;
@@ -61,12 +62,12 @@ struct Difference {
     double value_a = 0.0, value_b = 0.0;
     int tool = 0;
     std::uint64_t count = 1;
-    std::string fingerprint;  ///< stays when lines are added or removed elsewhere
-    bool expected = false;    ///< listed in the suite, with `reason`
+    std::string fingerprint;  ///< unchanged when lines are added or removed elsewhere
+    bool expected = false;    ///< listed in the suite with `reason`
     std::string reason;
 };
 
-/// One line of the table: a tool and what became of its passes.
+/// One line of the table: a tool and the results of its passes.
 struct ToolRow {
     int tool = 0;
     std::uint64_t passes_a = 0, passes_b = 0;
@@ -74,10 +75,10 @@ struct ToolRow {
     double cut_a_mm = 0.0, cut_b_mm = 0.0;
     double rapid_a_mm = 0.0, rapid_b_mm = 0.0;
     double cut_a_s = 0.0, cut_b_s = 0.0;
-    std::array<double, 2> feed_a{}, feed_b{};        ///< least and largest, mm/min
+    std::array<double, 2> feed_a{}, feed_b{};        ///< smallest and largest, mm/min
     std::array<double, 2> spindle_a{}, spindle_b{};  ///< rpm
 
-    /// Not just the way home on both sides.
+    /// False when both sides only retract.
     bool says_something() const {
         return cut_a_mm > 0.0 || cut_b_mm > 0.0 ||
                moved + changed + reordered + only_a + only_b > 0;
@@ -89,22 +90,23 @@ struct LayerVerdict {
     bool equal = false;
 };
 
-/// Both paths as polylines of tips (mm, table frame), thinned out, and the differing parts: for the
+/// Both paths as polylines of tips (mm, table frame), thinned out, and the differing parts, for the
 /// picture.
 struct ComparePicture {
     using Point = std::array<double, 3>;
     using Line = std::vector<Point>;
     struct Mark {
-        std::size_t difference = 0;  ///< which of Comparison::differences
+        std::size_t difference = 0;  ///< index in Comparison::differences
         Line a, b;                   ///< its first place on each side
     };
-    /// A place where both differ, with the paths around it in full detail.
+    /// A place where both differ, with the surrounding paths in full detail.
     struct Closeup {
         std::size_t difference = 0;
-        bool first = false, worst = false;  ///< the first difference, the farthest place of all
+        bool first = false, worst = false;  ///< first difference; largest distance of all
         Point place_mm{};                   ///< on A, or on B where A has nothing
-        Point other_mm{};                   ///< the nearest of the other path
+        Point other_mm{};                   ///< the nearest point of the other path
         Point right{}, up{};                ///< unit vectors: along the path, towards the other
+                                            ///< path
         Point axis_a{}, axis_b{};           ///< unit vectors from tip to spindle
         Line a, b;
         double apart_mm() const;
@@ -125,12 +127,12 @@ struct Comparison {
     std::string a, b;  ///< files
     std::string setup, setup_b;
     CompareStatus status = CompareStatus::equal;
-    bool equal = true;  ///< nothing differs but what is expected
+    bool equal = true;  ///< no differences except expected ones
     Layer by = Layer::path;
     std::string verdict;  ///< one line
     std::vector<LayerVerdict> layers;
     std::uint64_t compared = 0;
-    double position_mm = 0.0, direction_deg = 0.0;  ///< worst of all that was compared
+    double position_mm = 0.0, direction_deg = 0.0;  ///< largest of all deviations compared
     ComparePlace worst_a, worst_b;
     std::vector<Difference> differences;  ///< in the order of A
     std::uint64_t differences_left_out = 0;
@@ -141,14 +143,14 @@ struct Comparison {
     ComparePicture picture;
 };
 
-/// Index of the difference to name first: an alarm, then machining that is missing, added or with
-/// another tool, then what lies farthest apart. Where nothing ranks higher, the first.
+/// Index of the difference to report first: an alarm, then machining that is missing, added or done
+/// with another tool, then the largest distance. Without such a ranking the first one.
 std::size_t gravest_difference(const Comparison& comparison);
-/// To put programs in order, gravest first: that of its gravest difference; one that could not be
-/// compared stands before all.
+/// Sort key of programs, most severe first: that of its most severe difference. A program that
+/// could not be compared comes before all others.
 double gravity_of(const Comparison& comparison);
 
-/// A difference that is meant, in one case (or any: empty name), by fingerprint.
+/// An intended difference in one case (empty name: any case), by fingerprint.
 struct ExpectedDifference {
     std::string case_name, fingerprint, reason;
 };
@@ -158,16 +160,16 @@ struct CompareReport {
     std::string suite;  ///< name of the suite file or folders; empty for two single files
     bool single = true;
     std::vector<Comparison> cases;
-    std::vector<ExpectedDifference> expected = {};  ///< what the suite lists
+    std::vector<ExpectedDifference> expected = {};  ///< listed in the suite
 };
 
-/// Those of `expected` that no case shows any more: to be taken out of the suite.
+/// Those of `expected` that no case shows any more and that should be removed from the suite.
 std::vector<ExpectedDifference> no_longer_occurring(const CompareReport& report);
 
-/// 0 equal, 1 differs, 2 bad input, 3 alarm, 4 limit: the gravest of all cases, alarm before
-/// differs.
+/// 0 equal, 1 differs, 2 bad input, 3 alarm, 4 limit: the most severe of all cases; an alarm
+/// precedes a difference.
 int exit_code(const CompareReport& report);
-/// One line: the single case's verdict, or how many cases are equal.
+/// One line: the verdict of the single case, or the number of equal cases.
 std::string verdict_of(const CompareReport& report);
 
 }  // namespace trunnion::regression

@@ -42,7 +42,7 @@ void read_frames(const controller::Frames& frames, ControlSnapshot& s) {
                                                           static_cast<Eigen::Index>(k % 3)));
 }
 
-/// Radius of offset number D while G41 or G42 is in force.
+/// Radius of offset number D while G41 or G42 is active.
 double radius_in_force_mm(const controller::Control& c) {
     const auto d = static_cast<std::size_t>(std::max(0, c.modal.number.radius));
     const auto& tools = c.stores.tools.tool;
@@ -72,8 +72,8 @@ void read_smoothing(const controller::SortedWords& words, ControlSnapshot& s) {
                 s.smoothing[n] = number(words.get(letter[n], 0.0));
 }
 
-/// Which stores a G10 block writes, as one number. How much it writes is compared at the end, with
-/// a tolerance.
+/// The stores written by a G10 block, as one number. The values are compared at the end, with a
+/// tolerance.
 std::uint64_t store_key_of(const controller::Control& c) {
     const controller::SortedWords& w = c.words;
     if (!w.has_code(100)) return 0;
@@ -89,7 +89,7 @@ std::uint64_t store_key_of(const controller::Control& c) {
     return h | 1U;
 }
 
-/// A number without a point that would be another length in least increments.
+/// A number without point that would be another length in least increments.
 bool has_bare_length(const controller::SortedWords& w) {
     constexpr std::string_view lengths = "ABCIJKQRUVWXYZ";
     return std::any_of(lengths.begin(), lengths.end(), [&w](char letter) {
@@ -156,7 +156,7 @@ std::string work_text(S s) {
     return s.modal10[14] == 541 ? fmt::format("{} P{}", code, s.work_number) : code;
 }
 
-/// Row-major rotation: its trace and the last row name it well enough to compare.
+/// Row-major rotation: its trace and last row suffice for a comparison.
 Values feature_value(S s) {
     return {s.feature[2] + 3.0 * s.feature[0], s.feature[5] + 3.0 * s.feature[3],
             s.feature[8] + 3.0 * s.feature[6]};

@@ -1,4 +1,4 @@
-// What a control has in force, as plain values: what differences are explained by.
+// The active states of a control as plain values, used to explain differences.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ struct Control;
 
 namespace trunnion::regression {
 
-/// The state after a block. Filled in control_snapshot.cpp alone, whatever the controller looks
-/// like inside.
+/// The state after a block. Set in control_snapshot.cpp only, to be independent of the controller's
+/// structure.
 struct ControlSnapshot {
     std::array<std::int16_t, 24> modal10{};        ///< code * 10 by modal group
     std::int16_t work_number = 0;                  ///< P of G54.1
@@ -26,9 +26,10 @@ struct ControlSnapshot {
     std::int32_t coolant = 0;                      ///< 0, 1
     float feed = 0.0F;                             ///< F as written
     float speed = 0.0F;                            ///< S as written
-    float radius_mm = 0.0F;                        ///< of D while G41, G42 are in force
+    float radius_mm = 0.0F;                        ///< of D while G41 or G42 is active
     std::array<float, 3> length_mm{};              ///< tool length vector
-    std::array<float, 3> origin_mm{};              ///< zero of the work frame, machine coordinates
+    std::array<float, 3> origin_mm{};              ///< origin of the work frame, machine
+                                                   ///< coordinates
     std::array<float, 3> origin_deg{};             ///< the same of A B C
     std::array<float, 3> local_mm{};               ///< G52
     std::array<float, 9> feature{};                ///< rotation of the tilted plane
@@ -38,24 +39,24 @@ struct ControlSnapshot {
     friend bool operator==(const ControlSnapshot&, const ControlSnapshot&) = default;
 };
 
-/// What a block besides moves does, or where the axes stand: not part of what is in force.
+/// Actions of a block besides moves, and axis positions; not part of the active state.
 struct BlockLook {
     int line = 0;
     const std::string* program = nullptr;
-    std::uint64_t store_key = 0;                ///< of a G10 block's words; 0: none
+    std::uint64_t store_key = 0;                ///< of the words of a G10 block; 0: none
     std::array<double, 3> rotary_deg{};         ///< A B C, machine positions
-    bool bare_words_meet_no_parameter = false;  ///< numbers without a point, 3401 not given
+    bool bare_words_meet_no_parameter = false;  ///< numbers without point while 3401 is not given
 };
 
-/// Brings `snapshot` up to date (`smoothing` is kept from block to block).
+/// Updates `snapshot` (`smoothing` is kept from block to block).
 BlockLook look_at(const controller::Control& control, ControlSnapshot& snapshot);
 int tool_in_spindle(const controller::Control& control);
-/// Of the block that runs.
+/// Line of the running block.
 int running_line(const controller::Control& control);
-/// G93 in force for the move that goes out now.
+/// True when G93 is active for the present move.
 bool feeds_by_inverse_time(const controller::Control& control);
 
-/// What a field can explain.
+/// The differences that a field can explain.
 enum Explains : unsigned {
     explains_path = 1,
     explains_feed = 2,
@@ -64,7 +65,7 @@ enum Explains : unsigned {
     explains_tool = 16
 };
 
-/// One thing that can be in force, to be compared and said.
+/// One part of the active state, for comparison and as text.
 struct SnapshotField {
     const char* name;
     unsigned explains;

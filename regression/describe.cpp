@@ -45,13 +45,13 @@ void SourceLines::show(ComparePlace& place) {
 
 namespace {
 
-/// Of a stretch; `cause` says where it enters, when that is another block.
+/// Position of a stretch; `cause`: position of the cause, if it is another block.
 ComparePlace place_of(SegmentWindow& path, const PathRecord& record, Stretch stretch,
                       CausePlace cause, SourceLines& lines) {
     ComparePlace place;
     place.program = lines.main_name();
     if (record.size() == 0) return place;
-    // Where one side has nothing, the block before which it is missing is shown.
+    // For a side without segments: the block before which they are missing.
     const std::uint64_t at = std::min(stretch.first, record.segments().size() - 1);
     const Segment segment = path[at];
     const std::uint16_t program = cause.line > 0 ? cause.program : segment.program;
@@ -136,7 +136,7 @@ std::string sentence(const PathCluster& c, PathSpace space, const Tolerances& to
            places + tool;
 }
 
-/// The block without its N number and blanks: what a fingerprint is made of.
+/// The block without its N number and blanks: input of a fingerprint.
 std::string bare(const std::string& block) {
     std::string out;
     for (const char c : block)

@@ -1,4 +1,4 @@
-// Clusters and gaps as differences with places, source lines, sentences and fingerprints.
+// Clusters and gaps as differences with positions, source lines, sentences and fingerprints.
 #pragma once
 
 #include <map>
@@ -15,11 +15,11 @@
 
 namespace trunnion::regression {
 
-/// The source lines of one side: its main program and whatever files it called.
+/// The source lines of one side: its main program and the files that it called.
 class SourceLines {
   public:
     explicit SourceLines(const interpreter::ProgramText& main);
-    /// Fills block and context from program and line.
+    /// Sets block and context from program and line.
     void show(ComparePlace& place);
     const std::string& main_name() const { return name_; }
 
@@ -35,17 +35,17 @@ struct DescribedSides {
     SourceLines &a, &b;
 };
 
-/// Puts a path comparison into `result`: differences, worst place, table, picture.
+/// Adds a path comparison to `result`: differences, worst place, table, picture.
 void describe_paths(const PathComparison& found, const std::vector<ExplainedCluster>& clusters,
                     const PathRecord& a, const PathRecord& b, PathSpace space, DescribedSides lines,
                     const Tolerances& tolerances, Comparison& result);
 
-/// Puts the gaps of a layer of lines or blocks into `result`.
+/// Adds the gaps of a layer of lines or blocks to `result`.
 void describe_gaps(const KeyedLines& a, const KeyedLines& b, SourceLines& lines_a,
                    SourceLines& lines_b, std::size_t most, Comparison& result);
 
-/// Gives every difference its fingerprint: of its kind and its source lines without N numbers, and
-/// how often that occurred before. It does not change when lines are added or removed elsewhere.
+/// Sets the fingerprint of every difference, from its kind, its source lines without N numbers, and
+/// the number of earlier occurrences. It does not change when lines are added or removed elsewhere.
 void add_fingerprints(Comparison& result);
 
 }  // namespace trunnion::regression

@@ -24,7 +24,7 @@ std::vector<PathPoint> chord_points(SegmentWindow& path, Stretch s, const Tolera
     return points;
 }
 
-/// Distance of a point from a chord line; the direction is compared at the nearest place.
+/// Distance of a point from a chord line; the direction is compared at the nearest point.
 Deviation from_line(const PathPoint& p, const std::vector<PathPoint>& line) {
     Deviation least{std::numeric_limits<double>::infinity(), 0.0};
     for (std::size_t k = 0; k < line.size(); ++k) {

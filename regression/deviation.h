@@ -1,4 +1,4 @@
-// How far two stretches of path lie apart, and whether one is the other shifted.
+// Distance of two stretches of path, and detection of a pure shift.
 #pragma once
 
 #include <optional>
@@ -12,14 +12,14 @@ struct Deviation {
     double direction_rad = 0.0;
 };
 
-/// Hausdorff distance of the two chord lines (each point of one from the other line), long
-/// stretches thinned out to some hundred points. An empty stretch is the point where it would
-/// begin.
+/// Hausdorff distance of the two chord lines (each point of one from the other line); long
+/// stretches are thinned out to some hundred points. An empty stretch is its start point.
 Deviation deviation_between(SegmentWindow& a_path, Stretch a, SegmentWindow& b_path, Stretch b,
                             const Tolerances& tolerances);
 
-/// The one vector by which B's corners are shifted against A's; nothing when there is none, when
-/// the counts differ, or when it is within tolerance. `closed`: the last corners are common again.
+/// The constant vector by which B's corners are shifted relative to A's; empty when there is none,
+/// when the numbers of corners differ, or when it is within tolerance. `closed`: the last corners
+/// are common again.
 std::optional<Vector3> common_shift(SegmentWindow& a_path, Stretch a, SegmentWindow& b_path,
                                     Stretch b, const Tolerances& tolerances);
 

@@ -13,7 +13,7 @@ namespace {
 
 using Values = std::map<std::string, double>;
 
-/// The stores as named values, those at their default left out.
+/// The stores as named values, without default values.
 Values values_of(const RecordedRun& run) {
     Values v;
     const auto add = [&](const std::string& name, double value) {

@@ -1,4 +1,4 @@
-// Differences of two paths with what is known of their cause.
+// Differences of two paths with their known causes.
 #pragma once
 
 #include <string>
@@ -7,16 +7,16 @@
 
 namespace trunnion::regression {
 
-/// Where a cause enters: line from 1 in one of PathRecord::programs; 0: not known.
+/// Position of a cause: line from 1 in one of PathRecord::programs; 0: unknown.
 struct CausePlace {
     std::uint32_t line = 0;
     std::uint16_t program = 0;
 };
 
-/// Clusters that one cause explains, as one.
+/// Clusters with the same cause, combined.
 struct ExplainedCluster {
-    PathCluster cluster;     ///< the first, with the count and the worst of all
-    std::string cause = {};  ///< empty: not known
+    PathCluster cluster;     ///< the first one, with the total count and the largest deviation
+    std::string cause = {};  ///< empty: unknown
     CausePlace a = {}, b = {};
 };
 

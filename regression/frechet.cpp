@@ -10,13 +10,13 @@ namespace trunnion::regression {
 
 namespace {
 
-/// A reachable or free part of a cell's edge, as fractions of that edge.
+/// Reachable or free part of a cell edge, as fractions of the edge.
 struct Interval {
     double low = 1.0, high = 0.0;
     bool empty() const { return low > high; }
 };
 
-/// Where |offset + t * step| <= tolerance, t in [0, 1].
+/// The t in [0, 1] with |offset + t * step| <= tolerance.
 Interval within(const Vector3& offset, const Vector3& step, double tolerance) {
     const double a = step.squaredNorm();
     const double b = offset.dot(step);
@@ -30,7 +30,7 @@ Interval within(const Vector3& offset, const Vector3& step, double tolerance) {
 
 struct Node {
     PathPoint point;
-    std::uint64_t segment = 0;              ///< that ends in or runs through it
+    std::uint64_t segment = 0;              ///< segment that ends here or passes through
     bool corner = false;                    ///< it ends the segment
     SegmentKind kind = SegmentKind::rapid;  ///< of the chord that ends here
 };
@@ -46,14 +46,14 @@ Interval free_part(const PathPoint& point, const PathPoint& from, const PathPoin
     return {std::max(p.low, d.low), std::min(p.high, d.high)};
 }
 
-/// A path cut into chords, made as far as it is asked for.
+/// A path divided into chords, generated on demand.
 class ChordLine {
   public:
     ChordLine(SegmentWindow& path, Stretch stretch, const Tolerances& tolerances)
         : path_(path), next_(stretch.first), last_(stretch.last), tolerances_(tolerances) {
         nodes_.push_back({path_[next_ - 1].end(), next_ - 1, true, SegmentKind::origin});
     }
-    /// Does node k exist?
+    /// True when node k exists.
     bool has(std::size_t k) {
         while (base_ + nodes_.size() <= k && next_ < last_) extend();
         return k < base_ + nodes_.size();
@@ -124,7 +124,7 @@ class FreeSpaceWalk {
         return node.corner ? node.segment + 1 : node.segment;
     }
 
-    /// The left edge of the whole diagram: B runs on while A stands at its start.
+    /// The left edge of the whole diagram: B continues while A is at its start.
     bool start() {
         if (free_part(a_[0].point, b_[0].point, b_[0].point, tolerances_).empty()) return false;
         for (std::size_t j = 0; b_.has(j + 1); ++j) {
@@ -139,14 +139,14 @@ class FreeSpaceWalk {
 
     void walk_column(std::size_t column) {
         next_rows_.clear();
-        Interval bottom;  // reachable part of the lower edge of the cell at hand
+        Interval bottom;  // reachable part of the lower edge of the current cell
         std::size_t at = 0;
         std::size_t j = rows_.front().j;
         while (at < rows_.size() || !bottom.empty()) {
             if (bottom.empty()) j = rows_[at].j;
             Interval left;
             if (at < rows_.size() && rows_[at].j == j) left = rows_[at++].reach;
-            if (!b_.has(j + 1)) {  // B stands at its end while A runs on along the top edge
+            if (!b_.has(j + 1)) {  // B is at its end while A continues along the top edge
                 finish_on_top(column, j, left, bottom);
                 break;
             }
@@ -159,14 +159,14 @@ class FreeSpaceWalk {
         rows_.swap(next_rows_);
     }
 
-    /// The lower edge from its left corner on, when that corner is reachable.
+    /// The lower edge from its left corner on, if that corner is reachable.
     Interval lower_edge(std::size_t column, std::size_t j) {
         const Interval part =
             free_part(b_[j].point, a_[column].point, a_[column + 1].point, tolerances_);
         return part.low <= 0.0 ? part : Interval{};
     }
 
-    /// Passes on what is reachable through one cell: fills the right edge, returns the upper edge.
+    /// Propagates reachability through one cell: sets the right edge, returns the upper edge.
     Interval walk_cell(std::size_t column, std::size_t j, Interval left, Interval bottom) {
         const Node& a1 = a_[column + 1];
         const Node& b1 = b_[j + 1];
@@ -178,7 +178,7 @@ class FreeSpaceWalk {
             if (!top.empty()) note_passing(b1.point, a_[column].point, a1.point, b_min(j + 1));
             if (bottom.empty()) right.low = std::max(right.low, left.low);
             if (left.empty()) top.low = std::max(top.low, bottom.low);
-        } else {  // only the outer corners lead on
+        } else {  // only the outer corners continue
             right.high = !bottom.empty() && bottom.high >= 1.0 && right.low <= 0.0 ? 0.0 : -1.0;
             top.high = !left.empty() && left.high >= 1.0 && top.low <= 0.0 ? 0.0 : -1.0;
         }
@@ -197,8 +197,8 @@ class FreeSpaceWalk {
         const Node& a = a_[column];
         const Node& b = b_[j];
         if (!b.corner || a.segment < a_beyond_ || b.segment < b_beyond_) return;
-        // At the end of one path the other has to be at its end too, or nothing remains to match
-        // it.
+        // At the end of one path the other must be at its end too, otherwise nothing matches its
+        // remainder.
         if (a_.has(column + 1) != b_.has(j + 1)) return;
         found_ = result_.reached = true;
         take_rows_before(j);
@@ -219,7 +219,8 @@ class FreeSpaceWalk {
         if (a_[column + 1].corner) try_corner(column + 1, j);
     }
 
-    /// The nearest that a corner of one path came to the chords of the other that it may go with.
+    /// The smallest distance of a corner of one path from the chords of the other that may
+    /// correspond to it.
     struct Passing {
         double position_mm = std::numeric_limits<double>::infinity();
         double direction_rad = std::numeric_limits<double>::infinity();
@@ -261,7 +262,7 @@ class FreeSpaceWalk {
     std::uint64_t a_beyond_, b_beyond_;
     std::vector<Row> rows_, next_rows_;
     Passing a_min_;
-    std::deque<Passing> b_min_;  ///< of B's corners from number b_min_base_ on
+    std::deque<Passing> b_min_;  ///< of B's corners, starting with number b_min_base_
     std::size_t b_min_base_ = 0;
     FrechetResult result_;
     bool found_ = false;

@@ -17,7 +17,7 @@ KeyedLines keys_of(const FunctionEvents& events) {
     return keys;
 }
 
-/// Coolant and everything else are two sequences: M8 M3 and M3 M8 at one place are the same.
+/// Coolant and all other functions are two sequences: M8 M3 and M3 M8 at one place are equal.
 FunctionEvents kept(const FunctionEvents& all, bool stores, bool coolant) {
     FunctionEvents events;
     SpilledWindow<FunctionEvent> window(all);
@@ -80,7 +80,8 @@ class FunctionComparer {
         cut_b_mm_ = q.cut_mm;
     }
 
-    /// Cuts since the last function that both have: chords are a little shorter than arcs.
+    /// Compares cut lengths since the last common function; the tolerance allows for chords being
+    /// shorter than arcs.
     bool elsewhere(const FunctionEvent& p, const FunctionEvent& q) const {
         const double cut_a = p.cut_mm - cut_a_mm_, cut_b = q.cut_mm - cut_b_mm_;
         if (std::abs(cut_a - cut_b) > 0.01 * std::max(cut_a, cut_b) + 0.05) return true;
@@ -108,7 +109,7 @@ class FunctionComparer {
                 add(fmt::format("{} is only in B", text_of(b_[k])), gap.a_last, k, 0.0, 0.0);
     }
 
-    /// The end of an exact stop that only this side began is no difference of its own.
+    /// The end of an exact stop that only this side started is not a separate difference.
     static bool ends_only(const FunctionEvent& e, bool& begun) {
         if (e.kind != FunctionKind::exact_stop) return false;
         const bool ends = begun && e.value == 0.0;
@@ -116,11 +117,10 @@ class FunctionComparer {
         return ends;
     }
 
-    /// `i` or `j` may stand for a function that is missing: the next one of that side names the
-    /// place.
+    /// `i` or `j` may refer to the function after a missing one; it gives the position.
     void add(const std::string& what, std::uint64_t i, std::uint64_t j, double value_a,
              double value_b) {
-        // The path may have said so already.
+        // The path comparison may already have reported it.
         if (std::any_of(result_.differences.begin(), result_.differences.end(),
                         [&](const Difference& d) { return d.cause.starts_with(what); }))
             return;
@@ -163,10 +163,10 @@ class FunctionComparer {
     FunctionCompareOptions options_;
     SourceLines &lines_a_, &lines_b_;
     Comparison& result_;
-    std::map<std::string, std::size_t> known_;  ///< differences so far by their sentence
+    std::map<std::string, std::size_t> known_;  ///< differences so far, by their sentence
     bool same_writes_ = true;
     bool exact_only_a_ = false, exact_only_b_ = false;
-    double cut_a_mm_ = 0.0, cut_b_mm_ = 0.0;  ///< at the last function that both have
+    double cut_a_mm_ = 0.0, cut_b_mm_ = 0.0;  ///< at the last common function
 };
 
 }  // namespace

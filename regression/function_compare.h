@@ -1,4 +1,4 @@
-// The layer `functions`: are the same functions carried out in the same order and place?
+// The layer `functions`: compares functions, their order and their positions on the path.
 #pragma once
 
 #include "regression/comparison.h"
@@ -9,17 +9,19 @@ namespace trunnion::regression {
 
 struct FunctionCompareOptions {
     Tolerances tolerances;
-    /// The paths are equal, so places on them can be compared; else only the order counts.
+    /// The paths are equal, so positions on them are comparable; otherwise only the order is
+    /// compared.
     bool places = true;
-    /// G10 counts: not where the sides position by other functions, because the same work zero is
-    /// another offset there, nor where they start from other stores.
+    /// Compare G10. Not if the sides use different positioning functions, where the same work zero
+    /// needs another offset, nor if they start from different stores.
     bool stores = true;
     std::size_t most_differences = 1000;
 };
 
-/// Adds a difference for each function that one side lacks, has another value of, or carries out at
-/// another place of the path; the same change in many places is one difference. False when G10
-/// blocks are among them: what they leave in the stores is no difference of its own then.
+/// Adds a difference for each function that is missing on one side, has another value, or is
+/// executed at another position of the path; the same change in many places is one difference.
+/// Returns false when G10 blocks are among them: the resulting stores are then no separate
+/// difference.
 bool compare_functions(const RecordedRun& a, const RecordedRun& b,
                        const FunctionCompareOptions& options, SourceLines& lines_a,
                        SourceLines& lines_b, Comparison& result);

@@ -40,7 +40,7 @@ std::string row(const Segment& s) {
     return out + "," + number(deg_from_rad(s.sweep_rad)) + "\n";
 }
 
-/// Does `next` go straight on from start -> last with everything else the same?
+/// True when `next` continues start -> last in the same direction with everything else equal.
 bool goes_on(const PathPoint& start, const Segment& last, const Segment& next) {
     if (last.kind != next.kind || last.is_arc() || next.is_arc() || last.tool != next.tool ||
         last.feed_mm_min != next.feed_mm_min || last.spindle_rpm != next.spindle_rpm ||

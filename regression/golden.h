@@ -1,4 +1,4 @@
-// A path as numbers in a text file: what a program is compared with when no older program is kept.
+// A path as numbers in a text file, for comparison when no older program is kept.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace trunnion::regression {
 
-/// CSV with a head of comments: why it was written (newest first) and a line for each tool, so that
-/// a change reads well in a review. One row a line or arc of the tip in the table frame;
-/// neighbouring lines in one direction with the same feed are one row. Numbers to 1e-6.
+/// CSV with a head of comments: the reasons (newest first) and a line for each tool, so that a
+/// change is readable in a review. One row for each line or arc of the tip in the table frame;
+/// consecutive lines in the same direction with the same feed are one row. Numbers to 1e-6.
 std::string format_golden(const PathRecord& path, const std::vector<std::string>& reasons);
 
 struct Golden {

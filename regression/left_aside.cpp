@@ -48,7 +48,7 @@ OpenWays open_ways(std::string_view text) {
         } else if (c == '(' || c == ')') {
             comment = c == '(';
         } else if (!comment && !interpreter::is_blank(c)) {
-            // In front of '/' an N number may stand.
+            // An N number may precede '/'.
             ways.skips = ways.skips || (begins && c == '/');
             begins = begins && (interpreter::upper(c) == 'N' || interpreter::is_digit(c));
             ways.branches = ways.branches || spells(text, at, "IF") || spells(text, at, "GO") ||

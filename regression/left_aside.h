@@ -1,4 +1,4 @@
-// What a comparison of two programs could not see, in one line.
+// The limits of a comparison of two programs, in one line.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace trunnion::regression {
 
-/// What a text holds that one run takes one way only.
+/// Branches in a text of which a run takes only one.
 struct OpenWays {
     bool branches = false;  ///< IF, GOTO, WHILE
-    bool skips = false;     ///< blocks behind '/'
+    bool skips = false;     ///< blocks with '/'
 };
-/// Comments aside. True in doubt.
+/// Ignores comments. True in doubt.
 OpenWays open_ways(std::string_view text);
 
-/// "not compared: ..." with all reasons that hold for these runs and `more`; empty where nothing
-/// was left aside. `a` is nullptr where a golden stands for it.
+/// "not compared: ..." with all reasons that apply to these runs, and `more`; empty when everything
+/// was compared. `a` is nullptr for a golden.
 std::string left_aside(const RecordedRun* a, const RecordedRun& b,
                        const std::vector<interpreter::ProgramText>& programs,
                        const CompareOptions& options, std::vector<std::string> more);

@@ -15,7 +15,7 @@ std::uint64_t mix(std::uint64_t h, std::uint64_t n) {
 
 std::uint64_t key_of(const FunctionEvent& e) {
     const std::uint64_t h = mix(11, static_cast<std::uint64_t>(e.kind));
-    if (e.kind == FunctionKind::dwell) return h;  // its time is compared with a tolerance
+    if (e.kind == FunctionKind::dwell) return h;  // its duration is compared with a tolerance
     return mix(mix(h, static_cast<std::uint64_t>(std::llround(e.value * 1e3))),
                static_cast<std::uint64_t>(std::llround(e.detail)));
 }

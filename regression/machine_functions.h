@@ -1,4 +1,4 @@
-// What a run does besides moving: M and T codes, dwells, modes and stores, in their order.
+// Functions of a run besides moves: M and T codes, dwells, modes and stores, in order.
 #pragma once
 
 #include <array>
@@ -24,25 +24,26 @@ enum class FunctionKind : std::uint8_t {
     store
 };
 
-/// One function at its place on the path. Plain data: it is written to a temporary file as it is.
+/// One function at its position on the path. Plain data, written unchanged to a temporary file.
 struct FunctionEvent {
-    std::uint64_t key = 0;           ///< equal for the same function; a dwell's time is apart
-    double value = 0.0;              ///< code, seconds, tool; what `kind` says
+    std::uint64_t key = 0;           ///< equal for the same function; excludes the duration of a
+                                     ///< dwell
+    double value = 0.0;              ///< code, seconds or tool, depending on `kind`
     double detail = 0.0;             ///< tool loaded by M6; which code of `smoothing`
     double cut_mm = 0.0;             ///< length of all cuts before it
-    std::array<double, 3> tip_mm{};  ///< where the tip stands, in W
+    std::array<double, 3> tip_mm{};  ///< tip position in W
     std::uint32_t line = 0;
     std::uint16_t program = 0;
     std::uint8_t mode = 0;  ///< PositioningMode of the last move
     FunctionKind kind = FunctionKind::m_code;
-    bool placed = true;  ///< false: its place between the moves of its block is not known
+    bool placed = true;  ///< false: its position between the moves of its block is unknown
 };
 using FunctionEvents = SpilledArray<FunctionEvent>;
 
-/// Gathers the functions of one run. Spindle, coolant and exact stop are states: they count where
-/// the next move, dwell or other function meets them, so M3 S500 in one block or in two is the
-/// same, and M8 twice is M8 once. After M6, M0 and M1 nothing is taken as still commanded: on a
-/// real machine the change stops spindle and coolant.
+/// Collects the functions of one run. Spindle, coolant and exact stop are states that count at the
+/// next move, dwell or other function: M3 S500 in one block or in two is the same, and M8 twice is
+/// M8 once. After M6, M0 and M1 nothing counts as still commanded, because a real machine then
+/// stops spindle and coolant.
 class FunctionRecorder {
   public:
     FunctionRecorder(FunctionEvents& events, PathRecord& path, KeyedLines& blocks)
@@ -52,7 +53,7 @@ class FunctionRecorder {
     void dwell(double duration_s);
     /// `tool`: in the spindle after the code.
     void m_code(int code, int tool, int line);
-    /// Behind each block.
+    /// Called after each block.
     void block(const ControlSnapshot& snapshot, const BlockLook& look);
     void finish();
 
@@ -60,7 +61,7 @@ class FunctionRecorder {
     static constexpr int nothing_said = -99;
     struct States {
         int tool = 0, spindle = 0, coolant = 0, exact_stop = 0;
-        std::uint32_t spindle_line = 0, coolant_line = 0;  ///< where they were commanded
+        std::uint32_t spindle_line = 0, coolant_line = 0;  ///< lines that commanded them
     };
     void tell_states();
     void tell(int now, int& told, FunctionKind kind, std::uint32_t line = 0);
@@ -76,7 +77,7 @@ class FunctionRecorder {
     std::uint32_t exact_line_ = 0;  ///< of G61, G64
     std::array<float, 3> smoothing_{};
     std::uint8_t mode_ = 0;
-    std::vector<FunctionEvent> held_;  ///< of the block that runs: its line is known behind it
+    std::vector<FunctionEvent> held_;  ///< of the running block, whose line is known at its end
 };
 
 /// "M8", "dwell 0.5 s", "exact stop".

@@ -13,7 +13,7 @@ namespace trunnion::regression {
 
 namespace {
 
-/// One shift with the pose in which it was seen.
+/// One shift with the pose where it occurred.
 struct SeenShift {
     Vector3 shift_mm, direction;
     Matrix3 turned;  ///< R' - I
@@ -49,7 +49,7 @@ std::vector<SeenShift> shifts_of(const std::vector<PathCluster>& clusters,
     return seen;
 }
 
-/// To 0.0001 mm, without a minus before zero.
+/// Rounds to 0.0001 mm, never "-0".
 double rounded(double value_mm) {
     return std::round(value_mm * 1e4) / 1e4 + 0.0;
 }
@@ -60,7 +60,7 @@ bool several_directions(const std::vector<SeenShift>& seen) {
     });
 }
 
-/// Least squares of the least norm: what the poses do not show stays zero.
+/// Least squares with minimum norm: unobservable components stay zero.
 Vector3 fitted_pivot(const std::vector<SeenShift>& seen) {
     Matrix3 normal = Matrix3::Zero();
     Vector3 right = Vector3::Zero();

@@ -1,4 +1,4 @@
-// Many shifts, one cause: a pivot or a tool length that one of the posts has wrong.
+// One cause for many shifts: a wrong pivot or tool length in one of the post processors.
 #pragma once
 
 #include <optional>
@@ -16,21 +16,21 @@ struct MovedPivotInput {
     Tolerances tolerances;
 };
 
-/// Each shift is turned * pivot_mm + length_mm * direction, turned = R' - I of its pose.
+/// Each shift is turned * pivot_mm + length_mm * direction, with turned = R' - I of its pose.
 struct MovedPivot {
     std::string text;
     Vector3 pivot_mm = Vector3::Zero();
     double length_mm = 0.0;
 };
 
-/// With the table turned by R, a post whose pivot is off by p puts the tip off by (R' - I) p in the
-/// table frame, and one whose length is off by l by l along the tool. Says so when at least two
+/// With the table rotated by R, a pivot error p of the post processor moves the tip by (R' - I) p
+/// in the table frame, and a length error l moves it by l along the tool. Returned if at least two
 /// tool directions occur and all shifts fit within twice the tolerance.
 std::optional<MovedPivot> moved_pivot(const std::vector<PathCluster>& clusters,
                                       const MovedPivotInput& input);
 
-/// True when each corner of a stretch of A stands in B at its own place or at the shifted one, and
-/// some at the shifted one: the ways to a shifted section belong to its cause.
+/// True when each corner of a stretch of A exists in B at its own or at the shifted place, and some
+/// at the shifted one: the paths to a shifted section have the same cause.
 bool explains(const MovedPivot& moved, const PathCluster& cluster, const MovedPivotInput& input);
 
 }  // namespace trunnion::regression

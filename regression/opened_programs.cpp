@@ -21,7 +21,7 @@ std::optional<interpreter::ProgramText> RememberingSource::find(std::string_view
 
 namespace {
 
-/// The number behind a G or M without blanks, -1 where it is computed or too long to matter.
+/// The number after a G or M without blanks; -1 when it is computed or too long.
 int code_behind(std::string_view text, std::size_t at) {
     int value = 0, digits = 0;
     for (; at < text.size(); ++at) {

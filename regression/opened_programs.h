@@ -1,4 +1,4 @@
-// Which programs a run reads: a source that remembers what it was asked for.
+// Programs read by a run: a source that records all requests.
 #pragma once
 
 #include <optional>
@@ -13,14 +13,14 @@
 
 namespace trunnion::regression {
 
-/// A program that was asked for, by number or name, and what was found (empty: nothing).
+/// A requested program, by number or name, and what was found (empty: nothing).
 struct OpenedProgram {
     std::string asked;
     std::optional<interpreter::ProgramText> found;
 };
 
-/// Passes on to another source and keeps each program the first time it is asked for. A run is
-/// decided by its main program and what this finds, in this order.
+/// Forwards to another source and keeps each program at its first request. The main program and
+/// these, in this order, determine a run.
 class RememberingSource : public interpreter::ProgramSource {
   public:
     RememberingSource(interpreter::ProgramSource& source, std::vector<OpenedProgram>& opened)
@@ -37,11 +37,11 @@ class RememberingSource : public interpreter::ProgramSource {
     std::set<std::string> known_;
 };
 
-/// G, M or T codes call programs by parameters 6050-6089, 6001#5.
+/// True when G, M or T codes call programs by parameters 6050-6089, 6001#5.
 bool codes_call(const setup::Setup& setup);
 
-/// False when no block of the text can call another program: no M98, M198, G65, G66, no computed
-/// G or M, and no codes that call by parameter. True in doubt.
+/// False when no block of the text can call another program: no M98, M198, G65, G66, no computed G
+/// or M, and no codes that call by parameter. True in doubt.
 bool may_call(std::string_view text, const setup::Setup& setup);
 
 }  // namespace trunnion::regression

@@ -106,13 +106,13 @@ class PathComparer {
             walk(p.cut_first, p.last, q.cut_first, q.last, regions);
         } else if ((pair.a.first == 0 && pair.b.first == 0) || starts_alike(p, q)) {
             walk(p.first, p.last, q.first, q.last, regions);
-        } else {  // after a pass that only one side has: the way here differs of necessity
+        } else {  // after a pass on one side only the path to this place necessarily differs
             walk(p.cut_first, p.last, q.cut_first, q.last, regions);
         }
         take(regions, pair.a);
     }
 
-    /// The way to the cut cannot agree: another machine, or another positioning function there.
+    /// The path to the cut cannot agree: another machine, or another positioning function there.
     bool other_functions(const Pass& p, const Pass& q) const {
         return options_.other_machine || p.cut_modes != q.cut_modes ||
                (a_.modes() != b_.modes() && p.modes != q.modes);
@@ -133,7 +133,7 @@ class PathComparer {
         take(regions, pair.a);
     }
 
-    /// As many passes on both sides, with the same tools and about as long: moved or changed one by
+    /// Equal numbers of passes with the same tools and similar lengths: moved or changed one by
     /// one.
     bool one_to_one(const PassPair& pair) {
         if (pair.a.size() != pair.b.size()) return false;
@@ -164,7 +164,7 @@ class PathComparer {
         return apart.norm() <= options_.tolerances.position_mm;
     }
 
-    /// Adds the regions to the clusters and counts what became of each pass of A.
+    /// Adds the regions to the clusters and counts the result of each pass of A.
     void take(std::vector<PathRegion>& regions, PassRange range, bool count = true) {
         const auto by_place = [](const PathRegion& p, const PathRegion& q) {
             return p.a.first < q.a.first;
@@ -192,7 +192,7 @@ class PathComparer {
     void add_whole(DifferenceKind kind, const PassPair& pair) {
         PathRegion region;
         auto &a = passes_a_, &b = passes_b_;
-        // The first block that cuts names the place; an empty side stands before the next cut.
+        // The first cutting block gives the position; an empty side refers to the next cut.
         const auto at = [](SpilledWindow<Pass>& passes, std::uint64_t first, std::uint64_t end) {
             return first < passes.size() ? std::min(passes[first].cut_first, end - 1) : end;
         };
@@ -213,13 +213,13 @@ class PathComparer {
         add(kind, region, tool, amount);
     }
 
-    /// What a region adds to its cluster.
+    /// Contribution of a region to its cluster.
     struct Amount {
         double cut_a_mm = 0.0, cut_b_mm = 0.0;
         std::uint64_t count = 1;
     };
 
-    /// What makes two regions the same change.
+    /// Key of a change; regions with equal keys are the same change.
     using Key = std::tuple<DifferenceKind, int, long, long, long, long, long>;
     Key key_of(DifferenceKind kind, const PathRegion& r, int tool) const {
         const double grid = 4.0 * options_.tolerances.position_mm;
@@ -267,7 +267,7 @@ class PathComparer {
         cluster->last_b = region.b;
     }
 
-    /// A tool whose path differs all over: the places after the first ones are one cluster.
+    /// If the whole path of a tool differs, the places after the first ones are one cluster.
     PathCluster* last_of_many(int tool) {
         constexpr std::size_t shown_by_tool = 50;
         const std::vector<std::size_t>& clusters = by_tool_[tool];

@@ -1,4 +1,4 @@
-// A whole path, cut into passes: what two programs are aligned by.
+// A whole path divided into passes, the units of alignment.
 #pragma once
 
 #include <array>
@@ -11,12 +11,13 @@
 
 namespace trunnion::regression {
 
-/// Rapids to a cut, and the cut: segments first..last, the cut from cut_first on (empty at the end
-/// of a program). A new pass begins with the first rapid after a cut, or with another tool.
+/// Rapids to a cut, and the cut: segments first..last, with the cut from cut_first on (empty at the
+/// end of a program). A new pass starts at the first rapid after a cut, or with another tool.
 struct Pass {
     std::uint64_t first = 1, cut_first = 1, last = 1;
-    std::array<double, 3> start_mm{}, end_mm{};  ///< of the cut; of the rapids where there is none
-    std::array<double, 3> centroid_mm{};         ///< of the cut's length
+    std::array<double, 3> start_mm{}, end_mm{};  ///< of the cut, or of the rapids if there is no
+                                                 ///< cut
+    std::array<double, 3> centroid_mm{};         ///< of the cut, weighted by length
     double cut_mm = 0.0, rapid_mm = 0.0;
     std::uint32_t line = 0;
     std::uint16_t tool = 0;
@@ -26,7 +27,7 @@ struct Pass {
     bool cuts() const { return last > cut_first; }
 };
 
-/// What the report's table says about one tool.
+/// Totals of one tool for the report's table.
 struct ToolTotals {
     double cut_mm = 0.0, rapid_mm = 0.0, cut_s = 0.0;
     double feed_min = 0.0, feed_max = 0.0;
@@ -34,12 +35,12 @@ struct ToolTotals {
     std::uint64_t passes = 0;
 };
 
-/// A path in the order run, with its passes. Segment 0 is the origin: where the path begins.
+/// A path in execution order, with its passes. Segment 0 is the origin, the start of the path.
 class PathRecord {
   public:
-    /// Adds a segment; segments without length and orientation change are dropped.
+    /// Adds a segment; segments without length and change of orientation are dropped.
     void add(Segment segment);
-    /// Closes the last pass.
+    /// Ends the last pass.
     void finish();
     std::uint16_t program_index(const std::string& name);
 
@@ -48,10 +49,10 @@ class PathRecord {
     const SpilledArray<Pass>& passes() const { return passes_; }
     const std::vector<std::string>& programs() const { return programs_; }
     const std::map<int, ToolTotals>& totals() const { return totals_; }
-    /// Motion segments added (the origin does not count).
+    /// Number of motion segments, without the origin.
     std::uint64_t size() const { return file_.size() == 0 ? 0 : file_.size() - 1; }
 
-    /// Where the path stands, and how much was cut, so far.
+    /// Present end of the path, and length cut so far.
     const PathPoint& end() const { return end_; }
     double cut_mm() const { return cut_mm_; }
     /// Positioning functions that occur, as in Pass.
@@ -63,7 +64,7 @@ class PathRecord {
 
     SegmentFile file_;
     SpilledArray<Pass> passes_;
-    Pass pass_;  ///< the open one
+    Pass pass_;  ///< the pass being recorded
     std::vector<std::string> programs_;
     std::map<int, ToolTotals> totals_;
     PathPoint end_;

@@ -10,7 +10,7 @@ namespace trunnion::regression {
 
 namespace {
 
-/// Time of a move at its even rate, without the ramps that its neighbours decide about.
+/// Duration of a move at constant rate, without the ramps, which depend on its neighbours.
 double even_time_s(const motion::AxisMove& move) {
     const bool even = move.length_mm > 0.0 && move.feed_mm_min > 0.0;
     return even ? 60.0 * move.length_mm / move.feed_mm_min : move.duration_s;
@@ -20,8 +20,9 @@ Vector3 rotary_of(const AxisPositions& p) {
     return {p[Axis::A], p[Axis::B], p[Axis::C]};
 }
 
-/// Where the control has no five-axis transform: no machine is known, so the rotary axes are turned
-/// in the order A, B, C about X, Y, Z; a direction off all three makes each of them visible.
+/// For a control without five-axis transform the machine is unknown: the rotary axes are applied in
+/// the order A, B, C about X, Y, Z to a direction parallel to none of them, so that each one has an
+/// effect.
 Vector3 direction_without_transform(const AxisPositions& p) {
     const Vector3 rotary = rotary_of(p);
     if (rotary.isZero(0.0)) return Vector3(0.36, 0.48, 0.8);
@@ -145,7 +146,7 @@ motion::MoveResult PathRecorder::record(const motion::AxisMove& move) {
         runs_.add(origin);
         last_ = origin;
     } else if (Vector3(last_.end_mm.data()) != start.position_mm) {
-        // G43, G49, a new table frame: the tip the control believes in is elsewhere without motion.
+        // G43, G49, a new table frame: the believed tip changes without motion.
         const double jump_mm = (Vector3(last_.end_mm.data()) - start.position_mm).norm();
         Segment jump = segment;
         jump.kind = SegmentKind::jump;
@@ -163,7 +164,7 @@ motion::MoveResult PathRecorder::record(const motion::AxisMove& move) {
     else if ((curved || move.arc) && segment.kind == SegmentKind::feed)
         add_curve(move, segment);
     else
-        runs_.add(segment);  // rapids that turn: only where they end is machining
+        runs_.add(segment);  // rapids with rotation: only their end is relevant
     last_ = segment;
     return {};
 }
@@ -193,7 +194,7 @@ void PathRecorder::add_curve(const motion::AxisMove& move, const Segment& segmen
     sample_curve([&](double s) { return point(move, move.at(s)); }, pieces, tolerances_, points_);
     Segment chord = segment;
     if (space_ == PathSpace::tip && move.duration_s > 0.0) {
-        // However it is programmed (G43.4, or G93 with own kinematics), the tip's speed counts.
+        // The speed of the tip, however it is programmed (G43.4, or G93 with own kinematics).
         double length_mm = 0.0;
         Vector3 from = point(move, move.from).position_mm;
         for (const PathPoint& p : points_) {

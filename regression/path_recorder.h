@@ -1,4 +1,5 @@
-// Turns what a control commands into segments of a layer. Belief only: no physical machine.
+// Converts the commands of a control into the segments of a layer. Belief only: no physical
+// machine.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +12,7 @@
 
 namespace trunnion::regression {
 
-/// What a segment's points are: the tip in the table frame, or the joints of the machine.
+/// Meaning of a segment's points: the tip in the table frame, or the joints of the machine.
 enum class PathSpace : unsigned char { tip, joints };
 
 /// The sink for a Controller that writes a PathRecord.
@@ -19,13 +20,13 @@ class PathRecorder : public motion::MotionSink {
   public:
     PathRecorder(PathRecord& record, PathSpace space, const Tolerances& tolerances);
 
-    /// Sees the axes through this transform and these tool lengths (mm, by offset number) instead
-    /// of the control's own: where the tip goes on a machine for which they are true.
+    /// Uses this transform and these tool lengths (mm, by offset number) instead of the control's
+    /// own: the path of the tip on a machine for which they are true.
     void see_through(const positioning::RotaryTransform* transform,
                      std::vector<double> tool_length_mm);
 
     motion::MoveResult move(const motion::AxisMove& move) override;
-    /// The feed of the moves that come is that of their length and time: G93.
+    /// `on`: the feed of the following moves follows from length and time (G93).
     void feeds_by_time(bool on) { by_time_ = on; }
     void finish();
 
@@ -44,14 +45,14 @@ class PathRecorder : public motion::MotionSink {
     bool begun_ = false, by_time_ = false;
     const positioning::RotaryTransform* seen_through_ = nullptr;
     std::vector<double> seen_length_mm_;
-    /// Length in force before G49, kept: a point of the spindle that does not jump is followed.
+    /// Length active before G49: the path of a fixed spindle point is followed, without jumps.
     std::optional<Vector3> held_vector_mm_;
     const std::string* program_ = nullptr;
     std::uint16_t program_index_ = 0;
     std::vector<PathPoint> points_;
     Segment last_;
 
-    /// With the rotary axes standing, tip and direction are an affine map of X Y Z.
+    /// With the rotary axes at rest, tip and direction are affine functions of X Y Z.
     struct Frame {
         AxisPositions rotary;
         Vector3 tool_vector_mm = Vector3::Zero();

@@ -127,7 +127,7 @@ void key_gaps(const KeyedLines& a, const KeyedLines& b,
         }};
     AlignLimits limits;
     limits.reordering = false;
-    limits.most_window = 1U << 16U;  // two unlike texts: memory does not grow with their length
+    limits.most_window = 1U << 16U;  // for two unlike texts memory does not grow with their length
     align(source, limits, [&](const PassPair& pair) {
         if (pair.pairing != Pairing::same)
             found({pair.a.first, pair.a.last, pair.b.first, pair.b.last});

@@ -15,8 +15,8 @@ namespace trunnion::regression {
 
 namespace {
 
-/// Targets, modal state and M codes of each move as one number. Targets count to 0.0001 mm and deg:
-/// finer than a control's increment, coarser than rounding.
+/// Targets, modal state and M codes of each move as one number. Targets are rounded to 0.0001 mm
+/// and deg: finer than the increment of a control, coarser than rounding errors.
 class BlockKeys {
   public:
     explicit BlockKeys(KeyedLines& lines) : lines_(lines) {}
@@ -52,7 +52,7 @@ class BlockKeys {
     KeyedLines& lines_;
 };
 
-/// Writes the path, the block keys, the functions and the states of one run at the same time.
+/// Records path, block keys, functions and states of one run at the same time.
 class RecordingSink : public motion::MotionSink {
   public:
     RecordingSink(RecordedRun& run, const setup::Setup& setup, const RecordOptions& options)
@@ -139,7 +139,7 @@ std::vector<std::string> folders_of(const interpreter::ProgramText& program,
     return folders;
 }
 
-/// A main program in memory that calls the one to compare.
+/// A main program in memory that calls the program to compare.
 interpreter::ProgramText caller_of(const std::string& call) {
     const auto text = std::make_shared<const std::string>(call + "\nM30\n");
     return {"--call", *text, text};
@@ -163,7 +163,7 @@ bool same_machine(const setup::Setup& a, const setup::Setup& b) {
     });
 }
 
-constexpr std::size_t most_printed_bytes = 100'000'000;  ///< an endless DPRNT ends here
+constexpr std::size_t most_printed_bytes = 100'000'000;  ///< limit for an endless DPRNT
 
 RecordedRun record_run(const setup::Setup& setup, const interpreter::ProgramText& program,
                        const RecordOptions& options, const setup::Setup* seen_through) {

@@ -1,4 +1,4 @@
-// Runs a program on the emulated control alone and keeps what the layers compare.
+// Runs a program on the emulated control only and stores the input of the layers.
 #pragma once
 
 #include <map>
@@ -15,14 +15,14 @@
 
 namespace trunnion::regression {
 
-/// What is in force from a segment on, until the next row.
+/// The active state from a segment on, until the next row.
 struct StateRow {
     std::uint64_t first_segment = 0;
-    std::uint32_t line = 0;  ///< of the block; 0: before the first
+    std::uint32_t line = 0;  ///< of the block; 0: before the first block
     std::uint16_t program = 0;
     ControlSnapshot state;
 };
-/// Where the rotary axes stand from a segment on.
+/// Rotary positions from a segment on.
 struct RotaryRow {
     std::uint64_t first_segment = 0;
     std::array<double, 3> rotary_deg{};
@@ -30,37 +30,38 @@ struct RotaryRow {
 
 struct RecordedRun {
     controller::RunResult result;
-    PathRecord path;    ///< in the space asked for
+    PathRecord path;    ///< in the requested space
     KeyedLines blocks;  ///< one key for each move and function: layer `blocks`
     FunctionEvents functions;
     SpilledArray<StateRow> states;
     SpilledArray<RotaryRow> rotaries;
     std::vector<OpenedProgram> opened;  ///< subprograms, in the order of their first call
-    bool reads_bare_words = false;      ///< axis words without a point, parameter 3401 not given
-    bool skips = false;                 ///< G31 moved
+    bool reads_bare_words = false;      ///< axis words without point occur and 3401 is not given
+    bool skips = false;                 ///< G31 moved an axis
     std::string printed;
     std::map<int, double> variables;  ///< common variables in use
-    offsets::Stores stores;           ///< as the program left them
+    offsets::Stores stores;           ///< after the program
 };
 
 struct RecordOptions {
     PathSpace space = PathSpace::tip;
     Tolerances tolerances;
-    std::vector<std::string> program_folders;  ///< searched before the program's own folder
+    std::vector<std::string> program_folders;  ///< searched before the folder of the program
     std::uint64_t max_blocks = 0;
-    std::string call;  ///< a block that calls the program ("G65 P9814 D25.4"); empty: runs itself
-    bool devices = false;  ///< the setup's probe and artefacts answer G31
+    std::string call;      ///< a block that calls the program ("G65 P9814 D25.4"); empty: it is the
+                           ///< main program
+    bool devices = false;  ///< the probe and artefacts of the setup answer G31
 };
 
-/// The kinematics that the setup's control believes in; nothing without parameters.
+/// The believed kinematics of the setup's control; empty without parameters.
 std::optional<positioning::RotaryTransform> believed_transform(const setup::Setup& setup);
 
-/// The same axes in the same places: the setups are states of one machine's stores.
+/// True for the same axes at the same places: the setups then differ in the stores only.
 bool same_machine(const setup::Setup& a, const setup::Setup& b);
 
-/// Without `devices` G31 runs to its end. NC alarms are in the result. With `seen_through` the
-/// path is where the tip goes when that setup's pivot parameters and tool lengths are the true
-/// ones.
+/// Without `devices` G31 always reaches its programmed end. NC alarms are in the result. With
+/// `seen_through` the path is that of the tip on a machine whose pivot parameters and tool lengths
+/// are those of that setup.
 RecordedRun record_run(const setup::Setup& setup, const interpreter::ProgramText& program,
                        const RecordOptions& options, const setup::Setup* seen_through = nullptr);
 

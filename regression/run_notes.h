@@ -1,4 +1,4 @@
-// What a comparison has to say about its two runs besides differences.
+// Notes of a comparison about its two runs, besides differences.
 #pragma once
 
 #include <string>
@@ -8,8 +8,7 @@
 
 namespace trunnion::regression {
 
-/// The runs' own notes, with the side where only one has it. `a` is nullptr where a golden stands
-/// for it.
+/// The notes of the runs, with the side if only one has it. `a` is nullptr for a golden.
 std::vector<std::string> notes_of(const RecordedRun* a, const RecordedRun& b);
 
 }  // namespace trunnion::regression

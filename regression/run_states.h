@@ -1,11 +1,11 @@
-// What a control had in force along one recorded run.
+// The active states of a control along one recorded run.
 #pragma once
 
 #include "regression/recorded_run.h"
 
 namespace trunnion::regression {
 
-/// Alike within float rounding.
+/// Equal within float rounding.
 bool same_value(const std::array<double, 3>& p, const std::array<double, 3>& q);
 
 /// The states of one run by segment.
@@ -14,10 +14,10 @@ class RunStates {
     explicit RunStates(const RecordedRun& run) : rows_(run.states) {}
 
     bool empty() const { return rows_.size() == 0; }
-    /// Row in force at a segment.
+    /// The state row of a segment.
     std::uint64_t at(std::uint64_t segment);
     StateRow row(std::uint64_t index) { return rows_[index]; }
-    /// The row where a field took the value that it has at `index`; looked for in 20,000 rows.
+    /// The row where a field got the value that it has at `index`; searches at most 20,000 rows.
     std::uint64_t entry(const SnapshotField& field, std::uint64_t index);
 
   private:

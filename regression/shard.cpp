@@ -23,8 +23,8 @@ std::optional<int> variable(const char* name) {
     return value != nullptr ? number_of(value) : std::nullopt;
 }
 
-/// Who says which part of a job a process is. `first` names the variable of the lowest index,
-/// `step` that of the distance between two.
+/// A launcher that divides a job into processes. `first`: variable with the lowest index; `step`:
+/// variable with the distance between two indices.
 struct Launcher {
     const char *index, *count, *first, *step;
 };
@@ -32,12 +32,12 @@ constexpr Launcher launchers[] = {
     {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_MIN",
      "SLURM_ARRAY_TASK_STEP"},
     {"JOB_COMPLETION_INDEX", "JOB_COMPLETIONS", nullptr,
-     nullptr},  // the count by the job's own env
+     nullptr},  // the count comes from the job's own env
     {"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE", nullptr, nullptr},
     {"PMI_RANK", "PMI_SIZE", nullptr, nullptr},
     {"PMIX_RANK", "SLURM_NTASKS", nullptr, nullptr}};
 
-/// Index and count as the environment gives them, the count perhaps not.
+/// Index and, if available, count from the environment.
 struct Found {
     int index = 1;
     std::optional<int> count;

@@ -7,9 +7,9 @@
 
 namespace trunnion::regression {
 
-/// Stands before a PathRecord. A run of cuts between rapids, or of rapids between cuts, that is not
-/// longer than `noise_mm` is passed on as part of what follows it; at the end of the program, of
-/// what went before.
+/// A filter in front of a PathRecord. A run of cuts between rapids, or of rapids between cuts, not
+/// longer than `noise_mm` is merged into the following part; at the end of the program into the
+/// previous part.
 class ShortRuns {
   public:
     ShortRuns(PathRecord& record, double noise_mm) : record_(record), noise_mm_(noise_mm) {}
@@ -25,8 +25,8 @@ class ShortRuns {
     double noise_mm_;
     std::vector<Segment> held_;
     double held_mm_ = 0.0;
-    PathPoint end_;  ///< of all that came in
-    Segment last_;   ///< written
+    PathPoint end_;  ///< end of all input segments
+    Segment last_;   ///< last segment written
 };
 
 }  // namespace trunnion::regression

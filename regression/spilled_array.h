@@ -1,4 +1,4 @@
-// Long arrays of plain data on disk: a path of any length costs a window of memory, not its length.
+// Long arrays of plain data on disk: memory is limited to a window, independent of the path length.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace trunnion::regression {
 
-/// Bytes in an unnamed temporary file ($TMPDIR, else /tmp), gone when the process ends. Throws
+/// Bytes in an unnamed temporary file ($TMPDIR, else /tmp), removed when the process ends. Throws
 /// InputError with the reason when the disk is full.
 class TemporaryFile {
   public:
@@ -31,7 +31,7 @@ class TemporaryFile {
     std::uint64_t size_ = 0;
 };
 
-/// An append-only array; what goes beyond 4 MB is written to a temporary file.
+/// An append-only array; data beyond 4 MB are written to a temporary file.
 template <typename T>
 class SpilledArray {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -45,7 +45,7 @@ class SpilledArray {
         tail_.push_back(item);
     }
     std::uint64_t size() const { return on_disk_ + tail_.size(); }
-    /// Reads chunk number `index` (the last one may be short).
+    /// Reads chunk number `index` (the last one may be shorter).
     void read_chunk(std::uint64_t index, std::vector<T>& items) const {
         const std::uint64_t first = index * chunk;
         const std::uint64_t count =
@@ -60,20 +60,20 @@ class SpilledArray {
     }
 
   private:
-    /// Writes whole chunks, so that no chunk lies half on disk.
+    /// Writes whole chunks, so that no chunk is partly on disk.
     void spill() {
         file_.append(tail_.data(), tail_.size() * sizeof(T));
         on_disk_ += tail_.size();
         tail_.clear();
     }
 
-    std::vector<T> tail_;  ///< what is not on disk
+    std::vector<T> tail_;  ///< items not on disk
     std::uint64_t on_disk_ = 0;
     TemporaryFile file_;
 };
 
-/// Random access to a SpilledArray through the chunks used last. A reference stays valid while
-/// fewer than `chunks_kept` - 1 other chunks are read.
+/// Random access to a SpilledArray through the most recently used chunks. A reference stays valid
+/// while fewer than `chunks_kept` - 1 other chunks are read.
 template <typename T>
 class SpilledWindow {
   public:
@@ -113,7 +113,7 @@ class SpilledWindow {
     }
 
     const SpilledArray<T>* array_;
-    std::list<Chunk> chunks_;  ///< the last used first
+    std::list<Chunk> chunks_;  ///< most recently used first
     std::unordered_map<std::uint64_t, typename std::list<Chunk>::iterator> by_index_;
     std::uint64_t current_ = std::numeric_limits<std::uint64_t>::max();
     const std::vector<T>* items_ = nullptr;

@@ -60,7 +60,8 @@ void StretchComparer::compare(Stretch a, Stretch b, std::vector<PathRegion>& reg
         }
         if (retry_exact(at, a, b)) continue;
         Corner from = first_failing(walk, at, a, b);
-        // Blocks that begin together and end apart differ, even where the next ones still agree.
+        // Blocks with a common start but different ends differ, even where the next ones agree
+        // again.
         if (from.i > at.i && from.j > at.j && !common(from.i, from.j) &&
             common(from.i - 1, from.j - 1))
             --from.i, --from.j;
@@ -76,7 +77,7 @@ void StretchComparer::compare(Stretch a, Stretch b, std::vector<PathRegion>& reg
     attributes_.end();
 }
 
-/// Segment against segment from a common corner: lines end together, arcs run together.
+/// Compares segment by segment from a common corner: lines by their ends, arcs along their path.
 bool StretchComparer::quick_match(Corner at, Stretch a, Stretch b) {
     const Segment &sa = a_[at.i], &sb = b_[at.j];
     if (sa.kind != sb.kind || sa.is_arc() != sb.is_arc()) return false;
@@ -89,7 +90,8 @@ bool StretchComparer::same_arc(Corner at) {
     const Segment &sa = a_[at.i], &sb = b_[at.j];
     if ((sa.sweep_rad > 0.0) != (sb.sweep_rad > 0.0) && sa.normal == sb.normal) return false;
     const PathPoint start_a = a_[at.i - 1].end(), start_b = b_[at.j - 1].end();
-    Tolerances inner = options_.tolerances;  // between the points looked at it may be a little more
+    Tolerances inner = options_.tolerances;  // between the compared points the deviation may be
+                                             // slightly larger
     inner.position_mm *= 0.8;
     inner.direction_rad *= 0.8;
     const int count = 4 + static_cast<int>(std::abs(sa.sweep_rad));
@@ -100,8 +102,8 @@ bool StretchComparer::same_arc(Corner at) {
     return true;
 }
 
-/// Short segments next to the tolerance: an earlier corner was perhaps the wrong one to agree on,
-/// so the exact walk is tried from some corners back, past the place where it failed.
+/// Short segments close to the tolerance: an earlier corner may have been matched wrongly, so the
+/// exact comparison is repeated from some corners back, beyond the place where it failed.
 bool StretchComparer::retry_exact(Corner& at, Stretch a, Stretch b) {
     if (commits_.empty()) return false;
     const Corner back = commits_.front();
@@ -128,8 +130,7 @@ void StretchComparer::commit(Corner at) {
     commits_.push_back(at);
 }
 
-/// Which segments to name: those whose ends are nearest among the ones where the walk came to a
-/// stop.
+/// The segments to report: those with the nearest ends among the ones where the comparison stopped.
 StretchComparer::Corner StretchComparer::first_failing(const FrechetResult& failed, Corner from,
                                                        Stretch a, Stretch b) {
     Corner best{std::min(failed.a, std::max(from.i, a.last - 1)),
@@ -154,7 +155,7 @@ void StretchComparer::attributes(Corner at) {
     attributes_.pair(at.i, at.j, length_a, length_mm(b_[at.j - 1].end(), b_[at.j]));
 }
 
-/// Stretches that agree as paths but are cut differently: pairs by fraction of length.
+/// Stretches with equal paths but different segmentation: pairs by fraction of length.
 void StretchComparer::attributes_between(Corner from, Corner to) {
     const auto length_of = [](SegmentWindow& path, std::uint64_t first, std::uint64_t last) {
         std::vector<double> ends;
@@ -182,12 +183,12 @@ void StretchComparer::attributes_between(Corner from, Corner to) {
 
 // Where the paths meet again --------------------------------------------------------------------
 
-/// The corners before segments i and j are the same place.
+/// True when the corners before segments i and j coincide.
 bool StretchComparer::common(std::uint64_t i, std::uint64_t j) {
     return near(a_[i - 1].end(), b_[j - 1].end(), options_.tolerances);
 }
 
-/// From here on they really run together again: the next segments match too.
+/// True when the paths really agree again from here: the next segments match too.
 bool StretchComparer::confirmed(std::uint64_t i, std::uint64_t j, Stretch a, Stretch b) {
     if (i == a.last && j == b.last) return true;
     if (i == a.last || j == b.last) return false;
@@ -218,7 +219,7 @@ bool StretchComparer::meet_near(Corner& at, Stretch a, Stretch b) {
         at = {i, j};
         return true;
     };
-    // The fewest segments left out first, and of those the most equal counts.
+    // Smallest number of omitted segments first, then the most equal counts.
     for (std::uint64_t sum = 1; sum <= window; ++sum)
         for (std::uint64_t d = sum % 2; d <= sum; d += 2) {
             const std::uint64_t more = (sum + d) / 2, less = (sum - d) / 2;
@@ -228,7 +229,7 @@ bool StretchComparer::meet_near(Corner& at, Stretch a, Stretch b) {
     return false;
 }
 
-/// The same path beside itself: follows it as long as the shift stays.
+/// The same path with a shift: follows it as long as the shift is constant.
 bool StretchComparer::meet_shifted(Corner& at, Stretch a, Stretch b) {
     if (at.i >= a.last || at.j >= b.last) return false;
     const Vector3 shift = b_[at.j].end().position_mm - a_[at.i].end().position_mm;
@@ -247,8 +248,8 @@ bool StretchComparer::meet_shifted(Corner& at, Stretch a, Stretch b) {
 
 namespace {
 
-/// The cell of a grid that a point lies in, as one number; `corner` 0..7 shifts the point by a
-/// quarter of a cell, so that near points share one of eight; -1: not shifted.
+/// Grid cell of a point as one number; `corner` 0..7 shifts the point by a quarter of a cell, so
+/// that nearby points share at least one of eight cells; -1: not shifted.
 std::uint64_t cell_of(const Vector3& p, double size, int corner) {
     std::uint64_t h = 0x9E3779B97F4A7C15ULL;
     for (int d = 0; d < 3; ++d) {
@@ -273,7 +274,7 @@ StretchComparer::CornerTable StretchComparer::corners_of_b(std::uint64_t first,
     return corners;
 }
 
-/// The nearest corner of both that is common, found by a hash of B's corners.
+/// The nearest common corner of both, found by a hash of B's corners.
 bool StretchComparer::meet_far(Corner& at, Stretch a, Stretch b, std::size_t window) {
     const double cell = 64.0 * options_.tolerances.position_mm;
     const std::uint64_t b_end = std::min<std::uint64_t>(b.last, at.j + window);
@@ -281,7 +282,7 @@ bool StretchComparer::meet_far(Corner& at, Stretch a, Stretch b, std::size_t win
     const CornerTable corners = corners_of_b(at.j, b_end);
     std::uint64_t best = std::numeric_limits<std::uint64_t>::max();
     Corner found = at;
-    int tries = 0;  // the same place met thousands of times must not cost its square
+    int tries = 0;  // limit, because a place met thousands of times must not cost quadratic time
     for (std::uint64_t i = at.i; i <= a_end && i - at.i < best; ++i) {
         const Vector3 p = a_[i - 1].end().position_mm;
         for (int corner = 0; corner < 8; ++corner) {

@@ -1,4 +1,4 @@
-// Walks two stretches of path side by side; where they part, finds where they meet again.
+// Compares two stretches of path side by side; after a difference, finds where they agree again.
 #pragma once
 
 #include <cstdint>
@@ -10,27 +10,27 @@
 
 namespace trunnion::regression {
 
-/// What was seen on the way, differences or not.
+/// Totals of a comparison, with or without differences.
 struct WalkTotals {
     std::uint64_t compared = 0;                     ///< segments
-    double position_mm = 0.0, direction_rad = 0.0;  ///< worst of all
-    std::uint64_t worst_a = 0, worst_b = 0;         ///< segment where
+    double position_mm = 0.0, direction_rad = 0.0;  ///< largest of all
+    std::uint64_t worst_a = 0, worst_b = 0;         ///< segments of the largest deviation
     void worst(double position_mm, double direction_rad, std::uint64_t a, std::uint64_t b);
 };
 
 struct WalkOptions {
     Tolerances tolerances;
-    std::size_t max_regions = 100000;  ///< of one stretch; the rest goes into the last one
-    /// A place where two cuts meet again is looked for within so many segments of each; beyond,
-    /// such a stretch of both is one difference and the search goes on behind it.
+    std::size_t max_regions = 100000;  ///< of one stretch; further ones are merged into the last
+    /// The place where two cuts agree again is searched within this number of segments of each.
+    /// Otherwise the stretches are one difference, and the search continues after them.
     std::size_t resync_segments = 1U << 18U;
     AlignLimits align;
-    /// Rapids need not agree on their way, only the cuts they lead to: on another machine the way
-    /// there is another.
+    /// Rapids need not agree along their path, only the following cuts: on another machine the path
+    /// differs.
     bool other_machine = false;
 };
 
-/// Compares the stretches, appends the regions that differ in order. Linear in their length.
+/// Compares the stretches and appends the regions that differ, in order. Linear time.
 class StretchComparer {
   public:
     StretchComparer(const SegmentFile& a, const SegmentFile& b, WalkOptions options)

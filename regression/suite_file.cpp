@@ -29,8 +29,8 @@ bool is_program(const fs::path& path) {
     return std::find(nc_endings.begin(), nc_endings.end(), ending) != nc_endings.end();
 }
 
-/// `*` stands for any characters, `?` for one. Where a match fails only the last `*` takes more:
-/// what those before it took can stay, so the time is at most pattern times name.
+/// `*` matches any characters, `?` one. After a mismatch only the last `*` is extended; the earlier
+/// ones need no change, so the time is at most pattern times name.
 bool matches(std::string_view pattern, std::string_view name) {
     std::size_t p = 0, n = 0, behind_star = std::string_view::npos, star_to = 0;
     while (n < name.size()) {
@@ -49,11 +49,11 @@ bool matches(std::string_view pattern, std::string_view name) {
 }
 
 bool is_regular(const fs::directory_entry& entry) {
-    std::error_code unknown;  // a link that leads round in a circle
+    std::error_code unknown;  // a circular link
     return entry.is_regular_file(unknown);
 }
 
-/// A golden of this name stays inside its folder.
+/// True when a golden of this name is inside its folder.
 bool stays_inside(const std::string& name) {
     const fs::path path = fs::path(name).lexically_normal();
     return !name.empty() && path.is_relative() && *path.begin() != "..";
@@ -96,7 +96,7 @@ class SuiteReader {
         return file_.texts(*value);
     }
 
-    /// What may stand at the top for all cases and in each case for itself.
+    /// Options allowed at the top for all cases, and in each case.
     void read_options(const TomlValue& table, SuiteCase& into) const {
         Tolerances& t = into.options.tolerances;
         if (const auto v = file_.find_number(table, "tol_lin_mm")) t.position_mm = *v;

@@ -1,4 +1,4 @@
-// Runs the cases of a suite on several threads, results in the suite's order.
+// Runs the cases of a suite on several threads; results are in the suite's order.
 #include <fmt/format.h>
 
 #include <atomic>
@@ -17,13 +17,13 @@ namespace trunnion::regression {
 
 namespace {
 
-/// Nothing where no golden was written yet.
+/// Empty when no golden has been written yet.
 std::optional<std::string> read_golden(const std::string& path) {
     if (!std::filesystem::exists(path)) return std::nullopt;
     return read_file(path);
 }
 
-/// Setups by path, each loaded once and before any thread starts.
+/// Setups by path, each loaded once before any thread starts.
 class Setups {
   public:
     Setups(const Suite& suite, SetupLoader load) {
@@ -63,7 +63,7 @@ Comparison compare_case(const SuiteCase& c, const Setups& setups) {
                             interpreter::read_main_program(c.b), setups.at(c.setup_b), c.options);
 }
 
-/// A bad file spoils its own case only.
+/// A bad file affects its own case only.
 Comparison guarded(const SuiteCase& c, const Setups& setups) {
     try {
         return compare_case(c, setups);

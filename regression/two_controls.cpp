@@ -15,7 +15,7 @@ namespace {
 constexpr double end_tolerance = 1e-4;  // mm, deg
 constexpr double way_tolerance = 1e-3;
 
-/// One block that ran.
+/// One executed block.
 struct Step {
     const std::string* program = nullptr;
     int line = 0;
@@ -34,7 +34,7 @@ class LastMove : public motion::MotionSink {
     bool moved = false;
 };
 
-/// The blocks of a run, and how it ended; names of programs live in `names`.
+/// The blocks of a run and its end; program names are stored in `names`.
 struct Steps {
     std::vector<Step> step;
     controller::RunResult result;
@@ -76,7 +76,7 @@ offsets::ControlPosition apart(const offsets::ControlPosition& a,
     return out;
 }
 
-/// The axes that differ, as both controls have them.
+/// The axes that differ, with the positions of both controls.
 std::string places_text(const offsets::ControlPosition& a, const offsets::ControlPosition& b,
                         double tolerance, bool of_a) {
     std::string out;
@@ -87,7 +87,7 @@ std::string places_text(const offsets::ControlPosition& a, const offsets::Contro
     return out;
 }
 
-/// Of the axis that differs most.
+/// Unit of the axis that differs most.
 const char* unit_of(const offsets::ControlPosition& a, const offsets::ControlPosition& b) {
     const double most = largest(a, b);
     for (const Axis axis : all_axes)

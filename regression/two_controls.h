@@ -1,4 +1,4 @@
-// One program on two controls: where would it move differently?
+// Compares the motion of one program on two controls.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace trunnion::regression {
 
-/// A way to read programs: what the control is and what its stores hold.
+/// A control that reads the program: its configuration and its stores.
 struct ControlReading {
     std::string name;  ///< for messages
     controller::ControlConfig config;
@@ -20,17 +20,18 @@ struct ReadingDifference {
     std::string program;
     int line = 0, column = 0;  ///< from 1, column 0: the whole block
     std::string text;
-    double apart = 0.0;  ///< mm or deg, the axis that differs most; 0 where only one moves on
+    double apart = 0.0;  ///< mm or deg, of the axis that differs most; 0 when only one control
+                         ///< continues
 };
 
-/// Subprograms, opened anew for each run.
+/// Subprograms, opened again for each run.
 using OpenPrograms = std::function<std::unique_ptr<interpreter::ProgramSource>()>;
 
-/// Runs the program on both without devices and goes through their blocks side by side. Told are:
-/// a block after which the axes stand apart otherwise than before it, by more than 0.0001 mm or
-/// deg; one whose move ends alike but is elsewhere half way, by more than 0.001; an alarm of one
-/// control alone; a place from which they run other blocks, where the comparison ends. A difference
-/// that stays (a tool length, say) is told where it arises.
+/// Runs the program on both controls without devices and compares block by block. Reported are: a
+/// block that changes the difference of the axis positions by more than 0.0001 mm or deg; a block
+/// with equal ends whose path differs half way by more than 0.001; an alarm of one control only; a
+/// block after which they execute different blocks, where the comparison ends. A permanent
+/// difference (e.g. of a tool length) is reported where it starts.
 std::vector<ReadingDifference> compare_controls(const ControlReading& a, const ControlReading& b,
                                                 const interpreter::ProgramText& program,
                                                 const OpenPrograms& programs);

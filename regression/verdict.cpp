@@ -16,7 +16,7 @@ std::string with_place(const Difference& d) {
     return fmt::format("{} at A line {}, B line {}", d.what, d.a.line, d.b.line);
 }
 
-/// How much more or less is cut, when that is more than rounding.
+/// Difference of the cut length, if larger than rounding.
 std::string longer_cut(const Comparison& c) {
     double cut_a = 0.0, cut_b = 0.0;
     for (const ToolRow& row : c.tools) {

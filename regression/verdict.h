@@ -1,4 +1,4 @@
-// The one line that answers a comparison.
+// The verdict of a comparison in one line.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace trunnion::regression {
 
-/// For a comparison whose status, layers and differences stand.
+/// Requires status, layers and differences of the comparison.
 std::string verdict_of(const Comparison& comparison, const Tolerances& tolerances);
 
 }  // namespace trunnion::regression

@@ -1,4 +1,4 @@
-// The layer `words`: a program's blocks with everything taken out that changes nothing.
+// The layer `words`: the blocks of a program without everything that has no effect.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,17 +15,17 @@ namespace trunnion::regression {
 
 namespace {
 
-/// Case aside; `word` in upper case.
+/// Ignores case; `word` in upper case.
 bool holds(std::string_view text, std::string_view word) {
     return std::search(text.begin(), text.end(), word.begin(), word.end(),
                        [](char a, char b) { return interpreter::upper(a) == b; }) != text.end();
 }
 
-/// The line without blanks and comments, upper case: for blocks that compute.
+/// The line without blanks and comments, in upper case: for blocks with computed values.
 std::uint64_t key_of_text(std::string_view line, bool keep_number) {
     std::string bare;
     int comment = 0;
-    const bool prints = holds(line, "PRNT");  // there blanks and case are printed
+    const bool prints = holds(line, "PRNT");  // blanks and case are printed there
     for (const char c : line) {
         if (prints) {
             if (!interpreter::is_line_end(c)) bare += c;
@@ -58,8 +58,7 @@ bool is_plain(const interpreter::Block& block, const interpreter::Code& code) {
     return true;
 }
 
-/// G10 of a table whose lines begin with the number of what they set, as N words (L3, L50, L52);
-/// in doubt too.
+/// True for G10 with data lines that start with an N word (L3, L50, L52), also in doubt.
 bool begins_table(const interpreter::Item* items, std::size_t count) {
     bool g10 = false, other = true;
     for (std::size_t k = 0; k < count; ++k) {
@@ -103,14 +102,14 @@ class WordKeys : public LineKeys {
                 interpreter::parse_block(text_, byte_, number, options_, code_);
             if (is_plain(block, code_)) return key_of_words(block);
             forget_by(block);
-        } catch (const Alarm&) {  // counts as it is written
+        } catch (const Alarm&) {  // compared as written
             memory_.forget();
         }
         const std::uint64_t written = key_of_text(line, jumps_ || in_table_);
         return written != 0 ? std::optional(written) : std::nullopt;
     }
 
-    /// A statement may write offsets, a computed or optional block anything.
+    /// A statement may write offsets; a computed or optional block may change anything.
     void forget_by(const interpreter::Block& block) {
         if (block.kind == interpreter::BlockKind::statements)
             memory_.forget_positions();
@@ -134,8 +133,9 @@ class WordKeys : public LineKeys {
 
     std::string_view text_;
     bool codes_call_;        ///< G, M or T codes call programs by parameter
-    bool in_table_ = false;  ///< between G10 L50 and G11: N numbers are data
-    /// Where a program jumps, N numbers are targets and what is in force depends on the way taken.
+    bool in_table_ = false;  ///< between G10 L50 and G11 N numbers are data
+    /// In a program with jumps N numbers are targets, and the active state depends on the path
+    /// taken.
     bool jumps_;
     interpreter::ParseOptions options_;
     interpreter::Code code_;

@@ -8,7 +8,7 @@ namespace trunnion::regression {
 
 namespace {
 
-/// Modal groups whose repetition changes nothing. Codes are G * 10.
+/// Modal groups whose repetition has no effect. Codes are G * 10.
 struct ModalCode {
     int code, group;
 };
@@ -29,7 +29,7 @@ int group_of(int code) {
     return 0;
 }
 
-/// Groups outside the table whose codes may stand in any order beside others: G49, G80, G54-G59.
+/// Other groups whose codes may be in any order within a block: G49, G80, G54-G59.
 int order_group_of(int code) {
     constexpr int length = 20, cycle = 21, work = 22;
     if (code == 490) return length;
@@ -49,7 +49,7 @@ std::uint64_t mix(std::uint64_t h, std::uint64_t n) {
     return h ^ (h >> 29);
 }
 
-/// Without a point these mean something else (parameter 3401#0).
+/// Letters whose meaning changes without decimal point (parameter 3401#0).
 bool point_counts(char letter) {
     return std::strchr("XYZABCUVWIJKRQrc", letter) != nullptr;
 }
@@ -60,7 +60,7 @@ int g_code(const interpreter::Item& item) {
     return static_cast<int>(std::lround(item.value * 10.0));
 }
 
-/// M codes that neither move axes nor change how positions are read.
+/// M codes that neither move axes nor change the interpretation of positions.
 bool plain_m(double value) {
     return (value >= 3.0 && value <= 9.0 && value != 6.0) || value == 0.0 || value == 1.0;
 }
@@ -78,12 +78,12 @@ std::uint64_t key_of_value(const interpreter::Item& item) {
 
 }  // namespace
 
-/// One block's words: what the memory needs to know first.
+/// Properties of a block's words that the memory needs first.
 struct WordMemory::BlockLook {
     bool other_g = false;       ///< a G code outside the table: it may use any word itself
-    bool order_counts = false;  ///< two codes of a group, or a letter twice: the last one counts
-    bool calls = false;  ///< G65-G67, M98, M99, M198: what is in force afterwards is not known
-    bool plain = true;   ///< only words of straight moves, F, S, T and common M codes
+    bool order_counts = false;  ///< two codes of a group, or a repeated letter: the last one counts
+    bool calls = false;         ///< G65-G67, M98, M99, M198: the state afterwards is unknown
+    bool plain = true;          ///< only words of straight moves, F, S, T and common M codes
 };
 
 namespace {
@@ -155,9 +155,9 @@ void WordMemory::forget_values() {
 void WordMemory::take_g(const interpreter::Item& item, const BlockLook& look) {
     const int code = g_code(item), group = group_of(code);
     if (group == 0) {
-        group_[motion].reset();  // a cycle takes the motion group's place
+        group_[motion].reset();  // a cycle replaces the motion group
         if (code == 160) modal_call_ = true;
-        if (code >= 682 && code <= 684) forget();  // nothing may stand between their blocks
+        if (code >= 682 && code <= 684) forget();  // no other block is allowed between their blocks
     } else {
         auto& known = group_[static_cast<std::size_t>(group)];
         const bool repeats = known == code && !look.order_counts && group != cutter;
@@ -193,8 +193,7 @@ bool WordMemory::absolute_straight() const {
            (group_[motion] == 0 || group_[motion] == 10);
 }
 
-/// M codes act in the order written; other words in an order of their own, unless one is there
-/// twice.
+/// M codes act in written order; other words are sorted, unless one is repeated.
 std::uint64_t WordMemory::hash(const BlockLook& look, const interpreter::Item* items,
                                std::size_t count) {
     std::uint64_t h = 7;

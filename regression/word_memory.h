@@ -1,4 +1,4 @@
-// What is in force as far as the words of a program tell it: which words only repeat it.
+// The active state as far as the words of a program determine it, to detect repeated words.
 #pragma once
 
 #include <array>
@@ -10,17 +10,17 @@
 
 namespace trunnion::regression {
 
-/// Where the words do not tell what is in force, nothing is a repetition.
+/// Where the words do not determine the state, nothing counts as repeated.
 class WordMemory {
   public:
-    /// At power-on: G40, G94, G97 (no parameter makes it otherwise).
+    /// At power-on: G40, G94, G97 (independent of parameters).
     WordMemory();
 
-    /// Nothing is known any more, not even whether a macro is called with each move.
+    /// Forgets everything, including whether a macro is called with each move.
     void forget();
     void forget_positions() { position_.fill(std::nullopt); }
 
-    /// The key of a block of plain words, or nothing when all of them repeat what is in force.
+    /// The key of a block of plain words; empty when all of them repeat the active state.
     std::optional<std::uint64_t> key_of(const interpreter::Item* items, std::size_t count);
 
     struct BlockLook;
@@ -41,7 +41,7 @@ class WordMemory {
     std::array<std::optional<int>, 16> group_{};  ///< code * 10 by modal group
     std::array<std::optional<std::uint64_t>, 26> position_{};
     std::optional<std::uint64_t> feed_, speed_;
-    bool modal_call_ = false;  ///< G66, G16, or not known: a move of no length does something
+    bool modal_call_ = false;  ///< G66, G16, or unknown: a move of zero length has an effect
     std::vector<Word> words_;
 };
 

@@ -45,7 +45,7 @@ void WrittenGaps::find_gaps() {
 std::optional<WrittenCause> WrittenGaps::before(int line_a, int line_b) {
     if (!gaps_) find_gaps();
     const auto ahead = [&](const WrittenGap& gap) {
-        // A side without blocks: the gap lies before its line.
+        // A side without blocks: the gap is before its line.
         const int at_a = gap.line_a - (gap.count_a == 0 ? 1 : 0);
         const int at_b = gap.line_b - (gap.count_b == 0 ? 1 : 0);
         return (line_a > 0 && at_a > line_a) || (line_b > 0 && at_b > line_b);
@@ -96,7 +96,7 @@ std::optional<WrittenCause> WrittenGaps::first_that_writes() {
     return std::nullopt;
 }
 
-/// X Y Z as last written before a block of A (G91 and macros would need the run).
+/// X Y Z as last written before a block of A (G91 and macros would require a run).
 std::array<std::optional<double>, 3> WrittenGaps::start_of(int line_a) {
     constexpr int looked_at = 200;
     std::array<std::optional<double>, 3> start;

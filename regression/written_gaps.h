@@ -1,4 +1,4 @@
-// Where two programs are written differently: the blocks that a difference may come from.
+// Textual differences of two programs: the blocks that may cause a difference.
 #pragma once
 
 #include <optional>
@@ -10,33 +10,33 @@
 
 namespace trunnion::regression {
 
-/// A stretch of blocks written differently, by line; a side without blocks has the line that
-/// follows, and count 0.
+/// A range of differently written blocks, by line. A side without blocks has the following line,
+/// and count 0.
 struct WrittenGap {
     int line_a = 0, line_b = 0;
     int last_a = 0, last_b = 0;
     std::uint64_t count_a = 0, count_b = 0;
 };
 
-/// A block that is a likely cause, and what it says otherwise.
+/// A block that is a likely cause, and its difference in words.
 struct WrittenCause {
     int line_a = 0, line_b = 0;
     std::string what;
 };
 
-/// The gaps of the layer `words` of two main programs. Nothing is looked for in texts beyond 16 MB:
-/// there the time is worth more than the hint.
+/// The gaps of the layer `words` of two main programs. Texts beyond 16 MB are not searched, because
+/// the hint is not worth the time.
 class WrittenGaps {
   public:
     WrittenGaps(const interpreter::ProgramText& a, const setup::Setup& setup_a,
                 const interpreter::ProgramText& b, const setup::Setup& setup_b);
 
-    /// The last gap at or before these lines (0: that side says nothing), said in words.
+    /// The last gap at or before these lines (0: unknown on that side), in words.
     std::optional<WrittenCause> before(int line_a, int line_b);
-    /// What the block at `line_a` of A (or at `line_b` of B, the other 0) says otherwise, where a
-    /// block of the other side stands for it.
+    /// The difference of the block at `line_a` of A (or at `line_b` of B, the other 0), if a block
+    /// of the other side corresponds to it.
     std::optional<WrittenCause> at(int line_a, int line_b);
-    /// One of these lines stands in a gap that only one side has.
+    /// A gap on one side only that contains one of these lines.
     std::optional<WrittenCause> block_missing(int line_a, int line_b);
     /// The first gap with a block that writes a store or variable: G10, #.
     std::optional<WrittenCause> first_that_writes();

@@ -1,4 +1,4 @@
-// The layers `text` and `words`: what is written, in the main programs and in all that they call.
+// The layers `text` and `words`: the text of the main programs and of all called programs.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace trunnion::regression {
 
-/// One side: its main program, and what its run opened (empty where nothing can be called).
+/// One side: its main program, and the programs opened by its run (empty if it cannot call any).
 struct WrittenSide {
     const interpreter::ProgramText* main = nullptr;
     const std::vector<OpenedProgram>* opened = nullptr;
@@ -19,12 +19,11 @@ struct WrittenSide {
 std::unique_ptr<LineKeys> written_keys(const interpreter::ProgramText& program, Layer layer,
                                        const setup::Setup& setup);
 
-/// True when all programs are written alike in that layer; then, on one setup, both runs are the
-/// same.
+/// True when all programs are equal in that layer; on one setup both runs are then the same.
 bool written_alike(Layer layer, const WrittenSide& a, const WrittenSide& b,
                    std::uint64_t& compared);
 
-/// Adds a difference for each stretch that is written differently.
+/// Adds a difference for each range that is written differently.
 void describe_written(Layer layer, const WrittenSide& a, const WrittenSide& b, std::size_t most,
                       Comparison& result);
 

@@ -1,4 +1,5 @@
-// The page of the ballbar test: errors before and after, numbers to type, polar plots, the proof.
+// The page of the ballbar test: errors before and after, values to enter, polar plots,
+// verification.
 #pragma once
 
 #include "ballbar/test/ballbar_procedure.h"

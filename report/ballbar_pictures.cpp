@@ -74,7 +74,7 @@ PolarPlot planar_plot(const ballbar::test::BallbarResult& r,
     return plot;
 }
 
-/// Means over neighbouring readings, less the mean of the pass.
+/// Means of neighbouring readings, minus the mean of the pass.
 PolarTrace rotary_trace(const std::vector<records::Reading>& rows,
                         const ballbar::test::BallbarPass& pass, const std::string& name,
                         double feed_in_rad) {

@@ -47,7 +47,7 @@ std::string group_text(const ballbar::test::InseparableGroup& group) {
     return text;
 }
 
-/// Letter of the axis next to the bed.
+/// Letter of the axis nearest the bed.
 char first_axis(const ballbar::test::BallbarResult& r) {
     return r.errors.empty() ? '?' : letter_of(r.errors.front().name.axis);
 }
@@ -126,7 +126,7 @@ std::string time_text(const ballbar::test::BallbarResult& r) {
         minutes(r.times.remount_s));
 }
 
-/// Empty where there is no number: what no reading sees has no sigma.
+/// Empty for a value that is not finite: an unobservable parameter has no sigma.
 std::string cell(double value) {
     return std::isfinite(value) ? shortest(value) : std::string();
 }

@@ -8,8 +8,8 @@
 
 namespace trunnion::report {
 
-/// Tables like the 2015 paper's Table 2 (at the setup's point_mm, and at the nominal intersection),
-/// set-up, what the test cannot tell apart, residual, ISO 230-4 figures, diagnosis, times.
+/// Tables like Table 2 of the 2015 paper (at the setup's point_mm, and at the nominal
+/// intersection), set-up, inseparable parameters, residual, ISO 230-4 parameters, diagnosis, times.
 std::string ballbar_table(const ballbar::test::BallbarResult& result);
 /// `{"schema":"trunnion.ballbar/1",...}` of formats.md.
 std::string ballbar_json(const ballbar::test::BallbarResult& result);

@@ -24,7 +24,7 @@ Point3 minus(const Point3& p, const Point3& q) {
     return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
 }
 
-/// The distance takes a quarter of the picture's height.
+/// The distance of the paths takes a quarter of the picture's height.
 class CloseupDrawing {
   public:
     CloseupDrawing(Svg& svg, const Closeup& closeup)

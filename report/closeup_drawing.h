@@ -1,4 +1,4 @@
-// A place where two paths differ, drawn from near.
+// Close-up drawing of a place where two paths differ.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@ namespace trunnion::report {
 
 /// 1, 2 or 5 times a power of ten, not above a quarter of `span`.
 double round_length(double span);
-/// A scale bar from its left end; `length_mm` is written above it.
+/// A scale bar starting at its left end, with `length_mm` above it.
 void draw_bar(Svg& svg, Point2 from, double length_px, double length_mm);
-/// With a head at `to`; a disc in a ring where it points at the reader.
+/// An arrow with its head at `to`; a disc in a ring if it points at the viewer.
 void draw_arrow(Svg& svg, Point2 from, Point2 to, const SvgStyle& style);
 
-/// True where a picture `span_mm` wide shows less of it than a reader can see.
+/// True when the close-up is too small to be visible in a picture `span_mm` wide.
 bool is_small(const regression::ComparePicture::Closeup& closeup, double span_mm);
 
-/// A figure with both paths, the distance between them and the tool axes, seen across the plane in
+/// A figure of both paths, their distance and the tool axes, seen perpendicular to the plane in
 /// which they differ: right is along the path, up is from A towards B (or from B where A has
 /// nothing).
 std::string closeup_html(const regression::ComparePicture::Closeup& closeup);

@@ -73,7 +73,7 @@ std::string tools_html(const regression::Comparison& c) {
     return table.rows.empty() ? "" : table_html(table);
 }
 
-/// Machines, layers, cycle time, what else there is to know.
+/// Machines, layers, cycle time and other facts.
 std::string facts_html(const regression::Comparison& c) {
     PageTable table{"", {}, "ll", {}};
     const bool one = c.setup == c.setup_b;
@@ -91,7 +91,7 @@ std::string facts_html(const regression::Comparison& c) {
     return table_html(table);
 }
 
-/// The answer without the sentences that stand in the list of differences.
+/// The verdict without the sentences of the list of differences.
 std::string short_verdict(const regression::Comparison& c) {
     using regression::CompareStatus;
     if (c.equal || c.differences.empty() || c.status == CompareStatus::bad_input) return c.verdict;
@@ -118,7 +118,7 @@ std::string case_html(const regression::Comparison& c, bool single) {
            with_heading(single, "What was compared", facts_html(c));
 }
 
-/// The programs that differ, gravest first, then the equal ones by name.
+/// The programs that differ, most severe first, then the equal ones by name.
 std::string index_html(const std::vector<const regression::Comparison*>& differing,
                        const regression::CompareReport& report) {
     std::string out =

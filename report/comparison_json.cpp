@@ -78,7 +78,7 @@ regression::Difference difference_of(const Json& j) {
     return d;
 }
 
-/// The table's columns: name in the JSON and member, once for both ways.
+/// Columns of the table: JSON name and member, used for writing and reading.
 template <typename Row, typename Visit>
 void each_column(Row& r, const Visit& visit) {
     visit("tool", r.tool);
@@ -123,7 +123,7 @@ Json first_json(const regression::Comparison& c) {
             {"what", valid_utf8(open->what)}};
 }
 
-/// The contract's keys, then what a report needs besides.
+/// The keys of the JSON format, then additional data for reports.
 Json case_json(const regression::Comparison& c) {
     Json j = {{"equal", c.equal},
               {"by", name_of(c.by)},
@@ -191,7 +191,7 @@ regression::Comparison case_of(const Json& j) {
     return c;
 }
 
-/// The parts of a close-up: name in the JSON and member, once for both ways.
+/// Parts of a close-up: JSON name and member, used for writing and reading.
 template <typename Closeup, typename Visit>
 void each_part(Closeup& c, const Visit& visit) {
     visit("difference", c.difference);

@@ -10,7 +10,7 @@ namespace trunnion::report {
 
 namespace {
 
-/// Text inside a table cell or a line: nothing in it is markup, a bar would end the cell.
+/// Escapes text for a table cell or a line: no markup, and no bar that would end the cell.
 std::string plain(const std::string& text) {
     std::string out;
     for (const char c : printable(text)) {
@@ -62,7 +62,7 @@ std::string comparison_markdown(const regression::CompareReport& report) {
                      [](const regression::Comparison* p, const regression::Comparison* q) {
                          return regression::gravity_of(*p) > regression::gravity_of(*q);
                      });
-    constexpr std::size_t listed = 200, detailed = 10;  // a summary holds 1 MB
+    constexpr std::size_t listed = 200, detailed = 10;  // a GitHub summary is limited to 1 MB
     std::string out = fmt::format("## {}\n", plain(verdict_of(report)));
     if (order.empty()) return out;
     out += "\n| program | | answer |\n|---|---|---|\n";

@@ -23,7 +23,7 @@ Point2 from_above(const Point3& p) {
 Point2 from_the_front(const Point3& p) {
     return {p[0], p[2]};
 }
-/// Along (1, 1, -0.8): X and Y to the right and left, Z up.
+/// View along (1, 1, -0.8): X to the right, Y to the left, Z up.
 Point2 from_the_side(const Point3& p) {
     return {0.7071 * (p[0] - p[1]), 0.35 * (p[0] + p[1]) + 0.8 * p[2]};
 }
@@ -40,7 +40,7 @@ class ViewDrawing {
         : svg_(svg), view_(view), picture_(picture) {
         for (const auto* lines : {&picture.cuts_a, &picture.cuts_b})
             for (const Line& line : *lines) widen(line);
-        // What differs far away (a retract to machine zero) must not set the scale.
+        // Distant differences (a retract to machine zero) must not determine the scale.
         const double size = std::max({box_.width(), box_.height(), 1.0});
         const ViewBox near = box_.grown(0.5 * size);
         for (const regression::ComparePicture::Mark& m : picture.marks)
@@ -92,7 +92,7 @@ class ViewDrawing {
             svg_.polyline(run, style);
         }
     }
-    /// The difference's number beside the middle of its first place.
+    /// The number of the difference next to the middle of its first place.
     void draw_number(const regression::ComparePicture::Mark& m) {
         const Line& line = m.b.empty() ? m.a : m.b;
         if (line.empty()) return;
@@ -100,14 +100,14 @@ class ViewDrawing {
         if (!box_.holds(a)) a = view_.seen(line.front());
         if (!box_.holds(a)) return;
         const Point2 at = pixel(a);
-        // Numbers that would cover one another: the first stands for them all.
+        // Of overlapping numbers only the first is drawn.
         for (const Point2& other : numbers_)
             if (std::hypot(other.x - at.x, other.y - at.y) < 14.0) return;
         numbers_.push_back(at);
         svg_.circle({at.x + 9, at.y - 9}, 8, {"#D55E00", 1.0, "#fff", ""});
         svg_.text({at.x + 9, at.y - 5}, std::to_string(m.difference + 1), 11, "middle");
     }
-    /// A ring at the place and the tool axis there, an eighth of the view long.
+    /// A ring at the place, and the tool axis with an eighth of the view's size.
     void draw_place(const regression::ComparePicture::Closeup& c) {
         const Point2 seen = view_.seen(c.place_mm);
         if (!box_.holds(seen)) return;

@@ -1,4 +1,4 @@
-// Both paths of a comparison as figures: three views, and the places that differ from near.
+// Both paths of a comparison as figures: three views, and close-ups of differences.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace trunnion::report {
 
-/// From the side, from above and from the front, then the first difference and the worst place
-/// magnified where they are small; empty when nothing was drawn. The cuts and what differs near
-/// them set the scale; rapids are faint and end at the frame.
+/// Side, top and front view, then close-ups of the first and the worst difference if they are
+/// small; empty when there is nothing to draw. Cuts and nearby differences determine the scale;
+/// rapids are faint and end at the frame.
 std::string pictures_html(const regression::Comparison& comparison);
-/// What their colours and marks mean.
+/// Explanation of their colours and marks.
 constexpr const char* pictures_legend =
     "Grey: cuts of A. Light blue, dashed: cuts of B. Thick orange: what differs in A; thick blue, "
     "dashed: in B. Numbers are those of the list. Ring: the first difference and the place where "

@@ -1,4 +1,4 @@
-// A comparison as JUnit, SARIF and GitHub lines; parts of shards put together again.
+// A comparison as JUnit, SARIF and GitHub lines; merging of the parts of shards.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,7 +32,7 @@ const std::vector<ReportRule>& rules() {
     return table;
 }
 
-/// The place a reader wants to open: B is the new program, A where B has nothing.
+/// The position to open: in B, the new program, or in A where B has nothing.
 ReportItem item_of(const regression::Difference& d) {
     const regression::ComparePlace& p = d.b.line > 0 || d.a.line == 0 ? d.b : d.a;
     ReportItem item;
@@ -49,7 +49,7 @@ ReportItem item_of(const regression::Difference& d) {
     return item;
 }
 
-/// A whole program as one item: at its gravest difference, with its verdict.
+/// A whole program as one item: position of its most severe difference, with its verdict.
 ReportItem item_of(const regression::Comparison& c) {
     const std::size_t gravest = regression::gravest_difference(c);
     ReportItem item;
@@ -89,8 +89,8 @@ std::vector<ReportItem> items_of(const regression::CompareReport& report) {
     return items;
 }
 
-/// GitHub shows ten annotations of a step: one for each program that differs, gravest first, and
-/// the last one counts the programs that found no place.
+/// GitHub shows ten annotations of a step: one for each program that differs, most severe first;
+/// the last one counts the remaining programs.
 std::vector<ReportItem> annotations_of(const regression::CompareReport& report) {
     constexpr std::size_t shown = 10;
     std::vector<const regression::Comparison*> order;

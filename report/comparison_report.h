@@ -1,4 +1,4 @@
-// A comparison in every form it can be written in.
+// A comparison in all its output formats.
 #pragma once
 
 #include <string>
@@ -9,32 +9,31 @@
 namespace trunnion::report {
 
 enum class ReportFormat : unsigned char { text, json, junit, sarif, github, html, markdown };
-/// The format of a name on the command line; throws InputError that lists them.
+/// The format with this name on the command line; throws InputError that lists all names.
 ReportFormat report_format(const std::string& name);
 
 std::string format_comparison(const regression::CompareReport& report, ReportFormat format);
 
 std::string comparison_text(const regression::CompareReport& report);
-/// The contract's JSON, see docs/compare.md.
+/// JSON, see docs/compare.md.
 std::string comparison_json(const regression::CompareReport& report);
-/// For step summaries: the answer, a table of the programs that differ, and their first
+/// For step summaries: the verdict, a table of the programs that differ, and their first
 /// differences.
 std::string comparison_markdown(const regression::CompareReport& report);
-/// The page, without its origin: causes first, both paths with the first and the worst place,
-/// tools.
+/// The page without its origin: causes first, both paths with the first and the worst place, tools.
 Page comparison_page(const regression::CompareReport& report);
 
-/// One shard's part of a suite's results: everything a report is written from, as JSON, and back.
+/// Result of one shard of a suite: all data of a report as JSON, and back.
 struct ComparePart {
     regression::CompareReport report;  ///< cases of this shard only
     std::vector<std::size_t> places;   ///< their numbers in the whole suite, from 0
     std::size_t total = 0;             ///< cases of the whole suite
 };
 std::string format_part(const ComparePart& part);
-/// Throws InputError when the text is no part.
+/// Throws InputError when the text is not such a part.
 ComparePart parse_part(const std::string& text, const std::string& path);
-/// Puts parts together in the suite's order; throws InputError when one is missing, doubled or from
-/// another suite.
+/// Merges parts in the order of the suite; throws InputError when one is missing, duplicated or
+/// from another suite.
 regression::CompareReport merge_parts(const std::vector<ComparePart>& parts);
 
 }  // namespace trunnion::report

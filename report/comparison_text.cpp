@@ -35,7 +35,7 @@ std::string both(const std::array<double, 2>& a, const std::array<double, 2>& b)
     return a == b ? range_text(a) : range_text(a) + " -> " + range_text(b);
 }
 
-/// What became of a tool's passes, in words.
+/// Result of a tool's passes, in words.
 std::string fate_text(const regression::ToolRow& r) {
     std::string out;
     const auto say = [&](std::uint64_t count, const char* word) {

@@ -1,4 +1,4 @@
-// What compensate found, as JSON.
+// Result of compensate as JSON.
 #pragma once
 
 #include <string>

@@ -7,7 +7,7 @@
 namespace trunnion::report {
 namespace {
 
-/// Three significant digits; a thousandth is as good as nothing.
+/// Three significant digits; less than a thousandth is negligible.
 std::string three_digits(double value) {
     return value < 1e-3 ? "below 0.001" : fmt::format("{:.3g}", value);
 }

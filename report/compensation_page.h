@@ -6,7 +6,7 @@
 
 namespace trunnion::report {
 
-/// `machine` is the setup's name, `program` the original's.
+/// `machine`: name of the setup; `program`: of the original.
 Page compensation_page(const compensation::CompensatedProgram& result, const std::string& machine,
                        const std::string& program);
 

@@ -1,4 +1,4 @@
-// The page of diagnose --program: verdict, causes, blocks, what the program cannot tell.
+// The page of diagnose --program: verdict, causes, blocks, what the program does not determine.
 #pragma once
 
 #include <string>

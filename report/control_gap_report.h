@@ -1,4 +1,4 @@
-// What explains a log of a control's axes, as text and as JSON.
+// Explanation of a log of a control's axes, as text and as JSON.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace trunnion::report {
 
-/// One JSON object of schema trunnion.diagnosis/1 with `"of": "control"`; lengths in um, places
+/// One JSON object of schema trunnion.diagnosis/1 with `"of": "control"`; lengths in um, positions
 /// with program, line and block.
 std::string control_gap_json(const choices::ControlGap& gap);
 std::string control_gap_text(const choices::ControlGap& gap);

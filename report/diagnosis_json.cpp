@@ -70,7 +70,7 @@ Json causes_of(const diagnosis::Diagnosis& d) {
     return list;
 }
 
-/// What the set-up left open and the readings told.
+/// Quantities of the set-up that the readings determined.
 Json set_up_of(const diagnosis::Diagnosis& d) {
     Json list = Json::array();
     for (const identification::FitParameter& p : d.set_up)
@@ -96,7 +96,7 @@ Json next_of(const diagnosis::Diagnosis& d) {
     return list;
 }
 
-/// What changed between sessions; a sigma that does not exist is null.
+/// Changes between sessions; a missing sigma is null.
 Json over_of(const diagnosis::Diagnosis& d) {
     Json json{{"sessions", Json::array()}, {"changes", Json::array()}};
     for (const diagnosis::SessionFit& s : d.sessions)

@@ -16,13 +16,13 @@ namespace {
 
 struct Bar {
     std::string name, value;
-    double part = 0.0;  ///< of the full width
+    double part = 0.0;  ///< fraction of the full width
     std::string colour;
 };
 
 constexpr double bar_left = 190.0, bar_width = 420.0, bar_line = 26.0;
 
-/// Horizontal bars, one a line, over an axis from 0 to `full` in `unit`.
+/// Horizontal bars, one a line, on an axis from 0 to `full` in `unit`.
 std::string bars(const std::vector<Bar>& list, double full, const std::string& unit,
                  double dashed_at = -1.0, const std::string& dashed_text = "") {
     const bool dashed = dashed_at >= 0.0;
@@ -78,14 +78,14 @@ std::string before_after(const diagnosis::HeldOut& h) {
                 h.noise_um, fmt::format("noise {:.2f} µm", h.noise_um));
 }
 
-/// Machine minus simulation of each reading, without and with the causes; the noise as a band.
+/// Machine minus simulation of each reading, without and with the causes, with the noise as a band.
 std::string residual_plot(const diagnosis::Diagnosis& d) {
     const std::size_t n = d.before_um.size();
     if (n < 2) return "";
     std::vector<double> size;
     for (const double v : d.before_um) size.push_back(std::abs(v));
     std::sort(size.begin(), size.end());
-    // A few outliers must not flatten the picture: they are drawn at its edge.
+    // A few outliers must not compress the picture; they are drawn at its edge.
     const double top = std::max(1.2 * size[(n - 1) * 995 / 1000], 3.0 * d.noise_um);
     const PlotRange x = round_range(0.0, static_cast<double>(n), 6), y = round_range(-top, top, 6);
     Svg svg(740.0, 330.0);
@@ -223,7 +223,7 @@ std::string small_print(const diagnosis::Diagnosis& d) {
     return text + "</dl>\n";
 }
 
-/// Which effects, and how far the gap shrinks with all of them.
+/// The effects, and the reduction of the gap by all of them together.
 std::string causes_section(const diagnosis::Diagnosis& d) {
     if (d.causes.empty()) return {};
     return section_html("Which effect", figure_html(share_bars(d),

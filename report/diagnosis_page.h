@@ -8,8 +8,8 @@
 
 namespace trunnion::report {
 
-/// Verdict in words, where the gap lives, the causes with their shares, and what to measure next.
-/// `readings` is their name.
+/// Verdict in words, location of the gap, causes with their shares, and suggested measurements.
+/// `readings`: their name.
 Page diagnosis_page(const diagnosis::Diagnosis& diagnosis, const std::string& readings);
 
 }  // namespace trunnion::report

@@ -13,7 +13,7 @@
 namespace trunnion::report {
 namespace {
 
-/// In the units of the shop, as many digits as the sigma supports.
+/// In workshop units, with as many digits as the sigma supports.
 std::string parameter_line(const identification::FitParameter& p) {
     const ShopValue v = shop_value(p);
     return std::isfinite(p.sigma)

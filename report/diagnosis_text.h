@@ -1,4 +1,4 @@
-// A diagnosis as the terminal shows it.
+// A diagnosis as text for the terminal.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace trunnion::report {
 
-/// Verdict first, then the gap, where it lies, its causes, what remains and what to measure next.
+/// Verdict first, then the gap, its location and causes, the remainder, and the next measurement.
 std::string diagnosis_text(const diagnosis::Diagnosis& diagnosis);
 
 }  // namespace trunnion::report

@@ -11,13 +11,13 @@ namespace {
 
 struct ShopUnit {
     const char *from, *to;
-    double factor, below;  ///< used for values below this
+    double factor, below;  ///< factor for values below this limit
 };
 
 constexpr ShopUnit shop_units[] = {
     {"mm", "µm", 1e3, 1.0}, {"rad", "µrad", 1e6, 0.01}, {"s", "ms", 1e3, 0.1}};
 
-/// "gap_rad" in rad is "gap"; vector components get their letter.
+/// "gap_rad" in rad becomes "gap"; vector components get their letter.
 std::string plain_name(const identification::FitParameter& p) {
     std::string name = p.name;
     const std::string end = '_' + p.unit;

@@ -1,4 +1,4 @@
-// The catalogue of effects as the terminal shows it, and as JSON.
+// The catalogue of effects as text for the terminal, and as JSON.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace trunnion::report {
 
-/// trunnion.effects/1 (docs/effects.md), one line break at its end.
+/// trunnion.effects/1 (docs/effects.md), ends with one line break.
 std::string effects_json(const std::vector<effects::Effect>& list);
 /// One effect with its formula, its parameters and an example to type.
 std::string effect_text(const effects::Effect& effect);
-/// A line or two for each effect.
+/// One or two lines for each effect.
 std::string effects_text(const std::vector<effects::Effect>& list);
 
 }  // namespace trunnion::report

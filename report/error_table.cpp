@@ -14,7 +14,7 @@ namespace {
 
 using diagnosis::TablePoint;
 
-/// Points of one error after the other, in the order of the cause.
+/// Points error by error, in the order of the cause.
 std::vector<std::vector<TablePoint>> by_error(const diagnosis::Cause& cause) {
     std::vector<std::vector<TablePoint>> list;
     for (const TablePoint& p : cause.points) {
@@ -40,7 +40,7 @@ double small_size(const TablePoint& p) {
     return p.unit == "rad" ? 1e6 : 1e3;
 }
 
-/// Between two points the straight line; outside the curve the nearest end.
+/// Linear interpolation between two points; beyond the curve the nearest end.
 double value_at(const std::vector<TablePoint>& curve, double at) {
     const auto after =
         std::find_if(curve.begin(), curve.end(), [&](const TablePoint& p) { return p.at >= at; });

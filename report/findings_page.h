@@ -6,7 +6,7 @@
 
 namespace trunnion::report {
 
-/// `files` are all that were looked at.
+/// `files`: all files that were checked.
 Page findings_page(const std::vector<check::Finding>& findings,
                    const std::vector<std::string>& files);
 

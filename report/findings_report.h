@@ -8,8 +8,8 @@
 
 namespace trunnion::report {
 
-/// format: text, json, junit, sarif, github; throws InputError for another. `files` are all that
-/// were looked at: a JUnit case each.
+/// format: text, json, junit, sarif, github; throws InputError for any other. `files`: all files
+/// that were checked, each a JUnit case.
 std::string format_findings(const std::vector<check::Finding>& findings,
                             const std::vector<std::string>& files, const std::string& format);
 

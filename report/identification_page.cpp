@@ -41,7 +41,7 @@ struct Correlation {
     double value = 0.0;
 };
 
-/// Those above one half, strongest first.
+/// Correlations above one half, strongest first.
 std::vector<Correlation> correlations(const Eigen::MatrixXd& covariance) {
     std::vector<Correlation> list;
     for (Eigen::Index i = 0; i < covariance.rows(); ++i)
@@ -77,7 +77,7 @@ std::string correlations_section(const identification::Identification& result) {
     return section_html("What goes together", body);
 }
 
-/// Residual of every row that has a value, over what `place` says of it.
+/// Residual of every row with a value, as a function of `place`.
 template <typename Place>
 std::string residual_figure(const records::ReadingTable& measured,
                             const records::ReadingTable& predicted, const std::string& over,

@@ -7,7 +7,7 @@
 
 namespace trunnion::report {
 
-/// `measured` holds the readings, `predicted` the same rows as the identified setup predicts them.
+/// `measured`: the readings; `predicted`: the same rows, predicted by the identified setup.
 Page identification_page(const identification::Identification& result,
                          const records::ReadingTable& measured,
                          const records::ReadingTable& predicted);

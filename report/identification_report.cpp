@@ -18,8 +18,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr const char* part_schema = "trunnion.identification-part/1";
-constexpr std::size_t most_parameters = 10'000;  ///< a part with more is none of ours
-constexpr int most_repetitions = 100'000;        ///< as the option takes
+constexpr std::size_t most_parameters = 10'000;  ///< a larger number is not a valid part
+constexpr int most_repetitions = 100'000;        ///< limit of the option
 
 double number(const Json& json) {
     return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
@@ -110,7 +110,7 @@ RepetitionPart parse_part_json(const Json& json) {
     return part;
 }
 
-/// What belongs to the set-up, by itself: no fault of the machine.
+/// The set-up quantities separately, because they are not errors of the machine.
 Json json_set_up(const std::vector<identification::FitParameter>& parameters) {
     Json list = Json::array();
     for (const identification::FitParameter& p : parameters)

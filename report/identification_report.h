@@ -10,26 +10,27 @@ namespace trunnion::report {
 
 /// trunnion.identification/1.
 std::string identification_json(const identification::Identification& result);
-/// `repetitions`: with the column of their spread.
+/// `repetitions`: with the column of their standard deviation.
 std::string identification_text(const identification::Identification& result, bool repetitions);
 
-/// What one shard of `identify --monte-carlo` leaves for `merge`.
+/// Output of one shard of `identify --monte-carlo`, input of `merge`.
 struct RepetitionPart {
-    std::string inputs;  ///< SHA-256 over setup, readings and effects: parts of one call share it
-    int runs = 0;        ///< of all shards together
+    std::string inputs;  ///< SHA-256 of setup, readings and effects; equal for the parts of one
+                         ///< call
+    int runs = 0;        ///< total of all shards
     std::uint64_t seed = 1;
-    /// Parameters, covariance and residuals; neither notes nor the setup.
+    /// Parameters, covariance and residuals, without notes and setup.
     identification::Identification fitted;
     std::vector<identification::Repetition> repetitions;  ///< of this shard
 };
-/// trunnion.identification-part/1; values come back to the last bit.
+/// trunnion.identification-part/1; values read back bit by bit.
 std::string format_part(const RepetitionPart& part);
-/// Whether the text is such a part, judged by its schema.
+/// True when the schema of the text is that of such a part.
 bool is_repetition_part(const std::string& text);
-/// Throws InputError when the text is no such part.
+/// Throws InputError when the text is not such a part.
 RepetitionPart parse_repetition_part(const std::string& text, const std::string& path);
-/// The identification with the spread of all repetitions, as one process would have it. Throws
-/// InputError when one is missing, doubled or of another call.
+/// The identification with the standard deviation of all repetitions, equal to the result of a
+/// single process. Throws InputError when a part is missing, duplicated or from another call.
 identification::Identification merge_parts(const std::vector<RepetitionPart>& parts);
 
 }  // namespace trunnion::report

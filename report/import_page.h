@@ -1,4 +1,4 @@
-// The page of imported readings: what was understood, what was assumed, the values.
+// The page of imported readings: interpretation, assumptions, values.
 #pragma once
 
 #include "records/readings.h"
@@ -6,7 +6,7 @@
 
 namespace trunnion::report {
 
-/// `understood` and `assumed` are the importer's lines.
+/// `understood` and `assumed`: lines of the importer.
 Page import_page(const records::ReadingTable& readings, const std::vector<std::string>& understood,
                  const std::vector<std::string>& assumed);
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double left = 80, top = 60, wide = 620, high = 340;
 
 struct Scale {
-    double target, deviation;  ///< to mm and um, or to deg and arcsec
+    double target, deviation;  ///< in mm and um, or in deg and arcsec
     const char *target_unit, *deviation_unit;
 };
 
@@ -24,13 +24,13 @@ Scale scale_of(bool rotary) {
     return {deg_from_rad(1.0), 3600.0 * deg_from_rad(1.0), "deg", "arcsec"};
 }
 
-/// A range from low to high beside the plot, with its name.
+/// A range from low to high next to the plot, with its name.
 struct Bracket {
     const char* name;
     double low, high;
 };
 
-/// Ends of M, E and A: lowest and highest of what each of them spans.
+/// Ends of M, E and A: the lowest and highest value that each of them spans.
 std::vector<Bracket> brackets_of(const records::Iso230Figures& f) {
     constexpr double inf = std::numeric_limits<double>::infinity();
     std::vector<Bracket> list{{"M", inf, -inf}, {"E", inf, -inf}, {"A", inf, -inf}};
@@ -129,7 +129,7 @@ class Picture {
         svg_.polyline(means, {"#222", 1.0, "none", "5 4"});
     }
 
-    /// B and R stand at the targets where they are largest.
+    /// B and R are drawn at the targets with the largest values.
     void draw_reversal() {
         for (const records::TargetFigures& t : figures_.targets)
             if (std::isfinite(t.reversal()) && t.reversal() == figures_.reversal_B) {

@@ -7,8 +7,8 @@
 
 namespace trunnion::report {
 
-/// One axis: `title` ("X"), the deviations and whether they are angles (then deg and arcsec, else
-/// mm and um). A figure that the points cannot give is left out.
+/// One axis: `title` ("X"), its deviations, and whether they are angles (then deg and arcsec, else
+/// mm and um). Parameters that the points do not determine are omitted.
 std::string iso230_2_picture(const std::string& title,
                              const std::vector<records::DeviationPoint>& points, bool rotary);
 

@@ -1,4 +1,4 @@
-// Numbers and vectors as JSON, alike in every report.
+// Numbers and vectors as JSON, common to all reports.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace trunnion::report {
 
-/// null where there is no finite number.
+/// null for a value that is not finite.
 inline nlohmann::ordered_json json_number(double value) {
     return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }

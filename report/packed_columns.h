@@ -1,4 +1,4 @@
-// Long columns of numbers, small enough for a page: what web/src/data.js unpacks.
+// Long columns of numbers in compact form for a page; web/src/data.js unpacks them.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ struct PackedColumn {
 };
 
 /// Second differences, zigzag, 7 bits a byte (low bits first), column after column, deflated (zlib)
-/// and written in base64. All columns have the same number of rows; numbers below 2^40. Same
-/// columns, same text.
+/// and encoded in base64. All columns have the same number of rows; numbers must be below 2^40.
+/// Equal columns give equal text.
 std::string packed_base64(const std::vector<PackedColumn>& columns);
 
 }  // namespace trunnion::report

@@ -22,7 +22,7 @@ std::string_view tone_class(Tone tone) {
     return "";
 }
 
-/// JSON inside a script element must not end it.
+/// JSON in a script element must not end the element.
 std::string json_in_html(const std::string& json) {
     std::string out;
     out.reserve(json.size());

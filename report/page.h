@@ -1,4 +1,4 @@
-// One template for every HTML page: verdict first, then figures, then how to read them.
+// The template of every HTML page: verdict first, then figures, then explanations.
 #pragma once
 
 #include <cstdint>
@@ -8,60 +8,61 @@
 
 namespace trunnion::report {
 
-/// How a verdict is marked beside its words: by a rule in colour, never by colour alone.
+/// Mark of a verdict besides its words: a coloured rule; colour is never the only mark.
 enum class Tone : unsigned char { neutral, good, bad };
 
-/// The scripts that a page may carry. `none` leaves a page without any script.
+/// The script of a page. `none`: a page without any script.
 enum class PageScript : unsigned char { none, chart, run };
 
-/// A file that the result was made from.
+/// An input file of the result.
 struct PageInput {
     std::string path;
     std::string sha256;  ///< 64 hexadecimal digits
 };
 
-/// What the foot of a page says about its making.
+/// Footer of a page: how it was made.
 struct PageOrigin {
-    std::string command;  ///< as typed, without the program's folder
+    std::string command;  ///< as typed, without the folder of the program
     std::string version;  ///< of trunnion
     std::optional<std::uint64_t> seed;
-    std::string date;  ///< as given by --date or SOURCE_DATE_EPOCH; empty: none is shown
+    std::string date;  ///< from --date or SOURCE_DATE_EPOCH; empty: not shown
     std::vector<PageInput> inputs;
 };
 
-/// A page as values. All `_html` fields are HTML already; all others are plain text.
+/// A page as values. Fields named `_html` contain HTML; all others plain text.
 struct Page {
-    std::string title;    ///< in the window's title and above the verdict
-    std::string subject;  ///< what was looked at: programs, machine
+    std::string title;    ///< window title, also above the verdict
+    std::string subject;  ///< what was examined: programs, machine
     Tone tone = Tone::neutral;
-    std::string verdict;  ///< one or two sentences a shop reads
+    std::string verdict;  ///< one or two sentences for the workshop
     std::string body_html;
     PageScript script = PageScript::none;
-    std::string data_json;  ///< what the script reads; one JSON value
+    std::string data_json;  ///< input of the script; one JSON value
     PageOrigin origin;
 };
 
-/// The whole file: self-contained, under a content policy that runs only the script named by its
-/// hash, readable on a phone of 360 px, on paper and in the dark. Same page, same bytes.
+/// The complete file: self-contained, with a content policy that allows only the script with the
+/// given hash; readable on a phone of 360 px, on paper and in dark mode. Equal pages give equal
+/// bytes.
 std::string page_html(const Page& page);
 
 /// `<section>` with a heading. `body_html` is HTML, `heading` plain text.
 std::string section_html(const std::string& heading, const std::string& body_html);
 
-/// A picture with its caption. `svg` must have a title; `caption` is plain text.
+/// A picture with caption. `svg` must have a title; `caption` is plain text.
 std::string figure_html(const std::string& svg, const std::string& caption);
 
 /// A paragraph of plain text.
 std::string paragraph_html(const std::string& text);
 
-/// A table. Cells are plain text; a column whose alignment is 'r' holds numbers.
+/// A table. Cells are plain text; a column with alignment 'r' contains numbers.
 struct PageTable {
     std::string caption;
     std::vector<std::string> header;
-    std::string alignment;  ///< 'l' or 'r' for each column; missing ones are 'l'
+    std::string alignment;  ///< 'l' or 'r' for each column; default 'l'
     std::vector<std::vector<std::string>> rows;
 };
-/// Scrolls sideways inside its own frame where the page is narrow.
+/// On a narrow page the table scrolls horizontally in its own frame.
 std::string table_html(const PageTable& table);
 
 }  // namespace trunnion::report

@@ -6,10 +6,10 @@
 
 namespace trunnion::report {
 
-/// Lines of at most `width` places; words are kept whole.
+/// Splits text into lines of at most `width` columns, at words only.
 std::vector<std::string> wrapped(const std::string& text, std::size_t width);
-/// The text in lines that fit a terminal (90 places), the first one behind `indent` blanks, the
-/// others two further in.
+/// The text in lines that fit a terminal (90 columns); the first line is indented by `indent`
+/// blanks, the others by two more.
 std::string paragraph(const std::string& text, std::size_t indent);
 
 }  // namespace trunnion::report

@@ -1,4 +1,4 @@
-// Fitted parameters as JSON: identify, diagnose and predict print them alike.
+// Fitted parameters as JSON, common to identify, diagnose and predict.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,14 +9,14 @@
 
 namespace trunnion::report {
 
-/// [{"effect", "name", "value", "sigma", "unit"}]: components of a vector parameter in one entry
-/// with arrays; a sigma that does not exist is null.
+/// [{"effect", "name", "value", "sigma", "unit"}]: the components of a vector parameter are arrays
+/// in one entry; a missing sigma is null.
 nlohmann::ordered_json json_parameters(const std::vector<identification::FitParameter>& parameters);
 
 /// "dp_mm[y]"
 std::string with_component(const identification::FitParameter& parameter);
-/// {"names", "matrix", "correlation"}: rows and columns in the order of names, units of the
-/// parameters; null where a parameter is not seen.
+/// {"names", "matrix", "correlation"}: rows and columns in the order of names, in the units of the
+/// parameters; null for an unobservable parameter.
 nlohmann::ordered_json json_covariance(const std::vector<identification::FitParameter>& parameters,
                                        const Eigen::MatrixXd& covariance);
 /// [{"names": [...], "direction": [...]}]

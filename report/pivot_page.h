@@ -1,5 +1,4 @@
-// The page of the four-function test: what to type, then the maps measured beside the expected
-// ones.
+// The page of the four-function test: values to enter, then measured and expected maps.
 #pragma once
 
 #include "report/page.h"
@@ -7,7 +6,7 @@
 
 namespace trunnion::report {
 
-/// Verdict, numbers to type, maps, who is affected, what cannot be told, how to read it.
+/// Verdict, values to enter, maps, affected programs, what cannot be determined, explanations.
 Page pivot_page(const PivotResult& result);
 
 }  // namespace trunnion::report

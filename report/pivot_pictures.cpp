@@ -1,4 +1,4 @@
-// Figures of the four-function test: distances from each map's mean, and eccentric circles.
+// Figures of the four-function test: distances from the mean of each map, and eccentric circles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ std::vector<Vector3> measured_of(const pivot::PivotArc& arc) {
     return errors;
 }
 
-/// Distance of each error from the mean of all, µm.
+/// Distance of each error from their mean, µm.
 std::vector<double> distances_um(const std::vector<Vector3>& errors_mm) {
     Vector3 mean = Vector3::Zero();
     for (const Vector3& e : errors_mm) mean += e / static_cast<double>(errors_mm.size());
@@ -69,7 +69,7 @@ void draw_distances(Plot& plot, Svg& svg, const pivot::PivotMap& map, const pivo
     for (std::size_t i = 0; i < arc.points.size(); ++i)
         line.push_back(plot.at(map.moving_deg(arc.points[i]), expected[i]));
     svg.polyline(line, {plot_colours[k], 1.2, "none", k % 2 ? "5 4" : ""});
-    // The two functions of a store lie on each other: the second gets smaller marks on top.
+    // The two functions of a store coincide: the second gets smaller marks on top.
     for (std::size_t i = 0; i < arc.points.size(); ++i)
         svg.mark(plot.at(map.moving_deg(arc.points[i]), measured[i]), static_cast<int>(k),
                  plot_colours[k], k % 2 ? 2.4 : 4.2);
@@ -102,7 +102,7 @@ std::string distances_picture(const PivotResult& r) {
     return page.svg.str();
 }
 
-/// The plane across the moving axis, in which its circles lie.
+/// The plane perpendicular to the moving axis, in which its circles lie.
 struct CirclePlane {
     Vector3 a = Vector3::UnitX(), b = Vector3::UnitY();
     std::string a_name = "X", b_name = "Y";

@@ -9,7 +9,7 @@
 
 namespace trunnion::report {
 
-/// All that is said of one test.
+/// All results of one test.
 struct PivotResult {
     std::string machine;
     Axis first = Axis::B, second = Axis::C;
@@ -17,22 +17,24 @@ struct PivotResult {
     std::vector<pivot::PivotMap> maps;
     pivot::PivotVerdict verdict;
     std::optional<setup::RotaryStores>
-        true_right;  ///< a simulator knows what the stores had to hold
+        true_right;  ///< simulation only: correct values of the stores
     std::vector<pivot::AffectedPart> affected;
-    std::string source;  ///< "simulated", or where the readings come from
-    std::string date;    ///< of the measurement; empty: not told
+    std::string source;  ///< "simulated", or the source of the readings
+    std::string date;    ///< of the measurement; empty: not given
 };
 
-/// Stores with what to type, circles and largest errors of each map, who is affected, the verdict.
+/// Stores with the values to enter, circles and largest errors of each map, affected programs,
+/// verdict.
 std::string pivot_table(const PivotResult& result);
 /// `{"schema":"trunnion.pivot/1",...}` of formats.md.
 std::string pivot_json(const PivotResult& result);
-/// Pictures by file name: distances.svg (distance from the map's mean, measured and expected, as
-/// figure 4 of pivot 2021), circles.svg (measured points, circle and its centre, as its figure 5).
+/// Pictures by file name: distances.svg (distance from the mean of the map, measured and expected,
+/// like figure 4 of pivot 2021), circles.svg (measured points, circle and its centre, like its
+/// figure 5).
 std::map<std::string, std::string> pivot_pictures(const PivotResult& result);
-/// Name of a group of stores in the words of the dialect: "G54", "P1970x", on a Hurco "set-up".
+/// Name of a group of stores in the terms of the dialect: "G54", "P1970x", on a Hurco "set-up".
 std::string group_words(const PivotResult& result, pivot::PivotGroup group);
-/// Name of a number in the words of the dialect: "No.19704 (Y)", "C centreline Y - first".
+/// Name of a value in the terms of the dialect: "No.19704 (Y)", "C centreline Y - first".
 std::string store_name(const PivotResult& result, const setup::StoreNumber& number);
 
 }  // namespace trunnion::report

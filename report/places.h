@@ -1,4 +1,4 @@
-// Results that point at lines of files, in the forms other tools read: SARIF, JUnit, GitHub lines.
+// Results with positions in files, in formats of other tools: SARIF, JUnit, GitHub lines.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace trunnion::report {
 
-/// One result at one place.
+/// One result at one position.
 struct ReportItem {
     std::string rule;
     std::string level = "error";  ///< error, warning, note
@@ -19,27 +19,28 @@ struct ReportItem {
     int last_line = 0;
     std::string text;  ///< one line
     std::string remedy;
-    std::string fingerprint;  ///< stays when lines move; empty: made from rule, path and text
+    std::string fingerprint;  ///< unchanged when lines move; empty: derived from rule, path and
+                              ///< text
 };
 
 struct ReportRule {
     std::string id, description;
 };
 
-/// One test case of a JUnit file; `failure` empty: passed.
+/// One test case of a JUnit file; empty `failure`: passed.
 struct JUnitCase {
     std::string name, file;
     std::string failure, details;
 };
 
-/// What GitHub takes and shows of one run: it refuses files above 10 MB compressed and 25,000
-/// results, and shows 5,000.
+/// GitHub limits of one run: it rejects files above 10 MB compressed and 25,000 results, and shows
+/// 5,000.
 struct SarifLimits {
     std::size_t results = 5000;
     std::size_t bytes = 9'000'000;  ///< of the results, before compression
 };
-/// SARIF 2.1.0. Beyond the limits errors stay before notes, and a property of the run says how many
-/// were left out, `left_out` (by the caller already) included.
+/// SARIF 2.1.0. Beyond the limits errors are kept before notes, and a property of the run gives the
+/// number of omitted results, including `left_out` (omitted by the caller).
 std::string format_sarif(const std::vector<ReportRule>& rules, const std::vector<ReportItem>& items,
                          const SarifLimits& limits = {}, std::uint64_t left_out = 0);
 /// Workflow commands: `::error file=..,line=..,title=..::text`.

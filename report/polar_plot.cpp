@@ -16,9 +16,9 @@ namespace {
 
 constexpr double width_px = 980, height_px = 720, middle_x_px = 340, middle_y_px = 365;
 constexpr double nominal_px = 150, division_px = 24;
-constexpr int divisions = 4;  ///< drawn each side of the nominal circle
+constexpr int divisions = 4;  ///< on each side of the nominal circle
 constexpr double edge_px = nominal_px + divisions * division_px;
-constexpr double ring_px = 12;  ///< between the rings of starts outside the edge
+constexpr double ring_px = 12;  ///< distance of the rings outside the edge that mark the starts
 constexpr double panel_x_px = 685, panel_right_px = 962, line_px = 19;
 constexpr double smallest_division_um = 0.5;
 constexpr std::size_t points_drawn = 1440;
@@ -29,7 +29,8 @@ Point2 at(double angle_rad, double radius_px) {
             middle_y_px - radius_px * std::sin(angle_rad)};
 }
 
-/// The first direction broad, the second narrow on top: both are seen where they agree.
+/// The first direction is drawn wide, the second narrow on top, so that both are visible where they
+/// coincide.
 SvgStyle trace_style(std::size_t k) {
     return {plot_colours[k % plot_colours.size()], k % 2 == 0 ? 2.8 : 1.2, "none", ""};
 }
@@ -49,7 +50,7 @@ void draw_grid(Svg& svg, const PolarPlot& plot) {
     svg.text(down, plot.bottom, 14, "middle");
 }
 
-/// What the circles mean, under the right half of the plot.
+/// Scale of the circles, below the right half of the plot.
 void draw_ruler(Svg& svg, double division_um) {
     const double y = middle_y_px + edge_px + 4 * ring_px + 12;
     const auto x = [](int k) { return middle_x_px + nominal_px + k * division_px; };
@@ -80,8 +81,8 @@ std::vector<Point2> arc_points(double from_rad, double to_rad, double radius_px)
     return points;
 }
 
-/// Outside the grid: the feed-in as an arc that ends with an arrow where the readings begin, and a
-/// bar where they end.
+/// Outside the grid: the feed-in as an arc ending with an arrow at the first reading, and a bar at
+/// the last one.
 void draw_start(Svg& svg, const PolarTrace& trace, std::size_t k) {
     if (trace.feed_in_rad <= 0.0 || trace.angle_rad.size() < 2) return;
     const double radius = edge_px + ring_px * (1.0 + static_cast<double>(k));
@@ -95,7 +96,7 @@ void draw_start(Svg& svg, const PolarTrace& trace, std::size_t k) {
     svg.line(at(end, radius - 5), at(end, radius + 5), {colour, 2.2, "none", ""});
 }
 
-/// The magnified eccentric circle over the arc that was run.
+/// The magnified eccentric circle over the measured arc.
 void draw_fitted(Svg& svg, const PolarPlot& plot, double px_per_um) {
     if (plot.fitted_um.size() != 3 || plot.traces.empty()) return;
     const auto& angles = plot.traces.front().angle_rad;
@@ -110,7 +111,7 @@ void draw_fitted(Svg& svg, const PolarPlot& plot, double px_per_um) {
     svg.polyline(points, fitted_style);
 }
 
-/// Scale, legend and lists, top down.
+/// Scale, legend and lists, from the top.
 void draw_panel(Svg& svg, const PolarPlot& plot, double division_um) {
     double y = 84;
     svg.text({panel_x_px, y}, fmt::format("{:g} µm/div", division_um), 20);

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// As the CSV has it: `value_deg` of a row that reads an angle.
+/// As in the CSV: `value_deg` for a row that reads an angle.
 Json row_json(const records::Reading& row) {
     const double value = row.value_mm.value_or(0.0);
     Json json{{"index", row.index},

@@ -1,4 +1,4 @@
-// Readings as JSON: what predict and import tell other programs.
+// Readings as JSON: output of predict and import for other programs.
 #pragma once
 
 #include <optional>
@@ -10,16 +10,16 @@
 
 namespace trunnion::report {
 
-/// trunnion.prediction/1: every device row with its value, and the derivatives when there are any.
+/// trunnion.prediction/1: every device row with its value, and the derivatives if there are any.
 std::string prediction_json(const records::ReadingTable& read,
                             const std::optional<identification::Sensitivity>& found);
 
-/// What an import said.
+/// Report of an import.
 struct ImportWords {
     std::string out;  ///< path of the readings
     std::vector<std::string> summary, notes;
 };
-/// trunnion.import/1: how many rows of which device, tests, and the words.
+/// trunnion.import/1: number of rows of each device, tests, and the report.
 std::string import_json(const records::ReadingTable& table, const ImportWords& words);
 
 }  // namespace trunnion::report

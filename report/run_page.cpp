@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 constexpr double position_step_mm = 1e-4, angle_step_rad = 1e-7, deviation_step_mm = 1e-6,
                  time_step_s = 1e-3;
 
-/// Fields of a CSV line; a quoted field keeps its commas, a doubled quote is one.
+/// Fields of a CSV line; a quoted field keeps its commas, a doubled quote becomes one.
 std::vector<std::string> fields_of(std::string_view line) {
     std::vector<std::string> fields(1);
     bool quoted = false;
@@ -59,8 +59,9 @@ double deviation_mm(const RunPath::Point& p) {
     return std::sqrt(sum);
 }
 
-/// Of the moves with feed; of all where there is none. Behind G49 the control believes in no tool,
-/// so the tips of a retract are a tool's length apart and say nothing about the part.
+/// Uses moves with feed only, or all moves if there are none. After G49 the control believes in no
+/// tool, so that the tips during a retract differ by the tool length, which is irrelevant for the
+/// part.
 std::size_t worst_point(const std::vector<RunPath::Point>& points) {
     std::size_t worst = 0;
     for (std::size_t i = 1; i < points.size(); ++i)
@@ -70,13 +71,13 @@ std::size_t worst_point(const std::vector<RunPath::Point>& points) {
     return worst;
 }
 
-/// Three digits: um below a millimetre, else mm.
+/// Three digits: um below one millimetre, else mm.
 std::string length_text(double length_mm) {
     return length_mm < 1.0 ? fmt::format("{:.3g} µm", um_from_mm(length_mm))
                            : fmt::format("{:.3f} mm", length_mm);
 }
 
-/// The colours of the path (viridis, as in web/src/run.js) from no deviation to the largest.
+/// Colours of the path (viridis, as in web/src/run.js) from zero to the largest deviation.
 std::string scale_svg(double largest_mm) {
     Svg svg(420.0, 34.0);
     constexpr std::array<const char*, 5> colours{"#450054", "#3b528c", "#21918c", "#5ec962",
@@ -154,7 +155,7 @@ Json machine_json(const setup::Setup& setup) {
     return {{"name", setup.name}, {"axes", axes}};
 }
 
-/// Gauge point to tip of each tool that the path uses, in S: as the control believes.
+/// Gauge point to tip of each tool used by the path, in S, in the control's belief.
 Json tools_json(const setup::Setup& setup, const std::vector<RunPath::Point>& points) {
     Json tools = Json::object();
     for (const RunPath::Point& p : points) {
@@ -276,7 +277,7 @@ void RunPath::take_header(std::string_view line) {
         column_[names[k]] = k;
         if (names[k] == "tip_x_mm") axes = false;
         if (axes) axis_columns_.push_back(names[k]);
-        if (names[k] == "feed_mm_min") axes = true;  // the axes stand between these two
+        if (names[k] == "feed_mm_min") axes = true;  // the axis columns are between these two
     }
 }
 
@@ -312,7 +313,7 @@ void RunPath::take_row(std::string_view line) {
     if (points_.size() >= most) thin();
 }
 
-/// Samples stand before the end of their move, which tells the motion.
+/// Samples precede the end of their move, which defines its kind.
 void RunPath::close_move(bool feed) {
     for (; open_ < points_.size(); ++open_) points_[open_].feed = feed;
 }

@@ -12,8 +12,8 @@
 
 namespace trunnion::report {
 
-/// The path of a run from its trace (CSV with --truth), whole lines in any pieces. At most `most`
-/// points are kept: beyond it every second one is left out, again and again.
+/// The path of a run from its trace (CSV with --truth), in pieces of whole lines. At most `most`
+/// points are kept: beyond that every second one is dropped, repeatedly.
 class RunPath {
   public:
     static constexpr std::size_t most = 200'000;
@@ -24,7 +24,7 @@ class RunPath {
         std::array<double, 3> tip_W_mm{}, true_tip_W_mm{};  ///< believed and physical
         double time_s = 0.0;
         int program = 0;    ///< index in `programs`
-        bool feed = false;  ///< of a move with feed, not of a rapid
+        bool feed = false;  ///< part of a move with feed
         int line = 0, tool = 0;
     };
 
@@ -34,7 +34,7 @@ class RunPath {
     const std::vector<std::string>& programs() const { return programs_; }
     const std::vector<std::string>& axis_columns() const { return axis_columns_; }
     int stride() const { return stride_; }  ///< 1: every point is kept
-    /// Rows of the trace so far.
+    /// Number of trace rows so far.
     std::size_t rows() const { return rows_; }
 
   private:
@@ -48,12 +48,12 @@ class RunPath {
     std::map<std::string, std::size_t, std::less<>> column_;
     std::vector<std::string> axis_columns_, programs_;
     std::vector<Point> points_;
-    std::size_t open_ = 0;  ///< first point of the move whose end has not come yet
+    std::size_t open_ = 0;  ///< first point of the move that is still open
     std::size_t rows_ = 0;
     int stride_ = 1;
 };
 
-/// Text of each program by the name that the trace gives it; a name without a text shows no blocks.
+/// Text of each program by its name in the trace; without text no blocks are shown.
 using ProgramTexts = std::map<std::string, std::string>;
 
 /// Title, verdict (alarm, limit or the largest deviation with its block), view and figures.

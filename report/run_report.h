@@ -13,7 +13,7 @@ std::string run_json(const emulator::RunLog& log, const std::vector<kinematics::
                      const std::vector<interpreter::ProgramText>& programs);
 /// One line: status, blocks, moves, time, path.
 std::string run_summary(const emulator::RunLog& log);
-/// "#100 = 1.5" lines; vacant ones without a value.
+/// "#100 = 1.5" lines; a vacant variable has no value.
 std::string variables_text(const emulator::RunLog& log);
 
 }  // namespace trunnion::report

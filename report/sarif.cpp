@@ -1,4 +1,4 @@
-// SARIF 2.1.0 (OASIS), as GitHub code scanning takes it.
+// SARIF 2.1.0 (OASIS), as accepted by GitHub code scanning.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A path as a relative URI reference: '/' between folders, everything else percent-encoded.
+/// A path as a relative URI reference: '/' between folders, other special characters
+/// percent-encoded.
 std::string uri_of(const std::string& path) {
     std::string uri;
     for (const char c : path) {
@@ -27,7 +28,7 @@ std::string uri_of(const std::string& path) {
     return path.starts_with("/") ? "file://" + uri : uri;
 }
 
-/// The text without the numbers of lines, which change when lines come and go above.
+/// The text without line numbers, which change when lines are added or removed above.
 std::string without_line_numbers(const std::string& text) {
     std::string out;
     for (std::size_t at = 0; at < text.size();) {
@@ -38,7 +39,7 @@ std::string without_line_numbers(const std::string& text) {
     return out;
 }
 
-/// One for each item; equal ones are told apart by their order.
+/// One for each item; equal items are distinguished by their order.
 std::vector<std::string> fingerprints_of(const std::vector<ReportItem>& items) {
     std::map<std::string, int> before;
     std::vector<std::string> result;
@@ -54,7 +55,7 @@ std::vector<std::string> fingerprints_of(const std::vector<ReportItem>& items) {
     return result;
 }
 
-/// Which items are written when there are too many: errors before notes, else in order.
+/// Selection when there are too many items: errors before notes, otherwise in order.
 std::vector<std::size_t> most_telling(const std::vector<ReportItem>& items, std::size_t most) {
     std::vector<std::size_t> order(items.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -78,7 +79,7 @@ Json result_of(const ReportItem& item, std::size_t rule_index, const std::string
             {"level", item.level},
             {"message", {{"text", valid_utf8(item.text + remedy)}}},
             {"locations", Json::array({{{"physicalLocation", location}}})},
-            // The key that GitHub follows a result by.
+            // The key by which GitHub tracks a result.
             {"partialFingerprints", {{"primaryLocationLineHash", fingerprint}}}};
 }
 

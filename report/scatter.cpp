@@ -20,7 +20,7 @@ struct Extent {
     }
 };
 
-/// Every so many points a mark.
+/// Distance of the points that get a mark.
 std::size_t stride_of(const ScatterSeries& series) {
     return (series.points.size() + most_marks - 1) / most_marks;
 }

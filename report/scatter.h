@@ -1,4 +1,4 @@
-// Points over one quantity, as a picture with axes.
+// Points as a function of one quantity, as a picture with axes.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace trunnion::report {
 
 struct ScatterSeries {
-    std::string name;  ///< in the legend; empty: none
+    std::string name;  ///< in the legend; empty: not listed
     std::vector<Point2> points;
 };
 
@@ -19,7 +19,8 @@ struct Scatter {
     std::vector<ScatterSeries> series;
 };
 
-/// At most 1500 marks a series: of more, every second one and so on; the legend says so.
+/// At most 1500 marks a series; of more points only every second, third, ... is drawn, as the
+/// legend says.
 std::string scatter_svg(const Scatter& scatter);
 
 }  // namespace trunnion::report

@@ -12,7 +12,7 @@
 namespace trunnion::report {
 namespace {
 
-/// A change in the unit and with the digits of the shop.
+/// A change in workshop units and digits.
 struct ShopChange {
     std::string name, before, after, change, sigma, unit;
 };
@@ -48,7 +48,7 @@ double in_sigma(const diagnosis::SessionChange& c) {
     return std::isfinite(sigma) && sigma > 0.0 ? c.parameter.value / sigma : 0.0;
 }
 
-/// Causes first, then as they come.
+/// Causes first, then in the given order.
 std::vector<const diagnosis::SessionChange*> in_order(const diagnosis::Diagnosis& d) {
     std::vector<const diagnosis::SessionChange*> list;
     for (const diagnosis::SessionChange& c : d.changes) list.push_back(&c);
@@ -70,7 +70,7 @@ std::string sentence(const diagnosis::Diagnosis& d) {
     return "No change of the machine between the sessions is found.";
 }
 
-/// Every change that is seen, in its own sigma.
+/// Every observable change, divided by its sigma.
 std::string picture(const std::vector<const diagnosis::SessionChange*>& list) {
     double most = 4.0;
     for (const diagnosis::SessionChange* c : list) most = std::max(most, std::abs(in_sigma(*c)));

@@ -1,4 +1,4 @@
-// What changed between sessions, as lines of text and as a section of the page.
+// Changes between sessions, as lines of text and as a section of the page.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace trunnion::report {
 
-/// One line a session, then one line a parameter: before, after, change and its sigma, in shop
-/// units; causes first. Empty where nobody asked for changes.
+/// One line a session, then one line a parameter: before, after, change and its sigma, in workshop
+/// units; causes first. Empty if changes were not requested.
 std::string changes_text(const diagnosis::Diagnosis& diagnosis);
 
-/// Sentence, picture (each change over its sigma) and table. Empty likewise.
+/// Sentence, picture (each change divided by its sigma) and table. Empty likewise.
 std::string changes_section(const diagnosis::Diagnosis& diagnosis);
 
 }  // namespace trunnion::report

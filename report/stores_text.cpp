@@ -20,7 +20,7 @@ std::string line_text(const std::string& name, double now_mm, double type_mm, in
                        type_mm + 0.0, digits, std::abs(change_um) < 0.05 ? 0.0 : change_um);
 }
 
-/// Fields of the part set-up: two lines across each axis, in machine coordinates.
+/// Fields of the part set-up: two lines perpendicular to each axis, in machine coordinates.
 std::string hurco_lines(const setup::StoresToType& s, int digits) {
     std::string text;
     const auto points = [](const setup::RotaryStores& stores, bool second) -> Vector3 {

@@ -1,4 +1,4 @@
-// Small SVG drawings: shapes, text and a plot with axes, as text with fixed decimals.
+// Small SVG drawings: shapes, text and a plot with axes, with a fixed number of decimals.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace trunnion::report {
 
-/// Colours that stay apart for colour-blind readers (Okabe and Ito), in the order used.
+/// Colours that colour-blind readers can distinguish (Okabe and Ito), in order of use.
 extern const std::vector<std::string> plot_colours;
 
 struct Point2 {
@@ -20,7 +20,7 @@ struct SvgStyle {
     std::string dash;  ///< e.g. "4 3"
 };
 
-/// A drawing in pixels, y downwards, white ground.
+/// A drawing in pixels, y downwards, white background.
 class Svg {
   public:
     Svg(double width, double height);
@@ -36,7 +36,7 @@ class Svg {
               const std::string& anchor = "start", const std::string& colour = "#222",
               double turn_deg = 0.0);
 
-    /// What a screen reader says of the drawing; `description` may be empty.
+    /// Text for screen readers; `description` may be empty.
     void describe(const std::string& title, const std::string& description = {});
 
     std::string str() const;  ///< the whole file
@@ -47,13 +47,13 @@ class Svg {
     std::string body_;
 };
 
-/// A linear axis of a plot: range in data units and where to put ticks.
+/// A linear axis of a plot: range in data units, and position of ticks.
 struct PlotRange {
     double low = 0.0, high = 1.0;
     double tick = 0.2;
 };
 
-/// A range with round ticks (1, 2, 5 x 10^n) that holds low..high.
+/// A range with round ticks (1, 2, 5 x 10^n) that contains low..high.
 PlotRange round_range(double low, double high, int about_ticks = 5);
 
 /// A frame with axes inside a drawing; `at` maps data to pixels.
@@ -62,7 +62,7 @@ class Plot {
     Plot(Svg& svg, Point2 corner, double width, double height, PlotRange x, PlotRange y);
     void frame(const std::string& title, const std::string& x_label, const std::string& y_label);
     Point2 at(double x, double y) const;
-    double scale_x() const { return width_ / (x_.high - x_.low); }  ///< px for each data unit
+    double scale_x() const { return width_ / (x_.high - x_.low); }  ///< px per data unit
 
   private:
     Svg& svg_;

@@ -6,7 +6,7 @@ namespace trunnion::report {
 
 namespace {
 
-/// The part of a - b within the box (Liang and Barsky 1984); false: nothing.
+/// Clips a - b to the box (Liang and Barsky 1984); false when nothing remains.
 bool clip(const ViewBox& box, Point2& a, Point2& b) {
     const double dx = b.x - a.x, dy = b.y - a.y;
     const double p[] = {-dx, dx, -dy, dy};

@@ -1,4 +1,4 @@
-// A box in the plane of a view: what of a line lies inside.
+// A box in the plane of a view, with clipping of lines.
 #pragma once
 
 #include <limits>
@@ -18,7 +18,7 @@ struct ViewBox {
     double height() const { return high_y - low_y; }
     ViewBox grown(double by) const { return {low_x - by, low_y - by, high_x + by, high_y + by}; }
 
-    /// The parts of a polyline within the box, each of at least two points.
+    /// The parts of a polyline inside the box, each of at least two points.
     std::vector<std::vector<Point2>> clipped(const std::vector<Point2>& line) const;
 };
 

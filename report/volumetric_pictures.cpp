@@ -20,7 +20,8 @@ double error_um(const volumetric::VolumetricPoint& point) {
     return um_from_mm(point.error_W_mm.norm());
 }
 
-/// Dark to light with rising error, even in grey and to colour-blind eyes (viridis, five steps).
+/// Dark to light with increasing error, monotonic also in grey and for colour-blind readers
+/// (viridis, five steps).
 std::string heat(double part) {
     constexpr std::array<std::array<double, 3>, 5> steps{
         {{253, 231, 37}, {94, 201, 98}, {33, 145, 140}, {59, 82, 139}, {68, 1, 84}}};
@@ -33,7 +34,7 @@ std::string heat(double part) {
     return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 
-/// Where the axes beyond X Y Z stand in the slices: the grid's places nearest to zero.
+/// Positions of the axes other than X Y Z in the slices: the grid positions nearest to zero.
 AxisPositions middle_of(const volumetric::VolumetricMap& map) {
     AxisPositions nearest;
     for (const Axis axis : map.axes) {
@@ -57,7 +58,7 @@ std::map<double, Points> slices(const volumetric::VolumetricMap& map, const Axis
     return out;
 }
 
-/// The places of one axis among points, rising.
+/// The positions of one axis among points, rising.
 std::vector<double> places(const Points& points, Axis axis) {
     std::vector<double> out;
     for (const volumetric::VolumetricPoint* p : points) out.push_back(p->at[axis]);
@@ -87,7 +88,7 @@ void colour_bar(Svg& svg, Point2 corner, double height, double largest_um) {
     svg.text({corner.x - 4, corner.y - 10}, "length of error, um", 12);
 }
 
-/// An arrow with a light edge, to be seen on any colour.
+/// An arrow with a light edge, visible on any colour.
 void arrow(Svg& svg, Point2 a, Point2 b) {
     const double dx = b.x - a.x, dy = b.y - a.y, size = std::hypot(dx, dy);
     if (size < 0.5) return;
@@ -129,7 +130,7 @@ std::string rotary_text(const volumetric::VolumetricMap& map, const AxisPosition
     return others.empty() ? "" : ", " + place_text(map.names, others, middle);
 }
 
-/// The grid at one height and what its cells are drawn with.
+/// The grid at one height, and the data for drawing its cells.
 struct Slice {
     const Points& points;
     std::vector<double> xs, ys;  ///< rising
@@ -138,7 +139,7 @@ struct Slice {
 
     double dx() const { return spacing(xs); }
     double dy() const { return spacing(ys); }
-    /// Whether a cell has room for numbers.
+    /// True when a cell has room for numbers.
     bool roomy() const { return xs.size() <= 9 && ys.size() <= 9; }
 };
 
@@ -219,7 +220,7 @@ std::string slice_picture(const volumetric::VolumetricMap& map, const AxisPositi
     return svg.str();
 }
 
-/// Worst and rms error of all points at each place of one axis.
+/// Largest and rms error of all points at each position of one axis.
 void axis_plot(Svg& svg, Point2 corner, const volumetric::VolumetricMap& map, Axis axis) {
     struct Column {
         double worst = 0.0, squares = 0.0;

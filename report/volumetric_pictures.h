@@ -1,4 +1,4 @@
-// A volumetric map as pictures to print.
+// A volumetric map as printable pictures.
 #pragma once
 
 #include <string>
@@ -9,9 +9,10 @@
 
 namespace trunnion::report {
 
-/// File name and SVG. volumetric_z1.svg, ...: one height each, rotary axes nearest to zero: length
-/// of the error as colour, its X and Y as arrows, its worst place, and what causes it there.
-/// volumetric_axes.svg: worst and rms error against each axis over the whole grid, with the causes.
+/// File names and SVG. volumetric_z1.svg, ...: one height each, rotary axes nearest to zero: size
+/// of the error as colour, its X and Y components as arrows, its worst place and the cause there.
+/// volumetric_axes.svg: largest and rms error as a function of each axis over the whole grid, with
+/// the causes.
 std::vector<std::pair<std::string, std::string>> volumetric_pictures(
     const volumetric::VolumetricMap& map);
 

@@ -27,7 +27,7 @@ std::string place_text(const AxisNames& names, const std::vector<Axis>& axes,
                        const AxisPositions& q) {
     std::string out;
     for (const Axis axis : axes) {
-        const bool number = names[axis].size() > 1;  // J1 30 is not J130
+        const bool number = names[axis].size() > 1;  // separates J1 30 from J130
         out += fmt::format("{}{}{}{:.6g}", out.empty() ? "" : " ", names[axis], number ? " " : "",
                            names.is_rotary(axis) ? deg_from_rad(q[axis]) : q[axis]);
     }

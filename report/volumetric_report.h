@@ -8,15 +8,15 @@
 
 namespace trunnion::report {
 
-/// One row a pose: axis positions, nominal tip in W, error in W (mm), and the cause that
-/// contributes most there.
+/// One row a pose: axis positions, nominal tip in W, error in W (mm), and the cause with the
+/// largest contribution.
 std::string volumetric_csv(const volumetric::VolumetricMap& map);
 /// `{"schema":"trunnion.volumetric/1",...}` of docs/formats.md.
 std::string volumetric_json(const volumetric::VolumetricMap& map);
 /// Worst place, rms, and a table of causes.
 std::string volumetric_text(const volumetric::VolumetricMap& map);
 
-/// The cause that contributes most at a point; empty when there is none.
+/// The cause with the largest contribution at a point; empty if there is none.
 std::string cause_name(const volumetric::VolumetricMap& map,
                        const volumetric::VolumetricPoint& point);
 /// "X-200 Y0 B30": mm and deg.

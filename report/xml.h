@@ -7,7 +7,7 @@
 
 namespace trunnion::report {
 
-/// Safe as XML or HTML text and inside quoted attributes; control characters become '?'.
+/// Escapes text for XML or HTML, including quoted attributes; control characters become '?'.
 std::string escape_xml(const std::string& text);
 
 }  // namespace trunnion::report

@@ -15,7 +15,7 @@ Artefact::Kind read_kind(const TomlFile& file, const TomlValue& value) {
     file.fail(value, "kind is \"sphere\", \"center_pivot\" or \"target\"");
 }
 
-/// center_mm, or tool_mm of a target: one of the two.
+/// Reads center_mm or, for a target, tool_mm: exactly one of the two.
 void read_place(const TomlFile& file, const TomlValue& table, Artefact& artefact) {
     const TomlValue* center = table.find("center_mm");
     const TomlValue* tool = table.find("tool_mm");

@@ -1,4 +1,4 @@
-// [[artefact]] and [[instrument]] of a setup file: what is measured and what measures it.
+// [[artefact]] and [[instrument]] of a setup file: measured objects and measuring instruments.
 #pragma once
 
 #include <set>
@@ -11,11 +11,11 @@ namespace trunnion::setup {
 
 void read_artefacts(const TomlFile& file, Setup& setup);
 void read_instruments(const TomlFile& file, Setup& setup);
-/// The names of a list `free = [..]`; throws InputError for one that is not in `allowed`.
+/// The names of a list `free = [..]`; throws InputError for a name that is not in `allowed`.
 std::set<std::string> read_free(const TomlFile& file, const TomlValue& value,
                                 const std::set<std::string>& allowed);
 
-/// The same as TOML.
+/// The inverse: as TOML text.
 std::string artefact_text(const Artefact& artefact);
 std::string instrument_text(const Instrument& instrument);
 

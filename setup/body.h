@@ -8,17 +8,17 @@
 
 namespace trunnion::setup {
 
-/// In its own frame B the top lies in z = 0 and the middle in x = y = 0; the body is below. Sizes
-/// are the physical ones; what a program believes stands in the program.
+/// In its own frame B the top is at z = 0, centred on x = y = 0, and the body is below. Sizes are
+/// the physical ones; nominal sizes are in the NC program.
 struct Body {
     /// block: a plate, a web, a corner, an edge. pocket: walls around a rectangle. boss: a
     /// cylinder. ring: a bore in a cylinder. setter: the disc of a tool setter, which tools touch.
     enum class Kind : unsigned char { block, pocket, boss, ring, setter };
     std::string name;
     Kind kind = Kind::block;
-    Vector3 center_W_mm = Vector3::Zero();  ///< of the top
-    Vector3 tilt_deg = Vector3::Zero();     ///< about the fixed X, then Y, Z of W
-    /// Block: its size. Pocket: of the hollow, z its depth.
+    Vector3 center_W_mm = Vector3::Zero();  ///< of the centre of the top
+    Vector3 tilt_deg = Vector3::Zero();     ///< about the fixed X, then Y, then Z axis of W
+    /// Block: its size. Pocket: size of the cavity, z its depth.
     Vector3 size_mm = Vector3(50.0, 50.0, 20.0);
     double diameter_mm = 25.0;      ///< boss, setter, or bore of a ring
     double height_mm = 20.0;        ///< of boss, setter and ring

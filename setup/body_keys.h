@@ -8,7 +8,7 @@
 
 namespace trunnion::setup {
 
-/// Throws InputError for a size that is not above 0, a key of another kind, a name used twice.
+/// Throws InputError for a size that is not positive, a key of another kind, or a duplicate name.
 void read_bodies(const TomlFile& file, Setup& setup);
 std::string body_text(const Body& body);
 

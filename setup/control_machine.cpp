@@ -42,7 +42,7 @@ std::string text_of(const kinematics::Chain& chain) {
     return text + " t";
 }
 
-/// Strokes and rapid speeds as the control has them: 1320, 1321, 1420.
+/// Stroke limits and rapid speeds of the control: 1320, 1321, 1420.
 void take_strokes(Setup& setup) {
     std::vector<controller::ControlAxis> axes;
     for (const kinematics::AxisGeometry& axis : control_axes(setup))

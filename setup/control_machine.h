@@ -1,4 +1,4 @@
-// The machine that a control's own stores describe, where nobody wrote a setup file.
+// The machine described by the stores of a control, for use without a setup file.
 #pragma once
 
 #include <string>

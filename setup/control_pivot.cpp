@@ -18,7 +18,7 @@ std::string point_text(const Vector3& p) {
     return fmt::format("X{:.4f} Y{:.4f} Z{:.4f}", p.x() + 0.0, p.y() + 0.0, p.z() + 0.0);
 }
 
-/// Of the line (b, v) the point nearest to the line (a, u), which is not parallel to it.
+/// The point of the line (b, v) nearest to the line (a, u), which must not be parallel to it.
 Vector3 nearest_on_second(const Vector3& a, const Vector3& u, const Vector3& b, const Vector3& v) {
     const Vector3 across = u.cross(v);
     return b + (b - a).cross(u).dot(across) / across.squaredNorm() * v;

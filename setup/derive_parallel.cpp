@@ -1,17 +1,18 @@
-// Parameter 1022: which linear axes run beside X, Y and Z.
+// Parameter 1022: linear axes parallel to X, Y and Z.
 #include "setup/setup.h"
 
 namespace trunnion::setup {
 namespace {
 
-/// 1, 2, 3 for + X, Y, Z as the tool moves against the work, 0 for any other direction.
+/// 1, 2, 3 for an axis that moves the tool along +X, +Y, +Z relative to the workpiece; 0 for any
+/// other direction.
 int basic_direction(const Vector3& moves_tool) {
     for (int i = 0; i < 3; ++i)
         if ((moves_tool - Vector3::Unit(i)).norm() < 1e-9) return i + 1;
     return 0;
 }
 
-/// Values of one side; what a rotary axis carries turns with it and runs beside nothing.
+/// Values for one side. An axis carried by a rotary axis rotates with it and is parallel to none.
 void number_side(const std::vector<kinematics::AxisGeometry>& side, double sign,
                  std::array<int, axis_count>& value) {
     bool carried = false;
@@ -35,7 +36,7 @@ std::string derive_parallel_axes(const kinematics::Machine& machine,
     bool extra = false;
     int number = 0;
     for (const kinematics::AxisGeometry& axis : machine.chain.axes()) {
-        if (!is_letter(axis)) continue;  // no NC word moves it
+        if (!is_letter(axis)) continue;  // no NC word addresses it
         const int basic = direction[index_of(axis.axis)];
         const bool parallel = is_extra(axis.axis) && basic != 0;
         derived.by_axis[++number] = basic + (parallel ? 4 : 0);

@@ -1,4 +1,4 @@
-// What the control's numbers would be if it were told the truth about the machine.
+// Derives the parameters that a control with true knowledge of the machine would have.
 #include <algorithm>
 #include <cmath>
 
@@ -51,7 +51,7 @@ offsets::PivotParameters pivot_of(const std::vector<kinematics::AxisGeometry>& t
         return pivot;
     }
     pivot.first = pivot_axis(tool[0]);
-    pivot.tool_offset_mm = tool[0].point_mm;  // S is M with all axes at zero
+    pivot.tool_offset_mm = tool[0].point_mm;  // S coincides with M when all axes are at zero
     if (tool.size() == 2) {
         pivot.unit = offsets::MechanicalUnit::tool_tool;
         pivot.second = pivot_axis(tool[1]);
@@ -64,7 +64,8 @@ offsets::PivotParameters pivot_of(const std::vector<kinematics::AxisGeometry>& t
     return pivot;
 }
 
-/// The linear axes that a + turn carries into each other (from +, to +), or nothing when inclined.
+/// The linear axes (from, to) such that a + rotation turns + of the first into + of the second;
+/// empty for an inclined axis.
 std::optional<std::array<int, 2>> turned_plane(const Vector3& direction) {
     for (int i = 0; i < 3; ++i) {
         if (1.0 - std::abs(direction[i]) > 1e-12) continue;
@@ -108,12 +109,12 @@ void derive_fixture_groups(const kinematics::Machine& machine, offsets::Paramete
     std::reverse(table.begin(), table.end());
     offsets::Parameters derived;
     int number = 7580;
-    // Axes of a head carry no fixture: no group turns its offset.
+    // Head axes carry no fixture: no group turns its offset.
     if (table.empty() && !rotaries(machine.chain.tool).empty()) derived.set(number, 0);
     for (const kinematics::AxisGeometry& axis : table) {
         if (number > 7586) break;
         if (!is_letter(axis)) continue;
-        // No group can say that an inclined axis turns the offset: G54.2 is alarm 5459 then.
+        // No group can describe rotation about an inclined axis: G54.2 then raises alarm 5459.
         const auto plane = turned_plane(axis.direction.normalized());
         derived.set(number, offsets::number_of_axis(axis.axis, order));
         for (const std::size_t i : {0U, 1U})

@@ -67,7 +67,8 @@ void read_centrelines(const TomlFile& file, const TomlValue& table, Setup& setup
     }
 }
 
-/// Moves `point_mm` to the line; false when the line names its own direction or not the others.
+/// Moves `point_mm` onto the line. False when the line specifies the coordinate along its own
+/// direction or lacks another one.
 bool put_on_line(const Centreline& line, const Vector3& direction, Vector3& point_mm) {
     for (int k = 0; k < 3; ++k) {
         const auto& place = line[static_cast<std::size_t>(k)];

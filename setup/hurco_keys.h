@@ -1,4 +1,4 @@
-// [control.hurco]: the choices of a Hurco, and the centrelines of its part set-up.
+// [control.hurco]: options of a Hurco, and the centrelines of its part set-up.
 #pragma once
 
 #include <string>
@@ -8,13 +8,14 @@
 
 namespace trunnion::setup {
 
-/// Reads the table. `centreline` holds, for each rotary axis of the table, where its line crosses
-/// the plane across it: A = { Y = 210, Z = -450 }, C = { X = 330, Y = 205 }; mm, machine
-/// coordinates, all axes at zero.
+/// Reads the table. `centreline` gives, for each rotary table axis, the intersection of its line
+/// with the plane perpendicular to it: A = { Y = 210, Z = -450 }, C = { X = 330, Y = 205 }; mm,
+/// machine coordinates, all axes at zero.
 void read_hurco(const TomlFile& file, const TomlValue& table, Setup& setup);
-/// The believed axes of the table go through the centrelines. Returns why they cannot, or nothing.
+/// Makes the believed table axes pass through the centrelines. Returns the reason if impossible,
+/// else an empty text.
 std::string believe_centrelines(const Setup& setup, offsets::Parameters& parameters);
-/// The table as it reads again to the same values; nothing when all are the defaults.
+/// The table as text that reads back to the same values; empty when all are defaults.
 std::string hurco_text(const Setup& setup);
 
 }  // namespace trunnion::setup

@@ -13,7 +13,7 @@ namespace trunnion::setup {
 
 namespace {
 
-/// The part of `change` across an axis line.
+/// The component of `change` perpendicular to an axis line.
 Vector3 across(const Vector3& change, const offsets::PivotAxis& axis) {
     const Vector3 u = axis.line.normalized();
     return change - u.dot(change) * u;
@@ -50,7 +50,7 @@ void correct_one_table_axis(const kinematics::Machine& machine, offsets::PivotPa
         across(known_point_mm(machine, pivot.second.axis) - pivot.table_point_mm, pivot.second);
 }
 
-/// Feet of the common perpendicular of the two table axes.
+/// End points of the common perpendicular of the two table axes.
 std::pair<Vector3, Vector3> feet(const offsets::PivotParameters& pivot) {
     const Vector3 u = pivot.first.line, v = pivot.second.line, d = pivot.table_offset_mm;
     const double uv = u.dot(v), square = 1.0 - uv * uv;
@@ -132,7 +132,7 @@ Vector3 step_between_axes_mm(const RotaryStores& stores) {
 
 namespace {
 
-/// Number of the first component of each place, 0 for G54.
+/// Parameter number of the first component of each place, 0 for G54.
 constexpr int first_parameter[] = {0, 19700, 19703, 19709, 19712};
 
 Vector3& vector_at(RotaryStores& stores, int place) {
@@ -200,7 +200,7 @@ RotaryStores rounded(const RotaryStores& stores, double increment_mm) {
 
 namespace {
 
-/// Every 15 degrees over the travel, at most a quarter turn to each side or once round.
+/// Every 15 degrees within travel, at most a quarter turn to each side, or one full turn.
 std::vector<double> angles_of(const kinematics::Chain& chain, const offsets::PivotAxis& axis,
                               bool round) {
     const kinematics::AxisGeometry* geometry = chain.find(axis.axis);
@@ -218,7 +218,7 @@ bool along_tool(const offsets::PivotParameters& pivot, const offsets::PivotAxis&
     return axis.line.cross(pivot.tool_direction).norm() < 1e-9;
 }
 
-/// A position of both rotary axes; `head` false: the tool does not tilt there.
+/// A position of both rotary axes; `head` false: the tool is not tilted.
 struct RotaryPose {
     AxisPositions q;
     bool head = false;
@@ -239,7 +239,7 @@ std::vector<RotaryPose> rotary_poses(const kinematics::Chain& chain,
     return poses;
 }
 
-/// Where the tip is and what it is worked with.
+/// Tip position and tool.
 struct Work {
     const kinematics::Machine& machine;
     Vector3 point_W_mm, tip_S_mm;
@@ -250,7 +250,7 @@ AxisPositions with_xyz(AxisPositions q, const Vector3& xyz) {
     return q;
 }
 
-/// Axes that put the real tip on the point with the rotaries at zero.
+/// Axis positions with the physical tip on the point and the rotary axes at zero.
 AxisPositions home_of(const Work& work) {
     const kinematics::MachinePose pose = work.machine.poses({});
     return with_xyz({}, pose.pose_MW * work.point_W_mm - pose.pose_MS * work.tip_S_mm);
@@ -270,7 +270,7 @@ double tcp_wander_mm(const Work& work, const offsets::PivotParameters& pivot) {
     return worst;
 }
 
-/// DPP and G54.2 turn the table's point about G54; a head stands at zero.
+/// DPP and G54.2 rotate the point on the table about G54; the head is at zero.
 double g54_wander_mm(const Work& work, const RotaryStores& stores) {
     if (!has_table(stores.pivot.unit)) return 0.0;
     offsets::PivotParameters turning = stores.pivot;
@@ -290,7 +290,7 @@ double g54_wander_mm(const Work& work, const RotaryStores& stores) {
     return worst;
 }
 
-/// Sets of G54.2 in use: their offset is counted from G54, so it changes when G54 does.
+/// Sets of G54.2 in use. Their offsets are relative to G54, so they change with it.
 std::vector<StoreLine> fixture_lines(const offsets::Stores& stores, const Vector3& g54_change_mm,
                                      double increment_mm) {
     std::vector<StoreLine> lines;

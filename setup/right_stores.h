@@ -1,4 +1,5 @@
-// What the pivot stores of a control must hold for its machine, and what typing that leaves.
+// Correct values of the control's pivot stores for its machine, and the error that remains after
+// entering them.
 #pragma once
 
 #include <optional>
@@ -11,75 +12,78 @@
 
 namespace trunnion::setup {
 
-/// The stores that say where the rotary axes are, mm: 19700-19714 for G43.4 and G68.2/G53.1, and
-/// the centre that DPP and G54.2 turn about (G54 plus the external offset).
+/// The stores with the locations of the rotary axes, mm: 19700-19714 for G43.4 and G68.2/G53.1, and
+/// the centre of rotation of DPP and G54.2 (G54 plus the external offset).
 struct RotaryStores {
     offsets::PivotParameters pivot;
     Vector3 g54 = Vector3::Zero();
 };
 
-/// The stores in force. Nothing without 19680; throws Alarm 5459 for numbers that cannot be.
+/// The active stores. Empty without 19680; throws Alarm 5459 for invalid parameters.
 std::optional<RotaryStores> rotary_stores(const kinematics::Chain& chain,
                                           const offsets::Stores& stores);
 
-/// Where a point of a rotary axis's line lies with all axes at zero, location errors of the axis
-/// and of its carriers included, counted from where the spindle's gauge point then really is (a
-/// control knows positions by its tool only; EX0S EY0S EZ0S of the spindle shift it). mm along M.
+/// A point of a rotary axis line with all axes at zero, including location errors of the axis and
+/// of its carriers, relative to the actual position of the spindle's gauge point: a control knows
+/// positions through its tool only, so EX0S EY0S EZ0S of the spindle shift it. mm along the axes of
+/// M.
 Vector3 known_point_mm(const kinematics::Machine& machine, Axis axis);
 
-/// The stores that put the tip right on this machine, in the gauge of `in_force`: what no function
-/// can see stays as it is (the part of a point along its own axis). Exact without tilts; tilts of
-/// an axis have no place in these stores and are left out. G54 is the point of the second axis
-/// nearest to the first (of a table's one axis: the point nearest to G54; without a rotary table:
-/// G54 as it is).
+/// The stores that position the tip correctly on this machine. Components without any effect (of a
+/// point along its own axis) keep their values of `in_force`. Exact without tilts; tilts of an axis
+/// cannot be expressed by these stores and are ignored. G54 becomes the point of the second axis
+/// nearest to the first (with one table axis: its point nearest to G54; without a rotary table:
+/// unchanged).
 RotaryStores right_stores(const kinematics::Machine& known, const RotaryStores& in_force);
 
-/// Shortest way from the first table axis to the second, mm: G54 holds one point, so DPP and G54.2
-/// are off by (R1 - 1) times this whatever G54 says. Zero where the axes meet, and with one or no
-/// rotary axis under the table.
+/// Shortest vector from the first table axis to the second, mm. G54 holds only one point, so DPP
+/// and G54.2 have the error (R1 - 1) times this vector for any G54. Zero when the axes intersect,
+/// and with fewer than two rotary table axes.
 Vector3 step_between_axes_mm(const RotaryStores& stores);
 
-/// One number of a store.
+/// One value of a store.
 struct StoreNumber {
     std::string name;   ///< "19704", "G54 X"
-    int parameter = 0;  ///< 0: of a work offset
+    int parameter = 0;  ///< 0: work offset
     int component = 0;  ///< 0, 1, 2 along X, Y, Z
     int place = 0;      ///< 0 G54, 1 19700-2, 2 19703-5, 3 19709-11, 4 19712-14
     double value_mm = 0.0;
 };
-/// The numbers that count on this kind of machine. G54 counts where a rotary axis is under the
-/// table.
+/// The values that matter on this kind of machine. G54 matters with a rotary table axis.
 std::vector<StoreNumber> store_numbers(const RotaryStores& stores);
-/// The same stores with one value changed.
+/// Changes one value of the stores.
 void set_number(RotaryStores& stores, const StoreNumber& number, double value_mm);
 
-/// Least input increment of a length, mm: 0.001 (IS-B), 0.0001 where 1013#1 ISC is 1; on an inch
-/// machine (1001#0) a tenth of that in inches. 1013 from memory, so assumed.
+/// Least input increment of a length, mm: 0.001 (IS-B), 0.0001 with 1013#1 ISC = 1; on an inch
+/// machine (1001#0) a tenth of that in inch. 1013 is from memory, therefore assumed.
 double least_increment_mm(const offsets::Parameters& parameters);
 RotaryStores rounded(const RotaryStores& stores, double increment_mm);
 
-/// One line of a list that a person types from.
+/// One line of a list of values to enter.
 struct StoreLine {
     StoreNumber in_force;
     double exact_mm = 0.0;  ///< unrounded
-    double type_mm = 0.0;   ///< in the control's increments
+    double type_mm = 0.0;   ///< rounded to the control's increment
 };
 
-/// What to type, and how far the tip then still wanders on the table, largest over the travel.
+/// Values to enter, and the remaining displacement of the tip on the table: maximum over the
+/// travel.
 struct StoresToType {
     RotaryStores in_force, exact, typed;
     std::vector<StoreLine> lines;
-    std::vector<StoreLine> fixture;  ///< sets of G54.2 in use, which are counted from G54
+    std::vector<StoreLine> fixture;  ///< sets of G54.2 in use, which are relative to G54
     double increment_mm = 0.001;
-    double now_um = 0.0;                         ///< with the stores in force, G43.4 and G68.2
-    double tilts_um = 0.0;                       ///< left by tilts of the axes, unrounded
+    double now_um = 0.0;                         ///< with the active stores, G43.4 and G68.2
+    double tilts_um = 0.0;                       ///< caused by tilts of the axes, before rounding
     double rounding_um = 0.0;                    ///< added by the increment
-    double g54_now_um = 0.0, g54_left_um = 0.0;  ///< DPP and G54.2: in force, after typing
-    double apart_um = 0.0;                       ///< part of that because the axes do not meet
+    double g54_now_um = 0.0, g54_left_um = 0.0;  ///< DPP and G54.2: with the active stores, after
+                                                 ///< entering the values
+    double apart_um = 0.0;                       ///< part of that caused by axes that do not
+                                                 ///< intersect
 };
 
-/// For the machine `known`; nothing where 19700-19714 do not apply. `point_W_mm` is where the tip
-/// works, `tip_S_mm` the tool.
+/// For the machine `known`; empty when 19700-19714 do not apply. `point_W_mm`: tip position;
+/// `tip_S_mm`: tool.
 std::optional<StoresToType> stores_to_type(const Setup& setup, const kinematics::Machine& known,
                                            const Vector3& point_W_mm, const Vector3& tip_S_mm);
 

@@ -8,7 +8,7 @@
 namespace trunnion::setup {
 namespace {
 
-/// "x_mm" .. "z_mm": 0 to 2, "a_rad" .. "c_rad": 3 to 5, "scale": 6; -1 for another word.
+/// "x_mm" .. "z_mm": 0 to 2, "a_rad" .. "c_rad": 3 to 5, "scale": 6; -1 for any other word.
 int component_of(const std::string& word) {
     static constexpr const char* words[] = {"x_mm",  "y_mm",  "z_mm", "a_rad",
                                             "b_rad", "c_rad", "scale"};

@@ -14,8 +14,8 @@
 namespace trunnion::setup {
 namespace {
 
-/// Numbers of the pivot (19680-19714) and of the G54.2 groups that the file does not give are those
-/// of the machine, told truthfully.
+/// Pivot parameters (19680-19714) and G54.2 groups that the file does not give are derived from the
+/// machine, as if the control knew its true geometry.
 void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
     offsets::Parameters& parameters = setup.stores.parameters;
     const auto given = parameters.entry;
@@ -89,7 +89,7 @@ Vector3 Instrument::read_mm(const Vector3& p_M_mm) const {
 
 namespace {
 
-/// The flange of a machine that no X, Y or Z places.
+/// True when the machine has no X, Y or Z axis: its flange is positioned by other axes.
 bool is_arm(const kinematics::Chain& chain) {
     const AxisNames names = chain.names();
     return !names.find("X") && !names.find("Y") && !names.find("Z") && !chain.tool.empty() &&

@@ -24,7 +24,7 @@ offsets::OffsetVector read_offset(const TomlFile& file, const TomlValue& table) 
     offsets::OffsetVector offset;
     for (const auto& [key, value] : file.table(table).entries) {
         const auto axis = key.size() == 1 ? axis_of(key[0]) : std::nullopt;
-        if (!axis) continue;  // noted as unknown
+        if (!axis) continue;  // reported as unknown
         value.used = true;
         offset[*axis] = file.number(value);
     }
@@ -96,7 +96,8 @@ int axis_number(const std::string& key, const Setup& setup) {
     return 0;
 }
 
-/// A value, or one for each axis: [..] in the control's order, { X = .., Y = .. } or { 1 = .. }.
+/// A value, or one for each axis: [..] in the order of the control, { X = .., Y = .. } or { 1 = ..
+/// }.
 offsets::Parameter read_parameter(const TomlFile& file, const TomlValue& value,
                                   const Setup& setup) {
     offsets::Parameter parameter;
@@ -124,7 +125,7 @@ void read_parameters(const TomlFile& file, const TomlValue& table, Setup& setup)
         setup.stores.parameters.entry[number] = read_parameter(file, value, setup);
         read.push_back(number);
     }
-    // 1001 may stand anywhere, in the backup too.
+    // 1001 may be anywhere in the file, or in the backup.
     for (const int number : read)
         setup.stores.parameters.entry[number].value *=
             offsets::parameter_unit_mm(setup.stores.parameters, number);
@@ -215,7 +216,7 @@ void read_builder(const TomlFile& file, const TomlValue& table,
         read_ranges(file, *ranges, builder.variables);
 }
 
-/// Generations whose nesting limits and M98 forms differ (docs/control.md).
+/// Generations of controls that differ in nesting limits and forms of M98 (docs/control.md).
 interpreter::Dialect read_dialect(const TomlFile& file, const TomlValue& control) {
     const TomlValue* name = control.find("dialect");
     if (name && file.text(*name) == "hurco") return interpreter::hurco_dialect();

@@ -9,7 +9,8 @@
 namespace trunnion::setup {
 namespace {
 
-/// Four numbers an entry: length of the extension, then the place of its ball beside that below.
+/// Four numbers an entry: length of the extension, then the position of its ball relative to that
+/// below.
 ExtensionErrors read_extensions(const TomlFile& file, const TomlValue& table) {
     ExtensionErrors errors;
     const TomlValue* list = table.find("extension_errors_mm");
@@ -69,7 +70,7 @@ CalibrationPrior read_prior(const TomlFile& file, const std::string& name, const
     return {file.find_number(table, "value" + unit).value_or(0.0), file.positive(*sigma)};
 }
 
-/// One sigma of each device; other names are noted as unknown keys.
+/// One sigma of each device; other names are reported as unknown keys.
 std::map<std::string, double> read_noise(const TomlFile& file, const TomlValue& table,
                                          const char* key, const std::set<std::string>& devices) {
     std::map<std::string, double> noise;

@@ -1,4 +1,4 @@
-// A setup as TOML that loads again to the same value.
+// A setup as TOML text that reads back to the same value.
 #include <cmath>
 
 #include "base/numbers.h"
@@ -15,7 +15,8 @@
 namespace trunnion::setup {
 namespace {
 
-/// Text of a number that `to_inside` turns into `value` again: the shortest among the neighbours.
+/// Text of a number that `to_inside` converts back to exactly `value`: the shortest of the
+/// neighbours.
 template <class ToInside>
 std::string text_for(double value, double guess, const ToInside& to_inside) {
     std::string best;
@@ -115,7 +116,7 @@ std::string spindle_error_text(const kinematics::AxisErrors& errors) {
     return out;
 }
 
-/// The axes that came from the minus side; plus is what a file without the key says.
+/// The axes that arrived from the minus side; plus is the default of a file without the key.
 std::string sides_text(const Setup& setup) {
     std::string out;
     for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
@@ -197,7 +198,7 @@ std::string tools_text(const offsets::ToolOffsets& tools) {
     return out.empty() ? out : "\n[control.tools]\n" + out;
 }
 
-/// `unit_mm`: of the number as typed.
+/// `unit_mm`: unit of the number as typed.
 std::string parameter_text(const offsets::Parameter& parameter, double unit_mm) {
     if (parameter.by_axis.empty()) return shortest(parameter.value / unit_mm);
     std::string out;

@@ -42,8 +42,8 @@ const TomlValue* first_of(const TomlValue& table, const Keys& keys) {
     return nullptr;
 }
 
-/// A B C turn and the other letters do not, as NC words address them; any other axis turns when it
-/// has a key of a rotary one. Keys of both kinds are refused.
+/// A, B and C are rotary, the other letters linear, as NC words address them. An axis with another
+/// name is rotary if it has a key of rotary axes. Keys of both kinds are refused.
 void read_kind(const TomlFile& file, const TomlValue& table, kinematics::AxisGeometry& axis) {
     if (!is_letter(axis)) axis.rotary = first_of(table, rotary_keys) != nullptr;
     const TomlValue* other =
@@ -54,8 +54,8 @@ void read_kind(const TomlFile& file, const TomlValue& table, kinematics::AxisGeo
                                       axis.rotary ? "rotary" : "linear"));
 }
 
-/// A linear axis with a letter runs along the axis of its letter; whether a table turns with its
-/// word or against it nobody can guess.
+/// The direction of a linear axis with a letter follows from its letter. Whether a rotary table
+/// turns with its word or against it must be given.
 void read_direction(const TomlFile& file, const TomlValue& table, kinematics::AxisGeometry& axis) {
     const TomlValue* direction = table.find("direction");
     if (!direction && is_letter(axis) && !axis.rotary) return;
@@ -92,7 +92,7 @@ kinematics::AxisGeometry* find_axis(kinematics::Chain& chain, std::string_view n
     return nullptr;
 }
 
-/// Where the axis's own encoder sits: at the motor, or as a scale behind the drive.
+/// Location of the axis's own encoder: at the motor, or a scale behind the drive.
 bool read_scale_encoder(const TomlFile& file, const TomlValue& table) {
     const TomlValue* encoder = table.find("encoder");
     if (!encoder) return false;
@@ -101,7 +101,7 @@ bool read_scale_encoder(const TomlFile& file, const TomlValue& table) {
     return encoder->text == "scale";
 }
 
-/// Side from which the axes came before their first move; those not named: travelling +.
+/// Sides from which the axes arrived before their first move; default: travelling +.
 void read_sides(const TomlFile& file, const TomlValue& sides, Setup& setup) {
     for (const auto& [name, value] : file.table(sides).entries) {
         value.used = true;
@@ -158,7 +158,7 @@ void read_axes(const TomlFile& file, const TomlValue& axes, Setup& setup) {
     }
 }
 
-/// X, Y and Z reach every point: none of them lies along another or in the plane of the two.
+/// X, Y and Z must span space: none is parallel to another or in the plane of the other two.
 void check_linear_axes(const TomlFile& file, const TomlValue& axes,
                        const kinematics::Chain& chain) {
     constexpr double least_sine = 0.01;
@@ -179,7 +179,7 @@ void check_linear_axes(const TomlFile& file, const TomlValue& axes,
     }
 }
 
-/// Only a linear axis with a letter of ISO 841 can do without its table.
+/// Only a linear axis with a letter of ISO 841 may omit its table.
 void check_axes(const TomlFile& file, const TomlValue& chain_text, const TomlValue* axes,
                 const kinematics::Chain& chain) {
     for (const kinematics::AxisGeometry& axis : chain.axes()) {
@@ -279,7 +279,7 @@ void read_machine(const TomlFile& file, const TomlValue& machine, Setup& setup) 
 
 namespace {
 
-/// The unit behind a name: "_mm" or "_rad".
+/// Checks the unit of a name: "_mm" or "_rad".
 void check_unit(const TomlFile& file, const TomlValue& value, const std::string& key,
                 const std::string& name, bool angular) {
     if (key.substr(name.size()) != (angular ? "_rad" : "_mm"))

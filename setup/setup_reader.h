@@ -1,4 +1,4 @@
-// Parts of a setup file to parts of a Setup; used by setup.cpp alone.
+// Reads parts of a setup file into parts of a Setup; internal to setup.cpp.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 namespace trunnion::setup {
 
 void read_machine(const TomlFile& file, const TomlValue& machine, Setup& setup);
-/// A key that is another name of an effect's parameter: backlash, pretravel. Refused at `place`
-/// when the effect stands already.
+/// Handles a key that is another name of an effect's parameter: backlash, pretravel. Refused at
+/// `place` when the effect is already given.
 void add_effect_key(const TomlFile& file, const TomlValue& place, const std::string& effect,
                     const std::string& parameter, double value, Setup& setup);
 void read_machine_errors(const TomlFile& file, const TomlValue& errors, Setup& setup);

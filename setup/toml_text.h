@@ -1,4 +1,4 @@
-// Values as TOML text that reads back the same.
+// Values as TOML text that reads back as the same value.
 #pragma once
 
 #include <string>

@@ -47,7 +47,8 @@ std::vector<AxisPositions> grid_of(const kinematics::Chain& chain,
     return all;
 }
 
-/// The grid leaves a table of the axis's errors: beyond its ends a table holds its last value.
+/// True when the grid exceeds a table of the axis's errors; beyond its ends a table keeps its last
+/// value.
 bool beyond_tables(const kinematics::AxisGeometry& axis, const kinematics::GeometricErrors& errors,
                    const VolumetricOptions& options) {
     const std::vector<double> steps = steps_of(axis, options);
@@ -58,7 +59,7 @@ bool beyond_tables(const kinematics::AxisGeometry& axis, const kinematics::Geome
     });
 }
 
-/// One named error: which of an axis or (no axis) of the spindle.
+/// One named error of an axis or (no axis) of the spindle.
 struct NamedError {
     std::string name;
     std::optional<Axis> axis;
@@ -95,11 +96,11 @@ std::vector<NamedError> errors_present(const kinematics::Machine& machine) {
 AxisSample standing_at(const AxisPositions& q) {
     AxisSample sample;
     sample.position = q;
-    sample.travel.fill(1);  // as approached in the + direction
+    sample.travel.fill(1);  // approached in the + direction
     return sample;
 }
 
-/// Works out one point and the contribution of each cause to it.
+/// Evaluates one point and the contribution of each cause.
 class Mapper {
   public:
     Mapper(const setup::Setup& setup, const emulator::EffectModels& effects, double length_mm)
@@ -161,10 +162,10 @@ class Mapper {
     emulator::Observer whole_;
     std::vector<std::unique_ptr<emulator::Observer>> alone_;
     Vector3 tip_S_mm_;
-    emulator::Contact tool_;  ///< what effects of the tool act on
+    emulator::Contact tool_;  ///< tool on which effects act
 };
 
-/// Orders causes by rms and renumbers what the points refer to.
+/// Sorts the causes by rms and renumbers the references of the points.
 void rank_causes(VolumetricMap& map) {
     std::vector<std::size_t> order(map.causes.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

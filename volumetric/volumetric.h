@@ -1,4 +1,4 @@
-// Where in the working volume the tool point is off, and by which error.
+// Error of the tool point over the working volume, and its causes.
 #pragma once
 
 #include <functional>
@@ -15,26 +15,26 @@ struct VolumetricPoint {
     AxisPositions at;                      ///< mm, rad
     Vector3 tip_W_mm = Vector3::Zero();    ///< nominal
     Vector3 error_W_mm = Vector3::Zero();  ///< physical - nominal
-    std::size_t worst = 0;                 ///< index of the cause that contributes most
+    std::size_t worst = 0;                 ///< index of the cause with the largest contribution
 };
 
-/// One error or effect, alone. `mm` of a vector is its length.
+/// One error or effect alone. `mm` of a vector is its length.
 struct VolumetricCause {
     std::string name;         ///< EX0C, EYX, C.backlash, ...
-    double largest_mm = 0.0;  ///< over the grid
+    double largest_mm = 0.0;  ///< maximum over the grid
     double rms_mm = 0.0;
-    double share = 0.0;  ///< part of the sum of squares of all causes
+    double share = 0.0;  ///< fraction of the sum of squares of all causes
 };
 
 struct VolumetricMap {
     std::string machine;     ///< name of the setup
-    double length_mm = 0.0;  ///< tool
+    double length_mm = 0.0;  ///< tool length
     AxisNames names;
     std::vector<Axis> axes;
-    std::vector<Axis> assumed;  ///< their travel: the setup gives none
-    std::vector<Axis> clamped;  ///< they run beyond a table of their errors, held constant there
+    std::vector<Axis> assumed;  ///< axes with assumed travel, because the setup gives none
+    std::vector<Axis> clamped;  ///< axes beyond a table of their errors, which is constant there
     std::vector<VolumetricPoint> points;
-    std::vector<VolumetricCause> causes;  ///< largest rms first; points refer to this order
+    std::vector<VolumetricCause> causes;  ///< by rms, largest first; points refer to this order
     std::size_t worst = 0;                ///< point with the largest error
     double rms_mm = 0.0;
 };
@@ -42,14 +42,15 @@ struct VolumetricMap {
 struct VolumetricOptions {
     int grid = 5;              ///< points along each linear axis
     int rotary_grid = 5;       ///< angles of each rotary axis
-    double length_mm = 150.0;  ///< tool
-    /// Asked after each pose; false: the map ends there. Empty: the whole grid.
+    double length_mm = 150.0;  ///< tool length
+    /// Called after each pose; when it returns false the map ends there. Empty: the whole grid.
     std::function<bool(std::size_t done, std::size_t total)> go_on = {};
 };
 
-/// Each axis steps through its limits, ends included (+-200 mm and +-180 degrees where the setup
-/// gives none). An axis that can turn round steps through one turn instead, each angle once, 0
-/// among them. Errors one by one come from the Jacobian, effects from switching them on alone.
+/// Each axis steps through its travel including the limits (+-200 mm and +-180 degrees if the setup
+/// gives none). An axis with unlimited rotation steps through one turn, each angle once, including
+/// 0. Contributions of single errors come from the Jacobian, those of effects from switching on
+/// each one alone.
 VolumetricMap volumetric_map(const setup::Setup& setup,
                              const std::vector<std::string>& effect_names,
                              const emulator::EffectModels& effects,

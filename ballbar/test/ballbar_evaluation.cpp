@@ -38,10 +38,10 @@ std::vector<BallbarErrorRow> rows_of(const std::vector<ErrorEstimate>& before,
 
 namespace {
 
-constexpr std::size_t points_per_pass = 720;  ///< of circular figures: half a degree of a circle
+constexpr std::size_t points_per_pass = 720;  ///< for the parameters of the circle: half a degree
 
-/// Planar passes as means of neighbouring readings: figures of a range must not grow with the
-/// sampling rate. Values count from the nominal length of the bar.
+/// Planar passes reduced to means of neighbouring readings, because range parameters must not grow
+/// with the sampling rate. Values are relative to the nominal length of the bar.
 records::ReadingTable thinned(const records::ReadingTable& table, double warm_mm) {
     records::ReadingTable out = table;
     out.rows.clear();
@@ -50,7 +50,7 @@ records::ReadingTable thinned(const records::ReadingTable& table, double warm_mm
         for (std::size_t b = 0; b < blocks; ++b) {
             const std::size_t begin = pass.begin + count * b / blocks;
             const std::size_t end = pass.begin + count * (b + 1) / blocks;
-            // Place and time of the mean: halfway between the middle two of an even number.
+            // Position and time of the mean: between the middle two rows of an even number.
             records::Reading row = table.rows[(begin + end - 1) / 2];
             const records::Reading& other = table.rows[(begin + end) / 2];
             row.time_s = 0.5 * (row.time_s + other.time_s);
@@ -67,8 +67,8 @@ records::ReadingTable thinned(const records::ReadingTable& table, double warm_mm
 
 }  // namespace
 
-/// Figures and plots of means, the diagnosis of every reading: a mean across a reversal is
-/// neither side's.
+/// Parameters and plots use means; the diagnosis uses every reading, because a mean across a
+/// reversal belongs to neither side.
 void add_circles(BallbarResult& result) {
     const records::ReadingTable& first = result.before.readings;
     const double radius_mm = result.data.layout.length_mm;

@@ -9,7 +9,7 @@
 
 namespace trunnion::ballbar::test {
 
-/// One set of values, ready to evaluate.
+/// One set of parameter values, prepared for evaluation.
 struct BallbarState {
     kinematics::ForwardModel machine;
     Vector3 cup_S_mm, pivot_W_mm;
@@ -22,11 +22,11 @@ namespace {
 using Kind = BallbarParameter::Kind;
 
 constexpr std::size_t blocks_per_pass = 400;
-constexpr double arm_mm = 100.0;         // a tilt counts by what it does at this arm
+constexpr double arm_mm = 100.0;         // a tilt is scaled by its effect at this lever arm
 constexpr double step = 1e-3;            // of the central differences, in scaled units (mm)
-constexpr double null_threshold = 1e-8;  // of eigenvalues of the column-scaled normal matrix
+constexpr double null_threshold = 1e-8;  // for eigenvalues of the column-scaled normal matrix
 
-/// Two positions and two tilts across the axis's nominal direction.
+/// Two positions and two tilts perpendicular to the nominal direction of the axis.
 void add_location(std::vector<BallbarParameter>& out, const kinematics::AxisGeometry& axis) {
     Eigen::Index along = 0;
     axis.direction.cwiseAbs().maxCoeff(&along);
@@ -196,7 +196,8 @@ BallbarModel::Linear BallbarModel::linearise(const Eigen::VectorXd& scaled) cons
     }
     const Eigen::MatrixXd normal =
         linear.jacobian.transpose() * weight.asDiagonal() * linear.jacobian;
-    // Symmetries are exact at zero errors only: their number is settled there.
+    // Symmetries are exact at zero errors only, so the dimension of the null space is determined
+    // there.
     const estimation::Directions d =
         start_.null.rows() > 0 ? estimation::directions_beside(normal, start_.null.cols())
                                : estimation::directions_above(normal, 0.0, null_threshold);
@@ -235,7 +236,7 @@ BallbarFit BallbarModel::fit(const std::vector<double>& reading_mm) const {
         scaled += change;
         measure();
         if (change.norm() < 1e-12) break;
-        // The Jacobian hardly changes: once more near the solution is enough.
+        // The Jacobian is nearly constant: one update near the solution is enough.
         if (fit.iterations == 1) linear = linearise(scaled);
     }
     fit.value = scaled.cwiseProduct(scale_);
@@ -266,8 +267,8 @@ ResidualVerdict judge_residuals(const BallbarModel& model, const BallbarFit& fit
     const double noise_square = fit.noise_mm * fit.noise_mm;
     const double excess = fit.rms_mm * fit.rms_mm - noise_square;
     verdict.excess_um = um_from_mm(std::sqrt(std::max(0.0, excess)));
-    // Scatter of both estimates of a variance from n readings: about 2.5 / sqrt(n) of it; 0.01 um
-    // is below what any ballbar resolves.
+    // Scatter of both variance estimates from n readings: about 2.5 / sqrt(n) of the variance. 0.01
+    // um is below the resolution of any ballbar.
     const double scatter =
         noise_square * 2.5 / std::sqrt(static_cast<double>(std::max(1, fit.dof)));
     verdict.structured = excess > 4.0 * scatter && verdict.excess_um > 0.01;

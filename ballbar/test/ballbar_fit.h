@@ -1,5 +1,5 @@
-// Exact fit of the ballbar's length to all tests at once: values, covariance, rank, what cannot be
-// told apart.
+// Exact least-squares fit of the ballbar's length to all tests simultaneously: values, covariance,
+// rank, inseparable parameters.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,17 +12,17 @@
 
 namespace trunnion::ballbar::test {
 
-/// What may be added to the readings: nothing, one error of the bar's length (value = distance -
+/// Additional unknowns of the readings: none, an error of the bar's length (value = distance -
 /// nominal - error), or a constant for each test (drift between tests, a new set-up).
 enum class BarConstant : unsigned char { none, length, per_test };
 
-/// What is known of the centre pivot: nothing but about where it is, its place on the table (W), or
-/// that it was clamped where the spindle stood with the rotary axes at zero: its place in M then,
-/// so that errors of the axes show only once they turn (ballbar 2015, docs/ballbar.md).
+/// Knowledge of the centre pivot: an approximate position only; its position on the table (W); or
+/// that it was clamped at the spindle with the rotary axes at zero, so that its position in M is
+/// known then and errors of the axes appear only when they turn (ballbar 2015, docs/ballbar.md).
 enum class PivotPlace : unsigned char { unknown, on_table, at_spindle };
 
 struct BallbarUnknowns {
-    bool cup = false;  ///< tool length and cup run-out unknown: then the rank drops by three
+    bool cup = false;  ///< tool length and cup run-out unknown: reduces the rank by three
     PivotPlace pivot = PivotPlace::unknown;
     BarConstant constant = BarConstant::length;
 };
@@ -30,28 +30,30 @@ struct BallbarUnknowns {
 struct BallbarParameter {
     enum class Kind : unsigned char { location, cup, pivot, length, test_constant };
     Kind kind = Kind::location;
-    kinematics::ErrorName error;  ///< of `location`
-    int component = 0;            ///< x y z of cup (S) and pivot (W); number of the test
+    kinematics::ErrorName error;  ///< kind `location`: the error
+    int component = 0;            ///< x y z of cup (S) or pivot (W); number of the test
     std::string name;  ///< "EY0A", "ballbar.cup.x", "ballbar.pivot.z", "ballbar.length", ...
 
     bool angular() const { return kind == Kind::location && error.angular(); }
 };
 
-/// Unknowns that only change together without changing any reading.
+/// Parameters that can change together without changing any reading.
 struct InseparableGroup {
     std::vector<std::string> names;
-    std::vector<double> direction;  ///< mm and rad, largest 1
+    std::vector<double> direction;  ///< mm and rad, largest entry 1
 };
 
 struct BallbarFit {
     std::vector<BallbarParameter> parameters;
-    Eigen::VectorXd value;     ///< mm and rad; 0 start, smallest change where not determined
-    Eigen::MatrixXd cofactor;  ///< covariance for readings of unit variance; of the determined part
+    Eigen::VectorXd value;     ///< mm and rad, relative to the start; smallest norm where not
+                               ///< determined
+    Eigen::MatrixXd cofactor;  ///< covariance for readings of unit variance, of the determined part
     int rank = 0;
     std::vector<InseparableGroup> inseparable;
     std::vector<double> residual_mm;  ///< reading - model, in the order of the rows used
     double rms_mm = 0.0;              ///< sqrt(sum of squares / dof)
-    double noise_mm = 0.0;  ///< from differences of neighbouring residuals: free of slow structure
+    double noise_mm = 0.0;  ///< from differences of neighbouring residuals, so without slow
+                            ///< structure
     int dof = 0;
     int iterations = 0;
 
@@ -59,37 +61,39 @@ struct BallbarFit {
     bool determined(int parameter) const;     ///< false: part of an inseparable group
 };
 
-struct BallbarState;  // one set of values, ready to evaluate
+struct BallbarState;  // one set of parameter values, prepared for evaluation
 
-/// The length model at fixed poses: distance of the tool cup from the centre pivot on the physical
+/// The length model at fixed poses: distance between tool cup and centre pivot on the physical
 /// chain, minus the nominal length. Prepared once for many sets of readings.
 class BallbarModel {
   public:
-    /// `nominal` holds what is known of the machine (usually no errors); `rows` all ballbar passes.
+    /// `nominal`: known geometry of the machine (usually without errors); `rows`: all ballbar
+    /// passes.
     BallbarModel(const kinematics::Machine& nominal, const BallbarLayout& layout,
                  const std::vector<records::Reading>& rows, const BallbarUnknowns& unknowns);
 
     std::size_t size() const { return poses_.size(); }
     const std::vector<BallbarParameter>& parameters() const { return parameters_; }
-    /// Index into the rows given of each reading used.
+    /// Index of each reading used, in the rows given.
     const std::vector<std::size_t>& rows_used() const { return row_; }
     const std::vector<BallbarPass>& passes() const { return passes_; }
 
-    /// Readings (mm) for these values of the parameters.
+    /// Readings (mm) for these parameter values.
     std::vector<double> predict(const Eigen::VectorXd& value) const;
-    /// Gauss-Newton from zero. `reading_mm` in the order of rows_used().
+    /// Gauss-Newton from zero. `reading_mm` in the order of rows_used(). Inseparable parameters
+    /// take the smallest values; `inseparable` lists them.
     BallbarFit fit(const std::vector<double>& reading_mm) const;
 
   private:
-    /// Neighbouring readings share the Jacobian row of their middle one: at 1000 Hz it hardly
-    /// changes; residuals are always exact.
+    /// Neighbouring readings share the Jacobian row of their middle one, because it hardly changes
+    /// at 1000 Hz. Residuals are always exact.
     struct Block {
         std::size_t begin, end;
     };
     struct Linear {
-        Eigen::MatrixXd jacobian;  ///< a row for each block, scaled columns
+        Eigen::MatrixXd jacobian;  ///< one row a block, scaled columns
         Eigen::MatrixXd inverse;   ///< pseudo-inverse of the normal matrix
-        Eigen::MatrixXd null;      ///< basis of what changes no reading
+        Eigen::MatrixXd null;      ///< basis of the null space
     };
 
     double reading(const BallbarState& state, std::size_t i) const;
@@ -106,16 +110,16 @@ class BallbarModel {
     std::vector<std::size_t> row_;
     std::vector<AxisPositions> poses_;
     std::vector<int> test_of_;           ///< number of the test of each pose
-    std::vector<std::size_t> pass_end_;  ///< first pose behind each pass
+    std::vector<std::size_t> pass_end_;  ///< index of the first pose after each pass
     std::vector<Block> blocks_;
     Linear start_;  ///< at zero errors, where symmetries are exact
 };
 
-/// Standard uncertainty of one reading: what the residuals show, not less than what is declared.
+/// Standard uncertainty of one reading: from the residuals, but at least the declared one.
 double reading_sigma_mm(const BallbarFit& fit, double declared_mm);
 
-/// Whether the residuals hold more than noise: slow structure above twice its own scatter. Causes
-/// that are not modelled (linear axes, backlash, servo, ...) show here.
+/// Whether the residuals contain more than noise, i.e. slow structure larger than twice its own
+/// scatter. Causes that are not modelled (linear axes, backlash, servo, ...) appear here.
 struct ResidualVerdict {
     bool structured = false;
     double excess_um = 0.0;  ///< sqrt(rms^2 - noise^2)

@@ -1,4 +1,4 @@
-// Passes of a real machine: the same evaluations without anything that only a simulator knows.
+// Passes of a real machine: the same evaluations, without data known to a simulator only.
 #include <algorithm>
 
 #include "ballbar/test/ballbar_evaluation.h"
@@ -15,7 +15,7 @@ bool has_rotary_passes(const records::ReadingTable& table) {
                        [](const BallbarPass& pass) { return pass.test.rotary.has_value(); });
 }
 
-/// Location errors of the passes of a real machine, those that they determine.
+/// Location errors determined by the passes of a real machine.
 std::vector<ErrorEstimate> measured_errors(const BallbarFit& fit, double sigma_mm) {
     std::vector<ErrorEstimate> out;
     for (const ErrorEstimate& e : chain_estimates(fit, sigma_mm))

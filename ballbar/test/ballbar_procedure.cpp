@@ -35,7 +35,8 @@ BallbarRun run_once(const setup::Setup& setup, const BallbarResult& result,
     return {std::move(log.readings), log.result.time_s};
 }
 
-/// All seven tests both ways and in range all the way, or a message that names what is missing.
+/// Checks that all seven tests are present in both directions and in range, or reports what is
+/// missing.
 void check_complete(const BallbarModel& model, const std::vector<std::string>& notes) {
     std::vector<std::string> left;
     for (const std::string& note : notes)
@@ -50,15 +51,15 @@ void check_complete(const BallbarModel& model, const std::vector<std::string>& n
         throw InputError(fmt::format("the ballbar read {} of 14 passes", model.passes().size()));
 }
 
-/// Differences of two lists of the same names: what the compensated control leaves at the
-/// intersection.
+/// Differences of two lists with the same names: errors that remain at the intersection after
+/// compensation.
 std::vector<ErrorEstimate> left_over(std::vector<ErrorEstimate> now,
                                      const std::vector<ErrorEstimate>& known) {
     for (std::size_t i = 0; i < now.size(); ++i) now[i].value -= known[i].value;
     return now;
 }
 
-/// The machine as it is, with the location errors that effects add.
+/// The machine with its own location errors and those added by effects.
 kinematics::Machine true_machine(const setup::Setup& setup,
                                  const std::vector<NamedError>& injected) {
     kinematics::Machine machine = setup.machine;
@@ -66,7 +67,7 @@ kinematics::Machine true_machine(const setup::Setup& setup,
     return machine;
 }
 
-/// What the re-test cannot know: the true errors that compensation leaves, in both tables.
+/// Adds to both tables the true remaining errors, which the re-test cannot determine.
 void add_what_is_left(BallbarResult& result, const kinematics::Machine& nominal,
                       const kinematics::Machine& truth) {
     for (BallbarErrorRow& row : result.errors)
@@ -76,7 +77,7 @@ void add_what_is_left(BallbarResult& result, const kinematics::Machine& nominal,
         result.at_intersection[i].truly_left = lines[i].value - result.at_intersection[i].before;
 }
 
-/// Proofs in which the bar's own second run has no part.
+/// Verifications independent of the bar's second run.
 void add_proofs(BallbarResult& result, const setup::Setup& setup, const BallbarLayout& layout,
                 const emulator::EffectModels& effects, const kinematics::Machine& known) {
     const kinematics::Machine nominal = nominal_of(setup);
@@ -86,7 +87,7 @@ void add_proofs(BallbarResult& result, const setup::Setup& setup, const BallbarL
         };
     };
     result.true_tip = true_tip(setup, layout, effects, compensation_of(layout.cup_S_mm));
-    // The stylus has its own length: its place is compensated, not the cup's.
+    // The stylus has its own length, so its own tip is compensated, not the cup.
     if (setup.probe)
         result.sphere_check =
             check_by_sphere(setup, layout, effects, compensation_of(setup.probe->tip_S_mm));
@@ -138,7 +139,7 @@ BallbarLayout stated_layout(const setup::Setup& setup, int& tool_offset) {
     const double wanted_mm = -setup.ballbar->cup_S_mm.z();
     const auto& tools = setup.stores.tools.tool;
     tool_offset = 0;
-    double nearest_mm = 1.0;  // the range of the bar
+    double nearest_mm = 1.0;  // range of the bar
     for (std::size_t n = 1; n < tools.size(); ++n) {
         const double off_mm = std::abs(tools[n].length_mm() - wanted_mm);
         if (off_mm < nearest_mm) nearest_mm = off_mm, tool_offset = static_cast<int>(n);
@@ -173,7 +174,7 @@ BallbarResult run_ballbar(const setup::Setup& stated, const BallbarProcedureOpti
     result.times = options.times;
     const kinematics::Machine nominal = nominal_of(setup);
     result.data = stated_program_data(setup, options.inside);
-    // Programs go on the nominal circle, readings count from the bar as warm as it was read.
+    // Programs use the nominal circle; readings refer to the bar at the temperature that was read.
     BallbarLayout layout = result.data.layout;
     for (setup::Artefact& artefact : setup.artefacts)
         if (artefact.kind == setup::Artefact::Kind::center_pivot)
@@ -199,7 +200,7 @@ BallbarResult run_ballbar(const setup::Setup& stated, const BallbarProcedureOpti
     const double sigma_1 = result.reading_sigma_mm, sigma_2 = reading_sigma_mm(rest, declared_mm);
     result.errors = rows_of(chain_estimates(result.fit, sigma_1), chain_estimates(rest, sigma_2),
                             result.published.chain);
-    // `rest` counts from the known machine: lines of that, minus lines of the known one.
+    // `rest` is relative to the known machine: its axis lines minus those of the known machine.
     const auto lines = intersection_estimates(nominal, result.fit, sigma_1);
     result.at_intersection =
         rows_of(lines, left_over(intersection_estimates(known, rest, sigma_2), lines),

@@ -101,7 +101,7 @@ std::string subprograms(Words words) {
     return text + fill(ballbar_text::switch_program, words);
 }
 
-/// Range wanted, cut to the travel limits with room for the overshoot.
+/// The wanted range, limited to the travel with room for the overshoot.
 std::pair<double, double> within(const kinematics::AxisGeometry& axis,
                                  std::pair<double, double> wanted, double overshoot_rad) {
     if (axis.min) wanted.first = std::max(wanted.first, *axis.min + overshoot_rad);

@@ -1,4 +1,4 @@
-// Writes the NC programs of the single-set-up ballbar test for a table machine.
+// Generates the NC programs of the single-set-up ballbar test for a table machine.
 #pragma once
 
 #include <string>
@@ -7,33 +7,33 @@
 
 namespace trunnion::ballbar::test {
 
-/// What a generated program starts from; every value can be changed at its head.
+/// Input of a generated program; every value can be changed at its head.
 struct BallbarProgramData {
-    /// `inside` turns the bar round in the two tests in which it lies flat (axial of the first
-    /// axis, radial of the second). In the other two the cup stays above the pivot: below it a
-    /// spindle would stand in the table.
+    /// `inside` reverses the bar in the two tests in which it is horizontal (axial of the first
+    /// axis, radial of the second). In the other two the cup stays above the pivot, because below
+    /// it the spindle would collide with the table.
     BallbarLayout layout;
     int tool_offset = 2;          ///< H number of the tool cup
-    double safe_z_mm = 450.0;     ///< machine Z that clears everything
+    double safe_z_mm = 450.0;     ///< machine Z above all obstacles
     double feed_mm_min = 2000.0;  ///< planar tests
     double turn_deg_min = 720.0;  ///< rotary tests
-    double overshoot_deg = 5.0;   ///< before and behind each measured arc
-    bool hurco = false;           ///< M128 with its linearisation and M129
+    double overshoot_deg = 5.0;   ///< before and after each measured arc
+    bool hurco = false;           ///< M128 with its linearisation, and M129
 };
 
-/// Defaults from a machine, its bar and the place of the centre pivot: ranges within the travel
-/// limits, A or B -30 to 90 deg and C one turn where they allow it. Throws InputError when the
-/// pivot does not stand where the single set-up needs it (straight above the first rotary axis,
-/// offset along it from the second).
+/// Defaults from a machine, its bar and the position of the centre pivot: ranges within travel, A
+/// or B -30 to 90 deg and C one turn where possible. Throws InputError when the pivot is not where
+/// the single set-up requires it (vertically above the first rotary axis, offset along it from the
+/// second).
 BallbarProgramData ballbar_program_data(const kinematics::Machine& nominal,
                                         const BallbarLayout& layout);
 
 /// Main program O8200 and its subprograms in one file: set-up circles XY, YZ, ZX, radial and axial
-/// tests of both rotary axes, one run, one set-up. Macro B.
+/// tests of both rotary axes in one run with one set-up. Macro B.
 std::string ballbar_program(const kinematics::Machine& nominal, const BallbarProgramData& data);
 
-/// O8300: kinematic tests BK1 (tilting axis), BK2 (turning axis) and BK4 (all five axes at once)
-/// for two rotary axes under the workpiece, same set-up and data.
+/// O8300: kinematic tests BK1 (tilting axis), BK2 (rotating axis) and BK4 (all five axes
+/// simultaneously) for two rotary table axes, with the same set-up and data.
 std::string kinematic_test_program(const kinematics::Machine& nominal,
                                    const BallbarProgramData& data);
 

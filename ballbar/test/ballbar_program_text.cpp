@@ -2,8 +2,8 @@
 
 namespace trunnion::ballbar::test::ballbar_text {
 
-// Letters in braces are filled in: {R} {C} rotary axes, {U} linear axis along the first of them,
-// {ZU} plane of Z and U with the angle {Z} of Z in it, {ACROSS} plane across U with {ZX} of Z.
+// Placeholders in braces: {R} {C} rotary axes, {U} linear axis along the first of them, {ZU} plane
+// of Z and U with the angle {Z} of Z in it, {ACROSS} plane perpendicular to U with {ZX} of Z.
 const char* const main_program = R"(O8200 (SINGLE SET-UP BALLBAR TEST, {R}-{C} TABLE, ONE RUN)
 (THE BAR STAYS IN PLACE FROM THE FIRST TEST TO THE LAST: PLANAR ARCS ABOUT THE PIVOT,)
 (TCP OFF, LEAD FROM ONE STATION OF THE CUP TO THE NEXT.)
@@ -221,7 +221,8 @@ G94
 N9M99
 )";
 
-// Switching names the point where the cup stands, so that nothing moves whatever parameters say.
+// The block that switches TCP names the present position of the cup, so that nothing moves whatever
+// the parameters.
 const char* const switch_program = R"(
 O8260 (BALLBAR: TCP ON, THE CUP STANDS AT X #24 Y #25 Z #26)
 {ON}

@@ -1,4 +1,4 @@
-// The NC text of the ballbar programs, with places in braces for letters and values.
+// NC text of the ballbar programs, with placeholders in braces for letters and values.
 #pragma once
 
 namespace trunnion::ballbar::test::ballbar_text {

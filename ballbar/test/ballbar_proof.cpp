@@ -12,7 +12,7 @@ namespace trunnion::ballbar::test {
 
 namespace {
 
-/// Rotary angles over which compensation is judged: every 30 degrees of the tested ranges.
+/// Rotary positions for judging the compensation: every 30 degrees of the tested ranges.
 std::vector<AxisPositions> judged_poses(const kinematics::Machine& nominal,
                                         const BallbarLayout& layout) {
     const auto [first, second] = table_axes(nominal.chain);
@@ -65,7 +65,7 @@ records::ReadingTable sphere_rows(const setup::Setup& setup, const BallbarLayout
     return table;
 }
 
-/// Largest found minus expected centre; what was found at home is taken along with the table.
+/// Largest measured minus expected centre; the position measured at home moves with the table.
 double largest_miss_um(const setup::Setup& setup, const BallbarLayout& layout,
                        const setup::Artefact& sphere, const emulator::EffectModels& effects,
                        const emulator::Compensation& compensate) {
@@ -103,7 +103,7 @@ TrueTip true_tip(const setup::Setup& setup, const BallbarLayout& layout,
         }
         return um_from_mm(worst_mm);
     };
-    emulator::Contact cup;  // effects of the tool's length act on it
+    emulator::Contact cup;  // effects of the tool length act on it
     cup.tip = true;
     return {largest_um(layout.cup_S_mm, {}), largest_um(setup.ballbar->cup_S_mm, cup)};
 }

@@ -1,4 +1,4 @@
-// What a ballbar's own second run cannot show: the true tip, and a check by another instrument.
+// Verification beyond the bar's own second run: the true tip, and a check by another instrument.
 #pragma once
 
 #include "ballbar/test/ballbar_procedure.h"
@@ -6,12 +6,12 @@
 
 namespace trunnion::ballbar::test {
 
-/// A simulator knows where a tip really is: its largest way from its place at home, over poses
-/// every 30 degrees of the tested ranges, effects included, axes coming from the - side.
+/// Simulation only: largest displacement of the tip from its position at home, over poses every 30
+/// degrees of the tested ranges. Includes effects; axes arrive from the - side.
 TrueTip true_tip(const setup::Setup& setup, const BallbarLayout& layout,
                  const emulator::EffectModels& effects, const emulator::Compensation& compensate);
 
-/// The setup's sphere found by its probe in the same poses; nothing without probe or sphere.
+/// The setup's sphere measured by its probe in the same poses; empty without probe or sphere.
 std::optional<SphereCheck> check_by_sphere(const setup::Setup& setup, const BallbarLayout& layout,
                                            const emulator::EffectModels& effects,
                                            const emulator::Compensation& compensate);

@@ -7,7 +7,7 @@
 namespace trunnion::ballbar::test {
 namespace {
 
-/// Measured end of the bar: from the commanded cup along the nominal bar by the measured length.
+/// Measured end of the bar: at the measured length from the commanded cup along the nominal bar.
 struct BarPoint {
     Vector3 cup_M_mm, pivot_M_mm;  ///< ideal
     Vector3 direction;             ///< from cup to pivot, unit
@@ -33,7 +33,7 @@ std::vector<BarPoint> points_of(const kinematics::Machine& nominal, const Ballba
     return points;
 }
 
-/// Location check: tool-tip coordinates from lengths, one sphere through the three circles.
+/// Location check: tip coordinates from lengths, one sphere through the three circles.
 void fit_setup(const kinematics::Machine& nominal, const BallbarLayout& layout,
                const std::vector<records::Reading>& rows, PublishedEvaluation& out) {
     std::vector<Vector3> tips;
@@ -50,8 +50,8 @@ void fit_setup(const kinematics::Machine& nominal, const BallbarLayout& layout,
     out.setup_rms_mm = sphere->rms_mm;
 }
 
-/// Centre of rotation from the radial test, in the plane through the pivot across the axis, and
-/// direction of the plane of rotation from the axial test.
+/// Centre of rotation from the radial test, in the plane through the pivot perpendicular to the
+/// axis, and direction of the plane of rotation from the axial test.
 bool fit_axis(const kinematics::Machine& nominal, const BallbarLayout& layout,
               const std::vector<records::Reading>& rows, const kinematics::AxisGeometry& axis,
               AxisLine& line) {
@@ -77,7 +77,7 @@ bool fit_axis(const kinematics::Machine& nominal, const BallbarLayout& layout,
     return true;
 }
 
-/// What the errors of an axis do to its carried body with all axes at zero.
+/// Motion of the carried body caused by the errors of an axis, all axes at zero.
 Pose home_motion(const kinematics::AxisGeometry& axis, const kinematics::AxisErrors& errors) {
     const Vector3 shift(errors.location[0], errors.location[1], errors.location[2]);
     const Vector3 tilt(errors.location[3], errors.location[4], errors.location[5]);
@@ -114,7 +114,7 @@ std::vector<NamedError> errors_of_line(const AxisLine& line,
     const Vector3& k = nominal.direction;
     const double along = k.dot(point_mm - line.point_mm) / k.dot(line.direction);
     const Vector3 shift = line.point_mm + along * line.direction - point_mm;
-    // The rotation vector across k that turns k into the line's direction.
+    // The rotation vector perpendicular to k that turns k into the direction of the line.
     const Vector3 cross = k.cross(line.direction);
     const double sine = cross.norm();
     const Vector3 tilt = sine > 0.0

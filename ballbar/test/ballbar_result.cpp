@@ -38,7 +38,7 @@ std::vector<ErrorEstimate> intersection_estimates(const kinematics::Machine& nom
     const std::vector<NamedError> value = lines_of(fit);
     Eigen::MatrixXd slope =
         Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(value.size()), fit.value.size());
-    const double step = 1e-5;  // mm or rad: the map is smooth
+    const double step = 1e-5;  // mm or rad, small enough because the map is smooth
     for (Eigen::Index k = 0; k < fit.value.size(); ++k) {
         BallbarFit up = fit, down = fit;
         up.value(k) += step;
@@ -61,7 +61,8 @@ AxisPositions compensated(const AxisPositions& programmed, const kinematics::Mac
                           const kinematics::Machine& known, const Vector3& cup_S_mm) {
     const Vector3 wanted_W = nominal.tip_W(programmed, cup_S_mm);
     AxisPositions q = programmed;
-    // The linear axes are nearly orthogonal: each pass shrinks what is left by their squareness.
+    // The linear axes are nearly orthogonal: each iteration reduces the remainder by the factor of
+    // their squareness error.
     for (int i = 0; i < 6; ++i) {
         const kinematics::MachinePose pose = known.poses(q);
         const Vector3 missing = pose.pose_MW * wanted_W - pose.pose_MS * cup_S_mm;

@@ -1,4 +1,4 @@
-// The eight location errors with standard uncertainties, in the two ways they are quoted.
+// The eight location errors with standard uncertainties, in both definitions.
 #pragma once
 
 #include <vector>
@@ -17,20 +17,21 @@ struct ErrorEstimate {
 /// `nominal` with the fitted location errors added.
 kinematics::Machine machine_of(const kinematics::Machine& nominal, const BallbarFit& fit);
 
-/// As the setup file means them: at point_mm, in the frame of the carrier.
+/// In the definition of the setup file: at point_mm, in the frame of the carrier.
 std::vector<ErrorEstimate> chain_estimates(const BallbarFit& fit, double reading_sigma_mm);
 
-/// Lines of both axes of a machine with errors as the paper means them: in M, all axes at zero, at
-/// the nominal intersection.
+/// Lines of both axes of a machine with errors in the definition of the paper: in M, all axes at
+/// zero, at the nominal intersection.
 std::vector<NamedError> lines_at_intersection(const kinematics::Machine& nominal,
                                               const kinematics::Machine& machine);
 
-/// The fitted ones with their uncertainty.
+/// The fitted errors with their uncertainty.
 std::vector<ErrorEstimate> intersection_estimates(const kinematics::Machine& nominal,
                                                   const BallbarFit& fit, double reading_sigma_mm);
 
-/// X Y Z of a control that knows the errors in `known`: the cup goes where the programmed position
-/// would put it on the table of a machine without them. Rotary positions are kept.
+/// X Y Z commanded by a control that knows the errors in `known`: the cup moves to the point of the
+/// table where the programmed position would put it on an error-free machine. Rotary positions are
+/// kept.
 AxisPositions compensated(const AxisPositions& programmed, const kinematics::Machine& nominal,
                           const kinematics::Machine& known, const Vector3& cup_S_mm);
 

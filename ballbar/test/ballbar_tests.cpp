@@ -20,7 +20,7 @@ std::string lower(std::string_view text) {
     return out;
 }
 
-/// Unit vectors of a planar test: the angle runs from `first` to `second`.
+/// Unit vectors of a planar test: the angle is counted from `first` to `second`.
 std::pair<Vector3, Vector3> plane_of(BallbarTestKind kind) {
     switch (kind) {
         case BallbarTestKind::xy:
@@ -32,7 +32,7 @@ std::pair<Vector3, Vector3> plane_of(BallbarTestKind kind) {
     }
 }
 
-/// Angles from and to of a planar test: XY a full turn, the others symmetrical about +Z.
+/// Start and end angle of a planar test: XY a full turn, the others symmetrical about +Z.
 std::pair<double, double> planar_range(BallbarTestKind kind, double partial_rad) {
     if (kind == BallbarTestKind::xy) return {0.0, 2.0 * pi};
     const double middle = kind == BallbarTestKind::yz ? 0.5 * pi : 0.0;
@@ -121,7 +121,7 @@ std::vector<AxisPositions> ideal_path(const kinematics::Machine& nominal,
 
 namespace {
 
-/// Angle a planar pass went about its own mean point, or the rotary axis turned.
+/// Angle travelled by a planar pass about its own mean point, or by the rotary axis.
 double travel_of(const std::vector<records::Reading>& rows, const BallbarPass& pass) {
     const std::size_t last = pass.end - 1;
     if (pass.test.rotary)
@@ -132,13 +132,13 @@ double travel_of(const std::vector<records::Reading>& rows, const BallbarPass& p
         const AxisPositions& q = rows[i].commanded;
         return Vector3(q[Axis::X], q[Axis::Y], q[Axis::Z]);
     };
-    double turned = 0.0;  // of the path's tangent
+    double turned = 0.0;  // rotation of the path's tangent
     for (std::size_t i = pass.begin + 1; i < last; ++i) {
         const Vector3 a = at(i) - at(i - 1), b = at(i + 1) - at(i);
         const double cross = u.dot(a) * v.dot(b) - v.dot(a) * u.dot(b);
         if (a.squaredNorm() > 0.0 && b.squaredNorm() > 0.0) turned += std::atan2(cross, a.dot(b));
     }
-    // Between n points the tangent turns n - 2 times: the rest of the arc is as evenly run.
+    // Between n points the tangent turns n - 2 times; the rest of the arc is extrapolated.
     const auto n = static_cast<double>(pass.end - pass.begin);
     return turned * (n - 1.0) / std::max(1.0, n - 2.0);
 }

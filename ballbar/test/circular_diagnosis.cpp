@@ -1,4 +1,4 @@
-// The shapes that errors of two linear axes leave on a circle, and how much of each is there.
+// Error traces of two linear axes on a circle, and the amount of each.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -11,21 +11,21 @@ namespace trunnion::ballbar::test {
 namespace {
 
 constexpr std::size_t points_per_pass = 720;
-constexpr double full_weight_gain = 30.0;  ///< times the noise variance a keyed shape must explain
+constexpr double full_weight_gain = 30.0;  ///< minimum gain of a trace with key, times the noise
+                                           ///< variance
 
-/// A point of the circle: bar outwards from the pivot, axes u and v of the plane.
+/// A point of the circle: bar from the pivot outwards, axes u and v of the plane.
 struct CirclePoint {
     double cos, sin;    ///< of the bar's angle
-    double u_mm, v_mm;  ///< commanded, from the circle's centre
+    double u_mm, v_mm;  ///< commanded, relative to the circle's centre
     double machine_u_mm, machine_v_mm;
     double velocity_u, velocity_v;        ///< mm/s
     double travel_u, travel_v;            ///< -1 or 1
-    double reversal_u_mm, reversal_v_mm;  ///< travelled since the axis turned
+    double reversal_u_mm, reversal_v_mm;  ///< distance since the axis reversed
     double radial_mm;
 };
 
-/// What a unit of the error adds to the bar's length there: its displacement of the tool along the
-/// bar.
+/// Change of the bar's length for a unit of the error: its displacement of the tool along the bar.
 using Shape = std::function<double(const CirclePoint&)>;
 
 struct Term {
@@ -39,12 +39,12 @@ bool turns_within(const CircularPass& pass, std::size_t begin, std::size_t end, 
     return pass.samples[begin].travel[i] != pass.samples[end - 1].travel[i];
 }
 
-/// Means of neighbouring readings; rows at a turning point say nothing about reversal.
+/// Means of neighbouring readings; rows at a reversal point contain no information about reversal.
 std::vector<CirclePoint> points_of(const CircularTest& test) {
     const auto [u, v] = axes_of_plane(test.plane);
     std::vector<CirclePoint> points;
     for (const CircularPass& pass : test.passes) {
-        // The eccentricity of the set-up, whose square would look like an oval, is taken out.
+        // The set-up eccentricity, whose square would look like an ellipse, is removed.
         const auto radial_mm = centred_radial_mm(pass, test.circle, test.radius_mm);
         const std::size_t count = pass.angle_rad.size(), blocks = std::min(count, points_per_pass);
         for (std::size_t b = 0; b < blocks; ++b) {
@@ -82,7 +82,7 @@ Term term(const std::string& name, const std::string& effect, const std::string&
     return out;
 }
 
-/// Values in um, um/m, ms: the shape of one such unit in mm.
+/// Values in um, um/m, ms: trace of one such unit in mm.
 std::vector<Term> plain_terms(const CircularTest& test) {
     const auto [axis_u, axis_v] = axes_of_plane(test.plane);
     const std::string u(1, letter_of(axis_u)), v(1, letter_of(axis_v)), uv = plane_name(test.plane);
@@ -90,7 +90,7 @@ std::vector<Term> plain_terms(const CircularTest& test) {
     using P = const CirclePoint&;
     return {nuisance([](P) { return 1.0; }), nuisance([](P p) { return p.cos; }),
             nuisance([](P p) { return p.sin; }),
-            // E_C0Y and its like: the second axis turned about the plane's normal.
+            // E_C0Y and similar: rotation of the second axis about the plane's normal.
             term("squareness " + uv, uv + ".squareness", "um/m",
                  [](P p) { return -1e-6 * p.v_mm * p.cos; }),
             term("scale mismatch " + u + "-" + v, u + ".scale", "um/m",
@@ -126,7 +126,7 @@ Shape ripple_shape(bool first, double period_mm, bool sine) {
     };
 }
 
-/// Least squares by adding columns one after the other: what each new one explains shows at once.
+/// Least squares with columns added one after the other, so that the gain of each is known at once.
 class ShapeFit {
   public:
     explicit ShapeFit(const std::vector<CirclePoint>& points) : points_(points) {
@@ -142,7 +142,7 @@ class ShapeFit {
         return out;
     }
 
-    /// What is left of a column beside those taken; empty when nothing.
+    /// Remainder of a column after projecting out those taken; empty when it vanishes.
     Eigen::VectorXd beside(const Eigen::VectorXd& column) const {
         Eigen::VectorXd left = column;
         for (int pass = 0; pass < 2; ++pass)
@@ -161,7 +161,7 @@ class ShapeFit {
         return true;
     }
 
-    /// Sum of squares that these shapes would explain.
+    /// Sum of squares that these traces would explain.
     double gain(const std::vector<Shape>& shapes) const {
         double sum = 0.0;
         Eigen::VectorXd first;
@@ -182,7 +182,7 @@ class ShapeFit {
         return dof > 0 ? rest_.squaredNorm() / static_cast<double>(dof) : 0.0;
     }
 
-    /// Values and uncertainties of all terms taken, traces filled in.
+    /// Values and uncertainties of all terms taken, with their traces.
     std::vector<CircularCause> solve() const {
         const auto count = static_cast<Eigen::Index>(columns_.size());
         Eigen::MatrixXd a(static_cast<Eigen::Index>(points_.size()), count);
@@ -214,7 +214,7 @@ class ShapeFit {
     double residual_um() const { return um_from_mm(std::sqrt(variance())); }
 
   private:
-    /// Without what only moves or resizes the circle: that is no circularity.
+    /// Removes shift and change of radius of the circle, which are not circularity.
     Eigen::VectorXd centred(Eigen::VectorXd shape) const {
         for (std::size_t k = 0; k < terms_.size(); ++k)
             if (terms_[k].nuisance) shape -= basis_[k].dot(shape) * basis_[k];
@@ -232,7 +232,7 @@ std::string number(double value) {
     return text.substr(0, text.find('.') + 3);
 }
 
-/// Best of a grid of decays; taken when it explains far more than noise would.
+/// Best of a grid of decay lengths; taken when it explains far more than noise would.
 void try_spike(ShapeFit& fit, bool first, const std::string& axis) {
     double best_gain = 0.0, best_mm = 0.0;
     const auto look = [&](double low, double high, double factor) {
@@ -270,7 +270,7 @@ void try_ripple(ShapeFit& fit, bool first, const std::string& axis) {
     }
 }
 
-/// Cosine and sine of one ripple are one line: its amplitude.
+/// Combines cosine and sine of one ripple into its amplitude.
 void join_ripples(std::vector<CircularCause>& causes) {
     for (std::size_t i = 0; i + 1 < causes.size(); ++i) {
         CircularCause &a = causes[i], &b = causes[i + 1];

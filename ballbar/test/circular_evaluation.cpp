@@ -16,7 +16,7 @@ Vector2 in_plane(const AxisPositions& q, BallbarTestKind plane) {
     return {q[u], q[v]};
 }
 
-/// Angle, reading and sample of each row of a pass about the commanded circle's centre.
+/// Angle, reading and sample of each row of a pass about the centre of the commanded circle.
 CircularPass make_pass(const records::ReadingTable& table, const std::vector<AxisSample>& samples,
                        const BallbarPass& pass, const Vector2& center) {
     CircularPass out{pass.name, pass.travel > 0.0, table.rows[pass.begin].feed_mm_min, {}, {}, {},
@@ -39,8 +39,8 @@ Vector2 arm_of(const CircularPass& pass, std::size_t i, double radius_mm) {
     return radius_mm * Vector2(std::cos(pass.angle_rad[i]), std::sin(pass.angle_rad[i]));
 }
 
-/// Pivot and mean radius by least squares of reading = |arm - pivot| - nominal + (mean - nominal):
-/// exact for any eccentricity of the set-up, so that a perfect circle stays perfect.
+/// Pivot and mean radius by least squares of reading = |arm - pivot| - nominal + (mean - nominal).
+/// Exact for any eccentricity of the set-up, so that a perfect circle gives zero deviation.
 CircleFit centre(const std::vector<const CircularPass*>& passes, double radius_mm) {
     Vector3 x = Vector3::Zero();  // pivot, mean - nominal
     for (int iteration = 0; iteration < 4; ++iteration) {
@@ -65,7 +65,7 @@ double spread_um(const std::vector<double>& values_mm) {
     return um_from_mm(*high - *low);
 }
 
-/// Radius of the other pass at an angle, by linear interpolation; nothing outside its arc.
+/// Radius of the other pass at an angle, by linear interpolation; empty outside its arc.
 class RadiusAt {
   public:
     RadiusAt(const CircularPass& pass, const std::vector<double>& radial_mm) {
@@ -81,7 +81,7 @@ class RadiusAt {
         if (above == points_.begin() || above == points_.end()) return std::nullopt;
         const auto below = above - 1;
         const double gap = above->first - below->first;
-        if (gap > 0.1) return std::nullopt;  // the part of the circle that was not run
+        if (gap > 0.1) return std::nullopt;  // outside the measured arc
         const double t = gap > 0.0 ? (a - below->first) / gap : 0.0;
         return below->second + t * (above->second - below->second);
     }

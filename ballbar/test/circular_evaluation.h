@@ -1,4 +1,5 @@
-// Planar circular tests after ISO 230-4: figures, and which errors of two linear axes they show.
+// Planar circular tests after ISO 230-4: parameters, and the contributing errors of two linear
+// axes.
 #pragma once
 
 #include <string>
@@ -10,39 +11,40 @@
 
 namespace trunnion::ballbar::test {
 
-/// One direction of travel along one circle. Angles counter-clockwise in the plane from its first
-/// axis (XY from X, YZ from Y, ZX from Z).
+/// One direction of travel on one circle. Angles counter-clockwise in the plane from its first axis
+/// (XY from X, YZ from Y, ZX from Z).
 struct CircularPass {
     std::string name;
     bool ccw = true;
     double feed_mm_min = 0.0;
     std::vector<double> angle_rad;
-    std::vector<double> radial_mm;  ///< reading, set-up eccentricity included
+    std::vector<double> radial_mm;  ///< reading, including set-up eccentricity
     std::vector<AxisSample> samples;
-    CircleFit circle;  ///< least squares of the measured path about the pivot
+    CircleFit circle;  ///< least-squares circle of the measured path about the pivot
 };
 
 /// Both directions of one plane and feed.
 struct CircularTest {
     BallbarTestKind plane = BallbarTestKind::xy;
     double radius_mm = 100.0;  ///< nominal
-    double arc_rad = 0.0;      ///< covered
+    double arc_rad = 0.0;      ///< arc covered
     std::vector<CircularPass> passes;
-    Vector2 center_M_mm = Vector2::Zero();  ///< of the commanded circle, in the plane's axes
+    Vector2 center_M_mm = Vector2::Zero();  ///< of the commanded circle, along the plane's axes
     CircleFit circle;                       ///< of all passes together
 };
 
-/// Figures of ISO 230-4 in um. Centre: least squares (one for both directions where they are
-/// compared). A direction that was not measured leaves its figures 0 and `bidirectional` false.
+/// Parameters of ISO 230-4 in um. Centre: least squares (a common one for comparisons of both
+/// directions). Parameters of a direction that was not measured are 0, and `bidirectional` is
+/// false.
 struct CircularFigures {
     double circularity_ccw_um = 0.0;  ///< G: largest minus smallest radius
     double circularity_cw_um = 0.0;
     bool bidirectional = false;
-    double bidirectional_circularity_um = 0.0;  ///< G(b): both paths about one centre
+    double bidirectional_circularity_um = 0.0;  ///< G(b): both paths with a common centre
     double mean_radial_deviation_um = 0.0;      ///< D: mean radius - nominal radius
     double radial_deviation_max_um = 0.0;       ///< F max, F min: radius - nominal radius
     double radial_deviation_min_um = 0.0;
-    double hysteresis_um = 0.0;  ///< H: largest difference of the two paths at one angle
+    double hysteresis_um = 0.0;  ///< H: largest difference of the two paths at the same angle
     double hysteresis_at_rad = 0.0;
 };
 
@@ -53,30 +55,30 @@ struct CircularCause {
     double value = 0.0;
     double sigma = 0.0;
     std::string unit;
-    double share_um = 0.0;     ///< peak to peak of its trace about the trace's own circle
-    double share = 0.0;        ///< of the sum of all traces
+    double share_um = 0.0;     ///< peak-to-peak value of its trace about the trace's own circle
+    double share = 0.0;        ///< fraction of the sum of all traces
     int rank = 0;              ///< 1: largest
     bool significant = false;  ///< |value| > 3 sigma
-    std::string note;          ///< e.g. decay or pitch found
+    std::string note;          ///< e.g. fitted decay length or pitch
 };
 
 struct CircularDiagnosis {
     std::vector<CircularCause> causes;  ///< by rank
     std::vector<std::string> not_separable;
-    double residual_um = 0.0;  ///< rms of what no shape explains
+    double residual_um = 0.0;  ///< rms of the unexplained remainder
 };
 
 /// The planar tests among the readings, by plane and feed, in order of appearance.
 std::vector<CircularTest> circular_tests(const records::ReadingTable& table, double radius_mm);
 
-/// Radius of the measured path about the pivot that `circle` found, minus the nominal radius.
+/// Radius of the measured path about the pivot found by `circle`, minus the nominal radius.
 std::vector<double> centred_radial_mm(const CircularPass& pass, const CircleFit& circle,
                                       double radius_mm);
 
 CircularFigures circular_figures(const CircularTest& test);
 
-/// Least squares of the shapes that backlash, reversal spikes, lateral play, squareness,
-/// straightness, scale mismatch, servo mismatch and ballscrew ripple leave on the circle.
+/// Least squares of the traces of backlash, reversal spikes, lateral play, squareness,
+/// straightness, scale mismatch, servo mismatch and ballscrew ripple.
 CircularDiagnosis diagnose_circle(const CircularTest& test);
 
 /// Axes of a plane, first and second.
