@@ -106,7 +106,8 @@ class Teller {
         for (const auto& [block, l] : loss) order.emplace_back(-l.first, block);
         std::sort(order.begin(), order.end());
         std::vector<GapBlock> out;
-        for (const auto& [negative, block] : order) {
+        for (const auto& [negative, block_number] : order) {
+            const int block = block_number;
             const double terms = loss[block].second;
             const double p = estimation::chi_squared_tail(-negative, terms);
             if (out.size() == most_where || p > 1e-4) break;

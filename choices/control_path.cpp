@@ -48,7 +48,7 @@ class PathSink : public motion::MotionSink {
         const std::uint32_t block = block_of(m);
         const int parts = parts_of(m);
         for (int k = 1; k <= parts; ++k)
-            path_.nodes.push_back({place(m, static_cast<double>(k) / parts), block});
+            path_.nodes.push_back({place(m, static_cast<double>(k) / parts), block, k == parts});
         return {};
     }
 
@@ -79,7 +79,7 @@ class PathSink : public motion::MotionSink {
 ControlPath path_of(const setup::Setup& setup, const interpreter::ProgramText& program,
                     interpreter::ProgramSource& programs, const PathOptions& options) {
     ControlPath path;
-    path.nodes.push_back({offsets::control_position_of(options.start), 0});
+    path.nodes.push_back({offsets::control_position_of(options.start), 0, true});
     path.blocks.emplace_back();
     PathSink sink(path, options, program.name);
     offsets::Stores stores = setup.stores;

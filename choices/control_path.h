@@ -18,6 +18,7 @@ namespace trunnion::choices {
 struct PathNode {
     offsets::ControlPosition at;
     std::uint32_t block = 0;  ///< index into ControlPath::blocks
+    bool end = true;          ///< of a move; false: a point along a curve
 };
 
 /// A block with motion.

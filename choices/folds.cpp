@@ -24,10 +24,10 @@ std::vector<int> folds_for(const std::vector<double>& before, const std::vector<
     int in_turn = 0;
     for (std::size_t row = 0; row < blocks.size(); ++row) {
         const auto at = changed.find(blocks[row]);
-        if (changed.size() < 2 || at == changed.end())
-            out[row] = in_turn++ % fold_count;
-        else
+        if (changed.size() > 1 && at != changed.end())
             out[row] = static_cast<int>(std::distance(changed.begin(), at)) % fold_count;
+        else if (is_changed(before[row], after[row]))
+            out[row] = in_turn++ % fold_count;
     }
     return out;
 }

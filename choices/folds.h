@@ -16,7 +16,7 @@ std::set<int> changed_blocks(const std::vector<double>& before, const std::vecto
                              const std::vector<int>& blocks);
 
 /// Fold of each row: whole blocks in turn, with affected blocks distributed evenly. If only one
-/// block is affected, its rows in turn, because nothing else can be left out.
+/// block is affected, its affected rows in turn, because nothing else can be left out.
 std::vector<int> folds_for(const std::vector<double>& before, const std::vector<double>& after,
                            const std::vector<int>& blocks);
 

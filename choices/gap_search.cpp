@@ -35,16 +35,20 @@ class Scorer {
 };
 
 /// Losses with each fold evaluated with the change only if the other folds support it.
+/// A change that affects one row only cannot be left out; it is evaluated on that row.
 std::vector<double> decided_elsewhere(const std::vector<double>& before,
                                       const std::vector<double>& after,
                                       const std::vector<int>& blocks) {
     const std::vector<int> folds = folds_for(before, after, blocks);
     std::array<double, fold_count> gain{};
     double all = 0.0;
+    int changed = 0;
     for (std::size_t row = 0; row < before.size(); ++row) {
+        changed += is_changed(before[row], after[row]) ? 1 : 0;
         gain[static_cast<std::size_t>(folds[row])] += before[row] - after[row];
         all += before[row] - after[row];
     }
+    if (changed < 2) return after;
     std::vector<double> out(before.size());
     for (std::size_t row = 0; row < before.size(); ++row) {
         const bool takes = all - gain[static_cast<std::size_t>(folds[row])] > 0.0;

@@ -200,6 +200,7 @@ LogOfProgram log_of_program(const records::PositionLog& log,
         }
         out.view.rows.push_back(
             {offsets::control_position_of(row.at), key, sigma, row.line, row.end});
+        out.view.marked = out.view.marked || row.end;
         before = row.at;
     }
     out.view.keys = keys->count();

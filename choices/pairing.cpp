@@ -199,6 +199,7 @@ class Pairer {
         const double s = space_.nearest(from, to, node_at(k));
         ControlPosition apart = space_.apart(space_.between(from, to, s), node_at(k));
         const double size = std::sqrt(space_.square(apart, {}));
+        if (log_.marked && path_.nodes[k].end) return apart;
         const double kept = size > 0.0 ? std::max(0.0, 1.0 - spacing(i) / size) : 0.0;
         for (double& value : apart.value) value *= kept;
         return apart;

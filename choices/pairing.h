@@ -22,6 +22,7 @@ struct LogView {
     std::vector<Row> rows;
     std::vector<Axis> axes;  ///< axes in the log
     bool ends = false;       ///< all rows are ends of moves
+    bool marked = false;     ///< every end of a move has a row that is marked as one
     int keys = 0;            ///< number of blocks named by the log; 0: none
     /// Number of a block of the program; -1: not named by the log.
     std::function<int(const PathBlock&)> key_of;
@@ -40,8 +41,10 @@ struct Pair {
 /// Pairs in order within each block: the rows of a block are matched with the path of its line by
 /// least squares (dynamic time warping). Samples are compared with segments, ends of moves with
 /// ends. Moves not sampled by the log are included: a point of the path far from all samples is
-/// paired with the nearest chord of the samples, minus the distance of samples. A degree counts as
-/// a millimetre. Points after the last logged position are ignored.
+/// paired with the nearest chord of the samples, minus the distance of samples (no
+/// distance is subtracted for an end of a move if the log marks ends). Within one segment the order
+/// of samples is ignored. A degree counts as a millimetre. Points after the last logged position
+/// are ignored.
 std::vector<Pair> pair_up(const LogView& log, const ControlPath& path);
 
 /// Sum of squares of all pairs of a row, each axis divided by its uncertainty; one value a row.

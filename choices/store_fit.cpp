@@ -13,7 +13,8 @@ namespace {
 using Eigen::MatrixXd, Eigen::VectorXd;
 using offsets::ControlPosition;
 
-constexpr double step = 1e-3;  ///< mm or deg, for the derivatives
+/// mm or deg, for the derivatives; the next one is used if a step changes the sequence of moves.
+constexpr double steps[] = {1e-3, -1e-3, 1e-2, -1e-2};
 constexpr double least_influence = 1e-6;
 constexpr double least_change = 1e-4;  ///< mm or deg: the smallest increment that is entered in
                                        ///< practice
@@ -54,12 +55,22 @@ void take_out_travel(const ControlPath& path, const Pair& pair, const std::vecto
     for (const Axis axis : axes) v[axis] -= along * way[axis];
 }
 
+/// The path with one number a step farther, and that step; 0 where every step changes the moves.
+std::pair<ControlPath, double> stepped(const Comparer& comparer, const setup::Setup& setup,
+                                       const ControlPath& path, const StoredNumber& number) {
+    for (const double step : steps) {
+        setup::Setup moved = setup;
+        number.in(moved) += step;
+        ControlPath other = comparer.path(moved);
+        if (other.nodes.size() == path.nodes.size()) return {std::move(other), step};
+    }
+    return {{}, 0.0};
+}
+
 std::optional<Column> column_of(const Comparer& comparer, const setup::Setup& setup,
                                 const ComparedRun& run, const StoredNumber& number) {
-    setup::Setup moved = setup;
-    number.in(moved) += step;
-    const ControlPath path = comparer.path(moved);
-    if (path.nodes.size() != run.path.nodes.size()) return std::nullopt;
+    const auto [path, step] = stepped(comparer, setup, run.path, number);
+    if (step == 0.0) return std::nullopt;
     const std::vector<Axis>& axes = comparer.log().axes;
     Column out(run.pairs.size());
     double most = 0.0;
