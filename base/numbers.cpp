@@ -4,20 +4,19 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/alarm.h"
 #include "base/units.h"
 
 namespace trunnion::inline base {
 
-std::string shortest(double value) {
+std::string shortest(Finite number) {
+    const double value = number;
     if (value == 0.0) return "0";
-    if (!std::isfinite(value)) throw InputError("a result is not a finite number");
     std::array<char, 32> text;
     const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
     return {text.data(), end};
 }
 
-std::string shortest_degrees(double angle_rad) {
+std::string shortest_degrees(Finite angle_rad) {
     const double middle = deg_from_rad(angle_rad);
     // Most angles were typed with few decimals; then the rounded number is the one typed.
     const double typed = std::round(middle * 1e6) / 1e6;

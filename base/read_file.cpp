@@ -5,15 +5,41 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <mutex>
+#include <set>
+#include <utility>
 
 #include "base/alarm.h"
 #include "base/file_handle.h"
+#include "base/sha256.h"
 
 namespace trunnion::inline base {
 namespace {
 
-constexpr std::size_t most_streamed = std::size_t{1} << 30;  ///< limit for pipes and devices, which
-                                                             ///< have no end of their own
+/// What the living ReadRecord holds.
+struct Noted {
+    std::mutex mutex;
+    bool alive = false;
+    std::set<std::pair<std::string, std::string>> files;  ///< path, hash
+};
+
+Noted& noted() {
+    static Noted one;
+    return one;
+}
+
+std::string with_note(const std::string& path, std::string text) {
+    Noted& n = noted();
+    std::unique_lock lock(n.mutex);
+    if (!n.alive) return text;
+    lock.unlock();
+    std::string hash = sha256(text);
+    lock.lock();
+    n.files.emplace(path, std::move(hash));
+    return text;
+}
+
+constexpr std::size_t most_streamed = std::size_t{1} << 30;  ///< from what has no end of its own
 
 [[noreturn]] void refuse(const std::string& path, const std::string& message) {
     throw InputError(message, {path, 0, 0});
@@ -66,11 +92,31 @@ std::string read_open(int file, const std::string& path) {
 std::string read_file(const std::string& path) {
     const FileHandle file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
     if (!file.is_open()) refuse_with_reason(path);
-    return read_open(file.descriptor(), path);
+    return with_note(path, read_open(file.descriptor(), path));
 }
 
 std::string read_file_or_input(const std::string& path) {
-    return path == "-" ? read_open(STDIN_FILENO, "standard input") : read_file(path);
+    constexpr const char* input = "standard input";
+    return path == "-" ? with_note(input, read_open(STDIN_FILENO, input)) : read_file(path);
+}
+
+ReadRecord::ReadRecord() {
+    const std::lock_guard lock(noted().mutex);
+    noted().alive = true;
+    noted().files.clear();
+}
+
+ReadRecord::~ReadRecord() {
+    const std::lock_guard lock(noted().mutex);
+    noted().alive = false;
+}
+
+std::vector<FileRead> ReadRecord::files() {
+    const std::lock_guard lock(noted().mutex);
+    std::vector<FileRead> list;
+    if (noted().alive)
+        for (const auto& [path, hash] : noted().files) list.push_back({path, hash});
+    return list;
 }
 
 }  // namespace trunnion::inline base

@@ -128,7 +128,7 @@ void TomlFile::fail(const TomlValue& at, const std::string& message) const {
     throw InputError(message, place(at), line_text(at.line));
 }
 
-double TomlFile::number(const TomlValue& value) const {
+Finite TomlFile::number(const TomlValue& value) const {
     if (value.kind != TomlValue::Kind::number || !std::isfinite(value.number))
         fail(value, "a finite number is expected here");
     constexpr double largest = 1e12;  // in any unit; larger values overflow in squares and products
@@ -136,7 +136,7 @@ double TomlFile::number(const TomlValue& value) const {
     return value.number;
 }
 
-double TomlFile::positive(const TomlValue& value) const {
+Finite TomlFile::positive(const TomlValue& value) const {
     if (number(value) <= 0.0) fail(value, "a number above zero is expected here");
     return value.number;
 }
@@ -171,7 +171,7 @@ const TomlValue& TomlFile::table(const TomlValue& value) const {
     return value;
 }
 
-std::optional<double> TomlFile::find_number(const TomlValue& parent, std::string_view key) const {
+std::optional<Finite> TomlFile::find_number(const TomlValue& parent, std::string_view key) const {
     const TomlValue* value = parent.find(key);
     return value ? std::optional(number(*value)) : std::nullopt;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/alarm.h"
+#include "base/finite.h"
 
 namespace trunnion::inline base {
 
@@ -47,8 +48,8 @@ class TomlFile {
 
     [[noreturn]] void fail(const TomlValue& at, const std::string& message) const;
 
-    double number(const TomlValue& value) const;
-    double positive(const TomlValue& value) const;
+    Finite number(const TomlValue& value) const;
+    Finite positive(const TomlValue& value) const;
     const std::string& text(const TomlValue& value) const;
     Eigen::Vector3d vector3(const TomlValue& value) const;
     /// A number or an array of numbers.
@@ -57,7 +58,7 @@ class TomlFile {
     const TomlValue& table(const TomlValue& value) const;
 
     /// `parent.key` when present.
-    std::optional<double> find_number(const TomlValue& parent, std::string_view key) const;
+    std::optional<Finite> find_number(const TomlValue& parent, std::string_view key) const;
 
     /// One line for each unused key.
     std::vector<std::string> unknown_keys() const;

@@ -92,11 +92,10 @@ void refuse_simulation_options(const BallbarOptions& o) {
             {o.measured[0]});
 }
 
-std::string page_of(const BallbarOptions& o, const setup::Setup& setup,
-                    const ballbar::test::BallbarResult& result) {
+std::string page_of(const BallbarOptions& o, const ballbar::test::BallbarResult& result) {
     report::Page page = report::ballbar_page(result);
     if (result.simulated) page.origin.seed = o.seed;
-    return finished_page(std::move(page), *o.command, o.page, {setup.path});
+    return finished_page(std::move(page), *o.command, o.page);
 }
 
 int run_command(const BallbarOptions& o) {
@@ -110,8 +109,9 @@ int run_command(const BallbarOptions& o) {
         o.measured.empty() ? simulate(o, setup) : evaluate(o, setup);
     print_notes(result.notes);
     OutputFiles files;
-    files.add("-", o.json ? report::ballbar_json(result) : report::ballbar_table(result));
-    if (!o.page.html.empty()) files.add(o.page.html, page_of(o, setup, result));
+    files.add("-", o.json ? report::ballbar_json(result, ReadRecord::files())
+                          : report::ballbar_table(result));
+    if (!o.page.html.empty()) files.add(o.page.html, page_of(o, result));
     if (!o.csv.empty()) files.add(o.csv, report::ballbar_csv(result));
     if (!o.readings.empty())
         files.add(o.readings, records::format_readings(result.before.readings));

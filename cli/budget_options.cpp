@@ -25,11 +25,26 @@ Budget budget_of(const BudgetOptions& limits) {
             limits.time_s, Interruption::asked,  {}};
 }
 
-int report_limit(BudgetLimit limit, std::uint64_t blocks) {
+void add_fit_seconds(CLI::App& command, double& time_s) {
+    not_negative(command.add_option("--max-seconds", time_s,
+                                    "end the search after so long, with what is found (0: never)"));
+}
+
+BudgetMeter fit_meter(double time_s) {
+    Budget budget;
+    budget.time_s = time_s;
+    budget.interrupted = Interruption::asked;
+    return BudgetMeter(std::move(budget));
+}
+
+const char* reason_of(BudgetLimit limit) {
     constexpr std::array<const char*, 6> reasons{
         "", "--max-blocks", "--max-print", "--max-readings", "--max-seconds", "interrupted"};
-    print_error("trunnion: stopped after {} blocks ({})\n", blocks,
-                reasons[static_cast<std::size_t>(limit)]);
+    return reasons[static_cast<std::size_t>(limit)];
+}
+
+int report_limit(BudgetLimit limit, std::uint64_t blocks) {
+    print_error("trunnion: stopped after {} blocks ({})\n", blocks, reason_of(limit));
     return exit_limit;
 }
 

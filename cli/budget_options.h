@@ -21,7 +21,13 @@ struct BudgetOptions {
 void add_budget(CLI::App& command, BudgetOptions& limits);
 /// The budget, with Ctrl-C as an additional limit.
 Budget budget_of(const BudgetOptions& limits);
-/// Reports on stderr which limit ended the work; returns its exit code.
+/// --max-seconds of a command that fits: what is found until then is its result.
+void add_fit_seconds(CLI::App& command, double& time_s);
+/// That limit, and Ctrl-C. To be asked as long as an Interruption lives.
+BudgetMeter fit_meter(double time_s);
+/// "interrupted", "--max-seconds", ...: what ended the work, for a message.
+const char* reason_of(BudgetLimit limit);
+/// Says on stderr which limit ended the work; returns its exit code.
 int report_limit(BudgetLimit limit, std::uint64_t blocks);
 
 }  // namespace trunnion::cli

@@ -262,12 +262,10 @@ int check(const CheckCommand& c) {
     }
     OutputFiles out;
     if (!c.page.html.empty()) {
-        std::vector<std::string> read = files;
-        read.push_back(machines.first().setup.path);
         out.add(c.page.html,
-                finished_page(report::findings_page(findings, files), *c.command, c.page, read));
+                finished_page(report::findings_page(findings, files), *c.command, c.page));
     }
-    out.add(c.out, report::format_findings(findings, files, c.format));
+    out.add(c.out, report::format_findings(findings, files, c.format, ReadRecord::files()));
     out.write();
     return findings.empty() ? exit_done : exit_differs;
 }

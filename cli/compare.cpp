@@ -11,7 +11,6 @@
 #include "base/console.h"
 #include "base/output_files.h"
 #include "base/read_file.h"
-#include "base/sha256.h"
 #include "base/units.h"
 #include "cli/command.h"
 #include "cli/long_work.h"
@@ -41,23 +40,14 @@ struct CompareCommand {
     const CLI::App* command = nullptr;
 };
 
-/// The files of two programs, or the suite file.
-std::vector<report::PageInput> inputs_of(const CompareCommand& c) {
-    std::vector<report::PageInput> inputs;
-    for (const std::string& path : {c.a, c.b, c.suite, c.setup, c.setup_b})
-        if (!path.empty() && std::filesystem::is_regular_file(path))
-            inputs.push_back({path, sha256(read_file(path))});
-    return inputs;
-}
-
-/// Writes the requested outputs, the page with its origin.
+/// What the options ask for, the page with its origin.
 void put_report(const CompareCommand& c, const regression::CompareReport& report,
                 report::ReportFormat format) {
     report::Page page;
     const bool html = format == report::ReportFormat::html;
     if (html || !c.page.html.empty()) {
         page = report::comparison_page(report);
-        page.origin = page_origin(*c.command, c.page, inputs_of(c));
+        page.origin = page_origin(*c.command, c.page);
     }
     OutputFiles files;  // both or none
     if (!c.page.html.empty()) files.add(c.page.html, report::page_html(page));
@@ -80,6 +70,7 @@ regression::SuiteCase case_of(const CompareCommand& c) {
     like.options.max_blocks = c.max_blocks;
     like.options.call = c.call;
     like.options.devices = c.devices;
+    like.options.go_on = [] { return !Interruption::asked(); };
     if (c.by.empty()) return like;
     const auto layer =
         std::find(regression::layer_names.begin(), regression::layer_names.end(), c.by);
@@ -131,7 +122,6 @@ int compare_many(const CompareCommand& c, const regression::SuiteCase& like,
     if (c.update) return update(c, suite);
     const auto shard = shard_of(c.shard);
     const unsigned threads = c.threads > 0 ? c.threads : std::thread::hardware_concurrency();
-    const Interruption interruption;
     Progress progress;
     std::mutex showing;
     const regression::SuiteWatch watch{[&](std::size_t done, std::size_t total) {
@@ -141,6 +131,7 @@ int compare_many(const CompareCommand& c, const regression::SuiteCase& like,
                                        [] { return Interruption::asked(); }};
     regression::SuiteRun run = regression::run_suite(suite, shard.value_or(regression::Shard{}),
                                                      open_setup, threads, watch);
+    run.report.inputs = ReadRecord::files();
     const int code = regression::exit_code(run.report);
     if (shard)
         write_output(shard_path(c.out, *shard),
@@ -157,12 +148,15 @@ int compare(const CompareCommand& c) {
     if (c.suite.empty() == (c.a.empty() || c.b.empty()) || (!c.suite.empty() && !c.a.empty()))
         throw InputError("compare: give two programs, two folders, or --suite FILE");
     if (c.update && c.suite.empty()) throw InputError("--update writes the goldens of a --suite");
+    const Interruption interruption;
     if (!c.suite.empty() || std::filesystem::is_directory(c.a) ||
         std::filesystem::is_directory(c.b))
         return compare_many(c, like, format);
     if (!c.shard.empty()) throw InputError("--shard cuts folders and suites, not two programs");
-    const regression::CompareReport report = compare_two(c, like);
+    regression::CompareReport report = compare_two(c, like);
+    report.inputs = ReadRecord::files();
     put_report(c, report, format);
+    if (Interruption::asked()) print_error("trunnion: interrupted: what was run until then\n");
     return regression::exit_code(report);
 }
 

@@ -67,8 +67,8 @@ int run_command(const Options& o) {
     files.add(o.out, c.program);
     if (!o.page.html.empty())
         files.add(o.page.html, finished_page(report::compensation_page(c, setup.name, o.program),
-                                             *o.command, o.page, {setup.path}));
-    if (o.json) files.add("-", report::compensation_json(c));
+                                             *o.command, o.page));
+    if (o.json) files.add("-", report::compensation_json(c, ReadRecord::files()));
     files.write();
     print_error("{} blocks; largest tip error at a block's end {:.3f} um before, {:.3f} um after\n",
                 c.blocks.size(), um_from_mm(c.before.tip_mm), um_from_mm(c.after.tip_mm));

@@ -8,6 +8,7 @@
 #include "base/alarm.h"
 #include "base/console.h"
 #include "base/output_files.h"
+#include "cli/budget_options.h"
 #include "cli/command.h"
 #include "cli/diagnose_program.h"
 #include "cli/long_work.h"
@@ -29,6 +30,7 @@ struct Options {
     PageOptions page;
     const CLI::App* command = nullptr;
     std::optional<double> limit_um;
+    double max_seconds = 0.0;
     bool json = false, allow_large = false;
     std::string program;  ///< not empty: the readings are a control's log of this program
     std::vector<std::string> folders;
@@ -39,17 +41,12 @@ std::string title_of(const std::vector<std::string>& readings) {
     return fmt::format("{}", fmt::join(readings, " + "));
 }
 
-/// Shows progress. Ctrl-C ends the diagnosis; once the verdict is complete it ends only the
-/// subsequent planning (`planning` is then set).
+/// Shows what it works on; as long as `meter` allows.
 diagnosis::Diagnosis diagnose_watched(const setup::Setup& setup, const records::ReadingTable& table,
-                                      diagnosis::DiagnosisOptions how,
-                                      std::optional<Interruption>& planning) {
+                                      diagnosis::DiagnosisOptions how, BudgetMeter& meter) {
     Progress progress;
     how.watch = [&](const char* stage) { progress.stage(stage); };
-    how.plan_on = [&] {
-        if (!planning) planning.emplace();
-        return !Interruption::asked();
-    };
+    how.go_on = how.plan_on = [&] { return meter.allows({}); };
     return diagnosis::diagnose(setup, table, how);
 }
 
@@ -62,9 +59,19 @@ int diagnose_log(const Options& options) {
                              options.limit_um.value_or(-1.0), options.json});
 }
 
+/// What was not done, when a limit ended the work.
+int report_unfinished(const diagnosis::Diagnosis& d, BudgetLimit limit) {
+    print_error("trunnion: {}: {}\n", reason_of(limit),
+                d.unfinished ? "the search was not finished; this is the verdict on the best model "
+                               "until then, without a plan of the next measurement"
+                             : "no plan of the next measurement");
+    return exit_limit;
+}
+
 int diagnose_command(const Options& options) {
     if (!options.program.empty()) return diagnose_log(options);
     if (!options.folders.empty()) throw InputError("--programs belongs to --program");
+    const Interruption interruption;  // while the tables are read too
     setup::Setup setup = load_setup_option(options.setup);
     setup.model.allow_large = options.allow_large;
     const records::ReadingTable table = load_readings(options.readings, setup);
@@ -73,8 +80,8 @@ int diagnose_command(const Options& options) {
     diagnosis::DiagnosisOptions how;
     how.holdout = holdout ? &*holdout : nullptr;
     how.over_sessions = !options.over.empty();
-    std::optional<Interruption> planning;
-    const diagnosis::Diagnosis result = diagnose_watched(setup, table, how, planning);
+    BudgetMeter meter = fit_meter(options.max_seconds);
+    const diagnosis::Diagnosis result = diagnose_watched(setup, table, how, meter);
     print_notes(result.notes);
     OutputFiles files;
     if (!options.out.empty()) files.add(options.out, setup::format_setup(result.setup));
@@ -82,13 +89,10 @@ int diagnose_command(const Options& options) {
         files.add(options.page.html,
                   finished_page(report::diagnosis_page(result, title_of(options.readings)),
                                 *options.command, options.page));
-    if (options.json) files.add("-", report::diagnosis_json(result));
+    if (options.json) files.add("-", report::diagnosis_json(result, ReadRecord::files()));
     files.write();
     if (!options.json) print_out("{}", report::diagnosis_text(result));
-    if (planning && Interruption::asked()) {
-        print_error("trunnion: interrupted: no plan of the next measurement\n");
-        return exit_limit;
-    }
+    if (meter.reached() != BudgetLimit::none) return report_unfinished(result, meter.reached());
     return options.limit_um && result.excess_um > *options.limit_um ? exit_differs : exit_done;
 }
 
@@ -116,6 +120,7 @@ void add_diagnose(CLI::App& app, Run& run) {
                      "sessions: what changed from one to the next (column session, or one file "
                      "each)")
         ->check(CLI::IsMember({"sessions"}));
+    add_fit_seconds(*command, options->max_seconds);
     add_page_options(*command, options->page);
     options->command = command;
     command->add_flag("--allow-large", options->allow_large,

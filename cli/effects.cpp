@@ -30,7 +30,7 @@ std::vector<effects::Effect> chosen(const effects::Catalogue& catalogue, const s
 int effects_command(const Options& o) {
     const setup::Setup setup = open_setup(o.setup);
     const std::vector<effects::Effect> list = chosen(effects::make_catalogue(setup), o.name);
-    print_out("{}", o.json           ? report::effects_json(list)
+    print_out("{}", o.json           ? report::effects_json(list, ReadRecord::files())
                     : o.name.empty() ? report::effects_text(list)
                                      : report::effect_text(list.front()));
     return exit_done;

@@ -12,6 +12,7 @@
 #include "base/console.h"
 #include "base/output_files.h"
 #include "base/sha256.h"
+#include "cli/budget_options.h"
 #include "cli/command.h"
 #include "cli/long_work.h"
 #include "cli/notes.h"
@@ -34,6 +35,7 @@ struct Options {
     std::string setup, effects, out, shard;
     int runs = 0;
     std::uint64_t seed = 1;
+    double max_seconds = 0.0;
     bool json = false, allow_large = false;
     PageOptions page;
     const CLI::App* command = nullptr;
@@ -66,11 +68,10 @@ void print_stores(const setup::Setup& identified, const identification::Identifi
     if (stores) print_out("{}", report::stores_text(*stores, identified.dialect.family));
 }
 
-/// Shows progress; after Ctrl-C the completed repetitions count.
+/// Shows how far it is; a limit leaves what the repetitions done so far say.
 std::vector<identification::Repetition> repeat(const Inputs& in, const Options& options,
                                                const identification::Identification& fitted,
-                                               const regression::Shard& shard) {
-    const Interruption interruption;
+                                               const regression::Shard& shard, BudgetMeter& meter) {
     Progress progress;
     std::mutex showing;
     identification::RepetitionPlan plan{options.runs,
@@ -84,7 +85,7 @@ std::vector<identification::Repetition> repeat(const Inputs& in, const Options& 
         const std::lock_guard lock(showing);
         progress.count(static_cast<std::uint64_t>(done), static_cast<std::uint64_t>(mine),
                        "repetitions");
-        return !Interruption::asked();
+        return meter.allows({});
     };
     return identification::repeat_identification(in.setup, in.table, in.effects, plan, fitted);
 }
@@ -96,22 +97,32 @@ std::string hash_of(const Inputs& in) {
     return sha256(text + records::format_readings(in.table));
 }
 
-int report_interrupted(std::size_t done, int planned) {
-    print_error("trunnion: interrupted: {} of {} repetitions are done\n", done, planned);
-    return exit_limit;
+/// Exit code; says what was left undone.
+int report_done(const identification::Identification& fitted, std::size_t done, int planned,
+                BudgetLimit limit) {
+    const std::vector<std::string>& left = fitted.not_searched;
+    if (!left.empty())
+        print_error("trunnion: {}: keys of {} stand at their usual values\n", reason_of(limit),
+                    fmt::join(left, ", "));
+    if (done < static_cast<std::size_t>(planned))
+        print_error("trunnion: {}: {} of {} repetitions are done\n", reason_of(limit), done,
+                    planned);
+    return left.empty() && done == static_cast<std::size_t>(planned) ? exit_done : exit_limit;
 }
 
-/// A shard of the repetitions writes only its part, for 'merge'.
+/// A shard of the repetitions: its part alone is written, for 'merge'; none when the fit was ended,
+/// for parts of other shards belong to another fit.
 int identify_part(const Inputs& in, const Options& options,
-                  const identification::Identification& fitted, const regression::Shard& shard) {
-    report::RepetitionPart part{hash_of(in), options.runs, options.seed, fitted, {}};
-    part.repetitions = repeat(in, options, fitted, shard);
+                  const identification::Identification& fitted, const regression::Shard& shard,
+                  BudgetMeter& meter) {
+    if (!fitted.not_searched.empty()) return report_done(fitted, 0, 0, meter.reached());
+    report::RepetitionPart part{hash_of(in), options.runs, options.seed,
+                                fitted,      {},           ReadRecord::files()};
+    part.repetitions = repeat(in, options, fitted, shard, meter);
     write_output(shard_path(options.out.empty() ? "-" : options.out, shard),
                  report::format_part(part));
-    const int mine = planned(options.runs, shard);
-    return part.repetitions.size() == static_cast<std::size_t>(mine)
-               ? exit_done
-               : report_interrupted(part.repetitions.size(), mine);
+    return report_done(fitted, part.repetitions.size(), planned(options.runs, shard),
+                       meter.reached());
 }
 
 /// Residuals of the identified setup alone, as `predict` computes them.
@@ -125,37 +136,38 @@ std::string page_of(const Options& options, const identification::Identification
 }
 
 int identify_command(const Options& options) {
+    const Interruption interruption;  // while the tables are read too
     if (!options.shard.empty() && options.runs == 0)
         throw InputError("--shard cuts the repetitions of --monte-carlo");
     Inputs in{load_setup_option(options.setup), {}, split_names(options.effects)};
     in.setup.model.allow_large = options.allow_large;
     in.table = load_readings(options.readings, in.setup);
+    BudgetMeter meter = fit_meter(options.max_seconds);
     identification::Identification result = [&] {
         Progress progress;
         progress.stage(fmt::format("fit to {} rows", in.table.rows.size()));
-        return identification::identify(in.setup, in.table, in.effects);
+        return identification::identify(in.setup, in.table, in.effects,
+                                        [&] { return meter.allows({}); });
     }();
     print_notes(result.notes);
     std::vector<identification::Repetition> repetitions;
     if (options.runs > 0) {
         if (const auto shard = shard_of(options.shard))
-            return identify_part(in, options, result, *shard);
-        repetitions = repeat(in, options, result, {});
+            return identify_part(in, options, result, *shard, meter);
+        repetitions = repeat(in, options, result, {}, meter);
         identification::enter_spread(repetitions, result);
     }
     OutputFiles files;
     if (!options.out.empty()) files.add(options.out, setup::format_setup(result.setup));
     if (!options.page.html.empty())
         files.add(options.page.html, page_of(options, result, in.table));
-    if (options.json) files.add("-", report::identification_json(result));
+    if (options.json) files.add("-", report::identification_json(result, ReadRecord::files()));
     files.write();
     if (!options.json) {
         print_out("{}", report::identification_text(result, repetitions.size() > 1));
         print_stores(result.setup, result);
     }
-    return repetitions.size() == static_cast<std::size_t>(options.runs)
-               ? exit_done
-               : report_interrupted(repetitions.size(), options.runs);
+    return report_done(result, repetitions.size(), options.runs, meter.reached());
 }
 
 }  // namespace
@@ -179,6 +191,7 @@ void add_identify(CLI::App& app, Run& run) {
     command->add_option("--shard", options->shard,
                         "i/n, /n or env: one part of the repetitions, for 'merge'");
     command->add_option("--seed", options->seed, "of the repetitions' noise (1)");
+    add_fit_seconds(*command, options->max_seconds);
     command->add_flag("--allow-large", options->allow_large,
                       "residuals that no machine tool has are meant, no slip of units");
     command->add_flag("--json", options->json, "result as JSON on stdout");

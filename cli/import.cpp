@@ -90,7 +90,8 @@ int import_command(const Options& options) {
     if (!options.svg.empty()) add_pictures(options.svg, result.readings, setup, out);
     if (options.json)
         out.add("-", report::import_json(table_of(options, setup, result),
-                                         {options.out, result.summary, result.notes}));
+                                         {options.out, result.summary, result.notes},
+                                         ReadRecord::files()));
     out.add(options.out, std::move(result.readings));
     out.write();
     return exit_done;

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <new>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "base/alarm.h"
 #include "base/console.h"
 #include "base/nearest.h"
+#include "base/read_file.h"
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/help_text.h"
@@ -119,21 +121,35 @@ void add_talk(CLI::App& app) {
     }
 }
 
-/// Report of --verbose after the work.
-void tell_work(const CLI::App& app, double passed_s) {
-    for (const CLI::App* command : app.get_subcommands())
-        for (const report::PageInput& input : page_inputs(*command))
-            print_error("read {} (sha256 {})\n", printable(input.path), input.sha256);
+/// What --verbose says when the work is done.
+void tell_work(double passed_s) {
+    for (const FileRead& file : ReadRecord::files())
+        print_error("read {} (sha256 {})\n", printable(file.path), file.sha256);
     print_error("{:.3f} s\n", passed_s);
 }
 
+/// Reports in these forms name their inputs by hash.
+bool tells_inputs(const CLI::App& app) {
+    const auto given = [](const CLI::App& command, const char* name) {
+        const CLI::Option* option = command.get_option_no_throw(name);
+        return option && option->count() > 0;
+    };
+    const auto commands = app.get_subcommands();
+    return std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {
+        return given(*command, "--json") || given(*command, "--html") ||
+               given(*command, "--format") || given(*command, "--shard");
+    });
+}
+
 int run_guarded(const CLI::App& app, const Run& run) {
+    std::optional<ReadRecord> record;
+    if (tells_inputs(app) || talk() == Talk::verbose) record.emplace();
     try {
         refuse_clashing_files(app);
         const auto begin = std::chrono::steady_clock::now();
         const int code = run();
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
-        if (talk() == Talk::verbose) tell_work(app, passed.count());
+        if (talk() == Talk::verbose) tell_work(passed.count());
         finish_out();
         return code;
     } catch (const InputError& e) {

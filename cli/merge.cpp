@@ -5,7 +5,6 @@
 #include "base/alarm.h"
 #include "base/output_files.h"
 #include "base/read_file.h"
-#include "base/sha256.h"
 #include "cli/command.h"
 #include "cli/options.h"
 #include "cli/page_options.h"
@@ -33,10 +32,8 @@ int merge_comparisons(const std::vector<PartFile>& files, const MergeOptions& o)
     for (const PartFile& file : files) parts.push_back(report::parse_part(file.text, file.path));
     const regression::CompareReport whole = report::merge_parts(parts);
     if (format == report::ReportFormat::html) {
-        std::vector<report::PageInput> inputs;
-        for (const PartFile& file : files) inputs.push_back({file.path, sha256(file.text)});
         report::Page page = report::comparison_page(whole);
-        page.origin = page_origin(*o.command, o.page, std::move(inputs));
+        page.origin = page_origin(*o.command, o.page);
         write_output(o.out, report::page_html(page));
     } else {
         write_output(o.out, report::format_comparison(whole, format));
@@ -51,7 +48,7 @@ int merge_repetitions(const std::vector<PartFile>& files, const MergeOptions& o)
     for (const PartFile& file : files)
         parts.push_back(report::parse_repetition_part(file.text, file.path));
     const identification::Identification whole = report::merge_parts(parts);
-    write_output(o.out, o.format == "json" ? report::identification_json(whole)
+    write_output(o.out, o.format == "json" ? report::identification_json(whole, parts.front().files)
                                            : report::identification_text(whole, true));
     return exit_done;
 }

@@ -5,12 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <ctime>
-#include <filesystem>
-#include <set>
 
 #include "base/numbers.h"
 #include "base/read_file.h"
-#include "base/sha256.h"
 #include "cli/options.h"
 
 namespace trunnion::cli {
@@ -55,34 +52,18 @@ std::string command_text(const CLI::App& command) {
     return text;
 }
 
-report::PageOrigin page_origin(const CLI::App& command, const PageOptions& options,
-                               std::vector<report::PageInput> inputs) {
+report::PageOrigin page_origin(const CLI::App& command, const PageOptions& options) {
     report::PageOrigin origin;
     origin.command = command_text(command);
     origin.version = TRUNNION_VERSION;
     origin.date = options.date.empty() ? date_of_build() : options.date;
-    origin.inputs = std::move(inputs);
+    origin.inputs = ReadRecord::files();
     return origin;
 }
 
-std::vector<report::PageInput> page_inputs(const CLI::App& command,
-                                           const std::vector<std::string>& also_read) {
-    std::vector<std::string> paths = files_read(command);
-    paths.insert(paths.end(), also_read.begin(), also_read.end());
-    std::vector<report::PageInput> inputs;
-    std::set<std::string> seen;
-    for (const std::string& path : paths) {
-        std::error_code unknown;
-        if (std::filesystem::is_regular_file(path, unknown) && seen.insert(path).second)
-            inputs.push_back({path, sha256(read_file(path))});
-    }
-    return inputs;
-}
-
-std::string finished_page(report::Page page, const CLI::App& command, const PageOptions& options,
-                          const std::vector<std::string>& also_read) {
+std::string finished_page(report::Page page, const CLI::App& command, const PageOptions& options) {
     const std::optional<std::uint64_t> seed = page.origin.seed;
-    page.origin = page_origin(command, options, page_inputs(command, also_read));
+    page.origin = page_origin(command, options);
     page.origin.seed = seed;
     return report::page_html(page);
 }

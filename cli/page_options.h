@@ -23,19 +23,11 @@ void add_page_options(CLI::App& command, PageOptions& options);
 /// "trunnion run O8001 --truth": the command in shell syntax, options in the order of the help.
 std::string command_text(const CLI::App& command);
 
-/// Footer of a page. The date is that of --date, else of SOURCE_DATE_EPOCH (UTC), else none, so
-/// that the same inputs give the same bytes on any day. `inputs`: path and SHA-256 of each input
-/// file.
-report::PageOrigin page_origin(const CLI::App& command, const PageOptions& options,
-                               std::vector<report::PageInput> inputs);
+/// Foot of a page. The date is that of --date, else of SOURCE_DATE_EPOCH (UTC), else none: the same
+/// inputs give the same bytes on any day. Inputs are all files that the command has read so far.
+report::PageOrigin page_origin(const CLI::App& command, const PageOptions& options);
 
-/// Path and SHA-256 of each input file of the command line, and of `also_read` (e.g. the default
-/// setup). Folders, standard input and unreadable files are omitted.
-std::vector<report::PageInput> page_inputs(const CLI::App& command,
-                                           const std::vector<std::string>& also_read = {});
-
-/// The complete file: the page with its footer.
-std::string finished_page(report::Page page, const CLI::App& command, const PageOptions& options,
-                          const std::vector<std::string>& also_read = {});
+/// The file: the page with its foot.
+std::string finished_page(report::Page page, const CLI::App& command, const PageOptions& options);
 
 }  // namespace trunnion::cli

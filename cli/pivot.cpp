@@ -79,7 +79,7 @@ pivot::PivotPrints read_maps(const PivotOptions& o, const setup::Setup& setup,
         setup.artefacts.begin(), setup.artefacts.end(),
         [](const setup::Artefact& a) { return a.kind == setup::Artefact::Kind::sphere; });
     if (sphere == setup.artefacts.end() || !setup.probe)
-        throw InputError("readings need the setup's [probe] and a sphere", {setup.path});
+        throw InputError("readings need the setup's [probe] and a sphere");
     return pivot::pivot_readings(records::join_readings(std::move(tables)), first, second,
                                  0.5 * (sphere->diameter_mm + setup.probe->ball_diameter_mm),
                                  setup.probe->tip_S_mm);
@@ -150,8 +150,7 @@ void refuse_mixed_functions(const PivotOptions& o, const pivot::PivotEvidence& e
 
 report::PivotResult judge_readings(const PivotOptions& o, const setup::Setup& setup) {
     const auto declared = setup::rotary_stores(setup.machine.chain, setup.stores);
-    if (!declared)
-        throw InputError("the control knows no two rotary axes (19680-19690)", {setup.path});
+    if (!declared) throw InputError("the control knows no two rotary axes (19680-19690)");
     pivot::PivotPrints prints = read_maps(o, setup, *declared);
     std::vector<std::string> notes;
     pivot::PivotEvidence evidence;
@@ -219,11 +218,10 @@ int write_programs(const PivotOptions& o, const setup::Setup& setup) {
     return exit_done;
 }
 
-std::string page_of(const PivotOptions& o, const setup::Setup& setup,
-                    const report::PivotResult& result) {
+std::string page_of(const PivotOptions& o, const report::PivotResult& result) {
     report::Page page = report::pivot_page(result);
     if (o.readings.empty() && !o.stores_alone) page.origin.seed = o.seed;
-    return finished_page(std::move(page), *o.command, o.page, {setup.path});
+    return finished_page(std::move(page), *o.command, o.page);
 }
 
 int run_pivot(const PivotOptions& o) {
@@ -236,8 +234,9 @@ int run_pivot(const PivotOptions& o) {
     const report::PivotResult result = !o.readings.empty() ? judge_readings(o, setup)
                                        : o.stores_alone    ? from_known_machine(o, setup)
                                                            : simulate(o, setup, files);
-    files.add("-", o.json ? report::pivot_json(result) : report::pivot_table(result));
-    if (!o.page.html.empty()) files.add(o.page.html, page_of(o, setup, result));
+    files.add("-", o.json ? report::pivot_json(result, ReadRecord::files())
+                          : report::pivot_table(result));
+    if (!o.page.html.empty()) files.add(o.page.html, page_of(o, result));
     if (!o.svg_folder.empty()) {
         make_folder(o.svg_folder);
         for (const auto& [name, text] : report::pivot_pictures(result))

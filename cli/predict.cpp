@@ -56,8 +56,8 @@ int predict(const Options& options) {
                       : emulator::predicted(setup, table, effects::active_models(setup));
     OutputFiles files;
     if (!options.jacobian.empty()) files.add(options.jacobian, jacobian_text(*found));
-    files.add("-",
-              options.json ? report::prediction_json(read, found) : records::format_readings(read));
+    files.add("-", options.json ? report::prediction_json(read, found, ReadRecord::files())
+                                : records::format_readings(read));
     files.write();
     return exit_done;
 }

@@ -7,7 +7,6 @@
 #include "base/console.h"
 #include "base/numbers.h"
 #include "base/output_files.h"
-#include "base/sha256.h"
 #include "cli/budget_options.h"
 #include "cli/command.h"
 #include "cli/long_work.h"
@@ -146,15 +145,6 @@ void follow_path(emulator::RunOptions& options, report::RunPath& path) {
     options.trace_chunk = [&path](std::string_view text) { path.add(text); };
 }
 
-std::vector<report::PageInput> inputs_of(const setup::Setup& setup,
-                                         const std::vector<interpreter::ProgramText>& programs) {
-    std::vector<report::PageInput> inputs{
-        {setup.path, sha256(interpreter::read_program(setup.path).text)}};
-    for (const interpreter::ProgramText& program : programs)
-        inputs.push_back({program.name, sha256(program.text)});
-    return inputs;
-}
-
 std::string page_of_run(const Options& o, const setup::Setup& setup, const emulator::RunLog& log,
                         const report::RunPath& path,
                         const std::vector<interpreter::ProgramText>& programs) {
@@ -162,7 +152,7 @@ std::string page_of_run(const Options& o, const setup::Setup& setup, const emula
     for (const interpreter::ProgramText& program : programs)
         texts[program.name] = std::string(program.text);
     report::Page page = report::run_page(setup, log, path, texts);
-    page.origin = page_origin(*o.command, o.page, inputs_of(setup, programs));
+    page.origin = page_origin(*o.command, o.page);
     page.origin.seed = o.seed;
     return report::page_html(page);
 }
@@ -187,8 +177,8 @@ int run_command(const Options& o) {
     print_notes(log.notes);
     print_notes(program.folders.announcements());
     if (o.json)
-        print_out("{}",
-                  report::run_json(log, setup::all_machine_axes(setup), program.folders.used()));
+        print_out("{}", report::run_json(log, setup::all_machine_axes(setup),
+                                         program.folders.used(), ReadRecord::files()));
     else if (o.print.empty())
         print_out("{}", log.printed);
     if (!o.json && !o.variables.empty()) print_out("{}", report::variables_text(log));

@@ -70,11 +70,10 @@ int run_command(const Options& o) {
             files.add(o.svg + '/' + name, text);
     }
     if (!o.page.html.empty() && whole)
-        files.add(o.page.html,
-                  finished_page(report::volumetric_page(map), *o.command, o.page, {setup.path}));
+        files.add(o.page.html, finished_page(report::volumetric_page(map), *o.command, o.page));
     files.write();
     if (o.json)
-        print_out("{}", report::volumetric_json(map));
+        print_out("{}", report::volumetric_json(map, ReadRecord::files()));
     else if (o.csv != "-")
         print_out("{}", report::volumetric_text(map));
     if (whole) return exit_done;

@@ -77,7 +77,7 @@ std::vector<identification::Inseparable> unseen_of(const Design::Entry& entry) {
     const auto& list = group.effect->parameters;
     const auto name = [&](std::size_t j) {
         return identification::full_name(
-            {group.effect->name, list[j].name, list[j].unit, list[j].component});
+            {group.effect->name, list[j].name, list[j].unit, list[j].component, 1.0, 0.0});
     };
     for (std::size_t j = 0; j < list.size(); ++j)
         if (!list[j].is_key() && list[j].usual &&

@@ -183,9 +183,9 @@ Model carried_over(const Searched& earlier, Design& design, const Prepared& p,
     return model;
 }
 
-/// All groups, and the model found by the search; a later round starts from the earlier model.
-Searched search_of(const Prepared& p, const Round& round, KeySearch& keys,
-                   const Searched* earlier) {
+/// All groups, and the model that the search finds; a later round starts from the earlier model.
+Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const Searched* earlier,
+                   const std::function<bool()>& go_on) {
     const Whitener whitener(p.replay, p.blocks, round.noise.model, round.sigma_mm);
     Design design = empty_design(p, whitener, round.used);
     Eigen::Index owned = add_textbook_groups(design, p, whitener);
@@ -194,6 +194,7 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys,
     add_offset_groups(design, p, whitener);
     add_driver_groups(design, p, whitener, owned);
     SearchSetting setting = search_setting(design, round.noise.prior);
+    setting.go_on = go_on;
     setting.refine = [&](const Model& m, std::size_t position) {
         return refined_group(design, p, whitener, m, position);
     };
@@ -204,7 +205,7 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys,
         add_keyed(design, p, whitener, keys, empty_model(design, setting), first_keys);
         model = searched(design, setting);
     }
-    for (int pass = 0; pass < 2; ++pass) {
+    for (int pass = 0; pass < 2 && !setting.stopped(); ++pass) {
         const double before = model.score;
         model = with_refined_keys(design, setting, p, whitener, std::move(model));
         add_keyed(design, p, whitener, keys, model, 1);
@@ -213,7 +214,8 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys,
         if (model.score < before + 1.0) break;
     }
     model = without_idle_members(design, setting, p, std::move(model), round.used);
-    setting.refine = {};  // its references end here
+    setting.refine = {};  // what it refers to ends here
+    setting.go_on = {};
     return {std::move(design), std::move(setting), std::move(model)};
 }
 
@@ -318,17 +320,21 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
     take_promising_sides(p);
     std::optional<KeySearch> keys(std::in_place, p.replay, p.base);
     watch("search among models");
-    Searched s = search_of(p, round, *keys, nullptr);
-    for (int k = 1; k < most_rounds; ++k) {
+    Searched s = search_of(p, round, *keys, nullptr, options.go_on);
+    const auto stopped = [&] { return options.go_on && !options.go_on(); };
+    for (int k = 1; k < most_rounds && !stopped(); ++k) {
         const bool turned = retake_sides(p, s.design, s.model);
         if (turned) keys.emplace(p.replay, p.base);  // its columns were computed for other sides
         if (!corrected(p, s, round) && !turned) break;
-        s = search_of(p, round, *keys, &s);
+        s = search_of(p, round, *keys, &s, options.go_on);
     }
+    const bool unfinished = stopped();
     watch("held-out readings");
     const Judgement judgement = judged(s.design, p, s.model, round.noise, round.used);
-    return report_of({p, s.design, s.setting, s.model, judgement, round.noise, round.used},
-                     options);
+    Diagnosis d =
+        report_of({p, s.design, s.setting, s.model, judgement, round.noise, round.used}, options);
+    d.unfinished = unfinished;
+    return d;
 }
 
 }  // namespace trunnion::diagnosis

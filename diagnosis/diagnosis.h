@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/finite.h"
 #include "diagnosis/noise.h"
 #include "identification/unknown_sides.h"
 #include "records/readings.h"
@@ -20,14 +21,14 @@ const char* to_string(NoiseSource source);
 
 /// The gap on readings that were not used in the fit, before and after, in um (not whitened).
 struct HeldOut {
-    double rms_before_um = 0.0, rms_after_um = 0.0, noise_um = 0.0;
-    double shrink = 0.0;           ///< 1 - sqrt(max(0, after^2 - noise^2) / (before^2 - noise^2))
-    double low = 0.0, high = 0.0;  ///< 95 % interval, bootstrap over poses and arcs
+    Finite rms_before_um = 0.0, rms_after_um = 0.0, noise_um = 0.0;
+    Finite shrink = 0.0;           ///< 1 - sqrt(max(0, after^2 - noise^2) / (before^2 - noise^2))
+    Finite low = 0.0, high = 0.0;  ///< 95 %, bootstrap over poses and arcs
 };
 
 struct DriverShare {
     std::string by, component, text;
-    double share = 0.0, p_value = 1.0;
+    Finite share = 0.0, p_value = 1.0;
 };
 
 /// One value of a free-form error.
@@ -40,18 +41,18 @@ struct TablePoint {
 
 struct Cause {
     std::string effect;
-    double probability = 0.0;
+    Finite probability = 0.0;
     std::vector<std::string> rivals;
     std::vector<identification::FitParameter> parameters;
     std::vector<identification::Inseparable>
-        unseen;          ///< directions of the parameters that these readings do not determine
-    double share = 0.0;  ///< of the gap, according to the fit
+        unseen;          ///< directions of the parameters that nothing here shows
+    Finite share = 0.0;  ///< of the gap: what it does in the fit
     HeldOut heldout;
     std::string what, usual_cause, remedy;
-    std::vector<TablePoint> points;  ///< of a free-form cause, else empty
-    double rms_sigma = 0.0;          ///< rms effect on the readings, in their sigma
-    bool holds_between = true;       ///< free form: it predicts left-out positions
-    std::string since;               ///< a change: the first session with it; else empty
+    std::vector<TablePoint> points;  ///< of a cause in free form, else empty
+    Finite rms_sigma = 0.0;          ///< what it does to the readings, rms in their sigma
+    bool holds_between = true;       ///< a free form that predicts places left out
+    std::string since;               ///< a change: the session from which it holds; else empty
 };
 
 /// Change of one parameter of the machine from one session to the next.
@@ -71,28 +72,28 @@ struct SessionFit {
 
 struct NextMeasurement {
     std::string first, second, text, program;
-    double log_bayes_factor = 0.0;  ///< predicted
-    double minutes = 0.0;
-    bool settles = false;  ///< predicted: the rival is excluded afterwards
+    Finite log_bayes_factor = 0.0;  ///< predicted
+    Finite minutes = 0.0;
+    bool settles = false;  ///< predicted: afterwards the rival stands no longer
 };
 
 struct Diagnosis {
     Verdict verdict = Verdict::no_gap;
     NoiseModel noise;
-    double rms_um = 0.0, noise_um = 0.0, excess_um = 0.0, p_value = 1.0;
+    Finite rms_um = 0.0, noise_um = 0.0, excess_um = 0.0, p_value = 1.0;
     std::vector<DriverShare> where;
     std::vector<Cause> causes;
-    double after_rms_um = 0.0, unexplained_share = 0.0;
-    double explained = 0.0;      ///< H of the left-out readings, 0..1; it determines the verdict
-    bool between_places = true;  ///< false: valid at the measured positions only
-    std::vector<identification::FitParameter> set_up;  ///< set-up quantities, never causes
-    std::vector<identification::FoundSide> sides;      ///< sides not given by the table, never
-                                                       ///< causes
+    Finite after_rms_um = 0.0, unexplained_share = 0.0;
+    Finite explained = 0.0;      ///< H of the readings left out, 0..1: it decides the verdict
+    bool between_places = true;  ///< false: it holds at the measured places only
+    std::vector<identification::FitParameter> set_up;  ///< nuisances: never causes
+    std::vector<identification::FoundSide> sides;      ///< likewise: what the table leaves open
     HeldOut after;
     std::vector<NextMeasurement> next;
     std::vector<std::string> unseen;  ///< effects that these readings do not determine
     std::vector<identification::Inseparable>
-        inseparable;  ///< parameters of the base, and of the stores (pivot.*)
+        inseparable;          ///< of the base, and of the stores (pivot.*)
+    bool unfinished = false;  ///< the search was ended: all this is of the best model until then
     std::size_t readings = 0, outliers = 0;
     std::vector<std::string> notes;  ///< large residuals declared as intended
     std::size_t chosen_from = 0;     ///< number of readings of a longer table from which these were
@@ -110,7 +111,9 @@ struct DiagnosisOptions {
     std::uint64_t seed = 1;
     /// Called with the name of each stage; may be empty.
     std::function<void(const char* stage)> watch = {};
-    /// Called while the next measurement is planned, after the verdict; false ends the planning.
+    /// Asked during the search: false ends it, and what follows judges the best model until then.
+    std::function<bool()> go_on = {};
+    /// Asked while the next measurement is planned, when the verdict stands: false ends the plan.
     std::function<bool()> plan_on = {};
 };
 

@@ -234,8 +234,8 @@ HeldOut alone(const Outcome& f, std::size_t position, const ShrinkDraws& draws) 
     const LeftOut left(f.design, one, f.prepared.folds, f.used);
     HeldOut h = held_out(f, f.judgement.left_before, left.residual({true}, {true}));
     const auto [low, high] = draws.interval(one);
-    h.low = std::min(low, h.shrink) - least_half_width;
-    h.high = std::min(1.0, std::max(high, h.shrink) + least_half_width);
+    h.low = std::min(low, h.shrink.value()) - least_half_width;
+    h.high = std::min(1.0, std::max(high, h.shrink.value()) + least_half_width);
     return h;
 }
 
@@ -305,8 +305,8 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     d.after =
         held_out(f, f.judgement.left_before, written ? f.judgement.left : f.judgement.left_before);
     const auto [low, high] = draws.interval(f.model);
-    d.after.low = std::min(low, d.after.shrink) - least_half_width;
-    d.after.high = std::min(1.0, std::max(high, d.after.shrink) + least_half_width);
+    d.after.low = std::min(low, d.after.shrink.value()) - least_half_width;
+    d.after.high = std::min(1.0, std::max(high, d.after.shrink.value()) + least_half_width);
     if (d.verdict == Verdict::unexplained || d.verdict == Verdict::partly_explained) {
         const auto at = std::find_if(d.causes.begin(), d.causes.end(),
                                      [&](const Cause& c) { return c.share < d.unexplained_share; });

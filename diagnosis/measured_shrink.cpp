@@ -97,8 +97,8 @@ HeldOut measured_shrink(const Outcome& f, const setup::Setup& setup,
         n *= std::max(0.2, 1.0 + doubt * random.normal());
         shrink.push_back(shrink_of(b, a, n));
     }
-    h.low = std::min(h.shrink, estimation::quantile(shrink, 0.025));
-    h.high = std::max(h.shrink, estimation::quantile(shrink, 0.975));
+    h.low = std::min(h.shrink.value(), estimation::quantile(shrink, 0.025));
+    h.high = std::max(h.shrink.value(), estimation::quantile(shrink, 0.975));
     return h;
 }
 

@@ -92,7 +92,7 @@ bool grow(Design& design, const SearchSetting& setting, Model& model, bool with_
 }
 
 Model pruned(Design& design, const SearchSetting& setting, Model model) {
-    while (!model.members.empty()) {
+    while (!model.members.empty() && !setting.stopped()) {
         const std::vector<Offer> worth = worth_of_members(design, model);
         const auto least =
             std::min_element(worth.begin(), worth.end(),
@@ -106,7 +106,8 @@ Model pruned(Design& design, const SearchSetting& setting, Model model) {
 }
 
 Model swapped(Design& design, const SearchSetting& setting, Model model) {
-    for (std::size_t position = 0; position < model.members.size(); ++position) {
+    for (std::size_t position = 0; position < model.members.size() && !setting.stopped();
+         ++position) {
         const Offer held = worth_of_members(design, model)[position];
         const Model rest = without(model, position);
         std::size_t count = 0;
@@ -138,7 +139,8 @@ bool named(GroupKind kind) {
 /// Replaces a free form by a named effect: the free form is removed or gets another length, and the
 /// best named effect is added.
 Model paired(Design& design, const SearchSetting& setting, Model model) {
-    for (std::size_t position = 0; position < model.members.size(); ++position) {
+    for (std::size_t position = 0; position < model.members.size() && !setting.stopped();
+         ++position) {
         const std::size_t held = model.members[position];
         if (design.group(held).kind != GroupKind::table) continue;
         std::vector<Model> starts{without(model, position)};
@@ -170,7 +172,7 @@ double Offer::explained() const {
 }
 
 SearchSetting search_setting(Design& design, const estimation::NoisePrior& noise) {
-    SearchSetting setting{noise, 0.0, {}};
+    SearchSetting setting{noise, 0.0, {}, {}};
     const estimation::GroupEquations e = design.equations({});
     setting.empty = estimation::restricted_likelihood(
         e, estimation::maximise_likelihood(e, {{}, std::exp(noise.log_mean)}, noise, 1), noise);
@@ -238,7 +240,8 @@ std::vector<Offer> worth_of_members(Design& design, const Model& model) {
 }
 
 Model grown(Design& design, const SearchSetting& setting, Model model) {
-    while (model.members.size() < most_members && grow(design, setting, model, true)) {
+    while (model.members.size() < most_members && !setting.stopped() &&
+           grow(design, setting, model, true)) {
     }
     return model;
 }

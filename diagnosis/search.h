@@ -24,6 +24,10 @@ struct SearchSetting {
     /// Better keys for the member added last, as another group; empty if there are none. The
     /// residual of a rough key would require members that do not exist.
     std::function<std::optional<std::size_t>(const Model& model, std::size_t position)> refine = {};
+    /// Asked at each step: false ends the search with the best model so far. Empty: never.
+    std::function<bool()> go_on = {};
+
+    bool stopped() const { return go_on && !go_on(); }
 };
 SearchSetting search_setting(Design& design, const estimation::NoisePrior& noise);
 Model empty_model(Design& design, const SearchSetting& setting);

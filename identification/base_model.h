@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/finite.h"
 #include "effects/catalogue.h"
 #include "identification/set_up.h"
 
@@ -17,9 +18,9 @@ struct FitParameter {
     std::string effect, name, unit;
     int component = -1;
     double typical = 1.0;  ///< in `unit`
-    double value = 0.0;    ///< in `unit`: the correction found; for a location error the total
-    double sigma = 0.0;    ///< standard uncertainty of `value`; NaN when it is not separable
-    double sigma_monte_carlo = 0.0;  ///< the same from Monte Carlo repetition; 0 if not requested
+    Finite value;          ///< in `unit`: the correction found, or the total for a location error
+    double sigma = 0.0;    ///< of `value`; NaN when it cannot be told apart
+    double sigma_monte_carlo = 0.0;  ///< the same by repetition, 0 when that was not asked for
     double prior_value = 0.0;
     double prior_sigma = 0.0;  ///< 0: no prior
     std::optional<kinematics::ErrorName> location = {};

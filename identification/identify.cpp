@@ -130,16 +130,27 @@ std::vector<double> search_keys(const emulator::Replay& replay, const BaseModel&
 
 namespace {
 
-/// For each effect with keys, the keys that explain most beside the effects found before it.
+/// The keyed effects of a fit.
+std::vector<const effects::Effect*> keyed_effects(const effects::Catalogue& catalogue,
+                                                  const std::vector<std::string>& effects) {
+    std::vector<const effects::Effect*> list;
+    for (const effects::Effect& effect : catalogue)
+        if (keyed(effect) &&
+            std::find(effects.begin(), effects.end(), effect.name) != effects.end())
+            list.push_back(&effect);
+    return list;
+}
+
+/// Each keyed effect at the keys that explain most beside those found before it; fewer when `go_on`
+/// ends the search.
 std::vector<KeyedEffect> search_all_keys(const emulator::Replay& replay, const BaseModel& base,
-                                         const effects::Catalogue& catalogue,
-                                         const std::vector<std::string>& effects) {
+                                         const std::vector<const effects::Effect*>& effects,
+                                         const std::function<bool()>& go_on) {
     std::vector<KeyedEffect> list;
     BaseModel grown = base;
-    for (const effects::Effect& effect : catalogue) {
-        if (!keyed(effect) ||
-            std::find(effects.begin(), effects.end(), effect.name) == effects.end())
-            continue;
+    for (const effects::Effect* each : effects) {
+        if (go_on && !go_on()) break;
+        const effects::Effect& effect = *each;
         KeyedEffect entry{&effect, search_keys(replay, grown, effect, base.residual_mm), {}};
         for (std::size_t j = 0; j < effect.parameters.size(); ++j) {
             const effects::EffectParameter& p = effect.parameters[j];
@@ -169,7 +180,7 @@ void take_values(const BaseModel& base, std::vector<KeyedEffect>& effects) {
 }  // namespace
 
 Identification identify(const setup::Setup& setup, const records::ReadingTable& table,
-                        std::vector<std::string> effects) {
+                        std::vector<std::string> effects, const std::function<bool()>& go_on) {
     if (effects.empty()) effects = setup.model.modelled;
     emulator::Replay replay(setup, table);
     if (replay.size() < 2)
@@ -185,10 +196,14 @@ Identification identify(const setup::Setup& setup, const records::ReadingTable& 
     for (const FoundSide& found : choose_sides(setup, table, replay, catalogue, plain))
         notes.push_back(table.path + ": " + to_string(found));
     std::vector<KeyedEffect> with_keys;
+    std::vector<std::string> not_searched;
     if (plain.size() < effects.size()) {
         const BaseModel base = fit_base(setup, table, replay, catalogue, plain);
-        with_keys = search_all_keys(replay, base, catalogue, effects);
-        refine_together(replay, base, with_keys);
+        const std::vector<const effects::Effect*> searched = keyed_effects(catalogue, effects);
+        with_keys = search_all_keys(replay, base, searched, go_on);
+        for (std::size_t k = with_keys.size(); k < searched.size(); ++k)
+            not_searched.push_back(searched[k]->name);
+        if (!go_on || go_on()) refine_together(replay, base, with_keys);
         for (const KeyedEffect& e : with_keys) {
             effects::Effect& effect =
                 catalogue[static_cast<std::size_t>(e.effect - catalogue.data())];
@@ -217,6 +232,7 @@ Identification identify(const setup::Setup& setup, const records::ReadingTable& 
                         replay.size(), base.rank),
             {table.path, 0, 0});
     result.set_up_words = set_up_words(base.setup, base.parameters);
+    result.not_searched = std::move(not_searched);
     result.notes = std::move(notes);
     result.notes.insert(result.notes.end(), base.notes.begin(), base.notes.end());
     result.setup = std::move(base.setup);

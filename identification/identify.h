@@ -1,6 +1,9 @@
 // Fit of effects to readings: values, uncertainties, inseparable parameters.
 #pragma once
 
+#include <functional>
+
+#include "base/finite.h"
 #include "identification/base_model.h"
 
 namespace trunnion::identification {
@@ -8,22 +11,25 @@ namespace trunnion::identification {
 struct Identification {
     std::vector<FitParameter> parameters;
     std::vector<Inseparable> inseparable;
-    double rms_before_um = 0.0;  ///< with the setup as given
-    double rms_after_um = 0.0;
+    Finite rms_before_um;  ///< with the setup as it stands
+    Finite rms_after_um;
     int dof = 0;
     /// Covariance of the parameters that are not keys, in their order and units, without the
     /// unobservable directions (listed in `inseparable`).
     Eigen::MatrixXd covariance;
     std::vector<std::string> set_up_words;  ///< pose of a part or instrument, in sentences
     std::vector<std::string> notes;
-    setup::Setup setup;  ///< with the fitted values; loads again
+    /// Keyed effects whose keys stand at their usual values because the fit was ended.
+    std::vector<std::string> not_searched;
+    setup::Setup setup;  ///< with the values entered; loads again
 };
 
-/// Fits the named effects (empty: those of [model].modelled) and the free set-up quantities to all
-/// device rows. Keys of effects (period, time constant) are searched. Throws InputError like
-/// fit_base.
+/// Fits the named effects (none: those of [model].modelled) and the free set-up quantities to all
+/// device rows. Keys of effects (pitch, time constant) are searched, each as long as `go_on`
+/// (empty: always) says true; the values are fitted at the keys found until then. Throws InputError
+/// as fit_base.
 Identification identify(const setup::Setup& setup, const records::ReadingTable& table,
-                        std::vector<std::string> effects);
+                        std::vector<std::string> effects, const std::function<bool()>& go_on = {});
 
 /// Refines the keys of an effect, starting from `keys`, so that together with the base columns it
 /// explains the most of `left_mm`. Golden-section search, one key after the other.

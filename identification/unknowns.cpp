@@ -44,7 +44,7 @@ void Unknowns::add_prior(FitParameter& fit) const {
 void Unknowns::add_set_up(const emulator::Replay& replay) {
     for (const FreeQuantity& free : free_quantities(setup_, replay)) {
         Slot slot;
-        slot.fit = {"setup", free.name, free.unit, -1, free.typical};
+        slot.fit = {"setup", free.name, free.unit, -1, free.typical, 0.0};
         slot.fit.set_up = free.place;
         slots_.push_back(slot);
     }

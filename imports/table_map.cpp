@@ -127,7 +127,7 @@ class MapReader {
             return;
         }
         result.column = number(column(name), told, unit);
-        const double sign = whole ? file_.find_number(value, "factor").value_or(1.0) : 1.0;
+        const double sign = whole ? file_.find_number(value, "factor").value_or(1.0).value() : 1.0;
         result.factor = sign * told.per_inside;
         if (const TomlValue* minus = whole ? value.find("minus") : nullptr)
             result.minus = number(column(*minus), told, unit);

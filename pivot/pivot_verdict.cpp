@@ -67,8 +67,8 @@ GroupVerdict group_verdict(const PivotEvidence& evidence, const PivotVerdict& ve
         const Vector3 right = models.right.error_mm(group, p.first_deg, p.second_deg);
         const Vector3 now = models.in_force.error_mm(group, p.first_deg, p.second_deg);
         const Vector3 typed = models.typed.error_mm(group, p.first_deg, p.second_deg);
-        out.visible_um = std::max(out.visible_um, um_from_mm((now - right).norm()));
-        out.left_um = std::max(out.left_um, um_from_mm(typed.norm()));
+        out.visible_um = std::max(out.visible_um, Finite(um_from_mm((now - right).norm())));
+        out.left_um = std::max(out.left_um, Finite(um_from_mm(typed.norm())));
     }
     double variance = 0.0;
     for (const StoreVerdict& store : verdict.stores)

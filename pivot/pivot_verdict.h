@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/finite.h"
 #include "pivot/pivot_maps.h"
 
 namespace trunnion::pivot {
@@ -40,8 +41,8 @@ kinematics::Machine moved(kinematics::Machine machine, const LineUnknown& unknow
 /// One value that may be entered.
 struct StoreVerdict {
     setup::StoreNumber in_force;
-    double exact_mm = 0.0, type_mm = 0.0;
-    double error_mm = 0.0;  ///< active minus correct value; 0 along unobservable directions
+    Finite exact_mm = 0.0, type_mm = 0.0;
+    Finite error_mm = 0.0;  ///< in force minus what is right; 0 in directions that nothing sees
     double sigma_mm = 0.0;
     bool stale = false;
 };
@@ -50,10 +51,9 @@ struct StoreVerdict {
 struct GroupVerdict {
     PivotGroup group = PivotGroup::g54;
     bool measured = false;    ///< a function of this group was run
-    double visible_um = 0.0;  ///< largest error over the maps caused by its stores
-    double sigma_um = 0.0;    ///< standard uncertainty of visible_um
-    double left_um = 0.0;     ///< after entering the values: tilts, axes that do not intersect,
-                              ///< rounding
+    Finite visible_um = 0.0;  ///< largest error over the maps that its stores cause
+    double sigma_um = 0.0;    ///< of that
+    Finite left_um = 0.0;     ///< after typing: tilts, axes that do not meet, the increment
     bool stale = false;
 };
 
@@ -65,7 +65,7 @@ struct PivotVerdict {
     std::vector<std::string> unobservable;
     double increment_mm = 0.001;
     double limit_um = 3.0;
-    double agree_um = 0.0;  ///< largest difference of two functions at one pose with the new values
+    Finite agree_um = 0.0;  ///< largest difference of two functions at one pose after typing
 
     const GroupVerdict* find(PivotGroup group) const;
 };

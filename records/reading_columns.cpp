@@ -55,7 +55,7 @@ constexpr double same(double v) {
 }
 
 using Convert = double (*)(double);
-using Format = std::string (*)(double);
+using Format = std::string (*)(Finite);
 
 /// A number with a default value for an empty cell.
 template <class Member>
@@ -63,7 +63,8 @@ ReadingColumn usual(std::string_view name, Member member, double otherwise, Conv
                     Format out = shortest) {
     return {name,
             [=](Reading& row, const TableLine& line, const TableCell& cell) {
-                row.*member = in(cell.text.empty() ? otherwise : line.number_of(cell, name));
+                row.*member =
+                    in(cell.text.empty() ? otherwise : line.number_of(cell, name).value());
             },
             [=](const Reading& row) { return out(row.*member); }};
 }
@@ -78,7 +79,7 @@ ReadingColumn text_column(std::string_view name, std::string Reading::*member) {
 ReadingColumn direction_column(std::string_view name, Eigen::Index k) {
     return {name,
             [=](Reading& row, const TableLine& line, const TableCell& cell) {
-                row.direction_M(k) = cell.text.empty() ? 0.0 : line.number_of(cell, name);
+                row.direction_M(k) = cell.text.empty() ? 0.0 : line.number_of(cell, name).value();
             },
             [=](const Reading& row) {
                 return has_direction(row.device) ? shortest(row.direction_M(k)) : std::string();

@@ -56,7 +56,7 @@ void TableLine::split(char separator, std::vector<TableCell>& cells) const {
     }
 }
 
-double TableLine::number_of(const TableCell& cell, std::string_view what) const {
+Finite TableLine::number_of(const TableCell& cell, std::string_view what) const {
     const auto value = parse_number(cell.text);
     if (!value)
         fail(std::string(what) + ": '" + std::string(cell.text) + "' is not a finite number",

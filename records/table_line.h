@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/finite.h"
+
 namespace trunnion::records {
 
 struct TableCell {
@@ -24,7 +26,7 @@ struct TableLine {
     /// Throws InputError for an unclosed quote or text after a closing quote.
     void split(char separator, std::vector<TableCell>& cells) const;
     /// Throws InputError unless the cell is a finite number with a decimal point.
-    double number_of(const TableCell& cell, std::string_view what) const;
+    Finite number_of(const TableCell& cell, std::string_view what) const;
 };
 
 std::string_view without_blanks(std::string_view text);

@@ -17,7 +17,6 @@
 #include "regression/written_layers.h"
 
 namespace trunnion::regression {
-
 namespace {
 
 class ProgramComparer {
@@ -54,7 +53,7 @@ class ProgramComparer {
         result_.by = Layer::path;
         run_b_.emplace(record_run(setup_b_, b_,
                                   {PathSpace::tip, options_.tolerances, options_.program_folders,
-                                   options_.max_blocks, "", options_.devices}));
+                                   options_.max_blocks, "", options_.devices, options_.go_on}));
         describe(golden, run_b_->path, PathSpace::tip);
         result_.layers.push_back({Layer::path, result_.differences.empty()});
         finish();
@@ -166,9 +165,10 @@ class ProgramComparer {
     void record(PathSpace space) {
         if (run_a_ && space == space_) return;
         space_ = space;
-        const RecordOptions record{
+        RecordOptions record{
             space,         options_.tolerances, options_.program_folders, options_.max_blocks,
             options_.call, options_.devices};
+        record.go_on = options_.go_on;
         run_a_.reset();
         run_b_.reset();
         run_a_.emplace(record_run(setup_a_, a_, record));

@@ -1,6 +1,7 @@
 // Compares the machining of two programs, in layers from the text to its result.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,8 +19,9 @@ struct CompareOptions {
     std::vector<std::string> program_folders;
     std::size_t most_differences = 1000;
     std::uint64_t max_blocks = 0;
-    std::string call;      ///< block that calls both programs ("G65 P9814 D25.4")
-    bool devices = false;  ///< the probes and artefacts of the setups answer G31
+    std::string call;      ///< both programs are called by this block ("G65 P9814 D25.4")
+    bool devices = false;  ///< the setups' probes and artefacts answer G31
+    std::function<bool()> go_on = {};  ///< false, from any thread, ends a run as a limit
 };
 
 /// Compares two programs on one or two setups (the same object: one). Errors in NC programs are

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/read_file.h"
+
 namespace trunnion::regression {
 
 /// The layers, from the text to its result.
@@ -160,7 +162,8 @@ struct CompareReport {
     std::string suite;  ///< name of the suite file or folders; empty for two single files
     bool single = true;
     std::vector<Comparison> cases;
-    std::vector<ExpectedDifference> expected = {};  ///< listed in the suite
+    std::vector<ExpectedDifference> expected = {};  ///< what the suite lists
+    std::vector<FileRead> inputs = {};              ///< files that it was made from
 };
 
 /// Those of `expected` that no case shows any more and that should be removed from the suite.

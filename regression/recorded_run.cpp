@@ -177,7 +177,9 @@ RecordedRun record_run(const setup::Setup& setup, const interpreter::ProgramText
     RememberingSource programs(folders, run.opened);
     controller::ControlConfig config = emulator::control_config(setup);
     config.max_blocks = options.max_blocks;
-    config.go_on = [&run](std::uint64_t) { return run.printed.size() < most_printed_bytes; };
+    config.go_on = [&](std::uint64_t) {
+        return run.printed.size() < most_printed_bytes && (!options.go_on || options.go_on());
+    };
     controller::Controller controller(std::move(config), run.stores, programs, sink,
                                       [&sink](std::string_view text) { sink.printed(text); });
     for (const auto& [number, value] : setup.stores.variables)

@@ -1,6 +1,7 @@
 // Runs a program on the emulated control only and stores the input of the layers.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -48,9 +49,9 @@ struct RecordOptions {
     Tolerances tolerances;
     std::vector<std::string> program_folders;  ///< searched before the folder of the program
     std::uint64_t max_blocks = 0;
-    std::string call;      ///< a block that calls the program ("G65 P9814 D25.4"); empty: it is the
-                           ///< main program
-    bool devices = false;  ///< the probe and artefacts of the setup answer G31
+    std::string call;  ///< a block that calls the program ("G65 P9814 D25.4"); empty: runs itself
+    bool devices = false;              ///< the setup's probe and artefacts answer G31
+    std::function<bool()> go_on = {};  ///< false ends the run as a limit
 };
 
 /// The believed kinematics of the setup's control; empty without parameters.

@@ -164,7 +164,9 @@ class SuiteReader {
         if (pattern.find_first_of("*?") == std::string::npos) return {pattern};
         const fs::path parent = fs::path(pattern).parent_path();
         const std::string last = fs::path(pattern).filename().string();
-        const std::string folder = path_of(parent.generic_string());
+        const std::string named = path_of(parent.generic_string());
+        const std::string folder =
+            named.empty() ? "." : named;  // the suite's, where it has no name
         std::vector<std::string> names;
         if (fs::is_directory(folder))
             for (const auto& entry : fs::directory_iterator(folder))

@@ -154,7 +154,9 @@ std::map<std::string, std::string> updated_goldens(const Suite& suite, const std
         const RecordedRun run =
             record_run(setups.at(c.setup), interpreter::read_main_program(c.b),
                        {PathSpace::tip, c.options.tolerances, c.options.program_folders,
-                        c.options.max_blocks, "", c.options.devices});
+                        c.options.max_blocks, "", c.options.devices, c.options.go_on});
+        if (run.result.status == controller::RunStatus::limit)
+            throw InputError("was not run to its end: no golden is written", {c.b, 0, 0});
         if (run.result.alarm) {
             Alarm alarm = *run.result.alarm;
             throw alarm;

@@ -2,6 +2,7 @@
 
 #include "base/units.h"
 #include "report/ballbar_report.h"
+#include "report/json_values.h"
 
 namespace trunnion::report {
 
@@ -29,10 +30,10 @@ Json rows_json(const std::vector<ballbar::test::BallbarErrorRow>& rows, bool aft
         Json entry = {{"name", to_string(row.name)},
                       {"before", row.before},
                       {"after", after ? Json(row.after) : Json()},
-                      {"sigma", row.sigma},
-                      {"sigma_before", row.sigma_before},
+                      {"sigma", json_number(row.sigma)},
+                      {"sigma_before", json_number(row.sigma_before)},
                       {"unit", unit_of(row.name)},
-                      {"change_percent", after ? Json(row.change_percent()) : Json()}};
+                      {"change_percent", after ? json_number(row.change_percent()) : Json()}};
         entry["truly_left"] = row.truly_left ? Json(*row.truly_left) : Json();
         entry["published_before"] = row.published_before ? Json(*row.published_before) : Json();
         list.push_back(entry);
@@ -47,7 +48,7 @@ Json planar_json(const ballbar::test::PlanarResult& planar) {
         causes.push_back({{"name", c.name},
                           {"effect", c.effect},
                           {"value", c.value},
-                          {"sigma", c.sigma},
+                          {"sigma", json_number(c.sigma)},
                           {"unit", c.unit},
                           {"share_um", c.share_um},
                           {"share", c.share},
@@ -98,7 +99,8 @@ Json residual_json(const ballbar::test::BallbarResult& r) {
 
 }  // namespace
 
-std::string ballbar_json(const ballbar::test::BallbarResult& r) {
+std::string ballbar_json(const ballbar::test::BallbarResult& r,
+                         const std::vector<FileRead>& inputs) {
     Json out;
     out["schema"] = "trunnion.ballbar/1";
     out["machine"] = r.machine;
@@ -119,8 +121,9 @@ std::string ballbar_json(const ballbar::test::BallbarResult& r) {
                              {"length_error_mm", r.published.length_error_mm},
                              {"rms_um", um_from_mm(r.published.setup_rms_mm)}};
     const ballbar::test::BarLength bar = ballbar::test::bar_length(r);
-    out["bar_length"] = {
-        {"reference_mm", r.reference_mm}, {"error_mm", bar.error_mm}, {"sigma_mm", bar.sigma_mm}};
+    out["bar_length"] = {{"reference_mm", r.reference_mm},
+                         {"error_mm", bar.error_mm},
+                         {"sigma_mm", json_number(bar.sigma_mm)}};
     const Vector3 pivot = ballbar::test::pivot_found_mm(r);
     out["pivot_found_mm"] = {pivot.x(), pivot.y(), pivot.z()};
     out["true_tip_um"] = r.true_tip ? Json(r.true_tip->stated_um) : Json();
@@ -132,7 +135,8 @@ std::string ballbar_json(const ballbar::test::BallbarResult& r) {
     out["simulated"] = r.simulated;
     out["stores"] = r.stores ? stores_json(*r.stores) : Json::array();
     out["notes"] = r.notes;
-    return out.dump(2) + "\n";
+    add_inputs(out, inputs);
+    return json_text(out, 2) + "\n";
 }
 
 }  // namespace trunnion::report

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "ballbar/test/ballbar_procedure.h"
+#include "base/read_file.h"
 
 namespace trunnion::report {
 
@@ -12,7 +13,8 @@ namespace trunnion::report {
 /// intersection), set-up, inseparable parameters, residual, ISO 230-4 parameters, diagnosis, times.
 std::string ballbar_table(const ballbar::test::BallbarResult& result);
 /// `{"schema":"trunnion.ballbar/1",...}` of formats.md.
-std::string ballbar_json(const ballbar::test::BallbarResult& result);
+std::string ballbar_json(const ballbar::test::BallbarResult& result,
+                         const std::vector<FileRead>& inputs = {});
 /// Both error tables, one line an error: where (point_mm or intersection), name, before, u_before,
 /// after, u_after, change_percent, published_before, unit (mm or rad).
 std::string ballbar_csv(const ballbar::test::BallbarResult& result);

@@ -3,6 +3,7 @@
 
 #include "base/alarm.h"
 #include "report/comparison_report.h"
+#include "report/json_values.h"
 #include "report/places.h"
 
 namespace trunnion::report {
@@ -274,10 +275,13 @@ Json suite_json(const regression::CompareReport& report) {
 }  // namespace
 
 std::string comparison_json(const regression::CompareReport& report) {
-    if (!report.single || report.cases.size() != 1) return suite_json(report).dump(2) + "\n";
     Json j = {{"schema", "trunnion.compare/1"}};
-    j.update(case_json(report.cases.front()));
-    return j.dump(2) + "\n";
+    if (!report.single || report.cases.size() != 1)
+        j = suite_json(report);
+    else
+        j.update(case_json(report.cases.front()));
+    add_inputs(j, report.inputs);
+    return json_text(j, 2) + "\n";
 }
 
 std::string format_part(const ComparePart& part) {
@@ -293,7 +297,8 @@ std::string format_part(const ComparePart& part) {
         c["picture"] = picture_json(part.report.cases[k].picture);
         j["cases"].push_back(c);
     }
-    return j.dump(1) + "\n";
+    add_inputs(j, part.report.inputs);
+    return json_text(j, 1) + "\n";
 }
 
 ComparePart parse_part(const std::string& text, const std::string& path) {
@@ -311,6 +316,7 @@ ComparePart parse_part(const std::string& text, const std::string& path) {
             part.report.cases.back().picture = picture_of(c.at("picture"));
             part.places.push_back(c.at("place"));
         }
+        part.report.inputs = inputs_of(j);
         return part;
     } catch (const std::exception& e) {
         throw InputError(std::string("not a part written by 'compare --shard': ") + e.what(),

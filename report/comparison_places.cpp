@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/alarm.h"
 #include "report/comparison_report.h"
@@ -170,11 +171,35 @@ std::string format_comparison(const regression::CompareReport& report, ReportFor
     return {};
 }
 
+namespace {
+
+/// Each file of any part once, in the order of one process.
+std::vector<FileRead> inputs_together(const std::vector<ComparePart>& parts) {
+    std::set<std::pair<std::string, std::string>> files;
+    for (const ComparePart& part : parts)
+        for (const FileRead& file : part.report.inputs) files.emplace(file.path, file.sha256);
+    std::vector<FileRead> list;
+    for (const auto& [path, hash] : files) list.push_back({path, hash});
+    return list;
+}
+
+/// Before anything is made as large as a part says.
+void refuse_missing(const std::vector<ComparePart>& parts) {
+    std::size_t cases = 0;
+    for (const ComparePart& part : parts) cases += part.places.size();
+    if (cases < parts.front().total)
+        throw InputError(fmt::format("merge: {} of {} cases stand in no part: a shard is missing",
+                                     parts.front().total - cases, parts.front().total));
+}
+
+}  // namespace
+
 regression::CompareReport merge_parts(const std::vector<ComparePart>& parts) {
     if (parts.empty()) throw InputError("merge: no parts given");
     const ComparePart& first = parts.front();
     regression::CompareReport whole{
-        first.report.suite, first.report.single, {}, first.report.expected};
+        first.report.suite, first.report.single, {}, first.report.expected, {}};
+    refuse_missing(parts);
     whole.cases.resize(first.total);
     std::vector<bool> seen(first.total, false);
     for (const ComparePart& part : parts) {
@@ -189,10 +214,7 @@ regression::CompareReport merge_parts(const std::vector<ComparePart>& parts) {
             whole.cases[place] = part.report.cases[k];
         }
     }
-    const auto missing = std::find(seen.begin(), seen.end(), false);
-    if (missing != seen.end())
-        throw InputError(fmt::format("merge: case {} of {} stands in no part: a shard is missing",
-                                     missing - seen.begin() + 1, first.total));
+    whole.inputs = inputs_together(parts);
     return whole;
 }
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/units.h"
+#include "report/json_values.h"
 
 namespace trunnion::report {
 namespace {
@@ -17,11 +18,13 @@ Json json_of(const compensation::CompensatedProgram::Worst& worst) {
 
 }  // namespace
 
-std::string compensation_json(const compensation::CompensatedProgram& result) {
-    const Json json{{"schema", "trunnion.compensate/1"}, {"blocks", result.blocks.size()},
-                    {"before", json_of(result.before)},  {"after", json_of(result.after)},
-                    {"in_gap", json_of(result.in_gap)},  {"notes", result.notes}};
-    return json.dump(1) + "\n";
+std::string compensation_json(const compensation::CompensatedProgram& result,
+                              const std::vector<FileRead>& inputs) {
+    Json json{{"schema", "trunnion.compensate/1"}, {"blocks", result.blocks.size()},
+              {"before", json_of(result.before)},  {"after", json_of(result.after)},
+              {"in_gap", json_of(result.in_gap)},  {"notes", result.notes}};
+    add_inputs(json, inputs);
+    return json_text(json, 1) + "\n";
 }
 
 }  // namespace trunnion::report

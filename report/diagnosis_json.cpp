@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/error_table.h"
+#include "report/json_values.h"
 #include "report/parameters_json.h"
 
 namespace trunnion::report {
@@ -23,8 +24,9 @@ Json json_of(const diagnosis::DeviceNoise& noise) {
 }
 
 Json json_of(const diagnosis::TablePoint& point) {
-    return {{"error", point.error}, {"at", point.at},           {"value", point.value},
-            {"sigma", point.sigma}, {"at_unit", point.at_unit}, {"unit", point.unit}};
+    return {{"error", point.error},     {"at", point.at},
+            {"value", point.value},     {"sigma", json_number(point.sigma)},
+            {"at_unit", point.at_unit}, {"unit", point.unit}};
 }
 
 Json json_of(const diagnosis::Cause& cause) {
@@ -74,12 +76,14 @@ Json causes_of(const diagnosis::Diagnosis& d) {
 Json set_up_of(const diagnosis::Diagnosis& d) {
     Json list = Json::array();
     for (const identification::FitParameter& p : d.set_up)
-        list.push_back(
-            {{"name", p.name}, {"value", p.value}, {"sigma", p.sigma}, {"unit", p.unit}});
+        list.push_back({{"name", p.name},
+                        {"value", p.value},
+                        {"sigma", json_number(p.sigma)},
+                        {"unit", p.unit}});
     for (const identification::FoundSide& s : d.sides)
         list.push_back({{"name", "side of " + s.axis},
                         {"value", s.value()},
-                        {"sigma", s.sigma()},
+                        {"sigma", json_number(s.sigma())},
                         {"unit", "1"}});
     return list;
 }
@@ -118,7 +122,7 @@ Json over_of(const diagnosis::Diagnosis& d) {
 
 }  // namespace
 
-std::string diagnosis_json(const diagnosis::Diagnosis& d) {
+std::string diagnosis_json(const diagnosis::Diagnosis& d, const std::vector<FileRead>& inputs) {
     Json json{{"schema", "trunnion.diagnosis/1"},
               {"verdict", to_string(d.verdict)},
               {"noise_source", to_string(d.noise.source)},
@@ -148,8 +152,10 @@ std::string diagnosis_json(const diagnosis::Diagnosis& d) {
               {"readings", d.readings}};
     if (!d.sessions.empty()) json["over"] = over_of(d);
     if (d.chosen_from > 0) json["chosen_from"] = d.chosen_from;
+    if (d.unfinished) json["unfinished"] = true;
     json["outliers"] = d.outliers;
-    return json.dump(1) + "\n";
+    add_inputs(json, inputs);
+    return json_text(json, 1) + "\n";
 }
 
 }  // namespace trunnion::report

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "base/read_file.h"
 #include "diagnosis/diagnosis.h"
 
 namespace trunnion::report {
 
-/// trunnion.diagnosis/1 (docs/diagnosis.md), ends with one line break. Lengths in um if the name
-/// says so, parameter values in their own units; null for a value that is not finite.
-std::string diagnosis_json(const diagnosis::Diagnosis& diagnosis);
+/// trunnion.diagnosis/1 (docs/diagnosis.md), one line break at its end. Lengths in um where the
+/// name says so, values of parameters in their own units; null for what is not finite.
+std::string diagnosis_json(const diagnosis::Diagnosis& diagnosis,
+                           const std::vector<FileRead>& inputs = {});
 
 }  // namespace trunnion::report

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "report/json_values.h"
 #include "report/paragraph.h"
 
 namespace trunnion::report {
@@ -26,7 +27,8 @@ std::string headed_lines(const std::string& head, const std::string& words) {
 
 }  // namespace
 
-std::string effects_json(const std::vector<effects::Effect>& list) {
+std::string effects_json(const std::vector<effects::Effect>& list,
+                         const std::vector<FileRead>& inputs) {
     Json json{{"schema", "trunnion.effects/1"}, {"effects", Json::array()}};
     for (const effects::Effect& effect : list) {
         Json parameters = Json::array();
@@ -40,7 +42,8 @@ std::string effects_json(const std::vector<effects::Effect>& list) {
                                    {"formula", effect.formula},
                                    {"parameters", parameters}});
     }
-    return json.dump(2) + "\n";
+    add_inputs(json, inputs);
+    return json_text(json, 2) + "\n";
 }
 
 std::string effect_text(const effects::Effect& effect) {

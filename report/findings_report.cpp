@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/alarm.h"
+#include "report/json_values.h"
 #include "report/places.h"
 
 namespace trunnion::report {
@@ -29,7 +30,7 @@ std::string text_of(const std::vector<check::Finding>& findings, std::size_t fil
 }
 
 std::string json_of(const std::vector<check::Finding>& findings,
-                    const std::vector<std::string>& files) {
+                    const std::vector<std::string>& files, const std::vector<FileRead>& inputs) {
     nlohmann::ordered_json j = {{"schema", "trunnion.check/1"},
                                 {"files", files.size()},
                                 {"findings", nlohmann::ordered_json::array()}};
@@ -41,7 +42,8 @@ std::string json_of(const std::vector<check::Finding>& findings,
                                  {"column", f.column},
                                  {"text", valid_utf8(f.text)},
                                  {"remedy", valid_utf8(f.remedy)}});
-    return j.dump(2) + "\n";
+    add_inputs(j, inputs);
+    return json_text(j, 2) + "\n";
 }
 
 std::vector<ReportItem> items_of(const std::vector<check::Finding>& findings) {
@@ -79,9 +81,10 @@ std::string junit_of(const std::vector<check::Finding>& findings,
 }  // namespace
 
 std::string format_findings(const std::vector<check::Finding>& findings,
-                            const std::vector<std::string>& files, const std::string& format) {
+                            const std::vector<std::string>& files, const std::string& format,
+                            const std::vector<FileRead>& inputs) {
     if (format == "text") return text_of(findings, files.size());
-    if (format == "json") return json_of(findings, files);
+    if (format == "json") return json_of(findings, files, inputs);
     if (format == "junit") return junit_of(findings, files);
     if (format == "sarif") return format_sarif(rules(), items_of(findings));
     if (format == "github") return format_github(items_of(findings));

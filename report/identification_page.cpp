@@ -17,8 +17,8 @@ using identification::FitParameter;
 std::string interval(const FitParameter& p) {
     if (!std::isfinite(p.sigma)) return "not seen";
     FitParameter low = p, high = p;
-    low.value -= 1.96 * p.sigma;
-    high.value += 1.96 * p.sigma;
+    low.value = low.value - 1.96 * p.sigma;
+    high.value = high.value + 1.96 * p.sigma;
     const ShopValue from = shop_value(low), to = shop_value(high);
     return from.unit == to.unit ? from.value + " to " + to.value : std::string("-");
 }

@@ -99,6 +99,9 @@ RepetitionPart parse_part_json(const Json& json) {
     part.seed = json.at("seed").get<std::uint64_t>();
     if (part.runs < 2 || part.runs > most_repetitions) throw std::length_error("runs");
     part.fitted = parse_fitted(json.at("fitted"));
+    for (const Json& file : json.value("files", Json::array()))
+        part.files.push_back(
+            {file.at("path").get<std::string>(), file.at("sha256").get<std::string>()});
     for (const Json& item : json.at("repetitions")) {
         identification::Repetition repetition{item.at("index").get<int>(), {}};
         for (const Json& off : item.at("off")) repetition.off.push_back(number(off));
@@ -124,7 +127,8 @@ Json json_set_up(const std::vector<identification::FitParameter>& parameters) {
 
 }  // namespace
 
-std::string identification_json(const identification::Identification& result) {
+std::string identification_json(const identification::Identification& result,
+                                const std::vector<FileRead>& inputs) {
     Json json;
     json["schema"] = "trunnion.identification/1";
     json["parameters"] = json_parameters(result.parameters);
@@ -134,7 +138,8 @@ std::string identification_json(const identification::Identification& result) {
     json["rms_before_um"] = result.rms_before_um;
     json["rms_after_um"] = result.rms_after_um;
     json["dof"] = result.dof;
-    return json.dump(1) + "\n";
+    add_inputs(json, inputs);
+    return json_text(json, 1) + "\n";
 }
 
 std::string identification_text(const identification::Identification& result, bool repetitions) {
@@ -169,13 +174,16 @@ std::string format_part(const RepetitionPart& part) {
                       {"rms_before_um", part.fitted.rms_before_um},
                       {"rms_after_um", part.fitted.rms_after_um},
                       {"dof", part.fitted.dof}};
+    json["files"] = Json::array();
+    for (const FileRead& file : part.files)
+        json["files"].push_back({{"path", file.path}, {"sha256", file.sha256}});
     json["repetitions"] = Json::array();
     for (const identification::Repetition& r : part.repetitions) {
         Json off = Json::array();
         for (const double v : r.off) off.push_back(json_number(v));
         json["repetitions"].push_back({{"index", r.index}, {"off", std::move(off)}});
     }
-    return json.dump() + "\n";
+    return json_text(json, -1) + "\n";
 }
 
 bool is_repetition_part(const std::string& text) {

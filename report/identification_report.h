@@ -4,13 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "base/read_file.h"
 #include "identification/monte_carlo.h"
 
 namespace trunnion::report {
 
 /// trunnion.identification/1.
-std::string identification_json(const identification::Identification& result);
-/// `repetitions`: with the column of their standard deviation.
+std::string identification_json(const identification::Identification& result,
+                                const std::vector<FileRead>& inputs = {});
+/// `repetitions`: with the column of their spread.
 std::string identification_text(const identification::Identification& result, bool repetitions);
 
 /// Output of one shard of `identify --monte-carlo`, input of `merge`.
@@ -22,6 +24,7 @@ struct RepetitionPart {
     /// Parameters, covariance and residuals, without notes and setup.
     identification::Identification fitted;
     std::vector<identification::Repetition> repetitions;  ///< of this shard
+    std::vector<FileRead> files = {};  ///< that the shard was made from: the same in all
 };
 /// trunnion.identification-part/1; values read back bit by bit.
 std::string format_part(const RepetitionPart& part);

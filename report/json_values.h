@@ -3,7 +3,10 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
+#include "base/read_file.h"
 #include "geometry/pose.h"
 
 namespace trunnion::report {
@@ -12,6 +15,17 @@ namespace trunnion::report {
 inline nlohmann::ordered_json json_number(double value) {
     return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
+
+/// The text of a report, every line break at its end. Throws InputError with the key of a number
+/// that is not finite: a null stands only where json_number put it. Bytes that are no UTF-8 become
+/// U+FFFD. `indent` -1: all in one line.
+std::string json_text(const nlohmann::ordered_json& json, int indent);
+
+/// "inputs": path and SHA-256 of each file that the result was made from; no key without any.
+void add_inputs(nlohmann::ordered_json& json, const std::vector<FileRead>& inputs);
+
+/// What add_inputs wrote; throws nlohmann's exceptions for another form.
+std::vector<FileRead> inputs_of(const nlohmann::ordered_json& json);
 
 /// [x, y, z]
 inline nlohmann::ordered_json vector_json(const Vector3& v) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/read_file.h"
+
 namespace trunnion::report {
 
 /// Mark of a verdict besides its words: a coloured rule; colour is never the only mark.
@@ -14,11 +16,8 @@ enum class Tone : unsigned char { neutral, good, bad };
 /// The script of a page. `none`: a page without any script.
 enum class PageScript : unsigned char { none, chart, run };
 
-/// An input file of the result.
-struct PageInput {
-    std::string path;
-    std::string sha256;  ///< 64 hexadecimal digits
-};
+/// A file that the result was made from.
+using PageInput = FileRead;
 
 /// Footer of a page: how it was made.
 struct PageOrigin {

@@ -167,7 +167,7 @@ Json stores_json(const PivotResult& r) {
                         {"type_mm", s.type_mm},
                         {"exact_mm", s.exact_mm},
                         {"error_mm", s.error_mm},
-                        {"sigma_mm", s.sigma_mm},
+                        {"sigma_mm", json_number(s.sigma_mm)},
                         {"stale", s.stale},
                         {"words", store_name(r, s.in_force)}});
     return list;
@@ -196,7 +196,7 @@ std::string pivot_table(const PivotResult& r) {
            paragraph(pivot::sentence(r.verdict, r.hurco), 0);
 }
 
-std::string pivot_json(const PivotResult& r) {
+std::string pivot_json(const PivotResult& r, const std::vector<FileRead>& inputs) {
     Json maps = Json::array();
     for (const pivot::PivotMap& map : r.maps) maps.push_back(map_json(r, map));
     Json groups = Json::array();
@@ -205,24 +205,24 @@ std::string pivot_json(const PivotResult& r) {
                           {"measured", g.measured},
                           {"stale", g.stale},
                           {"visible_um", g.visible_um},
-                          {"sigma_um", g.sigma_um},
+                          {"sigma_um", json_number(g.sigma_um)},
                           {"left_after_typing_um", g.left_um}});
-    return Json({{"schema", "trunnion.pivot/1"},
-                 {"verdict", pivot::sentence(r.verdict, r.hurco)},
-                 {"machine", r.machine},
-                 {"source", r.source},
-                 {"date", r.date.empty() ? Json() : Json(r.date)},
-                 {"maps", maps},
-                 {"stores", stores_json(r)},
-                 {"groups", groups},
-                 {"unobservable", r.verdict.unobservable},
-                 {"affected", affected_json(r)},
-                 {"noise_um", r.verdict.fit.noise_um},
-                 {"zero_scatter_um", r.verdict.fit.zero_scatter_um},
-                 {"zeroings", r.verdict.fit.zeroings},
-                 {"agree_after_typing_um", r.verdict.agree_um}})
-               .dump(1) +
-           "\n";
+    Json json({{"schema", "trunnion.pivot/1"},
+               {"verdict", pivot::sentence(r.verdict, r.hurco)},
+               {"machine", r.machine},
+               {"source", r.source},
+               {"date", r.date.empty() ? Json() : Json(r.date)},
+               {"maps", maps},
+               {"stores", stores_json(r)},
+               {"groups", groups},
+               {"unobservable", r.verdict.unobservable},
+               {"affected", affected_json(r)},
+               {"noise_um", r.verdict.fit.noise_um},
+               {"zero_scatter_um", r.verdict.fit.zero_scatter_um},
+               {"zeroings", r.verdict.fit.zeroings},
+               {"agree_after_typing_um", r.verdict.agree_um}});
+    add_inputs(json, inputs);
+    return json_text(json, 1) + "\n";
 }
 
 }  // namespace trunnion::report

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/read_file.h"
 #include "pivot/affected_programs.h"
 
 namespace trunnion::report {
@@ -27,10 +28,9 @@ struct PivotResult {
 /// verdict.
 std::string pivot_table(const PivotResult& result);
 /// `{"schema":"trunnion.pivot/1",...}` of formats.md.
-std::string pivot_json(const PivotResult& result);
-/// Pictures by file name: distances.svg (distance from the mean of the map, measured and expected,
-/// like figure 4 of pivot 2021), circles.svg (measured points, circle and its centre, like its
-/// figure 5).
+std::string pivot_json(const PivotResult& result, const std::vector<FileRead>& inputs = {});
+/// Pictures by file name: distances.svg (distance from the map's mean, measured and expected, as
+/// figure 4 of pivot 2021), circles.svg (measured points, circle and its centre, as its figure 5).
 std::map<std::string, std::string> pivot_pictures(const PivotResult& result);
 /// Name of a group of stores in the terms of the dialect: "G54", "P1970x", on a Hurco "set-up".
 std::string group_words(const PivotResult& result, pivot::PivotGroup group);

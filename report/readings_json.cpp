@@ -6,6 +6,7 @@
 
 #include "base/numbers.h"
 #include "base/units.h"
+#include "report/json_values.h"
 #include "report/parameters_json.h"
 
 namespace trunnion::report {
@@ -44,15 +45,18 @@ Json jacobian_json(const identification::Sensitivity& found) {
 }  // namespace
 
 std::string prediction_json(const records::ReadingTable& read,
-                            const std::optional<identification::Sensitivity>& found) {
+                            const std::optional<identification::Sensitivity>& found,
+                            const std::vector<FileRead>& inputs) {
     Json json{{"schema", "trunnion.prediction/1"}, {"readings", Json::array()}};
     for (const records::Reading& row : read.rows)
         if (row.device != records::Device::none) json["readings"].push_back(row_json(row));
     json["jacobian"] = found ? jacobian_json(*found) : Json(nullptr);
-    return json.dump(1) + "\n";
+    add_inputs(json, inputs);
+    return json_text(json, 1) + "\n";
 }
 
-std::string import_json(const records::ReadingTable& table, const ImportWords& words) {
+std::string import_json(const records::ReadingTable& table, const ImportWords& words,
+                        const std::vector<FileRead>& inputs) {
     std::map<std::string_view, int> devices;
     std::set<std::string> tests;
     for (const records::Reading& row : table.rows) {
@@ -66,7 +70,8 @@ std::string import_json(const records::ReadingTable& table, const ImportWords& w
     json["tests"] = tests;
     json["summary"] = words.summary;
     json["notes"] = words.notes;
-    return json.dump(1) + "\n";
+    add_inputs(json, inputs);
+    return json_text(json, 1) + "\n";
 }
 
 }  // namespace trunnion::report

@@ -197,7 +197,7 @@ std::string data_json(const setup::Setup& setup, const RunPath& path, const Prog
                         {{"count", path.points().size()},
                          {"columns", packed},
                          {"packed", packed_base64(columns)}}}};
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json_text(json, -1);
 }
 
 constexpr const char* view_html =

@@ -8,6 +8,7 @@
 #include "base/numbers.h"
 #include "base/sha256.h"
 #include "base/units.h"
+#include "report/json_values.h"
 
 namespace trunnion::report {
 namespace {
@@ -48,12 +49,13 @@ Json programs_json(const std::vector<interpreter::ProgramText>& programs) {
 }  // namespace
 
 std::string run_json(const emulator::RunLog& log, const std::vector<kinematics::AxisGeometry>& axes,
-                     const std::vector<interpreter::ProgramText>& programs) {
+                     const std::vector<interpreter::ProgramText>& programs,
+                     const std::vector<FileRead>& inputs) {
     Json variables = Json::object();
     for (const auto& [number, value] : log.variables)
         variables[std::to_string(number)] = std::isfinite(value) ? Json(value) : Json(nullptr);
     const controller::RunResult& r = log.result;
-    const Json json = {
+    Json json = {
         {"schema", "trunnion.run/1"},
         {"status", status_name(r.status)},
         {"alarm", alarm_json(r.alarm)},
@@ -68,7 +70,8 @@ std::string run_json(const emulator::RunLog& log, const std::vector<kinematics::
         {"variables", variables},
         {"programs", programs_json(programs)},
         {"printed", log.printed}};
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+    add_inputs(json, inputs);
+    return json_text(json, 2) + '\n';
 }
 
 std::string run_summary(const emulator::RunLog& log) {

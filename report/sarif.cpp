@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "report/json_values.h"
 #include "report/places.h"
 
 namespace trunnion::report {
@@ -115,7 +116,7 @@ std::string format_sarif(const std::vector<ReportRule>& rules, const std::vector
     const Json log = {{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
                       {"version", "2.1.0"},
                       {"runs", Json::array({run})}};
-    return log.dump(2) + "\n";
+    return json_text(log, 2) + "\n";
 }
 
 }  // namespace trunnion::report

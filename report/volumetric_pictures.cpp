@@ -109,7 +109,7 @@ void cause_bars(Svg& svg, Point2 corner, double width, const volumetric::Volumet
     svg.text({corner.x, corner.y - 8}, "what contributes, over the whole grid (rms, um)", 13);
     if (map.causes.empty()) return svg.text({corner.x, corner.y + 14}, "no error is set", 12);
     const std::size_t count = std::min<std::size_t>(8, map.causes.size());
-    const double largest = std::max(map.causes[0].rms_mm, 1e-12);
+    const double largest = std::max(map.causes[0].rms_mm.value(), 1e-12);
     for (std::size_t i = 0; i < count; ++i) {
         const volumetric::VolumetricCause& cause = map.causes[i];
         const double y = corner.y + 20.0 * static_cast<double>(i);

@@ -6,6 +6,7 @@
 
 #include "base/numbers.h"
 #include "base/units.h"
+#include "report/json_values.h"
 
 namespace trunnion::report {
 namespace {
@@ -50,7 +51,8 @@ std::string volumetric_csv(const volumetric::VolumetricMap& map) {
     return out;
 }
 
-std::string volumetric_json(const volumetric::VolumetricMap& map) {
+std::string volumetric_json(const volumetric::VolumetricMap& map,
+                            const std::vector<FileRead>& inputs) {
     using Json = nlohmann::ordered_json;
     const volumetric::VolumetricPoint& worst = map.points[map.worst];
     Json at = Json::object(), causes = Json::array();
@@ -64,18 +66,19 @@ std::string volumetric_json(const volumetric::VolumetricMap& map) {
                           {"largest_um", um_from_mm(cause.largest_mm)},
                           {"share", cause.share}});
     const Vector3& e = worst.error_W_mm;
-    const Json json{{"schema", "trunnion.volumetric/1"},
-                    {"machine", map.machine},
-                    {"tool_mm", map.length_mm},
-                    {"poses", map.points.size()},
-                    {"rms_um", um_from_mm(map.rms_mm)},
-                    {"worst",
-                     {{"at", at},
-                      {"error_mm", {e.x(), e.y(), e.z()}},
-                      {"error_um", um_from_mm(e.norm())},
-                      {"cause", cause_name(map, worst)}}},
-                    {"causes", causes}};
-    return json.dump(1) + "\n";
+    Json json{{"schema", "trunnion.volumetric/1"},
+              {"machine", map.machine},
+              {"tool_mm", map.length_mm},
+              {"poses", map.points.size()},
+              {"rms_um", um_from_mm(map.rms_mm)},
+              {"worst",
+               {{"at", at},
+                {"error_mm", {e.x(), e.y(), e.z()}},
+                {"error_um", um_from_mm(e.norm())},
+                {"cause", cause_name(map, worst)}}},
+              {"causes", causes}};
+    add_inputs(json, inputs);
+    return json_text(json, 1) + "\n";
 }
 
 std::string volumetric_text(const volumetric::VolumetricMap& map) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/read_file.h"
 #include "volumetric/volumetric.h"
 
 namespace trunnion::report {
@@ -12,7 +13,8 @@ namespace trunnion::report {
 /// largest contribution.
 std::string volumetric_csv(const volumetric::VolumetricMap& map);
 /// `{"schema":"trunnion.volumetric/1",...}` of docs/formats.md.
-std::string volumetric_json(const volumetric::VolumetricMap& map);
+std::string volumetric_json(const volumetric::VolumetricMap& map,
+                            const std::vector<FileRead>& inputs = {});
 /// Worst place, rms, and a table of causes.
 std::string volumetric_text(const volumetric::VolumetricMap& map);
 

@@ -223,8 +223,9 @@ VolumetricMap volumetric_map(const setup::Setup& setup,
     for (const AxisPositions& q : grid) {
         VolumetricPoint point = mapper.point(q, parts);
         for (std::size_t i = 0; i < parts.size(); ++i) {
-            map.causes[i].largest_mm = std::max(map.causes[i].largest_mm, parts[i].norm());
-            map.causes[i].rms_mm += parts[i].squaredNorm();
+            VolumetricCause& cause = map.causes[i];
+            cause.largest_mm = std::max(cause.largest_mm, Finite(parts[i].norm()));
+            cause.rms_mm = cause.rms_mm + parts[i].squaredNorm();
             if (parts[i].norm() > parts[point.worst].norm()) point.worst = i;
         }
         map.points.push_back(point);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/finite.h"
 #include "emulator/effect_model.h"
 #include "setup/setup.h"
 
@@ -21,9 +22,9 @@ struct VolumetricPoint {
 /// One error or effect alone. `mm` of a vector is its length.
 struct VolumetricCause {
     std::string name;         ///< EX0C, EYX, C.backlash, ...
-    double largest_mm = 0.0;  ///< maximum over the grid
-    double rms_mm = 0.0;
-    double share = 0.0;  ///< fraction of the sum of squares of all causes
+    Finite largest_mm = 0.0;  ///< over the grid
+    Finite rms_mm = 0.0;
+    Finite share = 0.0;  ///< part of the sum of squares of all causes
 };
 
 struct VolumetricMap {
@@ -36,7 +37,7 @@ struct VolumetricMap {
     std::vector<VolumetricPoint> points;
     std::vector<VolumetricCause> causes;  ///< by rms, largest first; points refer to this order
     std::size_t worst = 0;                ///< point with the largest error
-    double rms_mm = 0.0;
+    Finite rms_mm = 0.0;
 };
 
 struct VolumetricOptions {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ballbar/test/ballbar_tests.h"
+#include "base/finite.h"
 #include "kinematics/machine.h"
 #include "records/readings.h"
 
@@ -122,9 +123,9 @@ double reading_sigma_mm(const BallbarFit& fit, double declared_mm);
 /// scatter. Causes that are not modelled (linear axes, backlash, servo, ...) appear here.
 struct ResidualVerdict {
     bool structured = false;
-    double excess_um = 0.0;  ///< sqrt(rms^2 - noise^2)
+    Finite excess_um = 0.0;  ///< sqrt(rms^2 - noise^2)
     std::string worst_test;  ///< pass with the largest rms
-    double worst_rms_um = 0.0;
+    Finite worst_rms_um = 0.0;
 };
 ResidualVerdict judge_residuals(const BallbarModel& model, const BallbarFit& fit);
 

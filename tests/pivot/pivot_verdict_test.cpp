@@ -166,7 +166,7 @@ void add_cases(const std::string& file, int count, SeededNoise& noise, Campaign&
         if (k % 4 != 0) continue;
         for (const pivot::GroupVerdict& group : recheck(c, v.typed, noise).groups) {
             sum.stale_again += group.stale;
-            sum.worst_again_um = std::max(sum.worst_again_um, group.visible_um);
+            sum.worst_again_um = std::max(sum.worst_again_um, group.visible_um.value());
         }
     }
 }
