@@ -34,6 +34,15 @@ const std::vector<std::string> commands{
     "backup save in/backup out --setup in/machine.toml",
     "predict in/readings.csv --setup in/machine.toml",
     "identify in/readings.csv --setup in/machine.toml --effects C.backlash --out out/s.toml",
+    "diagnose in/readings.csv --setup in/machine.toml --json --out out/d.toml --html out/d.html",
+    "pivot --setup in/machine.toml --json --svg out/p --print out/p.txt --html out/p.html",
+    "pivot --setup in/machine.toml --write-programs out/programs",
+    "ballbar --setup in/machine.toml --program out/b.nc",
+    "import iso230-2 in/laser.csv --setup in/machine.toml --with axis=X --out out/i.csv --svg "
+    "out/i "
+    "--html out/i.html",
+    "merge in/p1.json in/p2.json --format json --out out/m.json",
+    "merge in/c1.json --format markdown --out out/m.md",
 };
 const std::vector<std::string> functions{"open",   "read",    "write",   "close",  "fsync",
                                          "rename", "linkat",  "pread",   "pwrite", "fchmod",
@@ -61,7 +70,16 @@ class FaultBench : public CommandBench {
               "name = \"a\"\nprogram = \"part.nc\"\n");
         write("in/backup/MACRO.TXT", "%\nG10L85P500(400C000000000000)\n%\n");
         write("in/readings.csv", readings());
-        write("in/machine.toml", read_whole(source + "/machines/bc_table.toml"));
+        write("in/machine.toml", read_whole(source + "/machines/bc_table.toml") +
+                                     "\n[[artefact]]\nname = \"T1\"\nkind = \"target\"\n"
+                                     "center_mm = [0, 0, 0]\n");
+        write("in/laser.csv", "target [mm],1+ [um],1- [um]\n0,0,1\n90,2,3\n");
+        for (const char* shard : {"1/2", "2/2"})
+            make(
+                "identify in/readings.csv --setup in/machine.toml --effects C.backlash "
+                "--monte-carlo 4 --out in/p{i}.json --shard " +
+                std::string(shard));
+        make("compare --suite in/suite.toml --out in/c{i}.json --shard 1/1");
     }
 
     /// A sphere found at turns of C to and fro, with some backlash.
@@ -92,8 +110,17 @@ class FaultBench : public CommandBench {
         Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : 128, read("out.txt"), {}};
         for (const auto& entry : fs::recursive_directory_iterator(path / "out"))
             if (entry.is_regular_file())
-                outcome.files[entry.path().filename().string()] = read_whole(entry.path().string());
+                outcome.files[fs::relative(entry.path(), path).string()] =
+                    read_whole(entry.path().string());
         return outcome;
+    }
+    /// An input that the program itself writes.
+    void make(const std::string& words) const {
+        const std::string line = "cd " + path.string() +
+                                 " && " TRUNNION_BINARY_DIR "/bin/trunnion " + words +
+                                 " 2> err.txt";
+        INFO(words << "\n" << read("err.txt"));
+        REQUIRE(WEXITSTATUS(std::system(line.c_str())) < 2);
     }
     long calls() const { return std::atol(read("count.txt").c_str()); }
 

@@ -70,6 +70,9 @@ TEST_CASE("M99 P and L") {
               "P7\nN7GOTO8\nN8#1=#1+1\nX#1\nN9M30\n")
               .blocks == Blocks{"X1", "X2", "M30"});
     CHECK(alarm_of("M98P7\nM30\nO7\nM99P30\n") == 78);
+    // P0 names a block too, and is not M99 alone.
+    CHECK(alarm_of("M98P7\nM30\nO7\nX7.\nM99P0\n") == 78);
+    CHECK(alarm_of("X1.\nM99P0\n") == 78);
 }
 
 TEST_CASE("called programs that end without M99 return") {

@@ -155,6 +155,22 @@ TEST_CASE("a nutating table reaches its limit of travel and nothing beyond") {
     CHECK(at(most) >= 1);
 }
 
+TEST_CASE("a tool from straight below tilts by +180 degrees, never by -180") {
+    for (const Axis tilt : {Axis::A, Axis::B})
+        for (const double sign : {1.0, -1.0})
+            for (const offsets::PivotParameters& pivot : {table(tilt, sign), head(tilt)}) {
+                const auto found =
+                    positioning::RotaryTransform(pivot).orient(-Vector3::UnitZ(), {});
+                REQUIRE_FALSE(found.empty());
+                for (const positioning::RotarySolution& s : found) {
+                    const double tilt_rad = pivot.unit == offsets::MechanicalUnit::tool_tool
+                                                ? s.second_rad
+                                                : s.first_rad;
+                    CHECK(tilt_rad == Approx(pi));
+                }
+            }
+}
+
 TEST_CASE("parallel axes orient nothing") {
     offsets::PivotParameters pivot = table(Axis::B, 1.0);
     pivot.second.line = Vector3::UnitY();
