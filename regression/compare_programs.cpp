@@ -122,7 +122,7 @@ class ProgramComparer {
 
     void moves(const KeyedLines& a, const KeyedLines& b) {
         if (only_verdict()) return void(equal_so_far_ = same_keys(a, b, result_.compared));
-        describe_gaps(a, b, lines_a_, lines_b_, options_.most_differences, result_);
+        describe_gaps({a, lines_a_}, {b, lines_b_}, options_.most_differences, result_);
     }
 
     void paths(PathSpace space) {
@@ -135,8 +135,8 @@ class ProgramComparer {
         walk.tolerances = options_.tolerances;
         walk.other_machine = &setup_a_ != &setup_b_ && !one_machine();
         const PathComparison found = compare_paths(a, b, walk, options_.most_differences);
-        describe_paths(found, explained(found, space), a, b, space, {lines_a_, lines_b_},
-                       options_.tolerances, result_);
+        describe_paths(found, explained(found, space),
+                       {{a, lines_a_}, {b, lines_b_}, space, options_.tolerances}, result_);
         if (result_.differences.empty() || !run_a_ || !one_control()) return;
         for (const std::string& hint : {frame_hint(*run_a_, "A"), frame_hint(*run_b_, "B")})
             if (!hint.empty()) result_.notes.push_back(hint);
@@ -228,8 +228,8 @@ class ProgramComparer {
         record(PathSpace::tip);
         const bool stores = &setup_a_ == &setup_b_ && run_a_->path.modes() == run_b_->path.modes();
         const bool same_writes = compare_functions(
-            *run_a_, *run_b_, {options_.tolerances, places, stores, options_.most_differences},
-            lines_a_, lines_b_, result_);
+            {*run_a_, lines_a_}, {*run_b_, lines_b_},
+            {options_.tolerances, places, stores, options_.most_differences}, result_);
         const std::size_t before = result_.differences.size();
         compare_leftovers(*run_a_, *run_b_, stores && same_writes, options_.tolerances, result_);
         for (std::size_t k = before; k < result_.differences.size(); ++k)

@@ -149,9 +149,9 @@ std::string bare(const std::string& block) {
 }  // namespace
 
 void describe_paths(const PathComparison& found, const std::vector<ExplainedCluster>& clusters,
-                    const PathRecord& a, const PathRecord& b, PathSpace space, DescribedSides lines,
-                    const Tolerances& tolerances, Comparison& result) {
-    SourceLines &lines_a = lines.a, &lines_b = lines.b;
+                    const DescribedPaths& paths, Comparison& result) {
+    const PathRecord &a = paths.a.path, &b = paths.b.path;
+    SourceLines &lines_a = paths.a.lines, &lines_b = paths.b.lines;
     SegmentWindow path_a(a.segments()), path_b(b.segments());
     std::vector<PathRegion> regions;
     for (const ExplainedCluster& e : clusters) {
@@ -159,7 +159,8 @@ void describe_paths(const PathComparison& found, const std::vector<ExplainedClus
         Difference d;
         d.kind = c.kind;
         d.cause = e.cause;
-        d.what = (e.cause.empty() ? "" : e.cause + ": ") + sentence(c, space, tolerances);
+        d.what =
+            (e.cause.empty() ? "" : e.cause + ": ") + sentence(c, paths.space, paths.tolerances);
         d.a = place_of(path_a, a, c.first.a, e.a, lines_a);
         d.b = place_of(path_b, b, c.first.b, e.b, lines_b);
         d.position_mm = c.position_mm;
@@ -192,7 +193,7 @@ void describe_paths(const PathComparison& found, const std::vector<ExplainedClus
     draw_paths(regions,
                {a,
                 b,
-                tolerances,
+                paths.tolerances,
                 {worst_a, worst_a + 1},
                 {worst_b, worst_b + 1},
                 static_cast<std::size_t>(farthest - result.differences.begin())},
@@ -218,13 +219,12 @@ std::string counted(std::uint64_t count, const char* noun) {
 
 }  // namespace
 
-void describe_gaps(const KeyedLines& a, const KeyedLines& b, SourceLines& lines_a,
-                   SourceLines& lines_b, std::size_t most, Comparison& result) {
-    SpilledWindow<KeyedLine> keyed_a(a), keyed_b(b);
+void describe_gaps(DescribedKeys a, DescribedKeys b, std::size_t most, Comparison& result) {
+    SpilledWindow<KeyedLine> keyed_a(a.keys), keyed_b(b.keys);
     const char* const noun = result.by == Layer::text     ? "line"
                              : result.by == Layer::blocks ? "move"
                                                           : "block";
-    key_gaps(a, b, [&](const KeyGap& gap) {
+    key_gaps(a.keys, b.keys, [&](const KeyGap& gap) {
         if (result.differences.size() >= most) {
             ++result.differences_left_out;
             return;
@@ -238,14 +238,14 @@ void describe_gaps(const KeyedLines& a, const KeyedLines& b, SourceLines& lines_
                  : in_b == 0    ? counted(in_a, noun) + " only in A"
                  : in_a == in_b ? counted(in_a, noun) + " changed"
                                 : fmt::format("{} of A became {} of B", counted(in_a, noun), in_b);
-        d.a = place_in(keyed_a, gap.a_first, gap.a_last, lines_a);
-        d.b = place_in(keyed_b, gap.b_first, gap.b_last, lines_b);
+        d.a = place_in(keyed_a, gap.a_first, gap.a_last, a.lines);
+        d.b = place_in(keyed_b, gap.b_first, gap.b_last, b.lines);
         if (in_a == 1 && in_b == 1 && result.by != Layer::blocks)
             d.cause = block_difference(d.a.block, d.b.block, {});
         if (!d.cause.empty()) d.what += ": " + d.cause;
         result.differences.push_back(std::move(d));
     });
-    result.compared = std::max(a.size(), b.size());
+    result.compared = std::max(a.keys.size(), b.keys.size());
 }
 
 void add_fingerprints(Comparison& result) {

@@ -31,18 +31,26 @@ class SourceLines {
     std::map<std::string, std::optional<ProgramLines>> lines_;
 };
 
-struct DescribedSides {
-    SourceLines &a, &b;
+struct DescribedPath {
+    const PathRecord& path;
+    SourceLines& lines;
 };
-
-/// Adds a path comparison to `result`: differences, worst place, table, picture.
+/// Two paths and what they were compared by.
+struct DescribedPaths {
+    DescribedPath a, b;
+    PathSpace space;
+    const Tolerances& tolerances;
+};
+/// Puts a path comparison into `result`: differences, worst place, table, picture.
 void describe_paths(const PathComparison& found, const std::vector<ExplainedCluster>& clusters,
-                    const PathRecord& a, const PathRecord& b, PathSpace space, DescribedSides lines,
-                    const Tolerances& tolerances, Comparison& result);
+                    const DescribedPaths& paths, Comparison& result);
 
-/// Adds the gaps of a layer of lines or blocks to `result`.
-void describe_gaps(const KeyedLines& a, const KeyedLines& b, SourceLines& lines_a,
-                   SourceLines& lines_b, std::size_t most, Comparison& result);
+struct DescribedKeys {
+    const KeyedLines& keys;
+    SourceLines& lines;
+};
+/// Puts the gaps of a layer of lines or blocks into `result`, at most `most` of them.
+void describe_gaps(DescribedKeys a, DescribedKeys b, std::size_t most, Comparison& result);
 
 /// Sets the fingerprint of every difference, from its kind, its source lines without N numbers, and
 /// the number of earlier occurrences. It does not change when lines are added or removed elsewhere.

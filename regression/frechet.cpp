@@ -92,15 +92,14 @@ struct Row {
 
 class FreeSpaceWalk {
   public:
-    FreeSpaceWalk(SegmentWindow& a_path, Stretch a, SegmentWindow& b_path, Stretch b,
-                  const Tolerances& tolerances, std::uint64_t a_beyond, std::uint64_t b_beyond)
-        : a_(a_path, a, tolerances),
-          b_(b_path, b, tolerances),
+    FreeSpaceWalk(WalkedSide a, WalkedSide b, const Tolerances& tolerances)
+        : a_(a.path, a.stretch, tolerances),
+          b_(b.path, b.stretch, tolerances),
           tolerances_(tolerances),
-          a_beyond_(a_beyond),
-          b_beyond_(b_beyond) {
-        result_.a = a.first;
-        result_.b = b.first;
+          a_beyond_(a.beyond),
+          b_beyond_(b.beyond) {
+        result_.a = a.stretch.first;
+        result_.b = b.stretch.first;
     }
 
     FrechetResult run() {
@@ -270,10 +269,8 @@ class FreeSpaceWalk {
 
 }  // namespace
 
-FrechetResult next_common_corner(SegmentWindow& a_path, Stretch a, SegmentWindow& b_path, Stretch b,
-                                 const Tolerances& tolerances, std::uint64_t a_beyond,
-                                 std::uint64_t b_beyond) {
-    return FreeSpaceWalk(a_path, a, b_path, b, tolerances, a_beyond, b_beyond).run();
+FrechetResult next_common_corner(WalkedSide a, WalkedSide b, const Tolerances& tolerances) {
+    return FreeSpaceWalk(a, b, tolerances).run();
 }
 
 }  // namespace trunnion::regression

@@ -16,7 +16,14 @@ struct Stretch {
     std::uint64_t last = 1;
 };
 
-/// Result of comparing two stretches.
+/// One side of a walk: `next_common_corner` looks for a corner beyond segment `beyond`.
+struct WalkedSide {
+    SegmentWindow& path;
+    Stretch stretch;
+    std::uint64_t beyond = 0;
+};
+
+/// How far two stretches agree.
 struct FrechetResult {
     bool reached = false;        ///< a common corner was reached, before segments a and b
     std::uint64_t a = 0, b = 0;  ///< reached: the next segments; otherwise the first that do not
@@ -26,13 +33,10 @@ struct FrechetResult {
     double direction_rad = 0.0;
 };
 
-/// Traverses the free-space diagram of Alt and Godau (1995), one column for each chord of A,
-/// keeping only the reachable part. Starts at a common corner before segments a.first and b.first;
-/// ends at the next common corner that ends a segment on both sides and lies after segments
-/// `a_beyond` and `b_beyond`. Segments of different kind (rapid, feed) never match. Never throws.
-/// Linear time where the paths agree.
-FrechetResult next_common_corner(SegmentWindow& a_path, Stretch a, SegmentWindow& b_path, Stretch b,
-                                 const Tolerances& tolerances, std::uint64_t a_beyond = 0,
-                                 std::uint64_t b_beyond = 0);
+/// Walks the free-space diagram of Alt and Godau (1995), a column for each chord of A, keeping only
+/// the reachable part, from a common corner before the first segments of both stretches to the next
+/// common corner that ends a segment on both sides and lies beyond the segments `beyond`.
+/// Segments of different kind (rapid, feed) never match. Throws nothing; linear where paths agree.
+FrechetResult next_common_corner(WalkedSide a, WalkedSide b, const Tolerances& tolerances);
 
 }  // namespace trunnion::regression

@@ -36,18 +36,15 @@ double distance(const FunctionEvent& p, const FunctionEvent& q) {
 
 class FunctionComparer {
   public:
-    FunctionComparer(const RecordedRun& a, const RecordedRun& b,
-                     const FunctionCompareOptions& options, SourceLines& lines_a,
-                     SourceLines& lines_b, bool coolant, Comparison& result)
-        : run_a_(a),
-          run_b_(b),
-          kept_a_(kept(a.functions, options.stores, coolant)),
-          kept_b_(kept(b.functions, options.stores, coolant)),
+    FunctionComparer(FunctionSide a, FunctionSide b, const FunctionCompareOptions& options,
+                     bool coolant, Comparison& result)
+        : side_a_(a),
+          side_b_(b),
+          kept_a_(kept(a.run.functions, options.stores, coolant)),
+          kept_b_(kept(b.run.functions, options.stores, coolant)),
           a_(kept_a_),
           b_(kept_b_),
           options_(options),
-          lines_a_(lines_a),
-          lines_b_(lines_b),
           result_(result) {}
 
     bool run() {
@@ -85,7 +82,7 @@ class FunctionComparer {
     bool elsewhere(const FunctionEvent& p, const FunctionEvent& q) const {
         const double cut_a = p.cut_mm - cut_a_mm_, cut_b = q.cut_mm - cut_b_mm_;
         if (std::abs(cut_a - cut_b) > 0.01 * std::max(cut_a, cut_b) + 0.05) return true;
-        if (run_a_.path.modes() != run_b_.path.modes()) return false;
+        if (side_a_.run.path.modes() != side_b_.run.path.modes()) return false;
         return distance(p, q) > 4.0 * options_.tolerances.position_mm;
     }
 
@@ -136,32 +133,32 @@ class FunctionComparer {
         Difference d;
         d.kind = DifferenceKind::function;
         d.what = what;
-        d.a = place(a_, run_a_, i, lines_a_);
-        d.b = place(b_, run_b_, j, lines_b_);
+        d.a = place(a_, side_a_, i);
+        d.b = place(b_, side_b_, j);
         d.value_a = value_a;
         d.value_b = value_b;
         known_[what] = result_.differences.size();
         result_.differences.push_back(std::move(d));
     }
 
-    static ComparePlace place(SpilledWindow<FunctionEvent>& events, const RecordedRun& run,
-                              std::uint64_t at, SourceLines& lines) {
+    static ComparePlace place(SpilledWindow<FunctionEvent>& events, FunctionSide side,
+                              std::uint64_t at) {
         ComparePlace p;
-        p.program = lines.main_name();
+        p.program = side.lines.main_name();
         if (events.size() == 0) return p;
         const FunctionEvent e = events[std::min(at, events.size() - 1)];
         if (e.line == 0) return p;
-        if (e.program < run.path.programs().size()) p.program = run.path.programs()[e.program];
+        const auto& programs = side.run.path.programs();
+        if (e.program < programs.size()) p.program = programs[e.program];
         p.line = p.last_line = static_cast<int>(e.line);
-        lines.show(p);
+        side.lines.show(p);
         return p;
     }
 
-    const RecordedRun &run_a_, &run_b_;
+    FunctionSide side_a_, side_b_;
     FunctionEvents kept_a_, kept_b_;
     SpilledWindow<FunctionEvent> a_, b_;
     FunctionCompareOptions options_;
-    SourceLines &lines_a_, &lines_b_;
     Comparison& result_;
     std::map<std::string, std::size_t> known_;  ///< differences so far, by their sentence
     bool same_writes_ = true;
@@ -171,11 +168,10 @@ class FunctionComparer {
 
 }  // namespace
 
-bool compare_functions(const RecordedRun& a, const RecordedRun& b,
-                       const FunctionCompareOptions& options, SourceLines& lines_a,
-                       SourceLines& lines_b, Comparison& result) {
-    const bool same_writes = FunctionComparer(a, b, options, lines_a, lines_b, false, result).run();
-    FunctionComparer(a, b, options, lines_a, lines_b, true, result).run();
+bool compare_functions(FunctionSide a, FunctionSide b, const FunctionCompareOptions& options,
+                       Comparison& result) {
+    const bool same_writes = FunctionComparer(a, b, options, false, result).run();
+    FunctionComparer(a, b, options, true, result).run();
     return same_writes;
 }
 

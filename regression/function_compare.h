@@ -7,6 +7,12 @@
 
 namespace trunnion::regression {
 
+/// A run and the source it is shown with.
+struct FunctionSide {
+    const RecordedRun& run;
+    SourceLines& lines;
+};
+
 struct FunctionCompareOptions {
     Tolerances tolerances;
     /// The paths are equal, so positions on them are comparable; otherwise only the order is
@@ -18,12 +24,10 @@ struct FunctionCompareOptions {
     std::size_t most_differences = 1000;
 };
 
-/// Adds a difference for each function that is missing on one side, has another value, or is
-/// executed at another position of the path; the same change in many places is one difference.
-/// Returns false when G10 blocks are among them: the resulting stores are then no separate
-/// difference.
-bool compare_functions(const RecordedRun& a, const RecordedRun& b,
-                       const FunctionCompareOptions& options, SourceLines& lines_a,
-                       SourceLines& lines_b, Comparison& result);
+/// Adds a difference for each function that one side lacks, has another value of, or carries out at
+/// another place of the path; the same change in many places is one difference. False when G10
+/// blocks are among them: what they leave in the stores is no difference of its own then.
+bool compare_functions(FunctionSide a, FunctionSide b, const FunctionCompareOptions& options,
+                       Comparison& result);
 
 }  // namespace trunnion::regression

@@ -49,7 +49,7 @@ void StretchComparer::compare(Stretch a, Stretch b, std::vector<PathRegion>& reg
             continue;
         }
         const FrechetResult walk =
-            next_common_corner(a_, {at.i, a.last}, b_, {at.j, b.last}, options_.tolerances);
+            next_common_corner({a_, {at.i, a.last}}, {b_, {at.j, b.last}}, options_.tolerances);
         if (walk.reached) {
             attributes_between(at, {walk.a, walk.b});
             totals.compared += walk.a - at.i;
@@ -110,8 +110,8 @@ bool StretchComparer::retry_exact(Corner& at, Stretch a, Stretch b) {
     const double reach = (a_[at.i - 1].end().position_mm - a_[back.i - 1].end().position_mm).norm();
     commits_.clear();
     if (reach > 40.0 * options_.tolerances.position_mm) return false;
-    const FrechetResult walk = next_common_corner(a_, {back.i, a.last}, b_, {back.j, b.last},
-                                                  options_.tolerances, at.i + 1, at.j + 1);
+    const FrechetResult walk = next_common_corner(
+        {a_, {back.i, a.last}, at.i + 1}, {b_, {back.j, b.last}, at.j + 1}, options_.tolerances);
     if (!walk.reached) return false;
     totals_->worst(walk.position_mm, walk.direction_rad, at.i, at.j);
     attributes_between(at, {walk.a, walk.b});
@@ -194,8 +194,8 @@ bool StretchComparer::confirmed(std::uint64_t i, std::uint64_t j, Stretch a, Str
     if (i == a.last || j == b.last) return false;
     const Stretch any{1, std::numeric_limits<std::uint64_t>::max()};
     if (quick_match({i, j}, any, any)) return true;
-    return next_common_corner(a_, {i, std::min(a.last, i + 8)}, b_, {j, std::min(b.last, j + 8)},
-                              options_.tolerances)
+    return next_common_corner({a_, {i, std::min(a.last, i + 8)}},
+                              {b_, {j, std::min(b.last, j + 8)}}, options_.tolerances)
         .reached;
 }
 

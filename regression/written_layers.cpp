@@ -12,24 +12,29 @@ const std::vector<OpenedProgram>& opened_by(const WrittenSide& side) {
     return side.opened != nullptr ? *side.opened : none;
 }
 
-bool same_program(Layer layer, const interpreter::ProgramText& a, const setup::Setup& setup_a,
-                  const interpreter::ProgramText& b, const setup::Setup& setup_b,
-                  std::uint64_t& compared) {
-    if (a.text.data() == b.text.data() && a.text.size() == b.text.size()) return true;
+struct OneProgram {
+    const interpreter::ProgramText& program;
+    const setup::Setup& setup;
+
+    std::unique_ptr<LineKeys> keys(Layer layer) const {
+        return written_keys(program, layer, setup);
+    }
+};
+
+bool same_program(Layer layer, OneProgram a, OneProgram b, std::uint64_t& compared) {
+    const std::string_view text_a = a.program.text, text_b = b.program.text;
+    if (text_a.data() == text_b.data() && text_a.size() == text_b.size()) return true;
     std::uint64_t lines = 0;
-    const bool same =
-        same_keys(*written_keys(a, layer, setup_a), *written_keys(b, layer, setup_b), lines);
+    const bool same = same_keys(*a.keys(layer), *b.keys(layer), lines);
     compared += lines;
     return same;
 }
 
-void describe_pair(Layer layer, const interpreter::ProgramText& a, const setup::Setup& setup_a,
-                   const interpreter::ProgramText& b, const setup::Setup& setup_b, std::size_t most,
-                   Comparison& result) {
-    SourceLines lines_a(a), lines_b(b);
+void describe_pair(Layer layer, OneProgram a, OneProgram b, std::size_t most, Comparison& result) {
+    SourceLines lines_a(a.program), lines_b(b.program);
     const std::uint64_t before = result.compared;
-    describe_gaps(all_keys(*written_keys(a, layer, setup_a)),
-                  all_keys(*written_keys(b, layer, setup_b)), lines_a, lines_b, most, result);
+    describe_gaps({all_keys(*a.keys(layer)), lines_a}, {all_keys(*b.keys(layer)), lines_b}, most,
+                  result);
     result.compared += before;
 }
 
@@ -61,23 +66,23 @@ std::unique_ptr<LineKeys> written_keys(const interpreter::ProgramText& program, 
 bool written_alike(Layer layer, const WrittenSide& a, const WrittenSide& b,
                    std::uint64_t& compared) {
     compared = 0;
-    if (!same_program(layer, *a.main, *a.setup, *b.main, *b.setup, compared)) return false;
+    if (!same_program(layer, {*a.main, *a.setup}, {*b.main, *b.setup}, compared)) return false;
     const auto &in_a = opened_by(a), &in_b = opened_by(b);
     return std::equal(in_a.begin(), in_a.end(), in_b.begin(), in_b.end(),
                       [&](const OpenedProgram& p, const OpenedProgram& q) {
                           if (p.asked != q.asked || !p.found != !q.found) return false;
-                          return !p.found || same_program(layer, *p.found, *a.setup, *q.found,
-                                                          *b.setup, compared);
+                          return !p.found || same_program(layer, {*p.found, *a.setup},
+                                                          {*q.found, *b.setup}, compared);
                       });
 }
 
 void describe_written(Layer layer, const WrittenSide& a, const WrittenSide& b, std::size_t most,
                       Comparison& result) {
-    describe_pair(layer, *a.main, *a.setup, *b.main, *b.setup, most, result);
+    describe_pair(layer, {*a.main, *a.setup}, {*b.main, *b.setup}, most, result);
     for (const OpenedProgram& p : opened_by(a)) {
         if (!p.found || p.found->text.data() == a.main->text.data()) continue;
         if (const OpenedProgram* q = find(opened_by(b), p.asked))
-            describe_pair(layer, *p.found, *a.setup, *q->found, *b.setup, most, result);
+            describe_pair(layer, {*p.found, *a.setup}, {*q->found, *b.setup}, most, result);
         else
             describe_missing(p, true, result);
     }
