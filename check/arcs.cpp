@@ -94,7 +94,7 @@ class ArcCheck {
         if (!words) return;
         if (!plane_named_ && !section_.subprogram && !plane_told_) {
             plane_told_ = true;
-            findings_.add("arc-plane", Severity::warning, block, 1,
+            findings_.add("arc-plane", Severity::warning, {block, 1},
                           "an arc, and no G17, G18 or G19 before it: the plane is what was left on",
                           "Write the plane at the start of the program.");
         }
@@ -121,7 +121,7 @@ class ArcCheck {
         const auto radius = word_value(program_, block, 'R');
         if (!radius || chord <= 2.0 * std::abs(*radius) + options_.arc_tolerance_mm) return;
         findings_.add(
-            "arc-radius", Severity::error, block, 1,
+            "arc-radius", Severity::error, {block, 1},
             fmt::format("the arc's ends are {:.4f} apart, more than twice R{:g}", chord, *radius),
             "Correct the end point or the radius.");
     }
@@ -142,7 +142,7 @@ class ArcCheck {
         const double at_end = std::hypot(end_1 - centre[0], end_2 - centre[1]);
         if (std::abs(at_start - at_end) <= options_.arc_tolerance_mm) return;
         findings_.add(
-            "arc-radius", Severity::error, block, 1,
+            "arc-radius", Severity::error, {block, 1},
             fmt::format("radius {:.4f} at the arc's start and {:.4f} at its end", at_start, at_end),
             "Correct the end point or the centre (I, J, K from the start).");
     }

@@ -37,10 +37,10 @@ int code10_of(double value) {
     return whole_of(std::round(value * 10.0));
 }
 
-void Findings::add(const char* rule, Severity severity, const interpreter::Block& block, int column,
-                   std::string text, std::string remedy) {
-    found_.push_back({rule, severity, program_.source.name, block.line, std::max(1, column),
-                      std::move(text), std::move(remedy)});
+void Findings::add(const char* rule, Severity severity, BlockPlace place, std::string text,
+                   std::string remedy) {
+    found_.push_back({rule, severity, program_.source.name, place.block.line,
+                      std::max(1, place.column), std::move(text), std::move(remedy)});
 }
 
 bool Findings::has_error(int line) const {

@@ -47,11 +47,11 @@ bool turns_to_zero(const interpreter::ParsedProgram& program, const interpreter:
 
 void at_end(const Followed& state, const interpreter::Block& block, Findings& findings) {
     if (state.tool_centre)
-        findings.add("left-on", Severity::warning, block, 1,
+        findings.add("left-on", Severity::warning, {block, 1},
                      "tool centre point control (G43.4, G43.5) is still on at the end",
                      "Cancel it with G49 before M30.");
     if (state.tilted_plane)
-        findings.add("left-on", Severity::warning, block, 1,
+        findings.add("left-on", Severity::warning, {block, 1},
                      "a tilted working plane (G68.2) is still on at the end",
                      "Cancel it with G69 before M30.");
 }
@@ -71,7 +71,7 @@ void check_codes(const CheckSection& section, const CheckOptions& options, Findi
             const int code = code10_of(*value);
             if (options.knows_g && !options.knows_g(code))
                 findings.add(
-                    "unknown-code", Severity::error, *block, item.column,
+                    "unknown-code", Severity::error, {*block, item.column},
                     "this control has no " + name_of_code(code),
                     "Use a code of this control, or map it to a program (parameters 6050-6059).");
             for (const Effect& e : effects)
@@ -79,13 +79,13 @@ void check_codes(const CheckSection& section, const CheckOptions& options, Findi
                     state.*e.state = e.on;
         }
         if (state.compensation && has_code(program, *block, 'G', 310))
-            findings.add("skip-compensation", Severity::error, *block, 1,
+            findings.add("skip-compensation", Severity::error, {*block, 1},
                          "G31 while cutter compensation (G41, G42) is on",
                          "Cancel it with G40 before the skip.");
         if (turns_to_zero(program, *block)) state.indexed = false;
         if (state.indexed && !state.tilted_plane &&
             (has_code(program, *block, 'G', 434) || has_code(program, *block, 'G', 435))) {
-            findings.add("tcp-frame", Severity::warning, *block, 1,
+            findings.add("tcp-frame", Severity::warning, {*block, 1},
                          "G43.4 behind an indexing (G53.1, G69): where the programmed points lie "
                          "on the table depends on tcp_frame",
                          "Set [control] tcp_frame to what the machine does (\"start\" or "

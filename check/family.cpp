@@ -57,7 +57,7 @@ bool check_family(const std::vector<CheckSection>& sections, const CheckOptions&
         for (const interpreter::Block* block : section.blocks) {
             const Mark* mark = find_mark(*section.program, *block, options);
             if (!mark) continue;
-            findings.add("family", Severity::error, *block, 1,
+            findings.add("family", Severity::error, {*block, 1},
                          fmt::format("this is a program for a {} ({}): it is not checked further",
                                      mark->family, mark->text),
                          "Run it on its own control; this one is a Fanuc or Hurco mill.");

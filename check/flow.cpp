@@ -16,12 +16,12 @@ void check_jump(const CheckSection& section, const interpreter::Block& block,
     const int number = whole_of(*target);
     const auto found = section.numbered.find(number);
     if (found == section.numbered.end())
-        findings.add("jump-target", Severity::error, block, item.column,
+        findings.add("jump-target", Severity::error, {block, item.column},
                      fmt::format("GOTO {} but the program has no N{}", number, number),
                      "Give the target block its N number, or correct the GOTO.");
     else if (found->second.size() > 1)
         findings.add(
-            "duplicate-target", Severity::warning, block, item.column,
+            "duplicate-target", Severity::warning, {block, item.column},
             fmt::format("GOTO {} and N{} stands {} times (lines {} and {})", number, number,
                         found->second.size(), found->second[0]->line, found->second[1]->line),
             "Give each jump target a number of its own.");
@@ -43,7 +43,7 @@ void close_loop(std::vector<OpenLoop>& loops, const interpreter::Block& block,
         loops.empty() ? fmt::format("END{} without DO{}", item.number, item.number)
                       : fmt::format("END{} closes the DO{} of line {}: loops cross", item.number,
                                     loops.back().number, loops.back().block->line);
-    findings.add("loop", Severity::error, block, item.column, text,
+    findings.add("loop", Severity::error, {block, item.column}, text,
                  "Every DO needs its END with the same number, nested loops inside.");
     for (std::size_t k = loops.size(); k-- > 0;)
         if (loops[k].number == item.number) {
@@ -70,7 +70,7 @@ void check_entries(const CheckSection& section,
             const bool entered = inside.size() > nest.size() ||
                                  !std::equal(inside.begin(), inside.end(), nest.begin());
             if (entered)
-                findings.add("loop", Severity::error, *block, item.column,
+                findings.add("loop", Severity::error, {*block, item.column},
                              fmt::format("GOTO {} jumps into the loop of line {}", found->first,
                                          inside.back()->line),
                              "Jump to the DO, or to a block outside the loop.");
@@ -98,7 +98,7 @@ void check_statements(const CheckSection& section, Findings& findings) {
     }
     check_entries(section, nests, findings);
     for (const OpenLoop& loop : loops)
-        findings.add("loop", Severity::error, *loop.block, loop.column,
+        findings.add("loop", Severity::error, {*loop.block, loop.column},
                      fmt::format("DO{} without END{}", loop.number, loop.number),
                      "Every DO needs its END with the same number, nested loops inside.");
 }
@@ -132,7 +132,7 @@ void check_reach(const CheckSection& section, Findings& findings) {
         const bool numbered = block->sequence_number >= 0 && section.subprogram;
         if (!reached && !told && !numbered && block->items.count > 0 &&
             block->kind != interpreter::BlockKind::program) {
-            findings.add("unreachable", Severity::warning, *block, 1,
+            findings.add("unreachable", Severity::warning, {*block, 1},
                          "never reached: the block before leaves, and nothing jumps here",
                          "Remove it, or give it the N number of a jump.");
             told = true;
@@ -168,7 +168,7 @@ void check_named_call(const interpreter::ParsedProgram& program, const interpret
         if (item.kind != interpreter::ItemKind::word || item.letter != '<') continue;
         const std::string name = program.code.text.substr(item.b.first, item.b.count);
         if (own.contains(name) || (options.finds_named && options.finds_named(name))) continue;
-        findings.add("subprogram-missing", Severity::error, block, item.column,
+        findings.add("subprogram-missing", Severity::error, {block, item.column},
                      fmt::format("program <{}> is called and nowhere to be found", name),
                      "Put it into the folder of this program, or name its folder with --programs.");
     }
@@ -207,7 +207,7 @@ void check_calls(const interpreter::ParsedProgram& program,
             const bool m98 = has_code(program, *block, 'M', 980);
             if (m98 && *number > 9999 && known(*number % 10000)) continue;
             findings.add(
-                "subprogram-missing", Severity::error, *block, column,
+                "subprogram-missing", Severity::error, {*block, column},
                 fmt::format("program O{:04} is called and nowhere to be found", *number),
                 "Put it into the folder of this program, or name its folder with --programs.");
         }

@@ -40,11 +40,17 @@ bool has_code(const interpreter::ParsedProgram& program, const interpreter::Bloc
 int code10_of(double value);
 
 /// Collects findings of one file.
+/// A word of a block: its column, from 1.
+struct BlockPlace {
+    const interpreter::Block& block;
+    int column = 1;
+};
+
 class Findings {
   public:
     explicit Findings(const interpreter::ParsedProgram& program) : program_(program) {}
-    void add(const char* rule, Severity severity, const interpreter::Block& block, int column,
-             std::string text, std::string remedy);
+    void add(const char* rule, Severity severity, BlockPlace place, std::string text,
+             std::string remedy);
     void add(Finding finding) { found_.push_back(std::move(finding)); }
     /// True when there is already an error on this line.
     bool has_error(int line) const;

@@ -19,7 +19,7 @@ void check_block_words(const interpreter::ParsedProgram& program, const interpre
                        const CheckOptions& options, Findings& findings) {
     const auto constants = constant_words(program, block);
     if (!constants)
-        return findings.add("word", Severity::error, block, 1,
+        return findings.add("word", Severity::error, {block, 1},
                             alarm_text(options, too_many_words) + ": too many words in a block",
                             "Split the block.");
     bool mapped = false;
@@ -31,7 +31,7 @@ void check_block_words(const interpreter::ParsedProgram& program, const interpre
     if (const auto fault =
             interpreter::find_word_fault(constants->words, options.dialect.family, constants->all))
         findings.add(
-            "word", Severity::error, block, fault->column,
+            "word", Severity::error, {block, fault->column},
             alarm_text(options, fault->alarm) + (fault->detail.empty() ? "" : " " + fault->detail),
             "Correct the word.");
 }
@@ -46,11 +46,11 @@ int variable_alarm(int number, bool writes, const CheckOptions& options) {
     return options.variable_alarm ? options.variable_alarm(number, writes) : 0;
 }
 
-void check_variable(int number, bool writes, const interpreter::Block& block, int column,
-                    const CheckOptions& options, Findings& findings) {
+void check_variable(int number, bool writes, BlockPlace place, const CheckOptions& options,
+                    Findings& findings) {
     const int alarm = variable_alarm(number, writes, options);
     if (alarm == 0) return;
-    findings.add("variable", Severity::error, block, column,
+    findings.add("variable", Severity::error, place,
                  fmt::format("{}: #{}", alarm_text(options, alarm), number),
                  alarm == 116 ? "Write to another variable." : "Use a variable of this control.");
 }
@@ -65,10 +65,10 @@ void check_variables(const interpreter::ParsedProgram& program, const interprete
                 continue;
             for (const interpreter::Op& op : program.expression(span))
                 if (op.code == interpreter::OpCode::system)
-                    check_variable(op.number, false, block, op.column, options, findings);
+                    check_variable(op.number, false, {block, op.column}, options, findings);
         }
         if (item.kind == interpreter::ItemKind::assign && item.b.count == 0)
-            check_variable(whole_of(item.value), true, block, item.column, options, findings);
+            check_variable(whole_of(item.value), true, {block, item.column}, options, findings);
     }
 }
 

@@ -33,11 +33,12 @@ void AttributeComparer::pair(std::uint64_t i, std::uint64_t j, double length_a_m
     gone_mm_ += length_a_mm;
     if (sa.kind != SegmentKind::feed) return;
     const Stretch at_a{i, i + 1}, at_b{j, j + 1};
-    if (sa.tool != sb.tool) add(RegionKind::tool, at_a, at_b, sa.tool, sb.tool, length_a_mm);
+    if (sa.tool != sb.tool)
+        add(RegionKind::tool, at_a, at_b, {double(sa.tool), double(sb.tool)}, length_a_mm);
     if (apart(sa.spindle_rpm, sb.spindle_rpm) > tolerances_.feed_ratio)
-        add(RegionKind::spindle, at_a, at_b, sa.spindle_rpm, sb.spindle_rpm, length_a_mm);
+        add(RegionKind::spindle, at_a, at_b, {sa.spindle_rpm, sb.spindle_rpm}, length_a_mm);
     if (sa.coolant != sb.coolant)
-        add(RegionKind::coolant, at_a, at_b, sa.coolant ? 1.0 : 0.0, sb.coolant ? 1.0 : 0.0,
+        add(RegionKind::coolant, at_a, at_b, {sa.coolant ? 1.0 : 0.0, sb.coolant ? 1.0 : 0.0},
             length_a_mm);
     feeds(i, j, length_a_mm, length_b_mm);
 }
@@ -50,7 +51,7 @@ void AttributeComparer::feeds(std::uint64_t i, std::uint64_t j, double length_a_
     if (!timed) {
         close_window();
         if (apart(feed_a, feed_b) > tolerances_.feed_ratio)
-            add(RegionKind::feed, {i, i + 1}, {j, j + 1}, feed_a, feed_b, length_a_mm);
+            add(RegionKind::feed, {i, i + 1}, {j, j + 1}, {feed_a, feed_b}, length_a_mm);
         return;
     }
     Window& w = window_;
@@ -73,24 +74,23 @@ void AttributeComparer::close_window() {
     const double length_mm = std::min(w.length_a_mm, w.length_b_mm);
     const double uncertain = tolerances_.position_mm / std::max(length_mm, 1e-9);
     if (apart(feed_a, feed_b) > tolerances_.feed_ratio + uncertain)
-        add(RegionKind::feed, w.a, w.b, feed_a, feed_b, length_mm);
+        add(RegionKind::feed, w.a, w.b, {feed_a, feed_b}, length_mm);
 }
 
-/// Continuation of the same change: one difference, also across rapids.
-bool AttributeComparer::continues(const PathRegion& r, RegionKind kind, double value_a,
-                                  double value_b) const {
+/// The same change goes on: it is one difference, across rapids too.
+bool AttributeComparer::continues(const PathRegion& r, RegionKind kind, Values values) const {
     if (r.kind != kind) return false;
-    const bool same = apart(r.value_a, value_a) <= 1e-3 && apart(r.value_b, value_b) <= 1e-3;
-    if (same || kind != RegionKind::feed || r.value_a <= 0.0 || value_a <= 0.0) return same;
-    return window_.time_a > 0.0 && apart(r.value_b / r.value_a, value_b / value_a) <= 0.01;
+    const bool same = apart(r.value_a, values.a) <= 1e-3 && apart(r.value_b, values.b) <= 1e-3;
+    if (same || kind != RegionKind::feed || r.value_a <= 0.0 || values.a <= 0.0) return same;
+    return window_.time_a > 0.0 && apart(r.value_b / r.value_a, values.b / values.a) <= 0.01;
 }
 
-void AttributeComparer::add(RegionKind kind, Stretch a, Stretch b, double value_a, double value_b,
+void AttributeComparer::add(RegionKind kind, Stretch a, Stretch b, Values values,
                             double length_mm) {
     const std::size_t look_back = std::min<std::size_t>(4, regions_->size() - first_region_);
     for (std::size_t k = 1; k <= look_back; ++k) {
         PathRegion& r = (*regions_)[regions_->size() - k];
-        if (!continues(r, kind, value_a, value_b)) continue;
+        if (!continues(r, kind, values)) continue;
         r.a.last = std::max(r.a.last, a.last);
         r.b.last = std::max(r.b.last, b.last);
         const bool goes_on = gone_mm_ - length_mm <= r.run_end_mm + tolerances_.position_mm;
@@ -103,8 +103,8 @@ void AttributeComparer::add(RegionKind kind, Stretch a, Stretch b, double value_
     region.kind = kind;
     region.a = a;
     region.b = b;
-    region.value_a = value_a;
-    region.value_b = value_b;
+    region.value_a = values.a;
+    region.value_b = values.b;
     region.length_mm = region.run_mm = length_mm;
     region.run_end_mm = gone_mm_;
     regions_->push_back(region);

@@ -36,9 +36,11 @@ class AttributeComparer {
     };
     void feeds(std::uint64_t i, std::uint64_t j, double length_a_mm, double length_b_mm);
     void close_window();
-    void add(RegionKind kind, Stretch a, Stretch b, double value_a, double value_b,
-             double length_mm);
-    bool continues(const PathRegion& region, RegionKind kind, double value_a, double value_b) const;
+    struct Values {
+        double a, b;
+    };
+    void add(RegionKind kind, Stretch a, Stretch b, Values values, double length_mm);
+    bool continues(const PathRegion& region, RegionKind kind, Values values) const;
 
     SegmentWindow &a_, &b_;
     Tolerances tolerances_;
