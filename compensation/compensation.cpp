@@ -175,7 +175,7 @@ class RewritingSink : public motion::MotionSink {
     /// Direction correction starts or ends: the rotary axes move there with the tip at rest.
     void begin_turned(const emulator::PathSampler& path, const PathStretch& stretch, bool turned) {
         turned_ = turned;
-        pass_gap(path, stretch, 0.0, take_up_s, Axis::A, Axis::C);
+        pass_gap(path, stretch, 0.0, take_up_s, {Axis::A, Axis::C});
         write_line(path, 0.0, corrected(path, stretch, 0.0), take_up_s);
     }
 
@@ -198,14 +198,14 @@ class RewritingSink : public motion::MotionSink {
         if (text_.skip(path.move, c.to)) note(path, 1.0, end_of(c));
     }
 
-    /// Axes `first` to `last` that would end inside their gap pass through it: without cutting this
-    /// is harmless.
+    /// Axes that would end inside their gap go past it: in the air that harms
+    /// nothing.
     void pass_gap(const emulator::PathSampler& path, const PathStretch& stretch, double s,
-                  double duration_s, Axis first, Axis last) {
+                  double duration_s, std::pair<Axis, Axis> axes) {
         constexpr double past_mm = 0.01, past_rad = 2e-5;
         const Correction c = corrected(path, stretch, s);
         AxisPositions past = c.to;
-        for (std::size_t i = index_of(first); i <= index_of(last); ++i)
+        for (std::size_t i = index_of(axes.first); i <= index_of(axes.last); ++i)
             if (c.held[i])
                 past.value[i] =
                     c.wanted.value[i] - c.travel[i] * (is_rotary(all_axes[i]) ? past_rad : past_mm);
@@ -214,7 +214,7 @@ class RewritingSink : public motion::MotionSink {
     }
 
     void write_rapid(const emulator::PathSampler& path, const PathStretch& stretch) {
-        pass_gap(path, stretch, 1.0, path.move.duration_s, Axis::X, Axis::C);
+        pass_gap(path, stretch, 1.0, path.move.duration_s, {Axis::X, Axis::C});
         write_line(path, 1.0, corrected(path, stretch, 1.0), path.move.duration_s);
     }
 

@@ -73,6 +73,7 @@ void drill_along_tool(const CycleRow& row, const SortedWords& words, Modal& moda
     CycleData data;
     read_pecks(data, words);
     HoleOrder hole;
+    hole.row = &row;
     hole.initial = hole.r = hole.feed_from = words.length_mm('R');
     hole.bottom = -words.length_mm('I');
     hole.peck = data.peck;
@@ -85,7 +86,7 @@ void drill_along_tool(const CycleRow& row, const SortedWords& words, Modal& moda
     hole.axis = (tcp.pose_WM0.rotation * frames.stages.linear()).transpose() *
                 tcp.transform->tool_direction_W(there);
     offsets::set_xyz(place, *hole.foot + hole.r * hole.axis);
-    make_hole(row, hole, place, modal, frames, mover);
+    make_hole(hole, place, modal, frames, mover);
     modal.codes.set(ModalGroup::cycle, 800);
 }
 
@@ -112,11 +113,12 @@ void run_cycle(CycleData& data, SortedWords& words, Modal& modal, const Frames& 
     words.present &= ~SortedWords::bit(letter_of(normal));  // this word is the depth
     const char times_word = words.has('K') ? 'K' : 'L';
     const int times = words.has(times_word) ? words.whole(times_word) : 1;
-    const HoleOrder hole = order_of(data, modal);
+    HoleOrder hole = order_of(data, modal);
+    hole.row = row;
     for (int i = 0; i < times; ++i) {
         offsets::ControlPosition place = commanded_position(words, modal, frames);
         place[normal] = frames.program[normal];
-        make_hole(*row, hole, place, modal, frames, mover);
+        make_hole(hole, place, modal, frames, mover);
     }
 }
 

@@ -197,9 +197,9 @@ const CycleRow* find_cycle(int code10, const ControlSettings& settings) {
     return row_in(rows, code10);
 }
 
-void make_hole(const CycleRow& row, const HoleOrder& order, const offsets::ControlPosition& place,
-               Modal& modal, const Frames& frames, Mover& mover) {
-    Hole(row, order, modal, frames, mover).make(place);
+void make_hole(const HoleOrder& order, const offsets::ControlPosition& place, Modal& modal,
+               const Frames& frames, Mover& mover) {
+    Hole(*order.row, order, modal, frames, mover).make(place);
 }
 
 }  // namespace trunnion::controller

@@ -26,6 +26,7 @@ const CycleRow* find_cycle(int code10, const ControlSettings& settings);
 /// Data of one hole. Levels in mm along the drilling axis: program coordinates of the plane's
 /// normal or, with `foot`, distances from that point along `axis`.
 struct HoleOrder {
+    const CycleRow* row = nullptr;  ///< the cycle
     double initial = 0.0, r = 0.0, bottom = 0.0;
     double feed_from = 0.0;  ///< end of the rapid down: R, unless an option says otherwise
     double peck = 0.0;       ///< the first peck
@@ -35,8 +36,8 @@ struct HoleOrder {
     Vector3 axis = Vector3::UnitZ();
 };
 
-/// Moves to `place` and makes a hole there.
-void make_hole(const CycleRow& row, const HoleOrder& order, const offsets::ControlPosition& place,
-               Modal& modal, const Frames& frames, Mover& mover);
+/// Goes to `place` and makes the hole of `order.row` there.
+void make_hole(const HoleOrder& order, const offsets::ControlPosition& place, Modal& modal,
+               const Frames& frames, Mover& mover);
 
 }  // namespace trunnion::controller

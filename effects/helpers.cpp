@@ -16,17 +16,16 @@ double harmonic_sum(double angle_rad, std::span<const double> values) {
     return sum;
 }
 
-void append_harmonics(std::vector<EffectParameter>& list, const std::string& prefix,
-                      const std::string& unit, int orders, double typical, int usual_orders) {
-    for (int n = 1; n <= orders; ++n)
+void append_harmonics(std::vector<EffectParameter>& list, const Harmonics& h) {
+    for (int n = 1; n <= h.orders; ++n)
         for (const char* wave : {"cos", "sin"})
-            list.push_back({fmt::format("{}{}{}_{}", prefix, wave, n, unit),
-                            unit,
-                            typical / n,
+            list.push_back({fmt::format("{}{}{}_{}", h.prefix, wave, n, h.unit),
+                            h.unit,
+                            h.typical / n,
                             -1,
                             {},
                             true,
-                            n <= usual_orders});
+                            n <= h.usual_orders});
 }
 
 int main_direction(const kinematics::AxisGeometry& axis) {

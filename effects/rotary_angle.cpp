@@ -33,7 +33,7 @@ Effect rotary_positioning(const kinematics::AxisGeometry& axis) {
                   "angle + slope q + sum cosN cos(N q) + sinN sin(N q), N = 1..4",
                   {},
                   {}};
-    append_harmonics(effect.parameters, "", "rad", 4, 25e-6, 2);
+    append_harmonics(effect.parameters, {"", "rad", 4, 25e-6, 2});
     const bool sloped = !endless(axis);
     if (sloped) effect.parameters.push_back({"slope_rad_per_rad", "1", 15e-6, -1, {}, true});
     effect.add = [k = axis.axis, sloped](const AxisSample& sample, const emulator::Contact&,

@@ -11,8 +11,8 @@ constexpr std::size_t each = 2 * orders;
 Effect motion_effect(const kinematics::AxisGeometry& axis, Effect effect,
                      std::vector<int> directions, double typical, int usual_orders = 2) {
     for (const int d : directions)
-        append_harmonics(effect.parameters, motion_name(d, axis) + "_", d < 3 ? "mm" : "rad",
-                         orders, typical, usual_orders);
+        append_harmonics(effect.parameters, {motion_name(d, axis) + "_", d < 3 ? "mm" : "rad",
+                                             orders, typical, usual_orders});
     effect.add = [k = axis.axis, directions](const AxisSample& sample, const emulator::Contact&,
                                              std::span<const double> value,
                                              kinematics::Perturbation& out) {

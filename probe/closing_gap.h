@@ -29,9 +29,15 @@ double speed_bound(const Way& way) {
     return 1.5 * most;
 }
 
-/// Root of a decreasing function between a (positive) and b (not positive), by the Illinois method.
+/// Places between which a falling function is zero, and its values: positive at a, not at b.
+struct Bracket {
+    double a, gap_a, b, gap_b;
+};
+
+/// The zero inside the bracket by Illinois steps, to `width`.
 template <class Gap>
-double root(const Gap& gap, double a, double gap_a, double b, double gap_b, double width) {
+double root(const Gap& gap, const Bracket& bracket, double width) {
+    auto [a, gap_a, b, gap_b] = bracket;
     int side = 0;
     for (int i = 0; i < 200 && b - a > width; ++i) {
         double s = (a * gap_b - b * gap_a) / (gap_b - gap_a);
@@ -69,7 +75,7 @@ std::optional<double> first_closing(const Way& way, const Clearance& clearance_m
             std::min(1.0, s + std::max(g, closing_gap::shortest_step_mm) / speed_mm);
         const double g_next = gap(next);
         if (g_next <= 0.0)
-            return closing_gap::root(gap, s, g, next, g_next, closing_gap::root_mm / speed_mm);
+            return closing_gap::root(gap, {s, g, next, g_next}, closing_gap::root_mm / speed_mm);
         s = next, g = g_next;
     }
     return std::nullopt;

@@ -12,11 +12,17 @@
 namespace trunnion::setup {
 namespace {
 
-int whole_number(const TomlFile& file, const std::string& key, const TomlValue& value, int lowest,
-                 int highest, const char* what) {
+/// Numbers that a key may be, and what they are called.
+struct KeyNumbers {
+    int lowest, highest;
+    const char* what;
+};
+
+int whole_number(const TomlFile& file, const std::string& key, const TomlValue& value,
+                 const KeyNumbers& numbers) {
     const auto n = parse_number(key);
-    if (!n || *n < lowest || *n > highest || *n != static_cast<int>(*n))
-        file.fail(value, "'" + key + "' is not " + what);
+    if (!n || *n < numbers.lowest || *n > numbers.highest || *n != static_cast<int>(*n))
+        file.fail(value, "'" + key + "' is not " + numbers.what);
     return static_cast<int>(*n);
 }
 
@@ -56,7 +62,7 @@ void read_fixtures(const TomlFile& file, const TomlValue& table, offsets::Fixtur
     for (const auto& [key, value] : file.table(table).entries) {
         value.used = true;
         const std::string number = key.starts_with("P") ? key.substr(1) : key;
-        const int n = whole_number(file, number, value, 1, 8, "P1 ... P8");
+        const int n = whole_number(file, number, value, {1, 8, "P1 ... P8"});
         offsets::FixtureOffset& set = fixture.set[static_cast<std::size_t>(n) - 1];
         set.offset = read_offset(file, value);
         if (const TomlValue* angles = value.find("reference"))
@@ -67,7 +73,7 @@ void read_fixtures(const TomlFile& file, const TomlValue& table, offsets::Fixtur
 void read_tools(const TomlFile& file, const TomlValue& table, offsets::ToolOffsets& tools) {
     for (const auto& [key, value] : file.table(table).entries) {
         value.used = true;
-        const int n = whole_number(file, key, value, 1, 999, "a tool offset number");
+        const int n = whole_number(file, key, value, {1, 999, "a tool offset number"});
         offsets::ToolOffset& tool = tools.tool[static_cast<std::size_t>(n)];
         tool.length_geometry_mm = file.find_number(file.table(value), "length_mm").value_or(0.0);
         tool.length_wear_mm = file.find_number(value, "length_wear_mm").value_or(0.0);
@@ -121,8 +127,8 @@ void read_parameters(const TomlFile& file, const TomlValue& table, Setup& setup)
     std::vector<int> read;
     for (const auto& [key, value] : file.table(table).entries) {
         value.used = true;
-        const int number = whole_number(file, key, value, 0, 99999, "a parameter number");
-        setup.stores.parameters.entry[number] = read_parameter(file, value, setup);
+        const int number = whole_number(file, key, value, {0, 99999, "a parameter number"});
+        setup.stores.parameters.entry[number] = read_parameter(file, value, setup.machine.chain);
         read.push_back(number);
     }
     // 1001 may be anywhere in the file, or in the backup.
@@ -135,7 +141,7 @@ void read_numbered(const TomlFile& file, const TomlValue& table, std::map<int, d
     for (const auto& [key, value] : file.table(table).entries) {
         value.used = true;
         const std::string number = key.starts_with("#") ? key.substr(1) : key;
-        store[whole_number(file, number, value, 1, 99999, "a variable number")] =
+        store[whole_number(file, number, value, {1, 99999, "a variable number"})] =
             file.number(value);
     }
 }

@@ -34,8 +34,8 @@ void read_probe(const TomlFile& file, const TomlValue& table, Setup& setup) {
         probe.ball_diameter_mm = file.positive(*ball);
     probe.repeatability_um = file.find_number(table, "repeatability_um").value_or(0.0);
     if (const TomlValue* pretravel = table.find("pretravel_um"))
-        add_effect_key(file, *pretravel, "probe.radius", "radius_mm",
-                       -mm_from_um(file.number(*pretravel)), setup);
+        add_effect_key(file, *pretravel,
+                       {"probe.radius", "radius_mm", -mm_from_um(file.number(*pretravel))}, setup);
     probe.extension_errors = read_extensions(file, table);
     setup.probe = probe;
 }

@@ -81,8 +81,10 @@ void read_axis(const TomlFile& file, const TomlValue& table, kinematics::AxisGeo
     read_limits(file, table, axis);
     read_dynamics(file, table, axis);
     if (const TomlValue* gap = table.find(axis.rotary ? "backlash_rad" : "backlash_mm"))
-        add_effect_key(file, *gap, axis.name + ".backlash", axis.rotary ? "gap_rad" : "gap_mm",
-                       file.number(*gap), setup);
+        add_effect_key(
+            file, *gap,
+            {axis.name + ".backlash", axis.rotary ? "gap_rad" : "gap_mm", file.number(*gap)},
+            setup);
 }
 
 kinematics::AxisGeometry* find_axis(kinematics::Chain& chain, std::string_view name) {
@@ -247,12 +249,12 @@ kinematics::ErrorCurve read_curve(const TomlFile& file, const TomlValue& value, 
 
 }  // namespace
 
-void add_effect_key(const TomlFile& file, const TomlValue& place, const std::string& effect,
-                    const std::string& parameter, double value, Setup& setup) {
+void add_effect_key(const TomlFile& file, const TomlValue& place, const EffectKey& key,
+                    Setup& setup) {
     const TomlValue* effects = file.root().find("effects");
-    if (effects && effects->find(effect))
-        file.fail(place, "this is " + effect + ", which [effects] gives too: say it once");
-    if (value != 0.0) setup.effects.push_back({effect, {{parameter, {value}}}});
+    if (effects && effects->find(key.effect))
+        file.fail(place, "this is " + key.effect + ", which [effects] gives too: say it once");
+    if (key.value != 0.0) setup.effects.push_back({key.effect, {{key.parameter, {key.value}}}});
 }
 
 void read_machine(const TomlFile& file, const TomlValue& machine, Setup& setup) {

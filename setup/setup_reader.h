@@ -10,10 +10,14 @@
 namespace trunnion::setup {
 
 void read_machine(const TomlFile& file, const TomlValue& machine, Setup& setup);
-/// Handles a key that is another name of an effect's parameter: backlash, pretravel. Refused at
-/// `place` when the effect is already given.
-void add_effect_key(const TomlFile& file, const TomlValue& place, const std::string& effect,
-                    const std::string& parameter, double value, Setup& setup);
+/// What a key sets that is another name of an effect's parameter: backlash, pretravel.
+struct EffectKey {
+    std::string effect, parameter;
+    double value;
+};
+/// Refused at `place` when [effects] gives the effect too.
+void add_effect_key(const TomlFile& file, const TomlValue& place, const EffectKey& key,
+                    Setup& setup);
 void read_machine_errors(const TomlFile& file, const TomlValue& errors, Setup& setup);
 void read_control(const TomlFile& file, const TomlValue& control, const BackupReader& backup,
                   Setup& setup);

@@ -17,17 +17,13 @@ namespace trunnion::ballbar::test {
 
 namespace {
 
-BallbarRun run_once(const setup::Setup& setup, const BallbarResult& result,
-                    const BallbarProcedureOptions& options, std::uint64_t seed,
-                    emulator::Compensation compensation, std::vector<std::string>& notes) {
-    const auto owner = std::make_shared<std::string>(result.program);
+/// One run of `text`; what it notes joins `notes`.
+BallbarRun run_once(const setup::Setup& setup, const std::string& text,
+                    const emulator::RunOptions& run, std::vector<std::string>& notes) {
+    const auto owner = std::make_shared<std::string>(text);
     const interpreter::ProgramText program{"O8200.nc", *owner, owner};
     interpreter::ProgramFolders folders({});
     folders.add_file(program);
-    emulator::RunOptions run;
-    run.seed = seed;
-    run.effects = options.effects;
-    run.compensation = std::move(compensation);
     emulator::RunLog log = emulator::run_program(setup, folders, program, run);
     if (log.result.alarm) throw *log.result.alarm;
     for (const std::string& note : log.notes)
@@ -183,16 +179,20 @@ BallbarResult run_ballbar(const setup::Setup& stated, const BallbarProcedureOpti
     result.reference_mm = layout.length_mm;
     result.program = ballbar_program(nominal, result.data);
 
-    result.before = run_once(setup, result, options, options.seed, {}, result.notes);
+    emulator::RunOptions run;
+    run.seed = options.seed;
+    run.effects = options.effects;
+    result.before = run_once(setup, result.program, run, result.notes);
     check_complete(BallbarModel(nominal, layout, result.before.readings.rows, {}), result.notes);
     const double declared_mm = mm_from_um(setup.ballbar->noise_um);
     fit_first_run(result, nominal, declared_mm);
 
     const kinematics::Machine known = machine_of(nominal, result.fit);
-    const emulator::Compensation compensate = [&](const AxisPositions& q) {
+    ++run.seed;
+    run.compensation = [&](const AxisPositions& q) {
         return compensated(q, nominal, known, layout.cup_S_mm);
     };
-    result.after = run_once(setup, result, options, options.seed + 1, compensate, result.notes);
+    result.after = run_once(setup, result.program, run, result.notes);
     const records::ReadingTable& second = result.after.readings;
     const BallbarModel again(known, layout, second.rows, {});
     check_complete(again, result.notes);
