@@ -205,7 +205,7 @@ class RewritingSink : public motion::MotionSink {
         constexpr double past_mm = 0.01, past_rad = 2e-5;
         const Correction c = corrected(path, stretch, s);
         AxisPositions past = c.to;
-        for (std::size_t i = index_of(axes.first); i <= index_of(axes.last); ++i)
+        for (std::size_t i = index_of(axes.first); i <= index_of(axes.second); ++i)
             if (c.held[i])
                 past.value[i] =
                     c.wanted.value[i] - c.travel[i] * (is_rotary(all_axes[i]) ? past_rad : past_mm);

@@ -39,8 +39,8 @@ class CloseupDrawing {
         const Point2 from = pixel(closeup_.place_mm), to = pixel(closeup_.other_mm);
         svg_.line(from, to, {"#b3261e", 1.5, "none", ""});
         for (const Point2& end : {from, to}) svg_.mark(end, 0, "#b3261e", 3.0);
-        svg_.text({from.x + 8, 0.5 * (from.y + to.y) + 4}, fmt::format("{:.4f} mm", distance()), 13,
-                  "start", "#b3261e");
+        svg_.text({from.x + 8, 0.5 * (from.y + to.y) + 4}, fmt::format("{:.4f} mm", distance()),
+                  {13, "start", "#b3261e"});
         svg_.rectangle({0.5, 0.5}, width - 1.0, height - 1.0, {"#bbb", 1.0, "none", ""});
         const double length = round_length(width / scale_);
         draw_bar(svg_, {10.0, height - 8.0}, length * scale_, length);
@@ -67,7 +67,7 @@ class CloseupDrawing {
         draw_arrow(svg_, from, to, style);
         const double seen_px = std::hypot(to.x - from.x, to.y - from.y);
         svg_.text({0.5 * (from.x + to.x) + 8, 0.5 * (from.y + to.y) + 18},
-                  seen_px > 30.0 ? "tool axis" : "tool axis, seen along", 12, "start", "#333");
+                  seen_px > 30.0 ? "tool axis" : "tool axis, seen along", {12, "start", "#333"});
     }
 
     Svg& svg_;

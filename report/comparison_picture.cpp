@@ -105,7 +105,7 @@ class ViewDrawing {
             if (std::hypot(other.x - at.x, other.y - at.y) < 14.0) return;
         numbers_.push_back(at);
         svg_.circle({at.x + 9, at.y - 9}, 8, {"#D55E00", 1.0, "#fff", ""});
-        svg_.text({at.x + 9, at.y - 5}, std::to_string(m.difference + 1), 11, "middle");
+        svg_.text({at.x + 9, at.y - 5}, std::to_string(m.difference + 1), {11, "middle"});
     }
     /// A ring at the place, and the tool axis with an eighth of the view's size.
     void draw_place(const regression::ComparePicture::Closeup& c) {
@@ -119,8 +119,8 @@ class ViewDrawing {
         draw_arrow(svg_, from, pixel(view_.seen(tip)), {"#333", 1.5, "none", ""});
         const char* name = c.first && c.worst ? "first, worst" : c.worst ? "worst" : "first";
         const bool right = from.x > 0.75 * view_width;
-        svg_.text({from.x + (right ? -9 : 9), from.y + 15}, name, 12, right ? "end" : "start",
-                  "#b3261e");
+        svg_.text({from.x + (right ? -9 : 9), from.y + 15}, name,
+                  {12, right ? "end" : "start", "#b3261e"});
     }
 
     Svg& svg_;

@@ -35,9 +35,9 @@ std::string bars(const std::vector<Bar>& list, double full, const std::string& u
     for (double tick = 0.0; tick <= range.high * 1.0001; tick += range.tick) {
         const double x = bar_left + tick * scale;
         svg.line({x, top}, {x, bottom}, {"#dddddd", 1.0, "none", ""});
-        svg.text({x, bottom + 16.0}, fmt::format("{:.3g}", tick), 11, "middle", "#555");
+        svg.text({x, bottom + 16.0}, fmt::format("{:.3g}", tick), {11, "middle", "#555"});
     }
-    svg.text({bar_left + 0.5 * bar_width, bottom + 34.0}, unit, 12, "middle", "#555");
+    svg.text({bar_left + 0.5 * bar_width, bottom + 34.0}, unit, {12, "middle", "#555"});
     double y = top + 4.0;
     for (const Bar& bar : list) {
         const double length =
@@ -45,7 +45,7 @@ std::string bars(const std::vector<Bar>& list, double full, const std::string& u
         SvgStyle fill;
         fill.stroke = "none";
         fill.fill = bar.colour;
-        svg.text({bar_left - 10.0, y + 13.0}, bar.name, 13, "end");
+        svg.text({bar_left - 10.0, y + 13.0}, bar.name, {13, "end"});
         svg.rectangle({bar_left, y}, length, bar_line - 8.0, fill);
         svg.text({bar_left + length + 6.0, y + 13.0}, bar.value, 12);
         y += bar_line;
@@ -53,7 +53,7 @@ std::string bars(const std::vector<Bar>& list, double full, const std::string& u
     if (dashed) {
         const double x = bar_left + dashed_at * scale;
         svg.line({x, top - 8.0}, {x, bottom}, {"#444444", 1.2, "none", "4 3"});
-        svg.text({x + 4.0, top - 12.0}, dashed_text, 11, "start", "#444");
+        svg.text({x + 4.0, top - 12.0}, dashed_text, {11, "start", "#444"});
     }
     return svg.str();
 }
@@ -91,7 +91,7 @@ std::string residual_plot(const diagnosis::Diagnosis& d) {
     Svg svg(740.0, 330.0);
     svg.describe("Machine minus simulation of each reading",
                  "In the order taken, in µm, without and with the causes; the noise as a band.");
-    Plot plot(svg, {64.0, 34.0}, 650.0, 230.0, x, y);
+    Plot plot(svg, {{64.0, 34.0}, 650.0, 230.0}, x, y);
     const Point2 high = plot.at(0.0, 2.0 * d.noise_um), low = plot.at(x.high, -2.0 * d.noise_um);
     svg.rectangle(high, low.x - high.x, low.y - high.y, {"none", 0.0, "#e8e8e8", ""});
     plot.frame("", "reading, in the order taken", "machine - simulation, µm");

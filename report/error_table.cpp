@@ -104,7 +104,7 @@ std::string error_curves(const diagnosis::Cause& cause) {
         Svg svg(740.0, 260.0);
         svg.describe(fmt::format("{} over the place", curve.front().error),
                      "The curve of the error with two sigma of each place.");
-        Plot plot(svg, {64.0, 14.0}, 650.0, 190.0, x, y);
+        Plot plot(svg, {{64.0, 14.0}, 650.0, 190.0}, x, y);
         plot.frame("", fmt::format("place, {}", place_unit(curve.front())),
                    fmt::format("{}, {}", curve.front().error, small_unit(curve.front())));
         for (std::size_t k = 0; k < curve.size(); ++k) {

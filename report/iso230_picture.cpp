@@ -59,7 +59,7 @@ class Picture {
         : scale_(scale_of(rotary)),
           points_(points),
           figures_(records::iso230_2_figures(points)),
-          plot_(svg_, {left, top}, wide, high, targets(), deviations()) {}
+          plot_(svg_, {{left, top}, wide, high}, targets(), deviations()) {}
 
     std::string draw(const std::string& title, const std::string& words) {
         plot_.frame(title, fmt::format("target / {}", scale_.target_unit),
@@ -148,7 +148,7 @@ class Picture {
             svg_.line({x, low}, {x, top_y}, bar);
             svg_.line({x - 4, low}, {x + 4, low}, bar);
             svg_.line({x - 4, top_y}, {x + 4, top_y}, bar);
-            svg_.text({x, top_y - 6}, b.name, 13, "middle");
+            svg_.text({x, top_y - 6}, b.name, {13, "middle"});
             x += 26;
         }
     }

@@ -81,7 +81,7 @@ std::string distances_picture(const PivotResult& r) {
                       "One panel a map: angle of the moving axis in degrees, distance in µm, for "
                       "each positioning function. Marks are measured, lines expected.");
     page.svg.text({470, 28}, "Distance from each map's mean error: marks measured, lines expected",
-                  16, "middle");
+                  {16, "middle"});
     draw_legend(page.svg, {170, 54}, r);
     double highest = 0.1;
     for (const pivot::PivotMap& map : r.maps)
@@ -92,7 +92,7 @@ std::string distances_picture(const PivotResult& r) {
         double last = 90.0;
         for (const pivot::PivotArc& arc : map.arcs)
             for (const pivot::PivotPoint& p : arc.points) last = std::max(last, map.moving_deg(p));
-        Plot plot(page.svg, page.corner(m), 370, 260,
+        Plot plot(page.svg, {page.corner(m), 370, 260},
                   last > 180.0 ? PlotRange{0, 360, 60} : PlotRange{-90, 90, 30},
                   round_range(0.0, highest));
         plot.frame(fmt::format("Map {}: {}", map.number, map.name),
@@ -162,8 +162,8 @@ std::string circles_picture(const PivotResult& r) {
                       "One panel a map, in the plane across the moving axis, µm. Measured points, "
                       "fitted circle and centre of each positioning function; dashed circles are "
                       "expected.");
-    page.svg.text({470, 28}, "Eccentric circle of each map: measured points, circle and centre", 16,
-                  "middle");
+    page.svg.text({470, 28}, "Eccentric circle of each map: measured points, circle and centre",
+                  {16, "middle"});
     draw_legend(page.svg, {170, 54}, r);
     const double reach = reach_um(r.maps);
     for (std::size_t m = 0; m < r.maps.size(); ++m) {
@@ -173,14 +173,14 @@ std::string circles_picture(const PivotResult& r) {
         Point2 corner = page.corner(m);
         corner.x += 55;
         const PlotRange range = round_range(-reach, reach, 4);
-        Plot plot(page.svg, corner, 260, 260, range, range);
+        Plot plot(page.svg, {corner, 260, 260}, range, range);
         plot.frame(fmt::format("Map {}: {}", map.number, map.name), plane.a_name + " / µm",
                    plane.b_name + " / µm");
         double y = corner.y + 60;
         for (const pivot::PivotArc& arc : map.arcs) {
             draw_circle(plot, page.svg, plane, arc);
-            page.svg.text({corner.x + 268, y}, arc.function, 11, "start",
-                          plot_colours[style_of(arc)]);
+            page.svg.text({corner.x + 268, y}, arc.function,
+                          {11, "start", plot_colours[style_of(arc)]});
             page.svg.text({corner.x + 268, y + 13},
                           fmt::format("r {:.1f} µm", um_from_mm(arc.circle.radius_mm())), 11);
             y += 40;

@@ -45,9 +45,9 @@ void draw_grid(Svg& svg, const PolarPlot& plot) {
     const double label_px = edge_px + 3 * ring_px;
     const Point2 down(at(-0.5 * pi, label_px + 8)), right(at(0, label_px)), left(at(pi, label_px));
     svg.text({right.x, right.y + 4}, plot.right, 14);
-    svg.text(at(0.5 * pi, label_px), plot.top, 14, "middle");
-    svg.text({left.x, left.y + 4}, plot.left, 14, "end");
-    svg.text(down, plot.bottom, 14, "middle");
+    svg.text(at(0.5 * pi, label_px), plot.top, {14, "middle"});
+    svg.text({left.x, left.y + 4}, plot.left, {14, "end"});
+    svg.text(down, plot.bottom, {14, "middle"});
 }
 
 /// Scale of the circles, below the right half of the plot.
@@ -58,11 +58,11 @@ void draw_ruler(Svg& svg, double division_um) {
     for (int k = -divisions; k <= divisions; ++k) {
         svg.line({x(k), y}, {x(k), y + (k % 2 == 0 ? 6.0 : 3.0)}, {"#666", 1, "none", ""});
         if (k % 2 == 0)
-            svg.text({x(k), y + 19}, k == 0 ? "0" : fmt::format("{:+g}", k * division_um), 11,
-                     "middle", "#444");
+            svg.text({x(k), y + 19}, k == 0 ? "0" : fmt::format("{:+g}", k * division_um),
+                     {11, "middle", "#444"});
     }
-    svg.text({x(-divisions) - 10, y + 4}, "deviation from the nominal circle, µm", 11, "end",
-             "#444");
+    svg.text({x(-divisions) - 10, y + 4}, "deviation from the nominal circle, µm",
+             {11, "end", "#444"});
 }
 
 void draw_trace(Svg& svg, const PolarTrace& trace, double px_per_um, const SvgStyle& style) {
@@ -148,7 +148,7 @@ void draw_panel(Svg& svg, const PolarPlot& plot, double division_um) {
         for (const auto& [name, value] : section.rows) {
             y += line_px;
             svg.text({panel_x_px, y}, name, 13);
-            svg.text({panel_right_px, y}, value, 13, "end");
+            svg.text({panel_right_px, y}, value, {13, "end"});
         }
     }
 }
@@ -185,7 +185,7 @@ std::string polar_svg(const PolarPlot& plot) {
     Svg svg(width_px, height_px);
     svg.describe(plot.title, plot.subtitle + ". Deviation from the nominal circle, magnified.");
     svg.text({30, 36}, plot.title, 20);
-    svg.text({30, 58}, plot.subtitle, 13, "start", "#555");
+    svg.text({30, 58}, plot.subtitle, {13, "start", "#555"});
     draw_grid(svg, plot);
     for (std::size_t k = 0; k < plot.traces.size(); ++k)
         draw_trace(svg, plot.traces[k], px_per_um, trace_style(k));

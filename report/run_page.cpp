@@ -85,7 +85,7 @@ std::string scale_svg(double largest_mm) {
     for (std::size_t k = 0; k < colours.size(); ++k)
         svg.rectangle({60.0 + 50.0 * static_cast<double>(k), 8.0}, 50.0, 16.0,
                       {"none", 0.0, colours[k], ""});
-    svg.text({52.0, 21.0}, "0", 12, "end");
+    svg.text({52.0, 21.0}, "0", {12, "end"});
     svg.text({318.0, 21.0}, length_text(largest_mm), 12);
     return svg.str();
 }

@@ -38,7 +38,7 @@ std::string scatter_svg(const Scatter& scatter) {
         for (const Point2& p : series.points) x.include(p.x), y.include(p.y);
     Svg svg(left_px + width_px + 30, top_px + height_px + 60);
     svg.describe(scatter.title, scatter.description);
-    Plot plot(svg, {left_px, top_px}, width_px, height_px, round_range(x.low, x.high, 8),
+    Plot plot(svg, {{left_px, top_px}, width_px, height_px}, round_range(x.low, x.high, 8),
               round_range(y.low, y.high));
     plot.frame(scatter.title, scatter.x_label, scatter.y_label);
     double legend_px = left_px;

@@ -63,14 +63,14 @@ void Svg::mark(Point2 at, int shape, const std::string& colour, double size) {
     polyline({{at.x, at.y - s}, {at.x + s, at.y + 0.7 * s}, {at.x - s, at.y + 0.7 * s}}, style);
 }
 
-void Svg::text(Point2 at, const std::string& text, double size, const std::string& anchor,
-               const std::string& colour, double turn_deg) {
-    const std::string turn = turn_deg == 0.0 ? ""
-                                             : fmt::format(" transform=\"rotate({} {} {})\"",
-                                                           px(turn_deg), px(at.x), px(at.y));
+void Svg::text(Point2 at, const std::string& text, const TextStyle& style) {
+    const std::string turn = style.turn_deg == 0.0
+                                 ? ""
+                                 : fmt::format(" transform=\"rotate({} {} {})\"",
+                                               px(style.turn_deg), px(at.x), px(at.y));
     body_ += fmt::format(
         "<text x=\"{}\" y=\"{}\" font-size=\"{}\" text-anchor=\"{}\" fill=\"{}\"{}>{}</text>\n",
-        px(at.x), px(at.y), px(size), anchor, colour, turn, escape_xml(text));
+        px(at.x), px(at.y), px(style.size), style.anchor, style.colour, turn, escape_xml(text));
 }
 
 void Svg::describe(const std::string& title, const std::string& description) {
@@ -108,8 +108,8 @@ PlotRange round_range(double low, double high, int about_ticks) {
     return {std::floor(low / tick + 1e-9) * tick, std::ceil(high / tick - 1e-9) * tick, tick};
 }
 
-Plot::Plot(Svg& svg, Point2 corner, double width, double height, PlotRange x, PlotRange y)
-    : svg_(svg), corner_(corner), width_(width), height_(height), x_(x), y_(y) {}
+Plot::Plot(Svg& svg, const Frame& frame, PlotRange x, PlotRange y)
+    : svg_(svg), corner_(frame.corner), width_(frame.width), height_(frame.height), x_(x), y_(y) {}
 
 Point2 Plot::at(double x, double y) const {
     return {corner_.x + (x - x_.low) / (x_.high - x_.low) * width_,
@@ -124,19 +124,19 @@ void Plot::frame(const std::string& title, const std::string& x_label, const std
     for (int i = 0; i <= ticks(x_); ++i) {
         const double v = x_.low + i * x_.tick;
         svg_.line(at(v, y_.low), at(v, y_.high), grid);
-        svg_.text({at(v, y_.low).x, corner_.y + height_ + 16}, fmt::format("{:.6g}", v), 11,
-                  "middle");
+        svg_.text({at(v, y_.low).x, corner_.y + height_ + 16}, fmt::format("{:.6g}", v),
+                  {11, "middle"});
     }
     for (int i = 0; i <= ticks(y_); ++i) {
         double v = y_.low + i * y_.tick;
         if (std::abs(v) < 1e-9 * y_.tick) v = 0.0;
         svg_.line(at(x_.low, v), at(x_.high, v), grid);
-        svg_.text({corner_.x - 6, at(x_.low, v).y + 4}, fmt::format("{:.6g}", v), 11, "end");
+        svg_.text({corner_.x - 6, at(x_.low, v).y + 4}, fmt::format("{:.6g}", v), {11, "end"});
     }
     svg_.rectangle(corner_, width_, height_, {"#555", 1.0, "none", ""});
-    svg_.text({corner_.x + width_ / 2, corner_.y - 8}, title, 13, "middle");
-    svg_.text({corner_.x + width_ / 2, corner_.y + height_ + 34}, x_label, 12, "middle");
-    svg_.text({corner_.x - 44, corner_.y + height_ / 2}, y_label, 12, "middle", "#222", -90.0);
+    svg_.text({corner_.x + width_ / 2, corner_.y - 8}, title, {13, "middle"});
+    svg_.text({corner_.x + width_ / 2, corner_.y + height_ + 34}, x_label, {12, "middle"});
+    svg_.text({corner_.x - 44, corner_.y + height_ / 2}, y_label, {12, "middle", "#222", -90.0});
 }
 
 }  // namespace trunnion::report

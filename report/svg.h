@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace trunnion::report {
@@ -20,7 +21,22 @@ struct SvgStyle {
     std::string dash;  ///< e.g. "4 3"
 };
 
-/// A drawing in pixels, y downwards, white background.
+/// A text's `size` alone stands for the rest too.
+struct TextStyle {
+    TextStyle(double size_px = 12.0, std::string anchor_word = "start",
+              std::string colour_word = "#222", double turned_deg = 0.0)
+        : size(size_px),
+          anchor(std::move(anchor_word)),
+          colour(std::move(colour_word)),
+          turn_deg(turned_deg) {}
+
+    double size;         ///< px
+    std::string anchor;  ///< start, middle, end
+    std::string colour;
+    double turn_deg;
+};
+
+/// A drawing in pixels, y downwards, white ground.
 class Svg {
   public:
     Svg(double width, double height);
@@ -31,10 +47,7 @@ class Svg {
     void rectangle(Point2 corner, double width, double height, const SvgStyle& style = {});
     /// A filled mark of about 3.5 px: shape 0 disc, 1 square, 2 diamond, 3 triangle.
     void mark(Point2 at, int shape, const std::string& colour, double size = 3.5);
-    /// anchor: start, middle, end.
-    void text(Point2 at, const std::string& text, double size = 12,
-              const std::string& anchor = "start", const std::string& colour = "#222",
-              double turn_deg = 0.0);
+    void text(Point2 at, const std::string& text, const TextStyle& style = {});
 
     /// Text for screen readers; `description` may be empty.
     void describe(const std::string& title, const std::string& description = {});
@@ -56,10 +69,16 @@ struct PlotRange {
 /// A range with round ticks (1, 2, 5 x 10^n) that contains low..high.
 PlotRange round_range(double low, double high, int about_ticks = 5);
 
+/// Place of a plot in its drawing: upper left corner and size, px.
+struct Frame {
+    Point2 corner;
+    double width, height;
+};
+
 /// A frame with axes inside a drawing; `at` maps data to pixels.
 class Plot {
   public:
-    Plot(Svg& svg, Point2 corner, double width, double height, PlotRange x, PlotRange y);
+    Plot(Svg& svg, const Frame& frame, PlotRange x, PlotRange y);
     void frame(const std::string& title, const std::string& x_label, const std::string& y_label);
     Point2 at(double x, double y) const;
     double scale_x() const { return width_ / (x_.high - x_.low); }  ///< px per data unit

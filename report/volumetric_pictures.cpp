@@ -114,7 +114,7 @@ void cause_bars(Svg& svg, Point2 corner, double width, const volumetric::Volumet
         const volumetric::VolumetricCause& cause = map.causes[i];
         const double y = corner.y + 20.0 * static_cast<double>(i);
         const double bar = (width - 270) * cause.rms_mm / largest;
-        svg.text({corner.x + 120, y + 13}, cause.name, 12, "end");
+        svg.text({corner.x + 120, y + 13}, cause.name, {12, "end"});
         svg.rectangle({corner.x + 128, y + 2}, std::max(bar, 0.5), 14,
                       {"none", 0.0, plot_colours[0], ""});
         svg.text({corner.x + 134 + bar, y + 13},
@@ -165,10 +165,10 @@ void draw_arrows(Svg& svg, const Plot& plot, const Slice& slice) {
         if (!slice.roomy()) continue;
         const Point2 corner =
             plot.at(p->at[Axis::X] + 0.5 * slice.dx(), p->at[Axis::Y] + 0.5 * slice.dy());
-        svg.text({corner.x - 4, corner.y + 12}, fmt::format("{:.1f}", error_um(*p)), 10, "end",
-                 ink);
+        svg.text({corner.x - 4, corner.y + 12}, fmt::format("{:.1f}", error_um(*p)),
+                 {10, "end", ink});
         svg.text({corner.x - 4, corner.y + 23},
-                 fmt::format("z {:+.1f}", um_from_mm(p->error_W_mm.z())), 9, "end", ink);
+                 fmt::format("z {:+.1f}", um_from_mm(p->error_W_mm.z())), {9, "end", ink});
     }
 }
 
@@ -195,7 +195,7 @@ std::string slice_picture(const volumetric::VolumetricMap& map, const AxisPositi
              fmt::format("Z {:.6g} mm{}; tool {:.6g} mm; actual - nominal, in the table's frame", z,
                          rotary_text(map, middle), map.length_mm),
              12);
-    Plot plot(svg, {90, 80}, 680, 500,
+    Plot plot(svg, {{90, 80}, 680, 500},
               round_range(slice.xs.front() - 0.5 * dx, slice.xs.back() + 0.5 * dx),
               round_range(slice.ys.front() - 0.5 * dy, slice.ys.back() + 0.5 * dy));
     plot.frame("", "X, mm", "Y, mm");
@@ -234,7 +234,7 @@ void axis_plot(Svg& svg, Point2 corner, const volumetric::VolumetricMap& map, Ax
         ++column.count;
     }
     const double largest = std::max(error_um(map.points[map.worst]), 1e-6);
-    Plot plot(svg, corner, 340, 170, round_range(columns.begin()->first, columns.rbegin()->first),
+    Plot plot(svg, {corner, 340, 170}, round_range(columns.begin()->first, columns.rbegin()->first),
               round_range(0, largest));
     plot.frame("", fmt::format("{}, {}", map.names[axis], map.names.is_rotary(axis) ? "deg" : "mm"),
                "um");
