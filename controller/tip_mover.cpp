@@ -147,7 +147,7 @@ void TipMover::arc(motion::MotionKind kind, const offsets::ControlPosition& targ
     const motion::ArcPath path_W = arc_in_W(arc, to);
     CurveMove way;
     way.length_mm = way.feed_length_mm = arc_length(path_W, tip.start_W, tip.end_W);
-    const motion::TipArc curve(tcp(), frames_.axes, to, tip.start_W, tip.end_W, path_W);
+    const motion::TipArc curve(tcp(), frames_.axes, to, {tip.start_W, tip.end_W, path_W});
     if (turns(to))
         way.curve = &curve;
     else

@@ -50,7 +50,8 @@ AxisPositions TipLine::at(double s) const {
 AxisPositions TipArc::at(double s) const {
     if (s <= 0.0) return from_;
     if (s >= 1.0) return to_;
-    return tcp_.machine(point_on_arc(arc_, start_W_, end_W_, s), between(from_, to_, s));
+    return tcp_.machine(point_on_arc(way_.arc_W, way_.start_W, way_.end_W, s),
+                        between(from_, to_, s));
 }
 
 Vector3 leaned(const Vector3& n_W, const Vector3& travel_W, double lean_rad) {

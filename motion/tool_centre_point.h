@@ -50,20 +50,25 @@ class TipLine : public PathCurve {
     Vector3 start_W_, end_W_;
 };
 
-/// The tip moves on an arc in W, rotary axes linear in s; `arc` is given in W.
+/// Ends and arc of a tip's way in W, mm.
+struct TipWay {
+    Vector3 start_W, end_W;
+    ArcPath arc_W;
+};
+
+/// The tip runs on an arc in W, rotaries linear in s.
 class TipArc : public PathCurve {
   public:
     TipArc(const ToolCentrePoint& tcp, const AxisPositions& from, const AxisPositions& to,
-           const Vector3& start_W, const Vector3& end_W, const ArcPath& arc)
-        : tcp_(tcp), from_(from), to_(to), start_W_(start_W), end_W_(end_W), arc_(arc) {}
+           const TipWay& way)
+        : tcp_(tcp), from_(from), to_(to), way_(way) {}
     AxisPositions at(double s) const override;
 
   private:
     const ToolCentrePoint& tcp_;
     const AxisPositions& from_;
     const AxisPositions& to_;
-    Vector3 start_W_, end_W_;
-    ArcPath arc_;
+    TipWay way_;
 };
 
 /// G43.5 Q: the tool axis is inclined by `lean_rad` from n_W towards the direction of travel
