@@ -41,7 +41,7 @@ struct DescribedPaths {
     PathSpace space;
     const Tolerances& tolerances;
 };
-/// Puts a path comparison into `result`: differences, worst place, table, picture.
+/// Adds a path comparison to `result`: differences, worst place, table, picture.
 void describe_paths(const PathComparison& found, const std::vector<ExplainedCluster>& clusters,
                     const DescribedPaths& paths, Comparison& result);
 
@@ -49,7 +49,7 @@ struct DescribedKeys {
     const KeyedLines& keys;
     SourceLines& lines;
 };
-/// Puts the gaps of a layer of lines or blocks into `result`, at most `most` of them.
+/// Adds the gaps of a layer of lines or blocks to `result`, at most `most` of them.
 void describe_gaps(DescribedKeys a, DescribedKeys b, std::size_t most, Comparison& result);
 
 /// Sets the fingerprint of every difference, from its kind, its source lines without N numbers, and

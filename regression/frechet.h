@@ -16,14 +16,14 @@ struct Stretch {
     std::uint64_t last = 1;
 };
 
-/// One side of a walk: `next_common_corner` looks for a corner beyond segment `beyond`.
+/// One side of a comparison: the corner to find lies after segment `beyond`.
 struct WalkedSide {
     SegmentWindow& path;
     Stretch stretch;
     std::uint64_t beyond = 0;
 };
 
-/// How far two stretches agree.
+/// Result of comparing two stretches.
 struct FrechetResult {
     bool reached = false;        ///< a common corner was reached, before segments a and b
     std::uint64_t a = 0, b = 0;  ///< reached: the next segments; otherwise the first that do not
@@ -33,10 +33,11 @@ struct FrechetResult {
     double direction_rad = 0.0;
 };
 
-/// Walks the free-space diagram of Alt and Godau (1995), a column for each chord of A, keeping only
-/// the reachable part, from a common corner before the first segments of both stretches to the next
-/// common corner that ends a segment on both sides and lies beyond the segments `beyond`.
-/// Segments of different kind (rapid, feed) never match. Throws nothing; linear where paths agree.
+/// Traverses the free-space diagram of Alt and Godau (1995), one column for each chord of A,
+/// keeping only the reachable part. Starts at a common corner before the first segments of both
+/// stretches; ends at the next common corner that ends a segment on both sides and lies after both
+/// segments `beyond`. Segments of different kind (rapid, feed) never match. Never throws. Linear
+/// time where the paths agree.
 FrechetResult next_common_corner(WalkedSide a, WalkedSide b, const Tolerances& tolerances);
 
 }  // namespace trunnion::regression

@@ -24,9 +24,10 @@ struct FunctionCompareOptions {
     std::size_t most_differences = 1000;
 };
 
-/// Adds a difference for each function that one side lacks, has another value of, or carries out at
-/// another place of the path; the same change in many places is one difference. False when G10
-/// blocks are among them: what they leave in the stores is no difference of its own then.
+/// Adds a difference for each function that is missing on one side, has another value, or is
+/// executed at another position of the path; the same change in many places is one difference.
+/// Returns false when G10 blocks are among them: the resulting stores are then no separate
+/// difference.
 bool compare_functions(FunctionSide a, FunctionSide b, const FunctionCompareOptions& options,
                        Comparison& result);
 
