@@ -11,6 +11,7 @@
 #include "diagnosis/rules.h"
 #include "diagnosis/shrink_interval.h"
 #include "diagnosis/solution.h"
+#include "diagnosis/usual_zero.h"
 #include "diagnosis/written_setup.h"
 #include "estimation/distributions.h"
 
@@ -118,6 +119,21 @@ DrawSetting draw_setting(const Outcome& f, std::uint64_t seed) {
             seed};
 }
 
+/// How far the zeros of single tests scatter, where that is noise and no place of the gap.
+std::vector<identification::FitParameter> zero_scatter_of(const Outcome& f) {
+    std::vector<identification::FitParameter> list;
+    for (std::size_t k = 0; k < f.model.members.size(); ++k) {
+        const ColumnGroup& group = f.design.group(f.model.members[k]);
+        if (group.kind != GroupKind::offset || f.judgement.large[k]) continue;
+        identification::FitParameter p{"setup", "scatter of the " + group.name, "mm"};
+        p.value = usual_zero_mm * f.model.variances.tau[k];
+        p.sigma =
+            p.value / std::sqrt(2.0 * std::max<double>(1.0, static_cast<double>(group.columns())));
+        list.push_back(p);
+    }
+    return list;
+}
+
 void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
     const identification::BaseModel& base = f.prepared.base;
     d.readings = f.prepared.replay.size();
@@ -146,6 +162,7 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
     d.inseparable = base.inseparable;
     for (const identification::FitParameter& p : base.parameters)
         if (p.effect == "setup") d.set_up.push_back(p);
+    for (identification::FitParameter& p : zero_scatter_of(f)) d.set_up.push_back(std::move(p));
     d.sides = f.prepared.sides;
     d.notes = base.notes;
     for (const auto& entry : f.design.groups()) {

@@ -4,12 +4,12 @@
 
 #include "diagnosis/candidate_groups.h"
 #include "diagnosis/rules.h"
+#include "diagnosis/usual_zero.h"
 
 namespace trunnion::diagnosis {
 namespace {
 
 constexpr Eigen::Index most_tests = 60;
-constexpr double usual_mm = 1e-3;  ///< typical scatter of a zero
 
 bool probes(const emulator::Contact& contact) {
     return contact.device == records::Device::sphere || contact.device == records::Device::touch;
@@ -62,7 +62,7 @@ void add_offset_groups(Design& design, const Prepared& prepared, const Whitener&
             const auto k = static_cast<std::size_t>(i);
             if (probe[k] >= 0)
                 columns.block<1, 3>(i, 3 * probe[k]) =
-                    usual_mm * prepared.base.gradient[k].work_shift_mm.transpose();
+                    usual_zero_mm * prepared.base.gradient[k].work_shift_mm.transpose();
         }
         add_group(design, whitener, group_named("zero of a test", single_tests),
                   std::move(columns));
@@ -73,7 +73,7 @@ void add_offset_groups(Design& design, const Prepared& prepared, const Whitener&
         Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(rows, count);
         for (Eigen::Index i = 0; i < rows; ++i)
             if (other[static_cast<std::size_t>(i)] >= 0)
-                columns(i, other[static_cast<std::size_t>(i)]) = usual_mm;
+                columns(i, other[static_cast<std::size_t>(i)]) = usual_zero_mm;
         add_group(design, whitener, group_named("zero of a pass", single_tests),
                   std::move(columns));
     }

@@ -126,17 +126,26 @@ std::pair<std::string, std::string> parts_of(const std::string& word) {
     return {word.substr(0, cut), word.substr(cut)};
 }
 
-/// An axis of the machine with its own name: "J3" for "j3", "joint 3", "a3", "axis 3".
+/// The short names that mounts and their control use: "az" for "azimuth".
+std::string short_name(const std::string& word) {
+    static const std::map<std::string, std::string> names{
+        {"azimuth", "az"},   {"azimut", "az"},       {"elevation", "el"},
+        {"altitude", "alt"}, {"declination", "dec"}, {"hourangle", "ha"}};
+    const auto it = names.find(word);
+    return it == names.end() ? word : it->second;
+}
+
+/// An axis of the machine with a name of its own: "J3" for "j3", "joint 3", "a3", "axis 3".
 std::optional<std::string> named_axis(const std::string& word, const std::string& next,
                                       const AxisNames& axes) {
     static const std::set<std::string> joints{"joint", "axis", "gelenk", "achse", "j",
                                               "a",     "q",    "theta",  "ax"};
-    auto [letters, digits] = parts_of(word);
+    auto [letters, digits] = parts_of(short_name(word));
     if (digits.empty() && only_digits(next)) digits = next;
     for (const Axis axis : all_axes) {
         const std::string& name = axes[axis];
         if (name.size() < 2) continue;
-        const auto [own, number] = parts_of(lower_case(name));
+        const auto [own, number] = parts_of(short_name(lower_case(name)));
         if (number == digits && (letters == own || (!digits.empty() && joints.contains(letters))))
             return name;
     }
@@ -199,6 +208,10 @@ std::optional<ColumnRole> role_of(const std::string& name, const AxisNames& axes
             if (!take_axis(role, *named)) return std::nullopt;
             role.machine = true;
             if (!next.empty() && only_digits(next)) ++k;
+        } else if (const auto error = named_axis(list[k].substr(1), "", axes);
+                   error && list[k].front() == 'd') {  // "daz"
+            if (!take_axis(role, *error)) return std::nullopt;
+            role.role = Role::error;
         } else if (!understand(role, list[k])) {
             return std::nullopt;
         }

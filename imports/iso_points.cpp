@@ -10,6 +10,7 @@
 #include "base/alarm.h"
 #include "base/numbers.h"
 #include "base/units.h"
+#include "imports/column_roles.h"
 #include "imports/pass_order.h"
 #include "imports/run_names.h"
 
@@ -31,14 +32,25 @@ std::string usual_unit(Quantity quantity) {
     return quantity == Quantity::angle ? "deg" : "mm";
 }
 
+/// "Soll-Pos.", "X target": by the words of the name, with an axis in it or without.
+std::optional<std::size_t> column_of_role(const TextTable& table, Role wanted) {
+    for (std::size_t k = 0; k < table.columns().size(); ++k)
+        for (const char* axis : {"", " x"}) {
+            const auto role = role_of(table.columns()[k].name + axis);
+            if (role && role->role == wanted && role->rate == Rate::position) return k;
+        }
+    return std::nullopt;
+}
+
 std::optional<std::size_t> target_column(const TextTable& table) {
-    return find_first_column(
+    const auto named = find_first_column(
         table, {{"target", "targetposition", "targetpos", "ziel", "zielposition", "zielpos"},
                 {"nominal", "nominalposition", "soll", "sollposition", "sollwert", "nominalangle"},
                 {"commanded", "command", "cmd", "commandedposition", "setpoint", "reference",
                  "referenceangle", "ref"},
                 {"position", "pos", "positionmm", "angle", "winkel"},
                 {"x", "y", "z", "a", "b", "c"}});
+    return named ? named : column_of_role(table, Role::commanded);
 }
 
 std::string word_before(const std::string& name) {
@@ -216,6 +228,8 @@ ListColumns list_columns(const Source& source) {
                  "measuredposition", "actualposition", "laser", "laserreading", "laserposition",
                  "interferometer", "encoder", "resolver", "measuredangle", "actualangle"},
                 {"value", "data", "position", "pos"}});
+    if (!value) value = column_of_role(table, Role::error);
+    if (!value) value = column_of_role(table, Role::actual);
     if (!value || *value == source.target)
         table.header_line().fail("no column of deviations and no columns of runs (\"1+\", \"1-\")",
                                  1);
@@ -309,8 +323,10 @@ std::vector<IsoSeries> read_iso_points(const TextTable& table, const Facts& fact
     } else {
         const auto target = target_column(table);
         if (!target)
-            table.header_line().fail("no column of targets (\"target\", \"position\", \"soll\")",
-                                     1);
+            table.header_line().fail(
+                "no column of targets (\"target\", \"position\", \"soll\"); --with columns= names "
+                "them in their order",
+                1);
         source.target = *target;
         source.factor =
             number_column(table, *target, quantities.target, usual_unit(quantities.target)).factor;

@@ -84,7 +84,8 @@ bool any_read(const LogColumns& log) {
 void check(const TextTable& table, const LogColumns& log) {
     if (!any_read(log) && !log.places_only())
         table.header_line().fail(
-            "no axis has both a commanded and an actual position (\"X commanded\", \"X actual\")",
+            "no axis has both a commanded and an actual position (\"X commanded\", \"X actual\"); "
+            "--with columns= names them in their order",
             1);
 }
 

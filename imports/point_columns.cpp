@@ -82,7 +82,11 @@ bool take_lines(const TextTable& table, const Facts& facts, PointColumns& column
 void check(const TextTable& table, const PointColumns& columns) {
     const bool nominal = any(columns.nominal), error = any(columns.error);
     if (!any(columns.measured) && !(nominal && error))
-        table.header_line().fail("no columns of measured x, y and z", 1);
+        table.header_line().fail(
+            "no columns of measured x, y and z; --with columns=\"n, x nominal, ..\" names them in "
+            "their "
+            "order",
+            1);
     if (!nominal && !error && columns.axes.empty())
         table.header_line().fail(
             "no columns of nominal x, y and z, and none of axis positions (\"machine x\")", 1);

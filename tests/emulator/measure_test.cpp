@@ -128,6 +128,53 @@ TEST_CASE("noise of such devices is that of the setup, by the seed", "[emulator]
           *device_rows(run(setup, laser, {"linear R1 X"}, 5))[3].value_mm);
 }
 
+TEST_CASE("an autocollimator beside a program reads a rotary axis from both sides", "[emulator]") {
+    const setup::Setup setup = machine("\"C.backlash\" = { gap_rad = 6e-5 }");
+    const records::ReadingTable table =
+        run(setup,
+            "%\nO1\nDPRNT[TEST*C]\nG21 G90 G53 G0 C-10.\nG53 G0 C0.\nG4 X2.\nG53 G0 C90.\nG4 X2.\n"
+            "G53 G0 C100.\nG53 G0 C90.\nG4 X2.\nG53 G0 C0.\nG4 X2.\nM30\n%\n",
+            {"angle R1 Z"});
+    const auto rows = device_rows(table);
+    REQUIRE(rows.size() == 4);
+    // C + turns the table about -Z: the tool goes ahead of it about +Z. The first row is the zero.
+    const double expected_rad[] = {0.0, 0.0, -6e-5, -6e-5};
+    for (std::size_t k = 0; k < 4; ++k) {
+        CHECK(rows[k].device == records::Device::angle);
+        CHECK(rows[k].angular);
+        CHECK(rows[k].direction_M == Vector3::UnitZ());
+        CHECK(*rows[k].value_mm == Approx(expected_rad[k]).margin(1e-8));
+    }
+    require_predicted(setup, table);
+}
+
+TEST_CASE("an autocollimator beside a program reads pitch and yaw of a slide, and no roll",
+          "[emulator]") {
+    const setup::Setup setup = machine("\"X.angular\" = { EBX_p1_rad = 4e-5, ECX_p1_rad = -3e-5 }");
+    const std::pair<const char*, double> about[] = {
+        {"angle R1 X", 0.0}, {"angle R1 Y", 4e-5}, {"angle R1 Z", -3e-5}};
+    for (const auto& [words, at_200_rad] : about) {
+        INFO(words);
+        const auto rows = device_rows(run(setup, laser, {words}));
+        REQUIRE(rows.size() == 6);
+        const double part[] = {0.0, 0.5, 1.0, 1.0, 0.5, 0.0};  // in proportion to X, 200 mm at most
+        for (std::size_t k = 0; k < 6; ++k)
+            CHECK(*rows[k].value_mm == Approx(part[k] * at_200_rad).margin(1e-8));
+    }
+}
+
+TEST_CASE("noise of an autocollimator is that of the setup, in microradians", "[emulator]") {
+    const setup::Setup setup = machine("", 2.0);
+    double sum = 0.0;
+    int count = 0;
+    for (std::uint64_t seed = 1; seed <= 60; ++seed)
+        for (const records::Reading& row : device_rows(run(setup, laser, {"angle R1 Y"}, seed))) {
+            sum += *row.value_mm * *row.value_mm;
+            ++count;
+        }
+    CHECK(std::sqrt(sum / count) == Approx(2e-6).epsilon(0.12));  // 360 draws
+}
+
 TEST_CASE("words that name no device are refused", "[emulator]") {
     const setup::Setup setup = machine("");
     const std::pair<const char*, const char*> cases[] = {

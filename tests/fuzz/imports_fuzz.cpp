@@ -30,7 +30,8 @@ void import_as(ImportKind kind, std::string_view text) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     constexpr std::array kinds{ImportKind::ballbar,  ImportKind::iso230_2, ImportKind::points,
-                               ImportKind::axis_log, ImportKind::table,    ImportKind::dprnt};
+                               ImportKind::axis_log, ImportKind::table,    ImportKind::dprnt,
+                               ImportKind::pointing};
     if (size == 0) return 0;
     try {
         import_as(kinds[data[0] % kinds.size()], fuzz::text_of(data + 1, size - 1));

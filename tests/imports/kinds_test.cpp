@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "imports/column_roles.h"
 #include "records/iso230_2.h"
 #include "tests/imports/import_bench.h"
 
@@ -153,6 +154,22 @@ TEST_CASE("an ISO 230-2 table with its targets across, and one of bare direction
             "unit of the deviations", 1);
 }
 
+TEST_CASE("targets and positions are known by the words of their names") {
+    const auto rows = read_rows(import_bench::setup(),
+                                {imports::ImportKind::iso230_2,
+                                 "No.;Soll-Pos.;Messwert\n1;0;0,001\n2;50;50,003\n3;100;100,002\n"
+                                 "4;100;100,004\n5;50;50,006\n6;0;0,004\n",
+                                 {"axis=X"},
+                                 ""});
+    REQUIRE(rows.size() == 6);
+    CHECK(rows[4].commanded[Axis::X] == 50.0);
+    CHECK(*rows[4].value_mm == Approx(0.006));
+    const auto short_names =
+        read_rows(import_bench::setup(),
+                  {imports::ImportKind::iso230_2, "X [mm],dX [um]\n0,1\n50,2\n", {"axis=X"}, ""});
+    CHECK(*short_names[1].value_mm == Approx(0.002));
+}
+
 TEST_CASE("each target read three times in passing, the last ones no second pass") {
     const auto rows = read_rows(import_bench::setup(),
                                 {imports::ImportKind::iso230_2,
@@ -191,6 +208,29 @@ TEST_CASE("pitch and straightness of a slide: an angle about Y, a displacement a
         import_bench::imported(
             setup, {imports::ImportKind::iso230_2, text, {"axis=X", "about=Q", "unit=um"}, ""}),
         InputError);
+}
+
+TEST_CASE("columns of axes that have names of their own") {
+    AxisNames names;
+    names.name = {"Az", "Alt", "", "J1", "J2", "", "", "", ""};
+    const std::tuple<const char*, const char*, imports::Role> cases[] = {
+        {"Azimuth", "Az", imports::Role::none},
+        {"az_obs", "Az", imports::Role::actual},
+        {"dAz", "Az", imports::Role::error},
+        {"daz", "Az", imports::Role::error},
+        {"altitude error", "Alt", imports::Role::error},
+        {"joint_2", "J2", imports::Role::none},
+        {"A1 cmd", "J1", imports::Role::commanded},
+        {"q2", "J2", imports::Role::none}};
+    for (const auto& [name, axis, role] : cases) {
+        INFO(name);
+        const auto found = imports::role_of(name, names);
+        REQUIRE(found);
+        CHECK(found->axis == axis);
+        CHECK(found->role == role);
+    }
+    CHECK_FALSE(imports::role_of("joint_3", names));
+    CHECK_FALSE(imports::role_of("star", names));
 }
 
 TEST_CASE("points count from where the control believes the target, whatever errors are known") {
