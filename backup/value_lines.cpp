@@ -220,14 +220,10 @@ auto work_offset(S& stores, int number) -> decltype(&stores.work.external) {
 
 double offsets::ToolOffset::*tool_field(int l) {
     switch (l) {
-        case 10:
-            return &offsets::ToolOffset::length_geometry_mm;
-        case 11:
-            return &offsets::ToolOffset::length_wear_mm;
-        case 12:
-            return &offsets::ToolOffset::radius_geometry_mm;
-        default:
-            return &offsets::ToolOffset::radius_wear_mm;
+        case 10: return &offsets::ToolOffset::length_geometry_mm;
+        case 11: return &offsets::ToolOffset::length_wear_mm;
+        case 12: return &offsets::ToolOffset::radius_geometry_mm;
+        default: return &offsets::ToolOffset::radius_wear_mm;
     }
 }
 

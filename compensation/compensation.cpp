@@ -17,10 +17,6 @@ namespace {
 constexpr int deepest_split = 16;
 constexpr double reach_mm = 500.0;  ///< upper bound for the lever arm of a rotary deviation
 
-Vector3 xyz(const AxisPositions& q) {
-    return {q[Axis::X], q[Axis::Y], q[Axis::Z]};
-}
-
 AxisPositions between(const AxisPositions& a, const AxisPositions& b, double t) {
     AxisPositions q;
     for (std::size_t i = 0; i < axis_count; ++i)
@@ -32,7 +28,7 @@ AxisPositions between(const AxisPositions& a, const AxisPositions& b, double t) 
 double apart_mm(const AxisPositions& a, const AxisPositions& b) {
     double rotary = 0.0;
     for (const Axis axis : {Axis::A, Axis::B, Axis::C}) rotary += std::abs(a[axis] - b[axis]);
-    return (xyz(a) - xyz(b)).norm() + reach_mm * rotary;
+    return (xyz_of(a) - xyz_of(b)).norm() + reach_mm * rotary;
 }
 
 bool turns(const motion::AxisMove& move) {
@@ -273,7 +269,7 @@ class RewritingSink : public motion::MotionSink {
         if (held == 3 || (held > 0 && depth >= shortest_arc))
             return split_line(path, stretch, a, b, depth);
         const auto point = [&](double t) {
-            return xyz(corrected(path, stretch, a + t * (b - a)).to);
+            return xyz_of(corrected(path, stretch, a + t * (b - a)).to);
         };
         const int normal = plane_normal(path.move);
         const bool positive = path.move.arc->sweep_rad * path.move.arc->normal[normal] > 0.0;

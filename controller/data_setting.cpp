@@ -37,14 +37,10 @@ offsets::OffsetVector& work_offset(const SortedWords& words, offsets::WorkOffset
 
 double& tool_value(offsets::ToolOffset& tool, int l) {
     switch (l) {
-        case 10:
-            return tool.length_geometry_mm;
-        case 11:
-            return tool.length_wear_mm;
-        case 12:
-            return tool.radius_geometry_mm;
-        default:
-            return tool.radius_wear_mm;
+        case 10: return tool.length_geometry_mm;
+        case 11: return tool.length_wear_mm;
+        case 12: return tool.radius_geometry_mm;
+        default: return tool.radius_wear_mm;
     }
 }
 
@@ -82,9 +78,7 @@ DataEntry set_data(const SortedWords& words, const Modal& modal, Frames& frames,
         case 10:
         case 11:
         case 12:
-        case 13:
-            set_tool_offset(words, modal, stores.tools, l);
-            return DataEntry::none;
+        case 13: set_tool_offset(words, modal, stores.tools, l); return DataEntry::none;
         case 21:
             set_fixture_set(words, modal, stores.fixture);
             fixture_sets_changed(modal, frames, mover);
@@ -96,8 +90,7 @@ DataEntry set_data(const SortedWords& words, const Modal& modal, Frames& frames,
         case 52:
             if (modal.settings.is_hurco()) raise_alarm(9003, "G10 L52", words.column_of('L'));
             return DataEntry::parameters;
-        default:
-            raise_alarm(10, words.column_of('L'));
+        default: raise_alarm(10, words.column_of('L'));
     }
 }
 

@@ -128,13 +128,9 @@ void Hole::leave() {
     const int direction = modal_.spindle.direction;
     const double top = modal_.is(ModalGroup::cycle_return, 990) ? at_.r : at_.initial;
     switch (row_.leave) {
-        case Leave::rapid:
-            return go_to(motion::MotionKind::rapid, top);
-        case Leave::feed:
-            return leave_by_feed(top);
-        case Leave::tap:
-            tap_out();
-            return go_to(motion::MotionKind::rapid, top);
+        case Leave::rapid: return go_to(motion::MotionKind::rapid, top);
+        case Leave::feed: return leave_by_feed(top);
+        case Leave::tap: tap_out(); return go_to(motion::MotionKind::rapid, top);
         case Leave::stopped_rapid:
             turn_spindle(0);
             go_to(motion::MotionKind::rapid, top);

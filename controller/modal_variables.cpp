@@ -9,26 +9,16 @@ std::optional<double> modal_variable(int number, const Modal& modal, const Progr
     if (n < static_cast<int>(modal_group_count))
         return modal.codes.code10[static_cast<std::size_t>(n)] / 10.0;
     switch (n) {
-        case 107:
-            return modal.number.radius;
-        case 109:
-            return modal.block.feed.programmed;
-        case 111:
-            return modal.number.length;
-        case 113:
-            return modal.number.m;
-        case 114:
-            return place.sequence_number ? place.sequence_number() : 0;
-        case 115:
-            return place.program_number ? place.program_number() : 0;
-        case 119:
-            return modal.spindle.programmed;
-        case 120:
-            return modal.number.tool;
-        case 130:
-            return modal.number.work;
-        default:
-            return 0.0;
+        case 107: return modal.number.radius;
+        case 109: return modal.block.feed.programmed;
+        case 111: return modal.number.length;
+        case 113: return modal.number.m;
+        case 114: return place.sequence_number ? place.sequence_number() : 0;
+        case 115: return place.program_number ? place.program_number() : 0;
+        case 119: return modal.spindle.programmed;
+        case 120: return modal.number.tool;
+        case 130: return modal.number.work;
+        default: return 0.0;
     }
 }
 

@@ -7,18 +7,12 @@ namespace {
 offsets::ControlPosition shown_position(int row, const Modal& modal, const Frames& frames,
                                         const SkipState& skip) {
     switch (row) {
-        case 0:
-            return frames.stages.shaped_from_program(frames.program);
-        case 1:
-            return frames.machine;
-        case 2:
-            return work_position(modal, frames);
-        case 3:
-            return skip.work;
-        case 4:
-            return frames.shown_length();
-        default:
-            return {};
+        case 0: return frames.stages.shaped_from_program(frames.program);
+        case 1: return frames.machine;
+        case 2: return work_position(modal, frames);
+        case 3: return skip.work;
+        case 4: return frames.shown_length();
+        default: return {};
     }
 }
 

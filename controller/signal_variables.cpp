@@ -65,24 +65,19 @@ bool ClockVariables::set(int number, double value, std::string_view comment, Mov
         case 3000:
             if (!interpreter::is_vacant(value)) raise_program_alarm(value, comment);
             return true;
-        case 3001:
-            offset_ms_ = mover.record().time_s * 1000.0 - not_vacant(value);
-            return true;
+        case 3001: offset_ms_ = mover.record().time_s * 1000.0 - not_vacant(value); return true;
         case 3003:
         case 3004:
             controls_[static_cast<std::size_t>(number - 3000)] = not_vacant(value);
             return true;
         case 3901:
-        case 3902:
-            parts_[static_cast<std::size_t>(number - 3901)] = not_vacant(value);
-            return true;
+        case 3902: parts_[static_cast<std::size_t>(number - 3901)] = not_vacant(value); return true;
         case 3006:
             mover.note(
                 fmt::format("#3006 = {}: stop with message \"{}\", continued", value, comment));
             mover.axes.m_code(0);
             return true;
-        default:
-            return false;
+        default: return false;
     }
 }
 

@@ -94,18 +94,11 @@ void sort_words(const interpreter::BlockWords& block, const Modal& modal, Sorted
     for (const interpreter::WordValue& word : block) {
         if (word.vacant) continue;
         switch (word.letter) {
-            case 'G':
-                add_g(words, modal.settings, word);
-                break;
-            case 'M':
-                add_m(words, word);
-                break;
+            case 'G': add_g(words, modal.settings, word); break;
+            case 'M': add_m(words, word); break;
             case 'r':
-            case 'c':
-                add_corner(words, word);
-                break;
-            default:
-                add_letter(words, modal, word);
+            case 'c': add_corner(words, word); break;
+            default: add_letter(words, modal, word);
         }
     }
     if (words.more_depth_count != 0 && !modal.in_cycle() &&

@@ -124,12 +124,9 @@ CurveMove along_curve(const motion::PathCurve& curve, const PlaneElement& figure
 
 motion::MotionKind kind_of(const Modal& modal) {
     switch (modal.codes[ModalGroup::motion]) {
-        case 20:
-            return motion::MotionKind::arc_cw;
-        case 30:
-            return motion::MotionKind::arc_ccw;
-        default:
-            return motion::MotionKind::linear;
+        case 20: return motion::MotionKind::arc_cw;
+        case 30: return motion::MotionKind::arc_ccw;
+        default: return motion::MotionKind::linear;
     }
 }
 

@@ -47,12 +47,8 @@ NoiseBelief belief_of(const Prepared& p, const Eigen::VectorXd& residual_mm,
         case NoiseSource::repeats:
             belief.prior.spread = std::max(0.03, 0.5 * belief.model.doubt);
             break;
-        case NoiseSource::given:
-            belief.prior.spread = 0.3;
-            break;
-        case NoiseSource::assumed:
-            belief.prior.spread = 0.7;
-            break;
+        case NoiseSource::given: belief.prior.spread = 0.3; break;
+        case NoiseSource::assumed: belief.prior.spread = 0.7; break;
     }
     belief.most = std::exp(2.0 * 2.0 * std::max(0.3, belief.prior.spread));
     return belief;
@@ -276,16 +272,11 @@ bool corrected(Prepared& p, Searched& s, Round& round) {
 
 const char* to_string(Verdict verdict) {
     switch (verdict) {
-        case Verdict::no_gap:
-            return "no-gap";
-        case Verdict::explained:
-            return "explained";
-        case Verdict::partly_explained:
-            return "partly-explained";
-        case Verdict::ambiguous:
-            return "ambiguous";
-        case Verdict::unexplained:
-            return "unexplained";
+        case Verdict::no_gap: return "no-gap";
+        case Verdict::explained: return "explained";
+        case Verdict::partly_explained: return "partly-explained";
+        case Verdict::ambiguous: return "ambiguous";
+        case Verdict::unexplained: return "unexplained";
     }
     return "";
 }

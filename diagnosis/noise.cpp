@@ -66,20 +66,13 @@ bool shares_block(const records::ReadingTable& table, const records::Reading& be
 
 const DeviceNoise& NoiseModel::of(records::Device device) const {
     switch (device) {
-        case records::Device::sphere:
-            return sphere;
-        case records::Device::touch:
-            return touch;
-        case records::Device::linear:
-            return linear;
-        case records::Device::angle:
-            return angle;
-        case records::Device::point:
-            return point;
-        case records::Device::axis:
-            return axis;
-        default:
-            return ballbar;
+        case records::Device::sphere: return sphere;
+        case records::Device::touch: return touch;
+        case records::Device::linear: return linear;
+        case records::Device::angle: return angle;
+        case records::Device::point: return point;
+        case records::Device::axis: return axis;
+        default: return ballbar;
     }
 }
 DeviceNoise& NoiseModel::of(records::Device device) {

@@ -26,7 +26,8 @@ Effect linear_cyclic(const kinematics::AxisGeometry& axis) {
 
 Effect linear_backlash(const kinematics::AxisGeometry& axis) {
     return {effect_name(axis, ".backlash"),
-            "The axis stops short by half the gap, on the side it comes from",
+            "The axis stops half the gap beyond the command in the direction of travel (negative: "
+            "short)",
             "ballscrew nut or thrust bearing worn; negative: a drive that lags",
             "readjust nut and bearing, or correct backlash compensation (on Fanuc parameter 1851, "
             "assumed)",

@@ -66,7 +66,8 @@ Effect rotary_cyclic(const kinematics::AxisGeometry& axis) {
 
 Effect rotary_backlash(const kinematics::AxisGeometry& axis) {
     return {effect_name(axis, ".backlash"),
-            "The axis stops short by half the gap, on the side it comes from",
+            "The axis stops half the gap beyond the command in the direction of travel (negative: "
+            "short)",
             "worn worm gear, loose preload, drive belt; negative: a drive that lags",
             "readjust the preload, or enter the gap as backlash compensation (on Fanuc parameter "
             "1851, assumed)",

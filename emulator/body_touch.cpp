@@ -88,10 +88,8 @@ std::vector<probe::Solid> solids_of(const setup::Body& body, const Feeler& feele
     switch (body.kind) {
         case setup::Body::Kind::block:
             return {box({-half.x(), -half.y(), -body.size_mm.z()}, half)};
-        case setup::Body::Kind::pocket:
-            return walls(body);
-        case setup::Body::Kind::boss:
-            return {{true, low, Vector3::Zero(), 0.0, radius}};
+        case setup::Body::Kind::pocket: return walls(body);
+        case setup::Body::Kind::boss: return {{true, low, Vector3::Zero(), 0.0, radius}};
         case setup::Body::Kind::ring:
             return {{true, low, Vector3::Zero(), radius, radius + body.wall_mm}};
         case setup::Body::Kind::setter: {

@@ -9,14 +9,10 @@
 namespace trunnion::emulator {
 namespace {
 
-Vector3 xyz(const AxisPositions& q) {
-    return {q[Axis::X], q[Axis::Y], q[Axis::Z]};
-}
-
 /// True when no axis has components both of the circle and of the motion along its normal.
 bool turns_in_plane(const motion::AxisMove& move) {
     const Vector3& n = move.arc->normal;
-    const double rise = (xyz(move.to) - xyz(move.from)).dot(n);
+    const double rise = (xyz_of(move.to) - xyz_of(move.from)).dot(n);
     return std::abs(rise) < records::path_rounding.mm || n.cwiseAbs().maxCoeff() == 1.0;
 }
 
@@ -27,7 +23,8 @@ void follow_turns(records::TravelHistory& history, const motion::AxisMove& move)
     constexpr double little = 1e-9;
     const motion::ArcPath& arc = *move.arc;
     const double sense = arc.sweep_rad < 0.0 ? -1.0 : 1.0, sweep_rad = std::abs(arc.sweep_rad);
-    const Vector3 at_start = xyz(move.from) - arc.centre_mm, at_end = xyz(move.to) - arc.centre_mm;
+    const Vector3 at_start = xyz_of(move.from) - arc.centre_mm,
+                  at_end = xyz_of(move.to) - arc.centre_mm;
     const Vector3 way_start = sense * arc.normal.cross(at_start),
                   way_end = sense * arc.normal.cross(at_end);
     const double radius_mm = way_end.norm(), little_mm = little * radius_mm;

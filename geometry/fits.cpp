@@ -68,12 +68,9 @@ std::array<double, 5> characteristic(const Moments& m, CircleMethod method) {
     const double a0 =
         m.xz * (m.xz * m.yy - m.yz * m.xy) + m.yz * (m.yz * m.xx - m.xz * m.xy) - var_z * cov;
     switch (method) {
-        case CircleMethod::kasa:
-            return {0, 1, 0, 0, 0};
-        case CircleMethod::taubin:
-            return {a0, a1, -3.0 * z * z - m.zz, 4.0 * z, 0};
-        default:
-            return {a0, a1, 4.0 * cov - 3.0 * z * z - m.zz, 0, 4};
+        case CircleMethod::kasa: return {0, 1, 0, 0, 0};
+        case CircleMethod::taubin: return {a0, a1, -3.0 * z * z - m.zz, 4.0 * z, 0};
+        default: return {a0, a1, 4.0 * cov - 3.0 * z * z - m.zz, 0, 4};
     }
 }
 
@@ -99,12 +96,9 @@ double smallest_root(const std::array<double, 5>& a) {
 /// Factor of eta in R^2 = |c|^2 + z + factor * eta.
 double radius_factor(CircleMethod method) {
     switch (method) {
-        case CircleMethod::pratt:
-            return 2.0;
-        case CircleMethod::hyper:
-            return -2.0;
-        default:
-            return 0.0;
+        case CircleMethod::pratt: return 2.0;
+        case CircleMethod::hyper: return -2.0;
+        default: return 0.0;
     }
 }
 

@@ -4,10 +4,17 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "geometry/axes.h"
+
 namespace trunnion::inline geometry {
 
 using Vector3 = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
+
+/// Positions of X, Y and Z, mm.
+inline Vector3 xyz_of(const AxisPositions& q) {
+    return {q[Axis::X], q[Axis::Y], q[Axis::Z]};
+}
 
 /// Cross-product matrix: skew(a) * b == a.cross(b).
 inline Matrix3 skew(const Vector3& a) {

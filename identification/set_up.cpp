@@ -182,22 +182,18 @@ double& number_of(setup::Setup& setup, const SetUpQuantity& q) {
     const auto k = static_cast<std::size_t>(q.index);
     if (q.session > 0) return setup.zeros.at(static_cast<std::size_t>(q.slot));
     switch (q.kind) {
-        case Kind::cup:
-            return setup.ballbar->cup_S_mm(q.component);
+        case Kind::cup: return setup.ballbar->cup_S_mm(q.component);
         case Kind::stylus:
             return ball_of(setup.probe->extension_errors, q.extension_mm)(q.component);
         case Kind::long_cup:
             return ball_of(setup.ballbar->extension_errors, q.extension_mm)(q.component);
-        case Kind::instrument:
-            return number_of(setup.instruments[k], q.component);
+        case Kind::instrument: return number_of(setup.instruments[k], q.component);
         case Kind::zero:
             if (setup.zeros.size() <= k) setup.zeros.resize(k + 1, 0.0);
             return setup.zeros[k];
         case Kind::artefact:
-        case Kind::target_on_tool:
-            return place_of(setup.artefacts[k])(q.component);
-        default:
-            return setup.ballbar->length_mm;
+        case Kind::target_on_tool: return place_of(setup.artefacts[k])(q.component);
+        default: return setup.ballbar->length_mm;
     }
 }
 
@@ -209,24 +205,15 @@ double set_up_derivative(const SetUpQuantity& q, const emulator::Replay& replay,
     const bool bar = contact.device == records::Device::ballbar;
     const bool same_length = contact.extension_mm == q.extension_mm;
     switch (q.kind) {
-        case Kind::artefact:
-            return artefact_derivative(q, contact, gradient, false);
-        case Kind::target_on_tool:
-            return artefact_derivative(q, contact, gradient, true);
-        case Kind::instrument:
-            return instrument_derivative(q, contact);
-        case Kind::zero:
-            return contact.zero == q.index ? 1.0 : 0.0;
-        case Kind::cup:
-            return bar ? gradient.tip_shift_mm(q.component) : 0.0;
-        case Kind::length:
-            return bar ? -1.0 : 0.0;
-        case Kind::long_cup:
-            return bar && same_length ? gradient.tip_shift_mm(q.component) : 0.0;
-        case Kind::stylus:
-            return !bar && same_length ? gradient.tip_shift_mm(q.component) : 0.0;
-        default:
-            return 0.0;
+        case Kind::artefact: return artefact_derivative(q, contact, gradient, false);
+        case Kind::target_on_tool: return artefact_derivative(q, contact, gradient, true);
+        case Kind::instrument: return instrument_derivative(q, contact);
+        case Kind::zero: return contact.zero == q.index ? 1.0 : 0.0;
+        case Kind::cup: return bar ? gradient.tip_shift_mm(q.component) : 0.0;
+        case Kind::length: return bar ? -1.0 : 0.0;
+        case Kind::long_cup: return bar && same_length ? gradient.tip_shift_mm(q.component) : 0.0;
+        case Kind::stylus: return !bar && same_length ? gradient.tip_shift_mm(q.component) : 0.0;
+        default: return 0.0;
     }
 }
 

@@ -154,29 +154,16 @@ std::optional<std::string> named_axis(const std::string& word, const std::string
 
 void take_word(ColumnRole& role, Word word) {
     switch (word) {
-        case Word::commanded:
-            role.role = Role::commanded;
-            break;
-        case Word::actual:
-            role.role = Role::actual;
-            break;
+        case Word::commanded: role.role = Role::commanded; break;
+        case Word::actual: role.role = Role::actual; break;
         case Word::error:
             if (role.role != Role::following_error) role.role = Role::error;
             break;
-        case Word::following:
-            role.role = Role::following_error;
-            break;
-        case Word::velocity:
-            role.rate = Rate::velocity;
-            break;
-        case Word::acceleration:
-            role.rate = Rate::acceleration;
-            break;
-        case Word::machine:
-            role.machine = true;
-            break;
-        case Word::filler:
-            break;
+        case Word::following: role.role = Role::following_error; break;
+        case Word::velocity: role.rate = Rate::velocity; break;
+        case Word::acceleration: role.rate = Rate::acceleration; break;
+        case Word::machine: role.machine = true; break;
+        case Word::filler: break;
     }
 }
 

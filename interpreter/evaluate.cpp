@@ -85,45 +85,30 @@ double bcd_of_binary(double x, const Op& op) {
 
 double unary(const Op& op, double x, const EvaluationRules& rules) {
     switch (op.code) {
-        case OpCode::negate:
-            return -x;
-        case OpCode::sin:
-            return sine_deg(x);
-        case OpCode::cos:
-            return cosine_deg(x);
-        case OpCode::tan:
-            return tangent_deg(x, op);
+        case OpCode::negate: return -x;
+        case OpCode::sin: return sine_deg(x);
+        case OpCode::cos: return cosine_deg(x);
+        case OpCode::tan: return tangent_deg(x, op);
         case OpCode::asin:
-        case OpCode::acos:
-            return arc_function(x, op, rules);
-        case OpCode::atan:
-            return deg_from_rad(std::atan(x));
+        case OpCode::acos: return arc_function(x, op, rules);
+        case OpCode::atan: return deg_from_rad(std::atan(x));
         case OpCode::sqrt:
             if (x < 0.0) raise_language_alarm(119, op.column);
             return std::sqrt(x);
-        case OpCode::abs:
-            return std::fabs(x);
-        case OpCode::bin:
-            return binary_of_bcd(x, op);
-        case OpCode::bcd:
-            return bcd_of_binary(x, op);
-        case OpCode::round:
-            return std::round(x);
+        case OpCode::abs: return std::fabs(x);
+        case OpCode::bin: return binary_of_bcd(x, op);
+        case OpCode::bcd: return bcd_of_binary(x, op);
+        case OpCode::round: return std::round(x);
         case OpCode::round_increment:
             return std::round(x * rules.increments_per_unit) / rules.increments_per_unit;
-        case OpCode::fix:
-            return std::trunc(x);
-        case OpCode::fup:
-            return x < 0.0 ? std::floor(x) : std::ceil(x);
+        case OpCode::fix: return std::trunc(x);
+        case OpCode::fup: return x < 0.0 ? std::floor(x) : std::ceil(x);
         case OpCode::ln:
             if (!(x > 0.0)) raise_language_alarm(119, op.column);
             return std::log(x);
-        case OpCode::exp:
-            return in_range(std::exp(x), op);
-        case OpCode::adp:
-            return in_range(x * rules.increments_per_unit, op);
-        default:
-            return x;
+        case OpCode::exp: return in_range(std::exp(x), op);
+        case OpCode::adp: return in_range(x * rules.increments_per_unit, op);
+        default: return x;
     }
 }
 
@@ -157,16 +142,11 @@ double binary(const Op& op, double a, double b, const EvaluationRules& rules) {
         case OpCode::modulo:
             if (b == 0.0) raise_language_alarm(112, op.column);
             return std::fmod(a, b);
-        case OpCode::bit_and:
-            return bits(a, op) & bits(b, op);
-        case OpCode::bit_or:
-            return bits(a, op) | bits(b, op);
-        case OpCode::bit_xor:
-            return bits(a, op) ^ bits(b, op);
-        case OpCode::atan2:
-            return arc_tangent(a, b, op, rules);
-        default:
-            return power(a, b, op);
+        case OpCode::bit_and: return bits(a, op) & bits(b, op);
+        case OpCode::bit_or: return bits(a, op) | bits(b, op);
+        case OpCode::bit_xor: return bits(a, op) ^ bits(b, op);
+        case OpCode::atan2: return arc_tangent(a, b, op, rules);
+        default: return power(a, b, op);
     }
 }
 
@@ -182,14 +162,10 @@ double read_variable(const Op& op, int number, const Memory& memory) {
 double read_parameter(const Op& op, const double* operands, const Memory& memory) {
     const auto whole = [&](int i) { return whole_number(operands[i], op.column); };
     switch (op.code) {
-        case OpCode::prm:
-            return memory.system.parameter(whole(0), -1, -1);
-        case OpCode::prm_bit:
-            return memory.system.parameter(whole(0), whole(1), -1);
-        case OpCode::prm_axis:
-            return memory.system.parameter(whole(0), -1, whole(1));
-        default:
-            return memory.system.parameter(whole(0), whole(1), whole(2));
+        case OpCode::prm: return memory.system.parameter(whole(0), -1, -1);
+        case OpCode::prm_bit: return memory.system.parameter(whole(0), whole(1), -1);
+        case OpCode::prm_axis: return memory.system.parameter(whole(0), -1, whole(1));
+        default: return memory.system.parameter(whole(0), whole(1), whole(2));
     }
 }
 
@@ -207,21 +183,13 @@ double evaluate(const Op* code, std::uint32_t count, const Memory& memory,
     double* top = stack;  // one past the last operand
     for (const Op *op = code, *end = code + count; op != end; ++op) {
         switch (op->code) {
-            case OpCode::constant:
-                *top++ = op->value;
-                break;
-            case OpCode::vacant:
-                *top++ = vacant;
-                break;
+            case OpCode::constant: *top++ = op->value; break;
+            case OpCode::vacant: *top++ = vacant; break;
             case OpCode::local:
                 *top++ = (*memory.locals)[static_cast<std::size_t>(op->number)];
                 break;
-            case OpCode::common:
-                *top++ = memory.common[op->slot];
-                break;
-            case OpCode::system:
-                *top++ = read_variable(*op, op->number, memory);
-                break;
+            case OpCode::common: *top++ = memory.common[op->slot]; break;
+            case OpCode::system: *top++ = read_variable(*op, op->number, memory); break;
             case OpCode::indirect:
                 top[-1] = read_variable(*op, whole_number(top[-1], op->column), memory);
                 break;
@@ -259,9 +227,7 @@ double evaluate(const Op* code, std::uint32_t count, const Memory& memory,
                 --top;
                 top[-1] = compare(op->code, top[-1], *top) ? 1.0 : 0.0;
                 break;
-            case OpCode::prm:
-                top[-1] = read_parameter(*op, top - 1, memory);
-                break;
+            case OpCode::prm: top[-1] = read_parameter(*op, top - 1, memory); break;
             case OpCode::prm_bit:
             case OpCode::prm_axis:
                 --top;
@@ -271,9 +237,7 @@ double evaluate(const Op* code, std::uint32_t count, const Memory& memory,
                 top -= 2;
                 top[-1] = read_parameter(*op, top - 1, memory);
                 break;
-            default:
-                top[-1] = unary(*op, zero_if_vacant(top[-1]), rules);
-                break;
+            default: top[-1] = unary(*op, zero_if_vacant(top[-1]), rules); break;
         }
     }
     return stack[0];

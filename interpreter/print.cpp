@@ -80,20 +80,16 @@ void ExpressionPrinter::step(const Op& op) {
     switch (op.code) {
         case OpCode::constant:
             return push(print_number(op.value, op.value != std::floor(op.value)));
-        case OpCode::vacant:
-            return push("#0");
+        case OpCode::vacant: return push("#0");
         case OpCode::local:
         case OpCode::common:
-        case OpCode::system:
-            return push(fmt::format("#{}", op.number));
+        case OpCode::system: return push(fmt::format("#{}", op.number));
         case OpCode::indirect: {
             const Part number = grouped(pop());
             return push("#" + number.text, false, number.depth);
         }
-        case OpCode::negate:
-            return parts_.push_back(negated_part(pop()));
-        default:
-            break;
+        case OpCode::negate: return parts_.push_back(negated_part(pop()));
+        default: break;
     }
     if (precedence(op.code) == Precedence::none) return call(op);
     const Part right = pop();
@@ -235,54 +231,34 @@ std::string BlockPrinter::condition(const Item& item) const {
 
 void BlockPrinter::item(const Item& item) {
     switch (item.kind) {
-        case ItemKind::print_text:
-            out_ += characters(item);
-            return;
+        case ItemKind::print_text: out_ += characters(item); return;
         case ItemKind::print_value: {
             out_ += part(item.a).text + (binary_ ? fmt::format("[{}]", item.digits)
                                                  : fmt::format("[{}{}]", item.number, item.digits));
             return;
         }
-        default:
-            gap();
-            break;
+        default: gap(); break;
     }
     switch (item.kind) {
-        case ItemKind::word:
-            return word(item);
+        case ItemKind::word: return word(item);
         case ItemKind::skip:
             out_ += item.number == 1 ? "/" : fmt::format("/{}", item.number);
             after_skip_ = true;
             return;
-        case ItemKind::assign:
-            return assignment(item);
-        case ItemKind::if_goto:
-            out_ += "IF" + condition(item);
-            return;
-        case ItemKind::if_then:
-            out_ += "IF" + condition(item) + " THEN";
-            return;
+        case ItemKind::assign: return assignment(item);
+        case ItemKind::if_goto: out_ += "IF" + condition(item); return;
+        case ItemKind::if_then: out_ += "IF" + condition(item) + " THEN"; return;
         case ItemKind::while_do:
             out_ += fmt::format("WHILE{} DO{}", condition(item), item.number);
             return;
-        case ItemKind::do_only:
-            out_ += fmt::format("DO{}", item.number);
-            return;
-        case ItemKind::end:
-            out_ += fmt::format("END{}", item.number);
-            return;
+        case ItemKind::do_only: out_ += fmt::format("DO{}", item.number); return;
+        case ItemKind::end: out_ += fmt::format("END{}", item.number); return;
         case ItemKind::go_to:
             out_ += "GOTO" + (item.a.count == 0 ? print_number(item.value, false) : value(item.a));
             return;
-        case ItemKind::popen:
-            out_ += "POPEN";
-            return;
-        case ItemKind::pclos:
-            out_ += "PCLOS";
-            return;
-        case ItemKind::dprnt:
-            out_ += "DPRNT[";
-            return;
+        case ItemKind::popen: out_ += "POPEN"; return;
+        case ItemKind::pclos: out_ += "PCLOS"; return;
+        case ItemKind::dprnt: out_ += "DPRNT["; return;
         case ItemKind::bprnt:
             out_ += "BPRNT[";
             binary_ = true;
@@ -290,8 +266,7 @@ void BlockPrinter::item(const Item& item) {
         case ItemKind::setvn:
             out_ += fmt::format("SETVN{}[{}]", static_cast<int>(item.value), characters(item));
             return;
-        default:
-            return;
+        default: return;
     }
 }
 

@@ -162,15 +162,10 @@ bool Interpreter::State::run(const Block& block, Code& code, int index) {
     if (block.sequence_number >= 0) sequence_number = block.sequence_number;
     switch (block.kind) {
         case BlockKind::words:
-        case BlockKind::computed:
-            return give_out(block, code);
-        case BlockKind::statements:
-            statements(block, code, index);
-            return false;
-        case BlockKind::program:
-            return program_block(block, code, index);
-        case BlockKind::end_of_record:
-            break;
+        case BlockKind::computed: return give_out(block, code);
+        case BlockKind::statements: statements(block, code, index); return false;
+        case BlockKind::program: return program_block(block, code, index);
+        case BlockKind::end_of_record: break;
     }
     end_of_section();
     return false;

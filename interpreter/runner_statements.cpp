@@ -19,28 +19,19 @@ void Interpreter::State::statements(const Block& block, Code& code, int index) {
     Item* const last = item + block.items.count;
     for (; item != last; ++item) {
         switch (item->kind) {
-            case ItemKind::assign:
-                assign(block, code, *item);
-                break;
+            case ItemKind::assign: assign(block, code, *item); break;
             case ItemKind::if_goto:
             case ItemKind::if_then:
                 if (!holds(value(code, *item))) return;
                 break;
             case ItemKind::while_do:
-            case ItemKind::do_only:
-                return while_do(block, *item, index);
-            case ItemKind::end:
-                return end_loop(*item);
-            case ItemKind::go_to:
-                return go_to(block, code, *item, index >= 0);
+            case ItemKind::do_only: return while_do(block, *item, index);
+            case ItemKind::end: return end_loop(*item);
+            case ItemKind::go_to: return go_to(block, code, *item, index >= 0);
             case ItemKind::dprnt:
-            case ItemKind::bprnt:
-                return print_line(code, item, last);
-            case ItemKind::setvn:
-                set_names(code, *item);
-                break;
-            default:
-                break;  // POPEN and PCLOS: the port is always open
+            case ItemKind::bprnt: return print_line(code, item, last);
+            case ItemKind::setvn: set_names(code, *item); break;
+            default: break;  // POPEN and PCLOS: the port is always open
         }
     }
 }

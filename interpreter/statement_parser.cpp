@@ -22,26 +22,15 @@ void BlockParser::assignment() {
 void BlockParser::statement(Keyword keyword, std::uint16_t column) {
     expressions_.round_to_increment = false;
     switch (keyword) {
-        case Keyword::if_:
-            return if_statement(column);
-        case Keyword::while_:
-            return while_statement(column);
-        case Keyword::go_to:
-            return jump(column);
-        case Keyword::popen:
-            add(ItemKind::popen, column);
-            return;
-        case Keyword::pclos:
-            add(ItemKind::pclos, column);
-            return;
-        case Keyword::dprnt:
-            return print_statement(ItemKind::dprnt, column);
-        case Keyword::bprnt:
-            return print_statement(ItemKind::bprnt, column);
-        case Keyword::setvn:
-            return setvn(column);
-        case Keyword::then:
-            raise_language_alarm(1137, column, "THEN without IF in the same block");
+        case Keyword::if_: return if_statement(column);
+        case Keyword::while_: return while_statement(column);
+        case Keyword::go_to: return jump(column);
+        case Keyword::popen: add(ItemKind::popen, column); return;
+        case Keyword::pclos: add(ItemKind::pclos, column); return;
+        case Keyword::dprnt: return print_statement(ItemKind::dprnt, column);
+        case Keyword::bprnt: return print_statement(ItemKind::bprnt, column);
+        case Keyword::setvn: return setvn(column);
+        case Keyword::then: raise_language_alarm(1137, column, "THEN without IF in the same block");
         case Keyword::do_:
         case Keyword::end: {
             if (is_letter(in_.peek()))
@@ -52,8 +41,7 @@ void BlockParser::statement(Keyword keyword, std::uint16_t column) {
             closed_ = true;
             return;
         }
-        case Keyword::none:
-            break;
+        case Keyword::none: break;
     }
 }
 

@@ -17,16 +17,11 @@ Vector3 linear(const AxisPositions& q) {
 
 std::string_view function_of(PositioningMode mode) {
     switch (mode) {
-        case PositioningMode::dpp:
-            return "DPP";
-        case PositioningMode::rtdfo:
-            return "RTDFO";
-        case PositioningMode::rtcp:
-            return "RTCP";
-        case PositioningMode::tw:
-            return "TW";
-        default:
-            return {};
+        case PositioningMode::dpp: return "DPP";
+        case PositioningMode::rtdfo: return "RTDFO";
+        case PositioningMode::rtcp: return "RTCP";
+        case PositioningMode::tw: return "TW";
+        default: return {};
     }
 }
 

@@ -130,15 +130,12 @@ std::vector<std::string> unobservable(const PivotVerdict& verdict, bool with_g54
     const offsets::PivotParameters& pivot = verdict.in_force.pivot;
     std::vector<std::string> out;
     switch (pivot.unit) {
-        case offsets::MechanicalUnit::table_table:
-            out = along_table_axes(pivot, hurco);
-            break;
+        case offsets::MechanicalUnit::table_table: out = along_table_axes(pivot, hurco); break;
         case offsets::MechanicalUnit::mixed:
             out = {along("19700-19702", pivot.second), along("19709-19711", pivot.first)};
             if (with_g54) out.push_back(along("G54", pivot.second));
             break;
-        default:
-            out = {along("19709-19711", pivot.first), along("19712-19714", pivot.second)};
+        default: out = {along("19709-19711", pivot.first), along("19712-19714", pivot.second)};
     }
     if (pivot.unit != offsets::MechanicalUnit::table_table)
         out.push_back(

@@ -36,12 +36,9 @@ bool better(const Merit& a, const Merit& b) {
 bool on_branch(const RotarySolution& s, bool first_tilts, Branch branch) {
     const double tilt = std::remainder(first_tilts ? s.first_rad : s.second_rad, turn_rad);
     switch (branch) {
-        case Branch::positive:
-            return tilt > -same_rad;
-        case Branch::negative:
-            return tilt < same_rad || tilt > pi - same_rad;
-        default:
-            return true;
+        case Branch::positive: return tilt > -same_rad;
+        case Branch::negative: return tilt < same_rad || tilt > pi - same_rad;
+        default: return true;
     }
 }
 

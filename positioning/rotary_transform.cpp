@@ -68,10 +68,8 @@ inline Vector3 RotaryTransform::from_W(const Turns& q, const Vector3& p_W) const
     switch (pivot_.unit) {
         case offsets::MechanicalUnit::table_table:
             return moved(first_, q.first, moved(second_, q.second, p_W));
-        case offsets::MechanicalUnit::mixed:
-            return moved(second_, q.second, p_W);
-        default:
-            return p_W;
+        case offsets::MechanicalUnit::mixed: return moved(second_, q.second, p_W);
+        default: return p_W;
     }
 }
 
@@ -79,10 +77,8 @@ inline Vector3 RotaryTransform::to_W(const Turns& q, const Vector3& p_M) const {
     switch (pivot_.unit) {
         case offsets::MechanicalUnit::table_table:
             return moved(second_, q.second.inverse(), moved(first_, q.first.inverse(), p_M));
-        case offsets::MechanicalUnit::mixed:
-            return moved(second_, q.second.inverse(), p_M);
-        default:
-            return p_M;
+        case offsets::MechanicalUnit::mixed: return moved(second_, q.second.inverse(), p_M);
+        default: return p_M;
     }
 }
 
@@ -90,10 +86,8 @@ inline Vector3 RotaryTransform::direction_to_W(const Turns& q, const Vector3& v_
     switch (pivot_.unit) {
         case offsets::MechanicalUnit::table_table:
             return turned(second_, q.second.inverse(), turned(first_, q.first.inverse(), v_M));
-        case offsets::MechanicalUnit::mixed:
-            return turned(second_, q.second.inverse(), v_M);
-        default:
-            return v_M;
+        case offsets::MechanicalUnit::mixed: return turned(second_, q.second.inverse(), v_M);
+        default: return v_M;
     }
 }
 
@@ -102,10 +96,8 @@ inline Vector3 RotaryTransform::swing(const Turns& q, const Vector3& p_S) const 
     switch (pivot_.unit) {
         case offsets::MechanicalUnit::tool_tool:
             return moved(first_, q.first, moved(second_, q.second, p_S));
-        case offsets::MechanicalUnit::mixed:
-            return moved(first_, q.first, p_S);
-        default:
-            return p_S;
+        case offsets::MechanicalUnit::mixed: return moved(first_, q.first, p_S);
+        default: return p_S;
     }
 }
 
@@ -113,10 +105,8 @@ inline Vector3 RotaryTransform::tool_direction_M(const Turns& q) const {
     switch (pivot_.unit) {
         case offsets::MechanicalUnit::tool_tool:
             return turned(first_, q.first, turned(second_, q.second, pivot_.tool_direction));
-        case offsets::MechanicalUnit::mixed:
-            return turned(first_, q.first, pivot_.tool_direction);
-        default:
-            return pivot_.tool_direction;
+        case offsets::MechanicalUnit::mixed: return turned(first_, q.first, pivot_.tool_direction);
+        default: return pivot_.tool_direction;
     }
 }
 
@@ -217,12 +207,9 @@ struct OrientProblem {
 OrientProblem orient_problem(const offsets::PivotParameters& pivot, const Vector3& n_W) {
     const Vector3& t = pivot.tool_direction;
     switch (pivot.unit) {
-        case offsets::MechanicalUnit::tool_tool:
-            return {n_W, t, -1.0};  // Rot1(-q1) n = Rot2(q2) t
-        case offsets::MechanicalUnit::mixed:
-            return {t, n_W, 1.0};  // Rot1(q1) t = Rot2(q2) n
-        default:
-            return {t, n_W, -1.0};  // Rot1(-q1) t = Rot2(q2) n
+        case offsets::MechanicalUnit::tool_tool: return {n_W, t, -1.0};  // Rot1(-q1) n = Rot2(q2) t
+        case offsets::MechanicalUnit::mixed: return {t, n_W, 1.0};       // Rot1(q1) t = Rot2(q2) n
+        default: return {t, n_W, -1.0};                                  // Rot1(-q1) t = Rot2(q2) n
     }
 }
 

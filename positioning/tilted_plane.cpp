@@ -100,17 +100,12 @@ std::optional<Pose> PlaneDefinition::add(const PlaneWords& words) {
     const int form = words.p ? whole('P', *words.p) : 0;
     if (form_ != 0 && form != form_) format_error('P', "P is not that of the block before");
     switch (form) {
-        case 0:
-            return turned_about_z({euler_rotation(words), shift_of(words)}, words.r);
-        case 1:
-            return turned_about_z({roll_pitch_yaw_rotation(words), shift_of(words)}, words.r);
-        case 4:
-            return turned_about_z({projection_rotation(words), shift_of(words)}, words.r);
+        case 0: return turned_about_z({euler_rotation(words), shift_of(words)}, words.r);
+        case 1: return turned_about_z({roll_pitch_yaw_rotation(words), shift_of(words)}, words.r);
+        case 4: return turned_about_z({projection_rotation(words), shift_of(words)}, words.r);
         case 2:
-        case 3:
-            break;
-        default:
-            format_error('P', "P is 0 to 4");
+        case 3: break;
+        default: format_error('P', "P is 0 to 4");
     }
     if (!words.q) format_error(0, "Q is missing");
     const int q = whole('Q', *words.q);

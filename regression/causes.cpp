@@ -17,16 +17,11 @@ using Fields = std::vector<std::size_t>;
 
 unsigned explaining(DifferenceKind kind) {
     switch (kind) {
-        case DifferenceKind::feed:
-            return explains_feed;
-        case DifferenceKind::spindle:
-            return explains_speed;
-        case DifferenceKind::coolant:
-            return explains_coolant;
-        case DifferenceKind::tool:
-            return explains_tool;
-        default:
-            return explains_path;
+        case DifferenceKind::feed: return explains_feed;
+        case DifferenceKind::spindle: return explains_speed;
+        case DifferenceKind::coolant: return explains_coolant;
+        case DifferenceKind::tool: return explains_tool;
+        default: return explains_path;
     }
 }
 

@@ -72,19 +72,13 @@ class ProgramComparer {
         left_.clear();
         switch (layer) {
             case Layer::text:
-            case Layer::words:
-                written(layer);
-                break;
+            case Layer::words: written(layer); break;
             case Layer::blocks:
                 record(PathSpace::tip);
                 moves(run_a_->blocks, run_b_->blocks);
                 break;
-            case Layer::path:
-                paths(PathSpace::tip);
-                break;
-            case Layer::functions:
-                functions(false);
-                break;
+            case Layer::path: paths(PathSpace::tip); break;
+            case Layer::functions: functions(false); break;
             case Layer::axes:
                 paths(PathSpace::joints);
                 compare_times(*run_a_, *run_b_, options_.tolerances, result_);

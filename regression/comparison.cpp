@@ -11,18 +11,14 @@ namespace {
 
 double gravity(const Difference& d) {
     switch (d.kind) {
-        case DifferenceKind::alarm:
-            return 1e9;
+        case DifferenceKind::alarm: return 1e9;
         case DifferenceKind::only_a:
         case DifferenceKind::only_b:
-        case DifferenceKind::tool:
-            return 1e6 + d.position_mm;
+        case DifferenceKind::tool: return 1e6 + d.position_mm;
         case DifferenceKind::function:
             return 10.0;  // a missing M3 or dwell has no distance; it counts like 10 mm
-        case DifferenceKind::reordered:
-            return 1e-6;
-        default:
-            return d.position_mm + d.direction_deg;
+        case DifferenceKind::reordered: return 1e-6;
+        default: return d.position_mm + d.direction_deg;
     }
 }
 

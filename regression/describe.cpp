@@ -118,8 +118,7 @@ std::string sentence(const PathCluster& c, PathSpace space, const Tolerances& to
         case DifferenceKind::tool:
             return fmt::format("tool T{:g} -> T{:g}", c.first.value_a, c.first.value_b) +
                    times(c.count, "places");
-        default:
-            break;
+        default: break;
     }
     const std::string places = times(c.count, "places");
     const bool turned = c.direction_rad > tolerances.direction_rad;

@@ -51,11 +51,8 @@ void FunctionRecorder::m_code(int code, int tool, int line) {
             now_.coolant = 0;
             now_.coolant_line = here;
             return;
-        case 6:
-            now_.tool = told_.tool = tool;
-            break;
-        default:
-            break;
+        case 6: now_.tool = told_.tool = tool; break;
+        default: break;
     }
     tell_states();
     add(FunctionKind::m_code, code, code == 6 ? tool : 0.0);
@@ -136,22 +133,17 @@ std::string text_of(const FunctionEvent& e) {
         case FunctionKind::m_code:
             return e.value == 6.0 ? fmt::format("T{:g} M6", e.detail)
                                   : fmt::format("M{:g}", e.value);
-        case FunctionKind::tool_call:
-            return fmt::format("T{:g}", e.value);
-        case FunctionKind::dwell:
-            return fmt::format("dwell {:g} s", e.value);
-        case FunctionKind::spindle:
-            return e.value > 0.0 ? "M3" : e.value < 0.0 ? "M4" : "M5";
+        case FunctionKind::tool_call: return fmt::format("T{:g}", e.value);
+        case FunctionKind::dwell: return fmt::format("dwell {:g} s", e.value);
+        case FunctionKind::spindle: return e.value > 0.0 ? "M3" : e.value < 0.0 ? "M4" : "M5";
         case FunctionKind::coolant:
             return e.value == 0.0 ? "M9" : e.value == 1.0 ? "M8" : e.value == 2.0 ? "M7" : "M7 M8";
         case FunctionKind::exact_stop:
             return e.value != 0.0 ? "exact stop (G9, G61)" : "end of exact stop (G64)";
-        case FunctionKind::path_mode:
-            return fmt::format("G{:g}", e.value);
+        case FunctionKind::path_mode: return fmt::format("G{:g}", e.value);
         case FunctionKind::smoothing:
             return fmt::format("{}{:g}", smoothing[static_cast<std::size_t>(e.detail)], e.value);
-        case FunctionKind::store:
-            return "G10 that writes a store";
+        case FunctionKind::store: return "G10 that writes a store";
     }
     return {};
 }

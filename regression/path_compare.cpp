@@ -11,22 +11,14 @@ namespace {
 
 DifferenceKind kind_of(RegionKind kind) {
     switch (kind) {
-        case RegionKind::moved:
-            return DifferenceKind::moved;
-        case RegionKind::only_a:
-            return DifferenceKind::only_a;
-        case RegionKind::only_b:
-            return DifferenceKind::only_b;
-        case RegionKind::feed:
-            return DifferenceKind::feed;
-        case RegionKind::spindle:
-            return DifferenceKind::spindle;
-        case RegionKind::coolant:
-            return DifferenceKind::coolant;
-        case RegionKind::tool:
-            return DifferenceKind::tool;
-        case RegionKind::path:
-            break;
+        case RegionKind::moved: return DifferenceKind::moved;
+        case RegionKind::only_a: return DifferenceKind::only_a;
+        case RegionKind::only_b: return DifferenceKind::only_b;
+        case RegionKind::feed: return DifferenceKind::feed;
+        case RegionKind::spindle: return DifferenceKind::spindle;
+        case RegionKind::coolant: return DifferenceKind::coolant;
+        case RegionKind::tool: return DifferenceKind::tool;
+        case RegionKind::path: break;
     }
     return DifferenceKind::path;
 }
@@ -76,23 +68,15 @@ class PathComparer {
 
     void compare(const PassPair& pair) {
         switch (pair.pairing) {
-            case Pairing::same:
-                compare_same(pair);
-                break;
-            case Pairing::changed:
-                compare_changed(pair);
-                break;
+            case Pairing::same: compare_same(pair); break;
+            case Pairing::changed: compare_changed(pair); break;
             case Pairing::reordered:
                 for (std::uint64_t k = 0; k < pair.a.size(); ++k)
                     compare_cut(pair.a.first + k, pair.b.first + k);
                 add_whole(DifferenceKind::reordered, pair);
                 break;
-            case Pairing::only_a:
-                add_whole(DifferenceKind::only_a, pair);
-                break;
-            case Pairing::only_b:
-                add_whole(DifferenceKind::only_b, pair);
-                break;
+            case Pairing::only_a: add_whole(DifferenceKind::only_a, pair); break;
+            case Pairing::only_b: add_whole(DifferenceKind::only_b, pair); break;
         }
     }
 

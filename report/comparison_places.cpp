@@ -153,20 +153,14 @@ ReportFormat report_format(const std::string& name) {
 
 std::string format_comparison(const regression::CompareReport& report, ReportFormat format) {
     switch (format) {
-        case ReportFormat::text:
-            return comparison_text(report);
-        case ReportFormat::json:
-            return comparison_json(report);
-        case ReportFormat::html:
-            return page_html(comparison_page(report));
-        case ReportFormat::junit:
-            return junit_of(report);
+        case ReportFormat::text: return comparison_text(report);
+        case ReportFormat::json: return comparison_json(report);
+        case ReportFormat::html: return page_html(comparison_page(report));
+        case ReportFormat::junit: return junit_of(report);
         case ReportFormat::sarif:
             return format_sarif(rules(), items_of(report), {}, left_out_of(report));
-        case ReportFormat::github:
-            return format_github(annotations_of(report));
-        case ReportFormat::markdown:
-            return comparison_markdown(report);
+        case ReportFormat::github: return format_github(annotations_of(report));
+        case ReportFormat::markdown: return comparison_markdown(report);
     }
     return {};
 }

@@ -97,8 +97,7 @@ std::string verdict_sentence(const diagnosis::Diagnosis& d) {
     const std::string size = size_words(d);
     const std::string first = d.causes.empty() ? "" : cause_name(d.causes.front());
     switch (d.verdict) {
-        case diagnosis::Verdict::no_gap:
-            return "No gap beyond noise: " + size + ".";
+        case diagnosis::Verdict::no_gap: return "No gap beyond noise: " + size + ".";
         case diagnosis::Verdict::explained:
             return fmt::format("The gap is explained, most of it by {}: {}.", first, size);
         case diagnosis::Verdict::ambiguous:

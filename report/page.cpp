@@ -12,12 +12,9 @@ namespace {
 
 std::string_view tone_class(Tone tone) {
     switch (tone) {
-        case Tone::good:
-            return " good";
-        case Tone::bad:
-            return " bad";
-        case Tone::neutral:
-            break;
+        case Tone::good: return " good";
+        case Tone::bad: return " bad";
+        case Tone::neutral: break;
     }
     return "";
 }
@@ -37,12 +34,9 @@ std::string json_in_html(const std::string& json) {
 
 const PageAsset* script_of(PageScript script) {
     switch (script) {
-        case PageScript::chart:
-            return &chart_script;
-        case PageScript::run:
-            return &run_script;
-        case PageScript::none:
-            break;
+        case PageScript::chart: return &chart_script;
+        case PageScript::run: return &run_script;
+        case PageScript::none: break;
     }
     return nullptr;
 }

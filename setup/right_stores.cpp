@@ -106,9 +106,7 @@ RotaryStores right_stores(const kinematics::Machine& known, const RotaryStores& 
     offsets::PivotParameters& pivot = right.pivot;
     if (pivot.first.hypothetical || pivot.second.hypothetical) return right;
     switch (pivot.unit) {
-        case offsets::MechanicalUnit::table_table:
-            correct_table(machine, pivot);
-            break;
+        case offsets::MechanicalUnit::table_table: correct_table(machine, pivot); break;
         case offsets::MechanicalUnit::mixed:
             correct_head(machine, pivot);
             correct_one_table_axis(machine, pivot);
@@ -117,8 +115,7 @@ RotaryStores right_stores(const kinematics::Machine& known, const RotaryStores& 
             correct_head(machine, pivot);
             correct_second_of_head(machine, pivot);
             break;
-        default:
-            return right;
+        default: return right;
     }
     right.g54 = right_g54(right);
     return right;
@@ -137,29 +134,20 @@ constexpr int first_parameter[] = {0, 19700, 19703, 19709, 19712};
 
 Vector3& vector_at(RotaryStores& stores, int place) {
     switch (place) {
-        case 1:
-            return stores.pivot.table_point_mm;
-        case 2:
-            return stores.pivot.table_offset_mm;
-        case 3:
-            return stores.pivot.tool_offset_mm;
-        case 4:
-            return stores.pivot.tool_second_offset_mm;
-        default:
-            return stores.g54;
+        case 1: return stores.pivot.table_point_mm;
+        case 2: return stores.pivot.table_offset_mm;
+        case 3: return stores.pivot.tool_offset_mm;
+        case 4: return stores.pivot.tool_second_offset_mm;
+        default: return stores.g54;
     }
 }
 
 std::vector<int> places_of(offsets::MechanicalUnit unit) {
     switch (unit) {
-        case offsets::MechanicalUnit::table_table:
-            return {0, 1, 2};
-        case offsets::MechanicalUnit::mixed:
-            return {0, 1, 3};
-        case offsets::MechanicalUnit::tool_tool:
-            return {3, 4};
-        default:
-            return {};
+        case offsets::MechanicalUnit::table_table: return {0, 1, 2};
+        case offsets::MechanicalUnit::mixed: return {0, 1, 3};
+        case offsets::MechanicalUnit::tool_tool: return {3, 4};
+        default: return {};
     }
 }
 

@@ -141,18 +141,10 @@ BallbarState BallbarModel::state(const Eigen::VectorXd& scaled) const {
         const double value =
             scaled(static_cast<Eigen::Index>(k)) * scale_(static_cast<Eigen::Index>(k));
         switch (p.kind) {
-            case Kind::location:
-                machine.errors.location(p.error) += value;
-                break;
-            case Kind::cup:
-                cup(p.component) += value;
-                break;
-            case Kind::pivot:
-                pivot(p.component) += value;
-                break;
-            case Kind::length:
-                length += value;
-                break;
+            case Kind::location: machine.errors.location(p.error) += value; break;
+            case Kind::cup: cup(p.component) += value; break;
+            case Kind::pivot: pivot(p.component) += value; break;
+            case Kind::length: length += value; break;
             case Kind::test_constant:
                 constant[static_cast<std::size_t>(p.component)] = value;
                 break;

@@ -23,12 +23,9 @@ std::string lower(std::string_view text) {
 /// Unit vectors of a planar test: the angle is counted from `first` to `second`.
 std::pair<Vector3, Vector3> plane_of(BallbarTestKind kind) {
     switch (kind) {
-        case BallbarTestKind::xy:
-            return {Vector3::UnitX(), Vector3::UnitY()};
-        case BallbarTestKind::yz:
-            return {Vector3::UnitY(), Vector3::UnitZ()};
-        default:
-            return {Vector3::UnitZ(), Vector3::UnitX()};
+        case BallbarTestKind::xy: return {Vector3::UnitX(), Vector3::UnitY()};
+        case BallbarTestKind::yz: return {Vector3::UnitY(), Vector3::UnitZ()};
+        default: return {Vector3::UnitZ(), Vector3::UnitX()};
     }
 }
 

@@ -108,12 +108,9 @@ void add_hysteresis(const CircularTest& test, const CircularPass& ccw, const Cir
 
 std::pair<Axis, Axis> axes_of_plane(BallbarTestKind plane) {
     switch (plane) {
-        case BallbarTestKind::xy:
-            return {Axis::X, Axis::Y};
-        case BallbarTestKind::yz:
-            return {Axis::Y, Axis::Z};
-        default:
-            return {Axis::Z, Axis::X};
+        case BallbarTestKind::xy: return {Axis::X, Axis::Y};
+        case BallbarTestKind::yz: return {Axis::Y, Axis::Z};
+        default: return {Axis::Z, Axis::X};
     }
 }
 

@@ -45,15 +45,9 @@ std::string changed(std::string text, const std::vector<std::string>& corpus, Se
         const std::size_t at = below(random, text.size() + 1);
         const std::size_t size = below(random, std::min<std::size_t>(20, text.size() - at + 1));
         switch (below(random, 5)) {
-            case 0:
-                text.erase(at, size);
-                break;
-            case 1:
-                text.insert(at, words[below(random, words.size())]);
-                break;
-            case 2:
-                text.insert(at, text.substr(at, size));
-                break;
+            case 0: text.erase(at, size); break;
+            case 1: text.insert(at, words[below(random, words.size())]); break;
+            case 2: text.insert(at, text.substr(at, size)); break;
             case 3:
                 if (at < text.size()) text[at] = static_cast<char>(below(random, 256));
                 break;

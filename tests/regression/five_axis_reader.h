@@ -112,29 +112,21 @@ class FiveAxisReader {
             case 0:
             case 10:
             case 20:
-            case 30:
-                motion_ = code / 10;
-                return false;
+            case 30: motion_ = code / 10; return false;
             case 170:
             case 180:
-            case 190:
-                plane_ = code / 10;
-                return false;
+            case 190: plane_ = code / 10; return false;
             case 930:
-            case 940:
-                by_time_ = code == 930;
-                return false;
+            case 940: by_time_ = code == 930; return false;
             case 430:
-            case 434:
-                return length_on(code == 434);
+            case 434: return length_on(code == 434);
             case 490:
                 unsure = unsure || has_any("XYZBCIJK");
                 compensated_ = false;
                 if (frame_ == Frame::tcp) forget_end();
                 if (frame_ == Frame::tcp) frame_ = Frame::table;
                 return false;
-            case 682:
-                return tilt();
+            case 682: return tilt();
             case 531:
                 unsure = unsure || !tilted_ || compensated_ || has_any("XYZBCIJK");
                 if (tilted_) turned_to_plane_ = true;
@@ -150,11 +142,8 @@ class FiveAxisReader {
             case 400:
             case 540:
             case 800:
-            case 900:
-                return false;
-            default:
-                unsure = true;
-                return false;
+            case 900: return false;
+            default: unsure = true; return false;
         }
     }
 

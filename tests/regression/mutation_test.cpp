@@ -257,9 +257,7 @@ std::string edited(const std::string& program, SeededNoise& noise, std::size_t& 
                 text.erase(from, text.find(' ', from + 1) - from);
                 break;
             }
-            case 3:
-                std::swap(lines[line], lines[line + 1]);
-                break;
+            case 3: std::swap(lines[line], lines[line + 1]); break;
             default:
                 if (text[at] != 'G' || at + 1 >= text.size()) continue;
                 text = text.substr(0, at + 1) + static_cast<char>('0' + pick(noise, 4)) +

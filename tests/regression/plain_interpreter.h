@@ -104,9 +104,7 @@ class PlainInterpreter {
                     cycle_ = false;
                     ++motion_codes;
                     break;
-                case 40:
-                    dwells = true;
-                    break;
+                case 40: dwells = true; break;
                 case 810:
                 case 820:
                     drill_dwells_ = std::lround(value) == 82;
@@ -119,27 +117,13 @@ class PlainInterpreter {
                     motion_ = motion_ > 1 ? 9 : motion_;
                     ++motion_codes;
                     break;
-                case 200:
-                    inch_ = true;
-                    break;
-                case 210:
-                    inch_ = false;
-                    break;
-                case 900:
-                    incremental_ = false;
-                    break;
-                case 910:
-                    incremental_ = true;
-                    break;
-                case 980:
-                    to_initial_ = true;
-                    break;
-                case 990:
-                    to_initial_ = false;
-                    break;
-                case 430:
-                    length_code = true;
-                    break;
+                case 200: inch_ = true; break;
+                case 210: inch_ = false; break;
+                case 900: incremental_ = false; break;
+                case 910: incremental_ = true; break;
+                case 980: to_initial_ = true; break;
+                case 990: to_initial_ = false; break;
+                case 430: length_code = true; break;
                 case 540:
                 case 550:
                     if (cycle_) return void(unsure = true);
@@ -147,13 +131,11 @@ class PlainInterpreter {
                     break;
                 case 170:
                 case 400:
-                case 940:
-                    break;
+                case 940: break;
                 case 490:
                     if (length_ != 0.0) return void(unsure = true);
                     break;
-                default:
-                    return void(unsure = true);
+                default: return void(unsure = true);
             }
         }
         if (motion_codes > 1) return void(unsure = true);
@@ -197,33 +179,18 @@ class PlainInterpreter {
     /// False: the program ends, or the code is not for this reader.
     bool machine_code(int m) {
         switch (m) {
-            case 3:
-                turning_ = 1;
-                return true;
-            case 4:
-                turning_ = -1;
-                return true;
+            case 3: turning_ = 1; return true;
+            case 4: turning_ = -1; return true;
             case 5:
-            case 9:
-                machine_off(m);
-                return true;  // alone in its block in these programs
-            case 6:
-                tool_ = chosen_;
-                return true;
+            case 9: machine_off(m); return true;  // alone in its block in these programs
+            case 6: tool_ = chosen_; return true;
             case 7:
-            case 8:
-                coolant_ = true;
-                return true;
+            case 8: coolant_ = true; return true;
             case 0:
-            case 1:
-                return true;
+            case 1: return true;
             case 2:
-            case 30:
-                done_ = true;
-                return false;
-            default:
-                unsure = true;
-                return false;
+            case 30: done_ = true; return false;
+            default: unsure = true; return false;
         }
     }
     void machine_off(int m) {
