@@ -128,7 +128,7 @@ void read_parameters(const TomlFile& file, const TomlValue& table, Setup& setup)
     for (const auto& [key, value] : file.table(table).entries) {
         value.used = true;
         const int number = whole_number(file, key, value, {0, 99999, "a parameter number"});
-        setup.stores.parameters.entry[number] = read_parameter(file, value, setup.machine.chain);
+        setup.stores.parameters.entry[number] = read_parameter(file, value, setup);
         read.push_back(number);
     }
     // 1001 may be anywhere in the file, or in the backup.
