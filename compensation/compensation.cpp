@@ -194,8 +194,8 @@ class RewritingSink : public motion::MotionSink {
         if (text_.skip(path.move, c.to)) note(path, 1.0, end_of(c));
     }
 
-    /// Axes that would end inside their gap go past it: in the air that harms
-    /// nothing.
+    /// Axes of the range that would end inside their gap pass through it: without cutting this is
+    /// harmless.
     void pass_gap(const emulator::PathSampler& path, const PathStretch& stretch, double s,
                   double duration_s, std::pair<Axis, Axis> axes) {
         constexpr double past_mm = 0.01, past_rad = 2e-5;

@@ -36,7 +36,7 @@ struct HoleOrder {
     Vector3 axis = Vector3::UnitZ();
 };
 
-/// Goes to `place` and makes the hole of `order.row` there.
+/// Moves to `place` and makes the hole of `order.row` there.
 void make_hole(const HoleOrder& order, const offsets::ControlPosition& place, Modal& modal,
                const Frames& frames, Mover& mover);
 

@@ -59,8 +59,8 @@ Effect pivot_p1970x(const kinematics::Chain& chain);
 /// Harmonic sum of orders 1, 2, ... of an angle: values[2 (n - 1)] is the cosine, the next one the
 /// sine coefficient.
 double harmonic_sum(double angle_rad, std::span<const double> values);
-/// Parameters PREFIX cosN_UNIT and PREFIX sinN_UNIT, N = 1 .. `orders`, whose typical size falls
-/// as 1 / N; machines usually have the first `usual_orders`.
+/// Parameters PREFIX cosN_UNIT and PREFIX sinN_UNIT, N = 1 .. `orders`, with typical sizes
+/// proportional to 1 / N. Most machines show the first `usual_orders` only.
 struct Harmonics {
     std::string prefix, unit;
     int orders;
@@ -68,7 +68,7 @@ struct Harmonics {
     int usual_orders;
 };
 void append_harmonics(std::vector<EffectParameter>& list, const Harmonics& harmonics);
-/// 0 for an axis along X (or about it), 1 for Y, 2 for Z: the largest component of its direction.
+/// 0 for an axis along (or about) X, 1 for Y, 2 for Z: the largest component of its direction.
 int main_direction(const kinematics::AxisGeometry& axis);
 /// Values from `low` to `high` in geometric progression.
 std::vector<double> geometric_grid(double low, double high, int count);

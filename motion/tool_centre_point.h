@@ -50,13 +50,13 @@ class TipLine : public PathCurve {
     Vector3 start_W_, end_W_;
 };
 
-/// Ends and arc of a tip's way in W, mm.
+/// Start, end and arc of a tip path in W, mm.
 struct TipWay {
     Vector3 start_W, end_W;
     ArcPath arc_W;
 };
 
-/// The tip runs on an arc in W, rotaries linear in s.
+/// The tip moves on an arc in W, rotary axes linear in s.
 class TipArc : public PathCurve {
   public:
     TipArc(const ToolCentrePoint& tcp, const AxisPositions& from, const AxisPositions& to,

@@ -29,12 +29,12 @@ double speed_bound(const Way& way) {
     return 1.5 * most;
 }
 
-/// Places between which a falling function is zero, and its values: positive at a, not at b.
+/// An interval with a zero of a decreasing function: its value is positive at a, not at b.
 struct Bracket {
     double a, gap_a, b, gap_b;
 };
 
-/// The zero inside the bracket by Illinois steps, to `width`.
+/// Root of a decreasing function by the Illinois method, to `width`.
 template <class Gap>
 double root(const Gap& gap, const Bracket& bracket, double width) {
     auto [a, gap_a, b, gap_b] = bracket;

@@ -77,7 +77,7 @@ void AttributeComparer::close_window() {
         add(RegionKind::feed, w.a, w.b, {feed_a, feed_b}, length_mm);
 }
 
-/// The same change goes on: it is one difference, across rapids too.
+/// Continuation of the same change: one difference, also across rapids.
 bool AttributeComparer::continues(const PathRegion& r, RegionKind kind, Values values) const {
     if (r.kind != kind) return false;
     const bool same = apart(r.value_a, values.a) <= 1e-3 && apart(r.value_b, values.b) <= 1e-3;

@@ -21,7 +21,7 @@ struct SvgStyle {
     std::string dash;  ///< e.g. "4 3"
 };
 
-/// A text's `size` alone stands for the rest too.
+/// A size alone converts to a style with the default anchor and colour.
 struct TextStyle {
     TextStyle(double size_px = 12.0, std::string anchor_word = "start",
               std::string colour_word = "#222", double turned_deg = 0.0)
@@ -36,7 +36,7 @@ struct TextStyle {
     double turn_deg;
 };
 
-/// A drawing in pixels, y downwards, white ground.
+/// A drawing in pixels, y downwards, white background.
 class Svg {
   public:
     Svg(double width, double height);

@@ -10,12 +10,12 @@
 namespace trunnion::setup {
 
 void read_machine(const TomlFile& file, const TomlValue& machine, Setup& setup);
-/// What a key sets that is another name of an effect's parameter: backlash, pretravel.
+/// A parameter of an effect that a key of another name sets: backlash, pretravel.
 struct EffectKey {
     std::string effect, parameter;
     double value;
 };
-/// Refused at `place` when [effects] gives the effect too.
+/// Throws InputError at `place` when [effects] gives the effect, too.
 void add_effect_key(const TomlFile& file, const TomlValue& place, const EffectKey& key,
                     Setup& setup);
 void read_machine_errors(const TomlFile& file, const TomlValue& errors, Setup& setup);
