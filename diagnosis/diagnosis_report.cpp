@@ -125,7 +125,10 @@ std::vector<identification::FitParameter> zero_scatter_of(const Outcome& f) {
     for (std::size_t k = 0; k < f.model.members.size(); ++k) {
         const ColumnGroup& group = f.design.group(f.model.members[k]);
         if (group.kind != GroupKind::offset || f.judgement.large[k]) continue;
-        identification::FitParameter p{"setup", "scatter of the " + group.name, "mm"};
+        identification::FitParameter p;
+        p.effect = "setup";
+        p.name = "scatter of the " + group.name;
+        p.unit = "mm";
         p.value = usual_zero_mm * f.model.variances.tau[k];
         p.sigma =
             p.value / std::sqrt(2.0 * std::max<double>(1.0, static_cast<double>(group.columns())));
