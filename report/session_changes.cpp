@@ -84,12 +84,12 @@ std::string picture(const std::vector<const diagnosis::SessionChange*>& list) {
     svg.rectangle({at(-2.0), top}, at(2.0) - at(-2.0), bottom - top, {"none", 0.0, "#e8e8e8", ""});
     for (double tick = x.low; tick <= x.high + 0.01 * x.tick; tick += x.tick) {
         svg.line({at(tick), top}, {at(tick), bottom}, {"#dddddd", 1.0, "none", ""});
-        svg.text({at(tick), bottom + 16.0}, fmt::format("{:.4g}", tick), 11, "middle", "#555");
+        svg.text({at(tick), bottom + 16.0}, fmt::format("{:.4g}", tick), {11, "middle", "#555"});
     }
-    svg.text({left + 0.5 * width, bottom + 34.0}, "change over its sigma", 12, "middle", "#555");
+    svg.text({left + 0.5 * width, bottom + 34.0}, "change over its sigma", {12, "middle", "#555"});
     double y = top + 0.5 * line;
     for (const diagnosis::SessionChange* c : list) {
-        svg.text({left - 10.0, y + 4.0}, shop_change(*c).name, 12, "end");
+        svg.text({left - 10.0, y + 4.0}, shop_change(*c).name, {12, "end"});
         svg.mark({at(in_sigma(*c)), y}, c->claimed ? 1 : 0, c->claimed ? "#d55e00" : "#0072b2");
         y += line;
     }
