@@ -108,7 +108,7 @@ TEST_CASE("without a folder for temporary files programs are compared all the sa
 
 TEST_CASE("a killed run leaves nothing, one whose terminal went leaves what was done") {
     const Bench bench;
-    bench.write("l.nc", "O1\nG90 G21 G54\nN1 #100=#100+1\nG1 X[#100/1000] F500.\nGOTO 1\nM30\n");
+    bench.write("l.nc", "O1\nG90 G21 G54\nN1 #100=1-#100\nG1 X#100 F500.\nGOTO 1\nM30\n");
     bench.write("out.txt", "");
     bench.write("err.txt", "");
     const std::size_t before = bench.files();

@@ -119,7 +119,7 @@ TEST_CASE("--max-seconds ends the search of identify and diagnose with what is f
 
 TEST_CASE("Ctrl-C in compare ends the runs in order, and no golden is written of half a run") {
     const Bench bench;
-    const std::string loop = "O1\nG90 G21 G54\nN1 #100=#100+1\nG1 X[#100/1000] F500.\n";
+    const std::string loop = "O1\nG90 G21 G54\nN1 #100=1-#100\nG1 X#100 F500.\n";
     const std::string a = bench.write("a.nc", loop + "GOTO 1\nM30\n"),
                       b = bench.write("b.nc", loop + "X0\nGOTO 1\nM30\n");
     CHECK(bench.signalled("compare " + a + " " + b + " --max-blocks 0 --json", SIGINT, 1.0) == 4);
