@@ -166,7 +166,7 @@ TEST_CASE("a longer stylus and a longer cup are set-up parameters of their own",
                                            "ZX.squareness"};
     const identification::Identification exact =
         identification::identify(setup, campaign::measured(truth, table, 1, 0.0), effects);
-    const auto value = [&](const std::string& name) {
+    const auto value = [&](const std::string& name) -> double {
         for (const identification::FitParameter& p : exact.parameters)
             if (p.name == name) return p.value;
         FAIL(name);
