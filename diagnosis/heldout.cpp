@@ -69,9 +69,11 @@ LeftOut::LeftOut(Design& design, const Model& model, const Folds& folds,
         fold.out = all(fold.rows, Eigen::all);
         fold.data = design.data()(fold.rows);
         fold.gram = whole.gram;
+        fold.product = whole.product;
+        if (fold.rows.empty()) continue;  // fewer blocks than folds
         fold.gram.selfadjointView<Eigen::Lower>().rankUpdate(fold.out.transpose(), -1.0);
         fold.gram.triangularView<Eigen::StrictlyUpper>() = fold.gram.transpose();
-        fold.product = whole.product - fold.out.transpose() * fold.data;
+        fold.product -= fold.out.transpose() * fold.data;
     }
 }
 
