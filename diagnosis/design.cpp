@@ -1,5 +1,6 @@
 #include "diagnosis/design.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <numeric>
 
@@ -136,17 +137,34 @@ const Eigen::MatrixXd& Design::owned_inverse(Eigen::Index owned) const {
     return inverse_;
 }
 
+namespace {
+
+/// Projection on the directions that others leave of a group's columns: what rounding leaves of a
+/// column that others follow wholly is none. `left`, `alone`: grams beside the others and without.
+Eigen::MatrixXd own_directions(const Eigen::MatrixXd& left, const Eigen::MatrixXd& alone) {
+    constexpr double least_part = 1e-6;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(left);
+    const double least = least_part * alone.trace() / static_cast<double>(alone.rows());
+    const Eigen::VectorXd kept =
+        (solver.eigenvalues().array() > least).select(Eigen::VectorXd::Ones(left.rows()), 0.0);
+    return solver.eigenvectors() * kept.asDiagonal() * solver.eigenvectors().transpose();
+}
+
+}  // namespace
+
 std::size_t Design::add_beside(ColumnGroup group, Eigen::Index owned) {
     const auto list = first_features(owned);
     const Eigen::MatrixXd cross = gram_of(list, group.features);
     const Eigen::MatrixXd taken = owned_inverse(owned) * cross;
     Entry entry;
-    entry.gram = gram_of(group.features, group.features) - cross.transpose() * taken;
-    entry.product = product_of(group.features) - taken.transpose() * product_of(list);
-    entry.whole = entry.gram.trace();
-    const Eigen::Index own = group.columns();
-    group.shape.resize(owned + own, own);
-    group.shape << -taken, Eigen::MatrixXd::Identity(own, own);
+    const Eigen::MatrixXd alone = gram_of(group.features, group.features);
+    const Eigen::MatrixXd rest = own_directions(alone - cross.transpose() * taken, alone);
+    entry.gram = rest.transpose() * (alone - cross.transpose() * taken) * rest;
+    entry.product =
+        rest.transpose() * (product_of(group.features) - taken.transpose() * product_of(list));
+    entry.whole = alone.trace();
+    group.shape.resize(owned + group.columns(), group.columns());
+    group.shape << -taken * rest, rest;
     group.features.insert(group.features.begin(), list.begin(), list.end());
     entry.group = std::move(group);
     return append(std::move(entry));

@@ -73,7 +73,24 @@ Model refined_last(Design& design, const SearchSetting& setting, Model model) {
     return trial.score > model.score ? trial : model;
 }
 
-/// One step: tunes the best few offers and keeps the one with the best score.
+/// A member in another textbook form, where that is better by itself than a new member beside: what
+/// a form without all its terms leaves is no second cause.
+Model in_other_form(Design& design, const SearchSetting& setting, const Model& model, Model best) {
+    for (std::size_t position = 0; position < model.members.size(); ++position) {
+        const ColumnGroup& held = design.group(model.members[position]);
+        if (held.kind != GroupKind::textbook) continue;
+        for (std::size_t k = 0; k < design.groups().size(); ++k) {
+            if (in(model, k) || !same_cause(design.group(k), held)) continue;
+            Model trial = model;
+            trial.members[position] = k;
+            trial = tuned(design, setting, std::move(trial), 1);
+            if (trial.score > best.score + 1e-6) best = std::move(trial);
+        }
+    }
+    return best;
+}
+
+/// One step: the best few offers are tuned, the best score stays.
 bool grow(Design& design, const SearchSetting& setting, Model& model, bool with_zeros) {
     Model best = model;
     std::size_t count = 0;
@@ -86,8 +103,11 @@ bool grow(Design& design, const SearchSetting& setting, Model& model, bool with_
         Model trial = tuned(design, setting, with(model, offer), 1);
         if (trial.score > best.score + 1e-6) best = std::move(trial);
     }
-    if (best.members.size() == model.members.size()) return false;
-    model = tuned(design, setting, refined_last(design, setting, std::move(best)), 2);
+    if (count > 0) best = in_other_form(design, setting, model, std::move(best));
+    if (best.members == model.members) return false;
+    if (best.members.size() > model.members.size())
+        best = refined_last(design, setting, std::move(best));
+    model = tuned(design, setting, std::move(best), 2);
     return true;
 }
 

@@ -18,7 +18,9 @@ namespace {
 constexpr double absurd_mm = 5.0;  ///< limit of a plausible residual; beyond it units, frame or
                                    ///< setup are wrong
 constexpr double absurd_rms_mm = 0.5;
-constexpr double absurd_rad = 0.03;  ///< limit of a plausible location error
+constexpr double absurd_rad = 0.03;  ///< of a location error
+constexpr int most_passes = 20;
+constexpr double least_damping = 1e-4, most_damping = 1e8;  ///< of information in typical sizes
 
 using Slot = Unknowns::Slot;
 
@@ -44,21 +46,50 @@ double misfit(const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& weight,
     return sum;
 }
 
-/// Applies the step, or a fraction of it when the whole step makes the fit worse: along a weakly
-/// observable direction it may leave the range in which the derivatives are valid.
-void take_step(BaseModel& model, const emulator::Replay& replay, const std::vector<Slot>& slots,
-               const Eigen::VectorXd& weight, const Eigen::VectorXd& step) {
+Eigen::VectorXd typical_of(const std::vector<Slot>& slots) {
+    Eigen::VectorXd typical(static_cast<Eigen::Index>(slots.size()));
+    for (std::size_t j = 0; j < slots.size(); ++j)
+        typical(static_cast<Eigen::Index>(j)) = slots[j].fit.typical;
+    return typical;
+}
+
+/// What the readings say of a step, in typical sizes.
+struct Equations {
+    Eigen::MatrixXd information;
+    Eigen::VectorXd gradient, weight;
+};
+
+/// Takes a step (in the parameters' units) where all fits no worse behind it.
+bool taken(BaseModel& model, const emulator::Replay& replay, const std::vector<Slot>& slots,
+           const Eigen::VectorXd& weight, const Eigen::VectorXd& step) {
     const double before = misfit(model.residual_mm, weight, model.setup, slots);
-    for (double part = 1.0;; part *= 0.5) {
-        setup::Setup trial = model.setup;
-        apply_step(trial, slots, part * step);
-        Eigen::VectorXd left = residual(model, replay, trial);
-        const bool worse = misfit(left, weight, trial, slots) > 1.01 * before + 1.0;
-        if (worse && part > 0.01) continue;
-        model.setup = std::move(trial);
-        model.residual_mm = std::move(left);
-        return;
+    setup::Setup trial = model.setup;
+    apply_step(trial, slots, step);
+    Eigen::VectorXd left = residual(model, replay, trial);
+    if (misfit(left, weight, trial, slots) > before + 1e-6 * before + 1e-9) return false;
+    model.setup = std::move(trial);
+    model.residual_mm = std::move(left);
+    return true;
+}
+
+/// Levenberg-Marquardt: along a direction that is hardly seen a whole step may lead far beyond
+/// where derivatives hold, and such directions are damped first. `damping` goes on to the next
+/// step. Returns the step in typical sizes; none where no step helps.
+Eigen::VectorXd take_step(BaseModel& model, const emulator::Replay& replay,
+                          const std::vector<Slot>& slots, const Equations& e, double& damping) {
+    const Eigen::VectorXd typical = typical_of(slots);
+    Eigen::VectorXd step = estimation::solve_ranked(e.information, e.gradient).value;
+    for (; damping < most_damping; damping = std::max(least_damping, 10.0 * damping)) {
+        if (damping > 0.0) {
+            Eigen::MatrixXd damped = e.information;
+            damped.diagonal().array() += damping;
+            step = damped.ldlt().solve(e.gradient);
+        }
+        if (!taken(model, replay, slots, e.weight, typical.cwiseProduct(step))) continue;
+        damping = damping > least_damping ? 0.1 * damping : 0.0;
+        return step;
     }
+    return Eigen::VectorXd::Zero(step.size());
 }
 
 /// Weight of each row: 1 / sigma, reduced for outliers (Huber at 3 sigma of the median).
@@ -160,15 +191,8 @@ BaseModel start_model(const setup::Setup& setup, const records::ReadingTable& ta
     return model;
 }
 
-Eigen::VectorXd typical_of(const std::vector<Slot>& slots) {
-    Eigen::VectorXd typical(static_cast<Eigen::Index>(slots.size()));
-    for (std::size_t j = 0; j < slots.size(); ++j)
-        typical(static_cast<Eigen::Index>(j)) = slots[j].fit.typical;
-    return typical;
-}
-
-/// Adds the prior of a parameter as one further row of the normal equations; unknowns in units of
-/// `typical`.
+/// What is known of a parameter beforehand, as one further row of the normal equations; unknowns
+/// in units of `typical`.
 void add_prior(const FitParameter& prior, const setup::Setup& setup, Eigen::Index j,
                Eigen::MatrixXd& information, Eigen::VectorXd& gradient) {
     if (prior.prior_sigma <= 0.0) return;
@@ -177,22 +201,23 @@ void add_prior(const FitParameter& prior, const setup::Setup& setup, Eigen::Inde
     gradient(j) += pull * pull * (prior.prior_value - location_value(setup, prior)) / prior.typical;
 }
 
-/// Gauss-Newton with robust weights; changes the model's setup to the solution. Returns the fit of
-/// the last step, in units of `typical`.
+/// Robust weights; the model's setup moves to the solution. Returns the last step's fit, in typical
+/// sizes.
 estimation::LinearFit iterate(BaseModel& model, const emulator::Replay& replay,
-                              const std::vector<Slot>& slots, const Eigen::VectorXd& typical) {
+                              const std::vector<Slot>& slots) {
     estimation::LinearFit fit;
-    for (int pass = 0; pass < 8 && !slots.empty(); ++pass) {
+    double damping = 0.0;
+    for (int pass = 0; pass < most_passes && !slots.empty(); ++pass) {
         const Eigen::VectorXd weight = row_weights(model, model.residual_mm);
         const Eigen::MatrixXd a = weight.asDiagonal() * model.columns;
-        Eigen::MatrixXd information = a.transpose() * a;
-        Eigen::VectorXd gradient = a.transpose() * weight.cwiseProduct(model.residual_mm);
+        Equations e{a.transpose() * a, a.transpose() * weight.cwiseProduct(model.residual_mm),
+                    weight};
         for (std::size_t j = 0; j < slots.size(); ++j)
-            add_prior(slots[j].fit, model.setup, static_cast<Eigen::Index>(j), information,
-                      gradient);
-        fit = estimation::solve_ranked(information, gradient);
-        take_step(model, replay, slots, weight, typical.cwiseProduct(fit.value));
-        if (fit.value.cwiseAbs().maxCoeff() < 1e-7) break;
+            add_prior(slots[j].fit, model.setup, static_cast<Eigen::Index>(j), e.information,
+                      e.gradient);
+        fit = estimation::solve_ranked(e.information, e.gradient);
+        const Eigen::VectorXd step = take_step(model, replay, slots, e, damping);
+        if (step.cwiseAbs().maxCoeff() < 1e-7) break;
     }
     return fit;
 }
@@ -305,7 +330,7 @@ BaseModel fit_base(const setup::Setup& setup, const records::ReadingTable& table
     const auto& slots = unknowns.slots();
     model.columns = columns_of(slots, replay, model.gradient);
     const Eigen::VectorXd typical = typical_of(slots);
-    const estimation::LinearFit fit = iterate(model, replay, slots, typical);
+    const estimation::LinearFit fit = iterate(model, replay, slots);
     tell_absurd_residuals(model, replay, table);
     name_null_space(model, slots, fit);
     model.rank = static_cast<int>(typical.size()) - static_cast<int>(fit.null_space.size());
