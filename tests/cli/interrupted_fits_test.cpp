@@ -102,7 +102,7 @@ TEST_CASE("a second signal ends a fit at once, and nothing is half written") {
     CHECK(bench.read("out.txt").empty());
 }
 
-TEST_CASE("--max-seconds ends the search of identify and diagnose with what is found") {
+TEST_CASE("max-seconds ends the search of identify and diagnose with what is found") {
     const Bench bench;
     for (const std::string& words : {bench.identify(2000), bench.diagnose(2000)}) {
         INFO(words);

@@ -24,7 +24,7 @@ std::string endless(const CommandBench& bench) {
 
 }  // namespace
 
-TEST_CASE("--quiet: results and errors only") {
+TEST_CASE("quiet: results and errors only") {
     const CommandBench bench;
     CHECK(bench.trunnion("run " + part + " --print " + bench.file("p.txt")) == 0);
     CHECK_THAT(bench.read("err.txt"),
@@ -35,7 +35,7 @@ TEST_CASE("--quiet: results and errors only") {
     CHECK_THAT(bench.read("err.txt"), Catch::Contains("bad.nc:2:1: error: alarm 10"));
 }
 
-TEST_CASE("--verbose names the files read and the time") {
+TEST_CASE("verbose names the files read and the time") {
     const CommandBench bench;
     CHECK(bench.trunnion("run " + part + " --verbose") == 0);
     const std::string said = bench.read("err.txt");
