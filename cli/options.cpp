@@ -83,13 +83,6 @@ CLI::Option* writes_file(CLI::Option* option) {
     return option->type_name(written_type)->check(has_name);
 }
 
-std::vector<std::string> files_read(const CLI::App& command) {
-    std::vector<std::string> paths;
-    for (const NamedFile& file : files_named(command))
-        if (!file.written) paths.push_back(file.text);
-    return paths;
-}
-
 CLI::Option* not_negative(CLI::Option* option) {
     return option->check([](const std::string& text) {
         const auto value = parse_number(text);

@@ -22,7 +22,5 @@ CLI::Option* not_negative(CLI::Option* option);
 void check_numbers(CLI::App& app);
 /// Throws InputError when an output file of the given options is also an input or another output.
 void refuse_clashing_files(const CLI::App& app);
-/// The input files of the command line, in the order of the help, including folders and "-".
-std::vector<std::string> files_read(const CLI::App& command);
 
 }  // namespace trunnion::cli
