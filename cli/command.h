@@ -12,7 +12,7 @@ class App;
 
 namespace trunnion::cli {
 
-/// Set by the chosen command; returns the exit code of formats.md.
+/// Set by the chosen command; returns the exit code (docs/formats.md).
 using Run = std::function<int()>;
 
 /// Each command adds its subcommand and options to `app` and, when chosen, sets `run`.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <set>
 
+#include "effects/models.h"
+
 namespace trunnion::identification {
 namespace {
 
@@ -47,40 +49,42 @@ double cost(const BaseModel& with, const BaseModel& without) {
                          : 2.0 * chance_f;
 }
 
-double value_of(const BaseModel& model, const std::string& effect, const std::string& name) {
-    for (const FitParameter& p : model.parameters)
-        if (p.effect == effect && p.name == name) return p.value;
-    return 0.0;
+/// The effect's values in the fitted model, in the order of its parameters.
+std::vector<double> values_in(const BaseModel& model, const effects::Effect& effect) {
+    std::vector<double> values = effect.zeros();
+    for (std::size_t j = 0; j < values.size(); ++j)
+        for (const FitParameter& p : model.parameters)
+            if (p.effect == effect.name && p.name == effect.parameters[j].name) values[j] = p.value;
+    return values;
 }
 
-/// Slope (ppm) of the best straight line through the curve at the positions read.
-std::string straight_line(const FitInputs& in, const BaseModel& model, const std::string& effect) {
-    const std::string name = effect.substr(0, effect.find('.'));
-    const auto axis = in.setup.machine.chain.names().find(name);
-    if (!axis || !effect.ends_with(".scale")) return "";
-    std::set<double> places;
+/// The best straight line (ppm) through a scale that bends, at the positions read; empty for other
+/// effects.
+std::string straight_line(const FitInputs& in, const BaseModel& model,
+                          const effects::Effect& effect) {
+    const auto& chain = in.setup.machine.chain;
+    const auto axis = chain.names().find(effect.name.substr(0, effect.name.find('.')));
+    if (!axis || effect.name != effects::effect_name(*chain.find(*axis), ".scale")) return "";
+    std::set<double> places_mm;
     for (std::size_t i = 0; i < in.replay.size(); ++i)
-        places.insert(in.replay.sample(i).position[*axis]);
-    const double scale = 1e-6 * value_of(model, effect, "scale_ppm"),
-                 bow2 = value_of(model, effect, "bow2_mm"),
-                 bow3 = value_of(model, effect, "bow3_mm");
-    double mean = 0.0, error_mean = 0.0, way = 0.0, sum = 0.0;
-    const auto error_mm = [&](double q) {
-        const double u = q / 200.0;
-        return scale * q + bow2 * u * u + bow3 * u * u * u;
+        places_mm.insert(in.replay.sample(i).position[*axis]);
+    const std::vector<double> values = values_in(model, effect);
+    const auto error_mm = [&](double position_mm) {
+        AxisSample sample;
+        sample.position[*axis] = position_mm;
+        kinematics::Perturbation change;
+        effect.add(sample, {}, values, change);
+        return change.axis[*axis];
     };
-    const auto n = static_cast<double>(places.size());
-    for (const double q : places) {
-        mean += q / n;
-        error_mean += error_mm(q) / n;
+    double mean_mm = 0.0, square = 0.0, product = 0.0;
+    for (const double q : places_mm) mean_mm += q / static_cast<double>(places_mm.size());
+    for (const double q : places_mm) {
+        square += (q - mean_mm) * (q - mean_mm);
+        product += (q - mean_mm) * error_mm(q);
     }
-    for (const double q : places) {
-        way += (q - mean) * (q - mean);
-        sum += (q - mean) * (error_mm(q) - error_mean);
-    }
-    if (way <= 0.0) return "";
+    if (square <= 0.0) return "";
     return fmt::format("; as one straight line over {:.4g} to {:.4g} mm it is {:.4g} ppm",
-                       *places.begin(), *places.rbegin(), 1e6 * sum / way);
+                       *places_mm.begin(), *places_mm.rbegin(), 1e6 * product / square);
 }
 
 }  // namespace
@@ -106,7 +110,8 @@ BaseModel fit_needed_terms(const FitInputs& in, effects::Catalogue& catalogue,
         notes.push_back(name + ": the readings do not show that it bends; its higher terms are 0");
     }
     for (const std::string& name : bent)
-        if (std::string line = straight_line(in, model, name); !line.empty())
+        if (std::string line = straight_line(in, model, *effects::find_effect(catalogue, name));
+            !line.empty())
             notes.push_back(name + " bends" + line);
     return model;
 }

@@ -52,18 +52,22 @@ class Table(dict):
         return pandas.DataFrame(dict(self))
 
 
-class Readings:
-    """A table of readings, simulated and real alike (docs/readings.md)."""
-
-    def __init__(self, files, setup):
-        """One CSV file or several, joined in this order, taken on the machine of `setup`."""
-        self._native = _native.load_readings(_paths(files), setup._native)
+class _Wrapped:
+    """A value that lives in the compiled half."""
 
     @classmethod
     def _of(cls, native):
         made = cls.__new__(cls)
         made._native = native
         return made
+
+
+class Readings(_Wrapped):
+    """A table of readings, simulated and real alike (docs/readings.md)."""
+
+    def __init__(self, files, setup):
+        """One CSV file or several, joined in this order, taken on the machine of `setup`."""
+        self._native = _native.load_readings(_paths(files), setup._native)
 
     @classmethod
     def parse(cls, text, setup, path="readings.csv"):
@@ -202,19 +206,13 @@ class Diagnosis(_Found):
         return self._native.after_um
 
 
-class Setup:
+class Setup(_Wrapped):
     """Control, machine, devices and artefacts as one value (docs/setup_file.md). Methods that
     change something return another Setup."""
 
     def __init__(self, path=""):
         """From a file; without one machines/bc_table.toml."""
         self._native = _native.load_setup(_os.fspath(path))
-
-    @classmethod
-    def _of(cls, native):
-        made = cls.__new__(cls)
-        made._native = native
-        return made
 
     @classmethod
     def parse(cls, text, path="setup.toml"):
