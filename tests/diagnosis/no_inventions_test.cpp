@@ -176,17 +176,24 @@ void print(const char* what, const std::vector<std::string>& list) {
     for (const std::string& line : list) std::cout << what << ": " << line << '\n';
 }
 
-/// Every effect on every program of a machine; TRUNNION_INVENTIONS names the programs to be tried.
+/// True when the environment variable is not set or is a part of the name.
+bool wanted(const char* variable, const std::string& name) {
+    const char* only = std::getenv(variable);
+    return !only || name.find(only) != std::string::npos;
+}
+
+/// Every effect on every program of a machine; TRUNNION_INVENTIONS names the programs to be tried,
+/// TRUNNION_EFFECT the effects.
 Tally tally_of(const measured::Shipped& machine) {
-    const char* only = std::getenv("TRUNNION_INVENTIONS");
     const setup::Setup setup = shipped_setup(machine);
     Tally tally;
     for (const measured::Program& program : measured::programs_of(machine, setup)) {
-        if (only && program.name.find(only) == std::string::npos) continue;
+        if (!wanted("TRUNNION_INVENTIONS", program.name)) continue;
         const Bench bench(machine, setup, program);
         Tally own;
         for (const effects::Effect& effect : bench.catalogue)
-            if (effect.name != "location") try_effect(bench, effect, own);
+            if (effect.name != "location" && wanted("TRUNNION_EFFECT", effect.name))
+                try_effect(bench, effect, own);
         std::cout << bench.name << ": " << own.tried << " effects, not first "
                   << own.not_first.size() << ", others claimed " << own.invented.size()
                   << ", gaps of itself " << own.gap_of_itself.size() << '\n';
@@ -206,9 +213,8 @@ Tally tally_of(const measured::Shipped& machine) {
 TEST_CASE("one effect at five sigma on every measuring program is named alone",
           "[.assure][inventions]") {
     const std::size_t machine = GENERATE(0, 1, 2, 3, 4);
-    const char* only = std::getenv("TRUNNION_MACHINE");
     const measured::Shipped& shipped = measured::shipped_machines()[machine];
-    if (only && std::string(only) != shipped.file) return;
+    if (!wanted("TRUNNION_MACHINE", shipped.file)) return;
     const Tally tally = tally_of(shipped);
     CHECK(tally.not_first.empty());
     CHECK(tally.invented.empty());

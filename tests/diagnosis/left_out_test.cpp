@@ -1,0 +1,64 @@
+// Left-out residuals against plain fits without the rows.
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <catch2/catch.hpp>
+
+#include "base/random.h"
+#include "diagnosis/heldout.h"
+
+namespace trunnion {
+namespace {
+
+Eigen::MatrixXd random_matrix(SeededNoise& random, Eigen::Index rows, Eigen::Index columns) {
+    Eigen::MatrixXd m(rows, columns);
+    for (Eigen::Index c = 0; c < columns; ++c)
+        for (Eigen::Index r = 0; r < rows; ++r) m(r, c) = random.normal();
+    return m;
+}
+
+/// `blocks` groups of equal size, one after the other.
+diagnosis::Folds folds_of(int rows, int blocks) {
+    diagnosis::Folds folds;
+    for (int i = 0; i < rows; ++i) folds.group.push_back(i * blocks / rows);
+    for (int b = 0; b < blocks; ++b) folds.fold.push_back(b % diagnosis::Folds::count);
+    return folds;
+}
+
+}  // namespace
+
+// With fewer blocks than folds a fold has no rows. Eigen (3.4) divides by their number as soon as a
+// product has 48 columns: SIGFPE.
+TEST_CASE("left-out residuals are those of fits without the rows, in few blocks and in many",
+          "[diagnosis]") {
+    SeededNoise random(3);
+    constexpr int rows = 120, columns = 60;
+    const Eigen::MatrixXd known = random_matrix(random, rows, columns);
+    const Eigen::VectorXd data = random_matrix(random, rows, 1);
+    for (const int blocks : {2, 4, 5, 24}) {
+        INFO(blocks << " blocks");
+        const diagnosis::Folds folds = folds_of(rows, blocks);
+        diagnosis::Design design(known, data, rows);
+        const diagnosis::LeftOut left(design, {}, folds, std::vector<bool>(rows, true));
+        const Eigen::VectorXd residual = left.residual({}, {});
+        for (int fold = 0; fold < diagnosis::Folds::count; ++fold) {
+            std::vector<Eigen::Index> out, in;
+            for (int i = 0; i < rows; ++i)
+                (folds.fold[static_cast<std::size_t>(folds.group[static_cast<std::size_t>(i)])] ==
+                         fold
+                     ? out
+                     : in)
+                    .push_back(i);
+            if (out.empty()) continue;
+            // A weak prior is one more reading of zero for each column: sigma 20.
+            Eigen::MatrixXd all(static_cast<Eigen::Index>(in.size()) + columns, columns);
+            all << known(in, Eigen::all), Eigen::MatrixXd::Identity(columns, columns) / 20.0;
+            Eigen::VectorXd read = Eigen::VectorXd::Zero(all.rows());
+            read.head(static_cast<Eigen::Index>(in.size())) = data(in);
+            const Eigen::VectorXd x = all.colPivHouseholderQr().solve(read);
+            const Eigen::VectorXd expected = data(out) - known(out, Eigen::all) * x;
+            CHECK((residual(out) - expected).norm() < 1e-9 * expected.norm());
+        }
+    }
+}
+
+}  // namespace trunnion
