@@ -8,12 +8,24 @@
 
 namespace trunnion::inline base {
 
+namespace {
+
+/// A number as text, without memory of its own.
+struct ShortText {
+    explicit ShortText(double value)
+        : size(static_cast<std::size_t>(
+              std::to_chars(text.data(), text.data() + text.size(), value).ptr - text.data())) {}
+    explicit operator std::string() const { return {text.data(), size}; }
+
+    std::array<char, 32> text;
+    std::size_t size;
+};
+
+}  // namespace
+
 std::string shortest(Finite number) {
     const double value = number;
-    if (value == 0.0) return "0";
-    std::array<char, 32> text;
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-    return {text.data(), end};
+    return value == 0.0 ? "0" : std::string(ShortText(value));
 }
 
 std::string shortest_degrees(Finite angle_rad) {
@@ -21,18 +33,19 @@ std::string shortest_degrees(Finite angle_rad) {
     // Most angles were typed with few decimals; then the rounded number is the one typed.
     const double typed = std::round(middle * 1e6) / 1e6;
     if (rad_from_deg(typed) == angle_rad) return shortest(typed);
-    std::string best;
+    std::optional<ShortText> best;
+    const auto look_at = [&](double candidate) {
+        if (rad_from_deg(candidate) != angle_rad) return;
+        const ShortText text(candidate);
+        if (!best || text.size < best->size) best = text;
+    };
+    look_at(middle);
     double below = middle, above = middle;
-    for (int ulp = 0; ulp < 4; ++ulp) {
-        for (const double candidate : {below, above}) {
-            if (rad_from_deg(candidate) != angle_rad) continue;
-            const std::string text = shortest(candidate);
-            if (best.empty() || text.size() < best.size()) best = text;
-        }
-        below = std::nextafter(below, -INFINITY);
-        above = std::nextafter(above, INFINITY);
+    for (int ulp = 1; ulp < 4; ++ulp) {
+        look_at(below = std::nextafter(below, -INFINITY));
+        look_at(above = std::nextafter(above, INFINITY));
     }
-    return best.empty() ? shortest(middle) : best;
+    return best ? std::string(*best) : shortest(middle);
 }
 
 std::optional<double> parse_number(std::string_view text) {

@@ -1,13 +1,34 @@
 #include "interpreter/word_rules.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 
 namespace trunnion::interpreter {
 
 namespace {
 
+/// A value that violates the rule raises PS0007 (not an integer), PS0006 (negative),
+/// `out_of_range`, or `missing` when the word is absent.
+struct WordRule {
+    char code_letter;     ///< G or M; 0: every block that passes no arguments
+    int code10;           ///< of that code, times 10
+    char letter;          ///< the word
+    bool whole = true;    ///< must be an integer
+    bool no_sign = true;  ///< must not be negative
+    double most = 99999999.0;
+    double least = 0.0;
+    int out_of_range = 3;  ///< alarm
+    int missing = 0;       ///< alarm; 0: the word may be absent
+};
+
 constexpr double any = 99999999.0;
+
+/// Stands for all canned cycles, which have their rules in common.
+constexpr int canned_cycle = 730;
 
 constexpr WordRule rows[] = {
     {0, 0, 'T'},
@@ -42,41 +63,111 @@ constexpr WordRule rows[] = {
     {'M', 1980, 'L'},
     {'M', 990, 'P', true, true, 999999999.0},
     {'M', 990, 'L'},
+    {'G', canned_cycle, 'P'},
+    {'G', canned_cycle, 'K'},
+    {'G', canned_cycle, 'L'},
 };
-
-/// Common rules of the canned cycles.
-constexpr WordRule cycle_rows[] = {{'G', 730, 'P'}, {'G', 730, 'K'}, {'G', 730, 'L'}};
 
 int code10_of(const WordValue& word) {
     const double tenfold = word.value * 10.0;
     return tenfold >= 0.0 && tenfold < 1e6 ? static_cast<int>(tenfold + 0.5) : -1;
 }
 
-bool is_fanuc_alone(const WordRule& rule) {
-    return rule.letter == 'P' && (rule.code10 == 40 || rule.code10 == 682 || rule.code10 == 730);
+/// A set of rows, one bit each: which rules count for a block is found without a walk over them.
+using RowSet = std::uint64_t;
+static_assert(std::size(rows) <= 64);
+
+constexpr RowSet bit_of(std::size_t row) {
+    return RowSet{1} << row;
 }
 
-/// The codes of a block; there are few, so a linear scan is fast.
-class Codes {
-  public:
-    explicit Codes(const BlockWords& block) : block_(block) {
-        for (const WordValue& w : block)
-            if (w.letter == 'G' && !w.vacant) {
-                const int code = code10_of(w);
-                calls = calls || code == 650 || code == 660 || code == 661;
-                cycles = cycles || (code >= 730 && code <= 890 && code != 800 && code % 10 == 0);
-            }
-    }
-    bool has(const WordRule& rule) const {
-        return std::any_of(block_.begin(), block_.end(), [&](const WordValue& w) {
-            return w.letter == rule.code_letter && !w.vacant && code10_of(w) == rule.code10;
-        });
-    }
-    bool calls = false, cycles = false;
+template <typename Condition>
+constexpr RowSet rows_where(Condition condition) {
+    RowSet set = 0;
+    for (std::size_t i = 0; i < std::size(rows); ++i)
+        if (condition(rows[i])) set |= bit_of(i);
+    return set;
+}
 
-  private:
-    const BlockWords& block_;
+constexpr bool is_call(char letter, int code10) {
+    return letter == 'G' && (code10 == 650 || code10 == 660 || code10 == 661);
+}
+
+constexpr RowSet of_every_block = rows_where([](const WordRule& r) { return r.code_letter == 0; });
+constexpr RowSet of_calls =
+    rows_where([](const WordRule& r) { return is_call(r.code_letter, r.code10); });
+constexpr RowSet of_cycles = rows_where([](const WordRule& r) { return r.code10 == canned_cycle; });
+constexpr RowSet with_required_word = rows_where([](const WordRule& r) { return r.missing != 0; });
+constexpr RowSet of_fanuc_alone = rows_where([](const WordRule& r) {
+    return r.letter == 'P' && (r.code10 == 40 || r.code10 == 682 || r.code10 == canned_cycle);
+});
+
+/// The rows of each letter of a word, from A.
+constexpr auto rows_of_letter = [] {
+    std::array<RowSet, 26> sets{};
+    for (std::size_t i = 0; i < sets.size(); ++i)
+        sets[i] =
+            rows_where([&](const WordRule& r) { return r.letter == 'A' + static_cast<int>(i); });
+    return sets;
+}();
+
+struct CodeRows {
+    int key = 0;
+    RowSet set = 0;
 };
+
+constexpr int key_of(char letter, int code10) {
+    return 2 * code10 + (letter == 'M' ? 1 : 0);
+}
+
+/// The rows of each code, in the order of the keys.
+constexpr auto rows_of_codes = [] {
+    std::array<CodeRows, std::size(rows)> sets{};
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+        const int key = key_of(rows[i].code_letter, rows[i].code10);
+        sets[i] = {key, rows_where([&](const WordRule& r) {
+                       return key_of(r.code_letter, r.code10) == key;
+                   })};
+    }
+    std::sort(sets.begin(), sets.end(),
+              [](const CodeRows& a, const CodeRows& b) { return a.key < b.key; });
+    return sets;
+}();
+
+RowSet rows_of_code(char letter, int code10) {
+    const int key = key_of(letter, code10);
+    const auto at = std::lower_bound(rows_of_codes.begin(), rows_of_codes.end(), key,
+                                     [](const CodeRows& c, int k) { return c.key < k; });
+    return at != rows_of_codes.end() && at->key == key ? at->set : 0;
+}
+
+bool is_canned_cycle(int code10) {
+    return code10 >= 730 && code10 <= 890 && code10 != 800 && code10 % 10 == 0;
+}
+
+/// Rows whose code and word (unless it is required) stand in the block.
+struct Applicable {
+    RowSet set = 0;
+    bool calls = false;
+};
+
+Applicable applicable_rows(const BlockWords& block, bool hurco) {
+    RowSet of_codes = of_every_block, of_words = with_required_word;
+    bool calls = false;
+    for (const WordValue& word : block) {
+        if (word.vacant) continue;
+        if (word.letter >= 'A' && word.letter <= 'Z')
+            of_words |= rows_of_letter[static_cast<std::size_t>(word.letter - 'A')];
+        if (word.letter != 'G' && word.letter != 'M') continue;
+        const int code10 = code10_of(word);
+        calls = calls || is_call(word.letter, code10);
+        const bool cycle = word.letter == 'G' && is_canned_cycle(code10);
+        of_codes |= rows_of_code(word.letter, cycle ? canned_cycle : code10);
+    }
+    if (calls) of_codes &= of_calls;
+    if (hurco) of_codes &= ~of_fanuc_alone;
+    return {of_codes & of_words, calls};
+}
 
 std::string range_text(const WordRule& rule) {
     if (rule.out_of_range == 3) return {};
@@ -111,34 +202,21 @@ std::optional<WordFault> apply(const WordRule& rule, const BlockWords& block, bo
 
 }  // namespace
 
-std::span<const WordRule> word_rules() {
-    return rows;
-}
-
 std::optional<WordFault> find_m_fault(const WordValue& m_word) {
     return fault_of({0, 0, 'M'}, m_word);
 }
 
 std::optional<WordFault> find_word_fault(const BlockWords& block, DialectFamily family,
                                          bool all_known) {
-    const bool hurco = family == DialectFamily::hurco;
-    const Codes codes(block);
-    for (const WordRule& rule : rows) {
-        const bool of_call = rule.code_letter == 'G' && rule.code10 >= 650 && rule.code10 <= 661;
-        if (codes.calls && !of_call) continue;
-        if (rule.code_letter != 0 && !codes.has(rule)) continue;
-        if (hurco && is_fanuc_alone(rule)) continue;
-        if (const auto fault = apply(rule, block, all_known)) return fault;
-    }
-    if (!codes.calls)
+    const auto [set, calls] = applicable_rows(block, family == DialectFamily::hurco);
+    for (RowSet left = set & ~of_cycles; left != 0; left &= left - 1)
+        if (auto fault = apply(rows[std::countr_zero(left)], block, all_known)) return fault;
+    if (!calls)
         for (const WordValue& word : block)
             if (word.letter == 'M' && !word.vacant)
-                if (const auto fault = find_m_fault(word)) return fault;
-    if (codes.cycles && !codes.calls)
-        for (const WordRule& rule : cycle_rows) {
-            if (hurco && is_fanuc_alone(rule)) continue;
-            if (const auto fault = apply(rule, block, all_known)) return fault;
-        }
+                if (auto fault = find_m_fault(word)) return fault;
+    for (RowSet left = set & of_cycles; left != 0; left &= left - 1)
+        if (auto fault = apply(rows[std::countr_zero(left)], block, all_known)) return fault;
     return std::nullopt;
 }
 

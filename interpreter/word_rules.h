@@ -2,28 +2,12 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 
 #include "interpreter/block_words.h"
 #include "interpreter/dialect.h"
 
 namespace trunnion::interpreter {
-
-/// A value that violates the rule raises PS0007 (not an integer), PS0006 (negative),
-/// `out_of_range`, or `missing` when the word is absent.
-struct WordRule {
-    char code_letter;     ///< G or M; 0: every block that passes no arguments
-    int code10;           ///< of that code, times 10
-    char letter;          ///< the word
-    bool whole = true;    ///< must be an integer
-    bool no_sign = true;  ///< must not be negative
-    double most = 99999999.0;
-    double least = 0.0;
-    int out_of_range = 3;  ///< alarm
-    int missing = 0;       ///< alarm; 0: the word may be absent
-};
-std::span<const WordRule> word_rules();
 
 struct WordFault {
     int alarm = 0;

@@ -1,8 +1,10 @@
 #include "records/samples.h"
 
 #include <Eigen/Cholesky>
+#include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace trunnion::records {
 namespace {
@@ -43,10 +45,9 @@ class Pass {
             if (k > 0) path_mm += arc_mm(k);
             sample.path_mm = path_mm;
             if (!is_continuous(row(k).device)) continue;
-            for (const Axis axis : axes) {
-                fill_velocity(k, axis, sample);
-                sample.acceleration[axis] = acceleration(k, axis);
-            }
+            const Neighbours around = neighbours(k);
+            for (const Axis axis : axes) fill_velocity(k, around, axis, sample);
+            fill_acceleration(k, axes, sample);
             take_told(row(k), sample);
         }
     }
@@ -55,55 +56,64 @@ class Pass {
     const Reading& row(std::size_t k) const { return all_[rows_[k]]; }
     double q(std::size_t k, Axis axis) const { return row(k).commanded[axis]; }
 
+    struct Neighbours {
+        std::size_t before, after;
+    };
+
     /// The nearest rows before and after row k at other times: a servo log has one row for each
     /// axis.
-    std::pair<std::size_t, std::size_t> neighbours(std::size_t k) const {
+    Neighbours neighbours(std::size_t k) const {
         std::size_t before = k, after = k;
         while (before > 0 && row(before).time_s == row(k).time_s) --before;
         while (after + 1 < rows_.size() && row(after).time_s == row(k).time_s) ++after;
         return {before, after};
     }
 
-    void fill_velocity(std::size_t k, Axis axis, AxisSample& sample) const {
-        const auto [before, after] = neighbours(k);
-        const double time_s = row(after).time_s - row(before).time_s;
-        const double moved = q(after, axis) - q(before, axis);
+    void fill_velocity(std::size_t k, const Neighbours& around, Axis axis,
+                       AxisSample& sample) const {
+        const double time_s = row(around.after).time_s - row(around.before).time_s;
+        const double moved = q(around.after, axis) - q(around.before, axis);
         const double rounding = names_.is_rotary(axis) ? rows_rounding.rad : rows_rounding.mm;
         const signed char sign =
             time_s > 0.0 ? sign_of(moved, rounding) : static_cast<signed char>(0);
-        const bool moves = sign_of(q(after, axis) - q(k, axis), rounding) != 0;
+        const bool moves = sign_of(q(around.after, axis) - q(k, axis), rounding) != 0;
         if (sign != 0 || moves) sample.travel[index_of(axis)] = sign;
         if (sign != 0) sample.velocity[axis] = moved / time_s;
     }
 
-    /// Up to five rows at different times around row k, including k.
-    std::vector<std::size_t> moments(std::size_t k) const {
-        std::vector<std::size_t> list{k};
+    using Moments = std::array<std::size_t, 5>;
+
+    /// Five rows at different times around row k, row k first; empty when the test has fewer.
+    std::optional<Moments> moments(std::size_t k) const {
+        Moments list{k};
         std::size_t first = k, last = k;
-        for (int side = 0; list.size() < 5; ++side) {
-            const std::size_t before = neighbours(first).first, after = neighbours(last).second;
-            if (before == first && after == last) break;
-            const bool back = (side % 2 == 0 && before != first) || after == last;
-            list.push_back(back ? (first = before) : (last = after));
+        for (std::size_t i = 1; i < list.size(); ++i) {
+            const std::size_t before = neighbours(first).before, after = neighbours(last).after;
+            if (before == first && after == last) return std::nullopt;
+            const bool back = (i % 2 == 1 && before != first) || after == last;
+            list[i] = back ? (first = before) : (last = after);
         }
         return list;
     }
 
-    /// Second derivative at row k from a parabola through the neighbouring rows.
-    double acceleration(std::size_t k, Axis axis) const {
-        const std::vector<std::size_t> around = moments(k);
-        if (around.size() < 5) return 0.0;
+    /// Second derivatives at row k from parabolas through the neighbouring rows.
+    void fill_acceleration(std::size_t k, const std::vector<Axis>& axes, AxisSample& sample) const {
+        const std::optional<Moments> around = moments(k);
+        if (!around) return;
         Eigen::Matrix<double, 5, 3> a;
-        Eigen::Matrix<double, 5, 1> moved;
-        for (std::size_t j = 0; j < 5; ++j) {
-            const double t = row(around[j]).time_s - row(k).time_s;
+        for (std::size_t j = 0; j < around->size(); ++j) {
+            const double t = row((*around)[j]).time_s - row(k).time_s;
             a.row(static_cast<Eigen::Index>(j)) << 1.0, t, 0.5 * t * t;
-            moved(static_cast<Eigen::Index>(j)) = q(around[j], axis) - q(k, axis);
         }
-        if (moved.isZero(0.0)) return 0.0;
-        const Eigen::Matrix3d normal = a.transpose() * a;
-        const Vector3 fit = normal.ldlt().solve(a.transpose() * moved);
-        return std::isfinite(fit(2)) ? fit(2) : 0.0;
+        const Eigen::LDLT<Eigen::Matrix3d> normal(a.transpose() * a);
+        for (const Axis axis : axes) {
+            Eigen::Matrix<double, 5, 1> moved;
+            for (std::size_t j = 0; j < around->size(); ++j)
+                moved(static_cast<Eigen::Index>(j)) = q((*around)[j], axis) - q(k, axis);
+            if (moved.isZero(0.0)) continue;
+            const Vector3 fit = normal.solve(a.transpose() * moved);
+            if (std::isfinite(fit(2))) sample.acceleration[axis] = fit(2);
+        }
     }
 
     /// Commanded motion given in the row itself replaces differences.
@@ -171,6 +181,7 @@ class Walk {
     Walk(std::span<const Reading> rows, TravelHistory history) : rows_(rows), history_(history) {}
 
     std::vector<AxisSample> samples() {
+        samples_.reserve(rows_.size());
         for (std::size_t k = 0; k < rows_.size(); ++k) step(k);
         return std::move(samples_);
     }
@@ -224,6 +235,17 @@ AxisSides sides_before(const ReadingTable& table, std::size_t begin) {
     return first && known != table.part_sides.end() ? known->second : AxisSides{};
 }
 
+std::map<std::string, Rows> rows_of_tests(std::span<const Reading> rows) {
+    std::map<std::string, Rows> tests;
+    auto last = tests.end();
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        if (last == tests.end() || last->first != rows[k].test)
+            last = tests.try_emplace(rows[k].test).first;
+        last->second.push_back(k);
+    }
+    return tests;
+}
+
 }  // namespace
 
 bool is_continuous(Device device) {
@@ -240,9 +262,8 @@ std::vector<AxisSample> samples_of(std::span<const Reading> rows, const std::vec
     for (AxisSample& sample : samples)
         for (const Axis axis : axes)
             sample.side_unknown[index_of(axis)] = sample.travel[index_of(axis)] == 0;
-    std::map<std::string, Rows> tests;
-    for (std::size_t k = 0; k < rows.size(); ++k) tests[rows[k].test].push_back(k);
-    for (const auto& [test, list] : tests) Pass(rows, list, names).fill(axes, samples);
+    for (const auto& [test, list] : rows_of_tests(rows))
+        Pass(rows, list, names).fill(axes, samples);
     for (std::size_t k = 0; k < rows.size(); ++k)
         for (const Axis axis : axes)
             if (samples[k].velocity[axis] != 0.0) samples[k].side_unknown[index_of(axis)] = false;

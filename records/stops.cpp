@@ -1,6 +1,7 @@
 #include "records/stops.h"
 
 #include <cmath>
+#include <utility>
 
 #include "records/travel.h"
 
@@ -21,6 +22,7 @@ int direction(const AxisPositions& from, const AxisPositions& to, std::size_t ax
 /// True when a -> c gives the same last direction of every axis as a -> b -> c.
 bool passes_through(const AxisPositions& a, const AxisPositions& b, const AxisPositions& c) {
     for (std::size_t i = 0; i < axis_count; ++i) {
+        if (a.value[i] == b.value[i] && b.value[i] == c.value[i]) continue;  // most axes of a move
         const int last = direction(b, c, i);
         if (direction(a, c, i) != (last != 0 ? last : direction(a, b, i))) return false;
     }
@@ -40,8 +42,10 @@ void Stops::pass(const Reading& at, const AxisPositions* last) {
     if (n > 0 && same_place(stops_.back().commanded, at.commanded)) return;
     if (n == 0 && last && same_place(*last, at.commanded)) return;
     if (n >= 2 && stops_[n - 2].test == at.test &&
-        passes_through(stops_[n - 2].commanded, stops_[n - 1].commanded, at.commanded))
-        stops_.pop_back();
+        passes_through(stops_[n - 2].commanded, stops_[n - 1].commanded, at.commanded)) {
+        stops_.back() = at;
+        return;
+    }
     stops_.push_back(at);
     if (stops_.size() > kept_stops) prune();
 }
