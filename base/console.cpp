@@ -6,9 +6,12 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <optional>
+#include <string>
 
 #include "base/alarm.h"
 #include "base/file_handle.h"
+#include "base/screen.h"
 
 namespace trunnion::inline base {
 namespace {
@@ -30,6 +33,9 @@ void occupy(int descriptor, int flags) {
 }  // namespace
 
 void write_out(std::string_view text) {
+    static const std::optional<Screen> screen = screen_of(STDOUT_FILENO);
+    const std::string shown = screen ? for_screen(text, *screen) : std::string();
+    if (screen) text = shown;
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) refuse_out();
 }
 
@@ -38,7 +44,8 @@ void finish_out() {
 }
 
 void write_error(std::string_view text) noexcept {
-    write_all(STDERR_FILENO, text);
+    static const std::optional<Screen> screen = screen_of(STDERR_FILENO);
+    write_all(STDERR_FILENO, screen ? for_screen(text, *screen) : text);
 }
 
 void prepare_streams() {

@@ -6,6 +6,7 @@
 #include "base/alarm.h"
 #include "base/console.h"
 #include "base/output_files.h"
+#include "base/rounded.h"
 #include "base/units.h"
 #include "cli/budget_options.h"
 #include "cli/command.h"
@@ -43,8 +44,9 @@ int report_alarm(const Alarm& alarm) {
 
 void print_direction(const char* where, double before_rad, double after_rad) {
     if (before_rad <= 0.0 && after_rad <= 0.0) return;
-    print_error("direction of the tool {}: {:.3f} urad before, {:.3f} urad after\n", where,
-                1e6 * before_rad, 1e6 * after_rad);
+    print_error("tool direction {}: {} µrad before, {} µrad after\n", where,
+                three_digits(urad_from_rad(before_rad), 3),
+                three_digits(urad_from_rad(after_rad), 3));
 }
 
 int run_command(const Options& o) {
@@ -70,13 +72,15 @@ int run_command(const Options& o) {
                                              *o.command, o.page));
     if (o.json) files.add("-", report::compensation_json(c, ReadRecord::files()));
     files.write();
-    print_error("{} blocks; largest tip error at a block's end {:.3f} um before, {:.3f} um after\n",
-                c.blocks.size(), um_from_mm(c.before.tip_mm), um_from_mm(c.after.tip_mm));
+    print_error("{} blocks; largest tip error at a block's end {} before, {} after\n",
+                c.blocks.size(), length_words(um_from_mm(c.before.tip_mm)),
+                length_words(um_from_mm(c.after.tip_mm)));
     if (c.in_gap.tip_mm > 0.0)
         print_error(
-            "where an axis turns round, until it has crossed its gap: tip {:.3f} um, direction "
-            "{:.3f} urad\n",
-            um_from_mm(c.in_gap.tip_mm), 1e6 * c.in_gap.turned_rad);
+            "where an axis turns round, until it has crossed its gap: tip {}, direction "
+            "{} µrad\n",
+            length_words(um_from_mm(c.in_gap.tip_mm)),
+            three_digits(urad_from_rad(c.in_gap.turned_rad), 3));
     print_direction("where the rotaries correct it", c.before.turned_rad, c.after.turned_rad);
     print_direction("where they keep their words", c.before.kept_rad, c.after.kept_rad);
     return exit_done;

@@ -9,6 +9,7 @@
 #include "base/console.h"
 #include "base/output_files.h"
 #include "base/read_file.h"
+#include "base/rounded.h"
 #include "cli/command.h"
 #include "cli/notes.h"
 #include "cli/options.h"
@@ -142,9 +143,9 @@ void refuse_mixed_functions(const PivotOptions& o, const pivot::PivotEvidence& e
     const auto mixed = pivot::mixed_functions(evidence, maps, fit);
     if (mixed.empty()) return;
     throw InputError(
-        fmt::format("functions are mixed up: no machine fits these readings ({:.0f} µm left), but "
+        fmt::format("functions are mixed up: no machine fits these readings ({} left), but "
                     "one does when {} took the other store",
-                    fit.noise_um, fmt::join(mixed, " and ")),
+                    length_words(fit.noise_um), fmt::join(mixed, " and ")),
         {o.readings.front()});
 }
 

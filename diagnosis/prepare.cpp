@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/alarm.h"
+#include "base/rounded.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -69,9 +70,9 @@ void refuse_poor_holdout(const Prepared& prepared, const records::ReadingTable& 
             throw InputError("a held-out row with a device but without value_mm",
                              records::place_of(holdout, row));
         if (std::abs(*row.value_mm - read[i]) > absurd_mm)
-            throw InputError(fmt::format("held out, {:.3g} mm away from what the simulation reads: "
+            throw InputError(fmt::format("held out, {} mm away from what the simulation reads: "
                                          "wrong units (um for mm?), wrong frame, another machine",
-                                         *row.value_mm - read[i]),
+                                         three_digits(*row.value_mm - read[i])),
                              records::place_of(holdout, row));
     }
 }

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/alarm.h"
+#include "base/rounded.h"
 #include "effects/settings.h"
 #include "emulator/device_noise.h"
 #include "estimation/ranked_least_squares.h"
@@ -138,12 +139,12 @@ void tell_absurd_residuals(BaseModel& model, const emulator::Replay& replay,
     const records::Reading& row = table.rows[replay.table_row(static_cast<std::size_t>(worst))];
     const bool meant = allowed || row.sigma_mm.value_or(0.0) > 0.0;
     if (most > absurd_mm)
-        tell_absurd(model, meant, fmt::format("a residual of {:.3g} mm", most),
+        tell_absurd(model, meant, fmt::format("a residual of {} mm", three_digits(most)),
                     records::place_of(table, row));
     const double rms =
         std::sqrt(model.residual_mm.squaredNorm() / static_cast<double>(model.residual_mm.size()));
     if (rms > absurd_rms_mm)
-        tell_absurd(model, meant, fmt::format("residuals of {:.3g} mm rms", rms),
+        tell_absurd(model, meant, fmt::format("residuals of {} mm rms", three_digits(rms)),
                     {table.path, 0, 0});
 }
 
@@ -153,7 +154,7 @@ void tell_absurd_location(BaseModel& model, const FitParameter& p,
     if (p.effect == "location" && std::isfinite(p.sigma) &&
         std::abs(p.value) > (p.unit == "mm" ? absurd_mm : absurd_rad))
         tell_absurd(model, model.setup.model.allow_large,
-                    fmt::format("{} comes out as {:.3g} {}", p.name, p.value, p.unit),
+                    fmt::format("{} comes out as {} {}", p.name, three_digits(p.value), p.unit),
                     {table.path, 0, 0});
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/rounded.h"
 #include "base/units.h"
 
 namespace trunnion::identification {
@@ -32,13 +33,15 @@ std::string words(const setup::Instrument& instrument, const Found& found) {
     text += instrument.sees_table ? "the part was" : instrument.name + " sees the machine";
     const bool turned = found.seen[3] || found.seen[4] || found.seen[5];
     const bool shifted = found.seen[0] || found.seen[1] || found.seen[2];
-    if (turned) text += fmt::format(" turned by {:.4g} deg", deg_from_rad(found.tilt_rad.norm()));
+    if (turned)
+        text += fmt::format(" turned by {} deg", decimal(deg_from_rad(found.tilt_rad.norm()), 5));
     if (shifted)
-        text += fmt::format("{} shifted by ({:.4g}, {:.4g}, {:.4g}) mm", turned ? "," : "",
-                            found.shift_mm.x(), found.shift_mm.y(), found.shift_mm.z());
+        text += fmt::format("{} shifted by ({}, {}, {}) mm", turned ? "," : "",
+                            decimal(found.shift_mm.x(), 4), decimal(found.shift_mm.y(), 4),
+                            decimal(found.shift_mm.z(), 4));
     if (found.seen[6])
-        text +=
-            fmt::format("{} scaled by {:.4g} ppm", turned || shifted ? "," : "", 1e6 * found.scale);
+        text += fmt::format("{} scaled by {} ppm", turned || shifted ? "," : "",
+                            decimal(1e6 * found.scale, 2));
     return text;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/rounded.h"
 #include "base/units.h"
 
 namespace trunnion::pivot {
@@ -212,13 +213,13 @@ std::string sentence(const PivotVerdict& verdict, bool hurco) {
                                   : hurco ? "The rotary centrelines of the part set-up"
                                           : "The pivot parameters 19700-19714";
         const std::string parts = g54 ? "DPP and G54.2" : hurco ? "M128" : "G43.4 and tilted-plane";
-        text += fmt::format("{}{} {} {}: {} parts are off by up to {:.1f} µm because of {}.",
+        text += fmt::format("{}{} {} {}: {} parts are off by up to {} because of {}.",
                             text.empty() ? "" : " ", store,
                             hurco && !g54 ? "are"
                             : g54         ? "is"
                                           : "are",
                             group.stale ? "stale" : "right within what counts", parts,
-                            group.visible_um, g54 ? "it" : "them");
+                            length_words(group.visible_um), g54 ? "it" : "them");
     }
     return text;
 }

@@ -125,7 +125,7 @@ std::string iso230_2_words(const Iso230Figures& f, bool rotary) {
     };
     return fmt::format("ISO 230-2: B {} (mean {}), M {}, E {}, R {}, A {} {}", number(f.reversal_B),
                        number(f.mean_reversal), number(f.mean_deviation_M), number(f.systematic_E),
-                       number(f.repeatability_R), number(f.accuracy_A), rotary ? "arcsec" : "um");
+                       number(f.repeatability_R), number(f.accuracy_A), rotary ? "arcsec" : "µm");
 }
 
 std::vector<DeviationPoint> deviation_points(const ReadingTable& table, const std::string& test) {

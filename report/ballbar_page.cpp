@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounded.h"
 #include "base/units.h"
 #include "report/ballbar_report.h"
 
@@ -22,11 +23,6 @@ const char* unit_of(const BallbarErrorRow& row) {
     return row.name.angular() ? "µrad" : "µm";
 }
 
-std::string number(double value, int decimals = 1) {
-    const double least = 0.5 * std::pow(10.0, -decimals);
-    return fmt::format("{:.{}f}", std::abs(value) < least ? 0.0 : value, decimals);
-}
-
 const BallbarErrorRow* largest(const BallbarResult& r, bool angular) {
     const BallbarErrorRow* out = nullptr;
     for (const BallbarErrorRow& row : r.errors)
@@ -36,8 +32,9 @@ const BallbarErrorRow* largest(const BallbarResult& r, bool angular) {
 }
 
 std::string size_text(const BallbarErrorRow& row) {
-    return fmt::format("{} {} ± {} {}", to_string(row.name), number(shop(row, row.before)),
-                       number(shop(row, row.sigma_before)), unit_of(row));
+    return fmt::format("{} {} {}", to_string(row.name),
+                       with_sigma(shop(row, row.before), shop(row, row.sigma_before)),
+                       unit_of(row));
 }
 
 std::string verdict(const BallbarResult& r) {
@@ -49,12 +46,12 @@ std::string verdict(const BallbarResult& r) {
         fmt::format("Largest errors found: {} and {}.", size_text(*place), size_text(*tilt));
     if (r.true_tip)
         text += fmt::format(
-            " After compensation a tool as long as its offset says is truly off by up to {} µm.",
-            number(r.true_tip->stated_um));
+            " After compensation a tool as long as its offset says is truly off by up to {}.",
+            length_words(r.true_tip->stated_um));
     if (r.verdict.structured)
         text += fmt::format(
-            " The readings hold {} µm more than location errors and noise explain: diagnose them.",
-            number(r.verdict.excess_um));
+            " The readings hold {} more than location errors and noise explain: diagnose them.",
+            length_words(r.verdict.excess_um));
     return text;
 }
 
@@ -65,17 +62,19 @@ PageTable errors_table(const BallbarResult& r, const std::vector<BallbarErrorRow
     if (r.simulated) table.header.emplace_back("truly left");
     table.header.insert(table.header.end(), {"as published", "unit"});
     for (const BallbarErrorRow& row : rows) {
-        std::vector<std::string> cells{to_string(row.name), number(shop(row, row.before), 2),
-                                       number(shop(row, row.sigma_before), 2)};
+        const Rounded found = rounded(shop(row, row.before), shop(row, row.sigma_before));
+        std::vector<std::string> cells{to_string(row.name), found.value, found.sigma};
         if (r.has_after) {
-            cells.push_back(number(shop(row, row.after), 2));
-            cells.push_back(number(shop(row, row.sigma), 2));
+            const Rounded left = rounded(shop(row, row.after), shop(row, row.sigma));
+            cells.push_back(left.value);
+            cells.push_back(left.sigma);
         }
-        const auto known = [&](const std::optional<double>& v) {
-            return v ? number(shop(row, *v), 2) : std::string("-");
+        const auto known = [&](const std::optional<double>& v, double sigma) {
+            return v ? decimal(shop(row, *v), decimals_of_sigma(shop(row, sigma)))
+                     : std::string("–");
         };
-        if (r.simulated) cells.push_back(known(row.truly_left));
-        cells.push_back(known(row.published_before));
+        if (r.simulated) cells.push_back(known(row.truly_left, row.sigma));
+        cells.push_back(known(row.published_before, row.sigma_before));
         cells.emplace_back(unit_of(row));
         table.rows.push_back(std::move(cells));
     }
@@ -97,18 +96,18 @@ std::string stores_section(const BallbarResult& r) {
     if (!r.stores) return {};
     PageTable table{"", {"number", "in force / mm", "to type / mm", "change / µm"}, "lrrr", {}};
     for (const setup::StoreLine& line : r.stores->lines)
-        table.rows.push_back({line.in_force.name, number(line.in_force.value_mm, 4),
-                              number(line.type_mm, 4),
-                              number(um_from_mm(line.type_mm - line.in_force.value_mm))});
+        table.rows.push_back({line.in_force.name, decimal(line.in_force.value_mm, 4),
+                              decimal(line.type_mm, 4),
+                              decimal(um_from_mm(line.type_mm - line.in_force.value_mm), 1)});
     return section_html(
         "What to type",
         table_html(table) +
             paragraph_html(fmt::format(
-                "The tip is off on the table by up to {} µm with the numbers in force. After "
-                "typing, tilts of the axes leave {} µm (these numbers have no place for them), "
-                "the increment of {:g} mm leaves {} µm.",
-                number(r.stores->now_um), number(r.stores->tilts_um), r.stores->increment_mm,
-                number(r.stores->rounding_um))));
+                "The tip is off on the table by up to {} with the numbers in force. After "
+                "typing, tilts of the axes leave {} (these numbers have no place for them), "
+                "the increment of {:g} mm leaves {}.",
+                length_words(r.stores->now_um), length_words(r.stores->tilts_um),
+                r.stores->increment_mm, length_words(r.stores->rounding_um))));
 }
 
 std::string plots_section(const BallbarResult& r) {
@@ -129,14 +128,15 @@ std::string circles_section(const BallbarResult& r) {
         const ballbar::test::CircularFigures& f = planar.figures;
         const auto& causes = planar.diagnosis.causes;
         const bool shown = !causes.empty() && causes.front().significant;
-        table.rows.push_back({std::string(ballbar::test::plane_name(planar.test.plane)),
-                              number(planar.test.passes.front().feed_mm_min, 0),
-                              number(f.circularity_ccw_um, 2), number(f.circularity_cw_um, 2),
-                              number(f.bidirectional_circularity_um, 2),
-                              number(f.mean_radial_deviation_um, 2), number(f.hysteresis_um, 2),
-                              shown ? fmt::format("{} {:.3g} {}", causes.front().name,
-                                                  causes.front().value, causes.front().unit)
-                                    : "nothing beyond noise"});
+        table.rows.push_back(
+            {std::string(ballbar::test::plane_name(planar.test.plane)),
+             decimal(planar.test.passes.front().feed_mm_min, 0),
+             three_digits(f.circularity_ccw_um, 3), three_digits(f.circularity_cw_um, 3),
+             three_digits(f.bidirectional_circularity_um, 3),
+             three_digits(f.mean_radial_deviation_um, 3), three_digits(f.hysteresis_um, 3),
+             shown ? fmt::format("{} {:.3g} {}", causes.front().name, causes.front().value,
+                                 causes.front().unit)
+                   : "nothing beyond noise"});
     }
     return r.planar.empty() ? std::string() : section_html("Circles", table_html(table));
 }
@@ -147,13 +147,13 @@ std::string proof_section(const BallbarResult& r) {
         body += paragraph_html(fmt::format(
             "True error of the tip after compensation, which a simulator knows: {} µm with a tool "
             "as long as its offset says, {} µm at the cup as it hangs.",
-            number(r.true_tip->stated_um, 2), number(r.true_tip->cup_um, 2)));
+            three_digits(r.true_tip->stated_um, 3), three_digits(r.true_tip->cup_um, 3)));
     if (r.sphere_check)
         body += paragraph_html(fmt::format(
             "A sphere and its probe took no part in the fit: {} poses are off by up to {} µm "
             "before and {} µm after.",
-            r.sphere_check->poses, number(r.sphere_check->before_um, 2),
-            number(r.sphere_check->after_um, 2)));
+            r.sphere_check->poses, three_digits(r.sphere_check->before_um, 3),
+            three_digits(r.sphere_check->after_um, 3)));
     body += paragraph_html(
         "The re-test uses the same bar and cup. A cup that is not where its offset says biases "
         "errors and re-test alike: a tool longer by 1 µm reads as 1 µm of the tilting axis's Z.");
@@ -170,7 +170,8 @@ std::string reading_section(const BallbarResult& r) {
                            "EY0A is the place of the A axis along Y.") +
             paragraph_html(fmt::format(
                 "Residual of the fit {} µm rms, noise {} µm.{}",
-                number(um_from_mm(r.fit.rms_mm), 2), number(um_from_mm(r.fit.noise_mm), 2),
+                three_digits(um_from_mm(r.fit.rms_mm), 3),
+                three_digits(um_from_mm(r.fit.noise_mm), 3),
                 r.simulated ? fmt::format(" The program takes {:.1f} min.", r.before.time_s / 60.0)
                             : "")));
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/rounded.h"
 #include "base/units.h"
 #include "report/ballbar_report.h"
 #include "report/polar_plot.h"
@@ -12,23 +13,19 @@ namespace {
 
 constexpr std::size_t lines_shown = 6;  ///< of the diagnosis
 
-std::string um(double value) {
-    return fmt::format("{:.2f} µm", std::abs(value) < 0.005 ? 0.0 : value);
-}
-
 std::string set_up_line(const ballbar::test::BallbarResult& r) {
     return fmt::format("{}  ·  single set-up, L0 {:g} mm", r.machine, r.data.layout.length_mm);
 }
 
 PolarSection figures_section(const ballbar::test::CircularFigures& f) {
     return {"ISO 230-4",
-            {{"circularity, ccw", um(f.circularity_ccw_um)},
-             {"circularity, cw", um(f.circularity_cw_um)},
-             {"bidirectional circularity", um(f.bidirectional_circularity_um)},
-             {"mean radial deviation", um(f.mean_radial_deviation_um)},
-             {"radial deviation, largest", um(f.radial_deviation_max_um)},
-             {"radial deviation, smallest", um(f.radial_deviation_min_um)},
-             {"hysteresis", um(f.hysteresis_um)}}};
+            {{"circularity, ccw", length_words(f.circularity_ccw_um)},
+             {"circularity, cw", length_words(f.circularity_cw_um)},
+             {"bidirectional circularity", length_words(f.bidirectional_circularity_um)},
+             {"mean radial deviation", length_words(f.mean_radial_deviation_um)},
+             {"radial deviation, largest", length_words(f.radial_deviation_max_um)},
+             {"radial deviation, smallest", length_words(f.radial_deviation_min_um)},
+             {"hysteresis", length_words(f.hysteresis_um)}}};
 }
 
 PolarSection diagnosis_section(const ballbar::test::CircularDiagnosis& diagnosis) {
@@ -36,11 +33,8 @@ PolarSection diagnosis_section(const ballbar::test::CircularDiagnosis& diagnosis
     for (const ballbar::test::CircularCause& c : diagnosis.causes) {
         if (!c.significant || section.rows.size() == lines_shown) continue;
         section.rows.emplace_back(fmt::format("{}. {}", c.rank, c.name),
-                                  fmt::format("{:.2f} {}  {:.0f} %", c.value,
-                                              c.unit == "um"     ? "µm"
-                                              : c.unit == "um/m" ? "µm/m"
-                                                                 : c.unit,
-                                              100.0 * c.share));
+                                  fmt::format("{} {}  {:.0f} %", rounded(c.value, c.sigma).value,
+                                              shown_unit(c.unit), 100.0 * c.share));
     }
     if (section.rows.empty()) section.rows.emplace_back("nothing significant", "");
     return section;
@@ -149,13 +143,13 @@ void add_rotary_plots(const ballbar::test::BallbarResult& r,
                 rotary_trace(r.after.readings.rows, pass, "after, " + direction_of(pass), 0.0));
     for (auto& [name, plot] : plots) {
         const std::size_t n = before[name];
-        plot.sections = {
-            {"Peak to peak",
-             {{"before compensation", um(largest_um(plot.traces, 0, n))},
-              {"after compensation", um(largest_um(plot.traces, n, plot.traces.size()))}}},
-            {"Fitted circle, before",
-             {{"off centre towards 0°", um(plot.fitted_um[1])},
-              {"off centre towards 90°", um(plot.fitted_um[2])}}}};
+        plot.sections = {{"Peak to peak",
+                          {{"before compensation", length_words(largest_um(plot.traces, 0, n))},
+                           {"after compensation",
+                            length_words(largest_um(plot.traces, n, plot.traces.size()))}}},
+                         {"Fitted circle, before",
+                          {{"off centre towards 0°", length_words(plot.fitted_um[1])},
+                           {"off centre towards 90°", length_words(plot.fitted_um[2])}}}};
         out[name + ".svg"] = polar_svg(plot);
     }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/numbers.h"
+#include "base/rounded.h"
 #include "base/units.h"
 #include "report/stores_text.h"
 
@@ -12,10 +13,9 @@ namespace trunnion::report {
 
 namespace {
 
-/// um or urad, never "-0.000".
+/// µm or µrad.
 double small(const kinematics::ErrorName& name, double value) {
-    const double out = name.angular() ? urad_from_rad(value) : um_from_mm(value);
-    return std::abs(out) < 5e-4 ? 0.0 : out;
+    return name.angular() ? urad_from_rad(value) : um_from_mm(value);
 }
 
 std::string error_table(const std::vector<ballbar::test::BallbarErrorRow>& rows, bool after) {
@@ -26,16 +26,18 @@ std::string error_table(const std::vector<ballbar::test::BallbarErrorRow>& rows,
                             "published", "unit");
     for (const ballbar::test::BallbarErrorRow& row : rows) {
         const auto n = [&](double v) { return small(row.name, v); };
-        const auto known = [&](const std::optional<double>& v) {
-            return v ? fmt::format("{:.3f}", n(*v)) : std::string("-");
+        const auto known = [&](const std::optional<double>& v, double sigma) {
+            return v ? decimal(n(*v), decimals_of_sigma(n(sigma))) : std::string("–");
         };
-        const char* unit = row.name.angular() ? "urad" : "um";
-        text += fmt::format("{:6} {:10.3f} {:9.3f} ", to_string(row.name), n(row.before),
-                            n(row.sigma_before));
-        if (after)
-            text += fmt::format("{:10.3f} {:9.3f} {:>11} ", n(row.after), n(row.sigma),
-                                known(row.truly_left));
-        text += fmt::format("{:>10}  {}\n", known(row.published_before), unit);
+        const char* unit = row.name.angular() ? "µrad" : "µm";
+        const Rounded found = rounded(n(row.before), n(row.sigma_before));
+        text += fmt::format("{:6} {:>10} {:>9} ", to_string(row.name), found.value, found.sigma);
+        if (after) {
+            const Rounded left = rounded(n(row.after), n(row.sigma));
+            text += fmt::format("{:>10} {:>9} {:>11} ", left.value, left.sigma,
+                                known(row.truly_left, row.sigma));
+        }
+        text += fmt::format("{:>10}  {}\n", known(row.published_before, row.sigma_before), unit);
     }
     return text;
 }
@@ -60,54 +62,61 @@ std::string rank_text(const ballbar::test::BallbarResult& r) {
         text += "  " + group_text(group) + "\n";
     return text + fmt::format(
                       "taken as known: tool length {:.3f} mm (offset H{}) and a cup that runs "
-                      "true;\na tool longer by 1 um reads as +1 um of EZ0{}\n",
+                      "true;\na tool longer by 1 µm reads as +1 µm of EZ0{}\n",
                       -r.data.layout.cup_S_mm.z(), r.data.tool_offset, first_axis(r));
 }
 
 std::string residual_text(const ballbar::test::BallbarResult& r) {
-    std::string text = fmt::format("residual {:.3f} um rms, noise {:.3f} um",
-                                   um_from_mm(r.fit.rms_mm), um_from_mm(r.fit.noise_mm));
+    std::string text =
+        fmt::format("residual {} rms, noise {}", length_words(um_from_mm(r.fit.rms_mm)),
+                    length_words(um_from_mm(r.fit.noise_mm)));
     if (!r.verdict.structured) return text + ": nothing but noise is left\n";
     return text + fmt::format(
-                      ": {:.3f} um are structure that location errors do not explain (worst in "
-                      "{}).\nThe values above carry it. Diagnose it:\n"
+                      ": {} are structure that location errors do not explain\n"
+                      "(worst in {}). The values above carry it. Diagnose it:\n"
                       "  trunnion ballbar --setup {} --write-readings R.csv\n"
                       "  trunnion diagnose R.csv --setup {}\n",
-                      r.verdict.excess_um, r.verdict.worst_test, r.setup_path, r.setup_path);
+                      length_words(r.verdict.excess_um), r.verdict.worst_test, r.setup_path,
+                      r.setup_path);
 }
 
 std::string setup_text(const ballbar::test::BallbarResult& r) {
     const Vector3& p = r.published.pivot_offset_mm;
     const ballbar::test::BarLength bar = ballbar::test::bar_length(r);
-    const Vector3 pivot = ballbar::test::pivot_found_mm(r);
+    const auto place = [](const Vector3& mm) {
+        return fmt::format("({} {} {}) µm", decimal(um_from_mm(mm.x()), 2),
+                           decimal(um_from_mm(mm.y()), 2), decimal(um_from_mm(mm.z()), 2));
+    };
     return fmt::format(
-               "exact fit of the set-up: bar {:.4f} mm {:+.3f} +- {:.3f} um,\n  pivot ({:.2f} "
-               "{:.2f} "
-               "{:.2f}) um from its stated place on the table\n",
-               r.reference_mm, um_from_mm(bar.error_mm), um_from_mm(bar.sigma_mm),
-               um_from_mm(pivot.x()), um_from_mm(pivot.y()), um_from_mm(pivot.z())) +
+               "exact fit of the set-up: bar {:.4f} mm, longer by {} µm,\n  pivot {} from its "
+               "stated "
+               "place on the table\n",
+               r.reference_mm, with_sigma(um_from_mm(bar.error_mm), um_from_mm(bar.sigma_mm)),
+               place(ballbar::test::pivot_found_mm(r))) +
            fmt::format(
-               "location check (sphere through the three circles): pivot off by ({:.2f} {:.2f} "
-               "{:.2f}) um,\n"
-               "  readings {:+.2f} um long, rms {:.2f} um\n",
-               um_from_mm(p.x()), um_from_mm(p.y()), um_from_mm(p.z()),
-               um_from_mm(r.published.length_error_mm), um_from_mm(r.published.setup_rms_mm));
+               "location check (sphere through the three circles):\n  pivot off by {}, readings {} "
+               "long, rms {}\n",
+               place(p), length_words(um_from_mm(r.published.length_error_mm)),
+               length_words(um_from_mm(r.published.setup_rms_mm)));
 }
 
 std::string planar_text(const ballbar::test::PlanarResult& planar) {
     const ballbar::test::CircularFigures& f = planar.figures;
     std::string text = fmt::format(
-        "{} at {:.0f} mm/min, {:.0f} deg: circularity ccw {:.2f}, cw {:.2f}, bidirectional "
-        "{:.2f},\n"
-        "  mean radial deviation {:+.2f}, hysteresis {:.2f} um at {:.0f} deg\n",
+        "{} at {:.0f} mm/min, {:.0f} deg: circularity ccw {}, cw {},\n"
+        "  bidirectional {}, mean radial {}, hysteresis {} at {:.0f} deg\n",
         ballbar::test::plane_name(planar.test.plane), planar.test.passes.front().feed_mm_min,
-        deg_from_rad(planar.test.arc_rad), f.circularity_ccw_um, f.circularity_cw_um,
-        f.bidirectional_circularity_um, f.mean_radial_deviation_um, f.hysteresis_um,
+        deg_from_rad(planar.test.arc_rad), length_words(f.circularity_ccw_um),
+        length_words(f.circularity_cw_um), length_words(f.bidirectional_circularity_um),
+        length_words(f.mean_radial_deviation_um), length_words(f.hysteresis_um),
         deg_from_rad(f.hysteresis_at_rad));
-    for (const ballbar::test::CircularCause& c : planar.diagnosis.causes)
-        text += fmt::format("  {:2} {:22} {:9.3f} +- {:6.3f} {:5} {:7.2f} um {:4.0f} % {}{}\n",
-                            c.rank, c.name, c.value, c.sigma, c.unit, c.share_um, 100.0 * c.share,
-                            c.significant ? "" : "(not significant) ", c.note);
+    for (const ballbar::test::CircularCause& c : planar.diagnosis.causes) {
+        const Rounded shown = rounded(c.value, c.sigma);
+        text += fmt::format(
+            "  {:2} {:18} {:>8} ± {:<7} {:5}{:>7} µm{:4.0f} %{}{}\n", c.rank, c.name, shown.value,
+            shown.sigma, shown_unit(c.unit), three_digits(c.share_um, 3), 100.0 * c.share,
+            c.significant ? "" : " not significant", c.note.empty() ? "" : "  " + c.note);
+    }
     for (const std::string& name : planar.diagnosis.not_separable)
         text += "     " + name + ": cannot be told apart on this arc\n";
     return text;
@@ -157,19 +166,20 @@ std::string proof_text(const ballbar::test::BallbarResult& r) {
     std::string text;
     if (r.true_tip)
         text += fmt::format(
-            "true error of the tip after compensation (the simulator knows it): {:.2f} um with a "
-            "tool\nas long as its offset says, {:.2f} um at the cup as it hangs\n",
-            r.true_tip->stated_um, r.true_tip->cup_um);
+            "true error of the tip after compensation (the simulator knows it): {} with\n"
+            "a tool as long as its offset says, {} at the cup as it hangs\n",
+            length_words(r.true_tip->stated_um), length_words(r.true_tip->cup_um));
     if (r.sphere_check)
         text += fmt::format(
-            "second check, sphere and probe, no part of the fit: {} poses off by up to {:.2f} um\n"
-            "before, {:.2f} um after\n",
-            r.sphere_check->poses, r.sphere_check->before_um, r.sphere_check->after_um);
+            "second check, sphere and probe, no part of the fit: {} poses off by up to\n"
+            "{} before, {} after\n",
+            r.sphere_check->poses, length_words(r.sphere_check->before_um),
+            length_words(r.sphere_check->after_um));
     if (r.true_tip)
         text +=
-            "\"after\" comes from the same cup: a cup that is not where its offset says shows in\n"
-            "\"truly left\" and in the true error alone, and in the sphere unless its stylus is "
-            "off alike\n";
+            "\"after\" comes from the same cup: a cup that is not where its offset says shows\n"
+            "in \"truly left\" and in the true error alone, and in the sphere unless its\n"
+            "stylus is off alike\n";
     return text;
 }
 
@@ -194,7 +204,7 @@ std::string location_text(const ballbar::test::BallbarResult& r) {
 
 std::string ballbar_table(const ballbar::test::BallbarResult& r) {
     std::string text = fmt::format(
-        "{}: {}, L0 {:g} mm, {} tests, {} readings\n\n", r.machine,
+        "{}: {}, L0 {:g} mm,\n{} tests, {} readings\n\n", r.machine,
         r.simulated ? "single-set-up ballbar test, simulated" : "measured ballbar passes",
         r.data.layout.length_mm, r.tests(), r.before.readings.rows.size());
     text += location_text(r) + proof_text(r);

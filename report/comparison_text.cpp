@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "report/comparison_report.h"
+#include "report/paragraph.h"
 
 namespace trunnion::report {
 
@@ -21,9 +22,9 @@ std::string place_text(const char* side, const regression::ComparePlace& p) {
 }
 
 std::string difference_text(const regression::Difference& d, std::size_t number) {
-    std::string out = fmt::format("  {}. {}", number, printable(d.what));
-    if (d.expected) out += fmt::format("\n    expected: {}", d.reason);
-    return out + "\n" + place_text("A", d.a) + place_text("B", d.b);
+    std::string out = paragraph(fmt::format("{}. {}", number, printable(d.what)), 2);
+    if (d.expected) out += paragraph(fmt::format("expected: {}", d.reason), 4);
+    return out + place_text("A", d.a) + place_text("B", d.b);
 }
 
 std::string range_text(const std::array<double, 2>& range) {
@@ -54,13 +55,11 @@ std::string fate_text(const regression::ToolRow& r) {
 
 std::string table_text(const regression::Comparison& c) {
     if (c.tools.empty()) return {};
-    std::string out =
-        "\n  tool  cut A mm    cut B mm    longer by   feed mm/min       spindle rpm       "
-        "passes\n";
+    std::string out = "\n  tool  cut A mm  cut B mm longer by  feed mm/min  spindle rpm  passes\n";
     for (const regression::ToolRow& r : c.tools)
         if (r.says_something())
             out +=
-                fmt::format("  T{:<4} {:<11.3f} {:<11.3f} {:<+11.3f} {:<17} {:<17} {}\n", r.tool,
+                fmt::format("  T{:<4} {:>8.3f} {:>9.3f} {:>+9.3f}  {:<11}  {:<11}  {}\n", r.tool,
                             r.cut_a_mm, r.cut_b_mm, r.cut_b_mm - r.cut_a_mm + 0.0,
                             both(r.feed_a, r.feed_b), both(r.spindle_a, r.spindle_b), fate_text(r));
     return out;
@@ -74,7 +73,7 @@ std::string layers_text(const regression::Comparison& c) {
 }
 
 std::string case_text(const regression::Comparison& c, bool single) {
-    std::string out = printable(single ? c.verdict : c.name + ": " + c.verdict) + "\n";
+    std::string out = paragraph(printable(single ? c.verdict : c.name + ": " + c.verdict), 0);
     if (c.equal && !single && c.differences.empty()) return out;
     if (!c.layers.empty()) out += layers_text(c);
     constexpr std::size_t shown = 20;
@@ -94,7 +93,7 @@ std::string case_text(const regression::Comparison& c, bool single) {
     out += table_text(c);
     if (c.time_a_s > 0.0 || c.time_b_s > 0.0)
         out += fmt::format("  cycle time {:.1f} -> {:.1f} s\n", c.time_a_s, c.time_b_s);
-    for (const std::string& note : c.notes) out += "  note: " + note + "\n";
+    for (const std::string& note : c.notes) out += paragraph("note: " + note, 2);
     return out;
 }
 

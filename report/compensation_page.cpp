@@ -2,22 +2,23 @@
 
 #include <fmt/format.h>
 
+#include "base/rounded.h"
 #include "base/units.h"
 
 namespace trunnion::report {
 namespace {
 
-/// Three significant digits; less than a thousandth is negligible.
-std::string three_digits(double value) {
-    return value < 1e-3 ? "below 0.001" : fmt::format("{:.3g}", value);
+/// Less than a thousandth is negligible.
+std::string size_of(double value) {
+    return value < 1e-3 ? "below 0.001" : three_digits(value);
 }
 
 std::string um(double mm) {
-    return three_digits(um_from_mm(mm));
+    return size_of(um_from_mm(mm));
 }
 
 std::string urad(double rad) {
-    return three_digits(urad_from_rad(rad));
+    return size_of(urad_from_rad(rad));
 }
 
 PageTable errors_table(const compensation::CompensatedProgram& c) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/rounded.h"
 #include "base/text.h"
 #include "report/control_gap_report.h"
 
@@ -10,25 +11,26 @@ namespace trunnion::report {
 namespace {
 
 std::string gap_size(double apart) {
-    return fmt::format("{:.4f}", apart);
+    return three_digits(apart, 4);
 }
 
 PageTable cause_table(const choices::ControlGap& gap) {
     PageTable table{"",
                     {"cause", "what it does", "share, %", "probability", "could also be",
-                     "held out, um", "shrinks by, %"},
+                     "held out, µm", "shrinks by, %"},
                     "llrrlll",
                     {}};
     for (const choices::GapCause& c : gap.causes) {
         std::string what = c.what;
         for (const choices::FittedNumber& n : c.numbers) what += "; " + number_words(n);
         const std::string rivals = fmt::format("{}", fmt::join(c.rivals, ", "));
-        table.rows.push_back(
-            {c.name, what, fmt::format("{:.0f}", 100 * c.share),
-             fmt::format("{:.2f}", c.probability), rivals.empty() ? "none" : rivals,
-             fmt::format("{:.3f} to {:.3f}", c.heldout.before_um, c.heldout.after_um),
-             fmt::format("{:.0f} ({:.0f} to {:.0f})", 100 * c.heldout.shrink, 100 * c.heldout.low,
-                         100 * c.heldout.high)});
+        table.rows.push_back({c.name, what, fmt::format("{:.0f}", 100 * c.share),
+                              fmt::format("{:.2f}", c.probability),
+                              rivals.empty() ? "none" : rivals,
+                              fmt::format("{} to {}", three_digits(c.heldout.before_um, 3),
+                                          three_digits(c.heldout.after_um, 3)),
+                              fmt::format("{:.0f} ({:.0f} to {:.0f})", 100 * c.heldout.shrink,
+                                          100 * c.heldout.low, 100 * c.heldout.high)});
     }
     return table;
 }

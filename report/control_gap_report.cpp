@@ -4,14 +4,21 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/rounded.h"
 #include "base/text.h"
 #include "report/json_values.h"
+#include "report/paragraph.h"
 
 namespace trunnion::report {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// A difference of a place in mm or deg.
+std::string apart_words(const choices::GapPlace& place) {
+    return three_digits(place.apart, 4);
+}
 
 Json place_json(const choices::GapPlace& place) {
     return {{"program", valid_utf8(place.program)},
@@ -32,13 +39,14 @@ Json shrink_json(const choices::GapShrink& s, double noise_um) {
 Json blocks_json(const std::vector<choices::GapBlock>& blocks) {
     Json list = Json::array();
     for (const choices::GapBlock& b : blocks)
-        list.push_back({{"by", "block"},
-                        {"component", fmt::format("line {}", b.worst.line)},
-                        {"share", b.share},
-                        {"p_value", b.p_value},
-                        {"text", fmt::format("{}: up to {:.4f} mm or deg, {:.0f} % of the gap",
-                                             place_words(b.worst), b.worst.apart, 100 * b.share)},
-                        {"place", place_json(b.worst)}});
+        list.push_back(
+            {{"by", "block"},
+             {"component", fmt::format("line {}", b.worst.line)},
+             {"share", b.share},
+             {"p_value", b.p_value},
+             {"text", fmt::format("{}: up to {} mm or deg, {:.0f} % of the gap",
+                                  place_words(b.worst), apart_words(b.worst), 100 * b.share)},
+             {"place", place_json(b.worst)}});
     return list;
 }
 
@@ -66,23 +74,26 @@ std::string cause_text(const choices::GapCause& cause) {
     std::string out = fmt::format("\n{}  {:.0f} % of the gap, probability {:.2f}\n  {}\n",
                                   cause.name, 100 * cause.share, cause.probability, cause.what);
     for (const choices::FittedNumber& n : cause.numbers) out += "  " + number_words(n) + '\n';
-    out += fmt::format("  {} block{}; first at {}: {:.4f}; worst at {}: {:.4f} mm or deg\n",
-                       cause.blocks, cause.blocks == 1 ? "" : "s", place_words(cause.first),
-                       cause.first.apart, place_words(cause.worst), cause.worst.apart);
+    out += paragraph(
+        fmt::format("{} block{}; first at {}: {}; worst at {}: {} mm or deg", cause.blocks,
+                    cause.blocks == 1 ? "" : "s", place_words(cause.first),
+                    apart_words(cause.first), place_words(cause.worst), apart_words(cause.worst)),
+        2);
     if (cause.name == "unknown") return out;
     if (!cause.rivals.empty())
-        out += fmt::format("  this log cannot tell it from: {}\n", fmt::join(cause.rivals, ", "));
-    return out +
-           fmt::format("  held out: {:.3f} -> {:.3f} um: shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
-                       cause.heldout.before_um, cause.heldout.after_um, 100 * cause.heldout.shrink,
-                       100 * cause.heldout.low, 100 * cause.heldout.high);
+        out += paragraph(
+            fmt::format("this log cannot tell it from: {}", fmt::join(cause.rivals, ", ")), 2);
+    return out + fmt::format("  held out: {} -> {}: shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
+                             length_words(cause.heldout.before_um),
+                             length_words(cause.heldout.after_um), 100 * cause.heldout.shrink,
+                             100 * cause.heldout.low, 100 * cause.heldout.high);
 }
 
 std::string blocks_text(const char* head, const std::vector<choices::GapBlock>& blocks) {
     std::string out = blocks.empty() ? "" : head;
     for (const choices::GapBlock& b : blocks)
-        out += fmt::format("  {}: up to {:.4f} mm or deg, {:.0f} % of it\n", place_words(b.worst),
-                           b.worst.apart, 100 * b.share);
+        out += fmt::format("  {}: up to {} mm or deg, {:.0f} % of it\n", place_words(b.worst),
+                           apart_words(b.worst), 100 * b.share);
     return out;
 }
 
@@ -95,17 +106,16 @@ std::string place_words(const choices::GapPlace& place) {
 }
 
 std::string number_words(const choices::FittedNumber& n) {
-    return fmt::format("{} {:.4f} -> {:.4f} {} (sigma {:.2g})", n.name, n.from, n.to, n.unit,
-                       n.sigma);
+    return fmt::format("{} {} -> {} {}", n.name, three_digits(n.from), with_sigma(n.to, n.sigma),
+                       n.unit);
 }
 
 std::string verdict_sentence(const choices::ControlGap& gap) {
     using choices::GapVerdict;
     if (gap.verdict == GapVerdict::no_gap)
         return "The control moves as the log says, within its noise.";
-    const std::string size =
-        fmt::format("Log and control differ by {:.3f} um rms, at most {:.4f} mm or deg", gap.rms_um,
-                    gap.worst.apart);
+    const std::string size = fmt::format("Log and control differ by {} rms, at most {} mm or deg",
+                                         length_words(gap.rms_um), apart_words(gap.worst));
     if (gap.verdict == GapVerdict::unexplained)
         return size + "; no choice and no store of this control explains it.";
     std::vector<std::string> names;
@@ -147,19 +157,22 @@ std::string control_gap_json(const choices::ControlGap& gap) {
 
 std::string control_gap_text(const choices::ControlGap& gap) {
     std::string out =
-        fmt::format("verdict: {}\n{}\n", to_string(gap.verdict), verdict_sentence(gap));
-    out += fmt::format("{} positions in {} blocks, rms {:.3f} um, noise {:.3f} um ({})\n", gap.rows,
-                       gap.blocks, gap.rms_um, gap.noise_um, to_string(gap.noise));
+        fmt::format("verdict: {}\n", to_string(gap.verdict)) + paragraph(verdict_sentence(gap), 0);
+    out += fmt::format("{} positions in {} blocks, rms {}, noise {} ({})\n", gap.rows, gap.blocks,
+                       length_words(gap.rms_um), length_words(gap.noise_um), to_string(gap.noise));
     if (!gap.stopped.empty()) out += "this control stops: " + printable(gap.stopped) + '\n';
     if (gap.verdict == choices::GapVerdict::no_gap) return out;
-    out += fmt::format("first at {}: {:.4f} mm or deg\n", place_words(gap.first), gap.first.apart);
+    out +=
+        fmt::format("first at {}: {} mm or deg\n", place_words(gap.first), apart_words(gap.first));
     out += blocks_text("most of the gap:\n", gap.where);
     for (const choices::GapCause& cause : gap.causes) out += cause_text(cause);
     if (!gap.causes.empty())
-        out += fmt::format(
-            "\nafter: rms {:.3f} um; the gap shrinks by {:.0f} % ({:.0f} to {:.0f}) on blocks left "
-            "out\n",
-            gap.after_rms_um, 100 * gap.after.shrink, 100 * gap.after.low, 100 * gap.after.high);
+        out += "\n" + paragraph(fmt::format(
+                                    "after: rms {}; the gap shrinks by {:.0f} % ({:.0f} to {:.0f}) "
+                                    "on blocks left out",
+                                    length_words(gap.after_rms_um), 100 * gap.after.shrink,
+                                    100 * gap.after.low, 100 * gap.after.high),
+                                0);
     out += gap.causes.empty() ? std::string() : blocks_text("what stays:\n", gap.left);
     return out;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounded.h"
 #include "report/diagnosis_words.h"
 #include "report/error_table.h"
 #include "report/session_changes.h"
@@ -71,11 +72,11 @@ std::string share_bars(const diagnosis::Diagnosis& d) {
 std::string before_after(const diagnosis::HeldOut& h) {
     if (h.rms_before_um <= 0.0) return "";
     const std::vector<Bar> list{
-        {"simulation as it is", fmt::format("{:.2f} µm", h.rms_before_um), 1.0, "#d55e00"},
-        {"with the causes added", fmt::format("{:.2f} µm", h.rms_after_um),
-         h.rms_after_um / h.rms_before_um, "#0072b2"}};
+        {"simulation as it is", length_words(h.rms_before_um), 1.0, "#d55e00"},
+        {"with the causes added", length_words(h.rms_after_um), h.rms_after_um / h.rms_before_um,
+         "#0072b2"}};
     return bars(list, h.rms_before_um, "difference between machine and simulation, µm rms",
-                h.noise_um, fmt::format("noise {:.2f} µm", h.noise_um));
+                h.noise_um, "noise " + length_words(h.noise_um));
 }
 
 /// Machine minus simulation of each reading, without and with the causes, with the noise as a band.
@@ -206,8 +207,8 @@ std::string small_print(const diagnosis::Diagnosis& d) {
         text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", term, meaning);
     };
     entry("Gap", fmt::format("what the machine reads minus what its simulation reads, after set-up "
-                             "and modelled errors were fitted: {:.2f} µm rms over {} readings.",
-                             d.rms_um, d.readings));
+                             "and modelled errors were fitted: {} rms over {} readings.",
+                             length_words(d.rms_um), d.readings));
     entry("Noise", noise_words(d));
     entry("Share",
           "part of the gap's square beyond noise that goes with this cause; "

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/rounded.h"
 #include "report/diagnosis_words.h"
 #include "report/error_table.h"
 #include "report/paragraph.h"
@@ -51,10 +52,11 @@ std::string cause_text(const diagnosis::Cause& cause) {
     if (!cause.rivals.empty())
         text += paragraph(
             fmt::format("cannot be told apart here from: {}", fmt::join(cause.rivals, ", ")), 2);
-    text += fmt::format(
-        "  held out: {:.3f} -> {:.3f} um (noise {:.3f}): shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
-        cause.heldout.rms_before_um, cause.heldout.rms_after_um, cause.heldout.noise_um,
-        100 * cause.heldout.shrink, 100 * cause.heldout.low, 100 * cause.heldout.high);
+    text +=
+        fmt::format("  held out: {} -> {} (noise {}): shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
+                    length_words(cause.heldout.rms_before_um),
+                    length_words(cause.heldout.rms_after_um), length_words(cause.heldout.noise_um),
+                    100 * cause.heldout.shrink, 100 * cause.heldout.low, 100 * cause.heldout.high);
     return text;
 }
 
@@ -63,19 +65,21 @@ std::string cause_text(const diagnosis::Cause& cause) {
 std::string diagnosis_text(const diagnosis::Diagnosis& d) {
     std::string text =
         fmt::format("verdict: {}\n", to_string(d.verdict)) + paragraph(verdict_sentence(d), 0);
-    text += fmt::format(
-        "{} readings ({} set aside), rms {:.3f} um, noise {:.3f} um ({}), excess {:.3f} um\n",
-        d.readings, d.outliers, d.rms_um, d.noise_um, to_string(d.noise.source), d.excess_um);
+    text += paragraph(
+        fmt::format("{} readings ({} set aside), rms {}, noise {} ({}), excess {}", d.readings,
+                    d.outliers, length_words(d.rms_um), length_words(d.noise_um),
+                    to_string(d.noise.source), length_words(d.excess_um)),
+        0);
     for (const identification::FoundSide& s : d.sides) text += fmt::format("  {}\n", to_string(s));
     if (d.chosen_from > 0) text += fmt::format("  chosen evenly from {} readings\n", d.chosen_from);
     for (const diagnosis::DriverShare& w : d.where) text += fmt::format("  {}\n", w.text);
     for (const diagnosis::Cause& cause : d.causes) text += cause_text(cause);
     if (!d.causes.empty())
         text += "\n" +
-                paragraph(fmt::format("after: rms {:.3f} um; of readings left out the causes "
+                paragraph(fmt::format("after: rms {}; of readings left out the causes "
                                       "explain {:.0f} %{}; the gap "
                                       "shrinks by {:.0f} % ({:.0f} to {:.0f})",
-                                      d.after_rms_um, 100 * d.explained,
+                                      length_words(d.after_rms_um), 100 * d.explained,
                                       d.between_places ? "" : " at the measured places",
                                       100 * d.after.shrink, 100 * d.after.low, 100 * d.after.high),
                           0);

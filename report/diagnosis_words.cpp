@@ -6,6 +6,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "base/rounded.h"
+
 namespace trunnion::report {
 namespace {
 
@@ -21,14 +23,18 @@ constexpr ShopUnit shop_units[] = {
 std::string plain_name(const identification::FitParameter& p) {
     std::string name = p.name;
     const std::string end = '_' + p.unit;
-    if (name.size() > end.size() && name.ends_with(end)) name.erase(name.size() - end.size());
+    // "cup.x_mm" and, of one session, "CMM.x_mm.monday"
+    const std::size_t at = name.rfind(end);
+    if (at != std::string::npos && at > 0 &&
+        (at + end.size() == name.size() || name[at + end.size()] == '.'))
+        name.erase(at, end.size());
     std::replace(name.begin(), name.end(), '_', ' ');
     return p.component < 0 ? name : fmt::format("{} {}", name, "xyz"[p.component]);
 }
 
 std::string size_words(const diagnosis::Diagnosis& d) {
-    return fmt::format("{:.2f} um rms, {:.2f} um of it noise ({})", d.rms_um, d.noise_um,
-                       to_string(d.noise.source));
+    return fmt::format("{} rms, {} of it noise ({})", length_words(d.rms_um),
+                       length_words(d.noise_um), to_string(d.noise.source));
 }
 
 std::string shrink_words(const diagnosis::HeldOut& h) {
@@ -70,14 +76,9 @@ ShopValue shop_value(const identification::FitParameter& p) {
             v.unit = unit.to;
         }
     const double value = factor * p.value, sigma = factor * p.sigma;
-    if (!std::isfinite(p.sigma)) {
-        v.value = fmt::format("{:.4g}", value);
-        return v;
-    }
-    const int digits =
-        sigma > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(sigma))), 0, 6) : 3;
-    v.value = fmt::format("{:.{}f}", value, digits);
-    v.sigma = fmt::format("{:.{}f}", sigma, digits);
+    const Rounded text = rounded(value, sigma);
+    v.value = text.value;
+    v.sigma = text.sigma;
     return v;
 }
 
@@ -115,12 +116,11 @@ std::string verdict_sentence(const diagnosis::Diagnosis& d) {
 std::string answer(const diagnosis::Diagnosis& d) {
     if (d.verdict == diagnosis::Verdict::no_gap)
         return fmt::format(
-            "No gap. Machine and simulation differ by {:.2f} µm rms, and noise alone "
-            "makes {:.2f} µm.",
-            d.rms_um, d.noise_um);
-    const std::string size = fmt::format(
-        "Machine and simulation differ by {:.2f} µm rms; noise alone would make {:.2f} µm. ",
-        d.rms_um, d.noise_um);
+            "No gap. Machine and simulation differ by {} rms, and noise alone makes {}.",
+            length_words(d.rms_um), length_words(d.noise_um));
+    const std::string size =
+        fmt::format("Machine and simulation differ by {} rms; noise alone would make {}. ",
+                    length_words(d.rms_um), length_words(d.noise_um));
     const std::string causes = causes_words(d);
     const std::string part = fmt::format("{:.0f} %", 100.0 * d.explained);
     switch (d.verdict) {
@@ -143,7 +143,7 @@ std::string answer(const diagnosis::Diagnosis& d) {
 }
 
 std::string noise_words(const diagnosis::Diagnosis& d) {
-    const std::string size = fmt::format("{:.2f} µm rms, ", d.noise_um);
+    const std::string size = length_words(d.noise_um) + " rms, ";
     switch (d.noise.source) {
         case diagnosis::NoiseSource::repeats:
             return size + "measured from poses and passes that were repeated.";

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/rounded.h"
 #include "report/json_values.h"
 #include "report/paragraph.h"
 
@@ -11,6 +12,15 @@ namespace trunnion::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Without exponent and closing zeros: 20, 0.00002.
+std::string as_typed(double value) {
+    std::string text = three_digits(value);
+    if (text.find('.') == std::string::npos) return text;
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text;
+}
 
 std::string parameter_name(const effects::EffectParameter& p) {
     return p.component < 0 ? p.name : fmt::format("{}[{}]", p.name, "xyz"[p.component]);
@@ -53,11 +63,12 @@ std::string effect_text(const effects::Effect& effect) {
     text += headed_lines("remedy", effect.remedy);
     text += headed_lines("formula", effect.formula);
     for (const effects::EffectParameter& p : effect.parameters)
-        text += fmt::format("          {:<24} {:<8} typical {:.3g}\n", parameter_name(p), p.unit,
-                            p.typical);
+        text += fmt::format("          {:<24} {:<8} typical {}\n", parameter_name(p), p.unit,
+                            as_typed(p.typical));
     if (!effect.parameters.empty())
-        text += fmt::format("example   --inject '{}: {}={:.3g}'\n", effect.name,
-                            effect.parameters.front().name, effect.parameters.front().typical);
+        text += fmt::format("example   --inject '{}: {}={}'\n", effect.name,
+                            effect.parameters.front().name,
+                            as_typed(effect.parameters.front().typical));
     return text;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounded.h"
 #include "base/units.h"
 #include "report/page.h"
 #include "report/svg.h"
@@ -33,7 +34,7 @@ const char* place_unit(const TablePoint& p) {
 }
 
 const char* small_unit(const TablePoint& p) {
-    return p.unit == "rad" ? "urad" : "um";
+    return p.unit == "rad" ? "µrad" : "µm";
 }
 
 double small_size(const TablePoint& p) {
@@ -77,9 +78,11 @@ std::string error_table(const diagnosis::Cause& cause) {
     for (const std::vector<TablePoint>& curve : by_error(cause)) {
         text += fmt::format("  {}: at {}, error {}, sigma\n", curve.front().error,
                             place_unit(curve.front()), small_unit(curve.front()));
-        for (const TablePoint& p : curve)
-            text += fmt::format("  {:>12.4f} {:>10.2f} {:>8.2f}\n", place_of(p),
-                                small_size(p) * p.value, small_size(p) * p.sigma);
+        for (const TablePoint& p : curve) {
+            const Rounded shown = rounded(small_size(p) * p.value, small_size(p) * p.sigma);
+            text +=
+                fmt::format("  {:>12.4f} {:>10} {:>8}\n", place_of(p), shown.value, shown.sigma);
+        }
     }
     const auto data = pitch_error_data(cause);
     if (!data) return text;

@@ -22,8 +22,8 @@ struct PitchErrorData {
 std::optional<PitchErrorData> pitch_error_data(const diagnosis::Cause& cause,
                                                double unit_mm = 1e-3);
 
-/// The values of a free-form cause, one line a position: error, position, value and its sigma (um
-/// or urad), then the pitch error data if any. Empty for other causes.
+/// The values of a free-form cause, one line a position: error, position, value and its sigma (µm
+/// or µrad), then the pitch error data if any. Empty for other causes.
 std::string error_table(const diagnosis::Cause& cause);
 
 /// The same as curves over the position, an SVG picture for each error with a band of two sigma.

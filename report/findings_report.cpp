@@ -6,6 +6,7 @@
 
 #include "base/alarm.h"
 #include "report/json_values.h"
+#include "report/paragraph.h"
 #include "report/places.h"
 
 namespace trunnion::report {
@@ -22,9 +23,16 @@ std::string line_of(const check::Finding& f) {
                        f.remedy.empty() ? "" : " " + f.remedy);
 }
 
+/// The place on one line, as editors read it; the remedy below.
+std::string place_and_remedy(const check::Finding& f) {
+    check::Finding place = f;
+    place.remedy.clear();
+    return line_of(place) + paragraph(printable(f.remedy), 4);
+}
+
 std::string text_of(const std::vector<check::Finding>& findings, std::size_t files) {
     std::string out;
-    for (const check::Finding& f : findings) out += line_of(f);
+    for (const check::Finding& f : findings) out += place_and_remedy(f);
     return out + fmt::format("{} finding{} in {} file{}\n", findings.size(),
                              findings.size() == 1 ? "" : "s", files, files == 1 ? "" : "s");
 }

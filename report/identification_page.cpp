@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounded.h"
 #include "base/units.h"
 #include "report/diagnosis_words.h"
 #include "report/scatter.h"
@@ -133,9 +134,8 @@ Page identification_page(const identification::Identification& result,
         std::count_if(result.parameters.begin(), result.parameters.end(),
                       [](const FitParameter& p) { return !std::isfinite(p.sigma); }));
     page.verdict = fmt::format(
-        "With the values below the readings differ from the simulation by {:.2f} µm rms instead of "
-        "{:.2f} µm.{}",
-        result.rms_after_um, result.rms_before_um,
+        "With the values below the readings differ from the simulation by {} rms instead of {}.{}",
+        length_words(result.rms_after_um), length_words(result.rms_before_um),
         unseen == 0 ? ""
                     : fmt::format(" {} of {} parameters cannot be told from these readings.",
                                   unseen, result.parameters.size()));

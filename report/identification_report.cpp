@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/alarm.h"
+#include "base/rounded.h"
 #include "report/diagnosis_words.h"
 #include "report/json_values.h"
 #include "report/parameters_json.h"
@@ -157,8 +158,9 @@ std::string identification_text(const identification::Identification& result, bo
         text += fmt::format("no reading here sees: {}\n", to_string(group));
     for (const std::string& sentence : result.set_up_words)
         text += fmt::format("set-up: {}\n", sentence);
-    return text + fmt::format("rms {:.3f} um before, {:.3f} um after, {} degrees of freedom\n",
-                              result.rms_before_um, result.rms_after_um, result.dof);
+    return text + fmt::format("rms {} before, {} after, {} degrees of freedom\n",
+                              length_words(result.rms_before_um), length_words(result.rms_after_um),
+                              result.dof);
 }
 
 std::string format_part(const RepetitionPart& part) {

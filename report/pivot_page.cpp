@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounded.h"
 #include "base/units.h"
 
 namespace trunnion::report {
 namespace {
 
-/// One decimal, never "-0.0".
 std::string um(double value_mm) {
-    const double value = um_from_mm(value_mm);
-    return fmt::format("{:.1f}", std::abs(value) < 0.05 ? 0.0 : value);
+    return three_digits(um_from_mm(value_mm), 3);
 }
 
 std::string stores_section(const PivotResult& r) {
@@ -21,19 +20,20 @@ std::string stores_section(const PivotResult& r) {
                     {"number", "in force / mm", "to type / mm", "error / µm", "u / µm", "state"},
                     "lrrrrl",
                     {}};
-    for (const pivot::StoreVerdict& s : r.verdict.stores)
-        table.rows.push_back({store_name(r, s.in_force),
-                              fmt::format("{:.4f}", s.in_force.value_mm + 0.0),
-                              fmt::format("{:.4f}", s.type_mm + 0.0), um(s.error_mm),
-                              um(s.sigma_mm), s.stale ? "stale" : "right"});
+    for (const pivot::StoreVerdict& s : r.verdict.stores) {
+        const Rounded error = rounded(um_from_mm(s.error_mm), um_from_mm(s.sigma_mm));
+        table.rows.push_back({store_name(r, s.in_force), decimal(s.in_force.value_mm, 4),
+                              decimal(s.type_mm, 4), error.value, error.sigma,
+                              s.stale ? "stale" : "right"});
+    }
     std::string body = table_html(table);
     for (const pivot::GroupVerdict& g : r.verdict.groups)
         body += paragraph_html(fmt::format(
-            "With these numbers typed ({:g} mm steps), {} functions are off by up to {:.1f} µm.",
-            r.verdict.increment_mm, group_words(r, g.group), g.left_um));
+            "With these numbers typed ({:g} mm steps), {} functions are off by up to {}.",
+            r.verdict.increment_mm, group_words(r, g.group), length_words(g.left_um)));
     if (r.verdict.groups.size() > 1)
         body += paragraph_html(
-            fmt::format("All functions then agree within {:.1f} µm.", r.verdict.agree_um));
+            fmt::format("All functions then agree within {}.", length_words(r.verdict.agree_um)));
     if (r.hurco) body += paragraph_html("Names of the part set-up's fields are assumed.");
     return section_html("What to type", body);
 }
@@ -81,8 +81,7 @@ std::string affected_section(const PivotResult& r) {
     for (const pivot::AffectedPart& part : r.affected)
         table.rows.push_back({part.path.empty() ? "all parts" : part.path, part.function,
                               pivot::codes_of(part.function, r.hurco),
-                              fmt::format("{:.1f}", part.error_um),
-                              part.stale ? "affected" : "right"});
+                              three_digits(part.error_um, 3), part.stale ? "affected" : "right"});
     return section_html("Who is affected", table_html(table));
 }
 
@@ -105,10 +104,10 @@ std::string reading_section(const PivotResult& r) {
                 "its functions keep the tip on its point. u is its standard "
                 "uncertainty.") +
             paragraph_html(fmt::format(
-                "From these readings: one centre scatters by {:.2f} µm along an axis, {} zeroings "
-                "of the sphere by {:.2f} µm. Expected is what the machine found from all readings "
+                "From these readings: one centre scatters by {} along an axis, {} zeroings "
+                "of the sphere by {}. Expected is what the machine found from all readings "
                 "leads to{}.",
-                fit.noise_um, fit.zeroings, fit.zero_scatter_um,
+                length_words(fit.noise_um), fit.zeroings, length_words(fit.zero_scatter_um),
                 r.true_right ? "; in this simulation, what the machine of the setup leads to"
                              : "")));
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/rounded.h"
 #include "base/units.h"
 #include "report/json_values.h"
 #include "report/paragraph.h"
@@ -28,14 +29,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double plain(double value, double least) {
-    return std::abs(value) < least ? 0.0 : value;
-}
-
-std::string um_vector(const Vector3& v_mm) {
-    const auto number = [](double mm) { return plain(um_from_mm(mm), 0.005); };
-    return fmt::format("{:8.2f} {:8.2f} {:8.2f}", number(v_mm.x()), number(v_mm.y()),
-                       number(v_mm.z()));
+std::string um_vector(const Vector3& v_mm, int decimals) {
+    const auto number = [&](double mm) { return decimal(um_from_mm(mm), decimals); };
+    return fmt::format("{:>8} {:>8} {:>8}", number(v_mm.x()), number(v_mm.y()), number(v_mm.z()));
 }
 
 const pivot::PivotPoint* worst_point(const pivot::PivotArc& arc) {
@@ -51,33 +47,36 @@ std::string map_text(const PivotResult& r, const pivot::PivotMap& map) {
     std::string out =
         fmt::format("Map {}: {}, {} indexations, circle and errors in µm\n", map.number, map.name,
                     map.arcs.empty() ? 0 : map.arcs[0].points.size());
-    out += fmt::format("  {:<9} {:<6} {:>9} {:>9}  {:<14} {:>8} {:>8} {:>8}\n", "function", "store",
+    const int decimals = decimals_of_sigma(r.verdict.fit.noise_um);
+    out += fmt::format("  {:<8} {:<6} {:>8} {:>9}  {:<14} {:>8} {:>8} {:>8}\n", "function", "store",
                        "radius", "expected", "largest at", "X", "Y", "Z");
     for (const pivot::PivotArc& arc : map.arcs)
         if (const pivot::PivotPoint* worst = worst_point(arc))
-            out += fmt::format(
-                "  {:<9} {:<6} {:9.2f} {:9.2f}  {}{:<6g} {}{:<6g} {}\n", arc.function,
-                group_words(r, arc.group), um_from_mm(arc.circle.radius_mm()),
-                um_from_mm(arc.expected.radius_mm()), letter_of(r.first), worst->first_deg,
-                letter_of(r.second), worst->second_deg, um_vector(worst->error_mm));
+            out += fmt::format("  {:<8} {:<6} {:>8} {:>9}  {}{:<6g} {}{:<6g} {}\n", arc.function,
+                               group_words(r, arc.group),
+                               decimal(um_from_mm(arc.circle.radius_mm()), decimals),
+                               decimal(um_from_mm(arc.expected.radius_mm()), decimals),
+                               letter_of(r.first), worst->first_deg, letter_of(r.second),
+                               worst->second_deg, um_vector(worst->error_mm, decimals));
     return out + "\n";
 }
 
 std::string stores_table(const PivotResult& r) {
     const pivot::PivotVerdict& v = r.verdict;
     std::string out =
-        fmt::format("{:<20} {:>12} {:>12} {:>11} {:>8}{}\n", "Pivot stores", "in force/mm",
-                    "to type/mm", "error/µm", "u/µm", r.true_right ? "   true error/µm" : "");
+        fmt::format("{:<20} {:>11} {:>11} {:>9} {:>7}{}\n", "Pivot stores", "in force/mm",
+                    "to type/mm", "error/µm", "u/µm", r.true_right ? "  true/µm" : "");
     std::vector<setup::StoreNumber> right;
     if (r.true_right) right = setup::store_numbers(*r.true_right);
     for (const pivot::StoreVerdict& s : v.stores) {
-        out += fmt::format("  {:<18} {:12.4f} {:12.4f} {:11.2f} {:8.2f}", store_name(r, s.in_force),
-                           s.in_force.value_mm + 0.0, s.type_mm + 0.0,
-                           plain(um_from_mm(s.error_mm), 0.005), um_from_mm(s.sigma_mm));
+        const Rounded error = rounded(um_from_mm(s.error_mm), um_from_mm(s.sigma_mm));
+        out += fmt::format("  {:<18} {:>11} {:>11} {:>9} {:>7}", store_name(r, s.in_force),
+                           decimal(s.in_force.value_mm, 4), decimal(s.type_mm, 4), error.value,
+                           error.sigma);
         for (const setup::StoreNumber& n : right)
             if (n.name == s.in_force.name)
-                out += fmt::format("   {:13.2f}",
-                                   plain(um_from_mm(s.in_force.value_mm - n.value_mm), 0.005));
+                out += fmt::format("  {:>7}", decimal(um_from_mm(s.in_force.value_mm - n.value_mm),
+                                                      decimals_of_sigma(um_from_mm(s.sigma_mm))));
         out += s.stale ? "  stale\n" : "\n";
     }
     if (r.hurco) out += "  (names of the part set-up's fields are assumed)\n";
@@ -87,20 +86,20 @@ std::string stores_table(const PivotResult& r) {
 std::string quality_text(const PivotResult& r) {
     const pivot::PivotVerdict& v = r.verdict;
     std::string out = fmt::format(
-        "found from these readings: one centre scatters by {:.2f} µm an axis,\n{} zeroings of "
-        "the sphere by {:.2f} µm\n",
-        v.fit.noise_um, v.fit.zeroings, v.fit.zero_scatter_um);
+        "found from these readings: one centre scatters by {} an axis,\n{} zeroings of "
+        "the sphere by {}\n",
+        length_words(v.fit.noise_um), v.fit.zeroings, length_words(v.fit.zero_scatter_um));
     for (const pivot::GroupVerdict& g : v.groups)
-        out += fmt::format("after typing ({:g} mm steps) {} functions are off by up to {:.2f} µm\n",
-                           v.increment_mm, group_words(r, g.group), g.left_um);
+        out += fmt::format("after typing ({:g} mm steps) {} functions are off by up to {}\n",
+                           v.increment_mm, group_words(r, g.group), length_words(g.left_um));
     const double apart_um = um_from_mm(setup::step_between_axes_mm(v.right).norm());
     if (v.groups.size() > 1 && apart_um > 0.05)
         out += fmt::format(
-            "the rotary axes pass each other by {:.1f} µm: G54 holds one point, so DPP and G54.2 "
-            "keep an error\n",
-            apart_um);
+            "the rotary axes pass each other by {}: G54 holds one point, so DPP\n"
+            "and G54.2 keep an error\n",
+            length_words(apart_um));
     if (v.groups.size() > 1)
-        out += fmt::format("and agree with each other within {:.2f} µm\n", v.agree_um);
+        out += fmt::format("and agree with each other within {}\n", length_words(v.agree_um));
     out += "not seen by these readings:\n";
     for (const std::string& line : v.unobservable) out += "  " + line + "\n";
     return out;
@@ -110,9 +109,10 @@ std::string affected_text(const PivotResult& r) {
     std::string out;
     for (const pivot::AffectedPart& part : r.affected)
         if (part.stale)
-            out += fmt::format("  {:<28} {:<6} {:<32} {:8.1f} µm\n",
-                               part.path.empty() ? "parts made with" : part.path, part.function,
-                               pivot::codes_of(part.function, r.hurco), part.error_um);
+            out +=
+                fmt::format("  {:<24} {:<6} {:<32} {:>9}\n",
+                            part.path.empty() ? "parts made with" : part.path, part.function,
+                            pivot::codes_of(part.function, r.hurco), length_words(part.error_um));
     return out.empty() ? out : "affected:\n" + out;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounded.h"
 #include "report/diagnosis_words.h"
 #include "report/page.h"
 #include "report/svg.h"
@@ -21,13 +22,8 @@ ShopChange shop_change(const diagnosis::SessionChange& c) {
     const bool mm = c.parameter.unit == "mm", rad = c.parameter.unit == "rad";
     const double factor = mm ? 1e3 : rad ? 1e6 : 1.0;
     const bool seen = std::isfinite(c.parameter.sigma) && c.parameter.sigma > 0.0;
-    const int digits =
-        seen ? std::clamp(1 - static_cast<int>(std::floor(std::log10(factor * c.parameter.sigma))),
-                          0, 6)
-             : 3;
-    const auto number = [&](double value) {
-        return fmt::format("{:.{}f}", factor * value, digits);
-    };
+    const int decimals = decimals_of_sigma(factor * c.parameter.sigma);
+    const auto number = [&](double value) { return decimal(factor * value, decimals); };
     ShopChange s{c.parameter.effect + " " + shop_value(c.parameter).name,
                  number(c.before),
                  "–",
@@ -38,7 +34,7 @@ ShopChange shop_change(const diagnosis::SessionChange& c) {
                        : c.parameter.unit};
     if (!seen) return s;
     s.after = number(c.before + c.parameter.value);
-    s.change = fmt::format("{:+.{}f}", factor * c.parameter.value, digits);
+    s.change = (c.parameter.value > 0.0 ? "+" : "") + number(c.parameter.value);
     s.sigma = number(c.parameter.sigma);
     return s;
 }
@@ -102,8 +98,8 @@ std::string changes_text(const diagnosis::Diagnosis& d) {
     if (d.sessions.empty()) return {};
     std::string text = "\n" + sentence(d) + "\n";
     for (const diagnosis::SessionFit& s : d.sessions)
-        text += fmt::format("  {:<12} {} readings, rms {:.3f} -> {:.3f} um\n", s.name, s.readings,
-                            s.rms_before_um, s.rms_after_um);
+        text += fmt::format("  {:<12} {} readings, rms {} -> {}\n", s.name, s.readings,
+                            length_words(s.rms_before_um), length_words(s.rms_after_um));
     text += fmt::format("  {:<24} {:<8} {:>8} {:>8} {:>8} {:>7}\n", "parameter", "since", "before",
                         "after", "change", "sigma");
     for (const diagnosis::SessionChange* c : in_order(d)) {
@@ -122,8 +118,8 @@ std::string changes_section(const diagnosis::Diagnosis& d) {
                        {}};
     for (const diagnosis::SessionFit& s : d.sessions)
         sessions.rows.push_back({s.name, std::to_string(s.readings),
-                                 fmt::format("{:.3f}", s.rms_before_um),
-                                 fmt::format("{:.3f}", s.rms_after_um)});
+                                 three_digits(s.rms_before_um, 3),
+                                 three_digits(s.rms_after_um, 3)});
     PageTable changes{"Each parameter from one session to the next; claimed changes first",
                       {"Parameter", "Since", "Before", "After", "Change", "1 sigma", "Unit", ""},
                       "llrrrrll",

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/rounded.h"
 #include "base/units.h"
 
 namespace trunnion::report {
@@ -55,7 +56,7 @@ std::string centre_lines(const setup::StoresToType& s, int digits) {
     for (const setup::StoreLine& line : s.fixture)
         text += line_text(line.in_force.name, line.in_force.value_mm, line.type_mm, digits);
     if (text.empty()) return text;
-    return "only where this work offset is the centre of DPP or G54.2 (G54 + external offset):\n" +
+    return "only where this work offset is the centre of DPP or G54.2 (G54 + external\noffset):\n" +
            text;
 }
 
@@ -67,20 +68,20 @@ std::string stores_text(const setup::StoresToType& s, interpreter::DialectFamily
                        s.in_force.pivot.unit == offsets::MechanicalUnit::table_table;
     std::string text =
         fmt::format("{:<24} {:>12} {:>12} {:>11}\n", hurco ? "part set-up (assumed)" : "to type",
-                    "in force / mm", "type / mm", "change / um");
+                    "in force / mm", "type / mm", "change / µm");
     text += hurco ? hurco_lines(s, digits) : fanuc_lines(s, digits);
     text += fmt::format(
-        "  tip off on the table: {:.1f} um now; after typing {:.2f} um by tilts of the axes\n"
-        "  (no place in these numbers), {:.2f} um by the increment of {:g} mm\n",
-        s.now_um, s.tilts_um, s.rounding_um, s.increment_mm);
+        "  tip off on the table: {} now; after typing {} by tilts of the axes\n"
+        "  (no place in these numbers), {} by the increment of {:g} mm\n",
+        length_words(s.now_um), length_words(s.tilts_um), length_words(s.rounding_um),
+        s.increment_mm);
     const std::string centre = centre_lines(s, digits);
     if (centre.empty()) return text;
-    text +=
-        centre + fmt::format("  tip off with DPP or G54.2: {:.1f} um now, {:.2f} um after typing",
-                             s.g54_now_um, s.g54_left_um);
+    text += centre + fmt::format("  tip off with DPP or G54.2: {} now, {} after typing",
+                                 length_words(s.g54_now_um), length_words(s.g54_left_um));
     if (s.apart_um > 0.05)
-        text += fmt::format(";\n  the axes pass each other by {:.1f} um, which no G54 can hold",
-                            s.apart_um);
+        text += fmt::format(";\n  the axes pass each other by {}, which no G54 can hold",
+                            length_words(s.apart_um));
     return text + "\n";
 }
 

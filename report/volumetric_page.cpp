@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/rounded.h"
 #include "base/units.h"
 #include "report/volumetric_pictures.h"
 #include "report/volumetric_report.h"
@@ -12,8 +13,8 @@ namespace {
 std::string causes_section(const volumetric::VolumetricMap& map) {
     PageTable table{"", {"cause", "rms / µm", "largest / µm", "share"}, "lrrr", {}};
     for (const volumetric::VolumetricCause& cause : map.causes)
-        table.rows.push_back({cause.name, fmt::format("{:.2f}", um_from_mm(cause.rms_mm)),
-                              fmt::format("{:.2f}", um_from_mm(cause.largest_mm)),
+        table.rows.push_back({cause.name, three_digits(um_from_mm(cause.rms_mm), 3),
+                              three_digits(um_from_mm(cause.largest_mm), 3),
                               fmt::format("{:.1f} %", 100.0 * cause.share)});
     return section_html("What contributes", table_html(table));
 }
@@ -51,10 +52,11 @@ Page volumetric_page(const volumetric::VolumetricMap& map) {
     page.title = "Error of the tool point over the working volume";
     page.subject =
         fmt::format("{}, tool {:g} mm, {} poses", map.machine, map.length_mm, map.points.size());
-    page.verdict = fmt::format(
-        "The tip is off by {:.1f} µm at most, at {}{}; rms over all poses {:.1f} µm.",
-        um_from_mm(worst.error_W_mm.norm()), place_text(map.names, map.axes, worst.at),
-        map.causes.empty() ? "" : ", mostly by " + cause_name(map, worst), um_from_mm(map.rms_mm));
+    page.verdict = fmt::format("The tip is off by {} at most, at {}{}; rms over all poses {}.",
+                               length_words(um_from_mm(worst.error_W_mm.norm())),
+                               place_text(map.names, map.axes, worst.at),
+                               map.causes.empty() ? "" : ", mostly by " + cause_name(map, worst),
+                               length_words(um_from_mm(map.rms_mm)));
     page.body_html = causes_section(map) + pictures_section(map) + reading_section(map);
     return page;
 }

@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/numbers.h"
+#include "base/rounded.h"
 #include "base/units.h"
 #include "report/json_values.h"
+#include "report/paragraph.h"
 
 namespace trunnion::report {
 namespace {
@@ -84,21 +86,23 @@ std::string volumetric_json(const volumetric::VolumetricMap& map,
 std::string volumetric_text(const volumetric::VolumetricMap& map) {
     const volumetric::VolumetricPoint& worst = map.points[map.worst];
     std::string out =
-        fmt::format("{} poses: rms {:.2f} um, largest {:.2f} um at {} (mostly {})\n",
-                    map.points.size(), um_from_mm(map.rms_mm), um_from_mm(worst.error_W_mm.norm()),
-                    place_text(map.names, map.axes, worst.at),
-                    map.causes.empty() ? "nothing" : cause_name(map, worst));
+        paragraph(fmt::format("{} poses: rms {}, largest {} at {} (mostly {})", map.points.size(),
+                              length_words(um_from_mm(map.rms_mm)),
+                              length_words(um_from_mm(worst.error_W_mm.norm())),
+                              place_text(map.names, map.axes, worst.at),
+                              map.causes.empty() ? "nothing" : cause_name(map, worst)),
+                  0);
     if (!map.assumed.empty())
         out += fmt::format("no travel in the setup, +-200 mm or +-180 degrees assumed: {}\n",
                            list_of(map.names, map.assumed));
     if (!map.clamped.empty())
         out += fmt::format("travel beyond a table of errors, held at its last value there: {}\n",
                            list_of(map.names, map.clamped));
-    if (!map.causes.empty()) out += "cause                rms um  largest um   share\n";
+    if (!map.causes.empty()) out += "cause                rms µm  largest µm   share\n";
     for (const volumetric::VolumetricCause& cause : map.causes)
-        out +=
-            fmt::format("{:18} {:8.2f} {:11.2f} {:6.1f} %\n", cause.name, um_from_mm(cause.rms_mm),
-                        um_from_mm(cause.largest_mm), 100.0 * cause.share);
+        out += fmt::format("{:18} {:>8} {:>11} {:6.1f} %\n", cause.name,
+                           three_digits(um_from_mm(cause.rms_mm), 3),
+                           three_digits(um_from_mm(cause.largest_mm), 3), 100.0 * cause.share);
     return out;
 }
 

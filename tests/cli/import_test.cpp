@@ -61,7 +61,7 @@ TEST_CASE("the imports of docs/readings.md do what the page says") {
                          bench.file("machine.toml") + " --out " + bench.file("o.csv")) == 0);
     CHECK_THAT(bench.read("err.txt"),
                Catch::Contains("X, 2 runs both ways at 3 targets, mm") &&
-                   Catch::Contains("B -4.00 (mean -3.00), M 1.50, E 5.00, R 5.13, A 6.13 um"));
+                   Catch::Contains("B -4.00 (mean -3.00), M 1.50, E 5.00, R 5.13, A 6.13 µm"));
 }
 
 TEST_CASE("an import that is refused writes nothing") {

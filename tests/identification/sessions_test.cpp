@@ -93,8 +93,8 @@ TEST_CASE("each day has its own pose and scale, the machine's error is common",
     const std::vector<std::string>& words = result.set_up_words;
     REQUIRE(words.size() == 2);
     CHECK(words[0] ==
-          "monday: the part was turned by 0.029 deg, shifted by (-0.044, 0.079, 0.01) mm, scaled "
-          "by -34 ppm");
+          "monday: the part was turned by 0.02900 deg, shifted by (-0.0440, 0.0790, 0.0100) mm, "
+          "scaled by -34.00 ppm");
     CHECK_THAT(words[1], Catch::Contains("tuesday: the part was turned by 0.01107 deg"));
 }
 

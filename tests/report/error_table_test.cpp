@@ -38,7 +38,7 @@ TEST_CASE("pitch error data take the error away within half a unit at every plac
 
 TEST_CASE("a free form prints every place with its sigma", "[report]") {
     const std::string text = report::error_table(waved(true));
-    CHECK(text.find("EXX: at mm, error um, sigma") != std::string::npos);
+    CHECK(text.find("EXX: at mm, error µm, sigma") != std::string::npos);
     CHECK(text.find("-200.0000") != std::string::npos);
     CHECK(text.find("pitch error data") != std::string::npos);
     // In a figure: it scrolls by itself on a phone.
