@@ -38,7 +38,7 @@ Step step_of(const interpreter::ParsedProgram& program, const interpreter::Block
         if (is_call(item.letter, code, options)) return Step::unknown;
         if (item.letter == 'T' && options.calls_program && options.calls_program('T', 0))
             return Step::unknown;
-        if (item.letter == 'G' && code == 310) return Step::unknown;
+        if (item.letter == 'G' && (code == 310 || code == 370)) return Step::unknown;
         if (item.letter == 'G' && code == 100 && word_value(program, block, 'L') == 85.0)
             return Step::unknown;
         if (item.letter == 'M' && code == 990) return Step::unknown;

@@ -11,7 +11,7 @@ set(TRUNNION_CONTROLLER_ORDER
   # what takes a path to the axes
   feed_time axis_mover tool_vector tip_mover mover
   # codes by subject
-  arcs arc_3d word_readings cutter_codes holes cycles wrapped_motion work_frames fixture_offset_codes tool_length
+  arcs arc_3d word_readings cutter_codes position_offset single_direction tool_measurement holes cycles wrapped_motion work_frames fixture_offset_codes tool_length
   tool_centre tilted_plane_codes transform_plane retract shapes reference_points skip data_setting dialect_codes m_codes
   # system variables
   offset_variables position_variables modal_variables signal_variables

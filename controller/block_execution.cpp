@@ -8,6 +8,7 @@
 #include "controller/commanded.h"
 #include "controller/cutter_codes.h"
 #include "controller/g_actions.h"
+#include "controller/position_offset.h"
 #include "controller/surface_speed.h"
 #include "controller/tool_centre.h"
 #include "controller/word_readings.h"
@@ -86,7 +87,7 @@ void run_motion(Control& c) {
         return c.wrapped.move_cylinder_line(w, c.modal, c.frames, c.mover);
     if (round) return move_arc_block(w, c.modal, c.frames, c.mover);
     c.mover.line(code == 0 ? motion::MotionKind::rapid : motion::MotionKind::linear,
-                 commanded_position(w, c.modal, c.frames));
+                 end_of_straight_move(w, c.modal, c.frames));
 }
 
 /// True when the block moves without an axis word: an arc with only its centre is a full circle,

@@ -29,11 +29,23 @@ const std::vector<AlarmRow>& control_alarms() {
          "Command G40 before G31."},
         {37, "PS", "CAN NOT CHANGE PLANE IN G41/G42", "G17-G19 changed under compensation.",
          "Command G40 before the plane."},
+        {42, "PS", "G45/G48 NOT ALLOWED IN CRC", "G45 to G48 under cutter compensation.",
+         "Command G40 before."},
         {44, "PS", "G27-G30 NOT ALLOWED IN FIXED CYC", "G27 to G30 in a canned cycle.",
          "Command G80 before."},
         {45, "PS", "ADDRESS Q NOT FOUND (G73/G83)", "A pecking cycle without Q.",
          "Give Q above 0."},
         {46, "PS", "ILLEGAL REFERENCE RETURN COMMAND", "P of G30 is not 2, 3 or 4.", "Correct P."},
+        {80, "PS", "G37 ARRIVAL SIGNAL NOT ASSERTED",
+         "G37: no skip signal within 6254 of the setter's position.",
+         "Check the setter, its position, the offset of the tool, 6251 and 6254."},
+        {81, "PS", "OFFSET NUMBER NOT FOUND IN G37", "G37 without an active H.",
+         "Command H in a block before."},
+        {82, "PS", "H-CODE NOT ALLOWED IN G37", "H in the block of G37.",
+         "Command H in a block before."},
+        {83, "PS", "ILLEGAL AXIS COMMAND IN G37",
+         "G37 names no linear axis, or several, or is commanded under G91.",
+         "Name one linear axis under G90."},
         {92, "PS", "ZERO RETURN CHECK (G27) ERROR", "G27 did not end at the reference position.",
          "Correct the position."},
         {142, "PS", "ILLEGAL SCALE RATE", "A scaling factor of 0.", "Correct P, I, J or K."},
@@ -90,6 +102,10 @@ const std::vector<AlarmRow>& control_alarms() {
          "The block behind G2.4 or G3.4 must be its end point; three points must not lie in a "
          "line.",
          "Write the end point of the arc in the next block."},
+        {9005, "EX", "NOT EMULATED IN THIS STATE",
+         "G37, G45 to G48 or G60 in a state in which the emulator does not know the motion: an "
+         "arc, a canned cycle, cutter compensation, G44.",
+         "Write the positions themselves."},
     };
     return rows;
 }

@@ -8,11 +8,14 @@
 #include "controller/commanded.h"
 #include "controller/cutter_codes.h"
 #include "controller/fixture_offset_codes.h"
+#include "controller/position_offset.h"
 #include "controller/retract.h"
 #include "controller/shapes.h"
+#include "controller/single_direction.h"
 #include "controller/surface_speed.h"
 #include "controller/tool_centre.h"
 #include "controller/tool_length.h"
+#include "controller/tool_measurement.h"
 #include "controller/transform_plane.h"
 #include "controller/word_readings.h"
 #include "controller/work_frames.h"
@@ -94,6 +97,8 @@ constexpr ActionRow rows[] = {
     {Action::polar_motion,
      [](Control& c, const GCode& g) { c.wrapped.set_polar(c.modal, c.frames, g.code10); }},
     {Action::polar_words, polar_words},
+    {Action::position_offset,
+     [](Control& c, const GCode&) { take_position_offset(c.words, c.modal, c.frames); }},
     {Action::preset,
      [](Control& c, const GCode&) { preset_position(c.words, c.modal, c.frames, c.mover); }},
     {Action::preset_cancel,
@@ -113,6 +118,10 @@ constexpr ActionRow rows[] = {
      [](Control& c, const GCode&) { set_scaling(c.words, c.modal, c.frames, c.mover); }},
     {Action::scaling_off,
      [](Control& c, const GCode&) { end_scaling(c.modal, c.frames, c.mover); }},
+    {Action::single_direction,
+     [](Control& c, const GCode&) {
+         position_in_one_direction(c.words, c.modal, c.frames, c.mover);
+     }},
     {Action::skip,
      [](Control& c, const GCode&) { skip_move(c.skip, c.words, c.modal, c.frames, c.mover); }},
     {Action::speed_mode,
@@ -138,6 +147,8 @@ constexpr ActionRow rows[] = {
      [](Control& c, const GCode& g) {
          set_tool_length(c.words, c.modal, c.frames, c.mover, g.code10);
      }},
+    {Action::tool_measurement,
+     [](Control& c, const GCode&) { measure_tool_length(c.words, c.modal, c.frames, c.mover); }},
     {Action::transform_plane,
      [](Control& c, const GCode& g) {
          set_transform_plane(c.words, c.modal, c.frames, c.mover, g.code10);

@@ -31,6 +31,7 @@ enum class Action : std::uint8_t {
     plane,
     polar_motion,
     polar_words,
+    position_offset,
     preset,
     preset_cancel,
     reference,
@@ -40,6 +41,7 @@ enum class Action : std::uint8_t {
     rotation_cancel,
     scaling,
     scaling_off,
+    single_direction,
     skip,
     speed_mode,
     thread,  ///< G33, an option
@@ -49,6 +51,7 @@ enum class Action : std::uint8_t {
     tool_axis_keeping_tip,
     tool_centre,
     tool_length,
+    tool_measurement,
     transform_plane,  ///< Hurco's G68.2, G68.3
     units,
     work_offset,

@@ -22,6 +22,7 @@ void decode_axes(const offsets::Parameters& parameters, const ControlConfig& con
         const std::size_t i = index_of(config.axes[k].axis);
         for (int r = 0; r < 4; ++r)
             s.reference[static_cast<std::size_t>(r)][i] = for_axis(parameters, 1240 + r, number);
+        s.overrun[i] = for_axis(parameters, 5440, number);
         const double jump = for_axis(parameters, 1783, number);
         s.corner_jump[i] = jump > 0.0 ? jump : default_corner_jump;
         const auto roa = static_cast<unsigned>(for_axis(parameters, 1008, number));
@@ -103,6 +104,7 @@ ControlSettings decode_settings(const offsets::Parameters& parameters,
     s.wear_first = parameters.bit(6000, 3);
     s.least_surface_rpm = parameters.get(3771);
     if (const double most = parameters.get(3772); most > 0.0) s.most_rpm = most;
+    s.measuring = {parameters.get(6241), parameters.get(6251), parameters.get(6254)};
     s.surface_axis_number = std::max(1, static_cast<int>(parameters.get(3770)));
     decode_axes(parameters, config, s);
     return s;

@@ -11,6 +11,13 @@
 
 namespace trunnion::controller {
 
+/// Automatic tool length measurement, G37.
+struct ToolMeasuring {
+    double feed_mm_min = 0.0;   ///< 6241
+    double slow_mm = 0.0;       ///< 6251: distance before the setter at which that feed starts
+    double tolerance_mm = 0.0;  ///< 6254: the signal must come within it
+};
+
 /// Decoded CNC parameters. The parameter number follows each field; the initial value is used when
 /// the store has no entry.
 struct ControlSettings {
@@ -47,6 +54,8 @@ struct ControlSettings {
     double least_surface_rpm = 0.0;          ///< 3771: minimum speed under G96
     double most_rpm = 99999.0;               ///< 3772; absent or 0: five digits (assumed)
     int surface_axis_number = 1;             ///< 3770: radius axis of G96 without P; 0 or absent: 1
+    ToolMeasuring measuring;
+    std::array<double, axis_count> overrun{};      ///< 5440, mm and deg: G60
     std::array<double, axis_count> corner_jump{};  ///< 1783, mm/min and deg/min; 0: 400 (assumed)
     std::array<std::array<double, axis_count>, 4> reference{};  ///< 1240-1243, mm and deg
 };
