@@ -14,15 +14,27 @@ struct Mark {
     int code10;
     const char* with;  ///< letters of the block
     const char* text;
+    bool with_other_words = false;  ///< our controls have the code, with other words
 };
 constexpr Mark marks[] = {
-    {"lathe", 'G', 710, "PQ", "G71 P Q"}, {"lathe", 'G', 720, "PQ", "G72 P Q"},
-    {"lathe", 'G', 700, "PQ", "G70 P Q"}, {"lathe", 'G', 500, "S", "G50 S"},
-    {"lathe", 'G', 710, "UR", "G71 U R"}, {"Haas", 'M', 970, "P", "M97 P"},
-    {"Haas", 'G', 1870, "", "G187"},      {"Haas", 'G', 1540, "P", "G154 P"},
-    {"Haas", 'G', 1030, "P", "G103 P"},   {"Haas", 'G', 1500, "P", "G150 P"},
+    {"lathe", 'G', 710, "PQ", "G71 P Q", true},
+    {"lathe", 'G', 720, "PQ", "G72 P Q"},
+    {"lathe", 'G', 700, "PQ", "G70 P Q", true},
+    {"lathe", 'G', 500, "S", "G50 S", true},
+    {"lathe", 'G', 710, "UR", "G71 U R", true},
+    {"Haas", 'M', 970, "P", "M97 P"},
+    {"Haas", 'G', 1870, "", "G187"},
+    {"Haas", 'G', 1540, "P", "G154 P"},
+    {"Haas", 'G', 1030, "P", "G103 P"},
+    {"Haas", 'G', 1500, "P", "G150 P", true},
     {"Haas", 'M', 1300, "", "M130"},
 };
+
+/// This control has the code, by its dialect or by its builder's profile.
+bool is_own(const Mark& mark, const CheckOptions& options) {
+    return mark.letter == 'G' && !mark.with_other_words && options.knows_g &&
+           options.knows_g(mark.code10);
+}
 
 bool has_letters(const interpreter::ParsedProgram& program, const interpreter::Block& block,
                  const char* letters) {
@@ -40,8 +52,7 @@ const Mark* find_mark(const interpreter::ParsedProgram& program, const interpret
     if (block.kind == interpreter::BlockKind::statements) return nullptr;
     for (const Mark& mark : marks) {
         if (options.calls_program && options.calls_program(mark.letter, mark.code10)) continue;
-        if (mark.code10 == 1540 && options.dialect.family == interpreter::DialectFamily::hurco)
-            continue;
+        if (is_own(mark, options)) continue;
         if (has_code(program, block, mark.letter, mark.code10) &&
             has_letters(program, block, mark.with))
             return &mark;

@@ -36,7 +36,7 @@ struct Options {
 
 int whole(const std::string& text, const char* option) {
     const auto n = parse_number(text);
-    if (!n || *n < 1 || *n > 99999 || *n != static_cast<int>(*n))
+    if (!n || *n < 1 || *n > 999999 || *n != static_cast<int>(*n))
         throw InputError(fmt::format("{}: '{}' is not a variable number", option, text));
     return static_cast<int>(*n);
 }

@@ -98,6 +98,17 @@ TEST_CASE("findings in every format carry the place", "[check]") {
     CHECK(report::format_findings({}, {"p.nc"}, "github").empty());
 }
 
+TEST_CASE("a code of this control, or of its builder, is no sign of a Haas", "[check]") {
+    const std::string text = "O1\nG103P1\nM30\n";
+    CHECK(check_text(text).empty());  // this control has every code but G777
+    const auto owner = std::make_shared<const std::string>(text);
+    check::CheckOptions options;
+    options.knows_g = [](int code10) { return code10 != 1030; };
+    const auto findings = check::check_program({"p.nc", *owner, owner}, options);
+    REQUIRE(findings.size() == 1);
+    CHECK(findings[0].rule == "family");
+}
+
 TEST_CASE("text has one line for each finding, with place, rule and remedy", "[check]") {
     const auto findings = check_text("O1\nGOTO 50\nG777\nM30\n");
     const std::string text = report::format_findings(findings, {"p.nc"}, "text");
