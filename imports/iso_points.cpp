@@ -79,8 +79,16 @@ bool holds_positions(const std::vector<IsoPoint>& points, const Source& source) 
     return close(values, apart, targets);
 }
 
-/// Sorts a pass by its direction, independent of the order in the file.
-void sort_pass(std::vector<IsoPoint>& pass) {
+/// Sorts a pass by its direction: a file has its targets rising or falling. A length that does both
+/// is a slip of the pen; an angle may pass zero.
+void sort_pass(const Source& source, std::vector<IsoPoint>& pass) {
+    double trend = 0.0;
+    for (std::size_t k = 1; k < pass.size(); ++k) {
+        const double step = pass[k].target - pass[k - 1].target;
+        if (source.quantities.target != Quantity::angle && step * trend < 0.0)
+            source.table.fail(pass[k].row, 0, "targets out of order: they rise and fall");
+        if (trend == 0.0) trend = step;
+    }
     std::stable_sort(pass.begin(), pass.end(), [](const IsoPoint& a, const IsoPoint& b) {
         return a.direction > 0 ? a.target < b.target : a.target > b.target;
     });
@@ -145,7 +153,7 @@ std::vector<IsoPoint> matrix_points(const Source& source, const std::vector<RunC
                             number_in(source.table, i, cells, {run.column, factor}), 0.0,
                             run.name.run, run.name.direction, i});
         }
-        sort_pass(pass);
+        sort_pass(source, pass);
         points.insert(points.end(), pass.begin(), pass.end());
     }
     step_times(source.facts, points);
@@ -159,8 +167,8 @@ bool targets_across(const TextTable& table) {
            std::all_of(table.columns().begin() + 1, table.columns().end(), number);
 }
 
-std::vector<IsoPoint> across_points(const TextTable& table, const Facts& facts,
-                                    const IsoQuantities& quantities) {
+std::vector<IsoPoint> across_points(const Source& source) {
+    const auto& [table, facts, quantities, target, factor] = source;
     const std::string& told = table.columns()[0].unit;
     const auto unit = find_unit(told.empty() ? usual_unit(quantities.target) : told);
     const auto value_unit = find_unit(facts.text("unit"));
@@ -182,7 +190,7 @@ std::vector<IsoPoint> across_points(const TextTable& table, const Facts& facts,
                                     (unit ? unit->factor : 1.0),
                                 number_in(table, i, cells, {k, value_unit->factor}), 0.0, name.run,
                                 name.direction, i});
-        sort_pass(pass);
+        sort_pass(source, pass);
         passes.emplace_back(name, std::move(pass));
     }
     std::stable_sort(passes.begin(), passes.end(),
@@ -319,7 +327,7 @@ std::vector<IsoSeries> read_iso_points(const TextTable& table, const Facts& fact
     std::vector<IsoSeries> list;
     Source source{table, facts, quantities, 0, 1.0};
     if (targets_across(table)) {
-        list.push_back({"", across_points(table, facts, quantities), false});
+        list.push_back({"", across_points(source), false});
     } else {
         const auto target = target_column(table);
         if (!target)

@@ -81,12 +81,15 @@ bool any_read(const LogColumns& log) {
     return std::any_of(log.axes.begin(), log.axes.end(), [](auto& axis) { return axis.read(); });
 }
 
-void check(const TextTable& table, const LogColumns& log) {
-    if (!any_read(log) && !log.places_only())
-        table.header_line().fail(
-            "no axis has both a commanded and an actual position (\"X commanded\", \"X actual\"); "
-            "--with columns= names them in their order",
-            1);
+void check(const TextTable& table, const LogColumns& log, const setup::Setup& setup) {
+    if (any_read(log) || log.places_only()) return;
+    std::string axes;
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
+        axes += (axes.empty() ? "" : ", ") + setup.machine.chain.names()[axis.axis];
+    table.header_line().fail("no axis of the machine (" + axes +
+                                 ") has both a commanded and an actual position (\"X commanded\", "
+                                 "\"X actual\"); --with columns= names them in their order",
+                             1);
 }
 
 }  // namespace
@@ -138,7 +141,7 @@ LogColumns log_columns(const TextTable& table, const setup::Setup& setup, const 
     }
     for (const auto& [axis, k] : plain)
         take_plain(table, k, facts, columns_of(log, setup, axis), log);
-    check(table, log);
+    check(table, log, setup);
     return log;
 }
 

@@ -27,6 +27,23 @@ TEST_CASE("targets out of order are refused", "[imports][bad]") {
              {"axis=X"},
              ""},
             "order", 4);
+    for (const char* table : {"target [mm],1+ [um],1- [um]\n0,0,3\n200,1,5\n100,2,4\n",
+                              "target [mm],1+ [um],1- [um]\n100,0,3\n0,1,5\n200,2,4\n"})
+        refuses(import_bench::setup(), {ImportKind::iso230_2, table, {"axis=X"}, ""},
+                "rise and fall", 4);
+    refuses(
+        import_bench::setup(),
+        {ImportKind::iso230_2, "Position;0;200;100\nRun 1 up;0;1;2\n", {"axis=X", "unit=um"}, ""},
+        "rise and fall", 2);
+}
+
+TEST_CASE("falling targets, and angles that pass zero, are in order", "[imports][bad]") {
+    for (const auto& [axis, table] :
+         {std::pair("axis=X", "target [mm],1+ [um],1- [um]\n200,0,3\n100,1,5\n0,2,4\n"),
+          std::pair("axis=C", "target [deg],1+ [arcsec],1- [arcsec]\n270,0,3\n0,1,5\n90,2,4\n")})
+        CHECK(import_bench::read_rows(import_bench::setup(),
+                                      {ImportKind::iso230_2, table, {axis}, ""})
+                  .size() == 6);
 }
 
 TEST_CASE("two units in one column are refused", "[imports][bad]") {
@@ -62,6 +79,8 @@ TEST_CASE("an instrument whose pose is free wants three points in each session",
 
 TEST_CASE("an axis or a device that nobody knows is refused", "[imports][bad]") {
     const setup::Setup setup = import_bench::setup();
+    refuses(setup, {ImportKind::axis_log, "time [s],A cmd [deg],A act [deg]\n0,1,1\n", {}, ""},
+            "no axis of the machine (X, Y, Z, B, C)", 1);
     refuses(setup, {ImportKind::iso230_2, "target [mm],1+ [um]\n0,0\n10,1\n", {"axis=Q"}, ""},
             "axis", 1);
     refuses(setup,

@@ -1,6 +1,7 @@
 // Ten files in the shapes that instruments, controls and people write: each comes in as it is, and
 // identify finds what its writer put in (tests/imports/like_real/make_sets.py, which shares nothing
 // with the product), within 5 %.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <fstream>
 #include <sstream>
@@ -172,6 +173,22 @@ TEST_CASE("stars all over the sky: how the azimuth axis leans", "[imports][like_
           within_five_percent(truth("telescope", "lean_x_urad")));
     CHECK(1e6 * sky.value("location", "EB0Az_rad") ==
           within_five_percent(truth("telescope", "lean_y_urad")));
+}
+
+TEST_CASE("collimation and the zero of the test are one column, and named as such",
+          "[imports][like_real]") {
+    const Result sky({ImportKind::pointing, "telescope.csv", "mount.toml"},
+                     {"location", "chain.collimation"});
+    const auto& lists = sky.found().inseparable;
+    const auto pair = std::find_if(lists.begin(), lists.end(), [](const auto& group) {
+        return group.names == std::vector<std::string>{"chain.collimation.second_rad",
+                                                       "zero.across_Alt_rad.2024-02-17"};
+    });
+    REQUIRE(pair != lists.end());
+    CHECK(pair->direction[0] == Approx(1.0));
+    CHECK(pair->direction[1] == Approx(-1.0));
+    CHECK(1e6 * sky.value("location", "EA0Az_rad") ==
+          within_five_percent(truth("telescope", "lean_x_urad")));
 }
 
 TEST_CASE("a tracker's points of an arm, joints in columns of their own", "[imports][like_real]") {
