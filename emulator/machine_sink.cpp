@@ -63,6 +63,7 @@ MachineSink::MachineSink(const setup::Setup& setup, EffectModels effects,
       bar_(setup, options.seed ^ 0x5bd1e995u,  // not the stream of the probe
            options.automatic_ballbar),
       measure_(setup),
+      meant_(setup),
       log_(axes_of(setup.machine.chain.axes()), setup.side_before, options.test),
       history_(setup.side_before),
       test_(options.test) {
@@ -193,8 +194,11 @@ std::optional<Touch> MachineSink::probe(const motion::AxisMove& move) {
     if (!move.until_skip || !touch_.mounted(move)) return std::nullopt;
     if (!bar_.commanded()) end_pass();
     log_.passed(move.from, clock_s_, mode_);
-    const auto touch = touch_.touch(move, row_now(), machine_, log_);
-    if (touch && touch->row.device != records::Device::none) log_.add(touch->row);
+    auto touch = touch_.touch(move, row_now(), machine_, log_);
+    if (!touch || touch->row.device == records::Device::none) return touch;
+    records::Reading& row = touch->row;
+    row.point_W_mm = meant_.at(row.mode, row.commanded, row.extension_mm);
+    log_.add(row);
     return touch;
 }
 

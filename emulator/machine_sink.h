@@ -13,6 +13,7 @@
 #include "emulator/tool_tip.h"
 #include "emulator/touch_station.h"
 #include "emulator/trace.h"
+#include "setup/programmed_point.h"
 
 namespace trunnion::emulator {
 
@@ -76,6 +77,7 @@ class MachineSink : public motion::MotionSink {
     TouchStation touch_;
     BallbarStation bar_;
     MeasureStation measure_;
+    setup::ProgrammedPoint meant_;  ///< by the stores before the program
     ReadingLog log_;
     std::optional<TraceWriter> trace_;
     records::TravelHistory history_;  ///< of the path itself, for the true tip

@@ -10,7 +10,7 @@
 #include "imports/row_writer.h"
 #include "records/stops.h"
 #include "records/told_lines.h"
-#include "setup/right_stores.h"
+#include "setup/programmed_point.h"
 
 namespace trunnion::imports {
 namespace {
@@ -39,7 +39,13 @@ std::vector<Axis> numbered_axes(const setup::Setup& setup) {
 class PrintedRun {
   public:
     PrintedRun(const setup::Setup& setup, const ImportFile& file, std::vector<std::string>& notes)
-        : setup_(setup), file_(file), notes_(notes), axes_(numbered_axes(setup)) {
+        : setup_(setup),
+          file_(file),
+          notes_(notes),
+          axes_(numbered_axes(setup)),
+          declared_(setup::rotary_stores(setup.machine.chain, setup.stores)),
+          in_force_(declared_),
+          meant_(setup, declared_) {
         for (const setup::Artefact& a : setup.artefacts)
             if (a.kind == setup::Artefact::Kind::sphere) spheres_.push_back(a);
         if (spheres_.empty() || !setup.probe)
@@ -62,7 +68,7 @@ class PrintedRun {
     void head(const PrintedLine& line);
     void end(const PrintedLine& line);
     void store(const PrintedLine& line);
-    void note_store(const std::string& name, double printed_mm, double declared_mm);
+    void take_store(const setup::StoreNumber& declared, double printed_mm);
     void test(const PrintedLine& line);
     void positions(const PrintedLine& line);
     void at(const PrintedLine& line);
@@ -97,6 +103,8 @@ class PrintedRun {
     PositioningMode mode_ = PositioningMode::none, plain_mode_ = PositioningMode::none;
     std::string test_;
     std::optional<AxisPositions> stands_;
+    std::optional<setup::RotaryStores> declared_, in_force_;
+    setup::ProgrammedPoint meant_;
     double unit_mm_ = 1.0, time_s_ = 0.0;
     std::size_t touches_ = 0, tests_ = 0;
     int runs_ = 0;
@@ -167,6 +175,8 @@ void PrintedRun::head(const PrintedLine& line) {
     timed_ = false;
     shop_ = {};
     begin_modes();
+    in_force_ = declared_;
+    meant_ = setup::ProgrammedPoint(setup_, declared_);
 }
 
 void PrintedRun::end(const PrintedLine& line) {
@@ -174,11 +184,14 @@ void PrintedRun::end(const PrintedLine& line) {
     running_.reset();
 }
 
-void PrintedRun::note_store(const std::string& name, double printed_mm, double declared_mm) {
-    if (std::abs(printed_mm - declared_mm) > store_digits_mm)
+/// A printed store within its rounding is the declared one.
+void PrintedRun::take_store(const setup::StoreNumber& declared, double printed_mm) {
+    const bool same = std::abs(printed_mm - declared.value_mm) <= store_digits_mm;
+    setup::set_number(*in_force_, declared, same ? declared.value_mm : printed_mm);
+    if (!same)
         notes_.push_back(
             fmt::format("{}: {} was {:.4f} when the program ran, the setup declares {:.4f}",
-                        file_.path, name, printed_mm, declared_mm));
+                        file_.path, declared.name, printed_mm, declared.value_mm));
 }
 
 void PrintedRun::store(const PrintedLine& line) {
@@ -187,14 +200,14 @@ void PrintedRun::store(const PrintedLine& line) {
         unit_mm_ = rest.ends_with('1') ? mm_from_inch(1.0) : 1.0;
         return;
     }
-    const auto declared = setup::rotary_stores(setup_.machine.chain, setup_.stores);
-    if (!declared) return;
-    for (const setup::StoreNumber& n : setup::store_numbers(*declared)) {
+    if (!declared_) return;
+    for (const setup::StoreNumber& n : setup::store_numbers(*declared_)) {
         if (n.parameter == 0 && rest.starts_with("G54 "))
-            note_store(n.name, line.number_behind("XYZ"[n.component]), n.value_mm);
+            take_store(n, line.number_behind("XYZ"[n.component]));
         if (n.parameter != 0 && rest.starts_with(fmt::format("N{} ", n.parameter)))
-            note_store(n.name, unit_mm_ * line.number_behind('V'), n.value_mm);
+            take_store(n, unit_mm_ * line.number_behind('V'));
     }
+    meant_ = setup::ProgrammedPoint(setup_, in_force_);
 }
 
 void PrintedRun::test(const PrintedLine& line) {
@@ -270,6 +283,7 @@ void PrintedRun::touch(const PrintedLine& line) {
         skip[all_axes[d]] += gone(static_cast<Eigen::Index>(d));
     }
     row.feature = sphere_at(line, skip);
+    row.point_W_mm = meant_.at(row.mode, row.commanded, row.extension_mm);
     const double time_s = 1e-3 * line.number_behind('T');
     if (timed_ && time_s < time_s_) line.fail("the clock runs back", line.text.rfind('T'));
     time_s_ = row.time_s = time_s;

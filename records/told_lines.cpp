@@ -28,7 +28,14 @@ struct ShopColumn {
     bool (*set)(const Reading&);
 };
 
+bool has_point(const Reading& row) {
+    return row.point_W_mm.has_value();
+}
+
 constexpr ShopColumn shop_list[] = {
+    {"px_mm", has_point},
+    {"py_mm", has_point},
+    {"pz_mm", has_point},
     {"spindle_deg", [](const Reading& r) { return r.spindle_rad != 0.0; }},
     {"temperature_c", [](const Reading& r) { return r.temperature_c != 20.0; }},
     {"load_kg", [](const Reading& r) { return r.load_kg != 0.0; }},
