@@ -12,6 +12,7 @@
 #include "emulator/device_noise.h"
 #include "estimation/ranked_least_squares.h"
 #include "identification/unknowns.h"
+#include "identification/zero_scatter.h"
 
 namespace trunnion::identification {
 namespace {
@@ -37,10 +38,17 @@ double location_value(const setup::Setup& setup, const FitParameter& fit) {
     return fit.location ? setup.machine.errors.location(*fit.location) : 0.0;
 }
 
+/// Rows by their weights, tests by the scatter of their zeros.
+struct Weighting {
+    const ZeroScatter& zeros;
+    Eigen::VectorXd weight;
+};
+
 /// Weighted sum of squares of the residuals and of the deviations from calibrated values.
-double misfit(const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& weight,
+double misfit(const Eigen::VectorXd& residual_mm, const Weighting& weighting,
               const setup::Setup& setup, const std::vector<Slot>& slots) {
-    double sum = residual_mm.cwiseProduct(weight).squaredNorm();
+    const Eigen::VectorXd r = residual_mm.cwiseProduct(weighting.weight);
+    double sum = weighting.zeros.product(r, r, weighting.weight)(0, 0);
     for (const Slot& slot : slots)
         if (const FitParameter& p = slot.fit; p.prior_sigma > 0.0)
             sum += std::pow((location_value(setup, p) - p.prior_value) / p.prior_sigma, 2);
@@ -57,17 +65,18 @@ Eigen::VectorXd typical_of(const std::vector<Slot>& slots) {
 /// What the readings say of a step, in typical sizes.
 struct Equations {
     Eigen::MatrixXd information;
-    Eigen::VectorXd gradient, weight;
+    Eigen::VectorXd gradient;
+    Weighting weighting;
 };
 
 /// Takes a step (in the parameters' units) where all fits no worse behind it.
 bool taken(BaseModel& model, const emulator::Replay& replay, const std::vector<Slot>& slots,
-           const Eigen::VectorXd& weight, const Eigen::VectorXd& step) {
-    const double before = misfit(model.residual_mm, weight, model.setup, slots);
+           const Weighting& weighting, const Eigen::VectorXd& step) {
+    const double before = misfit(model.residual_mm, weighting, model.setup, slots);
     setup::Setup trial = model.setup;
     apply_step(trial, slots, step);
     Eigen::VectorXd left = residual(model, replay, trial);
-    if (misfit(left, weight, trial, slots) > before + 1e-6 * before + 1e-9) return false;
+    if (misfit(left, weighting, trial, slots) > before + 1e-6 * before + 1e-9) return false;
     model.setup = std::move(trial);
     model.residual_mm = std::move(left);
     return true;
@@ -86,7 +95,7 @@ Eigen::VectorXd take_step(BaseModel& model, const emulator::Replay& replay,
             damped.diagonal().array() += damping;
             step = damped.ldlt().solve(e.gradient);
         }
-        if (!taken(model, replay, slots, e.weight, typical.cwiseProduct(step))) continue;
+        if (!taken(model, replay, slots, e.weighting, typical.cwiseProduct(step))) continue;
         damping = damping > least_damping ? 0.1 * damping : 0.0;
         return step;
     }
@@ -205,14 +214,15 @@ void add_prior(const FitParameter& prior, const setup::Setup& setup, Eigen::Inde
 /// Robust weights; the model's setup moves to the solution. Returns the last step's fit, in typical
 /// sizes.
 estimation::LinearFit iterate(BaseModel& model, const emulator::Replay& replay,
-                              const std::vector<Slot>& slots) {
+                              const ZeroScatter& zeros, const std::vector<Slot>& slots) {
     estimation::LinearFit fit;
     double damping = 0.0;
     for (int pass = 0; pass < most_passes && !slots.empty(); ++pass) {
         const Eigen::VectorXd weight = row_weights(model, model.residual_mm);
         const Eigen::MatrixXd a = weight.asDiagonal() * model.columns;
-        Equations e{a.transpose() * a, a.transpose() * weight.cwiseProduct(model.residual_mm),
-                    weight};
+        Equations e{zeros.product(a, a, weight),
+                    zeros.product(a, weight.cwiseProduct(model.residual_mm), weight),
+                    {zeros, weight}};
         for (std::size_t j = 0; j < slots.size(); ++j)
             add_prior(slots[j].fit, model.setup, static_cast<Eigen::Index>(j), e.information,
                       e.gradient);
@@ -331,7 +341,8 @@ BaseModel fit_base(const setup::Setup& setup, const records::ReadingTable& table
     const auto& slots = unknowns.slots();
     model.columns = columns_of(slots, replay, model.gradient);
     const Eigen::VectorXd typical = typical_of(slots);
-    const estimation::LinearFit fit = iterate(model, replay, slots);
+    const estimation::LinearFit fit =
+        iterate(model, replay, ZeroScatter(setup, table, replay, model.gradient), slots);
     tell_absurd_residuals(model, replay, table);
     name_null_space(model, slots, fit);
     model.rank = static_cast<int>(typical.size()) - static_cast<int>(fit.null_space.size());

@@ -89,7 +89,7 @@ void read_model(const TomlFile& file, const TomlValue& table, const AxisNames& n
     if (const TomlValue* modelled = file.table(table).find("modelled"))
         model.modelled = file.texts(*modelled);
     model.noise_um = read_noise(file, table, "noise_um",
-                                {"sphere", "touch", "ballbar", "linear", "point", "axis"});
+                                {"sphere", "touch", "ballbar", "linear", "point", "axis", "zero"});
     model.noise_urad = read_noise(file, table, "noise_urad", {"angle", "axis"});
     if (const TomlValue* calibration = table.find("calibration"))
         for (const auto& [name, value] : file.table(*calibration).entries) {
