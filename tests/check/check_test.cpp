@@ -109,12 +109,14 @@ TEST_CASE("a code of this control, or of its builder, is no sign of a Haas", "[c
     CHECK(findings[0].rule == "family");
 }
 
-TEST_CASE("text has one line for each finding, with place, rule and remedy", "[check]") {
+TEST_CASE("text has a line for each finding, with place and rule, and the remedy below",
+          "[check]") {
     const auto findings = check_text("O1\nGOTO 50\nG777\nM30\n");
     const std::string text = report::format_findings(findings, {"p.nc"}, "text");
-    CHECK(std::count(text.begin(), text.end(), '\n') == 4);  // and the sum
-    CHECK(text.starts_with("p.nc:2:1: error: GOTO 50 but the program has no N50 [jump-target] "));
-    CHECK(text.find("p.nc:3:1: error: this control has no G777 [unknown-code] Use") !=
+    CHECK(std::count(text.begin(), text.end(), '\n') == 7);  // three of two lines, and the sum
+    CHECK(text.starts_with(
+        "p.nc:2:1: error: GOTO 50 but the program has no N50 [jump-target]\n    "));
+    CHECK(text.find("p.nc:3:1: error: this control has no G777 [unknown-code]\n    Use") !=
           std::string::npos);
     CHECK(text.ends_with("3 findings in 1 file\n"));
 }

@@ -81,8 +81,9 @@ TEST_CASE("what is no table is refused with its line") {
     refused("time;X cmd;X act\n0;1,5;1.5\n", "decimal comma", 2);
     refused("time [furlong],X cmd,X act [mm]\n0,1,1\n", "no unit for", 1);
     refused("time [s],X cmd [deg],X act [mm]\n0,1,1\n", "no unit for", 1);
-    refused("time [s],X cmd [mm]\n0,1\n", "no axis has both", 1);
-    refused("time [s],Q cmd [mm],Q act [mm]\n0,1,1\n", "no axis has both", 1);
+    refused("time [s],X cmd [mm]\n0,1\n", "no axis of the machine (X, Y, Z, B, C) has both", 1);
+    refused("time [s],Q cmd [mm],Q act [mm]\n0,1,1\n",
+            "no axis of the machine (X, Y, Z, B, C) has both", 1);
     refused("time [s],X cmd [mm],X lag [um]\n0,1,1\n", "sign=", 1);
     refused("time [s],X cmd [mm],X cmd [um],X act\n0,1,1,1\n", "second column", 1);
     refused("time,X cmd [mm],X act [mm]\n01/02/2024 08:00,1,1\n", "is no time", 2);
