@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "imports/iso_points.h"
 #include "imports/row_writer.h"
+#include "imports/rtl.h"
 
 namespace trunnion::imports {
 namespace {
@@ -169,8 +170,14 @@ class IsoImport {
 }  // namespace
 
 Imported import_iso230_2(const ImportRequest& request) {
-    IsoImport import(request);
-    for (const TextTable& table : tables_of(request, import.result.notes)) import.take(table);
+    std::vector<std::string> notes;
+    std::vector<ImportFile> files(request.files.begin(), request.files.end());
+    for (ImportFile& file : files)
+        if (is_rtl(file.text)) file.text = table_of_rtl(file, request.facts, notes);
+    const ImportRequest plain{request.setup, files, request.facts, request.map};
+    IsoImport import(plain);
+    import.result.notes = std::move(notes);
+    for (const TextTable& table : tables_of(plain, import.result.notes)) import.take(table);
     import.result.readings = import.take_rows();
     return std::move(import.result);
 }
