@@ -94,6 +94,18 @@ TEST_CASE("the orientation of the spindle turns the runout of a tool that stands
     CHECK(std::abs(v.at(136) + 0.03) < exact);
 }
 
+TEST_CASE("G37 writes the true length into the offset") {
+    const std::string rule = "[control.parameters]\n6241 = 100.0\n6251 = 8.0\n6254 = 5.0\n";
+    const std::string measure = "G37Z30.\n#135=#2005+#2205";
+    CHECK(std::abs(measured(mill(rule), "G43H5Z60.\n" + measure).at(135) - 123.456) < exact);
+    // Behind 12 um of pretravel the setter answers later: the tool seems shorter.
+    const auto late = measured(mill(rule, "pretravel_um = 12\n"), "G43H5Z60.\n" + measure);
+    CHECK(std::abs(late.at(135) - 123.444) < exact);
+    const emulator::RunLog far = log_of(mill(rule), "G43H5Z60.\nG37Z20.");
+    REQUIRE(far.result.alarm);
+    CHECK(far.result.alarm->number == 80);
+}
+
 TEST_CASE("a tool that cuts at its rim is measured beside the middle of the disc") {
     // 15 mm aside the tip of 8 mm radius still stands over the disc of 10 mm radius, 19 mm not.
     const auto v = measured(mill(), "M4S800\nG65P8481B123.I15.F100.");
