@@ -84,6 +84,8 @@ TEST_CASE("counts have no sign") {
     bench.refuses("check " + bench.program + " --max-blocks -2", "--max-blocks: '-2'");
     bench.refuses("compare " + bench.program + " " + bench.program + " --threads -1", "--threads");
     bench.refuses(run + " --vars 200-100", "--vars: '200-100' runs backwards");
+    bench.refuses(run + " --vars 1000000", "--vars: '1000000' is not a variable number");
+    CHECK(bench.trunnion(run + " --vars 900000,999999 --json") == 0);
 }
 
 TEST_CASE("a step of the trace is a micrometre or more") {
