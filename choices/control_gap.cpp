@@ -243,6 +243,7 @@ void cap_probability(GapCause& cause, double explained) {
 void add_unknown(ControlGap& gap) {
     GapCause cause;
     cause.name = "unknown";
+    cause.known = false;
     cause.what = "no choice and no store in the tables explains what stays";
     cause.share = 1.0 - gap.explained;
     cause.blocks = gap.blocks;
@@ -260,8 +261,7 @@ void tell_rest(const ComparedRun& base, ControlGap& gap) {
     if (last + 1 >= base.path.nodes.size()) return;
     const PathBlock& next = base.path.blocks[base.path.nodes[last + 1].block];
     gap.notes.push_back(fmt::format(
-        "the log ends before the program does: the moves from line {} on are not judged",
-        next.line));
+        "the log ends before the program: the moves from line {} on are not judged", next.line));
 }
 
 void tell_base(const LogOfProgram& log, const ComparedRun& base, const Teller& teller,

@@ -46,6 +46,7 @@ struct GapCause {
     std::size_t blocks = 0;           ///< number of blocks that it changes
     GapPlace first, worst;
     GapShrink heldout;
+    bool known = true;  ///< false: what no choice and no store explains
 };
 
 /// A block with part of the gap.

@@ -210,7 +210,8 @@ LogOfProgram log_of_program(const records::PositionLog& log,
     out.path.ends_only = log.ends;
     out.path.chord_mm = std::max(least_sample_sigma, 0.3 * out.sigma);
     if (out.view.keys == 0)
-        out.notes.push_back(log.path + ": no blocks told: rows are placed by their order alone");
+        out.notes.push_back(log.path +
+                            ": no block numbers: rows are assigned by their order alone");
     else if (keys->by_number())
         out.notes.push_back(log.path + ": the numbers of blocks are N numbers of the program");
     return out;

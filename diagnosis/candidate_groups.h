@@ -1,4 +1,4 @@
-// All groups of columns that may explain the gap: catalogue effects, free forms, zeros, drivers.
+// All groups of columns that may explain the gap, one file for each kind (*_groups.cpp).
 #pragma once
 
 #include <functional>

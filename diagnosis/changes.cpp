@@ -34,7 +34,7 @@ bool of_interest(const Outcome& f, const effects::Effect& effect) {
 
 /// Of the forms of a change the whole effect; of the location that of each axis.
 bool right_form(const Outcome& f, const ColumnGroup& group) {
-    if (group.effect->name == "location") {
+    if (group.effect->kind == effects::EffectKind::location) {
         const auto axis_of = [&](std::size_t j) {
             return group.effect->parameters[j].location->axis;
         };

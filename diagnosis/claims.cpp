@@ -106,8 +106,7 @@ Sizes sizes_of(Design& design, const Model& model, double floor, const std::vect
 }
 
 std::vector<Claim> claims_of(Design& design, const Model& model, const Sizes& sizes,
-                             const std::vector<Support>& support, const Folds& folds,
-                             double heldout) {
+                             const HeldOutEvidence& heldout) {
     const std::vector<Offer> worth = worth_of_members(design, model);
     std::vector<Claim> claims;
     double own = 0.0;
@@ -123,11 +122,11 @@ std::vector<Claim> claims_of(Design& design, const Model& model, const Sizes& si
         own += claim.own;
         if (claim.share < rules::least_share && claim.rms < rules::least_rms) continue;
         const std::vector<Offer> others = offers(design, without(model, k));
-        const double blocks = support[k].saving.blocks;
-        claim.probability =
-            std::min({evidence_probability(design, worth[k], others, temper(sizes, k, folds)),
-                      estimation::student_probability(support[k].saving.t, blocks - 1.0),
-                      (blocks + 1.0) / (blocks + 2.0), std::clamp(heldout, 0.0, 1.0)});
+        const double blocks = heldout.support[k].saving.blocks;
+        claim.probability = std::min(
+            {evidence_probability(design, worth[k], others, temper(sizes, k, heldout.folds)),
+             estimation::student_probability(heldout.support[k].saving.t, blocks - 1.0),
+             (blocks + 1.0) / (blocks + 2.0), std::clamp(heldout.explained, 0.0, 1.0)});
         name_rivals(design, worth[k], others, claim);
         claims.push_back(std::move(claim));
     }

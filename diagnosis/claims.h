@@ -34,10 +34,15 @@ struct Support {
     Saving saving;  ///< reduction of the loss by including it
 };
 
-/// Causes above the background, largest share first. `heldout`: H, the upper limit of every
-/// probability.
+/// What left-out readings say about a model.
+struct HeldOutEvidence {
+    const std::vector<Support>& support;  ///< of each member
+    const Folds& folds;
+    double explained;  ///< H, the part of the gap that they confirm: no probability is above it
+};
+
+/// Causes above the background, largest share first.
 std::vector<Claim> claims_of(Design& design, const Model& model, const Sizes& sizes,
-                             const std::vector<Support>& support, const Folds& folds,
-                             double heldout);
+                             const HeldOutEvidence& heldout);
 
 }  // namespace trunnion::diagnosis

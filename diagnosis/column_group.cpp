@@ -64,7 +64,7 @@ Eigen::MatrixXd columns_on(const emulator::Replay& replay,
     if (!group.effect) return columns;
     for (std::size_t k = 0; k < group.parameters.size(); ++k)
         columns.col(static_cast<Eigen::Index>(k)) = identification::effect_column(
-            replay, gradient, *group.effect, group.keys, group.parameters[k]);
+            replay, gradient, {*group.effect, group.keys, group.parameters[k]});
     drop_sessions(columns, replay, group.before);
     return columns;
 }

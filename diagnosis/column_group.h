@@ -23,6 +23,7 @@ inline bool is_cause(GroupKind kind) {
 
 /// Error motions of one axis in free form: values at knots, or harmonics of a whole turn.
 struct TableForm {
+    effects::EffectKind motion;     ///< the family: positioning, straightness, ...
     kinematics::AxisGeometry axis;  ///< as in the chain
     std::vector<int> directions;    ///< 0..5 = X Y Z (mm), A B C (rad), along and about + axes of M
     std::vector<double> knots;      ///< mm or rad, rising; empty: harmonics

@@ -42,7 +42,7 @@ NoiseBelief belief_of(const Prepared& p, const Eigen::VectorXd& residual_mm,
     NoiseModel start;
     start.source = p.base.noise_given ? NoiseSource::given : NoiseSource::assumed;
     NoiseBelief belief;
-    belief.model = noise_from_repeats(p.replay, p.table, p.blocks, residual_mm, sigma_mm, start);
+    belief.model = noise_from_repeats({p.replay, p.table, p.blocks}, residual_mm, sigma_mm, start);
     switch (belief.model.source) {
         case NoiseSource::repeats:
             belief.prior.spread = std::max(0.03, 0.5 * belief.model.doubt);
@@ -85,16 +85,34 @@ Design empty_design(const Prepared& p, const Whitener& whitener, const std::vect
     return {std::move(known), std::move(data), rows};
 }
 
-/// Adds the most promising settings of keyed effects beside a model.
-void add_keyed(Design& design, const Prepared& p, const Whitener& whitener, KeySearch& keys,
-               const Model& beside, int count) {
-    const KeySearch::Remainder left = keys.remainder(
-        left_mm(p, design, beside, solved(design, beside)), fitted_mm(p, design, beside));
+/// What a model leaves of the readings, and what may hide in it.
+KeySearch::Remainder left_by(const Prepared& p, KeySearch& keys, Design& design,
+                             const Model& model) {
+    return keys.remainder(left_mm(p, design, model, solved(design, model)),
+                          fitted_mm(p, design, model));
+}
+
+struct KeyedEffect {
+    const effects::Effect* effect;
+    std::vector<double> keys;
+};
+
+/// The `count` most promising settings of each keyed effect.
+std::vector<KeyedEffect> promising(const Prepared& p, KeySearch& keys,
+                                   const KeySearch::Remainder& left, int count) {
+    std::vector<KeyedEffect> list;
     for (const effects::Effect& effect : p.catalogue) {
         if (modelled(p, effect) || !has_keys(effect)) continue;
         for (auto& setting : keys.best(effect, left, count))
-            add_ripple_or_other(design, p, whitener, effect, std::move(setting));
+            list.push_back({&effect, std::move(setting)});
     }
+    return list;
+}
+
+void add_keyed(Design& design, const Prepared& p, const Whitener& whitener,
+               std::vector<KeyedEffect> list) {
+    for (KeyedEffect& keyed : list)
+        add_ripple_or_other(design, p, whitener, *keyed.effect, std::move(keyed.keys));
 }
 
 /// A group with the keys of one member refined on the residual of the other causes.
@@ -139,13 +157,13 @@ void add_ripples_instead(Design& design, const Prepared& p, const Whitener& whit
                          KeySearch& keys, const Model& model) {
     for (std::size_t k = 0; k < model.members.size(); ++k) {
         const ColumnGroup& group = design.group(model.members[k]);
-        if (group.kind != GroupKind::table || !group.name.ends_with(".positioning")) continue;
+        if (group.kind != GroupKind::table ||
+            group.table.motion != effects::EffectKind::positioning)
+            continue;
         const effects::Effect* ripple =
-            effects::find_effect(p.catalogue, effects::effect_name(group.table.axis, ".cyclic"));
+            effects::find_effect(p.catalogue, effects::EffectKind::cyclic, group.table.axis.axis);
         if (!ripple || modelled(p, *ripple)) continue;
-        const Model rest = without(model, k);
-        const KeySearch::Remainder left = keys.remainder(
-            left_mm(p, design, rest, solved(design, rest)), fitted_mm(p, design, rest));
+        const KeySearch::Remainder left = left_by(p, keys, design, without(model, k));
         for (auto& setting : keys.best(*ripple, left, first_keys))
             add_ripple_or_other(design, p, whitener, *ripple, std::move(setting));
     }
@@ -198,13 +216,14 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const
     if (earlier) {
         model = tuned(design, setting, carried_over(*earlier, design, p, whitener), 2);
     } else {
-        add_keyed(design, p, whitener, keys, empty_model(design, setting), first_keys);
+        const auto left = left_by(p, keys, design, empty_model(design, setting));
+        add_keyed(design, p, whitener, promising(p, keys, left, first_keys));
         model = searched(design, setting);
     }
     for (int pass = 0; pass < 2 && !setting.stopped(); ++pass) {
         const double before = model.score;
         model = with_refined_keys(design, setting, p, whitener, std::move(model));
-        add_keyed(design, p, whitener, keys, model, 1);
+        add_keyed(design, p, whitener, promising(p, keys, left_by(p, keys, design, model), 1));
         add_ripples_instead(design, p, whitener, keys, model);
         model = settled(design, setting, grown(design, setting, std::move(model)));
         if (model.score < before + 1.0) break;

@@ -1,4 +1,4 @@
-// The sim-to-real gap of a set of readings: its location, its causes, and its reduction.
+// The sim-to-real gap of readings: its location, causes and reduction (diagnose.cpp).
 #pragma once
 
 #include <functional>
@@ -53,6 +53,7 @@ struct Cause {
     Finite rms_sigma = 0.0;          ///< what it does to the readings, rms in their sigma
     bool holds_between = true;       ///< a free form that predicts places left out
     std::string since;               ///< a change: the session from which it holds; else empty
+    bool known = true;               ///< false: structure that nothing in the catalogue explains
 };
 
 /// Change of one parameter of the machine from one session to the next.

@@ -127,6 +127,7 @@ std::vector<identification::FitParameter> zero_scatter_of(const Outcome& f) {
         if (group.kind != GroupKind::offset || f.judgement.large[k]) continue;
         identification::FitParameter p;
         p.effect = "setup";
+        p.of_set_up = true;
         p.name = "scatter of the " + group.name;
         p.unit = "mm";
         p.value = usual_zero_mm * f.model.variances.tau[k];
@@ -164,16 +165,17 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
     }
     d.inseparable = base.inseparable;
     for (const identification::FitParameter& p : base.parameters)
-        if (p.effect == "setup") d.set_up.push_back(p);
+        if (p.of_set_up) d.set_up.push_back(p);
     for (identification::FitParameter& p : zero_scatter_of(f)) d.set_up.push_back(std::move(p));
     d.sides = f.prepared.sides;
     d.notes = base.notes;
     for (const auto& entry : f.design.groups()) {
         if (!entry.group.effect || entry.hidden || entry.group.is_change()) continue;
-        const std::string& name = entry.group.effect->name;
-        if (!entry.visible() && std::find(d.unseen.begin(), d.unseen.end(), name) == d.unseen.end())
-            d.unseen.push_back(name);
-        if (entry.visible() && name.starts_with("pivot.") &&
+        const effects::EffectIdentity& identity = *entry.group.effect;
+        if (!entry.visible() &&
+            std::find(d.unseen.begin(), d.unseen.end(), identity.name) == d.unseen.end())
+            d.unseen.push_back(identity.name);
+        if (entry.visible() && effects::is_pivot(identity.kind) &&
             entry.group.parameters.size() == entry.group.effect->parameters.size())
             for (identification::Inseparable& group : unseen_of(entry))
                 d.inseparable.push_back(std::move(group));
@@ -212,6 +214,7 @@ void merge_free_forms(const Outcome& f, std::vector<Claim>& claims) {
 Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
     Cause cause;
     cause.effect = "unknown";
+    cause.known = false;
     cause.share = d.unexplained_share;
     cause.probability = 1.0;
     cause.what = "A gap with structure that no effect of the catalogue explains";
@@ -294,8 +297,8 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     std::vector<Claim> claims;
     if (f.judgement.gap) {
         const Sizes sizes = sizes_of(f.design, f.model, f.judgement.floor, f.judgement.large);
-        claims = claims_of(f.design, f.model, sizes, f.judgement.support, f.prepared.folds,
-                           f.judgement.part);
+        claims = claims_of(f.design, f.model, sizes,
+                           {f.judgement.support, f.prepared.folds, f.judgement.part});
         merge_free_forms(f, claims);
     }
     d.verdict = verdict_of(f.judgement, claims);
@@ -312,8 +315,7 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     d.unexplained_share = 1.0 - d.explained;
     if (options.over_sessions) tell_sessions(f, claims, d);
     d.where = where_of(f.design, f.judgement.floor);
-    const FreshReadings fresh(f.prepared.base, f.prepared.catalogue, f.prepared.table,
-                              f.prepared.replay, f.prepared.blocks, options.seed);
+    const FreshReadings fresh(f.prepared, options.seed);
     const ShrinkDraws draws(f.design, fresh, possible_truths(f), draw_setting(f, options.seed));
     const Eigen::MatrixXd covariance = solution.covariance();
     for (const Claim& claim : claims) {

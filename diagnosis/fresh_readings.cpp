@@ -170,12 +170,10 @@ class FreshTable {
 
 }  // namespace
 
-FreshReadings::FreshReadings(const identification::BaseModel& base,
-                             const effects::Catalogue& catalogue,
-                             const records::ReadingTable& table, const emulator::Replay& replay,
-                             const std::vector<NoiseBlock>& blocks, std::uint64_t seed) {
-    const std::vector<Visit> all = visits_of(table, replay, blocks);
-    FreshTable fresh(base.setup, table, seed);
+FreshReadings::FreshReadings(const Prepared& prepared, std::uint64_t seed) {
+    const identification::BaseModel& base = prepared.base;
+    const std::vector<Visit> all = visits_of(prepared.table, prepared.replay, prepared.blocks);
+    FreshTable fresh(base.setup, prepared.table, seed);
     const std::vector<Visit> poses = some_of(all, false, most_poses);
     SeededNoise random(seed + 1);
     for (const Visit& pose : poses)
@@ -190,7 +188,7 @@ FreshReadings::FreshReadings(const identification::BaseModel& base,
     for (std::size_t i = 0; i < replay_->size(); ++i)
         gradient_.push_back(replay_->gradient(i, forward, {}));
     const identification::BaseColumns found = identification::base_columns(
-        base.setup, *replay_, catalogue, base.setup.model.modelled, gradient_);
+        base.setup, *replay_, prepared.catalogue, base.setup.model.modelled, gradient_);
     base_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(replay_->size()), base.columns.cols());
     for (std::size_t j = 0; j < base.parameters.size(); ++j)
         for (std::size_t k = 0; k < found.parameters.size(); ++k)

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "diagnosis/column_group.h"
-#include "diagnosis/noise.h"
+#include "diagnosis/prepare.h"
 
 namespace trunnion::diagnosis {
 
@@ -15,9 +15,7 @@ namespace trunnion::diagnosis {
 /// coincide on the present readings (a ripple and its alias, a lag and a spike) differ on these.
 class FreshReadings {
   public:
-    FreshReadings(const identification::BaseModel& base, const effects::Catalogue& catalogue,
-                  const records::ReadingTable& table, const emulator::Replay& replay,
-                  const std::vector<NoiseBlock>& blocks, std::uint64_t seed);
+    FreshReadings(const Prepared& prepared, std::uint64_t seed);
 
     /// Rows of each pose or pass.
     const std::vector<NoiseBlock>& blocks() const { return blocks_; }

@@ -24,13 +24,13 @@ std::vector<std::size_t> scattered_rows(std::size_t all, std::size_t count) {
     return rows;
 }
 
-/// Information of columns beside others (`half`: Beside::half of them), with a weak prior; empty
-/// when they move no reading.
-std::optional<Eigen::LLT<Eigen::MatrixXd>> information(const Eigen::MatrixXd& weighted,
-                                                       const Eigen::MatrixXd& half) {
-    Eigen::MatrixXd square = weighted.transpose() * weighted;
-    if (square.trace() < 1e-9) return std::nullopt;
-    square -= half.transpose() * half;
+constexpr double least_square = 1e-9;  ///< columns below this move no reading
+
+/// Information of columns `own` beside others, with the prior of an effect: its parameters are
+/// normally distributed with variance 1 in typical sizes, so the matrix gets the identity. That is
+/// a statement on machines, no ridge.
+Eigen::LLT<Eigen::MatrixXd> information(const Eigen::MatrixXd& own) {
+    Eigen::MatrixXd square = own.transpose() * own;
     square.diagonal().array() += 1.0;
     return square.llt();
 }
@@ -53,16 +53,6 @@ std::vector<std::vector<double>> grid_of(const effects::Effect& effect) {
 
 }  // namespace
 
-Beside::Beside(Eigen::MatrixXd weighted) : columns_(std::move(weighted)) {
-    Eigen::MatrixXd square = columns_.transpose() * columns_;
-    square.diagonal().array() += 1e-9 * square.trace() + 1e-300;
-    factor_.compute(square);
-}
-
-Eigen::MatrixXd Beside::half(const Eigen::MatrixXd& weighted) const {
-    return factor_.matrixL().solve(columns_.transpose() * weighted);
-}
-
 KeySearch::KeySearch(const emulator::Replay& replay, const identification::BaseModel& base)
     : replay_(replay),
       base_(base),
@@ -70,7 +60,7 @@ KeySearch::KeySearch(const emulator::Replay& replay, const identification::BaseM
       fine_rows_(scattered_rows(replay.size(), fine_count)),
       rough_weight_(base.sigma_mm(rough_rows_).cwiseInverse()),
       fine_weight_(base.sigma_mm(fine_rows_).cwiseInverse()),
-      beside_(rough_weight_.asDiagonal() * base.columns(rough_rows_, Eigen::all)) {}
+      base_columns_(rough_weight_.asDiagonal() * base.columns(rough_rows_, Eigen::all)) {}
 
 Eigen::MatrixXd KeySearch::columns(const effects::Effect& effect, const std::vector<double>& keys,
                                    const std::vector<std::size_t>& rows,
@@ -82,7 +72,7 @@ Eigen::MatrixXd KeySearch::columns(const effects::Effect& effect, const std::vec
     for (std::size_t j = 0; j < effect.parameters.size(); ++j)
         if (!effect.parameters[j].is_key())
             a.col(at++) =
-                identification::effect_column(replay_, base_.gradient, effect, keys, j, rows)
+                identification::effect_column(replay_, base_.gradient, {effect, keys, j}, rows)
                     .cwiseProduct(weight);
     return a;
 }
@@ -106,17 +96,15 @@ Eigen::MatrixXd KeySearch::first_orders(const effects::Effect& effect) const {
 
 std::vector<KeySearch::Setting> KeySearch::worked_out(const effects::Effect& effect) const {
     const Eigen::MatrixXd orders = first_orders(effect);
-    const Beside first(orders);
+    const estimation::Projection first(orders);
     std::vector<Setting> list;
     for (std::vector<double>& values : grid_of(effect)) {
-        Eigen::MatrixXd rough = columns(effect, values, rough_rows_, rough_weight_);
-        const bool alias = orders.cols() > 0 &&
-                           rough.squaredNorm() - first.half(rough).squaredNorm() <= alias_square;
-        Eigen::MatrixXd half = beside_.half(rough);
-        auto factor = information(rough, half);
-        if (alias || !factor) continue;
-        list.push_back(
-            {std::move(values), std::move(rough), std::move(half), std::move(*factor), {}});
+        const Eigen::MatrixXd rough = columns(effect, values, rough_rows_, rough_weight_);
+        const bool alias = orders.cols() > 0 && first.beside(rough).squaredNorm() <= alias_square;
+        if (alias || rough.squaredNorm() < least_square) continue;
+        Eigen::MatrixXd own = base_columns_.beside(rough);
+        auto factor = information(own);
+        list.push_back({std::move(values), std::move(own), std::move(factor), {}});
     }
     return list;
 }
@@ -128,14 +116,9 @@ std::vector<KeySearch::Setting>& KeySearch::settings_of(const effects::Effect& e
 
 KeySearch::Remainder KeySearch::remainder(const Eigen::VectorXd& left_mm,
                                           const Eigen::MatrixXd& fitted) const {
-    Remainder r{left_mm(rough_rows_).cwiseProduct(rough_weight_),
-                left_mm(fine_rows_).cwiseProduct(fine_weight_),
-                Beside(fine_weight_.asDiagonal() * fitted(fine_rows_, Eigen::all)),
-                {},
-                {}};
-    r.rough_half = beside_.half(r.rough);
-    r.fine_half = r.others.half(r.fine);
-    return r;
+    return {left_mm(rough_rows_).cwiseProduct(rough_weight_),
+            left_mm(fine_rows_).cwiseProduct(fine_weight_),
+            estimation::Projection(fine_weight_.asDiagonal() * fitted(fine_rows_, Eigen::all))};
 }
 
 std::vector<std::vector<double>> KeySearch::best(const effects::Effect& effect,
@@ -149,20 +132,21 @@ std::vector<std::vector<double>> KeySearch::best(const effects::Effect& effect,
     std::vector<Found> found;
     for (std::size_t k = 0; k < settings.size(); ++k) {
         const Setting& s = settings[k];
-        const Eigen::VectorXd h =
-            s.rough.transpose() * remainder.rough - s.half.transpose() * remainder.rough_half;
-        found.push_back({k, s.factor.matrixL().solve(h).squaredNorm()});
+        const Eigen::VectorXd product = s.rough.transpose() * remainder.rough;
+        found.push_back({k, s.factor.matrixL().solve(product).squaredNorm()});
     }
     std::stable_sort(found.begin(), found.end(), better);
     if (found.size() > finalists) found.resize(finalists);
     for (Found& f : found) {
         Setting& s = settings[f.order];
         if (s.fine.size() == 0) s.fine = columns(effect, s.values, fine_rows_, fine_weight_);
-        const Eigen::MatrixXd half = remainder.others.half(s.fine);
-        const auto factor = information(s.fine, half);
-        const Eigen::VectorXd h =
-            s.fine.transpose() * remainder.fine - half.transpose() * remainder.fine_half;
-        f.gain = factor ? factor->matrixL().solve(h).squaredNorm() : 0.0;
+        if (s.fine.squaredNorm() < least_square) {
+            f.gain = 0.0;
+            continue;
+        }
+        const Eigen::MatrixXd own = remainder.others.beside(s.fine);
+        const Eigen::VectorXd product = own.transpose() * remainder.fine;
+        f.gain = information(own).matrixL().solve(product).squaredNorm();
     }
     std::stable_sort(found.begin(), found.end(), better);
     std::vector<std::vector<double>> best;

@@ -7,24 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "estimation/projection.h"
 #include "identification/base_model.h"
 
 namespace trunnion::diagnosis {
 
 /// Name of the key with the number of periods in one turn of a rotary axis.
 inline constexpr std::string_view periods_key = "periods_per_turn";
-
-/// Columns fitted beside others, which absorb part of what those explain.
-class Beside {
-  public:
-    explicit Beside(Eigen::MatrixXd weighted);
-    /// h of columns a, g of b: after the fit beside, a^T b is reduced to a^T b - h^T g.
-    Eigen::MatrixXd half(const Eigen::MatrixXd& weighted) const;
-
-  private:
-    Eigen::MatrixXd columns_;
-    Eigen::LLT<Eigen::MatrixXd> factor_;
-};
 
 /// Evaluates the grids of effects with keys on residuals. The columns of an effect depend on
 /// positions only, so they are computed once, on a fixed selection of rows, and used for every
@@ -35,9 +24,8 @@ class KeySearch {
 
     /// A residual (mm) with the columns (mm, base first) that are fitted again beside an effect.
     struct Remainder {
-        Eigen::VectorXd rough, fine;  ///< of the selected rows, in sigma
-        Beside others;                ///< on the fine rows
-        Eigen::VectorXd rough_half, fine_half;
+        Eigen::VectorXd rough, fine;    ///< of the selected rows, in sigma
+        estimation::Projection others;  ///< the fitted columns on the fine rows
     };
     Remainder remainder(const Eigen::VectorXd& left_mm, const Eigen::MatrixXd& fitted) const;
 
@@ -49,9 +37,8 @@ class KeySearch {
   private:
     struct Setting {
         std::vector<double> values;
-        Eigen::MatrixXd rough;               ///< weighted columns on the rough rows
-        Eigen::MatrixXd half;                ///< half of these beside the base
-        Eigen::LLT<Eigen::MatrixXd> factor;  ///< of their information beside the base
+        Eigen::MatrixXd rough;  ///< weighted columns on the rough rows, beside the base
+        Eigen::LLT<Eigen::MatrixXd> factor;  ///< of their information and prior
         Eigen::MatrixXd fine;                ///< on the fine rows, empty until needed
     };
     std::vector<Setting>& settings_of(const effects::Effect& effect);
@@ -65,7 +52,7 @@ class KeySearch {
     const identification::BaseModel& base_;
     std::vector<std::size_t> rough_rows_, fine_rows_;
     Eigen::VectorXd rough_weight_, fine_weight_;  ///< 1 / sigma of those rows
-    Beside beside_;                               ///< the base on the rough rows
+    estimation::Projection base_columns_;         ///< on the rough rows
     std::map<const effects::Effect*, std::vector<Setting>> settings_;
 };
 

@@ -1,4 +1,4 @@
-// Builds one ready measurement: the rows that it would give, and the NC program that takes them.
+// Builds one ready measurement, its rows and its NC program; the kinds are measurement_*.cpp.
 #pragma once
 
 #include <functional>

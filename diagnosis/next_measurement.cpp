@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <optional>
 
 #include "diagnosis/measurements.h"
 #include "diagnosis/rules.h"
+#include "estimation/ranked_least_squares.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -87,8 +87,7 @@ class Mimic {
             product.noalias() += a.transpose() * piece.target;
             energy += piece.target.squaredNorm();
         }
-        square.diagonal().array() += 1e-3;
-        return std::max(0.0, energy - product.dot(square.llt().solve(product)));
+        return std::max(0.0, energy - product.dot(estimation::solve_ranked(square, product).value));
     }
 
   private:

@@ -1,4 +1,4 @@
-// The noise of readings: its size, and its correlation between neighbours.
+// The noise of readings: its size (noise_estimate.cpp), and its correlation between neighbours.
 #pragma once
 
 #include <Eigen/Core>
@@ -67,20 +67,17 @@ class Whitener {
     Eigen::VectorXd sigma_mm_;
 };
 
+/// Readings in which repeats are looked for.
+struct RepeatedRows {
+    const emulator::Replay& replay;
+    const records::ReadingTable& table;
+    const std::vector<NoiseBlock>& blocks;
+};
+
 /// Noise from repeated poses and passes: differences of their residuals, after removing a shift
 /// between the two. Devices without enough repeats keep the values of `start`; `source` says
 /// whether repeats were used.
-NoiseModel noise_from_repeats(const emulator::Replay& replay, const records::ReadingTable& table,
-                              const std::vector<NoiseBlock>& blocks,
-                              const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& sigma_mm,
-                              const NoiseModel& start);
-
-/// Noise from the residuals of a fit, by maximum likelihood: shared part, memory, and a scale
-/// within 0.6..1.45 of the stated one (any scale if none was stated). `freedom`: remaining fraction
-/// of the degrees of freedom after the fit.
-NoiseModel noise_from_residuals(const emulator::Replay& replay,
-                                const std::vector<NoiseBlock>& blocks,
-                                const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& sigma_mm,
-                                const NoiseModel& start, double freedom, bool stated);
+NoiseModel noise_from_repeats(const RepeatedRows& rows, const Eigen::VectorXd& residual_mm,
+                              const Eigen::VectorXd& sigma_mm, const NoiseModel& start);
 
 }  // namespace trunnion::diagnosis

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "diagnosis/noise.h"
+#include "estimation/projection.h"
 #include "estimation/quantiles.h"
 
 namespace trunnion::diagnosis {
@@ -28,6 +29,8 @@ double touch_likelihood(const emulator::Replay& replay, const Stretch& s,
             const auto a = static_cast<std::size_t>(s.rows[static_cast<std::size_t>(i)]);
             const auto b = static_cast<std::size_t>(s.rows[static_cast<std::size_t>(j)]);
             const double along = replay.contact(a).direction_M.dot(replay.contact(b).direction_M);
+            // 1e-9 of the variance is always independent: touches in one direction that share all
+            // their noise would have a singular covariance.
             v(i, j) = noise.shared * along + (i == j ? 1.0 - noise.shared + 1e-9 : 0.0);
         }
     const Eigen::LLT<Eigen::MatrixXd> llt(v);
@@ -64,8 +67,9 @@ double pass_likelihood(const emulator::Replay& replay, const Stretch& s, const D
     }
     if (!s.free_shift) return sum - 0.5 * square(0, 0);
     Eigen::Matrix3d normal = square.bottomRightCorner<3, 3>();
-    normal.diagonal().array() += 1e-6;  // a bar that stays in a plane gives no information
-                                        // perpendicular to it
+    // The prior of a shift is 1000 sigma wide: a bar that stays in a plane gives no information
+    // perpendicular to it.
+    normal.diagonal().array() += 1e-6;
     const Eigen::LLT<Eigen::Matrix3d> llt(normal);
     const Vector3 half = llt.matrixL().solve(square.bottomLeftCorner<3, 1>());
     return sum - 0.5 * (square(0, 0) - half.squaredNorm()) -
@@ -193,7 +197,7 @@ void remove_shift(const emulator::Replay& replay, records::Device device,
     const auto detrend = [&](const std::vector<Stretch*>& group) {
         Eigen::Index n = 0;
         for (const Stretch* s : group) n += s->value.size();
-        constexpr int p = 6;
+        constexpr int p = 6;  // a shift, and one that grows with time
         if (n < 2 * p) return;
         Eigen::MatrixXd a(n, p);
         Eigen::VectorXd y(n);
@@ -205,11 +209,10 @@ void remove_shift(const emulator::Replay& replay, records::Device device,
                 a.row(at).tail<3>() = a.row(at).head<3>() * (replay.sample(i).time_s * 1e-4);
                 y(at) = s->value(k);
             }
-        Eigen::MatrixXd normal = a.transpose() * a;
-        normal.diagonal().array() += 1e-9;
-        const Eigen::VectorXd x = normal.ldlt().solve(a.transpose() * y);
+        const estimation::Projection shifts(std::move(a));
         const Eigen::VectorXd left =
-            (y - a * x) * std::sqrt(static_cast<double>(n) / static_cast<double>(n - p));
+            shifts.beside(y) *
+            std::sqrt(static_cast<double>(n) / static_cast<double>(n - shifts.rank()));
         at = 0;
         for (Stretch* s : group)
             for (Eigen::Index k = 0; k < s->value.size(); ++k) s->value(k) = left(at++);
@@ -225,10 +228,9 @@ void remove_shift(const emulator::Replay& replay, records::Device device,
 
 }  // namespace
 
-NoiseModel noise_from_repeats(const emulator::Replay& replay, const records::ReadingTable& table,
-                              const std::vector<NoiseBlock>& blocks,
-                              const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& sigma_mm,
-                              const NoiseModel& start) {
+NoiseModel noise_from_repeats(const RepeatedRows& rows, const Eigen::VectorXd& residual_mm,
+                              const Eigen::VectorXd& sigma_mm, const NoiseModel& start) {
+    const auto& [replay, table, blocks] = rows;
     NoiseModel noise = start;
     std::map<records::Device, std::vector<Stretch>> stretches;
     for (const auto& [first, second] : repeated_blocks(replay, table, blocks)) {
@@ -245,7 +247,7 @@ NoiseModel noise_from_repeats(const emulator::Replay& replay, const records::Rea
     std::map<records::Device, std::size_t> present;
     for (const NoiseBlock& block : blocks) present[block.device] += block.rows.size();
     bool all = !present.empty();
-    for (const auto& [device, rows] : present) {
+    for (const auto& [device, readings] : present) {
         auto& list = stretches[device];
         std::size_t count = 0;
         for (const Stretch& s : list) count += static_cast<std::size_t>(s.value.size());
@@ -261,30 +263,6 @@ NoiseModel noise_from_repeats(const emulator::Replay& replay, const records::Rea
         noise.doubt = std::max(noise.doubt, std::sqrt(2.0 / independent));
     }
     if (all) noise.source = NoiseSource::repeats;
-    return noise;
-}
-
-NoiseModel noise_from_residuals(const emulator::Replay& replay,
-                                const std::vector<NoiseBlock>& blocks,
-                                const Eigen::VectorXd& residual_mm, const Eigen::VectorXd& sigma_mm,
-                                const NoiseModel& start, double freedom, bool stated) {
-    NoiseModel noise = start;
-    std::map<records::Device, std::vector<Stretch>> stretches;
-    for (const NoiseBlock& block : blocks) {
-        Stretch s;
-        s.rows = block.rows;
-        s.value.resize(static_cast<Eigen::Index>(s.rows.size()));
-        for (std::size_t k = 0; k < s.rows.size(); ++k) {
-            const double z = residual_mm(s.rows[k]) / sigma_mm(s.rows[k]);
-            const double limit = stated ? 5.0 : 1e6;
-            s.value(static_cast<Eigen::Index>(k)) =
-                std::clamp(z, -limit, limit) / std::sqrt(freedom);
-        }
-        stretches[block.device].push_back(std::move(s));
-    }
-    for (auto& [device, list] : stretches)
-        noise.of(device) =
-            estimate(replay, device, list, stated ? 0.6 : 0.02, stated ? 1.45 : 50.0);
     return noise;
 }
 

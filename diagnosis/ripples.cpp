@@ -37,15 +37,11 @@ struct Ripple {
     Axis axis;
     double period;
 };
-std::optional<Ripple> ripple_of(const AxisNames& names, const effects::Effect& effect,
-                                const std::vector<double>& keys) {
-    constexpr std::string_view ending = ".cyclic";
-    if (!effect.name.ends_with(ending)) return std::nullopt;
-    const auto axis = names.find(effect.name.substr(0, effect.name.size() - ending.size()));
-    if (!axis) return std::nullopt;
+std::optional<Ripple> ripple_of(const effects::Effect& effect, const std::vector<double>& keys) {
+    if (effect.kind != effects::EffectKind::cyclic) return std::nullopt;
     for (std::size_t j = 0; j < keys.size(); ++j) {
         if (!effect.parameters[j].is_key()) continue;
-        return Ripple{*axis,
+        return Ripple{*effect.axis,
                       effect.parameters[j].name == periods_key ? 2.0 * pi / keys[j] : keys[j]};
     }
     return std::nullopt;
@@ -53,10 +49,9 @@ std::optional<Ripple> ripple_of(const AxisNames& names, const effects::Effect& e
 
 /// Features of the textbook effects of the same axis.
 std::vector<Eigen::Index> of_axis(const Design& design, const effects::Effect& effect) {
-    const std::string axis = effect.name.substr(0, effect.name.find('.') + 1);
     std::vector<Eigen::Index> features;
     for (const auto& entry : design.groups())
-        if (entry.group.kind == GroupKind::textbook && entry.group.name.starts_with(axis))
+        if (entry.group.kind == GroupKind::textbook && entry.group.effect->axis == effect.axis)
             features.insert(features.end(), entry.group.features.begin(),
                             entry.group.features.end());
     std::sort(features.begin(), features.end());
@@ -83,7 +78,7 @@ std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& p
                                                const Whitener& whitener,
                                                const effects::Effect& effect,
                                                std::vector<double> keys) {
-    const auto ripple = ripple_of(prepared.table.names, effect, keys);
+    const auto ripple = ripple_of(effect, keys);
     if (ripple) {
         std::vector<double> places;
         for (std::size_t i = 0; i < prepared.replay.size(); ++i)

@@ -10,22 +10,24 @@
 namespace trunnion::diagnosis {
 namespace {
 
+using effects::EffectKind;
+
 /// One family of error motions of an axis, and the functions that belong to its textbook form.
 struct Family {
-    const char* name;
+    EffectKind motion;
     bool rotary, along, angular;  ///< along: in the axis's own direction, else perpendicular to it
     bool all_angles;              ///< all three directions
     std::size_t knots;            ///< maximum
     Eigen::Index shapes;          ///< maximum for one direction
     int owned;                    ///< number of polynomials, or of harmonics of a turn
 };
-constexpr Family families[] = {{".positioning", false, true, false, false, 40, 24, 2},
-                               {".straightness", false, false, false, false, 24, 12, 3},
-                               {".angular", false, false, true, true, 16, 8, 2},
-                               {".positioning", true, true, true, false, 40, 24, 2},
-                               {".radial", true, false, false, false, 24, 12, 3},
-                               {".axial", true, true, false, false, 24, 12, 2},
-                               {".tilt", true, false, true, false, 24, 12, 2}};
+constexpr Family families[] = {{EffectKind::positioning, false, true, false, false, 40, 24, 2},
+                               {EffectKind::straightness, false, false, false, false, 24, 12, 3},
+                               {EffectKind::angular, false, false, true, true, 16, 8, 2},
+                               {EffectKind::positioning, true, true, true, false, 40, 24, 2},
+                               {EffectKind::radial, true, false, false, false, 24, 12, 3},
+                               {EffectKind::axial, true, true, false, false, 24, 12, 2},
+                               {EffectKind::tilt, true, false, true, false, 24, 12, 2}};
 constexpr double whole_turn_rad = 5.0;  ///< a wider range counts as a whole turn
 constexpr double least_range_mm = 1.0, least_range_rad = 0.05;
 constexpr int last_order = 24;
@@ -89,7 +91,7 @@ std::vector<Eigen::MatrixXd> shapes_of(const Family& family, const TableForm& ta
 
 TableForm form_of(const Family& family, const kinematics::AxisGeometry& axis,
                   const std::vector<double>& places) {
-    TableForm table{axis, directions_of(family, axis), {}, 0, 0};
+    TableForm table{family.motion, axis, directions_of(family, axis), {}, 0, 0};
     const auto [low, high] = std::minmax_element(places.begin(), places.end());
     if (axis.rotary && *high - *low > whole_turn_rad) {
         table.first_order = family.owned + 1;
@@ -101,8 +103,8 @@ TableForm form_of(const Family& family, const kinematics::AxisGeometry& axis,
 }
 
 void add_family(Design& design, const Prepared& p, const Whitener& whitener, const Family& family,
-                const kinematics::AxisGeometry& axis, const std::vector<double>& places) {
-    const TableForm table = form_of(family, axis, places);
+                const kinematics::AxisGeometry& axis) {
+    const TableForm table = form_of(family, axis, places_of(p, axis.axis));
     if (table.orders == 0 && table.knots.size() < 4) return;
     const std::vector<Eigen::MatrixXd> shapes = shapes_of(family, table);
     if (shapes.empty()) return;
@@ -112,7 +114,7 @@ void add_family(Design& design, const Prepared& p, const Whitener& whitener, con
     for (const Eigen::MatrixXd& shape : shapes) {
         ColumnGroup group;
         group.kind = GroupKind::table;
-        group.name = effects::effect_name(axis, family.name);
+        group.name = effects::effect_name(axis.name, family.motion);
         group.table = table;
         group.shape = for_each_direction(shape, table.directions.size());
         for (Eigen::Index k = 0; k < white.cols(); ++k) group.features.push_back(first + k);
@@ -129,8 +131,7 @@ void add_table_groups(Design& design, const Prepared& prepared, const Whitener& 
         const auto [low, high] = std::minmax_element(places.begin(), places.end());
         if (*high - *low < (axis.rotary ? least_range_rad : least_range_mm)) continue;
         for (const Family& family : families)
-            if (family.rotary == axis.rotary)
-                add_family(design, prepared, whitener, family, axis, places);
+            if (family.rotary == axis.rotary) add_family(design, prepared, whitener, family, axis);
     }
 }
 

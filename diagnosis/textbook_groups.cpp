@@ -1,6 +1,7 @@
 // Catalogue effects as groups of columns.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <set>
 
@@ -31,7 +32,7 @@ Material material_of(const Prepared& p, const effects::Effect& effect,
     for (std::size_t j = 0; j < effect.parameters.size(); ++j) {
         if (effect.parameters[j].is_key() || !effect.parameters[j].usual) continue;
         Eigen::MatrixXd column =
-            identification::effect_column(p.replay, p.base.gradient, effect, keys, j);
+            identification::effect_column(p.replay, p.base.gradient, {effect, keys, j});
         drop_sessions(column, p.replay, before);
         list.emplace_back(column);
         if (list.back().cwiseQuotient(p.base.sigma_mm).norm() < dead_column)
@@ -84,16 +85,13 @@ std::vector<std::function<bool(const effects::EffectParameter&)>> simpler_forms(
     for (const effects::EffectParameter& p : effect.parameters) {
         if (p.component >= 0 && !p.is_key()) vectors.insert(p.name);
     }
-    // ISO 230-1: straightness is the deviation from the mean line; the slope of that line is
-    // squareness.
-    if (effect.name.ends_with(".straightness"))
-        forms.push_back([](const effects::EffectParameter& p) {
-            return p.name.find("_p1_") == std::string::npos;
-        });
+    const auto slope = [](const effects::EffectParameter& p) { return p.mean_line; };
+    if (std::any_of(effect.parameters.begin(), effect.parameters.end(), slope))
+        forms.push_back(std::not_fn(slope));
     if (vectors.size() > 1)
         for (const std::string& name : vectors)
             forms.push_back([name](const effects::EffectParameter& p) { return p.name == name; });
-    if (effect.name == "location") {
+    if (effect.kind == effects::EffectKind::location) {
         std::set<Axis> axes;
         for (const effects::EffectParameter& p : effect.parameters) axes.insert(p.location->axis);
         for (const Axis axis : axes)

@@ -44,7 +44,7 @@ std::vector<double> slip_times(const DataExtent& extent, int count) {
 }  // namespace
 
 Effect artefact_position(const std::vector<setup::Artefact>& artefacts) {
-    Effect effect{"artefact.position",
+    Effect effect{identity_of(EffectKind::artefact_position),
                   "A sphere or centre cup does not stand where the setup says",
                   "artefact mounted again, position copied from another job",
                   "measure its position again, or declare it free in the setup",
@@ -69,7 +69,7 @@ Effect artefact_position(const std::vector<setup::Artefact>& artefacts) {
 }
 
 Effect artefact_form(const std::vector<setup::Artefact>& artefacts) {
-    Effect effect{"artefact.form",
+    Effect effect{identity_of(EffectKind::artefact_form),
                   "A sphere is not round",
                   "worn or cheap sphere, dirt",
                   "clean or replace the sphere",
@@ -100,7 +100,7 @@ Effect artefact_form(const std::vector<setup::Artefact>& artefacts) {
 }
 
 Effect artefact_moved(const std::vector<setup::Artefact>& artefacts, const DataExtent& extent) {
-    Effect effect{"artefact.moved",
+    Effect effect{identity_of(EffectKind::artefact_moved),
                   "A sphere or cup slipped during the test",
                   "magnet or clamp let go, someone touched it",
                   "fix it better and repeat the readings taken after the slip",

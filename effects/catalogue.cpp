@@ -133,6 +133,12 @@ const Effect* find_effect(const Catalogue& catalogue, const std::string& name) {
     return nullptr;
 }
 
+const Effect* find_effect(const Catalogue& catalogue, EffectKind kind, Axis axis) {
+    for (const Effect& effect : catalogue)
+        if (effect.kind == kind && effect.axis == axis) return &effect;
+    return nullptr;
+}
+
 std::string describe_catalogue(const Catalogue& catalogue) {
     std::string text =
         "| effect | what it is | usual cause | what to do | formula | parameters [unit] typical |\n"

@@ -71,7 +71,7 @@ Vector3 three(std::span<const double> value) {
 }  // namespace
 
 Effect control_rounding(const kinematics::Chain& chain) {
-    return {"control.rounding",
+    return {identity_of(EffectKind::control_rounding),
             "Commanded positions are rounded to a coarse increment on their way to the drive",
             "post-processor digits, least input increment, encoder resolution",
             "more decimals in the program, finer increment system (IS-C)",
@@ -97,7 +97,7 @@ Effect control_rounding(const kinematics::Chain& chain) {
 
 Effect control_chord(const kinematics::Chain&) {
     return {
-        "control.chord",
+        identity_of(EffectKind::control_chord),
         "A curve is cut into straight pieces that pass inside it",
         "coarse tolerance of the post-processor, rotary moves without tool-centre control",
         "finer segments, or let the control interpolate (G02, G43.4)",
@@ -115,7 +115,7 @@ Effect control_chord(const kinematics::Chain&) {
 }
 
 Effect pivot_g54(const kinematics::Chain& chain) {
-    Effect effect{"pivot.g54",
+    Effect effect{identity_of(EffectKind::pivot_g54),
                   "The work offset G54 does not hold the true pivot point",
                   "work zero set again without correcting it, post-processor with old pivot",
                   "make G54 agree with parameters 19700-19705 and with the machine",
@@ -134,7 +134,7 @@ Effect pivot_g54(const kinematics::Chain& chain) {
 }
 
 Effect pivot_p1970x(const kinematics::Chain& chain) {
-    Effect effect{"pivot.p1970x",
+    Effect effect{identity_of(EffectKind::pivot_p1970x),
                   "Parameters 19700-19705 do not hold the true pivot point",
                   "parameters from another machine, not updated after service",
                   "calibrate the rotary axes and enter 19700-19705 anew",

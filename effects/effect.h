@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "effects/effect_kind.h"
 #include "emulator/instruments.h"
 
 namespace trunnion::effects {
@@ -26,6 +27,8 @@ struct EffectParameter {
                          ///< these parameters is reported as unexplained
     std::optional<kinematics::ErrorName> location = {};  ///< the location error that the parameter
                                                          ///< is
+    bool mean_line = false;  ///< slope of the mean line of an axis. ISO 230-1 takes straightness
+                             ///< from that line, and its slope is squareness
     bool is_key() const { return !grid.empty(); }
 };
 
@@ -38,8 +41,7 @@ using EffectFunction =
 /// Which encoder of the axis itself sees an effect (rows of device `axis`).
 enum class SeenBy : unsigned char { no_encoder, scale, any_encoder };
 
-struct Effect {
-    std::string name;    ///< name in formats.md: "C.backlash"
+struct Effect : EffectIdentity {
     std::string what;    ///< one sentence for the workshop: what it is
     std::string cause;   ///< usual causes
     std::string remedy;  ///< remedy

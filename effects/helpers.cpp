@@ -44,8 +44,8 @@ std::string motion_name(int direction, const kinematics::AxisGeometry& axis) {
     return std::string{'E', "XYZABC"[direction]} + axis.name;
 }
 
-std::string effect_name(const kinematics::AxisGeometry& axis, const char* what) {
-    return axis.name + what;
+EffectIdentity identity_of(const kinematics::AxisGeometry& axis, EffectKind kind) {
+    return {effect_name(axis.name, kind), kind, axis.axis};
 }
 
 std::string axis_parameter(const char* before, const kinematics::AxisGeometry& axis,

@@ -4,7 +4,7 @@
 namespace trunnion::effects {
 
 Effect sensor_gain() {
-    return {"sensor.gain",
+    return {identity_of(EffectKind::sensor_gain),
             "The instrument reads distances too long or too short, in proportion",
             "wavelength without compensation of air, scale of a tracker, gain of an encoder",
             "calibrate the instrument on a known length; correct for air temperature and pressure",
@@ -26,7 +26,7 @@ Effect sensor_gain() {
 }
 
 Effect linear_play_load(const kinematics::AxisGeometry& axis) {
-    return {effect_name(axis, ".play_load"),
+    return {identity_of(axis, EffectKind::play_load),
             "The play of the axis grows with the load on the table",
             "nut or bearing without preload, gibs that open under weight",
             "restore the preload; measure and cut with the same load",

@@ -9,7 +9,7 @@
 namespace trunnion::effects {
 
 Effect linear_cyclic(const kinematics::AxisGeometry& axis) {
-    return {effect_name(axis, ".cyclic"),
+    return {identity_of(axis, EffectKind::cyclic),
             "A ripple of the position that repeats with every turn of the ballscrew",
             "ballscrew eccentricity, coupling, encoder interpolation",
             "check coupling and screw bearing; a linear scale removes it",
@@ -25,7 +25,7 @@ Effect linear_cyclic(const kinematics::AxisGeometry& axis) {
 }
 
 Effect linear_backlash(const kinematics::AxisGeometry& axis) {
-    return {effect_name(axis, ".backlash"),
+    return {identity_of(axis, EffectKind::backlash),
             "The axis stops half the gap beyond the command in the direction of travel (negative: "
             "short)",
             "ballscrew nut or thrust bearing worn; negative: a drive that lags",
@@ -77,7 +77,7 @@ double way_of(double law, Axis axis, const AxisSample& sample) {
 
 Effect linear_reversal_spike(const kinematics::AxisGeometry& axis) {
     return {
-        effect_name(axis, ".reversal_spike"),
+        identity_of(axis, EffectKind::reversal_spike),
         "The axis sticks for a moment when it turns round, then catches up",
         "friction at standstill with a soft or slow velocity loop",
         "raise the loop gain or switch on friction (quadrant) compensation",
@@ -108,7 +108,7 @@ Effect linear_reversal_spike(const kinematics::AxisGeometry& axis) {
 
 Effect linear_lateral_play(const kinematics::AxisGeometry& axis) {
     std::vector<int> directions;
-    Effect effect{effect_name(axis, ".lateral_play"),
+    Effect effect{identity_of(axis, EffectKind::lateral_play),
                   "The slide steps sideways when the axis changes direction",
                   "guideway clearance, worn gibs or carriages",
                   "readjust gibs or preload of the guideway",

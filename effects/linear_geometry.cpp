@@ -24,7 +24,7 @@ double polynomial(double q, int first, std::span<const double> value) {
 }  // namespace
 
 Effect linear_scale(const kinematics::AxisGeometry& axis) {
-    return {effect_name(axis, ".scale"),
+    return {identity_of(axis, EffectKind::scale),
             "The axis moves too far or not far enough, in proportion to the distance",
             "ballscrew lead or scale error, warm screw, wrong pitch compensation",
             "measure with laser or step gauge and correct the pitch compensation",
@@ -40,7 +40,7 @@ Effect linear_scale(const kinematics::AxisGeometry& axis) {
 }
 
 Effect linear_straightness(const kinematics::AxisGeometry& axis) {
-    Effect effect{effect_name(axis, ".straightness"),
+    Effect effect{identity_of(axis, EffectKind::straightness),
                   "The axis runs on a bowed line: it strays sideways along its travel",
                   "guideway wear, bed settling, machine not levelled",
                   "level the machine, check the guideways",
@@ -58,7 +58,9 @@ Effect linear_straightness(const kinematics::AxisGeometry& axis) {
                                          -1,
                                          {},
                                          true,
-                                         n <= 2});
+                                         n <= 2,
+                                         {},
+                                         n == 1});
     }
     effect.add = [k = axis.axis, directions](const AxisSample& sample, const emulator::Contact&,
                                              std::span<const double> value,
@@ -72,7 +74,7 @@ Effect linear_straightness(const kinematics::AxisGeometry& axis) {
 
 Effect linear_angular(const kinematics::AxisGeometry& axis) {
     Effect effect{
-        effect_name(axis, ".angular"),
+        identity_of(axis, EffectKind::angular),
         "The axis pitches, yaws and rolls along its travel: errors grow with tool length and "
         "with the travel of the slides that it carries",
         "guideway bow, bed settling, overhang",
@@ -101,7 +103,7 @@ Effect linear_angular(const kinematics::AxisGeometry& axis) {
 Effect squareness(const std::string& plane, const kinematics::AxisGeometry& moving, int about) {
     const Vector3 along = Vector3::Unit(static_cast<int>(index_of(moving.axis)));
     const Vector3 stray = Vector3::Unit(about).cross(along);
-    return {plane + ".squareness",
+    return {{effect_name(plane, EffectKind::squareness), EffectKind::squareness, std::nullopt},
             "Two linear axes are not at right angles",
             "machine not levelled, column or saddle misaligned, a crash",
             "level and realign, or correct it in the control's squareness compensation",

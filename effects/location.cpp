@@ -50,7 +50,7 @@ void add_place(const Place& place, double value, const AxisSample& sample,
 }  // namespace
 
 Effect location_effect(const kinematics::Chain& chain) {
-    Effect effect{"location",
+    Effect effect{identity_of(EffectKind::location),
                   "The rotary axes do not lie where the simulation has them",
                   "assembly, a crash, thermal growth since the last calibration",
                   "enter the identified values in the setup and in the control's pivot parameters",

@@ -1,4 +1,4 @@
-// Factory functions of all effects; the catalogue calls them for each axis of a machine.
+// Factory functions of all effects (*.cpp, by subject), called by the catalogue for each axis.
 #pragma once
 
 #include "effects/effect.h"
@@ -74,8 +74,8 @@ int main_direction(const kinematics::AxisGeometry& axis);
 std::vector<double> geometric_grid(double low, double high, int count);
 /// "EXC", "EAC": ISO 230 name of an error motion; direction 0..5 = X Y Z A B C.
 std::string motion_name(int direction, const kinematics::AxisGeometry& axis);
-/// "C" + ".backlash".
-std::string effect_name(const kinematics::AxisGeometry& axis, const char* what);
+/// An effect of one axis: "C.backlash".
+EffectIdentity identity_of(const kinematics::AxisGeometry& axis, EffectKind kind);
 /// "tau_" + "x" + "_s".
 std::string axis_parameter(const char* before, const kinematics::AxisGeometry& axis,
                            const char* after);

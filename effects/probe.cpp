@@ -20,7 +20,7 @@ double pretravel(const Vector3& d_M, double spindle_rad, std::span<const double>
 }  // namespace
 
 Effect probe_pretravel() {
-    return {"probe.pretravel",
+    return {identity_of(EffectKind::probe_pretravel),
             "The probe triggers later in some directions than in others",
             "three-point seating of a touch-trigger probe, long stylus",
             "calibrate the probe in all directions used, or use a strain-gauge probe",
@@ -43,7 +43,7 @@ Effect probe_pretravel() {
 }
 
 Effect probe_radius() {
-    return {"probe.radius",
+    return {identity_of(EffectKind::probe_radius),
             "The effective stylus radius, or the trigger delay, is not what was calibrated",
             "stylus changed, calibration with another probing feed",
             "calibrate the stylus radius with the feed that measures",
@@ -57,7 +57,7 @@ Effect probe_radius() {
 }
 
 Effect probe_runout() {
-    return {"probe.runout",
+    return {identity_of(EffectKind::probe_runout),
             "The stylus ball does not sit on the spindle axis",
             "stylus not centred, probe shank not seated",
             "centre the stylus, or always probe with the same spindle orientation",
@@ -74,7 +74,7 @@ Effect probe_runout() {
 
 Effect tool_length() {
     return {
-        "tool.length",
+        identity_of(EffectKind::tool_length),
         "The tool, probe or ballbar cup is longer or shorter than the control believes",
         "tool length measured with another reference, stylus changed",
         "measure the tool's length again",
@@ -90,7 +90,7 @@ Effect tool_length() {
 }
 
 Effect ballbar_length() {
-    return {"ballbar.length",
+    return {identity_of(EffectKind::ballbar_length),
             "The ballbar's calibrated length is not its length",
             "ballbar not zeroed on its calibrator, warm bar",
             "zero the ballbar on its calibrator before the test",

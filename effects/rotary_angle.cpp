@@ -15,7 +15,7 @@ bool endless(const kinematics::AxisGeometry& axis) {
 
 Effect rotary_zero(const kinematics::AxisGeometry& axis) {
     return {
-        effect_name(axis, ".zero"),
+        identity_of(axis, EffectKind::zero),
         "The axis's zero is not where the table is level or aligned",
         "encoder replaced, reference mark moved",
         "set the zero with a level or an indicator on the table: sphere readings cannot see it",
@@ -26,7 +26,7 @@ Effect rotary_zero(const kinematics::AxisGeometry& axis) {
 }
 
 Effect rotary_positioning(const kinematics::AxisGeometry& axis) {
-    Effect effect{effect_name(axis, ".positioning"),
+    Effect effect{identity_of(axis, EffectKind::positioning),
                   "The axis turns a little more or less than commanded, the same every turn",
                   "eccentric encoder, wrong gear ratio, no or stale pitch compensation",
                   "load a compensation table from these values or from an autocollimator",
@@ -49,7 +49,7 @@ Effect rotary_positioning(const kinematics::AxisGeometry& axis) {
 Effect rotary_cyclic(const kinematics::AxisGeometry& axis) {
     std::vector<double> turns;
     for (int n = 10; n <= 360; ++n) turns.push_back(n);
-    return {effect_name(axis, ".cyclic"),
+    return {identity_of(axis, EffectKind::cyclic),
             "A ripple of the angle that repeats with every tooth or worm turn",
             "worm or gear error, encoder interpolation",
             "adjust or replace the worm; a direct encoder removes it",
@@ -65,7 +65,7 @@ Effect rotary_cyclic(const kinematics::AxisGeometry& axis) {
 }
 
 Effect rotary_backlash(const kinematics::AxisGeometry& axis) {
-    return {effect_name(axis, ".backlash"),
+    return {identity_of(axis, EffectKind::backlash),
             "The axis stops half the gap beyond the command in the direction of travel (negative: "
             "short)",
             "worn worm gear, loose preload, drive belt; negative: a drive that lags",

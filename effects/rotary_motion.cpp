@@ -37,7 +37,7 @@ std::vector<int> across(const kinematics::AxisGeometry& axis, int first) {
 
 Effect rotary_radial(const kinematics::AxisGeometry& axis) {
     return motion_effect(axis,
-                         {effect_name(axis, ".radial"),
+                         {identity_of(axis, EffectKind::radial),
                           "The axis line wanders sideways as the table turns",
                           "worn or out-of-round bearing, mounting distortion",
                           "check the bearing; map and compensate if it repeats",
@@ -49,7 +49,7 @@ Effect rotary_radial(const kinematics::AxisGeometry& axis) {
 
 Effect rotary_axial(const kinematics::AxisGeometry& axis) {
     return motion_effect(axis,
-                         {effect_name(axis, ".axial"),
+                         {identity_of(axis, EffectKind::axial),
                           "The table rises and falls along its axis as it turns",
                           "axial bearing, table not flat on its flange",
                           "check the axial bearing and its seat",
@@ -61,7 +61,7 @@ Effect rotary_axial(const kinematics::AxisGeometry& axis) {
 
 Effect rotary_tilt(const kinematics::AxisGeometry& axis) {
     return motion_effect(axis,
-                         {effect_name(axis, ".tilt"),
+                         {identity_of(axis, EffectKind::tilt),
                           "The table wobbles: the axis line tilts as it turns",
                           "bearing tilt, flange out of square, table bending",
                           "check bearing preload; map and compensate if it repeats",

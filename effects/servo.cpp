@@ -4,7 +4,7 @@
 namespace trunnion::effects {
 
 Effect servo_mismatch(const kinematics::Chain& chain) {
-    Effect effect{"servo.mismatch",
+    Effect effect{identity_of(EffectKind::servo_mismatch),
                   "Axes follow with different delay: circles become ovals at 45 degrees",
                   "different position-loop gains or feed-forward between axes",
                   "set the loop gains of all interpolating axes alike",
@@ -30,7 +30,7 @@ Effect servo_contour(const kinematics::Chain& chain) {
     std::vector<Axis> axes;
     for (const kinematics::AxisGeometry& axis : chain.axes())
         if (!axis.rotary) axes.push_back(axis.axis);
-    return {"servo.contour",
+    return {identity_of(EffectKind::servo_contour),
             "Fast circles come out too small or too large, growing with the square of the feed",
             "limited bandwidth of the position loop, acceleration filters",
             "raise loop gain or feed-forward, or lower the feed on tight curves",

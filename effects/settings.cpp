@@ -157,8 +157,8 @@ std::vector<double> values_of(const Effect& effect, const setup::EffectSetting& 
         if (used == 0)
             throw InputError("effect " + effect.name + " has no parameter '" + name + "'");
         if (list.size() != used)
-            throw InputError("parameter " + name + " of " + effect.name + " wants " +
-                             std::to_string(used) + " number(s)");
+            throw InputError("parameter " + name + " of " + effect.name + " expects " +
+                             std::to_string(used) + (used == 1 ? " value" : " values"));
     }
     return values;
 }

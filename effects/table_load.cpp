@@ -6,7 +6,7 @@
 namespace trunnion::effects {
 
 Effect gravity_sag(const kinematics::AxisGeometry& tilting) {
-    return {"gravity.sag",
+    return {identity_of(EffectKind::gravity_sag),
             "The tilted table hangs through under its own weight and the load on it",
             "flexible trunnion drive or bearings, heavy workpiece",
             "counterbalance or clamp the axis; compensate by tilt angle and load",
@@ -25,7 +25,7 @@ Effect gravity_sag(const kinematics::AxisGeometry& tilting) {
 Effect clamp_shift(const kinematics::Chain& chain) {
     std::vector<Axis> rotary;
     Effect effect{
-        "clamp.shift",
+        identity_of(EffectKind::clamp_shift),
         "The table moves when its clamp closes",
         "the clamp pulls to one side, worn clamp ring",
         "readjust the clamp; measure and cut in the same clamp state",

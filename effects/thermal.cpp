@@ -8,7 +8,7 @@ namespace trunnion::effects {
 
 Effect thermal_drift(const DataExtent& extent) {
     const double span_s = std::max(600.0, extent.end_s - extent.start_s);
-    Effect effect{"thermal.drift",
+    Effect effect{identity_of(EffectKind::thermal_drift),
                   "Tool and table drift apart slowly as the machine warms up",
                   "spindle and structure warming after switching on or a change of load",
                   "warm up before measuring; return to a reference sphere every 15 minutes",
@@ -27,7 +27,7 @@ Effect thermal_drift(const DataExtent& extent) {
 }
 
 Effect thermal_expansion(const kinematics::Chain& chain) {
-    Effect effect{"thermal.expansion",
+    Effect effect{identity_of(EffectKind::thermal_expansion),
                   "Scales and screws grow with temperature: positions stretch away from zero",
                   "room or machine warmer than 20 degrees without scale compensation",
                   "let it settle, or switch on thermal compensation",

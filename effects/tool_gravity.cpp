@@ -60,7 +60,7 @@ std::pair<Vector3, Vector3> across(const Vector3& direction) {
 
 Effect gravity_tool(const kinematics::Chain& chain) {
     const auto rotary = rotary_of(chain.tool);
-    Effect effect{"gravity.tool",
+    Effect effect{identity_of(EffectKind::gravity_tool),
                   "Joints of the tool side give way under the weight that they carry",
                   "elastic gears and links of a head or an arm, heavy tool",
                   "compensate by the posture; counterbalance, or stiffen the joint",
@@ -86,7 +86,7 @@ Effect gravity_tool(const kinematics::Chain& chain) {
 
 Effect chain_collimation(const kinematics::Chain& chain) {
     const kinematics::AxisGeometry last = rotary_of(chain.tool).back();
-    return {"chain.collimation",
+    return {identity_of(EffectKind::chain_collimation),
             "The tool or the line of sight does not stand on the last axis as declared",
             "seat of the tool, collimation of a telescope or of a measuring head",
             "reverse the axis (turn by half, point again) and set half the difference",
@@ -103,7 +103,7 @@ Effect chain_collimation(const kinematics::Chain& chain) {
 }
 
 Effect chain_flexure(const kinematics::Chain& chain) {
-    return {"chain.flexure",
+    return {identity_of(EffectKind::chain_flexure),
             "The head bows towards the ground where it reaches out",
             "weight of head, tube or spindle beyond its last axis",
             "compensate by the angle to the plumb line; balance or stiffen the head",

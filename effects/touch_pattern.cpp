@@ -15,7 +15,8 @@ TouchPattern make_pattern(int touches) {
     pattern.outward_M.push_back(Vector3::UnitZ());
     const int rest = std::max(4, touches - 1), rings = (rest + 3) / 4;
     for (int k = 0; k < rest; ++k) {
-        const double up = pi / 2.0 * (k / 4) / rings, azimuth = pi / 2.0 * (k % 4);
+        const int ring = k / 4, quarter = k % 4;
+        const double up = pi / 2.0 * ring / rings, azimuth = pi / 2.0 * quarter;
         pattern.outward_M.emplace_back(std::cos(up) * std::cos(azimuth),
                                        std::cos(up) * std::sin(azimuth), std::sin(up));
     }

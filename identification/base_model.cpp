@@ -136,8 +136,8 @@ void tell_absurd(BaseModel& model, bool meant, const std::string& what, const So
     const std::string message = what +
                                 " after fitting: wrong units (um for mm?), wrong frame, or "
                                 "the setup of another machine";
-    if (!meant) throw InputError(message + "; --allow-large takes it as meant", where);
-    model.notes.push_back(where.program + ": " + message + "; taken as meant");
+    if (!meant) throw InputError(message + "; --allow-large accepts it", where);
+    model.notes.push_back(where.program + ": " + message + "; accepted");
 }
 
 void tell_absurd_residuals(BaseModel& model, const emulator::Replay& replay,
@@ -160,7 +160,7 @@ void tell_absurd_residuals(BaseModel& model, const emulator::Replay& replay,
 /// An implausible location error means that the setup describes another machine.
 void tell_absurd_location(BaseModel& model, const FitParameter& p,
                           const records::ReadingTable& table) {
-    if (p.effect == "location" && std::isfinite(p.sigma) &&
+    if (p.location && std::isfinite(p.sigma) &&
         std::abs(p.value) > (p.unit == "mm" ? absurd_mm : absurd_rad))
         tell_absurd(model, model.setup.model.allow_large,
                     fmt::format("{} comes out as {} {}", p.name, three_digits(p.value), p.unit),
@@ -239,7 +239,7 @@ FitParameter fitted_parameter(const Slot& slot, setup::Setup& setup, double sigm
     done.sigma = sigma;
     if (!slot.effect) {
         done.value = number_of(setup, slot.fit.set_up);
-    } else if (slot.effect->name == "location") {
+    } else if (slot.effect->kind == effects::EffectKind::location) {
         done.value = location_value(setup, slot.fit);
     } else {
         for (const setup::EffectSetting& setting : setup.effects)
@@ -252,7 +252,7 @@ FitParameter fitted_parameter(const Slot& slot, setup::Setup& setup, double sigm
 }  // namespace
 
 std::string full_name(const FitParameter& p) {
-    const std::string name = p.effect == "setup" ? p.name : p.effect + "." + p.name;
+    const std::string name = p.of_set_up ? p.name : p.effect + "." + p.name;
     return p.component < 0 ? name : fmt::format("{}[{}]", name, "xyz"[p.component]);
 }
 
@@ -281,11 +281,12 @@ RowNoise row_noise(const setup::Setup& setup, const records::ReadingTable& table
 
 Eigen::VectorXd effect_column(const emulator::Replay& replay,
                               const std::vector<kinematics::Perturbation>& gradient,
-                              const effects::Effect& effect, const std::vector<double>& values,
-                              std::size_t j, const std::vector<std::size_t>& rows) {
+                              const EffectTerm& term, const std::vector<std::size_t>& rows) {
+    const auto& [effect, values, parameter] = term;
     std::vector<double> at = values;
     for (std::size_t k = 0; k < at.size(); ++k)
-        if (!effect.parameters[k].is_key()) at[k] = k == j ? effect.parameters[k].typical : 0.0;
+        if (!effect.parameters[k].is_key())
+            at[k] = k == parameter ? effect.parameters[k].typical : 0.0;
     Eigen::VectorXd column(static_cast<Eigen::Index>(rows.size()));
     for (std::size_t k = 0; k < rows.size(); ++k) {
         kinematics::Perturbation change;
@@ -297,16 +298,15 @@ Eigen::VectorXd effect_column(const emulator::Replay& replay,
 
 Eigen::VectorXd effect_column(const emulator::Replay& replay,
                               const std::vector<kinematics::Perturbation>& gradient,
-                              const effects::Effect& effect, const std::vector<double>& values,
-                              std::size_t j) {
+                              const EffectTerm& term) {
     std::vector<std::size_t> rows(replay.size());
     std::iota(rows.begin(), rows.end(), std::size_t{0});
-    return effect_column(replay, gradient, effect, values, j, rows);
+    return effect_column(replay, gradient, term, rows);
 }
 
 void add_effect(setup::Setup& setup, const effects::Effect& effect,
                 const std::vector<double>& values) {
-    if (effect.name == "location") {
+    if (effect.kind == effects::EffectKind::location) {
         for (std::size_t j = 0; j < values.size(); ++j)
             setup.machine.errors.location(*effect.parameters[j].location) += values[j];
         return;
@@ -356,6 +356,27 @@ BaseModel fit_base(const setup::Setup& setup, const records::ReadingTable& table
     keep_sessions(model.setup, replay);
     model.models = effects::active_models(model.setup);
     return model;
+}
+
+void shift_base(setup::Setup& setup, const BaseModel& base, const effects::Catalogue& catalogue,
+                const Eigen::VectorXd& step) {
+    std::vector<Slot> slots;
+    for (const FitParameter& p : base.parameters) {
+        Slot slot;
+        slot.fit = p;
+        if (!p.of_set_up) {
+            slot.effect = effects::find_effect(catalogue, p.effect);
+            for (std::size_t j = 0; j < slot.effect->parameters.size(); ++j)
+                if (slot.effect->parameters[j].name == p.name &&
+                    slot.effect->parameters[j].component == p.component)
+                    slot.parameter = j;
+        }
+        slots.push_back(slot);
+    }
+    Eigen::VectorXd by = step;
+    for (Eigen::Index j = 0; j < by.size(); ++j)
+        by(j) *= slots[static_cast<std::size_t>(j)].fit.typical;
+    apply_step(setup, slots, by);
 }
 
 }  // namespace trunnion::identification

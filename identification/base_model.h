@@ -25,6 +25,7 @@ struct FitParameter {
     double prior_sigma = 0.0;  ///< 0: no prior
     std::optional<kinematics::ErrorName> location = {};
     SetUpQuantity set_up = {};
+    bool of_set_up = false;  ///< a free quantity of the set-up, no error of the machine
 };
 
 /// Inseparable parameters: a change along `direction` (in their units, largest entry 1) changes no
@@ -75,12 +76,21 @@ BaseModel fit_base(const setup::Setup& setup, const records::ReadingTable& table
                    const emulator::Replay& replay, const effects::Catalogue& catalogue,
                    const std::vector<std::string>& effects);
 
-/// Derivatives of the device rows with respect to parameter j of an effect with the keys in
-/// `values`, times its typical size; mm (rad for angular rows).
+/// One linear parameter of an effect with the keys in `values`.
+struct EffectTerm {
+    const effects::Effect& effect;
+    const std::vector<double>& values;  ///< in the order of the parameters
+    std::size_t parameter;
+};
+/// Derivatives of the device rows with respect to a parameter, times its typical size; mm (rad for
+/// angular rows).
 Eigen::VectorXd effect_column(const emulator::Replay& replay,
                               const std::vector<kinematics::Perturbation>& gradient,
-                              const effects::Effect& effect, const std::vector<double>& values,
-                              std::size_t j);
+                              const EffectTerm& term);
+/// The same for a subset of the rows.
+Eigen::VectorXd effect_column(const emulator::Replay& replay,
+                              const std::vector<kinematics::Perturbation>& gradient,
+                              const EffectTerm& term, const std::vector<std::size_t>& rows);
 
 /// The unknowns of a replay with this setup and these effects, and their derivatives.
 struct BaseColumns {
@@ -91,12 +101,6 @@ BaseColumns base_columns(const setup::Setup& setup, const emulator::Replay& repl
                          const effects::Catalogue& catalogue,
                          const std::vector<std::string>& effects,
                          const std::vector<kinematics::Perturbation>& gradient);
-
-/// The same for a subset of the rows.
-Eigen::VectorXd effect_column(const emulator::Replay& replay,
-                              const std::vector<kinematics::Perturbation>& gradient,
-                              const effects::Effect& effect, const std::vector<double>& values,
-                              std::size_t j, const std::vector<std::size_t>& rows);
 
 /// Changes a fitted setup by a further step of the base parameters, in units of their typical size.
 void shift_base(setup::Setup& setup, const BaseModel& base, const effects::Catalogue& catalogue,

@@ -160,7 +160,7 @@ std::vector<KeyedEffect> search_all_keys(const emulator::Replay& replay, const B
             }
             grown.columns.conservativeResize(Eigen::NoChange, grown.columns.cols() + 1);
             grown.columns.col(grown.columns.cols() - 1) =
-                effect_column(replay, base.gradient, effect, entry.values, j);
+                effect_column(replay, base.gradient, {effect, entry.values, j});
         }
         list.push_back(std::move(entry));
     }
@@ -228,7 +228,7 @@ Identification identify(const setup::Setup& setup, const records::ReadingTable& 
     result.dof = static_cast<int>(replay.size()) - base.rank;
     if (result.dof < 1)
         throw InputError(
-            fmt::format("{} readings cannot fix {} unknowns and show how well they fit",
+            fmt::format("{} readings are too few to determine {} unknowns and their uncertainty",
                         replay.size(), base.rank),
             {table.path, 0, 0});
     result.set_up_words = set_up_words(base.setup, base.parameters);

@@ -22,7 +22,7 @@ double KeyGain::operator()(const std::vector<KeyedEffect>& effects) const {
     for (const KeyedEffect& e : effects)
         for (std::size_t j = 0; j < e.values.size(); ++j)
             if (!e.effect->parameters[j].is_key())
-                list.push_back(effect_column(replay_, base_.gradient, *e.effect, e.values, j)
+                list.push_back(effect_column(replay_, base_.gradient, {*e.effect, e.values, j})
                                    .cwiseProduct(weight_));
     Eigen::MatrixXd columns(left_.size(), static_cast<Eigen::Index>(list.size()));
     for (std::size_t c = 0; c < list.size(); ++c)

@@ -62,19 +62,18 @@ std::vector<double> values_in(const BaseModel& model, const effects::Effect& eff
 /// effects.
 std::string straight_line(const FitInputs& in, const BaseModel& model,
                           const effects::Effect& effect) {
-    const auto& chain = in.setup.machine.chain;
-    const auto axis = chain.names().find(effect.name.substr(0, effect.name.find('.')));
-    if (!axis || effect.name != effects::effect_name(*chain.find(*axis), ".scale")) return "";
+    if (effect.kind != effects::EffectKind::scale) return "";
+    const Axis axis = *effect.axis;
     std::set<double> places_mm;
     for (std::size_t i = 0; i < in.replay.size(); ++i)
-        places_mm.insert(in.replay.sample(i).position[*axis]);
+        places_mm.insert(in.replay.sample(i).position[axis]);
     const std::vector<double> values = values_in(model, effect);
     const auto error_mm = [&](double position_mm) {
         AxisSample sample;
-        sample.position[*axis] = position_mm;
+        sample.position[axis] = position_mm;
         kinematics::Perturbation change;
         effect.add(sample, {}, values, change);
-        return change.axis[*axis];
+        return change.axis[axis];
     };
     double mean_mm = 0.0, square = 0.0, product = 0.0;
     for (const double q : places_mm) mean_mm += q / static_cast<double>(places_mm.size());
@@ -107,7 +106,7 @@ BaseModel fit_needed_terms(const FitInputs& in, effects::Catalogue& catalogue,
             continue;
         }
         model = std::move(straight);
-        notes.push_back(name + ": the readings do not show that it bends; its higher terms are 0");
+        notes.push_back(name + ": the readings show no curvature; its higher terms are 0");
     }
     for (const std::string& name : bent)
         if (std::string line = straight_line(in, model, *effects::find_effect(catalogue, name));

@@ -139,7 +139,10 @@ std::vector<FreeQuantity> free_quantities(const setup::Setup& setup,
     int slot = static_cast<int>(replay.zeros().size());
     for (std::size_t s = 0; s < replay.sessions().size(); ++s)
         for (FreeQuantity& free : quantities_of(setup, used_by(replay, s))) {
-            if (replay.sessions().size() > 1) free.name += '.' + replay.sessions()[s];
+            if (replay.sessions().size() > 1) {
+                free.place.session_name = replay.sessions()[s];
+                free.name += '.' + free.place.session_name;
+            }
             free.place.session = static_cast<int>(s);
             if (s > 0) free.place.slot = slot++;
             list.push_back(std::move(free));
@@ -173,8 +176,7 @@ void keep_sessions(setup::Setup& fitted, const emulator::Replay& replay) {
         auto at = std::find_if(fitted.sessions.begin(), fitted.sessions.end(),
                                [&](const auto& s) { return s.name == session; });
         if (at == fitted.sessions.end()) at = fitted.sessions.insert(at, {session, {}});
-        const std::string quantity = free.name.substr(0, free.name.size() - session.size() - 1);
-        at->values[quantity] = number_of(fitted, free.place);
+        at->values[free.quantity] = number_of(fitted, free.place);
     }
 }
 

@@ -28,12 +28,15 @@ struct SetUpQuantity {
     /// Later sessions: the setup has one location for each quantity only, so their values are
     /// stored in its `zeros` at `slot`.
     int session = 0, slot = 0;
+    std::string session_name = {};  ///< in names of quantities; empty with a single session
 };
 
 struct FreeQuantity {
     std::string name, unit;  ///< "S1.x_mm", "cup.z_mm", "stylus+60.x_mm", "tracker.a_rad"
     double typical = 0.1;    ///< in `unit`
     SetUpQuantity place;
+    /// `name` without the session, as in [[session]] of a setup file.
+    std::string quantity = name;
 };
 
 /// Quantities that are free in the setup and used by rows of the replay. With several sessions

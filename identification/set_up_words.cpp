@@ -21,13 +21,6 @@ struct Found {
     std::string session;
 };
 
-/// Session part of a name: "Tracker.a_rad.tuesday".
-std::string session_of(const std::string& name) {
-    const std::size_t unit = name.find('.');
-    const std::size_t dot = unit == std::string::npos ? unit : name.find('.', unit + 1);
-    return dot == std::string::npos ? "" : name.substr(dot + 1);
-}
-
 std::string words(const setup::Instrument& instrument, const Found& found) {
     std::string text = found.session.empty() ? "" : found.session + ": ";
     text += instrument.sees_table ? "the part was" : instrument.name + " sees the machine";
@@ -55,7 +48,7 @@ std::vector<std::string> set_up_words(const setup::Setup& setup,
         if (q.kind != Kind::instrument || !std::isfinite(p.sigma)) continue;
         Found& found = list[{q.session, q.index}];
         found.seen[static_cast<std::size_t>(q.component)] = true;
-        found.session = session_of(p.name);
+        found.session = q.session_name;
         if (q.component < 3) found.shift_mm(q.component) = p.value;
         if (q.component >= 3 && q.component < 6) found.tilt_rad(q.component - 3) = p.value;
         if (q.component == 6) found.scale = p.value;

@@ -46,6 +46,7 @@ void Unknowns::add_set_up(const emulator::Replay& replay) {
         Slot slot;
         slot.fit = {"setup", free.name, free.unit, -1, free.typical, 0.0};
         slot.fit.set_up = free.place;
+        slot.fit.of_set_up = true;
         slots_.push_back(slot);
     }
 }
@@ -57,8 +58,8 @@ Eigen::MatrixXd columns_of(const std::vector<Slot>& slots, const emulator::Repla
     for (std::size_t j = 0; j < slots.size(); ++j) {
         const auto c = static_cast<Eigen::Index>(j);
         if (slots[j].effect) {
-            columns.col(c) = effect_column(replay, gradient, *slots[j].effect,
-                                           slots[j].effect->zeros(), slots[j].parameter);
+            columns.col(c) = effect_column(
+                replay, gradient, {*slots[j].effect, slots[j].effect->zeros(), slots[j].parameter});
             continue;
         }
         for (std::size_t i = 0; i < replay.size(); ++i)
@@ -83,27 +84,6 @@ void apply_step(setup::Setup& setup, const std::vector<Slot>& slots, const Eigen
         }
     }
     for (const auto& [effect, values] : by_effect) add_effect(setup, *effect, values);
-}
-
-void shift_base(setup::Setup& setup, const BaseModel& base, const effects::Catalogue& catalogue,
-                const Eigen::VectorXd& step) {
-    std::vector<Slot> slots;
-    for (const FitParameter& p : base.parameters) {
-        Slot slot;
-        slot.fit = p;
-        if (p.effect != "setup") {
-            slot.effect = effects::find_effect(catalogue, p.effect);
-            for (std::size_t j = 0; j < slot.effect->parameters.size(); ++j)
-                if (slot.effect->parameters[j].name == p.name &&
-                    slot.effect->parameters[j].component == p.component)
-                    slot.parameter = j;
-        }
-        slots.push_back(slot);
-    }
-    Eigen::VectorXd by = step;
-    for (Eigen::Index j = 0; j < by.size(); ++j)
-        by(j) *= slots[static_cast<std::size_t>(j)].fit.typical;
-    apply_step(setup, slots, by);
 }
 
 }  // namespace trunnion::identification

@@ -143,7 +143,7 @@ TEST_CASE("every column of the catalogue is what the emulator does", "[effects]"
             if (effect.parameters[j].is_key()) continue;
             std::vector<double> values = effect.zeros();
             const Eigen::VectorXd column =
-                identification::effect_column(replay, gradient, effect, values, j);
+                identification::effect_column(replay, gradient, {effect, values, j});
             values[j] = effect.parameters[j].typical;
             const std::vector<double> on = replay.predict({effects::make_model(effect, values)});
             double worst = 0.0, largest = 1e-6;

@@ -37,6 +37,38 @@ TEST_CASE("the catalogue has every name of the contract", "[effects]") {
     REQUIRE(catalogue.size() == names.size());
 }
 
+TEST_CASE("kind and axis identify an effect, whatever the axes are called", "[effects]") {
+    using effects::EffectKind;
+    setup::Setup setup = campaign::bc_setup();
+    setup.machine.chain.work.back().name = "play.cyclic";  // no name decides what an effect is
+    const effects::Catalogue catalogue = effects::make_catalogue(setup);
+    const Axis renamed = setup.machine.chain.work.back().axis;
+    const effects::Effect* play = effects::find_effect(catalogue, EffectKind::backlash, renamed);
+    REQUIRE(play != nullptr);
+    CHECK(play->name == "play.cyclic.backlash");
+    CHECK(effects::find_effect(catalogue, EffectKind::cyclic, Axis::X)->name == "X.cyclic");
+    CHECK(effects::find_effect(catalogue, EffectKind::scale, renamed) == nullptr);
+    for (const effects::Effect& a : catalogue)
+        for (const effects::Effect& b : catalogue) {
+            INFO(a.name << ' ' << b.name);
+            const bool squareness = a.kind == EffectKind::squareness;  // of three planes
+            CHECK((a.kind == b.kind && a.axis == b.axis && !squareness) ==
+                  (a.name == b.name && !squareness));
+        }
+}
+
+TEST_CASE("only the slope of a straightness error belongs to the mean line", "[effects]") {
+    const effects::Catalogue catalogue = effects::make_catalogue(campaign::bc_setup());
+    std::vector<std::string> slopes;
+    for (const effects::Effect& effect : catalogue)
+        for (const effects::EffectParameter& p : effect.parameters)
+            if (p.mean_line) slopes.push_back(effect.name + ' ' + p.name);
+    CHECK(slopes == std::vector<std::string>{"X.straightness EYX_p1_mm", "X.straightness EZX_p1_mm",
+                                             "Y.straightness EXY_p1_mm", "Y.straightness EZY_p1_mm",
+                                             "Z.straightness EXZ_p1_mm",
+                                             "Z.straightness EYZ_p1_mm"});
+}
+
 TEST_CASE("injections with names, vectors and units", "[effects]") {
     const effects::Catalogue catalogue = effects::make_catalogue(campaign::bc_setup());
     const auto value = [&](const std::string& text, const std::string& name) {

@@ -19,22 +19,21 @@ std::vector<arm::Pose> random_poses(int count, std::uint64_t seed) {
     return poses;
 }
 
+const std::array<double, 6> zeros_deg{0.02, -0.03, 0.05, 0.04, -0.06, 0.0};
+const Pose tracker{rotation_of({1e-3, -5e-4, 8e-4}), Vector3(1.5, -0.8, 0.6)};
+
 /// Measured as an arm with other Denavit-Hartenberg numbers does, from a tracker somewhere else.
-std::vector<arm::Pose> measured_by(const arm::DenavitHartenberg& real,
-                                   const std::array<double, 6>& zero_deg, const Pose& tracker,
-                                   double scale, std::vector<arm::Pose> poses, double noise_mm) {
+std::vector<arm::Pose> measured_by(const arm::DenavitHartenberg& real, double scale,
+                                   std::vector<arm::Pose> poses, double noise_mm) {
     SeededNoise random(3);
     for (arm::Pose& pose : poses) {
         std::array<double, 6> turned = pose.joints_deg;
-        for (std::size_t i = 0; i < 6; ++i) turned[i] += zero_deg[i];
+        for (std::size_t i = 0; i < 6; ++i) turned[i] += zeros_deg[i];
         pose.measured_mm = scale * (tracker * arm::target_mm(real, turned)) +
                            noise_mm * Vector3(random.normal(), random.normal(), random.normal());
     }
     return poses;
 }
-
-const std::array<double, 6> zeros_deg{0.02, -0.03, 0.05, 0.04, -0.06, 0.0};
-const Pose tracker{rotation_of({1e-3, -5e-4, 8e-4}), Vector3(1.5, -0.8, 0.6)};
 
 /// The same arm with its target 60 mm beside the last axis.
 arm::DenavitHartenberg beside() {
@@ -73,8 +72,8 @@ TEST_CASE("an arm reads what its Denavit-Hartenberg matrices say", "[identificat
 TEST_CASE("kinematic parameters of an arm: 27 are seen by points, the rest is named",
           "[identification][arm]") {
     const setup::Setup setup = arm::setup(beside(), 20);
-    const records::ReadingTable table = arm::table(
-        setup, beside(), measured_by(worn(), zeros_deg, tracker, 1.0, random_poses(200, 5), 0.0));
+    const records::ReadingTable table =
+        arm::table(setup, beside(), measured_by(worn(), 1.0, random_poses(200, 5), 0.0));
     const identification::Identification fit =
         identification::identify(setup, table, arm::kinematic_effects());
     // Six lines in space and a point: 6 * 4 + 3. Base pose and zero offsets name the same again.
@@ -84,12 +83,11 @@ TEST_CASE("kinematic parameters of an arm: 27 are seen by points, the rest is na
     const setup::Setup on_axis = arm::setup(arm::ur5, 20);
     const identification::Identification less = identification::identify(
         on_axis,
-        arm::table(on_axis, arm::ur5,
-                   measured_by(arm::ur5, zeros_deg, tracker, 1.0, random_poses(200, 5), 0.0)),
+        arm::table(on_axis, arm::ur5, measured_by(arm::ur5, 1.0, random_poses(200, 5), 0.0)),
         arm::kinematic_effects());
     CHECK(less.inseparable.size() == less.parameters.size() - 25);
-    const records::ReadingTable other = arm::table(
-        setup, beside(), measured_by(worn(), zeros_deg, tracker, 1.0, random_poses(100, 6), 0.0));
+    const records::ReadingTable other =
+        arm::table(setup, beside(), measured_by(worn(), 1.0, random_poses(100, 6), 0.0));
     CHECK(arm::mean(arm::misses_mm(setup, other)) > 1.0);
     CHECK(arm::mean(arm::misses_mm(fit.setup, other)) < 1e-5);
 }
@@ -97,14 +95,12 @@ TEST_CASE("kinematic parameters of an arm: 27 are seen by points, the rest is na
 TEST_CASE("noise shows in the residual and hardly in the prediction", "[identification][arm]") {
     const setup::Setup setup = arm::setup(beside(), 20, "[\"pose\", \"scale\"]");
     const records::ReadingTable table =
-        arm::table(setup, beside(),
-                   measured_by(worn(), zeros_deg, tracker, 1.0 + 2e-5, random_poses(200, 5), 0.02));
+        arm::table(setup, beside(), measured_by(worn(), 1.0 + 2e-5, random_poses(200, 5), 0.02));
     const identification::Identification fit =
         identification::identify(setup, table, arm::kinematic_effects());
     CHECK(fit.rms_after_um == Approx(20.0).epsilon(0.1));
     const records::ReadingTable other =
-        arm::table(setup, beside(),
-                   measured_by(worn(), zeros_deg, tracker, 1.0 + 2e-5, random_poses(100, 6), 0.0));
+        arm::table(setup, beside(), measured_by(worn(), 1.0 + 2e-5, random_poses(100, 6), 0.0));
     CHECK(arm::mean(arm::misses_mm(fit.setup, other)) < 0.015);
 }
 
