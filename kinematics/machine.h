@@ -1,4 +1,4 @@
-// The physical machine: any serial chain with its errors, forward kinematics only.
+// The physical machine: any serial chain with its errors, forward kinematics only (forward.cpp).
 #pragma once
 
 #include <array>

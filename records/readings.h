@@ -1,4 +1,4 @@
-// Readings, simulated and measured in the same form, one scalar a row (formats.md, "Readings").
+// Readings, simulated or measured, one scalar a row (formats.md). Names: reading_columns.cpp.
 #pragma once
 
 #include <map>
@@ -70,7 +70,7 @@ ReadingTable parse_readings(std::string_view text, const std::string& path,
                             std::vector<std::string>& notes, const AxisNames& names = {});
 /// Joins tables in the given order. A table that starts before the previous one ended is shifted to
 /// 60 s after its end; a test name that is already used gets a number. Throws InputError when axes
-/// or touch patterns differ.
+/// or touch patterns differ (join.cpp).
 ReadingTable join_readings(std::vector<ReadingTable> tables);
 /// Position of a row, for messages.
 SourceRef place_of(const ReadingTable& table, const Reading& row);

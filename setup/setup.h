@@ -170,7 +170,7 @@ struct Setup {
     const Instrument* find_instrument(const std::string& name) const;
     const SessionValues* find_session(const std::string& name) const;
     /// The setup with the values of that session; unchanged if there is no [[session]] of that
-    /// name.
+    /// name (session_keys.cpp).
     Setup in_session(const std::string& name) const;
     /// Position in S of a target on the tool.
     Vector3 target_S_mm(const Artefact& target) const;
@@ -188,18 +188,18 @@ Setup load_setup(const std::string& path, std::vector<std::string>& notes,
                  const BackupReader& backup = {});
 Setup parse_setup(const std::string& text, const std::string& path, std::vector<std::string>& notes,
                   const BackupReader& backup = {});
-/// The setup as TOML that reads back to the same value.
+/// The setup as TOML that reads back to the same value (setup_format.cpp).
 std::string format_setup(const Setup& setup);
 
 /// Derives 19680-19714 (and 19666, 19741-19744) as if the control knew the true geometry of this
 /// machine. Parameters already present are kept. Returns an empty text on success. Otherwise
 /// returns the reason (not two rotary axes, a linear axis carried by a rotary one, an axis line in
-/// no coordinate plane) and changes nothing.
+/// no coordinate plane) and changes nothing (derive_pivot.cpp).
 std::string derive_pivot_parameters(const kinematics::Machine& machine,
                                     offsets::Parameters& parameters);
 /// Derives 1022 for machines with U, V or W: 5, 6, 7 for an axis that moves the tool like X, Y, Z;
 /// 0 for any other direction or an axis carried by a rotary one. Returns the letters of the latter.
-/// No effect when 1022 is already present.
+/// No effect when 1022 is already present (derive_parallel.cpp).
 std::string derive_parallel_axes(const kinematics::Machine& machine,
                                  offsets::Parameters& parameters);
 /// Derives the G54.2 groups 7580-7588 of the table axes, nearest the workpiece first. No effect
