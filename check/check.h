@@ -43,6 +43,25 @@ class Trial {
     virtual std::optional<Alarm> end() = 0;
 };
 
+/// A trial by a class with the same three functions that does not know this room: the control's
+/// BlockTrial.
+template <class Blocks>
+class TrialBy final : public Trial {
+  public:
+    template <class... Parts>
+    explicit TrialBy(const Parts&... parts) : blocks_(parts...) {}
+    std::optional<Alarm> run(const interpreter::BlockWords& block) override {
+        return blocks_.run(block);
+    }
+    std::optional<Alarm> read(const interpreter::BlockWords& block) override {
+        return blocks_.read(block);
+    }
+    std::optional<Alarm> end() override { return blocks_.end(); }
+
+  private:
+    Blocks blocks_;
+};
+
 struct CheckOptions {
     interpreter::Dialect dialect;
     /// True when the control has this G code (434 is G43.4). Empty: not checked.

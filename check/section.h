@@ -1,4 +1,4 @@
-// One program of a file (from its O number to the next), as seen by the checks.
+// One program of a file (from its O number to the next); each group of checks is a file: *.cpp
 #pragma once
 
 #include <algorithm>

@@ -56,13 +56,13 @@ setup::Setup other_reading(const setup::Setup& setup, const std::string& what) {
 }
 
 std::vector<check::Finding> differences_against(const setup::Setup& setup,
-                                                const setup::Setup& other, const std::string& name,
+                                                const OtherReading& other,
                                                 const interpreter::ProgramText& program,
                                                 const std::vector<std::string>& folders,
                                                 std::uint64_t max_blocks) {
     const auto found =
         regression::compare_controls(reading_of(setup, "this control", max_blocks),
-                                     reading_of(other, name, max_blocks), program, [&] {
+                                     reading_of(other.setup, other.name, max_blocks), program, [&] {
                                          return std::make_unique<interpreter::ProgramFolders>(
                                              inputs::folders_of_file(program, folders));
                                      });

@@ -14,9 +14,14 @@ namespace trunnion::cli {
 /// ("tcp_frame=start", "5006#6=1"), a parameter "5006=64", or the path of a setup. Throws
 /// InputError for anything else.
 setup::Setup other_reading(const setup::Setup& setup, const std::string& what);
+/// Another reading, and its name in findings.
+struct OtherReading {
+    const setup::Setup& setup;
+    const std::string& name;
+};
 /// Findings of rule "reading": blocks of the program that would move differently on `other`.
 std::vector<check::Finding> differences_against(const setup::Setup& setup,
-                                                const setup::Setup& other, const std::string& name,
+                                                const OtherReading& other,
                                                 const interpreter::ProgramText& program,
                                                 const std::vector<std::string>& folders,
                                                 std::uint64_t max_blocks);

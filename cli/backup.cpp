@@ -85,31 +85,35 @@ int diff(const std::string& a, const std::string& b) {
 
 void add_backup(CLI::App& app, Run& run) {
     const auto o = std::make_shared<BackupCommand>();
-    CLI::App* command = app.add_subcommand("backup", "a real control's backup files");
+    CLI::App* command =
+        app.add_subcommand("backup", "read, write or compare the backup files of a real control");
     command->require_subcommand(1);
 
     CLI::App* load_word = command->add_subcommand(
-        "load", "list every value of a backup folder: file, name, text, what becomes of it");
+        "load", "list every value of a backup folder: file, name, text, use");
     reads_file(load_word->add_option("FOLDER", o->a, "backup folder"))->required();
-    writes_file(
-        load_word->add_option("--setup-out", o->setup_out, "setup of the machine it describes"));
+    writes_file(load_word->add_option("--setup-out", o->setup_out,
+                                      "write a setup of the machine that the backup describes"));
     CLI::Option* pivot = load_word->add_flag(
-        "--pivot", o->pivot, "one line: do G54 and 19700-19705 name the same pivot?");
-    load_word->add_option("--measured", o->measured_mm, "a measured pivot X Y Z, mm, machine")
+        "--pivot", o->pivot,
+        "print one line: do G54 and parameters 19700 to 19705 give the same pivot?");
+    load_word
+        ->add_option("--measured", o->measured_mm,
+                     "measured pivot X Y Z in machine coordinates, mm")
         ->expected(3)
         ->needs(pivot);
     load_word->callback([o, &run] { run = [o] { return load(*o); }; });
 
     CLI::App* save_word = command->add_subcommand(
-        "save", "write the backup FOLDER to OUT with the values of a setup's control in it");
-    reads_file(save_word->add_option("FOLDER", o->a, "backup folder whose form is kept"))
+        "save", "write the backup FOLDER to OUT with the values of a setup");
+    reads_file(save_word->add_option("FOLDER", o->a, "backup folder that gives the format"))
         ->required();
     writes_file(save_word->add_option("OUT", o->b, "folder to write"))->required();
     reads_file(save_word->add_option("--setup", o->setup, "setup file"))->required();
     save_word->callback([o, &run] { run = [o] { return save(o->a, o->b, o->setup); }; });
 
-    CLI::App* diff_word =
-        command->add_subcommand("diff", "values and programs that differ between two folders");
+    CLI::App* diff_word = command->add_subcommand(
+        "diff", "list the values and programs that differ between two folders");
     reads_file(diff_word->add_option("A", o->a, "backup folder"))->required();
     reads_file(diff_word->add_option("B", o->b, "backup folder"))->required();
     diff_word->callback([o, &run] { run = [o] { return diff(o->a, o->b); }; });

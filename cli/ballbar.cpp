@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "ballbar/test/ballbar_measured.h"
 #include "base/output_files.h"
 #include "cli/command.h"
 #include "cli/notes.h"
@@ -10,7 +11,9 @@
 #include "cli/readings_command.h"
 #include "cli/setups.h"
 #include "effects/settings.h"
+#include "report/ballbar_json.h"
 #include "report/ballbar_page.h"
+#include "report/ballbar_pictures.h"
 #include "report/ballbar_report.h"
 
 namespace trunnion::cli {
@@ -83,12 +86,13 @@ void refuse_simulation_options(const BallbarOptions& o) {
     if (o.measured.size() > 2)
         throw InputError("ballbar takes one table of readings, or one before and one after");
     if (o.setup.empty())
-        throw InputError("readings need the machine they come from: --setup", {o.measured[0]});
+        throw InputError("readings need the machine that they come from: give --setup",
+                         {o.measured[0]});
     if (!o.readings.empty() || !o.readings_after.empty() || !o.injections.empty() ||
         !o.pivot_offset_mm.empty() || !o.program.empty() || !o.kinematic_program.empty())
         throw InputError(
-            "--write-readings, --inject, --pivot-offset and --program belong to a simulated test, "
-            "not to readings",
+            "--write-readings, --inject, --pivot-offset and --program are for a simulated test, "
+            "not for readings",
             {o.measured[0]});
 }
 
@@ -130,19 +134,20 @@ int run_command(const BallbarOptions& o) {
 
 void add_ballbar(CLI::App& app, Run& run) {
     const auto o = std::make_shared<BallbarOptions>();
-    CLI::App* command = app.add_subcommand(
-        "ballbar",
-        "the single-set-up ballbar test: run, identify, compensate, run again; or real passes");
+    CLI::App* command = app.add_subcommand("ballbar",
+                                           "single-set-up ballbar test, simulated (run, identify, "
+                                           "compensate, run again) or from real passes");
     reads_file(command->add_option("READINGS", o->measured,
-                                   "table of real passes, or two: before and after"));
-    reads_file(
-        command->add_option("--setup", o->setup, "setup file (default machines/bc_table.toml)"));
-    command->add_option("--seed", o->seed, "of the noise (second run: the next one)");
-    command->add_option("--inject", o->injections, "an effect on the machine, as in trunnion run");
-    writes_file(command->add_option("--svg", o->svg_folder, "folder for the polar plots"));
+                                   "table of real passes, or two tables: before and after"));
+    reads_file(command->add_option("--setup", o->setup, "setup file (machines/bc_table.toml)"));
+    command->add_option("--seed", o->seed,
+                        "seed of the noise (1); the second run uses the next one");
+    command->add_option("--inject", o->injections,
+                        "add an effect to the machine, as in trunnion run");
+    writes_file(command->add_option("--svg", o->svg_folder, "folder for polar plots"));
     writes_file(command->add_option("--csv", o->csv, "write the table of errors (CSV)"));
-    writes_file(
-        command->add_option("--write-readings", o->readings, "the simulated first run (CSV)"));
+    writes_file(command->add_option("--write-readings", o->readings,
+                                    "write the readings of the simulated first run (CSV)"));
     writes_file(command->add_option("--write-readings-after", o->readings_after,
                                     "write the readings of the run after compensation (CSV)"));
     writes_file(command->add_option("--program", o->program,
@@ -150,19 +155,19 @@ void add_ballbar(CLI::App& app, Run& run) {
     writes_file(
         command->add_option("--kinematic-program", o->kinematic_program,
                             "only write the NC program of BK1, BK2 and BK4 for this machine"));
-    command->add_flag("--hurco", o->hurco, "M128 and M129 in the written program");
+    command->add_flag("--hurco", o->hurco, "use M128 and M129 in the written program");
     command->add_flag("--inside", o->inside,
-                      "bar towards the second rotary axis where it lies flat");
+                      "point the bar towards the second rotary axis where it lies flat");
     command
         ->add_option("--pivot-offset", o->pivot_offset_mm,
-                     "X,Y,Z in mm: the pivot really stands this far from its stated place")
+                     "true position of the pivot relative to the stated one: X,Y,Z in mm")
         ->delimiter(',')
         ->expected(3);
     not_negative(
-        command->add_option("--setup-time", o->times.setup_s, "assumed seconds for one set-up"));
+        command->add_option("--setup-time", o->times.setup_s, "assumed time of one set-up, s"));
     not_negative(command->add_option("--remount-time", o->times.remount_s,
-                                     "assumed seconds to move the bar between two tests"));
-    command->add_flag("--json", o->json, "one JSON object on stdout");
+                                     "assumed time to move the bar between two tests, s"));
+    command->add_flag("--json", o->json, "print the result as one JSON object");
     add_page_options(*command, o->page);
     o->command = command;
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });

@@ -11,13 +11,14 @@
 namespace trunnion::cli {
 
 void add_budget(CLI::App& command, BudgetOptions& limits) {
-    command.add_option("--max-blocks", limits.blocks, "stop after so many blocks (1e8; 0: never)");
+    command.add_option("--max-blocks", limits.blocks,
+                       "stop after this number of blocks (1e8; 0: never)");
     command.add_option("--max-print", limits.printed_bytes,
-                       "stop when DPRNT printed so many bytes (1e8; 0: never)");
+                       "stop when DPRNT has printed this number of bytes (1e8; 0: never)");
     command.add_option("--max-readings", limits.rows,
-                       "stop after so many readings (1e7; 0: never)");
+                       "stop after this number of readings (1e7; 0: never)");
     not_negative(
-        command.add_option("--max-seconds", limits.time_s, "stop after so long (0: never)"));
+        command.add_option("--max-seconds", limits.time_s, "stop after this time, s (0: never)"));
 }
 
 Budget budget_of(const BudgetOptions& limits) {
@@ -26,8 +27,9 @@ Budget budget_of(const BudgetOptions& limits) {
 }
 
 void add_fit_seconds(CLI::App& command, double& time_s) {
-    not_negative(command.add_option("--max-seconds", time_s,
-                                    "end the search after so long, with what is found (0: never)"));
+    not_negative(command.add_option(
+        "--max-seconds", time_s,
+        "end the search after this time, s, with the best result so far (0: never)"));
 }
 
 BudgetMeter fit_meter(double time_s) {

@@ -77,23 +77,6 @@ bool knows_g(const setup::Setup& setup, int code10) {
     return code10 == 650 || code10 == 660 || code10 == 661 || code10 == 670;  // of the language
 }
 
-/// The control of a setup, executed block by block.
-class SetupTrial : public check::Trial {
-  public:
-    explicit SetupTrial(const setup::Setup& setup)
-        : trial_(emulator::control_config(setup), setup.stores) {}
-    std::optional<Alarm> run(const interpreter::BlockWords& block) override {
-        return trial_.run(block);
-    }
-    std::optional<Alarm> read(const interpreter::BlockWords& block) override {
-        return trial_.read(block);
-    }
-    std::optional<Alarm> end() override { return trial_.end(); }
-
-  private:
-    controller::BlockTrial trial_;
-};
-
 /// The rules of one setup's control for programs; each variable is looked up once.
 class SetupRules {
   public:
@@ -122,7 +105,10 @@ class SetupRules {
                     number, writes, emulator::control_config(setup_), setup_.stores);
             return known->second;
         };
-        out.start_trial = [this] { return std::make_unique<SetupTrial>(setup_); };
+        out.start_trial = [this] {
+            return std::make_unique<check::TrialBy<controller::BlockTrial>>(
+                emulator::control_config(setup_), setup_.stores);
+        };
         return out;
     }
 
@@ -224,7 +210,8 @@ class CheckedMachines {
         CheckedMachine& other = machine(inputs::shipped("machines/ac_trunnion.toml"));
         auto again = other.read(program, programs);
         if (names_strange_axis(again)) return use;
-        print_notes({program.name + ": has words of an A axis, checked on " + other.setup.path});
+        print_notes(
+            {program.name + ": contains words of an A axis; checked on " + other.setup.path});
         found = std::move(again);
         return other;
     }
@@ -254,7 +241,7 @@ int check(const CheckCommand& c) {
         findings.insert(findings.end(), found.begin(), found.end());
         if (c.run) run_without_devices(machine.setup, program, c, findings);
         if (machine.other) {
-            const auto apart = differences_against(machine.setup, *machine.other, c.against,
+            const auto apart = differences_against(machine.setup, {*machine.other, c.against},
                                                    program, c.folders, c.max_blocks);
             findings.insert(findings.end(), apart.begin(), apart.end());
         }
@@ -274,19 +261,20 @@ int check(const CheckCommand& c) {
 
 void add_check(CLI::App& app, Run& run) {
     const auto c = std::make_shared<CheckCommand>();
-    CLI::App* command = app.add_subcommand("check", "static findings on programs and folders");
-    reads_file(command->add_option("PATH", c->paths, "programs and folders"))->required();
-    reads_file(
-        command->add_option("--setup", c->setup, "machine and control (dialect, parameters)"));
-    reads_file(command->add_option("--programs", c->folders, "folders of subprograms"));
-    command->add_flag("--run", c->run, "also run them, without devices");
-    command->add_option("--against", c->against,
-                        "also run them on this control too (hurco, hurco-bnc, 16i, 0i-F, "
-                        "tcp_frame=.., a parameter 5006=64, a setup) and tell where they differ");
-    command->add_option("--max-blocks", c->max_blocks, "limit of a run");
-    command->add_option("--format", c->format, "text, json, junit, sarif, github");
+    CLI::App* command =
+        app.add_subcommand("check", "check programs and folders without running them");
+    reads_file(command->add_option("PATH", c->paths, "programs or folders"))->required();
+    reads_file(command->add_option("--setup", c->setup, "setup file: dialect, parameters, axes"));
+    reads_file(command->add_option("--programs", c->folders, "folder of subprograms, repeatable"));
+    command->add_flag("--run", c->run, "also run the programs, without devices");
+    command->add_option(
+        "--against", c->against,
+        "also run the programs on another control and report differences: hurco, hurco-bnc, 16i, "
+        "0i-F, tcp_frame=start, a parameter like 5006=64, or a setup file");
+    command->add_option("--max-blocks", c->max_blocks, "stop a run after this number of blocks");
+    command->add_option("--format", c->format, "text, json, junit, sarif or github");
     command->add_flag_callback(
-        "--json", [c] { c->format = "json"; }, "the same as --format json");
+        "--json", [c] { c->format = "json"; }, "same as --format json");
     writes_file(command->add_option("--out", c->out, "file for the report"));
     add_page_options(*command, c->page);
     c->command = command;

@@ -1,4 +1,4 @@
-// The interface between a command and main.
+// The interface between a command and main; each add function is in the .cpp of its command: *.cpp
 #pragma once
 
 #include <functional>

@@ -58,7 +58,7 @@ void put_report(const CompareCommand& c, const regression::CompareReport& report
 regression::SuiteCase case_of(const CompareCommand& c) {
     if (!(c.tol_lin_mm > 0.0) || !(c.tol_ang_deg > 0.0) || !(c.tol_feed >= 0.0) ||
         !(c.tol_time >= 0.0))
-        throw InputError("tolerances are numbers above 0");
+        throw InputError("tolerances must be above 0");
     regression::SuiteCase like;
     like.setup = c.setup;
     like.setup_b = c.setup_b.empty() ? c.setup : c.setup_b;
@@ -76,7 +76,7 @@ regression::SuiteCase case_of(const CompareCommand& c) {
         std::find(regression::layer_names.begin(), regression::layer_names.end(), c.by);
     if (layer == regression::layer_names.end())
         throw InputError("--by " + c.by +
-                         ": one of text, words, blocks, path, functions, axes, effects");
+                         " is not one of text, words, blocks, path, functions, axes, effects");
     like.options.by = static_cast<regression::Layer>(layer - regression::layer_names.begin());
     return like;
 }
@@ -146,17 +146,17 @@ int compare(const CompareCommand& c) {
     const report::ReportFormat format = report::report_format(c.json ? "json" : c.format);
     const regression::SuiteCase like = case_of(c);
     if (c.suite.empty() == (c.a.empty() || c.b.empty()) || (!c.suite.empty() && !c.a.empty()))
-        throw InputError("compare: give two programs, two folders, or --suite FILE");
-    if (c.update && c.suite.empty()) throw InputError("--update writes the goldens of a --suite");
+        throw InputError("compare needs two programs, two folders or --suite FILE");
+    if (c.update && c.suite.empty()) throw InputError("--update requires --suite");
     const Interruption interruption;
     if (!c.suite.empty() || std::filesystem::is_directory(c.a) ||
         std::filesystem::is_directory(c.b))
         return compare_many(c, like, format);
-    if (!c.shard.empty()) throw InputError("--shard cuts folders and suites, not two programs");
+    if (!c.shard.empty()) throw InputError("--shard requires folders or a suite");
     regression::CompareReport report = compare_two(c, like);
     report.inputs = ReadRecord::files();
     put_report(c, report, format);
-    if (Interruption::asked()) print_error("trunnion: interrupted: what was run until then\n");
+    if (Interruption::asked()) print_error("trunnion: interrupted: the results so far\n");
     return regression::exit_code(report);
 }
 
@@ -165,14 +165,15 @@ int compare(const CompareCommand& c) {
 void add_compare(CLI::App& app, Run& run) {
     const auto c = std::make_shared<CompareCommand>();
     CLI::App* command =
-        app.add_subcommand("compare", "are two programs (or folders) the same machining?");
-    reads_file(command->add_option("A", c->a, "older program or folder"));
-    reads_file(command->add_option("B", c->b, "newer program or folder"));
+        app.add_subcommand("compare", "compare the machining of two programs or folders");
+    reads_file(command->add_option("A", c->a, "old program or folder"));
+    reads_file(command->add_option("B", c->b, "new program or folder"));
     reads_file(
-        command->add_option("--suite", c->suite, "suite file: programs x setups x tolerances"));
-    reads_file(command->add_option("--setup", c->setup, "machine and control of both, or of A"));
-    reads_file(command->add_option("--setup-b", c->setup_b, "machine and control of B"));
-    reads_file(command->add_option("--programs", c->program_folders, "folders of subprograms"));
+        command->add_option("--suite", c->suite, "suite file: programs, setups and tolerances"));
+    reads_file(command->add_option("--setup", c->setup, "setup file of both, or of A"));
+    reads_file(command->add_option("--setup-b", c->setup_b, "setup file of B"));
+    reads_file(
+        command->add_option("--programs", c->program_folders, "folder of subprograms, repeatable"));
     command->add_option("--tol-lin", c->tol_lin_mm, "position tolerance, mm")
         ->capture_default_str();
     command->add_option("--tol-ang", c->tol_ang_deg, "direction tolerance, deg")
@@ -182,19 +183,23 @@ void add_compare(CLI::App& app, Run& run) {
     command->add_option("--tol-time", c->tol_time, "cycle time tolerance, relative")
         ->capture_default_str();
     command->add_option("--by", c->by,
-                        "one layer: text, words, blocks, path, functions, axes, effects");
+                        "compare one layer: text, words, blocks, path, functions, axes or effects");
     command->add_option("--call", c->call,
-                        "the block that calls both programs, e.g. \"G65 P9814 D25.4\"");
-    command->add_flag("--devices", c->devices, "the setup's probe and artefacts answer G31");
-    command->add_option("--format", c->format, "text, json, junit, sarif, github, html, markdown");
-    command->add_flag("--json", c->json, "the same as --format json");
+                        "block that calls both programs, for example \"G65 P9814 D25.4\"");
+    command->add_flag("--devices", c->devices,
+                      "simulate the probe and the artefacts of the setup, which answer G31");
+    command->add_option("--format", c->format,
+                        "text, json, junit, sarif, github, html or markdown");
+    command->add_flag("--json", c->json, "same as --format json");
     writes_file(command->add_option("--out", c->out,
-                                    "file for the report or part ({i}: the shard's number)"));
-    command->add_option("--shard", c->shard, "i/n, /n or env: one part of the cases, for 'merge'");
-    command->add_option("--threads", c->threads, "default: all cores");
-    command->add_option("--max-blocks", c->max_blocks, "stop a program after this many blocks");
-    command->add_flag("--update", c->update, "write the goldens of the suite that differ");
-    command->add_option("--reason", c->reason, "why they changed; stands in the golden");
+                                    "file for the report or the part ({i}: number of the shard)"));
+    command->add_option("--shard", c->shard,
+                        "run one part of the cases, for 'merge': i/n, /n or env");
+    command->add_option("--threads", c->threads, "number of threads (all cores)");
+    command->add_option("--max-blocks", c->max_blocks,
+                        "stop a program after this number of blocks");
+    command->add_flag("--update", c->update, "rewrite the goldens of the suite that differ");
+    command->add_option("--reason", c->reason, "reason for the change, written into the golden");
     add_page_options(*command, c->page);
     c->command = command;
     command->callback([c, &run] { run = [c] { return compare(*c); }; });

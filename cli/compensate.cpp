@@ -51,9 +51,9 @@ void print_direction(const char* where, double before_rad, double after_rad) {
 
 int run_command(const Options& o) {
     if (o.json && o.out == "-") throw InputError("--json needs --out FILE for the program");
-    if (o.tolerance_um <= 0.0) throw InputError("--tol-um: a tolerance above zero is needed");
-    if (o.largest_turn_deg < 0.0) throw InputError("--max-turn-deg: 0 or more");
-    if (o.decimals < 1 || o.decimals > 9) throw InputError("--decimals: 1 to 9");
+    if (o.tolerance_um <= 0.0) throw InputError("--tol-um must be above 0");
+    if (o.largest_turn_deg < 0.0) throw InputError("--max-turn-deg must be 0 or more");
+    if (o.decimals < 1 || o.decimals > 9) throw InputError("--decimals must be 1 to 9");
     const setup::Setup setup = open_setup(o.setup);
     inputs::ProgramAndFolders program = inputs::open_program(o.program, o.folders);
     const Interruption interruption;
@@ -72,17 +72,16 @@ int run_command(const Options& o) {
                                              *o.command, o.page));
     if (o.json) files.add("-", report::compensation_json(c, ReadRecord::files()));
     files.write();
-    print_error("{} blocks; largest tip error at a block's end {} before, {} after\n",
+    print_error("{} blocks; largest tip error at the end of a block {} before, {} after\n",
                 c.blocks.size(), length_words(um_from_mm(c.before.tip_mm)),
                 length_words(um_from_mm(c.after.tip_mm)));
     if (c.in_gap.tip_mm > 0.0)
         print_error(
-            "where an axis turns round, until it has crossed its gap: tip {}, direction "
-            "{} µrad\n",
+            "after a reversal, until the axis has crossed its gap: tip {}, direction {} µrad\n",
             length_words(um_from_mm(c.in_gap.tip_mm)),
             three_digits(urad_from_rad(c.in_gap.turned_rad), 3));
-    print_direction("where the rotaries correct it", c.before.turned_rad, c.after.turned_rad);
-    print_direction("where they keep their words", c.before.kept_rad, c.after.kept_rad);
+    print_direction("where rotary axes correct it", c.before.turned_rad, c.after.turned_rad);
+    print_direction("where rotary words are unchanged", c.before.kept_rad, c.after.kept_rad);
     return exit_done;
 }
 
@@ -90,22 +89,23 @@ int run_command(const Options& o) {
 
 void add_compensate(CLI::App& app, Run& run) {
     const auto o = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("compensate", "a program that makes up for known errors");
-    reads_file(command->add_option("PROGRAM", o->program, "program file, or an O number"))
-        ->required();
+    CLI::App* command = app.add_subcommand(
+        "compensate", "write a program that compensates the known errors of the machine");
+    reads_file(command->add_option("PROGRAM", o->program, "program file or O number"))->required();
     reads_file(command->add_option("--setup", o->setup,
-                                   "setup file with the errors (machines/bc_table.toml)"));
-    writes_file(command->add_option("--out", o->out, "file to write (stdout)"));
-    reads_file(command->add_option("--programs", o->folders, "folder with more programs"))
+                                   "setup file that contains the errors (machines/bc_table.toml)"));
+    writes_file(command->add_option("--out", o->out, "output program (stdout)"));
+    reads_file(
+        command->add_option("--programs", o->folders, "folder of further programs, repeatable"))
         ->allow_extra_args(false);
-    command->add_option("--tol-um", o->tolerance_um, "path tolerance between exact points (0.05)");
+    command->add_option("--tol-um", o->tolerance_um,
+                        "path tolerance between exact points, um (0.05)");
     command->add_option("--max-turn-deg", o->largest_turn_deg,
-                        "rotary axes turn by at most this to correct the tool's direction (0.1; 0: "
-                        "they keep their words)");
-    command->add_option("--decimals", o->decimals, "of the words written (6)");
+                        "maximum correction of a rotary axis for the tool direction, deg (0.1; 0: "
+                        "rotary words stay)");
+    command->add_option("--decimals", o->decimals, "decimals of the written words (6)");
     add_budget(*command, o->limits);
-    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->add_flag("--json", o->json, "print the result as one JSON object");
     add_page_options(*command, o->page);
     o->command = command;
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });

@@ -140,8 +140,7 @@ const std::map<std::string, Form>& forms() {
 
 void add_completion(CLI::App& app, Run& run) {
     const auto form = std::make_shared<std::string>();
-    CLI::App* command =
-        app.add_subcommand("completion", "text that completes words in a shell, or the man page");
+    CLI::App* command = app.add_subcommand("completion", "print shell completions or the man page");
     command->add_option("FORM", *form, "bash, zsh, fish or man")
         ->required()
         ->check(CLI::IsMember(forms()));

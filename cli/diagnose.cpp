@@ -62,15 +62,15 @@ int diagnose_log(const Options& options) {
 /// What was not done, when a limit ended the work.
 int report_unfinished(const diagnosis::Diagnosis& d, BudgetLimit limit) {
     print_error("trunnion: {}: {}\n", reason_of(limit),
-                d.unfinished ? "the search was not finished; this is the verdict on the best model "
-                               "until then, without a plan of the next measurement"
-                             : "no plan of the next measurement");
+                d.unfinished ? "the search was not finished: the verdict is that of the best model "
+                               "so far, without a plan for the next measurement"
+                             : "without a plan for the next measurement");
     return exit_limit;
 }
 
 int diagnose_command(const Options& options) {
     if (!options.program.empty()) return diagnose_log(options);
-    if (!options.folders.empty()) throw InputError("--programs belongs to --program");
+    if (!options.folders.empty()) throw InputError("--programs requires --program");
     const Interruption interruption;  // while the tables are read too
     setup::Setup setup = load_setup_option(options.setup);
     setup.model.allow_large = options.allow_large;
@@ -99,33 +99,40 @@ int diagnose_command(const Options& options) {
 }  // namespace
 
 void add_diagnose(CLI::App& app, Run& run) {
-    auto* command = app.add_subcommand("diagnose", "the gap between simulation and readings");
+    auto* command = app.add_subcommand(
+        "diagnose", "find the causes of the gap between simulation and readings");
     const auto options = std::make_shared<Options>();
-    reads_file(command->add_option("readings", options->readings,
-                                   "table of readings (CSV); several are joined in this order"))
+    reads_file(
+        command->add_option("readings", options->readings,
+                            "table of readings (CSV); several tables are joined in this order"))
         ->required();
-    reads_file(command->add_option("--setup", options->setup, "setup file (TOML), needed"));
+    reads_file(command->add_option("--setup", options->setup, "setup file (required)"));
     reads_file(command->add_option("--holdout", options->holdout,
-                                   "readings that take no part in the fit"));
-    reads_file(command->add_option("--program", options->program,
-                                   "the readings are axis positions that a control logged while "
-                                   "it ran this program: which of its choices or stores differs"));
-    reads_file(command->add_option("--programs", options->folders, "folders of subprograms"));
-    command->add_option("--max-blocks", options->max_blocks, "limit of a run of the program");
-    not_negative(
-        command->add_option("--limit-um", options->limit_um, "exit 1 when the gap is larger"));
-    writes_file(command->add_option("--out", options->out, "setup with the effects added"));
+                                   "readings for validation, excluded from the fit"));
+    reads_file(
+        command->add_option("--program", options->program,
+                            "find the control option or store that differs: the readings are axis "
+                            "positions that a control logged while running this program"));
+    reads_file(
+        command->add_option("--programs", options->folders, "folder of subprograms, repeatable"));
+    command->add_option("--max-blocks", options->max_blocks,
+                        "stop a run of the program after this number of blocks");
+    not_negative(command->add_option("--limit-um", options->limit_um,
+                                     "exit with 1 when the gap exceeds this limit"));
+    writes_file(
+        command->add_option("--out", options->out, "write the setup with the effects added"));
     command
-        ->add_option("--over", options->over,
-                     "sessions: what changed from one to the next (column session, or one file "
-                     "each)")
+        ->add_option(
+            "--over", options->over,
+            "'sessions': find what changed between sessions (column session, or one file for each)")
         ->check(CLI::IsMember({"sessions"}));
     add_fit_seconds(*command, options->max_seconds);
     add_page_options(*command, options->page);
     options->command = command;
-    command->add_flag("--allow-large", options->allow_large,
-                      "residuals that no machine tool has are meant, no slip of units");
-    command->add_flag("--json", options->json, "result as JSON on stdout");
+    command->add_flag(
+        "--allow-large", options->allow_large,
+        "accept residuals larger than those of any machine tool, otherwise taken for wrong units");
+    command->add_flag("--json", options->json, "print the result as one JSON object");
     command->callback([options, &run] { run = [options] { return diagnose_command(*options); }; });
 }
 

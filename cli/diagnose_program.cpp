@@ -37,7 +37,8 @@ choices::ControlGap found_gap(const ProgramDiagnosis& options, const setup::Setu
 
 int diagnose_program(const ProgramDiagnosis& options) {
     if (options.setup.empty())
-        throw InputError("--setup is missing: a log belongs to the control that it was taken on");
+        throw InputError(
+            "--setup is missing: a log must be evaluated with the control that wrote it");
     const setup::Setup setup = open_setup(options.setup);
     const choices::ControlGap gap = found_gap(options, setup);
     OutputFiles files;

@@ -40,11 +40,11 @@ int effects_command(const Options& o) {
 
 void add_effects(CLI::App& app, Run& run) {
     const auto o = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("effects", "what a machine may have: names for --inject and --effects");
-    command->add_option("NAME", o->name, "one effect, with its formula and parameters");
+    CLI::App* command = app.add_subcommand(
+        "effects", "list the effects of a machine: names for --inject and --effects");
+    command->add_option("NAME", o->name, "show one effect with its formula and parameters");
     reads_file(command->add_option("--setup", o->setup, "setup file (machines/bc_table.toml)"));
-    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->add_flag("--json", o->json, "print the result as one JSON object");
     command->callback([o, &run] { run = [o] { return effects_command(*o); }; });
 }
 

@@ -80,7 +80,7 @@ int help_command(const CLI::App& app, const std::string& name) {
 
 void add_help(CLI::App& app, Run& run) {
     const auto name = std::make_shared<std::string>();
-    CLI::App* command = app.add_subcommand("help", "help on a command or a topic");
+    CLI::App* command = app.add_subcommand("help", "print help on a command or a topic");
     command->add_option("TOPIC", *name, "a command, exit-codes, files, frames, functions or units");
     command->callback(
         [name, &app, &run] { run = [name, &app] { return help_command(app, *name); }; });

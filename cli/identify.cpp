@@ -58,7 +58,7 @@ int planned(int runs, const regression::Shard& shard) {
 void print_stores(const setup::Setup& identified, const identification::Identification& result) {
     const bool located =
         std::any_of(result.parameters.begin(), result.parameters.end(),
-                    [](const identification::FitParameter& p) { return p.effect == "location"; });
+                    [](const identification::FitParameter& p) { return p.location.has_value(); });
     if (!located || identified.artefacts.empty()) return;
     const Vector3 tip_S_mm = identified.probe     ? identified.probe->tip_S_mm
                              : identified.ballbar ? identified.ballbar->cup_S_mm
@@ -102,10 +102,10 @@ int report_done(const identification::Identification& fitted, std::size_t done, 
                 BudgetLimit limit) {
     const std::vector<std::string>& left = fitted.not_searched;
     if (!left.empty())
-        print_error("trunnion: {}: keys of {} stand at their usual values\n", reason_of(limit),
+        print_error("trunnion: {}: the keys of {} keep their usual values\n", reason_of(limit),
                     fmt::join(left, ", "));
     if (done < static_cast<std::size_t>(planned))
-        print_error("trunnion: {}: {} of {} repetitions are done\n", reason_of(limit), done,
+        print_error("trunnion: {}: {} of {} repetitions completed\n", reason_of(limit), done,
                     planned);
     return left.empty() && done == static_cast<std::size_t>(planned) ? exit_done : exit_limit;
 }
@@ -138,7 +138,7 @@ std::string page_of(const Options& options, const identification::Identification
 int identify_command(const Options& options) {
     const Interruption interruption;  // while the tables are read too
     if (!options.shard.empty() && options.runs == 0)
-        throw InputError("--shard cuts the repetitions of --monte-carlo");
+        throw InputError("--shard requires --monte-carlo");
     Inputs in{load_setup_option(options.setup), {}, split_names(options.effects)};
     in.setup.model.allow_large = options.allow_large;
     in.table = load_readings(options.readings, in.setup);
@@ -173,28 +173,30 @@ int identify_command(const Options& options) {
 }  // namespace
 
 void add_identify(CLI::App& app, Run& run) {
-    auto* command = app.add_subcommand("identify", "fits effects to readings");
+    auto* command = app.add_subcommand("identify", "fit effects to readings");
     const auto options = std::make_shared<Options>();
-    reads_file(command->add_option("readings", options->readings,
-                                   "table of readings (CSV); several are joined in this order"))
+    reads_file(
+        command->add_option("readings", options->readings,
+                            "table of readings (CSV); several tables are joined in this order"))
         ->required();
-    reads_file(command->add_option("--setup", options->setup, "setup file (TOML), needed"));
+    reads_file(command->add_option("--setup", options->setup, "setup file (required)"));
     command->add_option("--effects", options->effects,
-                        "names, comma between; without it those of [model].modelled");
+                        "names of effects, separated by commas (default: [model].modelled)");
     writes_file(command->add_option("--out", options->out,
-                                    "setup with the values entered; with --shard: the part "
-                                    "({i}: the shard's number)"));
+                                    "write the setup with the identified values; with --shard the "
+                                    "part ({i}: number of the shard)"));
     command
         ->add_option("--monte-carlo", options->runs,
-                     "also the uncertainty by so many simulated repetitions")
+                     "also compute the uncertainty from this number of simulated repetitions")
         ->check(CLI::Range(2, 100000));
     command->add_option("--shard", options->shard,
-                        "i/n, /n or env: one part of the repetitions, for 'merge'");
-    command->add_option("--seed", options->seed, "of the repetitions' noise (1)");
+                        "run one part of the repetitions, for 'merge': i/n, /n or env");
+    command->add_option("--seed", options->seed, "seed of the noise of the repetitions (1)");
     add_fit_seconds(*command, options->max_seconds);
-    command->add_flag("--allow-large", options->allow_large,
-                      "residuals that no machine tool has are meant, no slip of units");
-    command->add_flag("--json", options->json, "result as JSON on stdout");
+    command->add_flag(
+        "--allow-large", options->allow_large,
+        "accept residuals larger than those of any machine tool, otherwise taken for wrong units");
+    command->add_flag("--json", options->json, "print the result as one JSON object");
     add_page_options(*command, options->page);
     options->command = command;
     command->callback([options, &run] { run = [options] { return identify_command(*options); }; });

@@ -76,7 +76,7 @@ void add_pictures(const std::string& folder, const std::string& readings, const 
 int import_command(const Options& options) {
     const imports::ImportKind kind = kinds.at(options.kind);
     if (!options.svg.empty() && kind != imports::ImportKind::iso230_2)
-        throw InputError("--svg draws tables of ISO 230-2 only");
+        throw InputError("--svg is for tables of ISO 230-2 only");
     const setup::Setup setup = load_setup_option(options.setup);
     std::vector<imports::ImportFile> files;
     for (const std::string& path : options.files) files.push_back({path, read_file_or_input(path)});
@@ -100,22 +100,27 @@ int import_command(const Options& options) {
 }  // namespace
 
 void add_import(CLI::App& app, Run& run) {
-    auto* command = app.add_subcommand("import", "files of instruments and controls as readings");
+    auto* command =
+        app.add_subcommand("import", "convert files of instruments and controls into readings");
     const auto options = std::make_shared<Options>();
-    command->add_option("kind", options->kind, "what the files are")
+    command
+        ->add_option(
+            "kind", options->kind,
+            "kind of the files: ballbar, iso230-2, points, axis-log, table, dprnt or pointing")
         ->required()
         ->check(CLI::IsMember(kinds));
-    reads_file(command->add_option("files", options->files, "in the order taken"))->required();
-    reads_file(command->add_option("--setup", options->setup, "setup file (TOML), needed"));
-    writes_file(command->add_option("--out", options->out, "readings (CSV)"))->required();
-    reads_file(command->add_option("--map", options->map, "of kind table: which column is what"));
-    writes_file(
-        command->add_option("--svg", options->svg, "of kind iso230-2: folder for pictures"));
+    reads_file(command->add_option("files", options->files, "files in the order of measurement"))
+        ->required();
+    reads_file(command->add_option("--setup", options->setup, "setup file (required)"));
+    writes_file(command->add_option("--out", options->out, "write the readings (CSV)"))->required();
+    reads_file(
+        command->add_option("--map", options->map, "kind table: file that assigns the columns"));
+    writes_file(command->add_option("--svg", options->svg, "kind iso230-2: folder for pictures"));
     command
         ->add_option("--with", options->told,
-                     "what the files do not tell: 'unit=um', 'axis=X' (docs/readings.md)")
+                     "facts that the files do not contain: 'unit=um', 'axis=X' (docs/readings.md)")
         ->allow_extra_args(false);
-    command->add_flag("--json", options->json, "what was read, as one JSON object on stdout");
+    command->add_flag("--json", options->json, "print what was read as one JSON object");
     add_page_options(*command, options->page);
     options->command = command;
     command->callback([options, &run] { run = [options] { return import_command(*options); }; });

@@ -112,11 +112,11 @@ void add_talk(CLI::App& app) {
     for (CLI::App* command : app.get_subcommands({})) {
         CLI::Option* quiet = command->add_flag(
             "-q,--quiet", [](std::int64_t) { set_talk(Talk::quiet); },
-            "results and errors only: no notes, no progress");
+            "print results and errors only, no notes and no progress");
         command
             ->add_flag(
                 "--verbose", [](std::int64_t) { set_talk(Talk::verbose); },
-                "also the files read with their SHA-256, and the time taken")
+                "also print the files read with their SHA-256, and the elapsed time")
             ->excludes(quiet);
     }
 }

@@ -43,7 +43,8 @@ int merge_comparisons(const std::vector<PartFile>& files, const MergeOptions& o)
 
 int merge_repetitions(const std::vector<PartFile>& files, const MergeOptions& o) {
     if (o.format != "text" && o.format != "json")
-        throw InputError("parts of identify merge to text or json, not to '" + o.format + "'");
+        throw InputError("parts of identify can be merged to text or json, not to '" + o.format +
+                         "'");
     std::vector<report::RepetitionPart> parts;
     for (const PartFile& file : files)
         parts.push_back(report::parse_repetition_part(file.text, file.path));
@@ -65,11 +66,12 @@ int merge(const MergeOptions& o) {
 void add_merge(CLI::App& app, Run& run) {
     const auto o = std::make_shared<MergeOptions>();
     CLI::App* command = app.add_subcommand(
-        "merge", "one report from the parts of 'compare --shard' or 'identify --shard'");
-    reads_file(command->add_option("PART", o->parts, "parts, in any order"))->required();
-    command->add_option("--format", o->format, "text, json, junit, sarif, github, html, markdown");
+        "merge", "merge the parts of 'compare --shard' or 'identify --shard' into one report");
+    reads_file(command->add_option("PART", o->parts, "parts in any order"))->required();
+    command->add_option("--format", o->format,
+                        "text, json, junit, sarif, github, html or markdown");
     command->add_flag_callback(
-        "--json", [o] { o->format = "json"; }, "the same as --format json");
+        "--json", [o] { o->format = "json"; }, "same as --format json");
     writes_file(command->add_option("--out", o->out, "file for the report"));
     o->command = command;
     command->callback([o, &run] { run = [o] { return merge(*o); }; });

@@ -70,7 +70,7 @@ void refuse_beside_json(const CLI::App& command, const std::vector<NamedFile>& f
     if (!json || json->count() == 0 || command.get_option_no_throw("--format")) return;
     for (const NamedFile& file : files)
         if (file.written && file.text == "-")
-            throw InputError(file.option + " cannot go to standard output beside --json");
+            throw InputError(file.option + " cannot write to standard output together with --json");
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ std::string date_of_build() {
 }  // namespace
 
 void add_page_options(CLI::App& command, PageOptions& options) {
-    writes_file(command.add_option("--html", options.html, "page with the result, one file"));
-    command.add_option("--date", options.date, "date in the page's foot (none)");
+    writes_file(command.add_option("--html", options.html, "write the result as one HTML page"));
+    command.add_option("--date", options.date, "date in the footer of the page (none)");
 }
 
 std::string command_text(const CLI::App& command) {

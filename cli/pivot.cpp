@@ -22,6 +22,7 @@
 #include "pivot/pivot_readings.h"
 #include "pivot/pivot_run.h"
 #include "report/pivot_page.h"
+#include "report/pivot_pictures.h"
 #include "setup/control_machine.h"
 
 namespace trunnion::cli {
@@ -50,8 +51,9 @@ setup::Setup setup_of(const PivotOptions& o) {
     offsets::Stores stores;
     backup::apply_backup(backup::read_backup(o.control), stores);
     if (!setup::has_rotary_geometry(stores))
-        throw InputError("these files name no two real rotary axes (19680-19690): give --setup",
-                         {o.control});
+        throw InputError(
+            "these files do not describe two real rotary axes (19680-19690); give --setup",
+            {o.control});
     return setup::setup_of_control(stores, o.control);
 }
 
@@ -74,13 +76,13 @@ pivot::PivotPrints read_maps(const PivotOptions& o, const setup::Setup& setup,
     }
     if (tables.empty()) return pivot::parse_pivot_prints(printed, first, second);
     if (!printed.empty())
-        throw InputError("prints and tables of readings in one call: give either",
+        throw InputError("printed output and tables of readings cannot be combined",
                          {printed[0].path});
     const auto sphere = std::find_if(
         setup.artefacts.begin(), setup.artefacts.end(),
         [](const setup::Artefact& a) { return a.kind == setup::Artefact::Kind::sphere; });
     if (sphere == setup.artefacts.end() || !setup.probe)
-        throw InputError("readings need the setup's [probe] and a sphere");
+        throw InputError("these readings require [probe] and a sphere in the setup");
     return pivot::pivot_readings(records::join_readings(std::move(tables)), first, second,
                                  0.5 * (sphere->diameter_mm + setup.probe->ball_diameter_mm),
                                  setup.probe->tip_S_mm);
@@ -142,16 +144,15 @@ void refuse_mixed_functions(const PivotOptions& o, const pivot::PivotEvidence& e
                             const std::vector<pivot::PivotMap>& maps, const pivot::PivotFit& fit) {
     const auto mixed = pivot::mixed_functions(evidence, maps, fit);
     if (mixed.empty()) return;
-    throw InputError(
-        fmt::format("functions are mixed up: no machine fits these readings ({} left), but "
-                    "one does when {} took the other store",
-                    length_words(fit.noise_um), fmt::join(mixed, " and ")),
-        {o.readings.front()});
+    throw InputError(fmt::format("functions are mixed up: no machine fits these readings (residual "
+                                 "{}), but one does if {} used the other store",
+                                 length_words(fit.noise_um), fmt::join(mixed, " and ")),
+                     {o.readings.front()});
 }
 
 report::PivotResult judge_readings(const PivotOptions& o, const setup::Setup& setup) {
     const auto declared = setup::rotary_stores(setup.machine.chain, setup.stores);
-    if (!declared) throw InputError("the control knows no two rotary axes (19680-19690)");
+    if (!declared) throw InputError("the control does not describe two rotary axes (19680-19690)");
     pivot::PivotPrints prints = read_maps(o, setup, *declared);
     std::vector<std::string> notes;
     pivot::PivotEvidence evidence;
@@ -228,7 +229,7 @@ std::string page_of(const PivotOptions& o, const report::PivotResult& result) {
 int run_pivot(const PivotOptions& o) {
     if (!o.readings.empty() && o.setup.empty() && o.control.empty())
         throw InputError(
-            "readings and prints need the machine they come from: --setup or --control");
+            "readings need the machine that they come from: give --setup or --control");
     const setup::Setup setup = setup_of(o);
     if (!o.programs_folder.empty()) return write_programs(o, setup);
     OutputFiles files;
@@ -254,26 +255,26 @@ int run_pivot(const PivotOptions& o) {
 void add_pivot(CLI::App& app, Run& run) {
     const auto o = std::make_shared<PivotOptions>();
     CLI::App* command = app.add_subcommand(
-        "pivot", "which pivot store is stale and what to type: simulated, or from readings");
-    reads_file(command->add_option("READINGS", o->readings,
-                                   "what the test's programs printed, or tables of readings; "
-                                   "none: the test is simulated"));
-    reads_file(
-        command->add_option("--setup", o->setup, "setup file (default machines/bc_table.toml)"));
+        "pivot", "find the stale pivot store and the values to enter, simulated or from readings");
+    reads_file(command->add_option(
+        "READINGS", o->readings,
+        "output of the test programs, or tables of readings (default: simulate the test)"));
+    reads_file(command->add_option("--setup", o->setup, "setup file (machines/bc_table.toml)"));
     reads_file(command->add_option("--control", o->control,
-                                   "a real control's backup folder: the stores in force"));
+                                   "backup folder of a real control, which gives the stores"));
     reads_file(command->add_option("--programs", o->shop_programs,
-                                   "folder with your programs: which are affected"));
+                                   "folder of your programs: list those affected"));
     writes_file(command->add_option("--write-programs", o->programs_folder,
                                     "only write the NC programs of the test for this machine"));
-    writes_file(command->add_option("--print", o->print, "file for what the programs print"));
-    command->add_option("--seed", o->seed, "of the probe's repeatability");
-    not_negative(command->add_option("--limit-um", o->limit_um,
-                                     "a store that causes less error is not stale (3)"));
-    writes_file(command->add_option("--svg", o->svg_folder, "folder for the pictures"));
+    writes_file(command->add_option("--print", o->print, "file for the output of the programs"));
+    command->add_option("--seed", o->seed, "seed of the noise of the probe (1)");
+    not_negative(command->add_option(
+        "--limit-um", o->limit_um,
+        "largest error that a store may cause without being called stale, um (3)"));
+    writes_file(command->add_option("--svg", o->svg_folder, "folder for pictures"));
     command->add_flag("--stores", o->stores_alone,
-                      "run nothing: judge the stores by the machine that the setup knows");
-    command->add_flag("--json", o->json, "one JSON object on stdout");
+                      "do not run the test: compare the stores with the machine of the setup");
+    command->add_flag("--json", o->json, "print the result as one JSON object");
     add_page_options(*command, o->page);
     o->command = command;
     command->callback([o, &run] { run = [o] { return run_pivot(*o); }; });

@@ -65,21 +65,23 @@ int predict(const Options& options) {
 }  // namespace
 
 void add_predict(CLI::App& app, Run& run) {
-    auto* command = app.add_subcommand("predict", "what the emulator reads at these positions");
+    auto* command = app.add_subcommand("predict", "simulate the readings at given positions");
     const auto options = std::make_shared<Options>();
     reads_file(command->add_option("readings", options->readings, "table of readings (CSV)"))
         ->required();
-    reads_file(command->add_option("--setup", options->setup, "setup file (TOML), needed"));
-    writes_file(command->add_option("--jacobian", options->jacobian,
-                                    "also CSV: derivatives of each reading by each parameter"));
+    reads_file(command->add_option("--setup", options->setup, "setup file (required)"));
+    writes_file(command->add_option(
+        "--jacobian", options->jacobian,
+        "write the derivative of each reading with respect to each parameter (CSV)"));
     command->add_option("--effects", options->effects,
-                        "of --jacobian; without it those of [model].modelled");
+                        "effects of --jacobian, separated by commas (default: [model].modelled)");
     command->add_flag("--noise", options->noise,
-                      "as a device would read: with the noise of the rows or of [model]");
-    command->add_option("--seed", options->seed, "of the noise (1)");
+                      "add noise with the sigma of each row or of [model]");
+    command->add_option("--seed", options->seed, "seed of the noise (1)");
     command->add_option("--inject", options->inject, "switch an effect on: 'C.backlash=60urad'");
-    command->add_flag("--json", options->json,
-                      "one JSON object on stdout; with --effects the derivatives in it");
+    command->add_flag(
+        "--json", options->json,
+        "print the result as one JSON object, with --effects including the derivatives");
     command->callback([options, &run] { run = [options] { return predict(*options); }; });
 }
 

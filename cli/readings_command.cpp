@@ -38,7 +38,7 @@ std::vector<std::string> split_names(const std::string& text) {
 setup::Setup load_setup_option(const std::string& path, const std::vector<std::string>& inject) {
     if (path.empty())
         throw InputError(
-            "--setup is missing: readings belong to the machine that they were taken on");
+            "--setup is missing: readings must be evaluated with the machine that they come from");
     std::vector<std::string> notes;
     setup::Setup setup = setup::load_setup(path, notes);
     print_notes(notes);

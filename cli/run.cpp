@@ -51,7 +51,8 @@ std::map<int, double> parse_sets(const std::vector<std::string>& sets) {
         const std::size_t equal = set.find('=');
         const auto value =
             equal == std::string::npos ? std::nullopt : parse_number(set.substr(equal + 1));
-        if (!value) throw InputError(fmt::format("--set: '{}' does not read '#100=3.5'", set));
+        if (!value)
+            throw InputError(fmt::format("--set: '{}' does not have the form '#100=3.5'", set));
         values[whole(without_hash(set.substr(0, equal)), "--set")] = *value;
     }
     return values;
@@ -70,7 +71,7 @@ std::vector<int> parse_variables(const std::string& text) {
                              : whole(without_hash(part.substr(dash + 1)), "--vars");
         if (last < first)
             throw InputError(
-                fmt::format("--vars: '{}' runs backwards, say {}-{}", part, last, first));
+                fmt::format("--vars: '{}' is a descending range; write {}-{}", part, last, first));
         for (int n = first; n <= last; ++n) numbers.push_back(n);
         i = end + 1;
     }
@@ -159,9 +160,10 @@ std::string page_of_run(const Options& o, const setup::Setup& setup, const emula
 
 int run_command(const Options& o) {
     if (!o.page.html.empty() && !o.trace.empty())
-        throw InputError("--html and --trace are two runs: the page samples curves by itself");
+        throw InputError(
+            "--html and --trace cannot be combined: the page samples the curves itself");
     if ((o.truth || o.trace_step_mm > 0.0 || o.trace_chord_mm > 0.0) && o.trace.empty())
-        throw InputError("--truth, --trace-step and --trace-chord belong to --trace FILE");
+        throw InputError("--truth, --trace-step and --trace-chord require --trace FILE");
     const setup::Setup setup = setup_of(o);
     inputs::ProgramAndFolders program = inputs::open_program(o.program, folders_of(o));
     emulator::RunOptions options = run_options(o, setup);
@@ -194,40 +196,42 @@ int run_command(const Options& o) {
 void add_run(CLI::App& app, Run& run) {
     const auto o = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("run", "run an NC program on the emulated machine");
-    reads_file(command->add_option("PROGRAM", o->program, "program file, or an O number"))
-        ->required();
+    reads_file(command->add_option("PROGRAM", o->program, "program file or O number"))->required();
     reads_file(command->add_option("--setup", o->setup, "setup file (machines/bc_table.toml)"));
-    reads_file(command->add_option("--programs", o->folders, "folder with more programs"))
+    reads_file(
+        command->add_option("--programs", o->folders, "folder of further programs, repeatable"))
         ->allow_extra_args(false);
-    reads_file(command->add_option(
-        "--control", o->control,
-        "a real control's backup folder, put over the setup; its programs are found"));
-    command->add_option("--seed", o->seed, "seed of the devices' noise (1)");
-    writes_file(command->add_option("--trace", o->trace, "CSV with a row for each move"));
+    reads_file(command->add_option("--control", o->control,
+                                   "backup folder of a real control: its values replace those of "
+                                   "the setup, its programs can be called"));
+    command->add_option("--seed", o->seed, "seed of the noise of the devices (1)");
+    writes_file(command->add_option("--trace", o->trace, "write a CSV with one row for each move"));
     // Each move is sampled completely: smaller steps would fill the memory without benefit.
-    command->add_option("--trace-step", o->trace_step_mm, "also a SAMPLE row every so many mm")
+    command->add_option("--trace-step", o->trace_step_mm, "add SAMPLE rows at this distance, mm")
         ->check(CLI::Range(1e-3, 1e6, "0.001 to 1e6"));
     command
         ->add_option("--trace-chord", o->trace_chord_mm,
-                     "also SAMPLE rows that follow arcs and G43.4 within so many mm")
+                     "add SAMPLE rows that follow arcs and G43.4 within this tolerance, mm")
         ->check(CLI::Range(1e-6, 1e6, "1e-6 to 1e6"));
-    command->add_flag("--truth", o->truth, "also where the physical tip was");
-    writes_file(command->add_option("--readings", o->readings, "CSV of what the devices read"));
-    writes_file(command->add_option("--print", o->print, "file for what DPRNT prints"));
-    command->add_option("--set", o->sets, "variable before the run, '#100=3.5'")
+    command->add_flag("--truth", o->truth, "add the position of the physical tool tip");
+    writes_file(
+        command->add_option("--readings", o->readings, "write the readings of the devices (CSV)"));
+    writes_file(command->add_option("--print", o->print, "file for the output of DPRNT"));
+    command->add_option("--set", o->sets, "set a variable before the run: '#100=3.5'")
         ->allow_extra_args(false);
-    command->add_option("--vars", o->variables, "variables to report, 100-149,500");
-    command->add_option("--inject", o->injections, "effect, 'C.backlash: gap_rad=6e-5'")
+    command->add_option("--vars", o->variables, "variables to report: 100-149,500");
+    command
+        ->add_option("--inject", o->injections, "switch an effect on: 'C.backlash: gap_rad=6e-5'")
         ->allow_extra_args(false);
     command->add_flag("--ballbar", o->ballbar,
-                      "the ballbar also reads feed moves in its range, without BALLBAR ON");
+                      "record ballbar readings on all feed moves in its range, without BALLBAR ON");
     command
         ->add_option("--measure", o->measure,
-                     "device beside the program: 'linear R1 X' reads at each dwell (G4), "
-                     "'axis X 250' logs (docs/readings.md)")
+                     "add a measuring device: 'linear R1 X' reads at each dwell (G4), 'axis X 250' "
+                     "logs an axis at 250 Hz (docs/readings.md)")
         ->allow_extra_args(false);
     add_budget(*command, o->limits);
-    command->add_flag("--json", o->json, "one JSON object on stdout");
+    command->add_flag("--json", o->json, "print the result as one JSON object");
     add_page_options(*command, o->page);
     o->command = command;
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });

@@ -12,7 +12,7 @@ std::optional<regression::Shard> shard_of(const std::string& option) {
     if (!option.empty()) return regression::parse_shard(option);
     const auto shard = regression::shard_of_environment();
     if (shard)
-        print_notes({fmt::format("shard {}/{} by the environment (--shard 1/1 for all of it)",
+        print_notes({fmt::format("shard {}/{} from the environment (--shard 1/1 runs everything)",
                                  shard->index, shard->count)});
     return shard;
 }

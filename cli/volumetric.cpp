@@ -35,7 +35,7 @@ void check_size(const setup::Setup& setup, const volumetric::VolumetricOptions& 
     for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
         poses *= axis.rotary ? options.rotary_grid : options.grid;
     if (poses > most_poses)
-        throw InputError(fmt::format("--grid, --rotary-grid: {:.0f} poses are more than {:.0f}",
+        throw InputError(fmt::format("--grid and --rotary-grid give {:.0f} poses, more than {:.0f}",
                                      poses, most_poses));
 }
 
@@ -52,9 +52,9 @@ volumetric::VolumetricMap watched_map(const setup::Setup& setup,
 }
 
 int run_command(const Options& o) {
-    if (o.map.grid < 2 || o.map.grid > 50) throw InputError("--grid: 2 to 50 points along an axis");
+    if (o.map.grid < 2 || o.map.grid > 50) throw InputError("--grid must be 2 to 50");
     if (o.map.rotary_grid < 1 || o.map.rotary_grid > 72)
-        throw InputError("--rotary-grid: 1 to 72 angles of an axis");
+        throw InputError("--rotary-grid must be 1 to 72");
     const setup::Setup setup = open_setup(o.setup);
     check_size(setup, o.map);
     std::vector<std::string> names;
@@ -87,19 +87,20 @@ int run_command(const Options& o) {
 
 void add_volumetric(CLI::App& app, Run& run) {
     const auto o = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand(
-        "volumetric",
-        "tool point errors over the working volume: every axis over its limits (+-200 mm and "
-        "+-180 degrees where the setup gives none); tables of errors end in their last value");
+    CLI::App* command =
+        app.add_subcommand("volumetric",
+                           "map the tool point errors over the working volume: each axis over its "
+                           "limits (+-200 mm and +-180 deg without limits in the setup). Beyond "
+                           "the end of an error table its last value holds");
     reads_file(command->add_option("--setup", o->setup, "setup file (machines/bc_table.toml)"));
-    command->add_option("--grid", o->map.grid, "points along each linear axis (5)");
+    command->add_option("--grid", o->map.grid, "number of points along each linear axis (5)");
     command->add_option("--rotary-grid", o->map.rotary_grid,
-                        "angles of each rotary axis (5; 1: at zero)");
-    not_negative(command->add_option("--length", o->map.length_mm, "tool length in mm (150)"));
-    writes_file(command->add_option("--csv", o->csv, "every pose with its error"));
-    writes_file(command->add_option("--svg", o->svg,
-                                    "folder for pictures: one for each height, one of the axes"));
-    command->add_flag("--json", o->json, "one JSON object on stdout");
+                        "number of angles of each rotary axis (5; 1: zero only)");
+    not_negative(command->add_option("--length", o->map.length_mm, "tool length, mm (150)"));
+    writes_file(command->add_option("--csv", o->csv, "write every pose with its error (CSV)"));
+    writes_file(command->add_option(
+        "--svg", o->svg, "folder for pictures: one for each height, and one of the axes"));
+    command->add_flag("--json", o->json, "print the result as one JSON object");
     add_page_options(*command, o->page);
     o->command = command;
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });

@@ -369,7 +369,8 @@ CompensatedProgram compensate_program(const setup::Setup& setup,
     out.notes.insert(out.notes.end(), out.original.notes.begin(), out.original.notes.end());
     if (out.original.reads_skip && sink.last_skip())
         throw InputError(
-            "the program asks where G31 touched: what it does then cannot be written beforehand",
+            "the program reads the position of a G31 touch: its further path is not known in "
+            "advance",
             *sink.last_skip());
     out.limit = meter.reached();
     if (out.original.status != controller::RunStatus::ok) return out;
@@ -389,7 +390,7 @@ CompensatedProgram compensate_program(const setup::Setup& setup,
                             std::to_string(out.executed.alarm->number) + ' ' +
                             out.executed.alarm->text);
     else if (!check.complete())
-        out.notes.push_back("the compensated program makes fewer moves than were written");
+        out.notes.push_back("the compensated program makes fewer moves than were written to it");
     return out;
 }
 

@@ -105,9 +105,9 @@ emulator::BelievedTool TipCorrector::truth(const emulator::PathSampler& path, do
 }
 
 /// One step of both rotary axes towards the intended direction.
-void TipCorrector::turn(const emulator::PathSampler& path, double s,
-                        const emulator::BelievedTool& meant, const Travel& travel, const Held& held,
+void TipCorrector::turn(const Arrival& arrives, const emulator::BelievedTool& meant,
                         AxisPositions& q) const {
+    const auto& [path, s, travel, held] = arrives;
     const positioning::RotaryTransform& belief = *path.move.transform;
     const Vector3 off = truth(path, s, q, travel).direction_W - meant.direction_W;
     const Eigen::Matrix<double, 3, 2> by = belief.derivative(q, path.move.tool_vector_mm).direction;
@@ -139,13 +139,12 @@ void TipCorrector::turn(const emulator::PathSampler& path, double s,
     q = belief.with_rotaries(q, {at[0] + step[0], at[1] + step[1]});
 }
 
-AxisPositions TipCorrector::solved(const emulator::PathSampler& path, double s,
-                                   const Travel& travel, const Held& held) const {
+AxisPositions TipCorrector::solved(const Arrival& at) const {
+    const auto& [path, s, travel, held] = at;
     AxisPositions q = path.move.at(s);
     const emulator::BelievedTool wanted = meant(path.move, s);
     if (turns_tool(path.move))
-        for (int i = 0; i < 3; ++i)
-            turn(path, s, wanted, travel, held, q);  // each step leaves a remainder of 1e-4
+        for (int i = 0; i < 3; ++i) turn(at, wanted, q);  // each step leaves a remainder of 1e-4
     // X Y Z are the first three axes; the nominal machine is accurate enough here.
     const Matrix3 by_axis =
         kinematics::tip_jacobian(nominal_, q, -path.move.tool_vector_mm).axis.leftCols<3>();
@@ -184,7 +183,7 @@ Correction TipCorrector::corrected(const emulator::PathSampler& path, const Path
         c.travel[i] = stretch.travel[i] != 0 ? stretch.travel[i] : written.travel()[i];
     Held held;
     AxisPositions beyond;  // held axes: their wanted position
-    c.wanted = solved(path, s, c.travel, held);
+    c.wanted = solved({path, s, c.travel, held});
     for (int round = 0; round < most_rounds; ++round) {
         const Travel arrives = arrival(c.wanted, written);
         const auto asks = std::find_if(order.begin(), order.end(), [&](std::size_t i) {
@@ -194,7 +193,7 @@ Correction TipCorrector::corrected(const emulator::PathSampler& path, const Path
         const std::size_t i = *asks;
         Travel other = c.travel;
         other[i] = arrives[i];
-        const AxisPositions turned = solved(path, s, other, held);
+        const AxisPositions turned = solved({path, s, other, held});
         const double now_off = std::abs(c.wanted.value[i] - from.value[i]),
                      then_off = std::abs(turned.value[i] - from.value[i]),
                      jump = std::abs(turned.value[i] - c.wanted.value[i]);
@@ -207,7 +206,7 @@ Correction TipCorrector::corrected(const emulator::PathSampler& path, const Path
         if (c.held[i])
             held[i] =
                 from.value[i] + (c.travel[i] == written.travel()[i] ? 0.0 : c.travel[i] * digit(i));
-        c.wanted = solved(path, s, c.travel, held);
+        c.wanted = solved({path, s, c.travel, held});
     }
     c.to = c.wanted;
     for (std::size_t i = 0; i < axis_count; ++i)

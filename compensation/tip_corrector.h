@@ -49,10 +49,16 @@ class TipCorrector {
 
     emulator::BelievedTool truth(const emulator::PathSampler& path, double s,
                                  const AxisPositions& q, const Travel& travel) const;
-    void turn(const emulator::PathSampler& path, double s, const emulator::BelievedTool& meant,
-              const Travel& travel, const Held& held, AxisPositions& q) const;
-    AxisPositions solved(const emulator::PathSampler& path, double s, const Travel& travel,
-                         const Held& held) const;
+    /// A point of the path, and how the axes get there.
+    struct Arrival {
+        const emulator::PathSampler& path;
+        double s;
+        const Travel& travel;
+        const Held& held;
+    };
+
+    void turn(const Arrival& at, const emulator::BelievedTool& meant, AxisPositions& q) const;
+    AxisPositions solved(const Arrival& at) const;
     double digit(std::size_t axis) const;
     Travel arrival(const AxisPositions& q, const records::TravelHistory& written) const;
 

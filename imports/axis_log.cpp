@@ -8,8 +8,8 @@ namespace trunnion::imports {
 namespace {
 
 /// Writes a row for each axis with both positions in this line.
-void write_row(const TextTable& table, std::size_t i, const std::vector<records::TableCell>& cells,
-               LogColumns& log, records::Reading row, RowWriter& rows) {
+void write_row(const LineCells& line, LogColumns& log, records::Reading row, RowWriter& rows) {
+    const auto& [table, i, cells] = line;
     const std::string block =
         log.block ? std::string(cells[log.block->column].text) : std::string();
     const bool places_only = log.places_only();
@@ -51,8 +51,9 @@ void tell(const TextTable& table, const LogColumns& log, const TimeColumn& time,
                                          axes_words(log), table.size(), time.words(),
                                          table.dialect_words()));
     if (time.invented())
-        result.notes.push_back(table.path() +
-                               ": no column of times: rows one minute apart (--with step_s=0.1)");
+        result.notes.push_back(
+            table.path() +
+            ": no column of times: rows are taken as one minute apart (--with step_s=0.1)");
     for (std::string& note : log_notes(table, log)) result.notes.push_back(std::move(note));
 }
 
@@ -78,7 +79,7 @@ Imported import_axis_log(const ImportRequest& request) {
         for (std::size_t i = 0; i < table.size(); ++i) {
             table.read(i, cells);
             row.time_s = time.time_s(table, i, cells);
-            write_row(table, i, cells, log, row, rows);
+            write_row({table, i, cells}, log, row, rows);
         }
         tell(table, log, time, result);
     }

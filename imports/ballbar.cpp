@@ -135,7 +135,7 @@ class BarRows {
         const Vector3 wanted = nominal_.poses(at_).pose_MW * pivot_.center_W_mm - cup_M;
         if ((between - wanted).norm() > 1e-6)
             throw InputError(
-                "the slides of this machine are not along X, Y and Z: give axis "
+                "the linear axes of this machine are not parallel to X, Y and Z: give axis "
                 "positions (import table)",
                 {setup_.path});
     }

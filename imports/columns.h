@@ -21,6 +21,13 @@ std::string plain_name(const std::string& name);
 std::optional<std::size_t> find_column(const TextTable& table,
                                        const std::vector<std::string>& names);
 
+/// The cells of a line of a table.
+struct LineCells {
+    const TextTable& table;
+    std::size_t row;
+    const std::vector<records::TableCell>& cells;
+};
+
 /// A column of numbers of one quantity.
 struct NumberColumn {
     std::size_t index = 0;

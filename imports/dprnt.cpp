@@ -49,11 +49,12 @@ class PrintedRun {
         for (const setup::Artefact& a : setup.artefacts)
             if (a.kind == setup::Artefact::Kind::sphere) spheres_.push_back(a);
         if (spheres_.empty() || !setup.probe)
-            throw InputError("prints of touches need [probe] and a sphere in the setup",
+            throw InputError("printed touches require [probe] and a sphere in the setup",
                              {setup.path});
         if (axes_.size() != 5)
-            throw InputError("prints name the positions of five axes, this machine has others",
-                             {setup.path});
+            throw InputError(
+                "the printed positions are of five axes that this machine does not have",
+                {setup.path});
         begin_modes();
     }
 
@@ -143,7 +144,7 @@ void PrintedRun::read() {
         last = line;
     }
     if (!last) throw InputError("nothing was printed", {file_.path, 1, 1});
-    if (running_) last->fail("the program stopped here: the line that ends its text is missing");
+    if (running_) last->fail("the program stopped here: the last line of its output is missing");
     if (touches_ == 0) last->fail("no touch was printed");
 }
 
@@ -285,7 +286,8 @@ void PrintedRun::touch(const PrintedLine& line) {
     row.feature = sphere_at(line, skip);
     row.point_W_mm = meant_.at(row.mode, row.commanded, row.extension_mm);
     const double time_s = 1e-3 * line.number_behind('T');
-    if (timed_ && time_s < time_s_) line.fail("the clock runs back", line.text.rfind('T'));
+    if (timed_ && time_s < time_s_)
+        line.fail("times are not in ascending order", line.text.rfind('T'));
     time_s_ = row.time_s = time_s;
     timed_ = true;
     append(std::move(row), line.number);
@@ -352,10 +354,10 @@ Imported import_dprnt(const ImportRequest& request) {
         result.summary.push_back(file.path + ": " + run.words());
     }
     if (runs > static_cast<int>(files.size()) && !request.facts.has("session"))
-        result.notes.push_back(fmt::format(
-            "{} runs of programs taken as one set-up: --with session=each makes each a session of "
-            "its own, where the artefact or the probe was mounted anew between them",
-            runs));
+        result.notes.push_back(
+            fmt::format("{} program runs are taken as one set-up; --with session=each makes each "
+                        "run a session, for an artefact or a probe that was remounted between them",
+                        runs));
     RowWriter rows(request.setup, "dprnt", columns_of(all), true, false);
     int session = 0;
     for (std::size_t k = 0; k < files.size(); ++k) {

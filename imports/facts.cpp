@@ -43,10 +43,10 @@ Facts::Facts(const std::vector<std::string>& told) {
     for (const std::string& text : told) {
         const std::size_t equal = text.find('=');
         if (equal == std::string::npos)
-            throw InputError("--with: '" + text + "' does not read 'unit=um'");
+            throw InputError("--with: '" + text + "' does not have the form 'unit=um'");
         const std::string key(records::without_blanks(text.substr(0, equal)));
-        if (!known_keys().contains(key)) throw InputError("--with: no import has '" + key + "'");
-        if (has(key)) throw InputError("--with: '" + key + "' is told twice");
+        if (!known_keys().contains(key)) throw InputError("--with: unknown key '" + key + "'");
+        if (has(key)) throw InputError("--with: '" + key + "' is given twice");
         facts_[key] = records::without_blanks(std::string_view(text).substr(equal + 1));
     }
 }
@@ -112,8 +112,8 @@ AxisPositions positions_told(const setup::Setup& setup, const std::string& text)
             equal == std::string_view::npos ? std::string_view() : word.substr(equal + 1);
         const auto value = parse_number(digits);
         if (!axis || !value)
-            throw InputError("at: '" + std::string(word) + "' does not read Y=100 for an axis of " +
-                             setup.path);
+            throw InputError("at: '" + std::string(word) +
+                             "' does not have the form Y=100 for an axis of " + setup.path);
         // value_or, because the compiler does not see that there is a value.
         const double told = value.value_or(0.0);
         at[*axis] = turns(setup, *axis) ? rad_from_deg(told) : told;
@@ -130,7 +130,7 @@ const setup::Artefact& artefact_for(const setup::Setup& setup, const std::string
         if (artefact.kind != kind || (!feature.empty() && artefact.name != feature)) continue;
         if (found)
             throw InputError("the setup has several artefacts of kind " + what +
-                                 ": say which one, --with feature=" + artefact.name,
+                                 "; select one with --with feature=" + artefact.name,
                              {setup.path});
         found = &artefact;
     }

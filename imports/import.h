@@ -1,4 +1,4 @@
-// Files of measuring instruments and controls as readings (docs/readings.md, "From a machine").
+// Files of instruments and controls as readings (docs/readings.md); each kind has its file: *.cpp
 #pragma once
 
 #include <string>

@@ -24,8 +24,15 @@ ThreeColumns& place_of(PointColumns& columns, Role role) {
     return role == Role::error ? columns.error : columns.measured;
 }
 
-void take(const TextTable& table, std::size_t k, const ColumnRole& role, const setup::Setup& setup,
-          const Facts& facts, PointColumns& columns) {
+/// A table of points, and what is known about it.
+struct PointTable {
+    const TextTable& table;
+    const setup::Setup& setup;
+    const Facts& facts;
+};
+
+void take(const PointTable& source, std::size_t k, const ColumnRole& role, PointColumns& columns) {
+    const auto& [table, setup, facts] = source;
     const TextColumn& column = table.columns()[k];
     const auto axis = axis_named(setup, role.axis);
     const std::string unit = facts.text("unit", "mm");
@@ -92,24 +99,23 @@ void check(const TextTable& table, const PointColumns& columns) {
             "no columns of nominal x, y and z, and none of axis positions (\"machine x\")", 1);
 }
 
-std::optional<double> number(const TextTable& table, std::size_t row, const Cells& cells,
-                             const std::optional<NumberColumn>& column) {
-    if (!column || is_missing(cells[column->index].text)) return std::nullopt;
-    return number_in(table, row, cells, *column);
+std::optional<double> number(const LineCells& line, const std::optional<NumberColumn>& column) {
+    if (!column || is_missing(line.cells[column->index].text)) return std::nullopt;
+    return number_in(line.table, line.row, line.cells, *column);
 }
 
 /// Computes nominal and measured from any two of nominal, measured and their difference.
-void fill(const TextTable& table, std::size_t row, const Cells& cells, const PointColumns& columns,
+void fill(const LineCells& line, const PointColumns& columns,
           std::pair<std::size_t, std::size_t> from_to, MeasuredPoint& point) {
     const auto [from, d] = from_to;
-    auto nominal = number(table, row, cells, columns.nominal[from]),
-         measured = number(table, row, cells, columns.measured[from]);
-    const auto error = number(table, row, cells, columns.error[from]);
+    auto nominal = number(line, columns.nominal[from]),
+         measured = number(line, columns.measured[from]);
+    const auto error = number(line, columns.error[from]);
     if (!nominal && measured && error) nominal = *measured - *error;
     if (!columns.measured[from] && nominal && error) measured = *nominal + *error;
     point.nominal[d] = nominal;
     point.measured[d] = measured;
-    point.rows[d] = row;
+    point.rows[d] = line.row;
 }
 
 }  // namespace
@@ -126,7 +132,7 @@ PointColumns point_columns(const TextTable& table, const setup::Setup& setup, co
         if (time.is_column(k) || columns.session == k || sigma == k) continue;
         const auto role = role_of(table.columns()[k].name, setup.machine.chain.names());
         if (role && role->rate == Rate::position && role->role != Role::following_error)
-            take(table, k, *role, setup, facts, columns);
+            take({table, setup, facts}, k, *role, columns);
         else
             columns.unused.push_back(table.columns()[k].name);
     }
@@ -144,7 +150,7 @@ std::vector<MeasuredPoint> measured_points(const TextTable& table, const PointCo
         if (!columns.coordinate) {
             MeasuredPoint point{i, {}, {}, {}};
             for (std::size_t d = 0; d < 3; ++d) {
-                fill(table, i, cells, columns, {d, d}, point);
+                fill({table, i, cells}, columns, {d, d}, point);
                 const bool wanted = columns.measured[d] || columns.error[d];
                 left_out += wanted && !point.measured[d] ? 1 : 0;
             }
@@ -159,7 +165,7 @@ std::vector<MeasuredPoint> measured_points(const TextTable& table, const PointCo
         if (points.empty() || own != name || points.back().measured[*d])
             points.push_back({i, {}, {}, {}});
         name = own;
-        fill(table, i, cells, columns, {0, *d}, points.back());
+        fill({table, i, cells}, columns, {0, *d}, points.back());
         left_out += points.back().measured[*d] ? 0 : 1;
     }
     return points;

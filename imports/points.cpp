@@ -165,7 +165,8 @@ void tell(const PointFile& file, const TimeColumn& time, const std::string& inst
                     nominal ? "nominal and measured" : "axis positions and measured",
                     instrument.empty() ? "an instrument in M" : instrument, table.dialect_words()));
     if (time.invented())
-        result.notes.push_back(table.path() + ": no column of times: points one minute apart");
+        result.notes.push_back(table.path() +
+                               ": no column of times: points are taken as one minute apart");
     if (left_out > 0)
         result.notes.push_back(
             fmt::format("{}: {} coordinates without a value are left out", table.path(), left_out));

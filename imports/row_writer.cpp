@@ -88,7 +88,7 @@ void RowWriter::add(records::Reading row, int line, const std::string& more) {
     else if (restarts && row.time_s < last_file_s_)
         shift_s_ = last_s_ + pause_s - row.time_s;
     else if (row.time_s < last_file_s_)
-        throw InputError("the clock runs back", {path_, line, 1});
+        throw InputError("times are not in ascending order", {path_, line, 1});
     begins_ = false;
     last_session_ = row.session;
     last_file_s_ = row.time_s;

@@ -209,7 +209,7 @@ void check_rows(const std::string& readings, const std::string& map_path, const 
     try {
         records::parse_readings(readings, map_path, notes, names);
     } catch (const InputError& error) {
-        throw InputError("the rows of this map are no readings: " + error.message, {map_path},
+        throw InputError("this map does not give valid readings: " + error.message, {map_path},
                          error.line_text);
     }
 }
@@ -224,7 +224,7 @@ std::optional<std::size_t> time_column_of(const Map& map) {
 
 Imported import_table(const ImportRequest& request) {
     if (request.map.path.empty())
-        throw InputError("import table needs --map MAP.toml: which column is what");
+        throw InputError("import table requires --map MAP.toml, which assigns the columns");
     const TomlFile map_file(request.map.text, request.map.path);
     Imported result;
     std::optional<RowWriter> rows;

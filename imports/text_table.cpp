@@ -203,9 +203,9 @@ std::size_t TextTable::first_told_row(const std::vector<Line>& lines, std::size_
         }
     }
     if (begin > 0) return lines.size();
-    throw InputError(
-        fmt::format("no line of {} numbers, as many as --with columns has names", columns_.size()),
-        {path_, 1, 1});
+    throw InputError(fmt::format("no line with {} numbers, the number of names in --with columns",
+                                 columns_.size()),
+                     {path_, 1, 1});
 }
 
 /// A short line such as "Section;2", closely followed by names and rows of another table.
@@ -307,9 +307,8 @@ std::vector<TextTable> tables_of(std::string_view text, const std::string& path,
     for (std::size_t begin = 0; begin < lines.size(); begin = tables.back().end()) {
         TextTable table(lines, begin, path, dialect, told);
         if (table.size() == 0) {
-            notes.push_back(
-                fmt::format("{}: what stands from line {} on, behind the table, is not used", path,
-                            lines[begin].number));
+            notes.push_back(fmt::format("{}: the lines from {} on, after the table, are not used",
+                                        path, lines[begin].number));
             break;
         }
         tables.push_back(std::move(table));

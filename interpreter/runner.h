@@ -1,5 +1,5 @@
 // State of a program run: frames, positions, the cache of compiled blocks. Internal to the
-// interpreter.
+// interpreter (runner_*.cpp).
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// Fit of a machine to error maps: Gauss-Newton with a free vector for each zeroing.
+#include "pivot/pivot_fit.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -6,7 +7,6 @@
 #include "base/alarm.h"
 #include "base/units.h"
 #include "estimation/ranked_least_squares.h"
-#include "pivot/pivot_verdict.h"
 
 namespace trunnion::pivot {
 
@@ -208,7 +208,7 @@ PivotFit fit_pivot_machine(const PivotEvidence& evidence, const std::vector<Pivo
     std::size_t points = 0;
     for (const PivotMap& map : maps)
         for (const PivotArc& arc : map.arcs) points += arc.points.size();
-    if (points < 6) throw InputError("too few indexations to say anything about a store");
+    if (points < 6) throw InputError("too few indexed positions to judge a store");
     return MapFit(evidence, maps).run();
 }
 

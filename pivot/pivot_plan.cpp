@@ -44,11 +44,11 @@ setup::RotaryStores stores_of(const setup::Setup& setup) {
     const auto stores = setup::rotary_stores(setup.machine.chain, setup.stores);
     if (!stores)
         throw InputError(
-            "pivot needs a control that knows two rotary axes (parameters 19680-19690); this one "
-            "has none",
+            "pivot requires a control with two rotary axes (parameters 19680-19690); this one has "
+            "none",
             {setup.path});
     if (stores->pivot.first.hypothetical || stores->pivot.second.hypothetical)
-        throw InputError("pivot needs two real rotary axes; one of this control is hypothetical",
+        throw InputError("pivot requires two real rotary axes; one of this control is hypothetical",
                          {setup.path});
     return *stores;
 }

@@ -283,8 +283,8 @@ setup::RotaryStores stores_in_force(const PivotPrints& prints, const setup::Rota
         setup::set_number(stores, n, *printed_mm);
         if (std::abs(*printed_mm - n.value_mm) > 1e-6)
             notes.push_back(
-                fmt::format("{} was {:.4f} when the programs ran, declared is {:.4f}: "
-                            "what was printed counts",
+                fmt::format("{} was {:.4f} when the programs ran, the setup has {:.4f}: the "
+                            "printed value is used",
                             n.name, *printed_mm, n.value_mm));
     }
     return stores;

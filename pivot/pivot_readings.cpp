@@ -107,7 +107,7 @@ void check_directions(const records::ReadingTable& table, const Finding& finding
         spread += row->direction_M * row->direction_M.transpose();
     if (finding.rows.size() < (finding.row().device == records::Device::touch ? 4U : 3U) ||
         std::abs(spread.determinant()) < 1e-6)
-        throw InputError("the rows of this sphere do not look from three sides",
+        throw InputError("the rows of this sphere do not have three independent directions",
                          records::place_of(table, finding.row()));
 }
 
@@ -154,8 +154,8 @@ PivotPrints pivot_readings(const records::ReadingTable& table, Axis first, Axis 
     }
     if (out.maps.empty())
         throw InputError(
-            "no sphere or touch rows with a mode (dpp, rtdfo, rtcp, tw): nothing says which "
-            "function led there",
+            "no sphere or touch rows with a mode (dpp, rtdfo, rtcp, tw): the positioning function "
+            "is unknown",
             {table.path});
     return out;
 }

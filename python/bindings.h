@@ -1,4 +1,4 @@
-// Contribution of each file of this room to the Python module.
+// Contribution of each file of this room (*.cpp) to the Python module.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -1,5 +1,5 @@
 // Alignment of two long sequences into parts that are unchanged, reordered, on one side only, or to
-// be compared. Works in windows, so that memory does not grow with the length.
+// be compared. Works in windows, so that memory does not grow with it (align_windows.cpp).
 #pragma once
 
 #include <cstdint>

@@ -181,9 +181,8 @@ void describe_paths(const PathComparison& found, const std::vector<ExplainedClus
     result.compared = found.totals.compared;
     if (found.approaches_differ > 0)
         result.notes.push_back(
-            fmt::format("the rapids to {} cuts go another way, as they must with other positioning "
-                        "functions or "
-                        "machines; only where they end was compared",
+            fmt::format("the rapid moves to {} cuts take another path, as expected with other "
+                        "positioning functions or machines; only their end points were compared",
                         found.approaches_differ));
     const auto farthest = std::max_element(
         result.differences.begin(), result.differences.end(),

@@ -1,4 +1,4 @@
-// The lines of a program: for reports, and for the layers that compare text.
+// The lines of a program: for reports, and for the layers that compare text (word_keys.cpp).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Many comparisons at once: folders and suite files, on all cores or as one of several shards.
+// Many comparisons at once (suite_*.cpp), on all cores or as one of several shards (shard.cpp).
 #pragma once
 
 #include <functional>

@@ -189,7 +189,7 @@ class SuiteReader {
         std::set<std::string> names;
         for (const SuiteCase& c : suite_.cases)
             if (!names.insert(c.name).second)
-                throw InputError("two cases are called '" + c.name + "'", {file_.path(), 0, 0});
+                throw InputError("two cases have the name '" + c.name + "'", {file_.path(), 0, 0});
     }
 
     const TomlFile& file_;

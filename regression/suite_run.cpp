@@ -156,7 +156,7 @@ std::map<std::string, std::string> updated_goldens(const Suite& suite, const std
                        {PathSpace::tip, c.options.tolerances, c.options.program_folders,
                         c.options.max_blocks, "", c.options.devices, c.options.go_on});
         if (run.result.status == controller::RunStatus::limit)
-            throw InputError("was not run to its end: no golden is written", {c.b, 0, 0});
+            throw InputError("did not run to its end: no golden is written", {c.b, 0, 0});
         if (run.result.alarm) {
             Alarm alarm = *run.result.alarm;
             throw alarm;

@@ -51,7 +51,7 @@ std::string differing_verdict(const Comparison& c) {
     const std::uint64_t count = c.differences.size() + c.differences_left_out;
     const std::size_t gravest = gravest_difference(c);
     std::string text = fmt::format("differs by {}: ", name_of(c.by));
-    if (count > 1) text += fmt::format("{} differences, the gravest: ", count);
+    if (count > 1) text += fmt::format("{} differences, the most serious: ", count);
     text += with_place(c.differences[gravest]);
     if (gravest > 0) text += ", the first: " + with_place(c.differences.front());
     if (!c.alarm_a.empty() && c.alarm_a == c.alarm_b)

@@ -1,7 +1,8 @@
+#include "report/ballbar_json.h"
+
 #include <nlohmann/json.hpp>
 
 #include "base/units.h"
-#include "report/ballbar_report.h"
 #include "report/json_values.h"
 
 namespace trunnion::report {

@@ -7,6 +7,7 @@
 
 #include "base/rounded.h"
 #include "base/units.h"
+#include "report/ballbar_pictures.h"
 #include "report/ballbar_report.h"
 
 namespace trunnion::report {
@@ -50,7 +51,7 @@ std::string verdict(const BallbarResult& r) {
             length_words(r.true_tip->stated_um));
     if (r.verdict.structured)
         text += fmt::format(
-            " The readings hold {} more than location errors and noise explain: diagnose them.",
+            " The readings contain {} that location errors and noise do not explain: run diagnose.",
             length_words(r.verdict.excess_um));
     return text;
 }
@@ -102,12 +103,12 @@ std::string stores_section(const BallbarResult& r) {
     return section_html(
         "What to type",
         table_html(table) +
-            paragraph_html(fmt::format(
-                "The tip is off on the table by up to {} with the numbers in force. After "
-                "typing, tilts of the axes leave {} (these numbers have no place for them), "
-                "the increment of {:g} mm leaves {}.",
-                length_words(r.stores->now_um), length_words(r.stores->tilts_um),
-                r.stores->increment_mm, length_words(r.stores->rounding_um))));
+            paragraph_html(
+                fmt::format("The tip error on the table is up to {} with the values in force. "
+                            "After the new values are entered, tilts of the axes leave {}, which "
+                            "these values cannot express, and the increment of {:g} mm leaves {}.",
+                            length_words(r.stores->now_um), length_words(r.stores->tilts_um),
+                            r.stores->increment_mm, length_words(r.stores->rounding_um))));
 }
 
 std::string plots_section(const BallbarResult& r) {

@@ -1,10 +1,11 @@
+#include "report/ballbar_pictures.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "base/rounded.h"
 #include "base/units.h"
-#include "report/ballbar_report.h"
 #include "report/polar_plot.h"
 
 namespace trunnion::report {

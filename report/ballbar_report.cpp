@@ -56,13 +56,13 @@ char first_axis(const ballbar::test::BallbarResult& r) {
 
 std::string rank_text(const ballbar::test::BallbarResult& r) {
     std::string text = fmt::format(
-        "rank {} of {}: with the cup's place unknown these move together and change no\nreading\n",
+        "rank {} of {}: with an unknown cup position these combinations change no reading\n",
         r.open_fit.rank, r.open_fit.parameters.size());
     for (const ballbar::test::InseparableGroup& group : r.open_fit.inseparable)
         text += "  " + group_text(group) + "\n";
     return text + fmt::format(
-                      "taken as known: tool length {:.3f} mm (offset H{}) and a cup that runs "
-                      "true;\na tool longer by 1 µm reads as +1 µm of EZ0{}\n",
+                      "assumed as known: tool length {:.3f} mm (offset H{}) and a cup without "
+                      "runout;\na tool longer by 1 µm reads as +1 µm of EZ0{}\n",
                       -r.data.layout.cup_S_mm.z(), r.data.tool_offset, first_axis(r));
 }
 
@@ -70,12 +70,11 @@ std::string residual_text(const ballbar::test::BallbarResult& r) {
     std::string text =
         fmt::format("residual {} rms, noise {}", length_words(um_from_mm(r.fit.rms_mm)),
                     length_words(um_from_mm(r.fit.noise_mm)));
-    if (!r.verdict.structured) return text + ": nothing but noise is left\n";
+    if (!r.verdict.structured) return text + ": only noise remains\n";
     return text + fmt::format(
-                      ": {} are structure that location errors do not explain\n"
-                      "(worst in {}). The values above carry it. Diagnose it:\n"
-                      "  trunnion ballbar --setup {} --write-readings R.csv\n"
-                      "  trunnion diagnose R.csv --setup {}\n",
+                      ": {} are structure that location errors do not explain\n(worst in {}). It "
+                      "biases the values above. To diagnose it:\n  trunnion ballbar --setup {} "
+                      "--write-readings R.csv\n  trunnion diagnose R.csv --setup {}\n",
                       length_words(r.verdict.excess_um), r.verdict.worst_test, r.setup_path,
                       r.setup_path);
 }
@@ -171,8 +170,8 @@ std::string proof_text(const ballbar::test::BallbarResult& r) {
             length_words(r.true_tip->stated_um), length_words(r.true_tip->cup_um));
     if (r.sphere_check)
         text += fmt::format(
-            "second check, sphere and probe, no part of the fit: {} poses off by up to\n"
-            "{} before, {} after\n",
+            "second check, sphere and probe, independent of the fit: {} poses off by up to\n{} "
+            "before, {} after\n",
             r.sphere_check->poses, length_words(r.sphere_check->before_um),
             length_words(r.sphere_check->after_um));
     if (r.true_tip)

@@ -1,25 +1,17 @@
-// The single-set-up ballbar procedure as table, JSON and polar plots.
+// The single-set-up ballbar procedure as text and CSV.
 #pragma once
 
-#include <map>
 #include <string>
 
 #include "ballbar/test/ballbar_procedure.h"
-#include "base/read_file.h"
 
 namespace trunnion::report {
 
 /// Tables like Table 2 of the 2015 paper (at the setup's point_mm, and at the nominal
 /// intersection), set-up, inseparable parameters, residual, ISO 230-4 parameters, diagnosis, times.
 std::string ballbar_table(const ballbar::test::BallbarResult& result);
-/// `{"schema":"trunnion.ballbar/1",...}` of formats.md.
-std::string ballbar_json(const ballbar::test::BallbarResult& result,
-                         const std::vector<FileRead>& inputs = {});
 /// Both error tables, one line an error: where (point_mm or intersection), name, before, u_before,
 /// after, u_after, change_percent, published_before, unit (mm or rad).
 std::string ballbar_csv(const ballbar::test::BallbarResult& result);
-/// Polar plots by file name: planar ones centred, rotary ones about their mean with the fitted
-/// eccentric circle.
-std::map<std::string, std::string> ballbar_pictures(const ballbar::test::BallbarResult& result);
 
 }  // namespace trunnion::report

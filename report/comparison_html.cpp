@@ -101,7 +101,7 @@ std::string short_verdict(const regression::Comparison& c) {
                     c.status == CompareStatus::alarm ? "Stopped, differs" : "Differs",
                     name_of(c.by), count, count == 1 ? "" : "s");
     if (const std::size_t gravest = regression::gravest_difference(c); gravest > 0)
-        text += fmt::format(", the gravest is number {}", gravest + 1);
+        text += fmt::format(", the most serious is number {}", gravest + 1);
     return text + ".";
 }
 
@@ -173,7 +173,7 @@ Page comparison_page(const regression::CompareReport& report) {
             static_cast<char>(std::toupper(static_cast<unsigned char>(page.verdict[0])));
     page.body_html = single ? case_html(report.cases.front(), true) : many_html(report);
     for (const regression::ExpectedDifference& e : regression::no_longer_occurring(report))
-        page.body_html += paragraph_html(fmt::format("Expected, but no longer there: {} {} ({}).",
+        page.body_html += paragraph_html(fmt::format("Expected, but no longer present: {} {} ({}).",
                                                      e.case_name, e.fingerprint, e.reason));
     const auto drawn = [](const regression::Comparison& c) { return !c.picture.empty(); };
     if (std::any_of(report.cases.begin(), report.cases.end(), drawn))

@@ -7,6 +7,7 @@
 #include "base/alarm.h"
 #include "report/comparison_report.h"
 #include "report/places.h"
+#include "report/sarif.h"
 
 namespace trunnion::report {
 
@@ -69,8 +70,8 @@ ReportItem item_of(const regression::ExpectedDifference& e, const std::string& s
     item.rule = "stale-expectation";
     item.level = "warning";
     item.path = suite;
-    item.text = fmt::format("expected, but no longer there: {} {} ({})", e.case_name, e.fingerprint,
-                            e.reason);
+    item.text = fmt::format("expected, but no longer present: {} {} ({})", e.case_name,
+                            e.fingerprint, e.reason);
     return item;
 }
 
@@ -147,7 +148,7 @@ ReportFormat report_format(const std::string& name) {
     const auto found = std::find(format_names.begin(), format_names.end(), name);
     if (found == format_names.end())
         throw InputError("--format " + name +
-                         ": one of text, json, junit, sarif, github, html, markdown");
+                         " is not one of text, json, junit, sarif, github, html, markdown");
     return static_cast<ReportFormat>(found - format_names.begin());
 }
 
@@ -182,7 +183,7 @@ void refuse_missing(const std::vector<ComparePart>& parts) {
     std::size_t cases = 0;
     for (const ComparePart& part : parts) cases += part.places.size();
     if (cases < parts.front().total)
-        throw InputError(fmt::format("merge: {} of {} cases stand in no part: a shard is missing",
+        throw InputError(fmt::format("merge: {} of {} cases are in no part: a shard is missing",
                                      parts.front().total - cases, parts.front().total));
 }
 
@@ -203,7 +204,7 @@ regression::CompareReport merge_parts(const std::vector<ComparePart>& parts) {
         for (std::size_t k = 0; k < part.places.size(); ++k) {
             const std::size_t place = part.places[k];
             if (place >= whole.cases.size() || seen[place])
-                throw InputError(fmt::format("merge: case {} stands in two parts", place + 1));
+                throw InputError(fmt::format("merge: case {} is in two parts", place + 1));
             seen[place] = true;
             whole.cases[place] = part.report.cases[k];
         }

@@ -1,4 +1,4 @@
-// A comparison in all its output formats.
+// A comparison in all its output formats, a file for each: comparison_*.cpp.
 #pragma once
 
 #include <string>

@@ -84,7 +84,7 @@ std::string case_text(const regression::Comparison& c, bool single) {
         c.differences.size() - std::min(shown, c.differences.size()) + c.differences_left_out;
     if (more > 0) {
         if (gravest >= shown)
-            out += "  the gravest:\n" + difference_text(c.differences[gravest], gravest + 1);
+            out += "  the most serious:\n" + difference_text(c.differences[gravest], gravest + 1);
         out += fmt::format("  and {} more (--format json lists them)\n", more);
     }
     if (c.position_mm > 0.0 || c.direction_deg > 0.0)
@@ -105,8 +105,9 @@ std::string comparison_text(const regression::CompareReport& report) {
     if (!single) out = verdict_of(report) + "\n";
     for (const regression::Comparison& c : report.cases) out += case_text(c, single);
     for (const regression::ExpectedDifference& e : regression::no_longer_occurring(report))
-        out += fmt::format("expected, but no longer there: {} {} ({}); take it out of the suite\n",
-                           e.case_name, e.fingerprint, e.reason);
+        out +=
+            fmt::format("expected, but no longer present: {} {} ({}); remove it from the suite\n",
+                        e.case_name, e.fingerprint, e.reason);
     return out;
 }
 

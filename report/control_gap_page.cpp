@@ -73,9 +73,9 @@ std::string gap_sections(const choices::ControlGap& gap) {
 std::string how_to_read(const choices::ControlGap& gap) {
     std::string out = paragraph_html(
         "The program ran on the emulated control once for each choice and each store of its "
-        "tables; each logged position was compared with the place that its block reaches. A cause "
-        "stands only where blocks that took no part in the decision come nearer too. A choice "
-        "without rivals may still have one that is not in the table.");
+        "tables; each logged position was compared with the end position of its block. A cause is "
+        "reported only if blocks that took no part in the decision improve too. A choice without "
+        "listed rivals may have one that is not in the table.");
     if (!gap.unseen.empty())
         out += paragraph_html(
             fmt::format("This program cannot tell: {}.", fmt::join(gap.unseen, ", ")));

@@ -79,7 +79,7 @@ std::string cause_text(const choices::GapCause& cause) {
                     cause.blocks == 1 ? "" : "s", place_words(cause.first),
                     apart_words(cause.first), place_words(cause.worst), apart_words(cause.worst)),
         2);
-    if (cause.name == "unknown") return out;
+    if (!cause.known) return out;
     if (!cause.rivals.empty())
         out += paragraph(
             fmt::format("this log cannot tell it from: {}", fmt::join(cause.rivals, ", ")), 2);

@@ -62,10 +62,10 @@ std::string bars(const std::vector<Bar>& list, double full, const std::string& u
 std::string share_bars(const diagnosis::Diagnosis& d) {
     std::vector<Bar> list;
     for (std::size_t k = 0; k < d.causes.size(); ++k)
-        list.push_back({cause_name(d.causes[k]), fmt::format("{:.0f} %", 100.0 * d.causes[k].share),
-                        d.causes[k].share,
-                        d.causes[k].effect == "unknown" ? std::string("#999999")
-                                                        : plot_colours[k % plot_colours.size()]});
+        list.push_back(
+            {cause_name(d.causes[k]), fmt::format("{:.0f} %", 100.0 * d.causes[k].share),
+             d.causes[k].share,
+             !d.causes[k].known ? std::string("#999999") : plot_colours[k % plot_colours.size()]});
     return bars(list, 100.0, "share of the gap in %");
 }
 
@@ -130,7 +130,7 @@ std::string cause_table(const diagnosis::Diagnosis& d) {
         row({"Cause", "Share of the gap", "Size", "Could also be", "Alone it shrinks the gap by"},
             "th");
     for (const diagnosis::Cause& cause : d.causes) {
-        const bool known = cause.effect != "unknown";
+        const bool known = cause.known;
         text += row({"<b>" + escape_xml(cause_name(cause)) + "</b><br><span class=\"note\">" +
                          escape_xml(cause.what) + "</span>",
                      fmt::format("{:.0f} %", 100.0 * cause.share),
@@ -173,17 +173,17 @@ std::string cause_section(const diagnosis::Cause& cause) {
     }
     text += "</table></div>\n";
     for (const identification::Inseparable& group : cause.unseen)
-        text +=
-            "<p class=\"note\">No reading here sees this change: " + escape_xml(to_string(group)) +
-            ".</p>\n";
+        text += "<p class=\"note\">Not observable from these readings: " +
+                escape_xml(to_string(group)) + ".</p>\n";
     return text;
 }
 
 std::string where_section(const diagnosis::Diagnosis& d) {
     if (d.where.empty()) return "";
     std::string text =
-        "<h2>Where it shows</h2>\n<p>Each line stands alone; they overlap, because one cause shows "
-        "in several ways. Only what chance cannot make (p below 0.0001) is listed.</p>\n<ul>\n";
+        "<h2>Where it shows</h2>\n<p>Each line is evaluated on its own. The lines overlap, because "
+        "one cause appears in several of them. Only significant ones (p below 0.0001) are "
+        "listed.</p>\n<ul>\n";
     for (const diagnosis::DriverShare& w : d.where)
         text += "<li>" + escape_xml(w.text) + ".</li>\n";
     return text + "</ul>\n";
@@ -211,11 +211,11 @@ std::string small_print(const diagnosis::Diagnosis& d) {
                              length_words(d.rms_um), d.readings));
     entry("Noise", noise_words(d));
     entry("Share",
-          "part of the gap's square beyond noise that goes with this cause; "
-          "it does not depend on the order in which causes are added.");
+          "fraction of the squared gap beyond noise that is due to this cause; independent of the "
+          "order in which causes are added.");
     entry("Shrinks by",
-          "how much of the gap beyond noise is gone on readings that took no part in "
-          "the fit, with its 95 % interval.");
+          "reduction of the gap beyond noise on readings that took no part in the fit, with its 95 "
+          "% interval.");
     if (d.outliers > 0)
         entry("Set aside", fmt::format("{} readings that fit nothing.", d.outliers));
     if (!d.unseen.empty())
@@ -227,10 +227,9 @@ std::string small_print(const diagnosis::Diagnosis& d) {
 /// The effects, and the reduction of the gap by all of them together.
 std::string causes_section(const diagnosis::Diagnosis& d) {
     if (d.causes.empty()) return {};
-    return section_html("Which effect", figure_html(share_bars(d),
-                                                    "Part of the gap that goes with "
-                                                    "each cause") +
-                                            cause_table(d)) +
+    return section_html("Which effect",
+                        figure_html(share_bars(d), "Part of the gap that is due to each cause") +
+                            cause_table(d)) +
            section_html(
                "How far the gap shrinks",
                paragraph_html("All causes together, on readings that took no part in the fit.") +

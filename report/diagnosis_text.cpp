@@ -44,7 +44,7 @@ std::string cause_text(const diagnosis::Cause& cause) {
                 paragraph("What to do: " + cause.remedy + ".", 2);
     text += parameters_text(cause.parameters);
     for (const identification::Inseparable& group : cause.unseen)
-        text += paragraph("no reading here sees: " + to_string(group), 2);
+        text += paragraph("not observable from these readings: " + to_string(group), 2);
     if (!cause.points.empty())
         text += fmt::format("  a table of {} values{}\n{}", cause.points.size(),
                             cause.holds_between ? "" : ": at the measured places only",
@@ -85,7 +85,7 @@ std::string diagnosis_text(const diagnosis::Diagnosis& d) {
                           0);
     if (d.causes.empty())
         for (const identification::Inseparable& group : d.inseparable)
-            text += paragraph("no reading here sees: " + to_string(group), 0);
+            text += paragraph("not observable from these readings: " + to_string(group), 0);
     text += changes_text(d);
     for (const diagnosis::NextMeasurement& next : d.next)
         text += paragraph("next: " + next.text, 0);

@@ -47,7 +47,7 @@ std::string shrink_words(const diagnosis::HeldOut& h) {
 std::string causes_words(const diagnosis::Diagnosis& d) {
     std::string text;
     for (const diagnosis::Cause& cause : d.causes) {
-        if (cause.effect == "unknown") continue;
+        if (!cause.known) continue;
         text += fmt::format("{}{} ({:.0f} %)", text.empty() ? "" : ", ", cause_name(cause),
                             100.0 * cause.share);
     }
@@ -151,8 +151,8 @@ std::string noise_words(const diagnosis::Diagnosis& d) {
             return size + "as the setup states it; nothing was repeated to check it.";
         case diagnosis::NoiseSource::assumed:
             return size +
-                   "assumed: nothing was repeated, and what the fit leaves is of another size than "
-                   "stated. Repeat some poses to be sure.";
+                   "assumed: nothing was repeated, and the residual is larger or smaller than the "
+                   "stated noise. Repeat some poses to confirm it.";
     }
     return size;
 }

@@ -49,10 +49,10 @@ Page findings_page(const std::vector<check::Finding>& findings,
     if (!findings.empty())
         page.body_html = section_html("Findings", table_html(findings_table(findings))) +
                          section_html("Rules", table_html(rules_table(findings)));
-    page.body_html += section_html(
-        "How to read this",
-        paragraph_html("An error stops the control or does what nobody can mean. A warning is "
-                       "worth a look. The place is file, line and column."));
+    page.body_html +=
+        section_html("How to read this",
+                     paragraph_html("An error stops the control or cannot be intended. A warning "
+                                    "should be checked. The place is file, line and column."));
     return page;
 }
 

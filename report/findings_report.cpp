@@ -8,6 +8,7 @@
 #include "report/json_values.h"
 #include "report/paragraph.h"
 #include "report/places.h"
+#include "report/sarif.h"
 
 namespace trunnion::report {
 
@@ -96,7 +97,7 @@ std::string format_findings(const std::vector<check::Finding>& findings,
     if (format == "junit") return junit_of(findings, files);
     if (format == "sarif") return format_sarif(rules(), items_of(findings));
     if (format == "github") return format_github(items_of(findings));
-    throw InputError("--format " + format + ": one of text, json, junit, sarif, github");
+    throw InputError("--format " + format + " is not one of text, json, junit, sarif, github");
 }
 
 }  // namespace trunnion::report

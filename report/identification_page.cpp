@@ -74,7 +74,7 @@ std::string correlations_section(const identification::Identification& result) {
     if (list.size() > most)
         body += paragraph_html(fmt::format("{} more are above 0.5.", list.size() - most));
     for (const identification::Inseparable& group : result.inseparable)
-        body += paragraph_html("No reading here sees this change: " + to_string(group) + ".");
+        body += paragraph_html("Not observable from these readings: " + to_string(group) + ".");
     return section_html("What goes together", body);
 }
 
@@ -137,7 +137,7 @@ Page identification_page(const identification::Identification& result,
         "With the values below the readings differ from the simulation by {} rms instead of {}.{}",
         length_words(result.rms_after_um), length_words(result.rms_before_um),
         unseen == 0 ? ""
-                    : fmt::format(" {} of {} parameters cannot be told from these readings.",
+                    : fmt::format(" {} of {} parameters cannot be determined from these readings.",
                                   unseen, result.parameters.size()));
     page.body_html =
         section_html("Values", table_html(values_table(result))) + correlations_section(result) +

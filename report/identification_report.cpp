@@ -53,6 +53,7 @@ std::vector<identification::FitParameter> parse_parameters(const Json& json) {
     for (const Json& item : json) {
         identification::FitParameter p;
         p.effect = item.at("effect").get<std::string>();
+        p.of_set_up = p.effect == "setup";
         p.name = item.at("name").get<std::string>();
         p.component = std::clamp(item.at("component").get<int>(), -1, 2);
         p.value = number(item.at("value"));
@@ -118,7 +119,7 @@ RepetitionPart parse_part_json(const Json& json) {
 Json json_set_up(const std::vector<identification::FitParameter>& parameters) {
     Json list = Json::array();
     for (const identification::FitParameter& p : parameters)
-        if (p.effect == "setup")
+        if (p.of_set_up)
             list.push_back({{"name", p.name},
                             {"value", json_number(p.value)},
                             {"sigma", json_number(p.sigma)},
@@ -155,7 +156,7 @@ std::string identification_text(const identification::Identification& result, bo
                             v.sigma, repetitions ? shop_value(repeated).sigma : "", v.unit);
     }
     for (const identification::Inseparable& group : result.inseparable)
-        text += fmt::format("no reading here sees: {}\n", to_string(group));
+        text += fmt::format("not observable from these readings: {}\n", to_string(group));
     for (const std::string& sentence : result.set_up_words)
         text += fmt::format("set-up: {}\n", sentence);
     return text + fmt::format("rms {} before, {} after, {} degrees of freedom\n",
@@ -197,7 +198,7 @@ RepetitionPart parse_repetition_part(const std::string& text, const std::string&
     try {
         return parse_part_json(Json::parse(text));
     } catch (const std::exception&) {
-        throw InputError("this is no part that 'identify --shard' wrote", {path});
+        throw InputError("not a part written by 'identify --shard'", {path});
     }
 }
 
@@ -208,21 +209,19 @@ identification::Identification merge_parts(const std::vector<RepetitionPart>& pa
     for (const RepetitionPart& part : parts) {
         if (part.inputs != first.inputs || part.runs != first.runs || part.seed != first.seed ||
             part.fitted.parameters.size() != first.fitted.parameters.size())
-            throw InputError("merge: parts of different calls of identify");
+            throw InputError("merge: the parts come from different identify commands");
         for (const identification::Repetition& r : part.repetitions) {
             auto& place = all[static_cast<std::size_t>(r.index)];
             if (place.index >= 0)
-                throw InputError(
-                    fmt::format("merge: repetition {} stands in two parts", r.index + 1));
+                throw InputError(fmt::format("merge: repetition {} is in two parts", r.index + 1));
             place = r;
         }
     }
     const auto missing =
         std::find_if(all.begin(), all.end(), [](const auto& r) { return r.index < 0; });
     if (missing != all.end())
-        throw InputError(
-            fmt::format("merge: repetition {} of {} stands in no part: a shard is missing",
-                        missing - all.begin() + 1, first.runs));
+        throw InputError(fmt::format("merge: repetition {} of {} is in no part: a shard is missing",
+                                     missing - all.begin() + 1, first.runs));
     identification::Identification whole = first.fitted;
     identification::enter_spread(all, whole);
     return whole;

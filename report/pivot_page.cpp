@@ -7,6 +7,7 @@
 
 #include "base/rounded.h"
 #include "base/units.h"
+#include "report/pivot_pictures.h"
 
 namespace trunnion::report {
 namespace {
@@ -29,12 +30,12 @@ std::string stores_section(const PivotResult& r) {
     std::string body = table_html(table);
     for (const pivot::GroupVerdict& g : r.verdict.groups)
         body += paragraph_html(fmt::format(
-            "With these numbers typed ({:g} mm steps), {} functions are off by up to {}.",
+            "With these values entered (in steps of {:g} mm), {} functions are off by up to {}.",
             r.verdict.increment_mm, group_words(r, g.group), length_words(g.left_um)));
     if (r.verdict.groups.size() > 1)
         body += paragraph_html(
             fmt::format("All functions then agree within {}.", length_words(r.verdict.agree_um)));
-    if (r.hurco) body += paragraph_html("Names of the part set-up's fields are assumed.");
+    if (r.hurco) body += paragraph_html("The field names of the part set-up are assumed.");
     return section_html("What to type", body);
 }
 
@@ -88,7 +89,7 @@ std::string affected_section(const PivotResult& r) {
 std::string unseen_section(const PivotResult& r) {
     std::string list;
     for (const std::string& line : r.verdict.unobservable) list += paragraph_html(line);
-    return section_html("What these readings cannot tell", list);
+    return section_html("Not observable from these readings", list);
 }
 
 std::string reading_section(const PivotResult& r) {

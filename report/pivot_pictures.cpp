@@ -1,4 +1,6 @@
 // Figures of the four-function test: distances from the mean of each map, and eccentric circles.
+#include "report/pivot_pictures.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include <numeric>
 
 #include "base/units.h"
-#include "report/pivot_report.h"
 #include "report/svg.h"
 
 namespace trunnion::report {

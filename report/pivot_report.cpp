@@ -79,7 +79,7 @@ std::string stores_table(const PivotResult& r) {
                                                       decimals_of_sigma(um_from_mm(s.sigma_mm))));
         out += s.stale ? "  stale\n" : "\n";
     }
-    if (r.hurco) out += "  (names of the part set-up's fields are assumed)\n";
+    if (r.hurco) out += "  (the field names of the part set-up are assumed)\n";
     return out + "\n";
 }
 
@@ -90,8 +90,9 @@ std::string quality_text(const PivotResult& r) {
         "the sphere by {}\n",
         length_words(v.fit.noise_um), v.fit.zeroings, length_words(v.fit.zero_scatter_um));
     for (const pivot::GroupVerdict& g : v.groups)
-        out += fmt::format("after typing ({:g} mm steps) {} functions are off by up to {}\n",
-                           v.increment_mm, group_words(r, g.group), length_words(g.left_um));
+        out += fmt::format(
+            "with these values entered (in steps of {:g} mm) {} functions are off by up to {}\n",
+            v.increment_mm, group_words(r, g.group), length_words(g.left_um));
     const double apart_um = um_from_mm(setup::step_between_axes_mm(v.right).norm());
     if (v.groups.size() > 1 && apart_um > 0.05)
         out += fmt::format(
@@ -100,7 +101,7 @@ std::string quality_text(const PivotResult& r) {
             length_words(apart_um));
     if (v.groups.size() > 1)
         out += fmt::format("and agree with each other within {}\n", length_words(v.agree_um));
-    out += "not seen by these readings:\n";
+    out += "not observable from these readings:\n";
     for (const std::string& line : v.unobservable) out += "  " + line + "\n";
     return out;
 }

@@ -1,7 +1,6 @@
-// The four-function test as table, JSON and pictures; its page is in pivot_page.h.
+// The four-function test as text and JSON.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 
@@ -29,9 +28,6 @@ struct PivotResult {
 std::string pivot_table(const PivotResult& result);
 /// `{"schema":"trunnion.pivot/1",...}` of formats.md.
 std::string pivot_json(const PivotResult& result, const std::vector<FileRead>& inputs = {});
-/// Pictures by file name: distances.svg (distance from the map's mean, measured and expected, as
-/// figure 4 of pivot 2021), circles.svg (measured points, circle and its centre, as its figure 5).
-std::map<std::string, std::string> pivot_pictures(const PivotResult& result);
 /// Name of a group of stores in the terms of the dialect: "G54", "P1970x", on a Hurco "set-up".
 std::string group_words(const PivotResult& result, pivot::PivotGroup group);
 /// Name of a value in the terms of the dialect: "No.19704 (Y)", "C centreline Y - first".

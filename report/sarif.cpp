@@ -1,4 +1,6 @@
 // SARIF 2.1.0 (OASIS), as accepted by GitHub code scanning.
+#include "report/sarif.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <numeric>
 
 #include "report/json_values.h"
-#include "report/places.h"
 
 namespace trunnion::report {
 

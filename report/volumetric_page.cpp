@@ -32,8 +32,7 @@ std::string pictures_section(const volumetric::VolumetricMap& map) {
 std::string reading_section(const volumetric::VolumetricMap& map) {
     std::string body = paragraph_html(
         "The error is the physical tip minus the nominal one, in the frame of the table. Each "
-        "cause "
-        "stands alone; its share is its part of the sum of squares of all causes.");
+        "cause is computed alone; its share is its fraction of the sum of squares of all causes.");
     const auto list = [&](const char* words, const std::vector<Axis>& axes) {
         std::string names;
         for (const Axis axis : axes) names += ' ' + map.names[axis];
@@ -52,7 +51,7 @@ Page volumetric_page(const volumetric::VolumetricMap& map) {
     page.title = "Error of the tool point over the working volume";
     page.subject =
         fmt::format("{}, tool {:g} mm, {} poses", map.machine, map.length_mm, map.points.size());
-    page.verdict = fmt::format("The tip is off by {} at most, at {}{}; rms over all poses {}.",
+    page.verdict = fmt::format("The largest tip error is {}, at {}{}; rms over all poses {}.",
                                length_words(um_from_mm(worst.error_W_mm.norm())),
                                place_text(map.names, map.axes, worst.at),
                                map.causes.empty() ? "" : ", mostly by " + cause_name(map, worst),

@@ -151,8 +151,9 @@ bool has_rotary_geometry(const offsets::Stores& stores) {
 Setup setup_of_control(const offsets::Stores& stores, const std::string& path) {
     const auto pivot = offsets::decode_pivot(stores.parameters);
     if (pivot && !has_rotary_geometry(stores))
-        throw InputError("one of the rotary axes of 19680 is hypothetical: no setup can say that",
-                         {path});
+        throw InputError(
+            "one of the rotary axes of 19680 is hypothetical, which a setup cannot express",
+            {path});
     Setup setup;
     setup.name = path;
     setup.path = path;

@@ -50,7 +50,8 @@ PivotAgreement compare_pivots(const offsets::Stores& stores,
                               const std::optional<Vector3>& measured_mm, const std::string& path) {
     const auto pivot = offsets::decode_pivot(stores.parameters);
     if (!pivot || pivot->unit != offsets::MechanicalUnit::table_table)
-        throw InputError("19680 names no machine with both rotary axes in the table", {path});
+        throw InputError("19680 is not the type of a machine with both rotary axes in the table",
+                         {path});
     PivotAgreement out;
     out.parameters_mm =
         nearest_on_second(pivot->table_point_mm, pivot->first.line,

@@ -27,7 +27,7 @@ void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
     const std::string alone = derive_parallel_axes(setup.machine, parameters);
     if (!alone.empty())
         notes.push_back(setup.path + ": no parameter 1022 says how " + alone +
-                        " runs: the control believes that it does not move the tool");
+                        " runs: the control assumes that it does not move the tool");
     if (const std::string wrong = believe_centrelines(setup, parameters); !wrong.empty())
         throw InputError("[control.hurco]: " + wrong, {setup.path, 0, 0});
     derive_fixture_groups(setup.machine, parameters);

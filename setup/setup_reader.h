@@ -1,4 +1,4 @@
-// Reads parts of a setup file into parts of a Setup; internal to setup.cpp.
+// Reads parts of a setup file; internal to setup.cpp. The parts are the files setup_*.cpp.
 #pragma once
 
 #include <string>

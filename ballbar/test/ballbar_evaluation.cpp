@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ballbar/test/circular_diagnosis.h"
+
 namespace trunnion::ballbar::test {
 
 kinematics::Machine nominal_of(const setup::Setup& setup) {

@@ -1,4 +1,6 @@
 // Passes of a real machine: the same evaluations, without data known to a simulator only.
+#include "ballbar/test/ballbar_measured.h"
+
 #include <algorithm>
 
 #include "ballbar/test/ballbar_evaluation.h"

@@ -119,12 +119,6 @@ BallbarLayout stated_layout(const setup::Setup& setup, int& tool_offset);
 /// Input of the NC programs for this setup: stated layout, dialect of the control.
 BallbarProgramData stated_program_data(const setup::Setup& setup, bool inside);
 
-/// Evaluates passes of a real machine, each against the nominal machine; `after` is a second
-/// measurement with the new values. Circles alone give their ISO 230-4 parameters and no location
-/// errors. Throws InputError when no row belongs to a pass.
-BallbarResult evaluate_ballbar(const setup::Setup& stated, const records::ReadingTable& before,
-                               const std::optional<records::ReadingTable>& after);
-
 /// Throws Alarm when the program stops, InputError when the setup is unsuitable for the test or a
 /// pass has no readings (out of range).
 BallbarResult run_ballbar(const setup::Setup& stated, const BallbarProcedureOptions& options);

@@ -117,8 +117,8 @@ BallbarProgramData ballbar_program_data(const kinematics::Machine& nominal,
     const Vector3 offset = layout.pivot_W_mm - nominal_intersection(first, second).first;
     if (std::abs(second.direction.z()) < 0.99 || std::abs(first.direction.z()) > 0.01)
         throw InputError(
-            "the single-set-up ballbar test needs a tilting axis that carries a table axis along "
-            "Z");
+            "the single-set-up ballbar test requires a tilting axis that carries a rotary table "
+            "axis along Z");
     if (std::hypot(offset.x(), offset.y()) < 5.0 || offset.z() < 5.0)
         throw InputError(fmt::format(
             "the ballbar's centre pivot must stand above the {} axis and beside the {} axis",

@@ -70,7 +70,7 @@ std::pair<kinematics::AxisGeometry, kinematics::AxisGeometry> table_axes(
     for (const kinematics::AxisGeometry& axis : chain.work)
         if (axis.rotary) rotary.push_back(axis);
     if (rotary.size() != 2)
-        throw InputError("the single-set-up ballbar test needs two rotary axes under the table");
+        throw InputError("the single-set-up ballbar test requires two rotary axes under the table");
     return {rotary[0], rotary[1]};
 }
 

@@ -1,10 +1,11 @@
 // Error traces of two linear axes on a circle, and the amount of each.
+#include "ballbar/test/circular_diagnosis.h"
+
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
-#include "ballbar/test/circular_evaluation.h"
 #include "base/units.h"
 
 namespace trunnion::ballbar::test {

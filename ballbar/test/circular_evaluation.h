@@ -77,10 +77,6 @@ std::vector<double> centred_radial_mm(const CircularPass& pass, const CircleFit&
 
 CircularFigures circular_figures(const CircularTest& test);
 
-/// Least squares of the traces of backlash, reversal spikes, lateral play, squareness,
-/// straightness, scale mismatch, servo mismatch and ballscrew ripple.
-CircularDiagnosis diagnose_circle(const CircularTest& test);
-
 /// Axes of a plane, first and second.
 std::pair<Axis, Axis> axes_of_plane(BallbarTestKind plane);
 std::string plane_name(BallbarTestKind plane);  ///< "XY"

@@ -98,7 +98,7 @@ def show(options):
         cells = [line.split(",")[j] for line in lines]
         pulls = [float(cell) for cell in cells if cell]
         if not pulls:
-            print(f"  {name:8} not seen by these readings")
+            print(f"  {name:8} not observable from these readings")
             continue
         rms = math.sqrt(sum(p * p for p in pulls) / len(pulls))
         print(f"  {name:8} {rms:.3f} (expected 1 +- {1 / math.sqrt(2 * len(pulls)):.3f})")

@@ -70,9 +70,16 @@ struct Truth {
     double length_mm = 100.0;
 };
 
-inline void add_pass(std::vector<records::Reading>& rows, const kinematics::Machine& nominal,
-                     const Truth& truth, const ballbar::test::BallbarLayout& layout,
+/// The machine as its control has it, the truth, and the layout of the test.
+struct PassSource {
+    const kinematics::Machine& nominal;
+    const Truth& truth;
+    const ballbar::test::BallbarLayout& layout;
+};
+
+inline void add_pass(std::vector<records::Reading>& rows, const PassSource& source,
                      const std::string& test, int count, bool negative) {
+    const auto& [nominal, truth, layout] = source;
     const auto path = ballbar::test::ideal_path(
         nominal, layout, *ballbar::test::parse_ballbar_test(test), count, negative);
     for (const AxisPositions& q : path) {
@@ -98,13 +105,13 @@ inline std::vector<records::Reading> measure(const kinematics::Machine& nominal,
     for (const bool negative : {false, true}) {
         if (negative && !both) break;
         if (planar) {
-            add_pass(rows, nominal, truth, layout, "xy", 361, negative);
-            add_pass(rows, nominal, truth, layout, "yz", 221, negative);
-            add_pass(rows, nominal, truth, layout, "zx", 221, negative);
+            add_pass(rows, {nominal, truth, layout}, "xy", 361, negative);
+            add_pass(rows, {nominal, truth, layout}, "yz", 221, negative);
+            add_pass(rows, {nominal, truth, layout}, "zx", 221, negative);
         }
         for (const std::string kind : {"radial_", "axial_"}) {
-            add_pass(rows, nominal, truth, layout, kind + letter_of(first.axis), 241, negative);
-            add_pass(rows, nominal, truth, layout, kind + letter_of(second.axis), 361, negative);
+            add_pass(rows, {nominal, truth, layout}, kind + letter_of(first.axis), 241, negative);
+            add_pass(rows, {nominal, truth, layout}, kind + letter_of(second.axis), 361, negative);
         }
     }
     return rows;
@@ -119,5 +126,22 @@ inline std::vector<double> values_of(const std::vector<records::Reading>& rows) 
 inline void add_noise(std::vector<double>& values, double sigma_mm, SeededNoise& noise) {
     for (double& value : values) value += sigma_mm * noise.normal();
 }
+
+/// The A-C trunnion of the paper with its errors, and the test on it.
+struct Bench {
+    kinematics::Machine nominal = nominal_ac();
+    ballbar::test::BallbarLayout layout;
+    Truth truth;
+
+    Bench() {
+        truth = {with_lines(nominal, paper_errors()), layout.cup_S_mm, layout.pivot_W_mm, 100.0};
+        // The operator clamps the centre pivot where the spindle says the origin is: with all axes
+        // at zero it stands at its stated place in M, errors of the table or not.
+        truth.pivot_W_mm = truth.machine.poses({}).pose_MW.inverse() * layout.pivot_W_mm;
+    }
+    double true_value(const ballbar::test::NamedError& e) const {
+        return truth.machine.errors.location(e.name);
+    }
+};
 
 }  // namespace trunnion::ballbar_test

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "ballbar/test/circular_diagnosis.h"
 #include "base/random.h"
 #include "base/units.h"
 

@@ -3,12 +3,12 @@
 
 #include "check/check.h"
 #include "controller/alarms.h"
+#include "controller/block_trial.h"
 #include "controller/hurco_codes.h"
-#include "tests/check/one_trial.h"
 #include "tests/support/table_parameters.h"
 
 using namespace trunnion;
-using testing::OneTrial;
+using OneTrial = check::TrialBy<controller::BlockTrial>;
 
 namespace {
 

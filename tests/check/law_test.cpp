@@ -7,12 +7,12 @@
 #include "base/random.h"
 #include "check/check.h"
 #include "controller/alarms.h"
+#include "controller/block_trial.h"
 #include "controller/controller.h"
 #include "controller/g_codes.h"
-#include "tests/check/one_trial.h"
 
 using namespace trunnion;
-using testing::OneTrial;
+using OneTrial = check::TrialBy<controller::BlockTrial>;
 
 namespace {
 

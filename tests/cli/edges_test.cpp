@@ -88,7 +88,7 @@ TEST_CASE("a pattern of a suite is looked for in the suite's folder, wherever it
 
 TEST_CASE("parts that lie about their size or their cases are refused at once") {
     const Bench bench;
-    bench.refuses("merge " + bench.part("\"total\":1000000000000"), "stand in no part");
+    bench.refuses("merge " + bench.part("\"total\":1000000000000"), "are in no part");
     bench.refuses("merge " + bench.part("\"total\":-1"), "");
     bench.refuses("merge " + bench.part("\"total\":\"many\""), "not a part written");
     bench.refuses("merge " + bench.part("\"total\":0,\"inputs\":[{\"path\":7}]"),

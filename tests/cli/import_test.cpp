@@ -71,7 +71,7 @@ TEST_CASE("an import that is refused writes nothing") {
                       out = " --out " + bench.file("no.csv");
     const std::string log = bench.write("bad.csv", "time [s],X cmd,X act\n1,1,1\n0,2,2\n");
     const std::pair<std::string, std::string> cases[] = {
-        {"axis-log " + log + setup, "bad.csv:3:1: error: the clock runs back"},
+        {"axis-log " + log + setup, "bad.csv:3:1: error: times are not in ascending order"},
         {"axis-log " + log, "--setup is missing"},
         {"axis-log " + bench.file("none.csv") + setup, "none.csv"},
         {"servo " + log + setup, "servo"},

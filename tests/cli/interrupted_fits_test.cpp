@@ -81,7 +81,7 @@ TEST_CASE("Ctrl-C in identify keeps what is fitted and names what is not") {
     CHECK(bench.signalled(bench.identify(20000), SIGINT, 1.0) == 4);
     bench.check_kept();
     CHECK_THAT(bench.read("err.txt"), Catch::Contains("interrupted: keys of") &&
-                                          Catch::Contains("stand at their usual values"));
+                                          Catch::Contains("keep their usual values"));
 }
 
 TEST_CASE("Ctrl-C in diagnose gives the verdict on the best model until then") {

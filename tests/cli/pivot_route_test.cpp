@@ -161,8 +161,8 @@ TEST_CASE("pivot: a Hurco's verdict speaks of M128 and centrelines, marked assum
     REQUIRE(bench.trunnion("pivot --setup " + setup) == 0);
     const std::string text = bench.read("out.txt");
     for (const char* words : {"A centreline Y", "C centreline X",
-                              "(names of the part set-up's "
-                              "fields are assumed)",
+                              "(the field names of the part set-up "
+                              "are assumed)",
                               "The rotary centrelines of the part set-up are stale", "M128 parts"})
         CHECK_THAT(text, Catch::Contains(words));
     CHECK_THAT(text, !Catch::Contains("1970") && !Catch::Contains("G43.4"));
@@ -179,7 +179,7 @@ TEST_CASE("pivot: the page shows the day, the maps beside the expected ones and 
     for (const char* text :
          {"measured 2024-03-12", "BC rotary table", "B arc at C90", "expected",
           "Circle of each map, measured beside expected", "<title>Eccentric circle of each map",
-          "What to type", "What these readings cannot tell", "How to read this",
+          "What to type", "Not observable from these readings", "How to read this",
           "Content-Security-Policy", "trunnion pivot", "SHA-256"})
         CHECK_THAT(page, Catch::Contains(text));
     CHECK_THAT(page, !Catch::Contains("nan"));

@@ -39,7 +39,7 @@ TEST_CASE("pivot: what the programs print tells the stale store - without the si
     const std::string shop = machines + "bc_table.toml";
     REQUIRE(bench.trunnion("pivot " + bench.file("p.txt") + " --setup " + shop + " --json") == 0);
     const Json json = Json::parse(bench.read("out.txt"));
-    CHECK(bench.read("err.txt").find("what was printed counts") != std::string::npos);
+    CHECK(bench.read("err.txt").find("the printed value is used") != std::string::npos);
     CHECK(json["schema"] == "trunnion.pivot/1");
     for (const Json& store : json["stores"]) {
         CAPTURE(store.dump());
@@ -99,7 +99,7 @@ TEST_CASE("pivot: bad input ends with 2 and one message, nothing is overwritten"
     const std::string prints = bench.read("p.txt");
     bench.write("noise.txt", "hello\n");
     const std::vector<std::pair<std::string, std::string>> cases = {
-        {"pivot " + bench.file("p.txt"), "need the machine they come from"},
+        {"pivot " + bench.file("p.txt"), "need the machine that they come from"},
         {"pivot " + bench.file("noise.txt") + setup, "no prints of the pivot programs"},
         {"pivot --setup " + machines + "mill_xy_table.toml", "two rotary axes"}};
     for (const auto& [words, why] : cases) {

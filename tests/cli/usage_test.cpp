@@ -83,7 +83,7 @@ TEST_CASE("counts have no sign") {
     bench.refuses(run + " --max-blocks -2", "--max-blocks: '-2'");
     bench.refuses("check " + bench.program + " --max-blocks -2", "--max-blocks: '-2'");
     bench.refuses("compare " + bench.program + " " + bench.program + " --threads -1", "--threads");
-    bench.refuses(run + " --vars 200-100", "--vars: '200-100' runs backwards");
+    bench.refuses(run + " --vars 200-100", "--vars: '200-100' is a descending range");
     bench.refuses(run + " --vars 1000000", "--vars: '1000000' is not a variable number");
     CHECK(bench.trunnion(run + " --vars 900000,999999 --json") == 0);
 }
@@ -166,7 +166,7 @@ TEST_CASE("an output never overwrites an input or another output") {
         {"diagnose " + r + " --setup " + m + " --out " + r, "--out would overwrite"},
         {"diagnose " + r + " --out " + bench.file("x") + " --html " + bench.file("x"),
          "would both write this"},
-        {"diagnose " + r + " --json --out -", "beside --json"},
+        {"diagnose " + r + " --json --out -", "together with --json"},
         {"ballbar --csv " + bench.file("x") + " --write-readings " + bench.file("x"),
          "would both write this"},
         {"backup save " + bench.path.string() + " " + bench.path.string() + " --setup " + m,

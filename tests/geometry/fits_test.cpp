@@ -24,12 +24,12 @@ void require_circle(CircleMethod method, double x, double y, double radius) {
     CHECK(std::abs(fit->radius_mm - radius) < 6e-7);
 }
 
-std::vector<Vector2> arc(double x, double y, double radius, double from_deg, double to_deg,
+std::vector<Vector2> arc(const Vector2& center, double radius, double from_deg, double to_deg,
                          int count) {
     std::vector<Vector2> points;
     for (int i = 0; i < count; ++i) {
         const double a = rad_from_deg(from_deg + (to_deg - from_deg) * i / (count - 1));
-        points.emplace_back(x + radius * std::cos(a), y + radius * std::sin(a));
+        points.push_back(center + radius * Vector2(std::cos(a), std::sin(a)));
     }
     return points;
 }
@@ -62,7 +62,7 @@ TEST_CASE("the reference's Kasa line halves one unknown too early") {
 }
 
 TEST_CASE("every circle method returns an exact arc far from the origin") {
-    const auto points = arc(412.5, -83.25, 100.0, 20, 75, 40);
+    const auto points = arc({412.5, -83.25}, 100.0, 20, 75, 40);
     for (const auto method : {CircleMethod::kasa, CircleMethod::pratt, CircleMethod::taubin,
                               CircleMethod::hyper, CircleMethod::geometric}) {
         const auto fit = fit_circle(points, method);
@@ -77,7 +77,7 @@ TEST_CASE("on a noisy short arc the hyper fit is less biased than Kasa's") {
     double kasa = 0, hyper = 0;
     const int runs = 300;
     for (int run = 0; run < runs; ++run) {
-        auto points = arc(0, 0, 100.0, 0, 60, 50);
+        auto points = arc({0, 0}, 100.0, 0, 60, 50);
         for (auto& p : points) p += 1.0 * Vector2(noise.normal(), noise.normal());
         kasa += (fit_circle(points, CircleMethod::kasa)->radius_mm - 100.0) / runs;
         hyper += (fit_circle(points)->radius_mm - 100.0) / runs;
@@ -110,7 +110,7 @@ TEST_CASE("circles that do not exist are said so") {
 }
 
 TEST_CASE("a small circle of errors keeps its radius") {
-    const auto fit = fit_circle(arc(1e-3, 0, 0.05, 0, 345, 24));
+    const auto fit = fit_circle(arc({1e-3, 0}, 0.05, 0, 345, 24));
     REQUIRE(fit);
     CHECK(std::abs(fit->radius_mm - 0.05) < 1e-14);
 }

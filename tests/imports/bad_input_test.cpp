@@ -58,7 +58,7 @@ TEST_CASE("a clock that runs back within a session is refused, between sessions 
         "time [s],x nominal,y nominal,z nominal,x measured,y measured,z measured,session\n";
     refuses(import_bench::setup(),
             {ImportKind::points, head + "5,1,2,3,1,2,3,a\n4,2,2,3,2,2,3,a\n", {}, ""},
-            "clock runs back", 3);
+            "not in ascending order", 3);
     CHECK(import_bench::rows(
               import_bench::setup(),
               {ImportKind::points, head + "5,1,2,3,1,2,3,a\n4,2,2,3,2,2,3,b\n", {}, ""})

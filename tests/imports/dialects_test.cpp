@@ -76,7 +76,7 @@ TEST_CASE("what is no table is refused with its line") {
     refused(head + "0,1\n1,2,3\n2,3,4\n", "cells", 2);
     refused(head + "0,1,1\n1,abc,2\n", "not a finite number", 3);
     refused(head + "0,1,1\n1,2 um,2\n", "a unit in the cell", 3);
-    refused(head + "5,1,1\n4,2,2\n", "clock runs back", 3);
+    refused(head + "5,1,1\n4,2,2\n", "not in ascending order", 3);
     refused(head + "0,1,1\n1,\"2,2\n", "quote", 3);
     refused("time;X cmd;X act\n0;1,5;1.5\n", "decimal comma", 2);
     refused("time [furlong],X cmd,X act [mm]\n0,1,1\n", "no unit for", 1);

@@ -262,7 +262,8 @@ TEST_CASE("prints that are refused name their line", "[imports][dprnt]") {
     refuses(setup, with(good, "X  120.0", "X  320.0"), "no sphere", 6);
     refuses(setup, with(good, "TEST", "BALLBAR ON"), "import ballbar", 4);
     const std::string again = good.substr(good.find("AT X"));
-    refuses(setup, with(good, "DPP END\n", with(again, "T 1500", "T 1400")), "clock runs back", 8);
+    refuses(setup, with(good, "DPP END\n", with(again, "T 1500", "T 1400")),
+            "not in ascending order", 8);
 }
 
 }  // namespace trunnion

@@ -45,11 +45,15 @@ inline pivot::PivotDemonstration demonstrate(const setup::Setup& setup,
                                     folders, seed);
 }
 
+struct Scatter {
+    double noise_um = 0.0, zero_um = 0.0;
+    std::uint64_t seed = 1;
+};
+
 /// What the programs would print: the model's errors with noise and scatter of the zeroings.
 inline std::string prints_of(const pivot::PivotPlan& plan, const kinematics::Machine& machine,
-                             const Vector3& tip_S_mm, double noise_um, double zero_um,
-                             std::uint64_t seed) {
-    SeededNoise noise(seed);
+                             const Vector3& tip_S_mm, const Scatter& scatter) {
+    SeededNoise noise(scatter.seed);
     const pivot::PivotModel model(machine, plan.stores, plan.sphere_mm, tip_S_mm);
     const char a = letter_of(plan.first()), b = letter_of(plan.second());
     std::string text;
@@ -64,14 +68,14 @@ inline std::string prints_of(const pivot::PivotPlan& plan, const kinematics::Mac
         for (std::size_t m = static_cast<std::size_t>(plan.first_map(f)); m <= plan.maps.size();
              ++m) {
             const pivot::PlannedMap& map = plan.maps[m - 1];
-            const Vector3 zero = random_vector(noise, 1e-3 * zero_um);
+            const Vector3 zero = random_vector(noise, 1e-3 * scatter.zero_um);
             const Vector3 found = plan.sphere_mm + zero;
             text += fmt::format("{} ZERO{} X{:.7f} Y{:.7f} Z{:.7f}\n", f.name, m, found.x(),
                                 found.y(), found.z());
             for (int k = 0; k < map.count; ++k) {
                 const Vector3 e =
                     model.error_mm(f.group, map.first_deg(k), map.second_deg(k), zero) +
-                    random_vector(noise, 1e-3 * noise_um);
+                    random_vector(noise, 1e-3 * scatter.noise_um);
                 text +=
                     fmt::format("{} MAP{} {}{:.4f} {}{:.4f} X{:.7f} Y{:.7f} Z{:.7f}\n", f.name, m,
                                 a, map.first_deg(k), b, map.second_deg(k), e.x(), e.y(), e.z());

@@ -14,9 +14,14 @@ Matrix3 turn_of(const offsets::PivotAxis& axis, double deg) {
     return rotation_about(axis.direction(), rad_from_deg(deg));
 }
 
+struct StoreErrors {
+    Vector3 dg, dp, dd;
+};
+
 /// e_G and e_P of docs/notation.md for two axes under the table: with the sphere found at home.
-Vector3 table_form(const setup::RotaryStores& s, const Vector3& dg, const Vector3& dp,
-                   const Vector3& dd, bool g54, double first, double second) {
+Vector3 table_form(const setup::RotaryStores& s, const StoreErrors& off, bool g54, double first,
+                   double second) {
+    const auto& [dg, dp, dd] = off;
     const Matrix3 r1 = turn_of(s.pivot.first, first), r2 = turn_of(s.pivot.second, second),
                   one = Matrix3::Identity();
     if (g54) return (r1 * r2 - one) * dg;
@@ -43,7 +48,7 @@ TEST_CASE("the model's errors are the paper's closed forms on every table of two
             for (const bool g54 : {true, false})
                 CHECK((model.error_mm(g54 ? pivot::PivotGroup::g54 : pivot::PivotGroup::p1970x, b,
                                       c) -
-                       table_form(s, dg, dp, dd, g54, b, c))
+                       table_form(s, {dg, dp, dd}, g54, b, c))
                           .norm() < 1e-9);
         }
     }

@@ -39,7 +39,7 @@ setup::RotaryStores right_for(setup::Setup setup) {
     if (stores.pivot.unit == offsets::MechanicalUnit::table_table) return right;
     enter(right, setup);
     const pivot::PivotPlan plan = pivot::plan_pivot_test(setup);
-    return judge(setup, plan, prints_of(plan, setup.machine, tip, 0.0, 0.0, 1)).right;
+    return judge(setup, plan, prints_of(plan, setup.machine, tip, {})).right;
 }
 
 /// A machine whose axes lie and lean a little elsewhere, one store wrong.
@@ -73,8 +73,8 @@ Case random_case(const std::string& file, SeededNoise& noise, pivot::PivotGroup 
             setup::set_number(right, n, n.value_mm + size_mm * noise.normal());
     enter(setup::rounded(right, 1e-3), setup);
     Case out{setup, pivot::plan_pivot_test(setup), right_for(setup), {}};
-    out.printed = prints_of(out.plan, setup.machine, tip, 0.5, 1.0,
-                            static_cast<std::uint64_t>(1e9 * noise.uniform()));
+    out.printed = prints_of(out.plan, setup.machine, tip,
+                            {0.5, 1.0, static_cast<std::uint64_t>(1e9 * noise.uniform())});
     return out;
 }
 
@@ -119,8 +119,8 @@ pivot::PivotVerdict recheck(const Case& c, const setup::RotaryStores& typed, See
     enter(typed, setup);
     const pivot::PivotPlan plan = pivot::plan_pivot_test(setup);
     return judge(setup, plan,
-                 prints_of(plan, setup.machine, tip, 0.5, 1.0,
-                           static_cast<std::uint64_t>(1e9 * noise.uniform())));
+                 prints_of(plan, setup.machine, tip,
+                           {0.5, 1.0, static_cast<std::uint64_t>(1e9 * noise.uniform())}));
 }
 
 std::string refusal(const std::string& printed) {

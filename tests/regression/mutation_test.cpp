@@ -93,22 +93,15 @@ class Sampler : public motion::MotionSink {
         std::vector<Vector3> points{tip(0.0)};
         const int count = m.arc ? 300 : 1;
         for (int k = 1; k <= count; ++k) points.push_back(tip(static_cast<double>(k) / count));
-        add(rapid, m.feed_mm_min, m.spindle_rpm, m.tool, m.coolant, points);
+        add({rapid, m.feed_mm_min, m.spindle_rpm, m.tool, m.coolant, {}, {}}, points);
         return {};
     }
-    void add(bool rapid, double feed, double spindle, int tool, bool coolant,
-             const std::vector<Vector3>& points) {
+    void add(Stretch2 now, const std::vector<Vector3>& points) {
         double length = 0.0;
         for (std::size_t k = 1; k < points.size(); ++k)
             length += (points[k] - points[k - 1]).norm();
         if (length < 1e-7) return;
-        Stretch2 now{rapid,
-                     rapid ? 0 : feed,
-                     rapid ? 0 : spindle,
-                     rapid ? 0 : tool,
-                     rapid ? false : coolant,
-                     {},
-                     {}};
+        if (now.rapid) now = Stretch2{};
         if (stretches.empty() || !same_values(stretches.back(), now)) stretches.push_back(now);
         Stretch2& s = stretches.back();
         for (const Vector3& p : points) {
@@ -174,7 +167,7 @@ std::optional<Sampler> plainly_sampled(const std::string& program, const setup::
     for (const PlainMove& m : reader.moves) {
         std::vector<Vector3> points;
         for (const auto& p : m.tips_mm) points.emplace_back(p[0], p[1], p[2]);
-        sink.add(m.rapid, m.feed, m.spindle, m.tool, m.coolant, points);
+        sink.add({m.rapid, m.feed, m.spindle, m.tool, m.coolant, {}, {}}, points);
     }
     return sink;
 }

@@ -8,6 +8,8 @@
 #include "ballbar/test/ballbar_procedure.h"
 #include "base/alarm.h"
 #include "base/units.h"
+#include "report/ballbar_json.h"
+#include "report/ballbar_pictures.h"
 #include "report/polar_plot.h"
 
 using namespace trunnion;

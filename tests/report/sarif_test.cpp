@@ -1,4 +1,6 @@
 // SARIF as GitHub takes it: the structure that its schema and rules ask for, limits, fingerprints.
+#include "report/sarif.h"
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
