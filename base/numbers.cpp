@@ -10,7 +10,7 @@ namespace trunnion::inline base {
 
 namespace {
 
-/// A number as text, without memory of its own.
+/// A number as text, without allocation.
 struct ShortText {
     explicit ShortText(double value)
         : size(static_cast<std::size_t>(

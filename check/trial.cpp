@@ -58,7 +58,7 @@ void add_alarm(const Alarm& alarm, const CheckSection& section, const interprete
     found.column = std::max(1, alarm.where.column);
     const std::string title = options.alarm_text ? options.alarm_text(alarm.number)
                                                  : fmt::format("alarm {}", alarm.number);
-    // What the alarm says behind the text of its number: "+ OVERTRAVEL ( SOFT 1 ) X".
+    // The text of the alarm without its number: "+ OVERTRAVEL ( SOFT 1 ) X".
     const std::string text = title.substr(std::min(title.size(), title.find(' ') + 1));
     found.text = "a run stops here: " + title;
     if (alarm.text.starts_with(text)) found.text += alarm.text.substr(text.size());

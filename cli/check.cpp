@@ -152,7 +152,7 @@ void run_without_devices(const setup::Setup& setup, const interpreter::ProgramTe
          row != nullptr ? row->remedy : ""});
 }
 
-/// A machine that programs are checked on, with what is worked out once for all of them.
+/// A machine on which programs are checked, with the data common to all of them.
 struct CheckedMachine {
     setup::Setup setup;
     SetupRules rules{setup};

@@ -60,8 +60,8 @@ struct ControlSettings {
     std::array<std::array<double, axis_count>, 4> reference{};  ///< 1240-1243, mm and deg
 };
 
-/// Axis number of each letter: parameter 1020 where it is set, else X Y Z A B C U V W, auxiliary
-/// axes behind the others.
+/// Axis number of each letter: parameter 1020 where it is set, else X Y Z A B C U V W with
+/// auxiliary axes last.
 void sort_axes(std::vector<ControlAxis>& axes, const offsets::Parameters& parameters);
 /// Reads stroke limits 1320, 1321 (mm, deg; no limit when the positive one is below the negative
 /// one) and rapid speeds 1420 (mm/min, deg/min) that are in the store. `axes` in the order of their

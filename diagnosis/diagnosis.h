@@ -75,7 +75,7 @@ struct NextMeasurement {
     std::string first, second, text, program;
     Finite log_bayes_factor = 0.0;  ///< predicted
     Finite minutes = 0.0;
-    bool settles = false;  ///< predicted: afterwards the rival stands no longer
+    bool settles = false;  ///< predicted: it excludes the rival
 };
 
 struct Diagnosis {
@@ -112,9 +112,9 @@ struct DiagnosisOptions {
     std::uint64_t seed = 1;
     /// Called with the name of each stage; may be empty.
     std::function<void(const char* stage)> watch = {};
-    /// Asked during the search: false ends it, and what follows judges the best model until then.
+    /// Asked during the search: false ends it, and the verdict is that of the best model so far.
     std::function<bool()> go_on = {};
-    /// Asked while the next measurement is planned, when the verdict stands: false ends the plan.
+    /// Asked after the verdict, while the next measurement is planned: false ends the planning.
     std::function<bool()> plan_on = {};
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "diagnosis/measurement_plan.h"
 
@@ -40,7 +39,7 @@ void both_ways(MeasurementPlan& plan) {
     }
 }
 
-using Fill = std::function<void(MeasurementPlan&)>;
+using Fill = void (*)(MeasurementPlan&);
 
 struct Ready {
     const char *name, *text;
@@ -48,99 +47,91 @@ struct Ready {
     Fill fill;
 };
 
-const std::vector<Ready>& ready_list() {
-    static const std::vector<Ready> list{
-        {"both_ways",
-         "find spheres at 6 poses, each approached by both rotary axes from both sides", false,
-         both_ways},
-        {"many_angles", "find one sphere at 20 irregular angles of the second rotary axis", false,
-         [](MeasurementPlan& p) {
-             for (int k = 0; k < 20; ++k)
-                 p.sphere(0, {0.0, std::fmod(101.3 * k, 360.0)}, k % 2 ? 6.0 : -6.0);
-         }},
-        {"many_tilts", "find one sphere at 16 irregular angles of the first rotary axis", false,
-         [](MeasurementPlan& p) {
-             const auto [low, high] = p.range_deg(0);
-             for (int k = 0; k < 16; ++k)
-                 p.sphere(0, {low + (high - low) * std::fmod(0.382 * k, 1.0), 0.0},
-                          k % 2 ? 6.0 : -6.0);
-         }},
-        {"long_stylus", "find spheres at 12 poses with a stylus 60 mm longer", false,
-         [](MeasurementPlan& p) {
-             p.extension(60.0);
-             spread(p, 12);
-         }},
-        {"reference_sphere", "return to one sphere every 10 minutes for an hour", false,
-         [](MeasurementPlan& p) {
-             for (int k = 0; k < 7; ++k) {
-                 p.sphere(0, {0.0, 0.0}, 6.0);
-                 p.wait(560.0);
-             }
-         }},
-        {"two_modes", "find a sphere at 8 poses by way of G54 and at the same 8 by way of G43.4",
-         false,
-         [](MeasurementPlan& p) {
-             for (const PositioningMode mode : {PositioningMode::dpp, PositioningMode::rtcp})
-                 p.sphere_by_store(mode, spread_angles(p, 8), 6.0);
-         }},
-        {"spindle_turned", "find spheres at 6 poses with the spindle at 0 and at 180 degrees",
-         false,
-         [](MeasurementPlan& p) {
-             for (const double degrees : {0.0, 180.0}) {
-                 p.spindle(degrees);
-                 spread(p, 6);
-             }
-         }},
-        {"eight_azimuths", "touch a sphere from 8 directions at 4 table angles", false,
-         [](MeasurementPlan& p) {
-             for (const double c : {0.0, 50.0, 130.0, 260.0}) p.azimuth_touches({0.0, c}, 8);
-         }},
-        {"added_load", "find spheres at 8 poses empty and at 8 with 80 kg on the table", false,
-         [](MeasurementPlan& p) {
-             for (const double kilograms : {0.0, 80.0}) {
-                 p.load(kilograms);
-                 spread(p, 8);
-             }
-         }},
-        {"clamped", "find spheres at 6 poses with the clamps open and closed", false,
-         [](MeasurementPlan& p) {
-             for (const bool closed : {false, true}) {
-                 p.clamps(closed);
-                 spread(p, 6);
-             }
-         }},
-        {"warm", "find spheres at 10 poses after warming the machine by 4 K", false,
-         [](MeasurementPlan& p) {
-             p.temperature(24.0);
-             spread(p, 10);
-         }},
-        {"ballbar_planes", "ballbar circles in XY, YZ, ZX, both senses, at 1000 and at 4000 mm/min",
-         true,
-         [](MeasurementPlan& p) {
-             for (int plane = 0; plane < 3; ++plane)
-                 for (const double feed : {1000.0, 4000.0})
-                     for (const bool clockwise : {false, true}) p.circle(plane, feed, clockwise);
-         }},
-        {"long_cup", "ballbar circles in XY, YZ, ZX, both senses, with the tool cup 60 mm lower",
-         true,
-         [](MeasurementPlan& p) {
-             p.extension(60.0);
-             for (int plane = 0; plane < 3; ++plane)
-                 for (const bool clockwise : {false, true}) p.circle(plane, 1000.0, clockwise);
-         }},
-        {"ballbar_turns",
-         "ballbar circles in XY and ZX, then with each rotary axis turning, bar along X, Y and Z, "
-         "out and back",
-         true, [](MeasurementPlan& p) {
-             for (const int plane : {0, 2})
-                 p.circle(plane, 1000.0, false);  // determines cup and
-                                                  // length
-             for (std::size_t k = 0; k < p.rotary_count(); ++k)
-                 for (int direction = 0; direction < 3; ++direction)
-                     for (const bool up : {true, false}) p.turn(k, up, direction);
-         }}};
-    return list;
-}
+constexpr Ready ready_list[] = {
+    {"both_ways", "find spheres at 6 poses, each approached by both rotary axes from both sides",
+     false, both_ways},
+    {"many_angles", "find one sphere at 20 irregular angles of the second rotary axis", false,
+     [](MeasurementPlan& p) {
+         for (int k = 0; k < 20; ++k)
+             p.sphere(0, {0.0, std::fmod(101.3 * k, 360.0)}, k % 2 ? 6.0 : -6.0);
+     }},
+    {"many_tilts", "find one sphere at 16 irregular angles of the first rotary axis", false,
+     [](MeasurementPlan& p) {
+         const auto [low, high] = p.range_deg(0);
+         for (int k = 0; k < 16; ++k)
+             p.sphere(0, {low + (high - low) * std::fmod(0.382 * k, 1.0), 0.0}, k % 2 ? 6.0 : -6.0);
+     }},
+    {"long_stylus", "find spheres at 12 poses with a stylus 60 mm longer", false,
+     [](MeasurementPlan& p) {
+         p.extension(60.0);
+         spread(p, 12);
+     }},
+    {"reference_sphere", "return to one sphere every 10 minutes for an hour", false,
+     [](MeasurementPlan& p) {
+         for (int k = 0; k < 7; ++k) {
+             p.sphere(0, {0.0, 0.0}, 6.0);
+             p.wait(560.0);
+         }
+     }},
+    {"two_modes", "find a sphere at 8 poses by way of G54 and at the same 8 by way of G43.4", false,
+     [](MeasurementPlan& p) {
+         for (const PositioningMode mode : {PositioningMode::dpp, PositioningMode::rtcp})
+             p.sphere_by_store(mode, spread_angles(p, 8), 6.0);
+     }},
+    {"spindle_turned", "find spheres at 6 poses with the spindle at 0 and at 180 degrees", false,
+     [](MeasurementPlan& p) {
+         for (const double degrees : {0.0, 180.0}) {
+             p.spindle(degrees);
+             spread(p, 6);
+         }
+     }},
+    {"eight_azimuths", "touch a sphere from 8 directions at 4 table angles", false,
+     [](MeasurementPlan& p) {
+         for (const double c : {0.0, 50.0, 130.0, 260.0}) p.azimuth_touches({0.0, c}, 8);
+     }},
+    {"added_load", "find spheres at 8 poses empty and at 8 with 80 kg on the table", false,
+     [](MeasurementPlan& p) {
+         for (const double kilograms : {0.0, 80.0}) {
+             p.load(kilograms);
+             spread(p, 8);
+         }
+     }},
+    {"clamped", "find spheres at 6 poses with the clamps open and closed", false,
+     [](MeasurementPlan& p) {
+         for (const bool closed : {false, true}) {
+             p.clamps(closed);
+             spread(p, 6);
+         }
+     }},
+    {"warm", "find spheres at 10 poses after warming the machine by 4 K", false,
+     [](MeasurementPlan& p) {
+         p.temperature(24.0);
+         spread(p, 10);
+     }},
+    {"ballbar_planes", "ballbar circles in XY, YZ, ZX, both senses, at 1000 and at 4000 mm/min",
+     true,
+     [](MeasurementPlan& p) {
+         for (int plane = 0; plane < 3; ++plane)
+             for (const double feed : {1000.0, 4000.0})
+                 for (const bool clockwise : {false, true}) p.circle(plane, feed, clockwise);
+     }},
+    {"long_cup", "ballbar circles in XY, YZ, ZX, both senses, with the tool cup 60 mm lower", true,
+     [](MeasurementPlan& p) {
+         p.extension(60.0);
+         for (int plane = 0; plane < 3; ++plane)
+             for (const bool clockwise : {false, true}) p.circle(plane, 1000.0, clockwise);
+     }},
+    {"ballbar_turns",
+     "ballbar circles in XY and ZX, then with each rotary axis turning, bar along X, Y and Z, "
+     "out and back",
+     true, [](MeasurementPlan& p) {
+         for (const int plane : {0, 2})
+             p.circle(plane, 1000.0, false);  // determines cup and
+                                              // length
+         for (std::size_t k = 0; k < p.rotary_count(); ++k)
+             for (int direction = 0; direction < 3; ++direction)
+                 for (const bool up : {true, false}) p.turn(k, up, direction);
+     }}};
 
 }  // namespace
 
@@ -158,7 +149,7 @@ bool takes_words(const kinematics::Chain& chain) {
 std::vector<Measurement> ready_measurements(const setup::Setup& setup, double start_s) {
     std::vector<Measurement> list;
     if (!takes_words(setup.machine.chain)) return list;
-    for (const Ready& ready : ready_list()) {
+    for (const Ready& ready : ready_list) {
         MeasurementPlan plan(setup, ready.name, ready.text, start_s);
         if (plan.rotary_count() != 2 || !(ready.bar ? plan.has_bar() : plan.has_sphere())) continue;
         plan.define_sides();

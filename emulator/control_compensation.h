@@ -6,9 +6,9 @@
 
 namespace trunnion::emulator {
 
-/// What the parameters of the setup's control add to the positions of the axes behind its back:
-/// programs, skip positions and readings count without it. It acts beside the machine's own errors,
-/// so a drive that lags by what 1851 says reads no reversal. Null where nothing is compensated.
+/// Backlash and pitch compensation that the setup's control adds to the axis positions. Programs,
+/// skip positions and readings do not contain it. It adds to the errors of the machine, so a drive
+/// that lags by the value of 1851 shows no reversal error. Null when nothing is compensated.
 std::shared_ptr<const EffectModel> control_compensation(const setup::Setup& setup);
 
 }  // namespace trunnion::emulator

@@ -69,7 +69,7 @@ struct Equations {
     Weighting weighting;
 };
 
-/// Takes a step (in the parameters' units) where all fits no worse behind it.
+/// Applies a step (in the units of the parameters) unless it increases the misfit.
 bool taken(BaseModel& model, const emulator::Replay& replay, const std::vector<Slot>& slots,
            const Weighting& weighting, const Eigen::VectorXd& step) {
     const double before = misfit(model.residual_mm, weighting, model.setup, slots);
@@ -82,9 +82,9 @@ bool taken(BaseModel& model, const emulator::Replay& replay, const std::vector<S
     return true;
 }
 
-/// Levenberg-Marquardt: along a direction that is hardly seen a whole step may lead far beyond
-/// where derivatives hold, and such directions are damped first. `damping` goes on to the next
-/// step. Returns the step in typical sizes; none where no step helps.
+/// Levenberg-Marquardt: along a hardly observable direction a full step may leave the range in
+/// which the derivatives hold, and such directions are damped first. `damping` is kept for the next
+/// step. Returns the step in typical sizes, or zero when no step reduces the misfit.
 Eigen::VectorXd take_step(BaseModel& model, const emulator::Replay& replay,
                           const std::vector<Slot>& slots, const Equations& e, double& damping) {
     const Eigen::VectorXd typical = typical_of(slots);

@@ -19,7 +19,7 @@ struct Identification {
     Eigen::MatrixXd covariance;
     std::vector<std::string> set_up_words;  ///< pose of a part or instrument, in sentences
     std::vector<std::string> notes;
-    /// Keyed effects whose keys stand at their usual values because the fit was ended.
+    /// Keyed effects whose keys keep their usual values because the fit was ended.
     std::vector<std::string> not_searched;
     setup::Setup setup;  ///< with the values entered; loads again
 };

@@ -35,8 +35,8 @@ records::ReadingTable noisy(const Repeated& of, SeededNoise random) {
     return table;
 }
 
-/// The generator of one repetition, with a seed of its own: repetitions that continue one stream
-/// would share numbers.
+/// The generator of one repetition. Each has its own seed, because repetitions that continue one
+/// stream would share numbers.
 SeededNoise noise_of(std::uint64_t seed, int index) {
     const std::uint64_t stream = SeededNoise(seed).bits();
     return SeededNoise(SeededNoise(stream + static_cast<std::uint64_t>(index)).bits());

@@ -169,6 +169,16 @@ double read_parameter(const Op& op, const double* operands, const Memory& memory
     }
 }
 
+/// #1 .. #33 of the level that runs.
+inline double local(const Memory& memory, int number) {
+    return (*memory.locals)[static_cast<std::size_t>(number)];
+}
+
+/// Operands of PRM after the parameter number: bit and axis.
+int qualifiers(OpCode code) {
+    return code == OpCode::prm ? 0 : code == OpCode::prm_bit_axis ? 2 : 1;
+}
+
 }  // namespace
 
 int whole_number(double value, int column) {
@@ -185,9 +195,7 @@ double evaluate(const Op* code, std::uint32_t count, const Memory& memory,
         switch (op->code) {
             case OpCode::constant: *top++ = op->value; break;
             case OpCode::vacant: *top++ = vacant; break;
-            case OpCode::local:
-                *top++ = (*memory.locals)[static_cast<std::size_t>(op->number)];
-                break;
+            case OpCode::local: *top++ = local(memory, op->number); break;
             case OpCode::common: *top++ = memory.common[op->slot]; break;
             case OpCode::system: *top++ = read_variable(*op, op->number, memory); break;
             case OpCode::indirect:
@@ -227,14 +235,11 @@ double evaluate(const Op* code, std::uint32_t count, const Memory& memory,
                 --top;
                 top[-1] = compare(op->code, top[-1], *top) ? 1.0 : 0.0;
                 break;
-            case OpCode::prm: top[-1] = read_parameter(*op, top - 1, memory); break;
+            case OpCode::prm:
             case OpCode::prm_bit:
             case OpCode::prm_axis:
-                --top;
-                top[-1] = read_parameter(*op, top - 1, memory);
-                break;
             case OpCode::prm_bit_axis:
-                top -= 2;
+                top -= qualifiers(op->code);
                 top[-1] = read_parameter(*op, top - 1, memory);
                 break;
             default: top[-1] = unary(*op, zero_if_vacant(top[-1]), rules); break;

@@ -9,7 +9,7 @@
 namespace trunnion::interpreter {
 namespace {
 
-constexpr int outside = -2;                    ///< stands for a file id: from the source only
+constexpr int outside = -2;                    ///< instead of a file id: from the source only
 constexpr std::size_t largest_index = 300000;  ///< maximum number of N numbers indexed for one
                                                ///< program: 4.8 MB
 

@@ -145,7 +145,7 @@ bool is_canned_cycle(int code10) {
     return code10 >= 730 && code10 <= 890 && code10 != 800 && code10 % 10 == 0;
 }
 
-/// Rows whose code and word (unless it is required) stand in the block.
+/// Rows whose code and word (unless it is required) are in the block.
 struct Applicable {
     RowSet set = 0;
     bool calls = false;

@@ -13,9 +13,9 @@ namespace trunnion::offsets {
 /// In axis units: mm, or rad of a rotary axis.
 struct AxisCompensation {
     Axis axis = Axis::X;
-    /// The axis is sent so far on in the direction of its travel as it turns round: half of it
-    /// either way of the middle (a control counts it from the side of the reference position: the
-    /// two differ by a constant). Positive for a drive that lags.
+    /// At a reversal the axis is sent this far further in its new direction: half of it to either
+    /// side of the middle (a control counts it from the side of the reference position, which
+    /// differs by a constant). Positive for a drive that lags.
     double backlash = 0.0;
     std::vector<double> at;     ///< machine positions of the pitch table, rising; empty: none
     std::vector<double> value;  ///< added there; linear between (assumed), held beyond the ends

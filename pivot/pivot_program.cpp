@@ -113,7 +113,7 @@ struct FunctionText {
     std::string title, note, begin, lead, cancel;
 };
 
-/// Texts by name of the function. O8102 prints each move for the PC; MODE tells the positioning
+/// Texts by name of the function. O8102 prints each move for the PC; MODE prints the positioning
 /// function. lead: the tip #510 above the sphere along the tool.
 FunctionText text_of(const std::string& name, bool hurco) {
     if (name == "DPP")

@@ -173,7 +173,7 @@ class Explainer {
         if (places) {
             found.a = {row_a.line, row_a.program};
             found.b = {row_b.line, row_b.program};
-            // A side without this change has no block for it; the next moving block stands for it.
+            // A side without this change has no block for it; the next moving block is used.
             if (a_changed && !b_changed) found.b = beside(path_b_, row_a.first_segment, i, j);
             if (b_changed && !a_changed) found.a = beside(path_a_, row_b.first_segment, j, i);
         }

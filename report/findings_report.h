@@ -9,8 +9,8 @@
 
 namespace trunnion::report {
 
-/// format: text, json, junit, sarif, github; throws InputError for another. `files` are all that
-/// were looked at: a JUnit case each; `inputs` stand in the JSON.
+/// `format`: text, json, junit, sarif or github; throws InputError for any other. `files`: all that
+/// were checked, one JUnit case each. `inputs` are listed in the JSON.
 std::string format_findings(const std::vector<check::Finding>& findings,
                             const std::vector<std::string>& files, const std::string& format,
                             const std::vector<FileRead>& inputs = {});

@@ -16,9 +16,9 @@ inline nlohmann::ordered_json json_number(double value) {
     return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
-/// The text of a report, every line break at its end. Throws InputError with the key of a number
-/// that is not finite: a null stands only where json_number put it. Bytes that are no UTF-8 become
-/// U+FFFD. `indent` -1: all in one line.
+/// The text of a report with a line break at its end. Throws InputError with the key of a number
+/// that is not finite: null is written by json_number only. Bytes that are not UTF-8 become
+/// U+FFFD. `indent` -1: everything in one line.
 std::string json_text(const nlohmann::ordered_json& json, int indent);
 
 /// "inputs": path and SHA-256 of each file that the result was made from; no key without any.

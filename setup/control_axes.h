@@ -1,5 +1,5 @@
-// The axes as the control has them: those of the chain that NC words address, and the auxiliary
-// ones behind them.
+// The axes as the control has them: those of the chain that NC words address, followed by the
+// auxiliary axes.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ std::vector<kinematics::AxisGeometry> all_machine_axes(const Setup& setup);
 /// What the control adds to their positions (1851, pitch data).
 std::vector<offsets::AxisCompensation> compensated_axes(const Setup& setup);
 /// Letters of axes whose backlash or pitch the control compensates while the machine of the setup
-/// has no such error: what it adds is then an error of its own.
+/// has no such error, so that the compensation causes an error.
 std::string overcompensated_axes(const Setup& setup);
 
 }  // namespace trunnion::setup

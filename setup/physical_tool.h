@@ -8,15 +8,15 @@
 
 namespace trunnion::setup {
 
-/// A cylinder with a flat end; where it stands is seen from the gauge point, in S.
+/// A cylinder with a flat end; positions are relative to the gauge point, in S.
 struct PhysicalTool {
     double length_mm = 0.0;  ///< gauge point to tip
     double diameter_mm = 0.0;
     /// Of the tool's axis beside the spindle's, at spindle angle 0; it turns with the spindle.
     double runout_x_mm = 0.0, runout_y_mm = 0.0;
 
-    /// Middle of the tip in S. Turning, the tool is what its cutting edges sweep: it stands in the
-    /// middle.
+    /// Centre of the tip in S. A turning tool is the volume that its cutting edges sweep, which is
+    /// centred on the spindle axis.
     Vector3 tip_S_mm(double spindle_rad, bool turns) const;
     /// Of what touches: turning, larger by the runout.
     double radius_mm(bool turns) const;

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# assure.sh [--seconds 60] [--mutants 20] [--out docs/assurance.md] [--only faults,soak,edits,fuzz,coverage,mutation]
+# assure.sh [--seconds 60] [--mutants 20] [--out docs/assurance.md] [--only faults,soak,edits,tidy,fuzz,coverage,mutation]
 # Long checks one after the other; what they found is printed and written as a page. Run by ./dev assure,
 # which builds what is needed.
 set -eu
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-seconds=60 mutants=20 page=docs/assurance.md only=faults,soak,edits,fuzz,coverage,mutation
+seconds=60 mutants=20 page=docs/assurance.md only=faults,soak,edits,tidy,fuzz,coverage,mutation
 while [ $# -gt 0 ]; do
   [ $# -ge 2 ] || { echo "assure: $1 needs a value" >&2; exit 2; }
   case $1 in
@@ -58,6 +58,13 @@ edits() {
     grep -oE '[0-9]+ (edits judged:|rewrites,)[^/=]*' | sed 's/^/- /'
 }
 
+tidy() {
+  echo "## clang-tidy on every room"
+  echo
+  .ci/lint tidy > "$work/tidy.log" 2>&1 && state=hold || state=FAIL
+  echo "The checks of .clang-tidy **$state**, $(grep -c 'error:' "$work/tidy.log") findings in $(wc -l < build/tidy/files) groups of files."
+}
+
 fuzz() {
   echo "## Fuzzing with sanitizers"
   echo
@@ -108,6 +115,7 @@ for r in json.load(open(sys.argv[1])): print("| %s | %d of %d | %d |" % (r["room
   echo "    ./dev assure --only faults          # a library fails single calls of the system"
   echo "    ./dev soak SECONDS [SEED]           # laws on random programs and machines"
   echo "    ./dev assure --only edits           # random edits and harmless rewrites, compared"
+  echo "    ./dev lint tidy                     # clang-tidy on every room"
   echo "    ./dev fuzz SECONDS"
   echo "    ./dev assure --only coverage"
   echo "    ./dev assure --only mutation --mutants N"
@@ -115,6 +123,7 @@ for r in json.load(open(sys.argv[1])): print("| %s | %d of %d | %d |" % (r["room
   section faults "failing calls"
   section soak "random programs"
   section edits "edits and rewrites"
+  section tidy "clang-tidy"
   section fuzz "fuzzing"
   section coverage "branches"
   section mutation "mutants"
