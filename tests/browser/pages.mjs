@@ -37,6 +37,9 @@ const readings = join(folder, "readings.csv"), prints = join(folder, "prints.txt
 call("pivot", "--write-programs", join(folder, "nc"));
 call("run", join(folder, "nc/O8003.nc"), "--programs", join(folder, "nc"), "--readings", readings,
      "--print", prints);
+const sessions = ["monday", "friday"].map((day) => join(folder, `${day}.csv`));
+call("run", "O8002", "--readings", sessions[0]);
+call("run", "O8002", "--readings", sessions[1], "--inject", "C.positioning: cos2_rad=8e-5");
 const instrument = (name) => join(source, "docs/instruments", name);
 const positions = join(folder, "positions.csv");
 call("import", "axis-log", instrument("control_log.csv"), "--setup", instrument("machine.toml"),
@@ -55,6 +58,7 @@ const pages = {
   control: ["diagnose", positions, "--program", instrument("control_part.nc"), "--setup",
             instrument("machine.toml")],
   diagnose: ["diagnose", readings, "--setup", machine("bc_table.toml")],
+  sessions: ["diagnose", ...sessions, "--over", "sessions", "--setup", machine("bc_table.toml")],
 };
 for (const [name, words] of Object.entries(pages)) call(...words, "--html", page(name));
 

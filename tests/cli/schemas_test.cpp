@@ -160,6 +160,22 @@ TEST_CASE("schemas: import, predict, identify and diagnose") {
     held(bench, "diagnosis", "diagnose " + worn);
 }
 
+TEST_CASE("schemas: diagnose over sessions says since when") {
+    const CommandBench bench;
+    std::string files;
+    for (const auto& [day, effect] : {std::pair{"monday", "C.positioning: cos2_rad=0"},
+                                      {"friday", "C.positioning: cos2_rad=8e-5"}}) {
+        const std::string file = bench.file(std::string(day) + ".csv");
+        REQUIRE(bench.trunnion("run O8002 --readings " + file + " --inject '" + effect + "'") == 0);
+        files += " " + file;
+    }
+    const Json json = held(bench, "diagnosis",
+                           "diagnose" + files + " --over sessions --setup " + machine("bc_table"));
+    REQUIRE(json["causes"].size() == 1);
+    CHECK(json["causes"][0]["since"] == "friday");
+    CHECK(json["over"]["sessions"].size() == 2);
+}
+
 TEST_CASE("schemas: diagnose --program") {
     const CommandBench bench;
     const std::string words = "diagnose " + instrument("control_log.csv") + " --program " +
