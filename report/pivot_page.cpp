@@ -12,10 +12,6 @@
 namespace trunnion::report {
 namespace {
 
-std::string um(double value_mm) {
-    return three_digits(um_from_mm(value_mm), 3);
-}
-
 std::string stores_section(const PivotResult& r) {
     PageTable table{"",
                     {"number", "in force / mm", "to type / mm", "error / µm", "u / µm", "state"},
@@ -58,6 +54,8 @@ PageTable maps_table(const PivotResult& r) {
                      "largest measured - expected"},
                     "lllrrrr",
                     {}};
+    const int decimals = decimals_of_sigma(r.verdict.fit.noise_um);
+    const auto um = [&](double value_mm) { return decimal(um_from_mm(value_mm), decimals); };
     for (const pivot::PivotMap& map : r.maps)
         for (const pivot::PivotArc& arc : map.arcs)
             table.rows.push_back({map.name, arc.function, group_words(r, arc.group),

@@ -87,6 +87,7 @@ std::string scale_svg(double largest_mm) {
                       {"none", 0.0, colours[k], ""});
     svg.text({52.0, 21.0}, "0", {12, "end"});
     svg.text({318.0, 21.0}, length_text(largest_mm), 12);
+    svg.describe("Colours of the path", "From zero, dark, to the largest deviation, yellow.");
     return svg.str();
 }
 

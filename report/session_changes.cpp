@@ -120,15 +120,16 @@ std::string changes_section(const diagnosis::Diagnosis& d) {
         sessions.rows.push_back({s.name, std::to_string(s.readings),
                                  three_digits(s.rms_before_um, 3),
                                  three_digits(s.rms_after_um, 3)});
-    PageTable changes{"Each parameter from one session to the next; claimed changes first",
-                      {"Parameter", "Since", "Before", "After", "Change", "1 sigma", "Unit", ""},
-                      "llrrrrll",
-                      {}};
+    PageTable changes{
+        "Each parameter from one session to the next; claimed changes first",
+        {"Parameter", "Since", "Before", "After", "Change", "1 sigma", "Unit", "Claim"},
+        "llrrrrll",
+        {}};
     const auto list = in_order(d);
     for (const diagnosis::SessionChange* c : list) {
         const ShopChange s = shop_change(*c);
         changes.rows.push_back({s.name, c->since, s.before, s.after, s.change, s.sigma, s.unit,
-                                c->claimed ? "changed" : ""});
+                                c->claimed ? "changed" : "none"});
     }
     return section_html(
         "What changed between the sessions",

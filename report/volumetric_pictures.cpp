@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/rounded.h"
 #include "base/units.h"
 #include "report/svg.h"
 #include "report/volumetric_report.h"
@@ -85,7 +86,7 @@ void colour_bar(Svg& svg, Point2 corner, double height, double largest_um) {
         svg.line({corner.x + 20, y}, {corner.x + 25, y}, {"#555", 1.0, "none", ""});
         svg.text({corner.x + 29, y + 4}, fmt::format("{:.6g}", v), 11);
     }
-    svg.text({corner.x - 4, corner.y - 10}, "length of error, um", 12);
+    svg.text({corner.x - 4, corner.y - 10}, "length of error, µm", 12);
 }
 
 /// An arrow with a light edge, visible on any colour.
@@ -106,7 +107,7 @@ void arrow(Svg& svg, Point2 a, Point2 b) {
 
 /// The eight causes with the largest rms, as bars.
 void cause_bars(Svg& svg, Point2 corner, double width, const volumetric::VolumetricMap& map) {
-    svg.text({corner.x, corner.y - 8}, "what contributes, over the whole grid (rms, um)", 13);
+    svg.text({corner.x, corner.y - 8}, "what contributes, over the whole grid (rms, µm)", 13);
     if (map.causes.empty()) return svg.text({corner.x, corner.y + 14}, "no error is set", 12);
     const std::size_t count = std::min<std::size_t>(8, map.causes.size());
     const double largest = std::max(map.causes[0].rms_mm.value(), 1e-12);
@@ -118,7 +119,8 @@ void cause_bars(Svg& svg, Point2 corner, double width, const volumetric::Volumet
         svg.rectangle({corner.x + 128, y + 2}, std::max(bar, 0.5), 14,
                       {"none", 0.0, plot_colours[0], ""});
         svg.text({corner.x + 134 + bar, y + 13},
-                 fmt::format("{:.2f}  ({:.1f} %)", um_from_mm(cause.rms_mm), 100.0 * cause.share),
+                 fmt::format("{}  ({:.1f} %)", three_digits(um_from_mm(cause.rms_mm), 3),
+                             100.0 * cause.share),
                  11);
     }
 }
@@ -176,7 +178,7 @@ void draw_slice_legend(Svg& svg, const Slice& slice) {
     colour_bar(svg, {810, 110}, 300, slice.largest_um);
     const double key_um = round_range(0.0, 0.6 * slice.largest_um, 2).tick;
     arrow(svg, {800, 470}, {800 + slice.arrow_px * key_um / slice.largest_um, 470});
-    svg.text({800, 490}, fmt::format("{:.6g} um in X Y", key_um), 12);
+    svg.text({800, 490}, fmt::format("{:.6g} µm in X Y", key_um), 12);
     svg.circle({808, 520}, 8, {"#D55E00", 2.5, "none", ""});
     svg.text({824, 524}, "worst here", 12);
     if (slice.roomy()) svg.text({800, 552}, "numbers: length, and Z", 11);
@@ -211,7 +213,7 @@ std::string slice_picture(const volumetric::VolumetricMap& map, const AxisPositi
         svg.circle(plot.at(worst.at[Axis::X], worst.at[Axis::Y]), 11, ring);
     draw_slice_legend(svg, slice);
     const auto worst_line = [&](const char* where, const volumetric::VolumetricPoint& p) {
-        return fmt::format("{}: {:.2f} um at {}, mostly {}", where, error_um(p),
+        return fmt::format("{}: {} at {}, mostly {}", where, length_words(error_um(p)),
                            place_text(map.names, map.axes, p.at), cause_name(map, p));
     };
     svg.text({90, 634}, worst_line("Worst at this height", worst), 12);
@@ -237,7 +239,7 @@ void axis_plot(Svg& svg, Point2 corner, const volumetric::VolumetricMap& map, Ax
     Plot plot(svg, {corner, 340, 170}, round_range(columns.begin()->first, columns.rbegin()->first),
               round_range(0, largest));
     plot.frame("", fmt::format("{}, {}", map.names[axis], map.names.is_rotary(axis) ? "deg" : "mm"),
-               "um");
+               "µm");
     std::vector<Point2> worst, rms;
     for (const auto& [place, column] : columns) {
         worst.push_back(plot.at(place, column.worst));
@@ -258,9 +260,9 @@ std::string axes_picture(const volumetric::VolumetricMap& map) {
                  "Worst and rms error in µm over the position of each axis, and the causes.");
     svg.text({70, 30}, "Error of the tool point along each axis: " + map.machine, 17);
     svg.text({70, 52},
-             fmt::format("{} poses, tool {:.6g} mm; rms {:.2f} um, worst {:.2f} um at {}",
-                         map.points.size(), map.length_mm, um_from_mm(map.rms_mm), error_um(worst),
-                         place_text(map.names, map.axes, worst.at)),
+             fmt::format("{} poses, tool {:.6g} mm; rms {}, worst {} at {}", map.points.size(),
+                         map.length_mm, length_words(um_from_mm(map.rms_mm)),
+                         length_words(error_um(worst)), place_text(map.names, map.axes, worst.at)),
              12);
     svg.line({640, 28}, {670, 28}, {plot_colours[4], 2.0, "none", ""});
     svg.text({676, 32}, "worst", 12);

@@ -85,8 +85,23 @@ async function look(name, width, scheme, media) {
   const [scroll, client] = await tab.evaluate(
     () => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
   if (media === "screen") check(scroll === client, `${where}: ${scroll} px wide in ${client}`);
+  const cut = await tab.evaluate(() => [...document.querySelectorAll("figure .scroll")]
+    .filter((frame) => frame.scrollWidth > frame.clientWidth).length);
+  check(cut === 0, `${where}: ${cut} pictures are cut`);
+  if (width === 360) await tryEnlarge(tab, where);
   if (name === "run" && media === "screen") await tryRunPage(tab, where);
   await context.close();
+}
+
+/// A touched picture has its full size, in its own frame.
+async function tryEnlarge(tab, where) {
+  const frame = tab.locator("figure .scroll:has(svg[width])").first();
+  if (await frame.count() === 0) return;
+  const [full, before] = await frame.evaluate(
+    (f) => [f.firstElementChild.width.baseVal.value, f.firstElementChild.clientWidth]);
+  await frame.focus();
+  const after = await frame.evaluate((f) => f.firstElementChild.clientWidth);
+  check(after === Math.max(before, Math.round(full)), `${where}: a touched picture is ${after} px`);
 }
 
 /// How many colours a picture has: a blank canvas has one.
