@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace trunnion::report {
@@ -17,14 +18,25 @@ std::uint64_t zigzag(std::int64_t value) {
                      : 2 * static_cast<std::uint64_t>(value);
 }
 
-void append_column(std::string& out, const PackedColumn& column) {
-    std::int64_t before = 0, slope = 0;
-    for (const std::int64_t number : column.number) {
-        const std::int64_t step = number - before;
-        append_varint(out, zigzag(step - slope));
-        slope = step;
-        before = number;
-    }
+std::int64_t second_difference(const PackedColumn& column, std::size_t i) {
+    const auto at = [&](std::size_t back) { return i < back ? 0 : column.number[i - back]; };
+    return at(0) - 2 * at(1) + at(2);
+}
+
+void append_column(std::string& out, const PackedColumn& column, const PackedColumn* like) {
+    for (std::size_t i = 0; i < column.number.size(); ++i)
+        append_varint(out, zigzag(second_difference(column, i) -
+                                  (like ? column.sign * second_difference(*like, i) : 0)));
+}
+
+/// How far the second differences of the first points are from those of `like`.
+std::uint64_t distance(const PackedColumn& column, const PackedColumn* like, int sign) {
+    constexpr std::size_t looked_at = 20'000;
+    std::uint64_t sum = 0;
+    for (std::size_t i = 2; i < std::min(looked_at, column.number.size()); ++i)
+        sum +=
+            zigzag(second_difference(column, i) - (like ? sign * second_difference(*like, i) : 0));
+    return sum;
 }
 
 std::string deflated(const std::string& bytes) {
@@ -56,9 +68,26 @@ std::string base64(const std::string& bytes) {
 
 }  // namespace
 
+void find_likes(std::vector<PackedColumn>& columns) {
+    for (std::size_t k = 1; k < columns.size(); ++k) {
+        std::uint64_t least = distance(columns[k], nullptr, 1);
+        for (std::size_t b = 0; b < k; ++b)
+            for (const int sign : {1, -1}) {
+                if (columns[b].step != columns[k].step) continue;
+                const std::uint64_t size = distance(columns[k], &columns[b], sign);
+                if (size >= least) continue;
+                least = size;
+                columns[k].like = static_cast<int>(b);
+                columns[k].sign = sign;
+            }
+    }
+}
+
 std::string packed_base64(const std::vector<PackedColumn>& columns) {
     std::string bytes;
-    for (const PackedColumn& column : columns) append_column(bytes, column);
+    for (const PackedColumn& column : columns)
+        append_column(bytes, column,
+                      column.like < 0 ? nullptr : &columns[static_cast<std::size_t>(column.like)]);
     return base64(deflated(bytes));
 }
 

@@ -94,7 +94,7 @@ std::string scale_svg(double largest_mm) {
 template <class Value>
 PackedColumn column(const std::string& name, double step, const std::vector<RunPath::Point>& points,
                     const Value& value) {
-    PackedColumn packed{name, step, {}};
+    PackedColumn packed{name, step, {}, -1, 1};
     packed.number.reserve(points.size());
     for (const RunPath::Point& p : points)
         packed.number.push_back(std::llround(static_cast<double>(value(p)) / step));
@@ -170,8 +170,37 @@ Json tools_json(const setup::Setup& setup, const std::vector<RunPath::Point>& po
     return tools;
 }
 
+/// Programs of one page, in bytes: with a path of the largest size it stays below 2 MB.
+constexpr std::size_t most_text_bytes = 100'000;
+
+/// All lines, or those around `middle` (0-based) that fit into `budget` bytes of JSON.
+Json lines_json(const std::string& name, const std::vector<std::string>& all, std::size_t middle,
+                std::size_t budget) {
+    const auto fits = [&](std::size_t line) { return all[line].size() + 3 <= budget; };
+    std::size_t first = std::min(middle, all.size()), end = first;
+    for (bool grows = true; grows;) {
+        grows = false;
+        if (end < all.size() && fits(end)) {
+            budget -= all[end++].size() + 3;
+            grows = true;
+        }
+        if (first > 0 && fits(first - 1)) {
+            budget -= all[--first].size() + 3;
+            grows = true;
+        }
+    }
+    const auto at = [&](std::size_t line) {
+        return all.begin() + static_cast<std::ptrdiff_t>(line);
+    };
+    return {{"name", name},
+            {"count", all.size()},
+            {"first", first},
+            {"lines", std::vector<std::string>(at(first), at(end))}};
+}
+
 Json programs_json(const RunPath& path, const ProgramTexts& texts) {
     Json programs = Json::array();
+    const RunPath::Point& worst = path.points()[worst_point(path.points())];
     for (std::size_t k = 0; k < path.programs().size(); ++k) {
         const std::string& name = path.programs()[k];
         int last = 0;
@@ -181,15 +210,20 @@ Json programs_json(const RunPath& path, const ProgramTexts& texts) {
         std::vector<std::string> lines =
             text == texts.end() ? std::vector<std::string>{} : lines_of(text->second);
         lines.resize(std::max(lines.size(), static_cast<std::size_t>(last)));
-        programs.push_back({{"name", name}, {"lines", lines}});
+        const bool here = worst.program == static_cast<int>(k);
+        programs.push_back(lines_json(name, lines,
+                                      here ? static_cast<std::size_t>(std::max(worst.line, 0)) : 0,
+                                      most_text_bytes / path.programs().size()));
     }
     return programs;
 }
 
 std::string data_json(const setup::Setup& setup, const RunPath& path, const ProgramTexts& texts) {
-    const std::vector<PackedColumn> columns = columns_of(path);
+    std::vector<PackedColumn> columns = columns_of(path);
+    find_likes(columns);
     Json packed = Json::array();
-    for (const PackedColumn& c : columns) packed.push_back({{"name", c.name}, {"step", c.step}});
+    for (const PackedColumn& c : columns)
+        packed.push_back({{"name", c.name}, {"step", c.step}, {"like", c.like}, {"sign", c.sign}});
     const Json json = {{"machine", machine_json(setup)},
                        {"tools", tools_json(setup, path.points())},
                        {"programs", programs_json(path, texts)},
@@ -211,7 +245,8 @@ constexpr const char* view_html =
     "<label>Place <input id=\"time\" type=\"range\" min=\"0\" value=\"0\" step=\"1\"></label>\n"
     "<label>Exaggerate <input id=\"exaggeration\" type=\"range\" min=\"0\" max=\"4\" step=\"0.1\" "
     "value=\"0\"> <output id=\"factor\">1 ×</output></label>\n</div>\n"
-    "<p class=\"note\">Drag turns the view, two fingers or the right button move it, the wheel "
+    "<p class=\"note no-print\">Drag turns the view, two fingers or the right button move it, the "
+    "wheel "
     "zooms. A click on the path selects its block; a click on a block shows where it ends.</p>\n";
 
 std::string figures_html(const emulator::RunLog& log, const RunPath& path) {

@@ -90,7 +90,20 @@ async function look(name, width, scheme, media) {
   check(cut === 0, `${where}: ${cut} pictures are cut`);
   if (width === 360) await tryEnlarge(tab, where);
   if (name === "run" && media === "screen") await tryRunPage(tab, where);
+  if (name === "run" && media === "print") await tryPrint(tab, where);
   await context.close();
+}
+
+/// Paper shows what the canvas keeps after it was drawn.
+async function tryPrint(tab, where) {
+  const colours = await tab.evaluate(() => {
+    const from = document.querySelector(".stage canvas");
+    const to = new OffscreenCanvas(from.width, from.height).getContext("2d");
+    to.drawImage(from, 0, 0);
+    const { data } = to.getImageData(0, 0, from.width, from.height);
+    return new Set(new Uint32Array(data.buffer)).size;
+  });
+  check(colours > 30, `${where}: the printed canvas is blank (${colours} colours)`);
 }
 
 /// A touched picture has its full size, in its own frame.

@@ -30,7 +30,7 @@ TEST_CASE("a page without a script allows none") {
 }
 
 TEST_CASE("packed columns: the same columns give the same text, and an even slope costs nothing") {
-    report::PackedColumn even{"X", 1e-4, {}}, same{"Y", 1e-4, {}};
+    report::PackedColumn even{"X", 1e-4, {}, -1, 1}, same{"Y", 1e-4, {}, -1, 1};
     for (int i = 0; i < 200'000; ++i) {
         even.number.push_back(25 * i - 7);
         same.number.push_back(-3);
@@ -38,6 +38,24 @@ TEST_CASE("packed columns: the same columns give the same text, and an even slop
     const std::string text = report::packed_base64({even, same});
     CHECK(text == report::packed_base64({even, same}));
     CHECK(text.size() < 2000);
+}
+
+TEST_CASE("packed columns: a column that follows another costs nothing, with either sign") {
+    std::vector<report::PackedColumn> columns{
+        {"X", 1e-4, {}, -1, 1}, {"tip_x", 1e-4, {}, -1, 1}, {"time", 1.0, {}, -1, 1}};
+    std::uint64_t noise = 1;
+    for (int i = 0; i < 50'000; ++i) {
+        noise = noise * 6364136223846793005ULL + 1442695040888963407ULL;
+        columns[0].number.push_back(static_cast<std::int64_t>(noise >> 44));
+        columns[1].number.push_back(12345 - columns[0].number.back());
+        columns[2].number.push_back(i);
+    }
+    const std::string alone = report::packed_base64({columns[0]});
+    report::find_likes(columns);
+    CHECK(columns[1].like == 0);
+    CHECK(columns[1].sign == -1);
+    CHECK(columns[2].like == -1);
+    CHECK(report::packed_base64(columns).size() < alone.size() + alone.size() / 50);
 }
 
 TEST_CASE("the path of a run is read from its trace in any pieces") {

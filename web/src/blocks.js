@@ -36,7 +36,7 @@ export class BlockList {
       row.dataset.line = i;
       row.setAttribute("role", "option");
       row.setAttribute("aria-selected", String(i === this.chosen));
-      row.textContent = `${String(i + 1).padStart(5)}  ${this.lines[i]}`;
+      row.textContent = `${String(i + 1).padStart(5)}  ${this.lines[i] ?? "(a large program: not in this page)"}`;
       rows.push(row);
     }
     this.space.replaceChildren(...rows);

@@ -1,6 +1,6 @@
 // The data of a page: JSON in <script type="application/json" id="data">, its long columns packed.
-// A packed column is whole numbers, second differences, zigzag, 7 bits a byte; all columns of a page
-// are deflated together and written in base64.
+// A packed column is whole numbers, second differences (less those of the earlier column `like`, times
+// `sign`), zigzag, 7 bits a byte; all columns of a page are deflated together, in base64.
 
 export function pageData() {
   return JSON.parse(document.getElementById("data").textContent);
@@ -26,15 +26,18 @@ export async function unpacked({ count, columns, packed }) {
       factor *= 128;
     }
   };
-  for (const { name, step } of columns) {
-    const values = new Float64Array(count);
+  const whole = [];
+  for (const { like, sign } of columns) {
+    const values = new Float64Array(count), other = whole[like];
     let value = 0, slope = 0;
     for (let i = 0; i < count; ++i) {
       slope += next();
+      if (other) slope += sign * (other[i] - 2 * (other[i - 1] ?? 0) + (other[i - 2] ?? 0));
       value += slope;
-      values[i] = value * step;
+      values[i] = value;
     }
-    result[name] = values;
+    whole.push(values);
   }
+  columns.forEach(({ name, step }, k) => { result[name] = whole[k].map((value) => value * step); });
   return result;
 }

@@ -27,6 +27,9 @@ export function lineChart(element, chart) {
   const plot = new uPlot(options, [chart.x.values, ...chart.series.map((s) => s.values)], element);
   new ResizeObserver(() => plot.setSize({ width: element.clientWidth, height: 220 }))
     .observe(element);
+  // A4 is narrower than the screen, and a canvas does not flow.
+  addEventListener("beforeprint", () => plot.setSize({ width: 640, height: 220 }));
+  addEventListener("afterprint", () => plot.setSize({ width: element.clientWidth, height: 220 }));
   if (chart.onPoint) {
     plot.over.addEventListener("click", () => {
       if (plot.cursor.idx != null) chart.onPoint(plot.cursor.idx);

@@ -27,7 +27,8 @@ async function main() {
   const names = data.machine.axes.map((a) => a.name);
   const axisAt = (i) => Object.fromEntries(names.map((n) => [n, columns[n]?.[i] ?? 0]));
 
-  const renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true });
+  const renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true,
+    preserveDrawingBuffer: true });  // a printed page shows what was drawn
   renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
   const stage = element("stage");
   stage.append(renderer.domElement);
@@ -92,7 +93,9 @@ async function main() {
   const lines = [], firstRow = [];
   for (const program of data.programs) {
     firstRow.push(lines.length);
-    lines.push(...program.lines);
+    const at = lines.length + program.first;
+    lines.length += program.count;
+    program.lines.forEach((line, k) => { lines[at + k] = line; });
   }
   const rowOf = (i) => firstRow[columns.program[i]] + columns.line[i] - 1;
   const pointsOfRow = new Map();
