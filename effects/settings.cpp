@@ -60,11 +60,11 @@ class Scanner {
     }
     std::string word() {
         skip();
-        const std::size_t start = at_;
+        word_ = at_;
         while (at_ < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[at_])) ||
                                       text_[at_] == '.' || text_[at_] == '_'))
             ++at_;
-        return text_.substr(start, at_ - start);
+        return text_.substr(word_, at_ - word_);
     }
     double number(const std::string& unit) {
         skip();
@@ -87,12 +87,17 @@ class Scanner {
         return list;
     }
     [[noreturn]] void fail(const std::string& message) const { refuse(message, text_, at_); }
+    /// At the word read last.
+    [[noreturn]] void fail_word(const std::string& message) const { refuse(message, text_, word_); }
 
   private:
     /// Factor of the unit after a number, in the parameter's unit.
     double factor_of_unit(const std::string& unit) {
         const std::size_t before = at_;
-        const std::string name = word();
+        skip();
+        const bool micro = text_.compare(at_, 2, "µ") == 0;  // as reports print it
+        if (micro) at_ += 2;
+        const std::string name = (micro ? "u" : "") + word();
         if (name.empty() || name == unit) return 1.0;
         for (const Unit& u : units)
             if (name == u.name && unit == u.base) return u.factor;
@@ -102,13 +107,19 @@ class Scanner {
     }
 
     const std::string& text_;
-    std::size_t at_ = 0;
+    std::size_t at_ = 0, word_ = 0;
 };
 
 const EffectParameter* find_parameter(const Effect& effect, const std::string& name) {
     for (const EffectParameter& p : effect.parameters)
         if (p.name == name) return &p;
     return nullptr;
+}
+
+std::vector<std::string> names_of(const Effect& effect) {
+    std::vector<std::string> names;
+    for (const EffectParameter& p : effect.parameters) names.push_back(p.name);
+    return names;
 }
 
 }  // namespace
@@ -119,9 +130,9 @@ setup::EffectSetting parse_injection(const std::string& text, const Catalogue& c
     setting.name = scan.word();
     const Effect* effect = find_effect(catalogue, setting.name);
     if (!effect)
-        scan.fail("no effect is named '" + setting.name + "'" +
-                  did_you_mean(setting.name, names_of(catalogue)));
-    if (effect->parameters.empty()) scan.fail("this machine has nothing for " + setting.name);
+        scan.fail_word("no effect is named '" + setting.name + "'" +
+                       did_you_mean(setting.name, names_of(catalogue)));
+    if (effect->parameters.empty()) scan.fail_word("this machine has nothing for " + setting.name);
     if (scan.take('=')) {
         const EffectParameter& first = effect->parameters.front();
         setting.parameters[first.name] = scan.numbers(first.unit);
@@ -129,7 +140,9 @@ setup::EffectSetting parse_injection(const std::string& text, const Catalogue& c
         do {
             const std::string name = scan.word();
             const EffectParameter* parameter = find_parameter(*effect, name);
-            if (!parameter) scan.fail(setting.name + " has no parameter '" + name + "'");
+            if (!parameter)
+                scan.fail_word(setting.name + " has no parameter '" + name + "'" +
+                               did_you_mean(name, names_of(*effect)));
             if (!scan.take('=')) scan.fail("'=' is missing after " + name);
             setting.parameters[name] = scan.numbers(parameter->unit);
         } while (scan.take(','));

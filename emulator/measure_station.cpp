@@ -79,7 +79,9 @@ void MeasureStation::add_axis(const std::vector<std::string>& words, double time
     const auto hz = words.size() == 3 ? parse_number(words[2]) : std::optional(1.0 / step_s_);
     if (words.size() < 2 || words.size() > 3 || !hz || *hz <= 0.0 || *hz > most_hz)
         refuse("an axis, and how often a second, follow: 'AXIS X 250'");
-    for (const kinematics::AxisGeometry& axis : setup_.machine.chain.axes())
+    std::string names;
+    for (const kinematics::AxisGeometry& axis : setup_.machine.chain.axes()) {
+        names += (names.empty() ? "" : ", ") + axis.name;
         if (same_name(axis.name, words[1])) {
             records::Reading row;
             row.device = records::Device::axis;
@@ -90,7 +92,8 @@ void MeasureStation::add_axis(const std::vector<std::string>& words, double time
             logged_.push_back(row);
             return;
         }
-    refuse("the machine has no axis '" + words[1] + "'");
+    }
+    refuse("the machine has no axis '" + words[1] + "'; it has " + names);
 }
 
 void MeasureStation::obey(std::string_view text, double time_s) {

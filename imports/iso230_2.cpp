@@ -85,9 +85,14 @@ MovedAxis axis_of(const TextTable& table, const setup::Setup& setup, const std::
             "which axis was measured? --with axis=X, a line 'Axis: X' above the table, or a column",
             {table.path(), 1, 1});
     const auto axis = axis_named(setup, told);
-    if (!axis)
-        throw InputError("the machine of " + setup.path + " has no axis '" + told + "'",
-                         {table.path(), 1, 1});
+    if (!axis) {
+        std::string names;
+        for (const kinematics::AxisGeometry& a : setup.machine.chain.axes())
+            names += (names.empty() ? "" : ", ") + a.name;
+        throw InputError(
+            "the machine of " + setup.path + " has no axis '" + told + "'; it has " + names,
+            {table.path(), 1, 1});
+    }
     return {*axis, turns(setup, *axis), setup.machine.chain.names()[*axis]};
 }
 

@@ -57,13 +57,15 @@ TEST_CASE("help knows commands and topics") {
     CHECK_THAT(bench.read("err.txt"), Catch::Contains("did you mean 'units'?"));
 }
 
-TEST_CASE("mistyped commands, options and effects lead to the word that was meant") {
+TEST_CASE("mistyped commands, options, effects and axes lead to the word that was meant") {
     const CommandBench bench;
     const std::pair<const char*, const char*> cases[] = {
         {"rum p.nc", "there is no command 'rum', did you mean 'run'?"},
         {"run p.nc --trac t.csv", "did you mean '--trace'?"},
         {"pivot --htlm=p.html", "did you mean '--html'?"},
         {"run p.nc --inject 'C.backlsh=60urad'", "did you mean 'C.backlash'?"},
+        {"run p.nc --inject 'Z.scale: scale=4'", "did you mean 'scale_ppm'?"},
+        {"run p.nc --inject 'Z.scale: scale=4'", "    Z.scale: scale=4\n             ^"},
         {"effects c.backlash2", "did you mean 'C.backlash'?"},
         {"backup lod x", "did you mean 'load'?"}};
     for (const auto& [words, meant] : cases) {
@@ -72,6 +74,8 @@ TEST_CASE("mistyped commands, options and effects lead to the word that was mean
         CHECK_THAT(bench.read("err.txt"), Catch::Contains(meant));
         CHECK(bench.read("out.txt").empty());
     }
+    CHECK(bench.trunnion("run " + bench.write("p.nc", "O1\nM30\n") + " --measure 'axis Q'") == 2);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("no axis 'Q'; it has C, B, X, Y, Z"));
     CHECK(bench.trunnion("simulate") == 2);
     CHECK_THAT(bench.read("err.txt"), !Catch::Contains("did you mean"));
 }

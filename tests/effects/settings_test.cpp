@@ -78,6 +78,8 @@ TEST_CASE("injections with names, vectors and units", "[effects]") {
     REQUIRE(value("C.backlash=60urad", "gap_rad").front() == Approx(6e-5));
     REQUIRE(value("C.backlash = 12.375 arcsec", "gap_rad").front() == Approx(5.99957e-5));
     REQUIRE(value("X.backlash=5um", "gap_mm").front() == Approx(0.005));
+    REQUIRE(value("X.backlash=5 µm", "gap_mm").front() == Approx(0.005));
+    REQUIRE(value("C.backlash=60µrad", "gap_rad").front() == Approx(6e-5));
     REQUIRE(value("pivot.g54: dg_mm=[10um, 0, -0.02]", "dg_mm") ==
             std::vector<double>{10 * 1e-3, 0.0, -0.02});
     REQUIRE(value("C.cyclic: cos_rad=1e-5, periods_per_turn=72", "periods_per_turn").front() == 72);
