@@ -136,3 +136,13 @@ TEST_CASE("papers 2022: the three exercises") {
         same_as_printed(post[i][1] - 400e3, here[i]);
     }
 }
+
+TEST_CASE("papers: the tool paths of 2015 are a page") {
+    const CommandBench bench;
+    const std::string words =
+        "run programs/ballbar/O8200.nc --setup machines/ac_trunnion.toml --html ";
+    CHECK_THAT(page(), Catch::Contains("`trunnion " + words + "paths.html`"));
+    std::filesystem::current_path(TRUNNION_SOURCE_DIR);
+    REQUIRE(bench.trunnion(words + bench.file("paths.html")) == 0);
+    CHECK(bench.read("paths.html").size() > 500'000);
+}
