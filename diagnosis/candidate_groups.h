@@ -1,4 +1,4 @@
-// All groups of columns that may explain the gap, one file for each kind (*_groups.cpp).
+// All groups of columns that may explain the gap, one file for each kind.
 #pragma once
 
 #include <functional>
