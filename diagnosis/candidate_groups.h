@@ -1,4 +1,5 @@
-// All groups of columns that may explain the gap, one file for each kind.
+// All groups of columns that may explain the gap, one file for each kind: textbook_groups.cpp,
+// table_groups.cpp, offset_groups.cpp, driver_groups.cpp.
 #pragma once
 
 #include <functional>

@@ -224,7 +224,7 @@ TEST_CASE("G31 goes out with a corrected target unless the program asks where it
         FAIL("nothing thrown");
     } catch (const InputError& error) {
         CHECK(error.where.line == 3);
-        CHECK_THAT(error.message, Catch::Contains("where G31 touched"));
+        CHECK_THAT(error.message, Catch::Contains("position of a G31 touch"));
     }
 }
 
