@@ -119,14 +119,6 @@ Pose RotaryTransform::pose_MW(const AxisPositions& machine) const {
     return pose;
 }
 
-Matrix3 RotaryTransform::tool_rotation_M(const AxisPositions& machine) const {
-    const Turns q = turns(machine);
-    const Vector3 origin = swing(q, Vector3::Zero());
-    Matrix3 rotation;
-    for (int i = 0; i < 3; ++i) rotation.col(i) = swing(q, Vector3::Unit(i)) - origin;
-    return rotation;
-}
-
 Vector3 RotaryTransform::tip_W(const AxisPositions& machine, const Vector3& tool_vector_mm) const {
     const Turns q = turns(machine);
     return to_W(q, pivot_.parallel.linear(machine) + swing(q, -tool_vector_mm));

@@ -40,9 +40,6 @@ class RotaryTransform {
 
     /// Table frame seen from M (identity on tool-tool machines).
     Pose pose_MW(const AxisPositions& machine) const;
-    /// Rotation of the tool from its direction with the rotary axes at zero, in M (identity on
-    /// table-table machines).
-    Matrix3 tool_rotation_M(const AxisPositions& machine) const;
     /// Believed tip in W, mm. `tool_vector_mm`: from the tip to the gauge point, rotary axes at
     /// zero, in M.
     Vector3 tip_W(const AxisPositions& machine, const Vector3& tool_vector_mm) const;
