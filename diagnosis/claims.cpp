@@ -11,7 +11,8 @@ namespace trunnion::diagnosis {
 namespace {
 
 constexpr std::size_t rivals_tried = 6;
-constexpr double doubtful = 0.4;  ///< probability of causes that cancel each other
+constexpr std::size_t replacements_tried = 3;  ///< of each other cause
+constexpr double doubtful = 0.4;               ///< probability of causes that cancel each other
 
 double log_sum(const std::vector<double>& values) {
     const double most = *std::max_element(values.begin(), values.end());
@@ -39,12 +40,36 @@ double temper(const Sizes& sizes, std::size_t k, const Folds& folds) {
     return 1.0 / std::max(1.0, expected > 0.0 ? square / expected : 1.0);
 }
 
+/// Log weights, relative to the model without member k, of models in which another cause is
+/// replaced as well: one effect may do what two are claimed for.
+std::vector<double> one_for_two(Design& design, const Model& model, std::size_t k) {
+    const auto value = [&](const Offer& o) {
+        return o.gain.best + design.group(o.group).log_prior;
+    };
+    const Model rest = without(model, k);
+    const std::vector<Offer> worth = worth_of_members(design, rest);
+    std::vector<double> scores;
+    for (std::size_t m = 0; m < rest.members.size(); ++m) {
+        const std::string& replaced = design.group(rest.members[m]).name;
+        if (!is_cause(design.group(rest.members[m]).kind)) continue;
+        std::size_t count = 0;
+        for (const Offer& o : offers(design, without(rest, m), is_cause)) {
+            const std::string& name = design.group(o.group).name;
+            if (name == replaced || name == design.group(model.members[k]).name) continue;
+            if (count++ == replacements_tried) break;
+            scores.push_back(value(o) - value(worth[m]));
+        }
+    }
+    return scores;
+}
+
 /// Posterior weight of the models that contain member k, relative to: the chosen model, the model
-/// without it, and those with it replaced.
+/// without it, those with it replaced, and those with another one in place of two (`fewer`).
 double evidence_probability(Design& design, const Offer& held, const std::vector<Offer>& others,
-                            double zeta) {
+                            const std::vector<double>& fewer, double zeta) {
     const double own = held.gain.best + design.group(held.group).log_prior;
     std::vector<double> scores{zeta * own, 0.0};
+    for (const double value : fewer) scores.push_back(zeta * value);
     double with = 0.0;
     std::size_t count = 0;
     for (const Offer& o : others) {
@@ -123,11 +148,14 @@ std::vector<Claim> claims_of(Design& design, const Model& model, const Sizes& si
         if (claim.share < rules::least_share && claim.rms < rules::least_rms) continue;
         const std::vector<Offer> others = offers(design, without(model, k));
         const double blocks = heldout.support[k].saving.blocks;
-        claim.probability = std::min(
-            {evidence_probability(design, worth[k], others, temper(sizes, k, heldout.folds)),
-             estimation::student_probability(heldout.support[k].saving.t, blocks - 1.0),
-             (blocks + 1.0) / (blocks + 2.0), std::clamp(heldout.explained, 0.0, 1.0)});
-        name_rivals(design, worth[k], others, claim);
+        claim.probability =
+            std::min({evidence_probability(design, worth[k], others, one_for_two(design, model, k),
+                                           temper(sizes, k, heldout.folds)),
+                      estimation::student_probability(heldout.support[k].saving.t, blocks - 1.0),
+                      (blocks + 1.0) / (blocks + 2.0), std::clamp(heldout.explained, 0.0, 1.0)});
+        std::vector<Offer> instead = others;
+        for (Offer& o : only_rivals(design, without(model, k))) instead.push_back(std::move(o));
+        name_rivals(design, worth[k], instead, claim);
         claims.push_back(std::move(claim));
     }
     if (own > rules::most_own)  // contributions cancel, so none of them is reliable

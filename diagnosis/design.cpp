@@ -109,7 +109,10 @@ const Design::Products& Design::of_features(const std::vector<Eigen::Index>& fea
 
 std::size_t Design::add(ColumnGroup group) {
     const Products& p = of_features(group.features);
-    Entry entry{{}, p.gram, product_of(group.features), p.whole.sum(), false, 0, {}};
+    Entry entry;
+    entry.gram = p.gram;
+    entry.product = product_of(group.features);
+    entry.whole = p.whole.sum();
     if (group.shape.size() > 0) {
         entry.gram = group.shape.transpose() * p.gram * group.shape;
         entry.product = group.shape.transpose() * entry.product;

@@ -41,7 +41,8 @@ class Design {
         Eigen::VectorXd product;  ///< with the data
         double whole = 0.0;       ///< squared sum of its columns before projection
         bool hidden = false;
-        Eigen::Index first = 0;  ///< index of its first column among those of all groups
+        bool only_rival = false;  ///< hidden, but may be named as a rival of a claim
+        Eigen::Index first = 0;   ///< index of its first column among those of all groups
         std::optional<estimation::ReducedGroup> reduced;  ///< of its gram
         /// True when a typical change moves the readings noticeably and the set-up cannot absorb
         /// it.
@@ -81,6 +82,10 @@ class Design {
     }
     /// Excludes the group from further offers.
     void hide(std::size_t group) { groups_[group].hidden = true; }
+    /// The same, but it may be named as a rival.
+    void keep_as_rival(std::size_t group) {
+        groups_[group].hidden = groups_[group].only_rival = true;
+    }
     /// Fraction of a group's squared columns outside the span of some features.
     double outside(std::size_t group, const std::vector<Eigen::Index>& features) const;
 

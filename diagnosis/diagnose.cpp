@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "diagnosis/candidate_groups.h"
 #include "diagnosis/changes.h"
@@ -109,10 +110,22 @@ std::vector<KeyedEffect> promising(const Prepared& p, KeySearch& keys,
     return list;
 }
 
+/// Adds these settings; of each effect the first, if it is a ripple that the positions do not
+/// resolve, as a possible rival, with its keys refined on the residual `rest_mm`.
 void add_keyed(Design& design, const Prepared& p, const Whitener& whitener,
-               std::vector<KeyedEffect> list) {
-    for (KeyedEffect& keyed : list)
-        add_ripple_or_other(design, p, whitener, *keyed.effect, std::move(keyed.keys));
+               const std::vector<KeyedEffect>& list, const Eigen::VectorXd& rest_mm) {
+    const effects::Effect* last = nullptr;
+    for (const KeyedEffect& keyed : list) {
+        const bool first = std::exchange(last, keyed.effect) != keyed.effect;
+        if (add_ripple_or_other(design, p, whitener, *keyed.effect, keyed.keys) || !first) continue;
+        add_unresolved_ripple(
+            design, p, whitener, *keyed.effect,
+            identification::refine_keys(p.replay, p.base, *keyed.effect, keyed.keys, rest_mm));
+    }
+}
+
+Eigen::VectorXd rest_of(const Prepared& p, Design& design, const Model& model) {
+    return left_mm(p, design, model, solved(design, model));
 }
 
 /// A group with the keys of one member refined on the residual of the other causes.
@@ -163,9 +176,11 @@ void add_ripples_instead(Design& design, const Prepared& p, const Whitener& whit
         const effects::Effect* ripple =
             effects::find_effect(p.catalogue, effects::EffectKind::cyclic, group.table.axis.axis);
         if (!ripple || modelled(p, *ripple)) continue;
-        const KeySearch::Remainder left = left_by(p, keys, design, without(model, k));
-        for (auto& setting : keys.best(*ripple, left, first_keys))
-            add_ripple_or_other(design, p, whitener, *ripple, std::move(setting));
+        const Model rest = without(model, k);
+        std::vector<KeyedEffect> list;
+        for (auto& setting : keys.best(*ripple, left_by(p, keys, design, rest), first_keys))
+            list.push_back({ripple, std::move(setting)});
+        add_keyed(design, p, whitener, list, rest_of(p, design, rest));
     }
 }
 
@@ -217,13 +232,15 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const
         model = tuned(design, setting, carried_over(*earlier, design, p, whitener), 2);
     } else {
         const auto left = left_by(p, keys, design, empty_model(design, setting));
-        add_keyed(design, p, whitener, promising(p, keys, left, first_keys));
+        add_keyed(design, p, whitener, promising(p, keys, left, first_keys),
+                  rest_of(p, design, empty_model(design, setting)));
         model = searched(design, setting);
     }
     for (int pass = 0; pass < 2 && !setting.stopped(); ++pass) {
         const double before = model.score;
         model = with_refined_keys(design, setting, p, whitener, std::move(model));
-        add_keyed(design, p, whitener, promising(p, keys, left_by(p, keys, design, model), 1));
+        add_keyed(design, p, whitener, promising(p, keys, left_by(p, keys, design, model), 1),
+                  rest_of(p, design, model));
         add_ripples_instead(design, p, whitener, keys, model);
         model = settled(design, setting, grown(design, setting, std::move(model)));
         if (model.score < before + 1.0) break;

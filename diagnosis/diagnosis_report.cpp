@@ -211,13 +211,34 @@ void merge_free_forms(const Outcome& f, std::vector<Claim>& claims) {
     }
 }
 
+/// Probability that something is missing in the model. What left-out readings do not confirm may
+/// also be what the others leave uncertain: then the residuals are no larger than that, within the
+/// belief in the noise. The Bayes factor of a p-value is at most 1 / (-e p ln p) (Sellke, Bayarri
+/// and Berger 2001); the prior is that of one more effect.
+double probability_of_unknown(const Outcome& f) {
+    for (std::size_t k = 0; k < f.model.members.size(); ++k)
+        if (f.design.group(f.model.members[k]).kind == GroupKind::driver || f.judgement.large[k])
+            return 1.0;
+    const auto rows = static_cast<double>(std::count(f.used.begin(), f.used.end(), true));
+    const LeftOut left(f.design, f.model, f.prepared.folds, f.used);
+    const double spread = std::hypot(f.noise.prior.spread, 1.0 / std::sqrt(2.0 * rows));
+    const double off = 0.5 * std::log(left.surprise() / rows) - f.noise.prior.log_mean;
+    const double p = std::max(1e-300, estimation::normal_tail(off / spread));
+    const double factor = p < std::exp(-1.0) ? -1.0 / (std::exp(1.0) * p * std::log(p)) : 1.0;
+    const double odds = factor * std::exp(rules::effect_prior);
+    return odds / (1.0 + odds);
+}
+
 Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
     Cause cause;
     cause.effect = "unknown";
     cause.known = false;
     cause.share = d.unexplained_share;
-    cause.probability = 1.0;
-    cause.what = "A gap with structure that no effect of the catalogue explains";
+    cause.probability = probability_of_unknown(f);
+    if (cause.probability < 0.5)
+        cause.what = "What left-out readings do not confirm, and the others leave open";
+    else
+        cause.what = "A gap with structure that no effect of the catalogue explains";
     for (std::size_t k = 0; k < f.model.members.size(); ++k) {
         const ColumnGroup& group = f.design.group(f.model.members[k]);
         if (group.kind == GroupKind::driver || f.judgement.large[k])

@@ -47,7 +47,9 @@ Saving saving_of(const BlockLoss& without, const BlockLoss& with) {
 
 LeftOut::LeftOut(Design& design, const Model& model, const Folds& folds,
                  const std::vector<bool>& used)
-    : folds_(folds), used_(used), known_(design.known().cols()), fold_(Folds::count) {
+    : folds_(folds), used_(used), known_(design.known().cols()) {
+    for (const int f : folds_.fold)
+        fold_.resize(std::max(fold_.size(), static_cast<std::size_t>(f) + 1));
     Eigen::Index count = known_;
     for (const std::size_t m : model.members) {
         first_.push_back(count);
@@ -140,6 +142,23 @@ Eigen::VectorXd LeftOut::residual(const std::vector<bool>& fitted,
         left(fold.rows) = fold.data - fold.out * x;
     }
     return left;
+}
+
+double LeftOut::surprise() const {
+    const std::vector<bool> all(first_.size(), true);
+    double sum = 0.0;
+    for (const Fold& fold : fold_) {
+        if (fold.rows.empty()) continue;
+        const Eigen::VectorXd left = fold.data - fold.out * fit(fold, all);
+        // (I + X P^-1 X')^-1 = I - X (P + X'X)^-1 X', P the information of the other rows.
+        Eigen::MatrixXd whole = fold.gram;
+        whole.diagonal() += precision_;
+        whole.selfadjointView<Eigen::Lower>().rankUpdate(fold.out.transpose());
+        const Eigen::VectorXd product = fold.out.transpose() * left;
+        sum += left.squaredNorm() -
+               whole.selfadjointView<Eigen::Lower>().llt().matrixL().solve(product).squaredNorm();
+    }
+    return sum;
 }
 
 BlockLoss LeftOut::loss(const std::vector<bool>& fitted,

@@ -31,6 +31,10 @@ class LeftOut {
     Eigen::VectorXd residual(const std::vector<bool>& fitted,
                              const std::vector<bool>& predicting) const;
     BlockLoss loss(const std::vector<bool>& fitted, const std::vector<bool>& predicting) const;
+    /// Squared left-out residuals of all members, relative to what the other folds leave uncertain
+    /// of them: chi-squared of as many degrees of freedom as rows, times the variance of the noise,
+    /// when the model holds.
+    double surprise() const;
 
   private:
     /// One fold: its rows, and the normal equations of all other rows.

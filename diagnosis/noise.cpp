@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace trunnion::diagnosis {
@@ -47,19 +48,56 @@ struct PassFilter {
     }
 };
 
-/// True when two consecutive readings of one test share an error: the same pose of a probe or
-/// target, or the same approach of a pass.
-bool shares_block(const records::ReadingTable& table, const records::Reading& before,
-                  const records::Reading& row, std::size_t size) {
+constexpr double same_angle_rad = 1e-7;  ///< below any control's increment
+constexpr double long_pause = 10.0;      ///< relative to the shortest one within a visit
+
+/// True when a rotary axis was elsewhere between two table rows: it came to the pose again.
+bool turned_between(const records::ReadingTable& table, std::size_t before, std::size_t row) {
+    for (std::size_t i = before + 1; i < row; ++i)
+        for (const Axis axis : table.axes)
+            if (table.names.is_rotary(axis) &&
+                std::abs(table.rows[i].commanded[axis] - table.rows[row].commanded[axis]) >
+                    same_angle_rad)
+                return true;
+    return false;
+}
+
+/// True when a touch in a direction that the visit has already touched follows a long pause.
+bool touches_again(const emulator::Replay& replay, const records::ReadingTable& table,
+                   const std::vector<Eigen::Index>& visit, std::size_t i) {
+    const auto time_s = [&](std::size_t k) { return table.rows[replay.table_row(k)].time_s; };
+    bool again = false;
+    double shortest_s = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < visit.size(); ++k) {
+        const auto at = static_cast<std::size_t>(visit[k]);
+        again =
+            again || (replay.contact(at).direction_M - replay.contact(i).direction_M).norm() < 1e-3;
+        if (k > 0)
+            shortest_s =
+                std::min(shortest_s, time_s(at) - time_s(static_cast<std::size_t>(visit[k - 1])));
+    }
+    const double pause_s = time_s(i) - time_s(static_cast<std::size_t>(visit.back()));
+    return again && visit.size() > 1 && pause_s > long_pause * shortest_s;
+}
+
+/// True when reading i continues a visit, that is the readings of one pose of a probe or target, or
+/// of one approach of a pass: they share an error. A pose that is left and taken again has another.
+bool continues(const emulator::Replay& replay, const records::ReadingTable& table,
+               const std::vector<Eigen::Index>& visit, std::size_t i) {
     constexpr std::size_t most = 64;
-    if (before.feature != row.feature || before.mode != row.mode || size >= most) return false;
+    const std::size_t last = replay.table_row(static_cast<std::size_t>(visit.back()));
+    const records::Reading &before = table.rows[last], &row = table.rows[replay.table_row(i)];
+    if (before.feature != row.feature || before.mode != row.mode || visit.size() >= most)
+        return false;
     const bool pass = row.device == records::Device::linear || row.device == records::Device::angle;
-    if (pass) return size < 8;
+    if (pass) return visit.size() < 8;
     for (const Axis axis : table.axes)
         if ((table.names.is_rotary(axis) || row.device == records::Device::point) &&
-            before.commanded[axis] != row.commanded[axis])
+            std::abs(before.commanded[axis] - row.commanded[axis]) > same_angle_rad)
             return false;
-    return row.device == records::Device::touch || before.time_s == row.time_s;
+    if (row.device != records::Device::touch) return before.time_s == row.time_s;
+    return !turned_between(table, last, replay.table_row(i)) &&
+           !touches_again(replay, table, visit, i);
 }
 
 }  // namespace
@@ -88,9 +126,9 @@ std::vector<NoiseBlock> noise_blocks(const emulator::Replay& replay,
         const auto it = open.find(row.test);
         bool same = it != open.end() && blocks[it->second].device == row.device;
         if (same && row.device != records::Device::ballbar && row.device != records::Device::axis) {
-            const auto before = static_cast<std::size_t>(blocks[it->second].rows.back());
-            same = before + 1 == i && shares_block(table, table.rows[replay.table_row(before)], row,
-                                                   blocks[it->second].rows.size());
+            const std::vector<Eigen::Index>& visit = blocks[it->second].rows;
+            same = static_cast<std::size_t>(visit.back()) + 1 == i &&
+                   continues(replay, table, visit, i);
         }
         if (!same) {
             open[row.test] = blocks.size();

@@ -7,11 +7,12 @@
 namespace trunnion::diagnosis {
 
 /// Groups of rows that share errors or are neighbours: the readings of one pose, or a sixth of a
-/// pass (and of a servo log if there are fewer than five). A fold leaves out whole groups.
+/// pass (and of a servo log if there are fewer than five). A fold leaves out whole groups; of few
+/// poses every one is a fold.
 struct Folds {
-    static constexpr int count = 5;
-    std::vector<int> group;  ///< group of each device row
-    std::vector<int> fold;   ///< fold of each group
+    static constexpr int count = 5;  ///< of many groups
+    std::vector<int> group;          ///< group of each device row
+    std::vector<int> fold;           ///< fold of each group
 };
 Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows);
 

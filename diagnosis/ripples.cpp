@@ -47,6 +47,23 @@ std::optional<Ripple> ripple_of(const effects::Effect& effect, const std::vector
     return std::nullopt;
 }
 
+std::vector<double> distinct(std::vector<double> places) {
+    std::sort(places.begin(), places.end());
+    if (places.empty()) return places;
+    const double same = 1e-6 * (places.back() - places.front());
+    places.erase(std::unique(places.begin(), places.end(),
+                             [&](double a, double b) { return b - a <= same; }),
+                 places.end());
+    return places;
+}
+
+std::vector<double> positions_of(const Prepared& prepared, Axis axis) {
+    std::vector<double> places;
+    for (std::size_t i = 0; i < prepared.replay.size(); ++i)
+        places.push_back(prepared.replay.sample(i).position[axis]);
+    return places;
+}
+
 /// Features of the textbook effects of the same axis.
 std::vector<Eigen::Index> of_axis(const Design& design, const effects::Effect& effect) {
     std::vector<Eigen::Index> features;
@@ -62,16 +79,19 @@ std::vector<Eigen::Index> of_axis(const Design& design, const effects::Effect& e
 }  // namespace
 
 bool shows_period(std::vector<double> places, double period) {
-    std::sort(places.begin(), places.end());
-    if (places.empty()) return false;
-    const double same = 1e-6 * (places.back() - places.front());
-    places.erase(std::unique(places.begin(), places.end(),
-                             [&](double a, double b) { return b - a <= same; }),
-                 places.end());
+    places = distinct(std::move(places));
     if (places.size() < least_places) return false;
     if (places.back() - places.front() < least_turns * period) return false;
     if (largest_hole(places, period) > most_hole) return false;
     return period >= least_spacings * grid_step(places);
+}
+
+void add_unresolved_ripple(Design& design, const Prepared& prepared, const Whitener& whitener,
+                           const effects::Effect& effect, std::vector<double> keys) {
+    const auto ripple = ripple_of(effect, keys);
+    if (!ripple || distinct(positions_of(prepared, ripple->axis)).size() < least_places) return;
+    const auto added = add_keyed_group(design, prepared, whitener, effect, std::move(keys));
+    if (added) design.keep_as_rival(*added);
 }
 
 std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& prepared,
@@ -80,10 +100,8 @@ std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& p
                                                std::vector<double> keys) {
     const auto ripple = ripple_of(effect, keys);
     if (ripple) {
-        std::vector<double> places;
-        for (std::size_t i = 0; i < prepared.replay.size(); ++i)
-            places.push_back(prepared.replay.sample(i).position[ripple->axis]);
-        if (!shows_period(std::move(places), ripple->period)) return std::nullopt;
+        if (!shows_period(positions_of(prepared, ripple->axis), ripple->period))
+            return std::nullopt;
     }
     const auto added = add_keyed_group(design, prepared, whitener, effect, std::move(keys));
     if (added && ripple && design.outside(*added, of_axis(design, effect)) < least_outside) {

@@ -12,6 +12,12 @@ namespace trunnion::diagnosis {
 /// grid, with at least two of its steps in a period.
 bool shows_period(std::vector<double> places, double period);
 
+/// Adds a ripple that the positions of its axis do not resolve as a possible rival: no model
+/// contains it, but what another effect explains may be this one. Not for fewer than 8 positions,
+/// where some ripple fits any error.
+void add_unresolved_ripple(Design& design, const Prepared& prepared, const Whitener& whitener,
+                           const effects::Effect& effect, std::vector<double> keys);
+
 /// Adds the effect with given keys if the positions of its axis resolve it and no textbook effect
 /// of that axis is equivalent on these readings (at least a fifth of its squared columns must be
 /// outside theirs).

@@ -51,6 +51,25 @@ void keep_best(std::vector<std::size_t>& offered, Design& design, const Model& m
     std::sort(offered.begin(), offered.end());
 }
 
+/// Offers of given groups, best first.
+std::vector<Offer> offers_among(Design& design, const Model& model,
+                                const std::vector<std::size_t>& offered,
+                                const estimation::GivenMembers& given) {
+    const Eigen::MatrixXd taken = given.taken(design.cross(model.members, offered));
+    std::vector<Offer> list;
+    Eigen::Index at = 0;
+    for (const std::size_t k : offered) {
+        const auto& entry = design.groups()[k];
+        const Eigen::Index count = entry.group.columns();
+        list.push_back(offer_of(
+            design, k, given.leave_beside(taken.middleCols(at, count), entry.gram, entry.product)));
+        at += count;
+    }
+    std::stable_sort(list.begin(), list.end(),
+                     [](const Offer& a, const Offer& b) { return a.value > b.value; });
+    return list;
+}
+
 /// The zeros of tests, which are always offered.
 std::vector<std::size_t> zeros(const Design& design) {
     std::vector<std::size_t> list;
@@ -156,6 +175,25 @@ bool named(GroupKind kind) {
     return kind == GroupKind::textbook || kind == GroupKind::periodic;
 }
 
+/// Named effects in place of a pair of members: two effects together may imitate a third one.
+Model joined(Design& design, const SearchSetting& setting, Model model) {
+    for (std::size_t second = 1; second < model.members.size() && !setting.stopped(); ++second)
+        for (std::size_t first = 0; first < second && second < model.members.size(); ++first) {
+            if (!named(design.group(model.members[first]).kind) ||
+                !named(design.group(model.members[second]).kind))
+                continue;
+            const Model rest = without(without(model, second), first);
+            const std::vector<Offer> best = offers(design, rest, named);
+            for (std::size_t k = 0; k < std::min(swap_tried, best.size()); ++k) {
+                if (rough_score(design, setting, with(rest, best[k])) < model.score - tuning_gain)
+                    continue;
+                Model trial = tuned(design, setting, with(rest, best[k]), 2);
+                if (trial.score > model.score) model = std::move(trial);
+            }
+        }
+    return model;
+}
+
 /// Replaces a free form by a named effect: the free form is removed or gets another length, and the
 /// best named effect is added.
 Model paired(Design& design, const SearchSetting& setting, Model model) {
@@ -216,6 +254,13 @@ bool same_cause(const ColumnGroup& a, const ColumnGroup& b) {
     return a.kind == b.kind && a.name == b.name && a.component == b.component;
 }
 
+std::vector<Offer> only_rivals(Design& design, const Model& model) {
+    std::vector<std::size_t> kept;
+    for (std::size_t k = 0; k < design.groups().size(); ++k)
+        if (design.groups()[k].only_rival) kept.push_back(k);
+    return offers_among(design, model, kept, {design.equations(model.members), model.variances});
+}
+
 std::vector<Offer> offers(Design& design, const Model& model,
                           const std::function<bool(GroupKind)>& takes) {
     const estimation::GivenMembers given(design.equations(model.members), model.variances);
@@ -228,19 +273,7 @@ std::vector<Offer> offers(Design& design, const Model& model,
             offered.push_back(k);
     }
     keep_best(offered, design, model, given);
-    const Eigen::MatrixXd taken = given.taken(design.cross(model.members, offered));
-    std::vector<Offer> list;
-    Eigen::Index at = 0;
-    for (const std::size_t k : offered) {
-        const auto& entry = design.groups()[k];
-        const Eigen::Index count = entry.group.columns();
-        list.push_back(offer_of(
-            design, k, given.leave_beside(taken.middleCols(at, count), entry.gram, entry.product)));
-        at += count;
-    }
-    std::stable_sort(list.begin(), list.end(),
-                     [](const Offer& a, const Offer& b) { return a.value > b.value; });
-    return list;
+    return offers_among(design, model, offered, given);
 }
 
 Model without(const Model& model, std::size_t position) {
@@ -272,6 +305,7 @@ Model settled(Design& design, const SearchSetting& setting, Model model) {
         model = pruned(design, setting, std::move(model));
         if (round == 0) model = swapped(design, setting, std::move(model));
         if (round == 0) model = paired(design, setting, std::move(model));
+        if (round == 0) model = joined(design, setting, std::move(model));
         model = grown(design, setting, std::move(model));
         if (model.score < before + 0.1) break;
     }

@@ -47,6 +47,8 @@ struct Offer {
 /// accepted by `takes`, if given.
 std::vector<Offer> offers(Design& design, const Model& model,
                           const std::function<bool(GroupKind)>& takes = {});
+/// Gain of the groups that are kept as rivals only (Design::keep_as_rival), best first.
+std::vector<Offer> only_rivals(Design& design, const Model& model);
 /// True for the same member, or the same cause in another form.
 bool same_cause(const ColumnGroup& a, const ColumnGroup& b);
 /// Gain of each member beside the others, in their order.

@@ -1,5 +1,6 @@
 // Left-out residuals against plain fits without the rows.
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <catch2/catch.hpp>
 
@@ -40,6 +41,7 @@ TEST_CASE("left-out residuals are those of fits without the rows, in few blocks 
         diagnosis::Design design(known, data, rows);
         const diagnosis::LeftOut left(design, {}, folds, std::vector<bool>(rows, true));
         const Eigen::VectorXd residual = left.residual({}, {});
+        double surprise = 0.0;
         for (int fold = 0; fold < diagnosis::Folds::count; ++fold) {
             std::vector<Eigen::Index> out, in;
             for (int i = 0; i < rows; ++i)
@@ -57,8 +59,34 @@ TEST_CASE("left-out residuals are those of fits without the rows, in few blocks 
             const Eigen::VectorXd x = all.colPivHouseholderQr().solve(read);
             const Eigen::VectorXd expected = data(out) - known(out, Eigen::all) * x;
             CHECK((residual(out) - expected).norm() < 1e-9 * expected.norm());
+            const Eigen::MatrixXd uncertain =
+                Eigen::MatrixXd::Identity(expected.size(), expected.size()) +
+                known(out, Eigen::all) * (all.transpose() * all).inverse() *
+                    known(out, Eigen::all).transpose();
+            surprise += expected.dot(uncertain.ldlt().solve(expected));
         }
+        CHECK(left.surprise() == Approx(surprise).epsilon(1e-8));
     }
+}
+
+TEST_CASE("what left-out readings miss is chi-squared, however little the others determine",
+          "[diagnosis]") {
+    SeededNoise random(8);
+    constexpr int rows = 60, columns = 20;
+    double sum = 0.0;
+    constexpr int draws = 200;
+    for (int draw = 0; draw < draws; ++draw) {
+        Eigen::MatrixXd known = random_matrix(random, rows, columns);
+        known.bottomLeftCorner(rows - 15, 5).setZero();  // five unknowns that one block determines
+        const Eigen::VectorXd data =
+            known * random_matrix(random, columns, 1) * 20.0 + random_matrix(random, rows, 1);
+        diagnosis::Design design(known, data, rows);
+        const diagnosis::LeftOut left(design, {}, folds_of(rows, 4), std::vector<bool>(rows, true));
+        sum += left.surprise() / rows;
+    }
+    // Mean of 200 chi-squared per row: 1, standard error sqrt(2 / 60 / 200) = 0.013; folds share
+    // readings, so allow twice that for each of three errors.
+    CHECK(sum / draws == Approx(1.0).margin(0.08));
 }
 
 }  // namespace trunnion
