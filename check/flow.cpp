@@ -147,7 +147,7 @@ void check_reach(const CheckSection& section, Findings& findings) {
 
 std::optional<int> called_program(const interpreter::ParsedProgram& program,
                                   const interpreter::Block& block, int& column) {
-    const bool m98 = has_code(program, block, 'M', 980);
+    const bool m98 = has_code(program, block, 'M', 980) || has_code(program, block, 'M', 1980);
     const bool macro = has_code(program, block, 'G', 650) || has_code(program, block, 'G', 660) ||
                        has_code(program, block, 'G', 661);
     if (!m98 && !macro) return std::nullopt;
@@ -202,7 +202,9 @@ void check_calls(const interpreter::ParsedProgram& program,
             check_named_call(program, *block, own_names, options, findings);
             int column = 1;
             const auto number = called_program(program, *block, column);
-            if (!number || known(*number)) continue;
+            if (!number) continue;
+            const bool outside = has_code(program, *block, 'M', 1980);
+            if (outside ? options.finds_program(*number) : known(*number)) continue;
             // M98 P100005 may mean ten times O0005 (depends on the control generation).
             const bool m98 = has_code(program, *block, 'M', 980);
             if (m98 && *number > 9999 && known(*number % 10000)) continue;

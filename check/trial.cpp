@@ -8,7 +8,7 @@ namespace trunnion::check {
 namespace {
 
 /// Meaning of a block for an execution without variables and devices.
-enum class Step { run, pass, end, unknown };
+enum class Step { run, pass, end, skip, unknown };  // skip: ends where the signal comes
 
 bool is_call(char letter, int code10, const CheckOptions& options) {
     const bool own = letter == 'G' ? code10 == 650 || code10 == 660 || code10 == 661
@@ -29,7 +29,7 @@ Step step_of(const interpreter::ParsedProgram& program, const interpreter::Block
              const CheckOptions& options) {
     if (block.kind == interpreter::BlockKind::statements)
         return sets_own_variables(program, block) ? Step::pass : Step::unknown;
-    bool ends = false;
+    bool ends = false, skips = false;
     for (const interpreter::Item& item : program.items(block)) {
         if (item.kind != interpreter::ItemKind::word || item.letter == '<') return Step::unknown;
         const auto value = interpreter::constant_value(program, item);
@@ -38,12 +38,13 @@ Step step_of(const interpreter::ParsedProgram& program, const interpreter::Block
         if (is_call(item.letter, code, options)) return Step::unknown;
         if (item.letter == 'T' && options.calls_program && options.calls_program('T', 0))
             return Step::unknown;
-        if (item.letter == 'G' && (code == 310 || code == 370)) return Step::unknown;
+        skips = skips || (item.letter == 'G' && (code == 310 || code == 370));
         if (item.letter == 'G' && code == 100 && word_value(program, block, 'L') == 85.0)
             return Step::unknown;
         if (item.letter == 'M' && code == 990) return Step::unknown;
         ends = ends || (item.letter == 'M' && (code == 300 || code == 20));
     }
+    if (skips) return ends ? Step::unknown : Step::skip;
     return ends ? Step::end : Step::run;
 }
 
@@ -70,8 +71,8 @@ void add_alarm(const Alarm& alarm, const CheckSection& section, const interprete
 
 namespace {
 
-/// The words left for the control after the language has taken those of M98, M198 or M99; empty
-/// when the words are arguments or belong to a called program.
+/// The words left for the control after the language has taken G67 and those of M98, M198 or M99;
+/// empty when the words are arguments or belong to a called program.
 std::optional<interpreter::BlockWords> words_for_control(const interpreter::ParsedProgram& program,
                                                          const interpreter::Block& block,
                                                          const CheckOptions& options) {
@@ -86,9 +87,10 @@ std::optional<interpreter::BlockWords> words_for_control(const interpreter::Pars
         const int code = code10_of(w.value);
         if (w.letter == 'G' && is_call('G', code, options)) return std::nullopt;
         if (options.calls_program && options.calls_program(w.letter, code)) return std::nullopt;
-        const bool taken =
-            w.letter == '<' || (w.letter == 'M' && (code == 980 || code == 1980 || code == 990)) ||
-            ((back || call) && (w.letter == 'P' || w.letter == 'L')) || (call && w.letter == 'Q');
+        const bool taken = w.letter == '<' || (w.letter == 'G' && code == 670) ||
+                           (w.letter == 'M' && (code == 980 || code == 1980 || code == 990)) ||
+                           ((back || call) && (w.letter == 'P' || w.letter == 'L')) ||
+                           (call && w.letter == 'Q');
         if (!taken) out.words[out.count++] = w;
     }
     return out;
@@ -117,13 +119,13 @@ void check_trial(const CheckSection& section, const CheckOptions& options, Findi
         const Step step = step_of(*section.program, block, options);
         if (step == Step::unknown) break;
         if (step == Step::pass) continue;
-        const auto constants = constant_words(*section.program, block);
-        if (!constants) break;
+        const auto words = words_for_control(*section.program, block, options);
+        if (!words) break;
         std::optional<Alarm> alarm;
-        if (constants->words.count > 0) alarm = trial->run(constants->words);
+        if (words->count > 0) alarm = trial->run(*words);
         if (!alarm && step == Step::end) alarm = trial->end();
         if (alarm) add_alarm(*alarm, section, block, options, findings);
-        if (alarm || step == Step::end) {
+        if (alarm || step == Step::end || step == Step::skip) {
             ++at;
             break;
         }

@@ -1,8 +1,11 @@
-// The law: what run refuses when it reaches a block, check refuses.
+// The law: what run refuses when it reaches a block, check refuses. Without TRUNNION_LAW_SEED and
+// TRUNNION_LAW_BLOCKS always the same 6000 blocks; ./dev assure gives both.
 #include <fmt/format.h>
 
 #include <array>
 #include <catch2/catch.hpp>
+#include <cstdlib>
+#include <iostream>
 
 #include "base/random.h"
 #include "check/check.h"
@@ -51,14 +54,22 @@ std::string pick(SeededNoise& noise, const std::vector<std::string>& from) {
 
 std::string random_block(SeededNoise& noise) {
     static const std::vector<std::string> values = {
-        "0",  "1",   "-1", "2",    "2.5",  "29.7", "3.",   "10.", "-7.5", "100",
-        "17", "300", "81", "1000", "0.25", "98",   "6000", "30",  "8",    "12345678901"};
+        "0",   "1",           "-1",  "2",       "2.5",       "29.7", "3.", "10.",  "-7.5",
+        "100", "17",          "300", "81",      "1000",      "0.25", "98", "6000", "30",
+        "8",   "12345678901", "-0",  "1.00005", "99999.999", "-.5",  "+2"};
     static const std::vector<std::string> codes = {
-        "G0",   "G1",    "G2",   "G3",    "G4",    "G10", "G17",   "G18",   "G20",   "G21",
-        "G28",  "G30",   "G40",  "G41",   "G42",   "G43", "G44",   "G49",   "G43.4", "G51",
-        "G52",  "G53",   "G54",  "G54.1", "G54.2", "G68", "G68.2", "G53.1", "G69",   "G73",
-        "G76",  "G81",   "G83",  "G84",   "G80",   "G90", "G91",   "G92",   "G96",   "G33",
-        "G7.1", "G12.1", "G777", "M98",   "M99",   "M6",  "M29.7", "M-1",   "G31",   "G61"};
+        "G0",    "G1",    "G2",     "G3",     "G4",     "G10",   "G17",   "G18",   "G20",
+        "G21",   "G28",   "G30",    "G40",    "G41",    "G42",   "G43",   "G44",   "G49",
+        "G43.4", "G51",   "G52",    "G53",    "G54",    "G54.1", "G54.2", "G68",   "G68.2",
+        "G53.1", "G69",   "G73",    "G76",    "G81",    "G83",   "G84",   "G80",   "G90",
+        "G91",   "G92",   "G96",    "G33",    "G7.1",   "G12.1", "G777",  "M98",   "M99",
+        "M6",    "M29.7", "M-1",    "G31",    "G61",    "G5.1",  "G9",    "G15",   "G16",
+        "G19",   "G22",   "G23",    "G27",    "G29",    "G38",   "G39",   "G50",   "G50.1",
+        "G51.1", "G53.6", "G59",    "G64",    "G65",    "G66",   "G67",   "G68.3", "G68.4",
+        "G69.1", "G74",   "G82",    "G85",    "G89",    "G94",   "G95",   "G97",   "G98",
+        "G99",   "G10L2", "G10L20", "G10L10", "G10L50", "G11",   "M0",    "M30",   "M198",
+        "M19",   "G43.5", "G43.1",  "G02.4",  "G03.4",  "G-1",   "G1.05", "G100",  "M1000",
+        "G54.4"};
     static const std::vector<std::string> letters = {"X", "Y", "Z", "B", "C", "A", "I",
                                                      "J", "K", "R", "P", "Q", "L", "H",
                                                      "D", "T", "F", "S", "M", "E"};
@@ -77,6 +88,11 @@ std::string random_block(SeededNoise& noise) {
     return block;
 }
 
+std::uint64_t wish(const char* name, std::uint64_t otherwise) {
+    const char* const text = std::getenv(name);
+    return text ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
 bool refuses(const std::vector<check::Finding>& findings, int line) {
     for (const check::Finding& f : findings)
         if (f.severity == check::Severity::error && f.line == line) return true;
@@ -90,9 +106,11 @@ TEST_CASE("what run refuses when it reaches a block, check refuses", "[check]") 
     offsets::Stores stores;
     stores.parameters.set(3401, 1);
     const check::CheckOptions options = options_for(config, stores);
-    SeededNoise noise(1905);
+    const std::uint64_t seed = wish("TRUNNION_LAW_SEED", 1905),
+                        blocks = wish("TRUNNION_LAW_BLOCKS", 6000);
+    SeededNoise noise(seed);
     std::array<int, 4> count{};  // [refused by run][refused by check]
-    for (int i = 0; i < 6000; ++i) {
+    for (std::uint64_t i = 0; i < blocks; ++i) {
         const std::string block = random_block(noise);
         const auto text = std::make_shared<const std::string>("O1\nG21G90G17G94G54F200.S500M3\n" +
                                                               block + "\nM30\n");
@@ -103,9 +121,12 @@ TEST_CASE("what run refuses when it reaches a block, check refuses", "[check]") 
         controller::Controller control(config, own, none, sink, [](std::string_view) {});
         const controller::RunResult result = control.run(program);
         if (block.find("M98") != block.npos && block.find("M99") != block.npos) continue;
-        // Nesting and the caller's numbers (77, 78) are known to a run only.
+        if (block.starts_with("G50") && block.find('S') != block.npos)
+            continue;  // a lathe's: check goes no further
+        // Nesting and the caller's numbers (77, 78, 122) are known to a run only.
         const bool dynamic =
-            result.alarm && (result.alarm->number == 77 || result.alarm->number == 78);
+            result.alarm && (result.alarm->number == 77 || result.alarm->number == 78 ||
+                             result.alarm->number == 122);
         const bool by_run = result.alarm && !dynamic && result.alarm->where.line == 3 &&
                             (result.alarm->number < 3000 || result.alarm->number >= 5000);
         const bool by_check = refuses(check::check_program(program, options), 3);
@@ -116,6 +137,10 @@ TEST_CASE("what run refuses when it reaches a block, check refuses", "[check]") 
         if (!result.alarm) CHECK_FALSE(by_check);
         ++count[(by_run ? 2U : 0U) + (by_check ? 1U : 0U)];
     }
-    CHECK(count[3] > 1000);  // the blocks are not all right
-    CHECK(count[0] > 500);   // nor all wrong
+    CHECK(double(count[3]) > 0.15 * double(blocks));  // the blocks are not all right
+    CHECK(double(count[0]) > 0.08 * double(blocks));  // nor all wrong
+    if (std::getenv("TRUNNION_LAW_SEED"))
+        std::cout << blocks << " blocks from seed " << seed << ": " << count[3]
+                  << " refused by both, " << count[1] << " by check alone, " << count[2]
+                  << " by run alone\n";
 }
