@@ -98,9 +98,20 @@ void read_model(const TomlFile& file, const TomlValue& table, const AxisNames& n
         }
 }
 
+/// TOML reads X.backlash = {...} as a table X with a key backlash: no effect has tables in it.
+void refuse_dotted_name(const TomlFile& file, const TomlEntry& entry) {
+    if (entry.value.kind != TomlValue::Kind::table) return;
+    for (const TomlEntry& inner : entry.value.entries)
+        if (inner.value.kind == TomlValue::Kind::table)
+            file.fail(inner.value, "the name of an effect stands in quotes: \"" + entry.key + "." +
+                                       inner.key + "\" = { ... }");
+}
+
 void read_effects(const TomlFile& file, const TomlValue& table, Setup& setup) {
-    for (const auto& [name, value] : file.table(table).entries) {
+    for (const TomlEntry& entry : file.table(table).entries) {
+        const auto& [name, value] = entry;
         value.used = true;
+        refuse_dotted_name(file, entry);
         EffectSetting effect;
         effect.name = name;
         for (const auto& [parameter, number] : file.table(value).entries) {

@@ -309,6 +309,18 @@ TEST_CASE("a backup is read before the file's own keys") {
     CHECK(s.stores.parameters.get(3410) == 0.02);
 }
 
+TEST_CASE("names of effects without quotes are told how to write them") {
+    const std::string head =
+        "[machine]\nchain = \"w C b X Y Z t\"\n"
+        "[machine.axis.C]\ndirection = [0, 0, -1]\npoint_mm = [0, 0, 0]\n[effects]\n";
+    const std::string message = "stands in quotes: \"C.backlash\" = { ... }";
+    check_fault(head + "C.backlash = { gap_rad = 1e-5 }\n", message, 7);
+    check_fault(head + "C = { backlash = { gap_rad = 1e-5 } }\n", message, 7);
+    check_fault(head + "[effects.C.backlash]\ngap_rad = 1e-5\n", message, 7);
+    CHECK(read(head + "\"C.backlash\" = { gap_rad = 1e-5 }\n").effects.size() == 1);
+    CHECK(read(head + "[effects.\"C.backlash\"]\ngap_rad = 1e-5\n").effects.size() == 1);
+}
+
 TEST_CASE("keys for backlash and pretravel are effects") {
     const std::string head =
         "[machine]\nchain = \"w C b X Y Z t\"\nside = { C = \"-\" }\n"
