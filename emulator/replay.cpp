@@ -68,8 +68,10 @@ DeviceRow device_row(const Observer& observer, const records::Reading& row,
 
 Replay::Replay(const setup::Setup& setup, const records::ReadingTable& table) : setup_(setup) {
     check_axes(setup, table);
-    const std::vector<AxisSample> samples = records::samples_of(table);
+    samples_ = records::samples_of(table);  // of all rows at first
     list_sessions(table);
+    const int touches = touches_of(table);
+    contacts_.reserve(session_.size());
     std::deque<Observer> observers;
     for (std::size_t k = 0; k < sessions_.size(); ++k)
         observers.emplace_back(setup_of(k), EffectModels());
@@ -78,17 +80,18 @@ Replay::Replay(const setup::Setup& setup, const records::ReadingTable& table) : 
         if (row.device == records::Device::none) continue;
         const Observer& nominal = observers[session_[rows_.size()]];
         try {
-            DeviceRow ready = device_row(nominal, row, samples[r], touches_of(table));
+            DeviceRow ready = device_row(nominal, row, samples_[r], touches);
             if (row.device == records::Device::touch)
                 nominal.go_to_contact(ready.sample, ready.contact);
+            samples_[rows_.size()] = ready.sample;
             rows_.push_back(r);
-            samples_.push_back(ready.sample);
             contacts_.push_back(ready.contact);
             commanded_.push_back(row.commanded);
         } catch (const InputError& error) {
             refuse(setup, table, row, error.message);
         }
     }
+    samples_.resize(rows_.size());
     list_unknown_sides(table);
     list_zeros(table);
 }

@@ -22,6 +22,7 @@ constexpr double absurd_mm = 5.0;  ///< limit of a plausible residual; beyond it
 constexpr double absurd_rms_mm = 0.5;
 constexpr double absurd_rad = 0.03;  ///< of a location error
 constexpr int most_passes = 20;
+constexpr std::size_t most_gradients = 100000;  ///< rows of which the derivatives are kept
 constexpr double least_damping = 1e-4, most_damping = 1e8;  ///< of information in typical sizes
 
 using Slot = Unknowns::Slot;
@@ -194,9 +195,9 @@ BaseModel start_model(const setup::Setup& setup, const records::ReadingTable& ta
     const RowNoise noise = row_noise(setup, table, replay);
     model.sigma_mm = noise.sigma_mm;
     model.noise_given = noise.given;
-    const kinematics::ForwardModel forward(setup.machine);
-    for (std::size_t i = 0; i < replay.size(); ++i)
-        model.gradient.push_back(replay.gradient(i, forward, {}));
+    // A stated scatter of zeros needs them, too (ZeroScatter).
+    if (replay.size() <= most_gradients || setup.model.noise_um.contains("zero"))
+        model.gradient = gradients_of(replay, setup.machine);
     model.residual_mm = model.start_residual_mm = residual(model, replay, model.setup);
     return model;
 }
@@ -339,7 +340,8 @@ BaseModel fit_base(const setup::Setup& setup, const records::ReadingTable& table
     BaseModel model = start_model(setup, table, replay);
     const Unknowns unknowns(setup, replay, catalogue, effects);
     const auto& slots = unknowns.slots();
-    model.columns = columns_of(slots, replay, model.gradient);
+    model.columns = model.gradient.empty() ? columns_of(slots, replay, setup.machine)
+                                           : columns_of(slots, replay, model.gradient);
     const Eigen::VectorXd typical = typical_of(slots);
     const estimation::LinearFit fit =
         iterate(model, replay, ZeroScatter(setup, table, replay, model.gradient), slots);

@@ -12,6 +12,7 @@
 #include "identification/needed_terms.h"
 #include "identification/set_up_words.h"
 #include "identification/unknown_sides.h"
+#include "identification/unknowns.h"
 
 namespace trunnion::identification {
 namespace {
@@ -198,7 +199,8 @@ Identification identify(const setup::Setup& setup, const records::ReadingTable& 
     std::vector<KeyedEffect> with_keys;
     std::vector<std::string> not_searched;
     if (plain.size() < effects.size()) {
-        const BaseModel base = fit_base(setup, table, replay, catalogue, plain);
+        BaseModel base = fit_base(setup, table, replay, catalogue, plain);
+        need_gradient(base, replay);
         const std::vector<const effects::Effect*> searched = keyed_effects(catalogue, effects);
         with_keys = search_all_keys(replay, base, searched, go_on);
         for (std::size_t k = with_keys.size(); k < searched.size(); ++k)
@@ -220,6 +222,7 @@ Identification identify(const setup::Setup& setup, const records::ReadingTable& 
                 result.parameters.push_back(
                     {name, p.name, p.unit, -1, p.typical, p.typical, std::nan(""), 0.0, 0.0});
     take_values(base, with_keys);
+    if (!with_keys.empty()) need_gradient(base, replay);
     add_key_uncertainty(replay, with_keys, base, result.parameters);
     result.inseparable = base.inseparable;
     result.covariance = base.covariance;

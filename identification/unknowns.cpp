@@ -51,23 +51,75 @@ void Unknowns::add_set_up(const emulator::Replay& replay) {
     }
 }
 
+namespace {
+
+/// Fills the columns row by row.
+class ColumnFiller {
+  public:
+    ColumnFiller(const std::vector<Slot>& slots, const emulator::Replay& replay)
+        : slots_(slots),
+          replay_(replay),
+          columns_(static_cast<Eigen::Index>(replay.size()),
+                   static_cast<Eigen::Index>(slots.size())) {
+        for (const Slot& slot : slots) {
+            change_.push_back(slot.effect ? slot.effect->zeros() : std::vector<double>());
+            if (slot.effect)
+                change_.back()[slot.parameter] = slot.effect->parameters[slot.parameter].typical;
+        }
+    }
+
+    void fill(std::size_t i, const kinematics::Perturbation& gradient) {
+        for (std::size_t j = 0; j < slots_.size(); ++j)
+            columns_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+                derivative(i, j, gradient);
+    }
+    Eigen::MatrixXd take() { return std::move(columns_); }
+
+  private:
+    double derivative(std::size_t i, std::size_t j,
+                      const kinematics::Perturbation& gradient) const {
+        const Slot& slot = slots_[j];
+        if (!slot.effect)
+            return slot.fit.typical * set_up_derivative(slot.fit.set_up, replay_, i, gradient);
+        kinematics::Perturbation change;
+        slot.effect->add(replay_.sample(i), replay_.contact(i), change_[j], change);
+        return emulator::dot(gradient, change);
+    }
+
+    const std::vector<Slot>& slots_;
+    const emulator::Replay& replay_;
+    Eigen::MatrixXd columns_;
+    std::vector<std::vector<double>> change_;  ///< values of each slot's effect
+};
+
+}  // namespace
+
 Eigen::MatrixXd columns_of(const std::vector<Slot>& slots, const emulator::Replay& replay,
                            const std::vector<kinematics::Perturbation>& gradient) {
-    const auto n = static_cast<Eigen::Index>(replay.size());
-    Eigen::MatrixXd columns(n, static_cast<Eigen::Index>(slots.size()));
-    for (std::size_t j = 0; j < slots.size(); ++j) {
-        const auto c = static_cast<Eigen::Index>(j);
-        if (slots[j].effect) {
-            columns.col(c) = effect_column(
-                replay, gradient, {*slots[j].effect, slots[j].effect->zeros(), slots[j].parameter});
-            continue;
-        }
-        for (std::size_t i = 0; i < replay.size(); ++i)
-            columns(static_cast<Eigen::Index>(i), c) =
-                slots[j].fit.typical *
-                set_up_derivative(slots[j].fit.set_up, replay, i, gradient[i]);
-    }
-    return columns;
+    ColumnFiller filler(slots, replay);
+    for (std::size_t i = 0; i < replay.size(); ++i) filler.fill(i, gradient[i]);
+    return filler.take();
+}
+
+Eigen::MatrixXd columns_of(const std::vector<Slot>& slots, const emulator::Replay& replay,
+                           const kinematics::Machine& machine) {
+    const kinematics::ForwardModel forward(machine);
+    ColumnFiller filler(slots, replay);
+    for (std::size_t i = 0; i < replay.size(); ++i) filler.fill(i, replay.gradient(i, forward, {}));
+    return filler.take();
+}
+
+std::vector<kinematics::Perturbation> gradients_of(const emulator::Replay& replay,
+                                                   const kinematics::Machine& machine) {
+    const kinematics::ForwardModel forward(machine);
+    std::vector<kinematics::Perturbation> list;
+    list.reserve(replay.size());
+    for (std::size_t i = 0; i < replay.size(); ++i) list.push_back(replay.gradient(i, forward, {}));
+    return list;
+}
+
+void need_gradient(BaseModel& model, const emulator::Replay& replay) {
+    if (model.gradient.empty()) model.gradient = gradients_of(replay, replay.setup().machine);
 }
 
 void apply_step(setup::Setup& setup, const std::vector<Slot>& slots, const Eigen::VectorXd& step) {

@@ -35,6 +35,15 @@ class Unknowns {
 /// angular rows).
 Eigen::MatrixXd columns_of(const std::vector<Unknowns::Slot>& slots, const emulator::Replay& replay,
                            const std::vector<kinematics::Perturbation>& gradient);
+/// The same; each gradient is computed and forgotten.
+Eigen::MatrixXd columns_of(const std::vector<Unknowns::Slot>& slots, const emulator::Replay& replay,
+                           const kinematics::Machine& machine);
+/// Derivatives of all device rows by a Perturbation.
+std::vector<kinematics::Perturbation> gradients_of(const emulator::Replay& replay,
+                                                   const kinematics::Machine& machine);
+/// Computes BaseModel::gradient, 560 bytes a row, where `fit_base` did not keep it: for more than
+/// 100,000 rows.
+void need_gradient(BaseModel& model, const emulator::Replay& replay);
 /// Applies a step of the fit (in the units of the unknowns) to the setup.
 void apply_step(setup::Setup& setup, const std::vector<Unknowns::Slot>& slots,
                 const Eigen::VectorXd& step);

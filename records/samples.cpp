@@ -276,8 +276,8 @@ std::vector<AxisSample> samples_of(const ReadingTable& table) {
     for (std::size_t begin = 0; begin < rows.size();) {
         const std::size_t end = session_end(table.rows, begin);
         const TravelHistory history(sides_before(table, begin), rows_rounding, table.names);
-        const auto part =
-            samples_of(rows.subspan(begin, end - begin), table.axes, history, table.names);
+        auto part = samples_of(rows.subspan(begin, end - begin), table.axes, history, table.names);
+        if (end - begin == rows.size()) return part;
         samples.insert(samples.end(), part.begin(), part.end());
         begin = end;
     }

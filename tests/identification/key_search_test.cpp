@@ -1,0 +1,49 @@
+// The search of a key between the values of its grid.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "identification/identify.h"
+#include "tests/support/campaign.h"
+
+namespace trunnion {
+
+TEST_CASE("a key is refined inside its interval, to the value that explains most",
+          "[identification]") {
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 60, 3);
+    const effects::Catalogue catalogue =
+        effects::make_catalogue(setup, effects::extent_of(setup, table));
+    effects::Effect drift = *effects::find_effect(catalogue, "thermal.drift");
+    const std::vector<double> grid = drift.parameters[3].grid;
+    double least = 1e300, most = 0.0;  // of the keys that are looked at
+    const effects::EffectFunction plain = drift.add;
+    drift.add = [&](const AxisSample& sample, const emulator::Contact& contact,
+                    std::span<const double> value, kinematics::Perturbation& out) {
+        least = std::min(least, value[3]);
+        most = std::max(most, value[3]);
+        plain(sample, contact, value, out);
+    };
+    for (std::size_t k = 2; k + 2 < grid.size(); ++k)
+        for (const double share : {0.2, 0.5, 0.8}) {
+            const double tau_s = grid[k] + share * (grid[k + 1] - grid[k]);
+            const setup::Setup truth = campaign::with_effect(
+                setup, "thermal.drift: d_mm=[0.01, 0, 0.03], tau_s=" + std::to_string(tau_s));
+            const records::ReadingTable readings = campaign::measured(truth, table, 1, 0.0);
+            const emulator::Replay replay(setup, readings);
+            const identification::BaseModel base =
+                identification::fit_base(setup, readings, replay, catalogue, {});
+            std::vector<double> start = drift.zeros();
+            start[3] = grid[share < 0.5 ? k : k + 1];
+            least = 1e300, most = 0.0;
+            const std::vector<double> keys =
+                identification::refine_keys(replay, base, drift, start, base.residual_mm);
+            INFO(tau_s << " from " << start[3]);
+            CHECK(keys[3] == Approx(tau_s).epsilon(0.01));
+            // The first interval reaches to the next values of the grid, a second one beyond them.
+            CHECK(least >= grid[k - 1] * 0.999);
+            CHECK(most <= grid[k + 2] * 1.001);
+        }
+}
+
+}  // namespace trunnion
