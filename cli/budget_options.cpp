@@ -1,6 +1,9 @@
 #include "cli/budget_options.h"
 
+#include <sys/resource.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 
 #include "base/console.h"
@@ -37,6 +40,29 @@ BudgetMeter fit_meter(double time_s) {
     budget.time_s = time_s;
     budget.interrupted = Interruption::asked;
     return BudgetMeter(std::move(budget));
+}
+
+SharedLimits::SharedLimits(double time_s) : time_s_(time_s) {}
+
+BudgetLimit SharedLimits::reached() const {
+    if (Interruption::asked()) return BudgetLimit::interruption;
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
+    return time_s_ > 0.0 && passed.count() >= time_s_ ? BudgetLimit::time : BudgetLimit::none;
+}
+
+void add_memory_limit(CLI::App& command) {
+    command.add_option_function<std::uint64_t>(
+        "--max-memory",
+        [](std::uint64_t megabytes) {
+            if (megabytes == 0) return;
+            constexpr std::uint64_t most = RLIM_INFINITY / 1'000'000;
+            const rlim_t bytes = std::min(megabytes, most) * 1'000'000;
+            rlimit limit{};
+            if (::getrlimit(RLIMIT_DATA, &limit) != 0) return;
+            limit.rlim_cur = std::min(bytes, limit.rlim_max);
+            ::setrlimit(RLIMIT_DATA, &limit);
+        },
+        "end when it needs more memory than so many MB (0: no limit of its own)");
 }
 
 const char* reason_of(BudgetLimit limit) {

@@ -2,6 +2,7 @@
 // --max-seconds.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 
 #include "base/budget.h"
@@ -25,6 +26,18 @@ Budget budget_of(const BudgetOptions& limits);
 void add_fit_seconds(CLI::App& command, double& time_s);
 /// That limit, and Ctrl-C. To be asked as long as an Interruption lives.
 BudgetMeter fit_meter(double time_s);
+/// The same two limits for several threads at once. Time counts from construction.
+class SharedLimits {
+  public:
+    explicit SharedLimits(double time_s);
+    BudgetLimit reached() const;
+
+  private:
+    double time_s_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+/// --max-memory of a command, in MB of the program's own data; obeyed from where it is read.
+void add_memory_limit(CLI::App& command);
 /// "interrupted", "--max-seconds", ...: what ended the work, for a message.
 const char* reason_of(BudgetLimit limit);
 /// Says on stderr which limit ended the work; returns its exit code.

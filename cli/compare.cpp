@@ -12,6 +12,7 @@
 #include "base/output_files.h"
 #include "base/read_file.h"
 #include "base/units.h"
+#include "cli/budget_options.h"
 #include "cli/command.h"
 #include "cli/long_work.h"
 #include "cli/options.h"
@@ -34,6 +35,7 @@ struct CompareCommand {
     double tol_feed = regression::Tolerances{}.feed_ratio,
            tol_time = regression::Tolerances{}.time_ratio;
     unsigned threads = 0;
+    double max_seconds = 0.0;
     std::uint64_t max_blocks = 100'000'000;  ///< limit for an endless loop, exit code 4
     bool json = false, update = false, devices = false;
     PageOptions page;
@@ -55,7 +57,7 @@ void put_report(const CompareCommand& c, const regression::CompareReport& report
     files.write();
 }
 
-regression::SuiteCase case_of(const CompareCommand& c) {
+regression::SuiteCase case_of(const CompareCommand& c, const SharedLimits& limits) {
     if (!(c.tol_lin_mm > 0.0) || !(c.tol_ang_deg > 0.0) || !(c.tol_feed >= 0.0) ||
         !(c.tol_time >= 0.0))
         throw InputError("tolerances must be above 0");
@@ -70,7 +72,7 @@ regression::SuiteCase case_of(const CompareCommand& c) {
     like.options.max_blocks = c.max_blocks;
     like.options.call = c.call;
     like.options.devices = c.devices;
-    like.options.go_on = [] { return !Interruption::asked(); };
+    like.options.go_on = [limits] { return limits.reached() == BudgetLimit::none; };
     if (c.by.empty()) return like;
     const auto layer =
         std::find(regression::layer_names.begin(), regression::layer_names.end(), c.by);
@@ -117,7 +119,7 @@ int update(const CompareCommand& c, const regression::Suite& suite) {
 }
 
 int compare_many(const CompareCommand& c, const regression::SuiteCase& like,
-                 report::ReportFormat format) {
+                 const SharedLimits& limits, report::ReportFormat format) {
     const regression::Suite suite = suite_of(c, like);
     if (c.update) return update(c, suite);
     const auto shard = shard_of(c.shard);
@@ -128,7 +130,7 @@ int compare_many(const CompareCommand& c, const regression::SuiteCase& like,
                                            const std::lock_guard<std::mutex> lock(showing);
                                            progress.count(done, total, "programs");
                                        },
-                                       [] { return Interruption::asked(); }};
+                                       [&] { return std::string(reason_of(limits.reached())); }};
     regression::SuiteRun run = regression::run_suite(suite, shard.value_or(regression::Shard{}),
                                                      open_setup, threads, watch);
     run.report.inputs = ReadRecord::files();
@@ -144,20 +146,24 @@ int compare_many(const CompareCommand& c, const regression::SuiteCase& like,
 
 int compare(const CompareCommand& c) {
     const report::ReportFormat format = report::report_format(c.json ? "json" : c.format);
-    const regression::SuiteCase like = case_of(c);
+    const Interruption interruption;
+    const SharedLimits limits(c.max_seconds);
+    const regression::SuiteCase like = case_of(c, limits);
     if (c.suite.empty() == (c.a.empty() || c.b.empty()) || (!c.suite.empty() && !c.a.empty()))
         throw InputError("compare needs two programs, two folders or --suite FILE");
     if (c.update && c.suite.empty()) throw InputError("--update requires --suite");
-    const Interruption interruption;
     if (!c.suite.empty() || std::filesystem::is_directory(c.a) ||
         std::filesystem::is_directory(c.b))
-        return compare_many(c, like, format);
+        return compare_many(c, like, limits, format);
     if (!c.shard.empty()) throw InputError("--shard requires folders or a suite");
     regression::CompareReport report = compare_two(c, like);
     report.inputs = ReadRecord::files();
     put_report(c, report, format);
-    if (Interruption::asked()) print_error("trunnion: interrupted: the results so far\n");
-    return regression::exit_code(report);
+    const int code = regression::exit_code(report);
+    if (const BudgetLimit limit = limits.reached();
+        code == exit_limit && limit != BudgetLimit::none)
+        print_error("trunnion: {}: the results so far\n", reason_of(limit));
+    return code;
 }
 
 }  // namespace
@@ -200,6 +206,8 @@ void add_compare(CLI::App& app, Run& run) {
                         "stop a program after this number of blocks");
     command->add_flag("--update", c->update, "rewrite the goldens of the suite that differ");
     command->add_option("--reason", c->reason, "reason for the change, written into the golden");
+    not_negative(command->add_option("--max-seconds", c->max_seconds,
+                                     "end the runs after so long together (0: never)"));
     add_page_options(*command, c->page);
     c->command = command;
     command->callback([c, &run] { run = [c] { return compare(*c); }; });

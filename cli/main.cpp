@@ -19,6 +19,7 @@
 #include "base/nearest.h"
 #include "base/read_file.h"
 #include "base/text.h"
+#include "cli/budget_options.h"
 #include "cli/command.h"
 #include "cli/help_text.h"
 #include "cli/notes.h"
@@ -107,8 +108,8 @@ std::string meant_option(const CLI::App& command, const std::vector<std::string>
     return {};
 }
 
-/// Adds --quiet and --verbose to every command.
-void add_talk(CLI::App& app) {
+/// Adds --quiet, --verbose and --max-memory to every command.
+void add_common(CLI::App& app) {
     for (CLI::App* command : app.get_subcommands({})) {
         CLI::Option* quiet = command->add_flag(
             "-q,--quiet", [](std::int64_t) { set_talk(Talk::quiet); },
@@ -118,6 +119,7 @@ void add_talk(CLI::App& app) {
                 "--verbose", [](std::int64_t) { set_talk(Talk::verbose); },
                 "also print the files read with their SHA-256, and the elapsed time")
             ->excludes(quiet);
+        add_memory_limit(*command);
     }
 }
 
@@ -177,7 +179,7 @@ int parse_and_run(int argc, char** argv) {
     app.set_version_flag("--version", TRUNNION_VERSION);
     Run run;
     for (const auto add : commands) add(app, run);
-    add_talk(app);
+    add_common(app);
     check_numbers(app);
     set_help(app);
     const std::vector<std::string> words(argv + 1, argv + argc);
@@ -206,7 +208,7 @@ int main(int argc, char** argv) {
     try {
         return cli::parse_and_run(argc, argv);
     } catch (const std::bad_alloc&) {
-        write_error("trunnion: there is not enough memory\n");
+        write_error("trunnion: there is not enough memory (--max-memory, or this computer)\n");
         return exit_limit;
     } catch (const InputError& e) {  // of the help
         return cli::report_input_error(e);

@@ -59,7 +59,8 @@ using SetupLoader = setup::Setup (*)(const std::string& path);
 /// Callbacks while a suite runs; both may be empty, and both are called from any thread.
 struct SuiteWatch {
     std::function<void(std::size_t done, std::size_t total)> progress;
-    std::function<bool()> stop;  ///< true: cases not yet started are skipped and marked so
+    /// Not empty: what ended the work; cases not yet started are skipped and marked so.
+    std::function<std::string()> stop;
 };
 /// The results do not depend on the number of threads.
 SuiteRun run_suite(const Suite& suite, Shard shard, SetupLoader load, unsigned threads,

@@ -126,9 +126,9 @@ SuiteRun run_suite(const Suite& suite, Shard shard, SetupLoader load, unsigned t
     on_threads(run.places.size(), threads, [&](std::size_t k) {
         const SuiteCase& c = suite.cases[run.places[k]];
         Comparison& result = run.report.cases[k];
-        result = watch.stop && watch.stop()
-                     ? not_compared(c, "not compared: interrupted", CompareStatus::limit)
-                     : guarded(c, setups);
+        const std::string stop = watch.stop ? watch.stop() : std::string();
+        result = stop.empty() ? guarded(c, setups)
+                              : not_compared(c, "not compared: " + stop, CompareStatus::limit);
         result.name = c.name;
         mark_expected(suite, result);
         if (watch.progress) watch.progress(++done, run.places.size());

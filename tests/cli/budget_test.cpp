@@ -1,6 +1,7 @@
 // Endless programs end by a limit, exit code 4, and say which.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "tests/cli/command_bench.h"
 
@@ -25,6 +26,84 @@ TEST_CASE("an endless program ends by blocks, print-outs or time") {
     CHECK(bench.limit_of("run " + bench.endless + " --max-print 50000") == "printed_bytes");
     CHECK(bench.limit_of("run " + bench.endless + " --max-seconds 0.2") == "time");
     CHECK(bench.limit_of("run " + bench.endless) == "printed_bytes");
+}
+
+TEST_CASE("each limit of a run ends it when it is reached, and not before") {
+    const Bench bench;
+    const std::string five =
+        bench.write("five.nc", "O1\nG90 G21 G54\nG0 X1.\nG0 X2.\nG0 X3.\nM30\n");
+    const std::string prints = bench.write("prints.nc",
+                                           "O1\nN1 #100=#100+1\nDPRNT[ABCDEFGHIJ]\n"
+                                           "IF[#100LT20000]GOTO 1\nM30\n");
+    const std::string reads = "O8002 --programs " TRUNNION_SOURCE_DIR
+                              "/programs/pivot --programs " TRUNNION_SOURCE_DIR
+                              "/programs --readings " +
+                              bench.file("r.csv");
+    struct Case {
+        std::string words, option;
+        std::vector<int> enough, too_small;
+    };
+    // Bytes and readings are looked at every few thousand blocks.
+    for (const Case& c : {Case{five, "--max-blocks", {7, 8, 0}, {1, 3, 5}},
+                          Case{prints, "--max-print", {220001, 300000, 0}, {1, 1000, 150000}},
+                          Case{reads, "--max-readings", {10000, 100000, 0}, {1, 100}},
+                          Case{prints, "--max-seconds", {100, 0}, {}}}) {
+        for (const int limit : c.enough) {
+            INFO(c.option << " " << limit);
+            CHECK(bench.trunnion("run " + c.words + " " + c.option + " " + std::to_string(limit)) ==
+                  0);
+        }
+        for (const int limit : c.too_small) {
+            INFO(c.option << " " << limit);
+            CHECK(bench.trunnion("run " + c.words + " " + c.option + " " + std::to_string(limit)) ==
+                  4);
+            CHECK_THAT(bench.read("err.txt"), Catch::Contains("(" + c.option + ")"));
+        }
+    }
+}
+
+TEST_CASE("max-seconds ends the runs of compare, of two programs and of folders") {
+    const Bench bench;
+    for (const char* folder : {"a", "b"}) {
+        std::filesystem::create_directories(bench.path / folder);
+        for (const char* name : {"p.nc", "q.nc"})
+            bench.write(std::string(folder) + "/" + name,
+                        "O1\nG90 G21 G54\nN1 #100=1-#100\nG1 X#100 F500.\nGOTO 1\n" +
+                            std::string(folder == std::string("a") ? "" : "(B)\n") + "M30\n");
+    }
+    const std::string one = "compare " + bench.file("a/p.nc") + " " + bench.file("b/p.nc"),
+                      all = "compare " + bench.file("a") + " " + bench.file("b");
+    CHECK(bench.trunnion(one + " --by path --max-blocks 0 --max-seconds 0.3 --json") == 4);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("--max-seconds: the results so far"));
+    CHECK(Json::parse(bench.read("out.txt"))["equal"] == false);
+    CHECK(bench.trunnion(all + " --by path --max-blocks 0 --max-seconds 0.3 --threads 1 --json") ==
+          4);
+    CHECK_THAT(bench.read("out.txt"), Catch::Contains("not compared: --max-seconds"));
+    const std::string part = bench.write("done.nc", "O1\nG90 G21 G54\nG0 X1.\nM30\n");
+    CHECK(bench.trunnion("compare " + part + " " + part + " --max-seconds 100") == 0);
+    CHECK(bench.trunnion("compare " + part + " " + part + " --max-seconds 0") == 0);
+    CHECK(bench.trunnion("compare " + part + " " + part + " --max-seconds -1") == 2);
+}
+
+TEST_CASE("max-memory ends a command that needs more, with one message and no output") {
+    const Bench bench;
+    std::string text =
+        "# schema = trunnion.readings/1\nindex,time_s,test,device,feature,x_mm,y_mm,z_mm,b_deg,"
+        "c_deg,dir_x,dir_y,dir_z,value_mm\n";
+    for (int k = 0; k < 50000; ++k)
+        text += std::to_string(k) + "," + std::to_string(k) + ",t,sphere,S1,120,0,230,0," +
+                std::to_string(k % 360) + "," + (k % 2 ? "1,0" : "0,1") + ",0,0.001\n";
+    const std::string table = bench.write("t.csv", text);
+    const std::string words = "identify " + table +
+                              " --setup " TRUNNION_SOURCE_DIR "/machines/bc_table.toml --out " +
+                              bench.file("p.toml") + " --max-memory ";
+    CHECK(bench.trunnion(words + "20") == 4);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("there is not enough memory (--max-memory"));
+    CHECK_FALSE(std::filesystem::exists(bench.file("p.toml")));
+    CHECK(bench.trunnion(words + "2000") == 0);
+    CHECK(bench.trunnion(words + "0") == 0);
+    CHECK(bench.trunnion(words + "-1") == 2);
+    CHECK(bench.trunnion(words + "much") == 2);
 }
 
 TEST_CASE("compensate ends an endless program and writes nothing") {
