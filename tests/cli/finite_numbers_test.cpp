@@ -178,3 +178,36 @@ TEST_CASE("the largest number in each place of a setup gives no NaN, and nothing
         CHECK_NOTHROW(setup::load_setup(bench.file("x.toml"), notes));
     }
 }
+
+TEST_CASE("zeros with a sign, denormals and 1e308 in a cell or a setup give no NaN") {
+    const CommandBench bench;
+    const std::string machine = TRUNNION_SOURCE_DIR "/machines/bc_table.toml";
+    const auto check = [&](const std::string& words, const std::string& where) {
+        const int code = bench.trunnion(words);
+        INFO(where << ": " << words << "\n" << bench.read("err.txt"));
+        CHECK((code == 0 || code == 2));
+        CHECK(tells_no_number(bench.read("out.txt")));
+    };
+    const std::vector<std::string> names = cells_of(header.substr(header.find('\n') + 1));
+    for (std::size_t column = 0; column < names.size(); ++column) {
+        if (names[column] == "test" || names[column] == "device" || names[column] == "feature")
+            continue;
+        for (const char* number : {"-0", "5e-324", "-1e-310", "1e308"}) {
+            const std::string table = bench.write("t.csv", with_cell(column, number));
+            for (const char* command : {"identify ", "predict "})
+                check(command + table + " --setup " + machine, names[column] + " " + number);
+        }
+    }
+    const std::string table = bench.write("t.csv", table_of(rows()));
+    const std::string text = text_of(machine);
+    for (const auto& [at, length] : numbers_of(text))
+        for (const char* number : {"-0.0", "5e-324", "-1e-310", "1e308"}) {
+            std::string changed = text;
+            changed.replace(at, length, number);
+            const std::string setup = bench.write("m.toml", changed);
+            check("predict " + table + " --setup " + setup,
+                  changed.substr(text.rfind('\n', at) + 1, 60));
+            check("volumetric --grid 2 --rotary-grid 2 --json --setup " + setup,
+                  changed.substr(text.rfind('\n', at) + 1, 60));
+        }
+}

@@ -1,0 +1,36 @@
+// The noise that a diagnosis finds, and the simpler forms of a cause.
+#include <catch2/catch.hpp>
+
+#include "diagnosis/candidate_groups.h"
+#include "diagnosis/diagnosis.h"
+#include "tests/support/campaign.h"
+
+namespace trunnion {
+
+TEST_CASE("readings that scatter more or less than stated have a noise of that scale",
+          "[diagnosis]") {
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 80, 3);
+    for (const double scale : {0.75, 1.3}) {
+        const diagnosis::Diagnosis d = diagnosis::diagnose(
+            setup, campaign::measured(campaign::real_machine(setup), table, 4, scale));
+        INFO(scale);
+        CHECK(d.noise.sphere.scale == Approx(scale).epsilon(0.12));
+    }
+}
+
+TEST_CASE("straightness has the form without its slope, which is squareness", "[diagnosis]") {
+    const effects::Catalogue catalogue = effects::make_catalogue(campaign::bc_setup());
+    const effects::Effect& effect = *effects::find_effect(catalogue, "X.straightness");
+    const auto forms = diagnosis::simpler_forms(effect);
+    REQUIRE(forms.size() == 1);
+    for (const effects::EffectParameter& p : effect.parameters) {
+        INFO(p.name);
+        CHECK(forms[0](p) == (p.name != "EYX_p1_mm" && p.name != "EZX_p1_mm"));
+    }
+    // An effect that is no polynomial of a slide loses no term by that rule.
+    CHECK(diagnosis::simpler_forms(*effects::find_effect(catalogue, "X.backlash")).empty());
+}
+
+}  // namespace trunnion
