@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# assure.sh [--seconds 60] [--mutants 20] [--out docs/assurance.md] [--only faults,soak,edits,tidy,fuzz,coverage,mutation]
+# assure.sh [--seconds 60] [--mutants 20] [--out docs/assurance.md] [--only faults,soak,law,bytes,edits,tidy,fuzz,coverage,mutation]
 # Long checks one after the other; what they found is printed and written as a page. Run by ./dev assure,
 # which builds what is needed.
 set -eu
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-seconds=60 mutants=20 page=docs/assurance.md only=faults,soak,edits,tidy,fuzz,coverage,mutation
+seconds=60 mutants=20 page=docs/assurance.md only=faults,soak,law,bytes,edits,tidy,fuzz,coverage,mutation
 while [ $# -gt 0 ]; do
   [ $# -ge 2 ] || { echo "assure: $1 needs a value" >&2; exit 2; }
   case $1 in
@@ -46,6 +46,22 @@ soak() {
   TRUNNION_SOAK_SECONDS=$seconds TRUNNION_SOAK_SEED=$(date +%s) build/release/bin/test_soak \
     > "$work/soak.log" 2>&1 && state=hold || state=FAIL
   echo "The laws **$state**: $(grep -oE '[0-9]+ programs from seed [0-9]+ in [0-9.]+ s' "$work/soak.log" | tail -1)."
+}
+
+law() {
+  echo "## Blocks that run refuses when it reaches them"
+  echo
+  TRUNNION_LAW_BLOCKS=20000 TRUNNION_LAW_SEED=$(date +%s) build/release/bin/test_check \
+    "what run refuses*" > "$work/law.log" 2>&1 && state=holds || state=FAILS
+  echo "\`check\` refuses each of them: the law **$state**. $(grep -oE '[0-9]+ blocks from seed .*' "$work/law.log" | tail -1)."
+}
+
+bytes() {
+  echo "## Same bytes from a Debug build"
+  echo
+  tests/assurance/bytes.sh build/release/bin/trunnion build/debug/bin/trunnion > "$work/bytes.log" && state=are || state="ARE NOT"
+  echo "Outputs of $(grep -c '^same' "$work/bytes.log") commands **$state** the same, byte by byte, from a build with \`-O2 -DNDEBUG\` and one with \`-O1\` and assertions."
+  sed -n 's/^other/- differs:/p' "$work/bytes.log"
 }
 
 edits() {
@@ -114,6 +130,8 @@ for r in json.load(open(sys.argv[1])): print("| %s | %d of %d | %d |" % (r["room
   echo
   echo "    ./dev assure --only faults          # a library fails single calls of the system"
   echo "    ./dev soak SECONDS [SEED]           # laws on random programs and machines"
+  echo "    ./dev assure --only law             # what run refuses, check refuses"
+  echo "    ./dev assure --only bytes           # a Debug build beside the release"
   echo "    ./dev assure --only edits           # random edits and harmless rewrites, compared"
   echo "    ./dev lint tidy                     # clang-tidy on every room"
   echo "    ./dev fuzz SECONDS"
@@ -122,6 +140,8 @@ for r in json.load(open(sys.argv[1])): print("| %s | %d of %d | %d |" % (r["room
   echo
   section faults "failing calls"
   section soak "random programs"
+  section law "refused blocks"
+  section bytes "Debug against Release"
   section edits "edits and rewrites"
   section tidy "clang-tidy"
   section fuzz "fuzzing"

@@ -37,7 +37,17 @@ const std::vector<std::string> commands{
     "diagnose in/readings.csv --setup in/machine.toml --json --out out/d.toml --html out/d.html",
     "pivot --setup in/machine.toml --json --svg out/p --print out/p.txt --html out/p.html",
     "pivot --setup in/machine.toml --write-programs out/programs",
+    "diagnose in/log.csv --program in/part.nc --programs in --setup in/machine.toml --json --html "
+    "out/d.html",
     "ballbar --setup in/machine.toml --program out/b.nc",
+    "ballbar --setup in/machine.toml --kinematic-program out/k.nc",
+    "ballbar in/bar.csv --setup in/bar.toml --json --csv out/b.csv --svg out/b --html "
+    "out/b.html",
+    "run in/part.nc --html out/run.html --setup in/machine.toml",
+    "volumetric --grid 2 --rotary-grid 1 --html out/v.html --json",
+    "compare in/part.nc in/other.nc --html out/c.html",
+    "effects --json",
+    "completion bash",
     "import iso230-2 in/laser.csv --setup in/machine.toml --with axis=X --out out/i.csv --svg "
     "out/i "
     "--html out/i.html",
@@ -79,6 +89,13 @@ class FaultBench : public CommandBench {
                 "identify in/readings.csv --setup in/machine.toml --effects C.backlash "
                 "--monte-carlo 4 --out in/p{i}.json --shard " +
                 std::string(shard));
+        make("run in/part.nc --programs in --setup in/machine.toml --trace in/log.csv");
+        std::string seldom = read("in/machine.toml");
+        const std::string noise = "noise_um  = 0.1";
+        REQUIRE(seldom.find(noise) != std::string::npos);
+        seldom.replace(seldom.find(noise), noise.size(), noise + "\nsample_hz = 1");
+        write("in/bar.toml", seldom);
+        make("ballbar --setup in/bar.toml --write-readings in/bar.csv");
         make("compare --suite in/suite.toml --out in/c{i}.json --shard 1/1");
     }
 
@@ -118,7 +135,7 @@ class FaultBench : public CommandBench {
     void make(const std::string& words) const {
         const std::string line = "cd " + path.string() +
                                  " && " TRUNNION_BINARY_DIR "/bin/trunnion " + words +
-                                 " 2> err.txt";
+                                 " > out.txt 2> err.txt";
         INFO(words << "\n" << read("err.txt"));
         REQUIRE(WEXITSTATUS(std::system(line.c_str())) < 2);
     }
