@@ -33,7 +33,7 @@ set(TRUNNION_ROOMS
   "ballbar/test: estimation emulator setup records kinematics interpreter geometry base"
   "report: ballbar/test volumetric pivot compensation choices diagnosis identification regression effects emulator setup check records geometry base"
   "python: report inputs diagnosis regression identification effects emulator setup records interpreter base"
-  "cli: report inputs imports pivot compensation choices diagnosis regression identification effects emulator setup backup check controller records interpreter base"
+  "cli: report ballbar/test inputs imports pivot compensation choices diagnosis regression identification effects emulator setup backup check controller records interpreter base"
 )
 
 # What stands behind the colon of one line of the list.
