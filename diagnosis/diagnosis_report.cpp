@@ -89,7 +89,8 @@ std::vector<PossibleTruth> possible_truths(const Outcome& f) {
     return truths;
 }
 
-std::vector<Missed> missed_by(const Outcome& f) {
+/// Squares of left-out residuals beyond noise and the fit's own error, by stretch.
+std::vector<Missed> missed_by(const Outcome& f, const Eigen::VectorXd& left) {
     const Eigen::VectorXd noise = noise_mm(f), scale = noise / std::sqrt(f.judgement.floor);
     const double fitted =
         static_cast<double>(f.design.projection().rank()) / std::max(1.0, f.design.rows());
@@ -99,7 +100,7 @@ std::vector<Missed> missed_by(const Outcome& f) {
         for (const Eigen::Index i : rows) {
             if (!f.used[static_cast<std::size_t>(i)]) continue;
             const double own = noise(i) * noise(i);
-            m.square += std::pow(f.judgement.left(i) * scale(i), 2) - own * (1.0 + fitted);
+            m.square += std::pow(left(i) * scale(i), 2) - own * (1.0 + fitted);
             m.noise += own;
             m.rows += 1.0;
         }
@@ -108,10 +109,11 @@ std::vector<Missed> missed_by(const Outcome& f) {
     return list;
 }
 
-DrawSetting draw_setting(const Outcome& f, std::uint64_t seed) {
+DrawSetting draw_setting(const Outcome& f, const Written& written, std::uint64_t seed) {
     const double rows = independent_readings(f);
     const bool repeated = f.noise.model.source == NoiseSource::repeats;
-    return {missed_by(f),
+    return {missed_by(f, f.judgement.left),
+            {missed_by(f, written.paths.before), missed_by(f, written.paths.after)},
             1.0 - std::clamp(f.judgement.part, 0.0, 1.0),
             repeated ? f.noise.model.doubt : std::sqrt(2.0 / std::max(1.0, rows)),
             rows,
@@ -270,6 +272,22 @@ std::vector<AmbiguousPair> pairs_of(const Outcome& f, const std::vector<Claim>& 
     return pairs;
 }
 
+/// The interval of the draws, and the found shrink inside it.
+void widen(HeldOut& h, const std::pair<double, double>& draws) {
+    h.low = std::min(draws.first, h.shrink.value()) - least_half_width;
+    h.high = std::min(1.0, std::max(draws.second, h.shrink.value()) + least_half_width);
+}
+
+/// Shrink on the readings themselves: the most that fresh readings at the same places can show.
+double fitted_shrink(const Outcome& f, const Model& model) {
+    if (model.members.empty()) return 0.0;
+    const double noise = std::pow(rms_um(f, noise_mm(f)), 2);
+    const double before = std::pow(rms_um(f, f.prepared.base.residual_mm), 2) - noise;
+    const Eigen::VectorXd left = left_mm(f.prepared, f.design, model, solved(f.design, model));
+    const double after = std::pow(rms_um(f, left), 2) - noise;
+    return before > 0.0 ? 1.0 - std::sqrt(std::max(0.0, after) / before) : 0.0;
+}
+
 /// Left-out residual with the set-up and a single member.
 HeldOut alone(const Outcome& f, std::size_t position, const ShrinkDraws& draws) {
     Model one{{f.model.members[position]},
@@ -277,9 +295,7 @@ HeldOut alone(const Outcome& f, std::size_t position, const ShrinkDraws& draws) 
               0.0};
     const LeftOut left(f.design, one, f.prepared.folds, f.used);
     HeldOut h = held_out(f, f.judgement.left_before, left.residual({true}, {true}));
-    const auto [low, high] = draws.interval(one);
-    h.low = std::min(low, h.shrink.value()) - least_half_width;
-    h.high = std::min(1.0, std::max(high, h.shrink.value()) + least_half_width);
+    widen(h, draws.interval(one));
     return h;
 }
 
@@ -287,11 +303,16 @@ HeldOut alone(const Outcome& f, std::size_t position, const ShrinkDraws& draws) 
 
 namespace {
 
-/// Separate held-out readings are decisive: H is at most what they show.
-Judgement with_holdout(const Outcome& f, const records::ReadingTable* holdout) {
+/// H is that of what is written, if that holds everywhere; separate held-out readings are decisive.
+Judgement as_written(const Outcome& f, const Written& written,
+                     const records::ReadingTable* holdout) {
     Judgement judgement = f.judgement;
-    if (holdout && judgement.gap)
-        judgement.part = std::min(judgement.part, measured_part(f, written_setup(f), *holdout));
+    if (!judgement.gap) return judgement;
+    judgement.between_places &= !written.only_here;
+    if (judgement.between_places && written.part > 0.0)
+        judgement.part = std::min(judgement.part, written.part);
+    if (holdout)
+        judgement.part = std::min(judgement.part, measured_part(f, written.setup, *holdout));
     return judgement;
 }
 
@@ -309,7 +330,8 @@ void tell_sessions(const Outcome& f, const std::vector<Claim>& claims, Diagnosis
 }  // namespace
 
 Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
-    const Judgement judgement = with_holdout(found, options.holdout);
+    Written written = written_setup(found);
+    const Judgement judgement = as_written(found, written, options.holdout);
     const Outcome f{found.prepared, found.design, found.setting, found.model,
                     judgement,      found.noise,  found.used};
     Diagnosis d;
@@ -326,7 +348,8 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     d.p_value = chance_of(f);
     d.explained = f.judgement.gap ? std::clamp(f.judgement.part, 0.0, 1.0) : 0.0;
     d.between_places = f.judgement.between_places;
-    d.setup = written_setup(f);
+    if (f.judgement.part <= 0.0) written = written_setup(f);
+    d.setup = written.setup;
     if (!f.judgement.gap) {
         d.after_rms_um = d.rms_um;
         d.after_um = d.before_um;
@@ -337,19 +360,16 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     if (options.over_sessions) tell_sessions(f, claims, d);
     d.where = where_of(f.design, f.judgement.floor);
     const FreshReadings fresh(f.prepared, options.seed);
-    const ShrinkDraws draws(f.design, fresh, possible_truths(f), draw_setting(f, options.seed));
+    const ShrinkDraws draws(f.design, fresh, possible_truths(f),
+                            draw_setting(f, written, options.seed));
     const Eigen::MatrixXd covariance = solution.covariance();
     for (const Claim& claim : claims) {
         d.causes.push_back(cause_of({f.design, f.model, f.judgement, solution, covariance}, claim));
         d.causes.back().heldout = alone(f, claim.position, draws);
     }
-    // Causes not confirmed by left-out readings are not written, so they reduce nothing.
-    const bool written = f.judgement.part > 0.0;
-    d.after =
-        held_out(f, f.judgement.left_before, written ? f.judgement.left : f.judgement.left_before);
-    const auto [low, high] = draws.interval(f.model);
-    d.after.low = std::min(low, d.after.shrink.value()) - least_half_width;
-    d.after.high = std::min(1.0, std::max(high, d.after.shrink.value()) + least_half_width);
+    d.after = held_out(f, written.blocks.before, written.blocks.after);
+    widen(d.after, draws.interval_elsewhere(written.model));
+    d.after.high = std::max(d.after.high.value(), fitted_shrink(f, written.model));
     if (d.verdict == Verdict::unexplained || d.verdict == Verdict::partly_explained) {
         const auto at = std::find_if(d.causes.begin(), d.causes.end(),
                                      [&](const Cause& c) { return c.share < d.unexplained_share; });

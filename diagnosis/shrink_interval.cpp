@@ -61,6 +61,17 @@ double remainder_per_row(const std::vector<Missed>& missed, double noise_factor,
     return rows > 0.0 ? sum / rows : 0.0;
 }
 
+/// Fraction of the squares that stays on left-out paths, in a draw of the paths.
+double left_elsewhere(const Elsewhere& paths, SeededNoise& random) {
+    double before = 0.0, after = 0.0;
+    for (std::size_t k = 0; k < paths.before.size(); ++k) {
+        const double weight = stretch_weight(random);
+        before += weight * std::max(0.0, paths.before[k].square);
+        after += weight * std::max(0.0, paths.after[k].square);
+    }
+    return before > 0.0 ? after / before : 1.0;
+}
+
 /// Directions of the set-up that the readings leave undetermined by more than a typical size.
 Eigen::MatrixXd open_set_up(const Design& design) {
     Eigen::MatrixXd information = design.known().transpose() * design.known();
@@ -137,13 +148,16 @@ void ShrinkDraws::draw_all() {
             rows += weights_(b, d) * static_cast<double>(rows_[static_cast<std::size_t>(b)]);
         }
         const double remainder = rows * remainder_per_row(setting_.missed, noise_factor, random);
-        if (random.uniform() < real) draw.remainder = std::max(0.0, remainder);
+        // A left-out stretch is farther from the others than fresh readings within it would be.
+        if (random.uniform() < real) draw.remainder = random.uniform() * std::max(0.0, remainder);
         if (random.uniform() < setting_.unknown)
             draw.false_part = -std::log(random.uniform()) * random.uniform();
         draw.noise = rows * setting_.noise_per_row;
         draw.off = random.normal();
         draw.along_before = random.normal();
         draw.along_after = random.normal();
+        draw.elsewhere = random.uniform();
+        draw.left_there = left_elsewhere(setting_.elsewhere, random);
         draws_.push_back(draw);
     }
     read_.noalias() = columns_ * machines;
@@ -204,6 +218,14 @@ Eigen::VectorXd ShrinkDraws::over_places(const Model& model, const Eigen::Vector
 }
 
 std::pair<double, double> ShrinkDraws::interval(const Model& model) const {
+    return ends(model, false);
+}
+
+std::pair<double, double> ShrinkDraws::interval_elsewhere(const Model& model) const {
+    return ends(model, true);
+}
+
+std::pair<double, double> ShrinkDraws::ends(const Model& model, bool elsewhere) const {
     const Model nothing{{}, {{}, model.variances.nu}, 0.0};
     const std::vector<double> off_with =
         squares_off(over_places(model, solved(design_, model).mean));
@@ -214,6 +236,8 @@ std::pair<double, double> ShrinkDraws::interval(const Model& model) const {
         const double before = draws_[d].remainder + off_without[d];
         double after = draws_[d].remainder + off_with[d];
         after += 2.0 * draws_[d].false_part * std::max(0.0, before - after);
+        if (elsewhere)
+            after += draws_[d].elsewhere * std::max(0.0, before * draws_[d].left_there - after);
         const double read = as_read(before, draws_[d], draws_[d].along_before);
         after = as_read(after, draws_[d], draws_[d].along_after);
         shrink.push_back(read > 0.0 ? 1.0 - std::sqrt(after / read) : 0.0);

@@ -28,9 +28,15 @@ struct Missed {
     double square = 0.0, noise = 0.0, rows = 0.0;  ///< mm^2, mm^2, count
 };
 
+/// The same on whole left-out paths, with the set-up alone and with the written causes.
+struct Elsewhere {
+    std::vector<Missed> before, after;
+};
+
 /// Further input of the draws.
 struct DrawSetting {
     std::vector<Missed> missed;
+    Elsewhere elsewhere;
     double unknown = 0.0;        ///< probability that the effects replace an unknown one
     double doubt = 0.0;          ///< relative standard error of the noise variance
     double independent = 1.0;    ///< number of independent readings with the same information about
@@ -54,17 +60,24 @@ class ShrinkDraws {
     /// 95 % interval of the shrink by `model`, relative to the set-up alone.
     std::pair<double, double> interval(const Model& model) const;
 
+    /// The same when an unknown part of the fresh readings lies over paths that nobody measured:
+    /// there the model leaves what it leaves on left-out paths.
+    std::pair<double, double> interval_elsewhere(const Model& model) const;
+
   private:
     struct Draw {
         double remainder = 0.0;   ///< mm^2, weighted
         double false_part = 0.0;  ///< fraction of the prediction that is wrong; it counts twice
         double noise = 0.0;       ///< mm^2, weighted: expected noise of the fresh readings
+        double elsewhere = 0.0;   ///< fraction of the fresh readings over unmeasured paths
+        double left_there = 0.0;  ///< what the written causes leave of the squares there
         /// Standard normal: deviation of the fresh noise from its expectation, and its projection
         /// on the error before and after the fit.
         double off = 0.0, along_before = 0.0, along_after = 0.0;
     };
     double as_read(double square, const Draw& draw, double along) const;
     std::vector<double> squares_off(const Eigen::VectorXd& x) const;
+    std::pair<double, double> ends(const Model& model, bool elsewhere) const;
     void take_places(const FreshReadings& fresh);
     void draw_all();
     Eigen::VectorXd over_places(const Model& model, const Eigen::VectorXd& x) const;

@@ -31,25 +31,29 @@ bool is_large(const Outcome& f, std::size_t group) {
     return f.judgement.large[static_cast<std::size_t>(at - f.model.members.begin())];
 }
 
-/// Loss on left-out readings when only causes and small zeros predict.
-BlockLoss loss_of(const Outcome& f, const Model& model, const Folds& folds) {
-    const LeftOut left(f.design, model, folds, f.used);
-    std::vector<bool> predicting;
+/// Which members contribute to a prediction: causes and small zeros.
+std::vector<bool> predicting(const Outcome& f, const Model& model) {
+    std::vector<bool> list;
     for (const std::size_t m : model.members) {
         const GroupKind kind = f.design.group(m).kind;
-        predicting.push_back(is_cause(kind) || (kind == GroupKind::offset && !is_large(f, m)));
+        list.push_back(is_cause(kind) || (kind == GroupKind::offset && !is_large(f, m)));
     }
-    return left.loss(std::vector<bool>(model.members.size(), true), predicting);
+    return list;
+}
+
+BlockLoss loss_of(const Outcome& f, const Model& model, const Folds& folds) {
+    return LeftOut(f.design, model, folds, f.used)
+        .loss(std::vector<bool>(model.members.size(), true), predicting(f, model));
+}
+
+Eigen::VectorXd residual_of(const Outcome& f, const Model& model, const Folds& folds) {
+    return LeftOut(f.design, model, folds, f.used)
+        .residual(std::vector<bool>(model.members.size(), true), predicting(f, model));
 }
 
 bool has_tables(const Outcome& f, const Model& model) {
     return std::any_of(model.members.begin(), model.members.end(),
                        [&](std::size_t m) { return f.design.group(m).kind == GroupKind::table; });
-}
-
-bool harms_paths(const Outcome& f, const Model& model, const Model& none) {
-    const Folds paths = path_folds(f.prepared.blocks, f.prepared.replay, f.prepared.table.axes);
-    return loss_of(f, model, paths).mean() > most_harm * loss_of(f, none, paths).mean();
 }
 
 /// The found model without the parts that do not predict, the most complete one first.
@@ -76,30 +80,59 @@ std::vector<Model> candidates_of(const Outcome& f) {
     return list;
 }
 
-/// The best candidate on left-out readings; the one without causes if none is better.
-Model chosen(const Outcome& f) {
-    const Model none = only(f, f.model, [&](GroupKind k, std::size_t m) {
+/// The set-up with the small zeros of tests.
+Model without_causes(const Outcome& f) {
+    return only(f, f.model, [&](GroupKind k, std::size_t m) {
         return k == GroupKind::offset && !is_large(f, m);
     });
-    const BlockLoss before = loss_of(f, none, f.prepared.folds);
-    Model best = none;
+}
+
+/// Loss of a candidate on left-out paths, against the set-up alone (`before`): a table must predict
+/// there, anything else do no harm.
+bool holds_elsewhere(bool table, double before, double after, double noise) {
+    if (!table) return after <= most_harm * before;
+    return before - after >= rules::between_least * std::max(0.0, before - noise);
+}
+
+/// Takes the best candidate on left-out readings that holds on left-out paths, if there is one.
+void choose(const Outcome& f, const Folds& paths, Written& w) {
+    const double rank = static_cast<double>(f.design.projection().rank());
+    const double noise = f.judgement.floor * (1.0 + rank / std::max(1.0, f.design.rows()));
+    const BlockLoss before = loss_of(f, w.model, f.prepared.folds);
+    const double elsewhere = loss_of(f, w.model, paths).mean();
     double least = before.mean();
     for (Model& model : candidates_of(f)) {
         const BlockLoss loss = loss_of(f, model, f.prepared.folds);
         if (loss.mean() >= least || saving_of(before, loss).t < rules::least_t) continue;
-        if (has_tables(f, model) && harms_paths(f, model, none)) continue;
+        const double there = loss_of(f, model, paths).mean();
+        if (!holds_elsewhere(has_tables(f, model), elsewhere, there, noise)) {
+            w.only_here = true;
+            continue;
+        }
         least = loss.mean();
-        best = std::move(model);
+        w.model = std::move(model);
     }
-    return best;
+    if (before.mean() > noise) w.part = (before.mean() - least) / (before.mean() - noise);
 }
 
 }  // namespace
 
-setup::Setup written_setup(const Outcome& f) {
-    Model model{{}, {{}, f.model.variances.nu}, 0.0};
-    if (f.judgement.gap && f.judgement.part > 0.0) model = chosen(f);
-    return setup_with(f.prepared, f.design, model, solved(f.design, model));
+Written written_setup(const Outcome& f) {
+    Written w;
+    w.model = {{}, {{}, f.model.variances.nu}, 0.0};
+    if (f.judgement.gap && f.judgement.part > 0.0) {
+        const Model none = without_causes(f);
+        const Folds paths = path_folds(f.prepared.blocks, f.prepared.replay, f.prepared.table.axes);
+        w.model = none;
+        choose(f, paths, w);
+        w.blocks = {f.judgement.left_before, residual_of(f, w.model, f.prepared.folds)};
+        w.paths = {residual_of(f, none, paths), residual_of(f, w.model, paths)};
+    } else {
+        w.blocks = {f.judgement.left_before, f.judgement.left_before};
+        w.paths = w.blocks;
+    }
+    w.setup = setup_with(f.prepared, f.design, w.model, solved(f.design, w.model));
+    return w;
 }
 
 }  // namespace trunnion::diagnosis

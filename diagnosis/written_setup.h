@@ -5,10 +5,23 @@
 
 namespace trunnion::diagnosis {
 
+/// Whitened left-out residuals of all rows, with the set-up alone and with the written causes.
+struct LeftOutPair {
+    Eigen::VectorXd before, after;
+};
+struct Written {
+    Model model;             ///< the written causes, with the drivers fitted beside them
+    setup::Setup setup;      ///< the re-identified setup with the causes
+    double part = 0.0;       ///< H of what is written: part of the excess on left-out blocks
+    LeftOutPair blocks;      ///< the folds of the verdict
+    LeftOutPair paths;       ///< whole paths left out (path_folds)
+    bool only_here = false;  ///< a better model was refused because it fails on left-out paths
+};
+
 /// The causes that predict left-out readings significantly better than the set-up alone in their
-/// written form: without drivers and large zeros, without tables that fail between their positions
-/// and, if there is a table among them, no worse on whole left-out paths. If there are none: the
-/// re-identified setup without causes.
-setup::Setup written_setup(const Outcome& found);
+/// written form: without drivers and large zeros and without tables that fail between their
+/// positions. On whole left-out paths a model with tables must predict half of the excess, another
+/// one do no harm. If there are none: the re-identified setup without causes.
+Written written_setup(const Outcome& found);
 
 }  // namespace trunnion::diagnosis

@@ -77,8 +77,9 @@ std::string diagnosis_text(const diagnosis::Diagnosis& d) {
     if (!d.causes.empty())
         text += "\n" +
                 paragraph(fmt::format("after: rms {}; of readings left out the causes "
-                                      "explain {:.0f} %{}; the gap "
-                                      "shrinks by {:.0f} % ({:.0f} to {:.0f})",
+                                      "explain {:.0f} %{}; with the "
+                                      "written setup the gap shrinks by {:.0f} % ({:.0f} to "
+                                      "{:.0f})",
                                       length_words(d.after_rms_um), 100 * d.explained,
                                       d.between_places ? "" : " at the measured places",
                                       100 * d.after.shrink, 100 * d.after.low, 100 * d.after.high),

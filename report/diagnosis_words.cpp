@@ -32,6 +32,19 @@ std::string plain_name(const identification::FitParameter& p) {
     return p.component < 0 ? name : fmt::format("{} {}", name, "xyz"[p.component]);
 }
 
+constexpr double claimed_from = 0.5;  ///< probability of a cause
+
+bool is_sure(const diagnosis::Diagnosis& d) {
+    return !d.causes.empty() && d.causes.front().probability >= claimed_from;
+}
+
+/// Before the name of the first cause.
+std::string by_words(const diagnosis::Diagnosis& d) {
+    if (!is_sure(d)) return "but by what is uncertain; most probably it is";
+    if (d.causes.front().share >= 0.5) return "most of it by";
+    return fmt::format("by {} effects, the largest of them", d.causes.size());
+}
+
 std::string size_words(const diagnosis::Diagnosis& d) {
     return fmt::format("{} rms, {} of it noise ({})", length_words(d.rms_um),
                        length_words(d.noise_um), to_string(d.noise.source));
@@ -97,14 +110,16 @@ std::string main_size(const diagnosis::Cause& cause) {
 std::string verdict_sentence(const diagnosis::Diagnosis& d) {
     const std::string size = size_words(d);
     const std::string first = d.causes.empty() ? "" : cause_name(d.causes.front());
+    const char* where = d.between_places ? "" : " at the measured places";
     switch (d.verdict) {
         case diagnosis::Verdict::no_gap: return "No gap beyond noise: " + size + ".";
         case diagnosis::Verdict::explained:
-            return fmt::format("The gap is explained, most of it by {}: {}.", first, size);
+            return fmt::format("The gap is explained{}, {} {}: {}.", where, by_words(d), first,
+                               size);
         case diagnosis::Verdict::ambiguous:
             return fmt::format(
-                "The gap is explained, but these readings cannot tell {} from its rivals: {}.",
-                first, size);
+                "The gap is explained{}, but these readings cannot tell {} from its rivals: {}.",
+                where, first, size);
         case diagnosis::Verdict::partly_explained:
             return fmt::format("The gap is explained in part: {}.", size);
         case diagnosis::Verdict::unexplained:
@@ -125,7 +140,8 @@ std::string answer(const diagnosis::Diagnosis& d) {
     const std::string part = fmt::format("{:.0f} %", 100.0 * d.explained);
     switch (d.verdict) {
         case diagnosis::Verdict::explained:
-            return size + "The cause is " + causes + ". " + shrink_words(d.after);
+            return size + (is_sure(d) ? "The cause is " : "The cause is uncertain, perhaps ") +
+                   causes + ". " + shrink_words(d.after);
         case diagnosis::Verdict::ambiguous:
             return size + "The cause is " + causes +
                    ", or another effect that these readings cannot tell from it: see below. " +

@@ -41,6 +41,15 @@ diagnosis::Diagnosis diagnosis_of(const std::vector<arm::Pose>& poses) {
     return diagnosis::diagnose(setup, arm::table(setup, arm::ur5, poses), options);
 }
 
+/// The rows of the second table on the clock of the first, after its end (as joined tables are).
+records::ReadingTable taken_after(const records::ReadingTable& first,
+                                  const records::ReadingTable& second) {
+    records::ReadingTable later = records::join_readings({first, second});
+    later.rows.erase(later.rows.begin(),
+                     later.rows.begin() + static_cast<std::ptrdiff_t>(first.rows.size()));
+    return later;
+}
+
 }  // namespace
 
 TEST_CASE("a joint of an arm that is off by a wave of its angle is named", "[diagnosis][arm]") {
@@ -69,23 +78,26 @@ TEST_CASE("beyond geometry: what is missing in a real UR5, and how far its gap s
     const std::string name = std::string(folder) + "/3D_UR5_uncalibrated_";
     const records::ReadingTable grid =
         arm::table(setup, arm::ur5, arm::published(name + "grid_cleaned.csv"));
-    const records::ReadingTable fresh =
+    const records::ReadingTable cold =
         arm::table(setup, arm::ur5, arm::published(name + "random_cleaned.csv"));
+    const records::ReadingTable fresh = taken_after(grid, cold);  // nobody says when; see docs
     diagnosis::DiagnosisOptions options;
     options.plan_next = false;
     const diagnosis::Diagnosis d = diagnosis::diagnose(setup, grid, options);
     const auto geometry = identification::identify(setup, grid, arm::kinematic_effects());
     const double before_mm = arm::mean(arm::misses_mm(geometry.setup, fresh));
     const double after_mm = arm::mean(arm::misses_mm(d.setup, fresh));
+    const double cold_mm = arm::mean(arm::misses_mm(d.setup, cold));
     std::string said;
     for (const diagnosis::Cause& c : d.causes)
         said += fmt::format("\n  {}{} {:.0f} % p {:.2f}", c.effect,
                             c.points.empty() ? "" : " (table)", 100.0 * c.share, c.probability);
     WARN(to_string(d.verdict) << ", explained " << d.explained << ", rms " << d.rms_um << " um"
                               << said << "\n20 poses: " << before_mm << " -> " << after_mm
-                              << " mm mean");
+                              << " mm mean; on a cold arm " << cold_mm << "; the grid itself "
+                              << arm::mean(arm::misses_mm(d.setup, grid)));
     CHECK(d.verdict != diagnosis::Verdict::no_gap);
-    CHECK(after_mm < 1.3 * before_mm);
+    CHECK(after_mm < 0.7 * before_mm);
     const bool turns = std::any_of(d.causes.begin(), d.causes.end(), [](const auto& c) {
         return c.effect == "J1.positioning" || c.effect == "J2.positioning" ||
                c.effect == "free form of J1" || c.effect == "free form of J2";

@@ -56,3 +56,17 @@ TEST_CASE("no line of a diagnosis is longer than 90 places") {
         CHECK(line.size() <= 90);
     }
 }
+
+TEST_CASE("a verdict says where it holds, and does not name for sure what is not") {
+    diagnosis::Diagnosis d = with_parameters({});
+    d.causes.front().probability = 0.9;
+    d.causes.front().share = 0.14;
+    CHECK_THAT(report::diagnosis_text(d), !Catch::Contains("most of it"));
+    d.causes.front().share = 0.9;
+    CHECK_THAT(report::diagnosis_text(d), Catch::Contains("is explained, most of it by"));
+    d.causes.front().probability = 0.04;
+    CHECK_THAT(report::diagnosis_text(d),
+               Catch::Contains("by what is uncertain") && !Catch::Contains("most of it by"));
+    d.between_places = false;
+    CHECK_THAT(report::diagnosis_text(d), Catch::Contains("is explained at the measured places"));
+}

@@ -82,7 +82,8 @@ def judge(seed, truth, verdict, values):
     rivals = [[str(r) for r in c.get("rivals") or []] for c in causes]
     after = verdict.get("after") or {}
     record = {"seed": seed, "name": truth["name"], "kind": truth["kind"], "noise": truth["noise_case"],
-              "around": truth.get("around", ""), "explained": number(after.get("explained")), "measured_explained": None,
+              "around": truth.get("around", ""), "between": after.get("between_places"),
+              "explained": number(after.get("explained")), "measured_explained": None,
               "machine": truth["machine"], "devices": "+".join(truth["devices"]),
               "truth": [e for e in truth["effects"] if e != "none"], "sizes": truth["size_sigma"],
               "size": min(truth["size_sigma"], default=0.0), "readings": truth["readings"],
@@ -300,6 +301,11 @@ def score_shrink(table, records):
                  explained_error, "reach 0.05")
     table.median("shrink.explained_error_form", "  the same beside form errors",
                  [r for r in records if r["kind"] == "form"], explained_error, "reach 0.05")
+    table.median("shrink.explained_error_between", "  the same where it holds between the places",
+                 [r for r in records if r["between"] is not False], explained_error, "reach 0.05")
+    law = [r for r in records if r.get("z_before") and r["z_after"] is not None]
+    table.rate("shrink.no_harm", "the written setup predicts no worse (2 % of the rms)", law,
+               lambda r: r["z_after"] <= 1.02 * r["z_before"], "all")
     with_ends = [r for r in large if r["ci95"] and r["measured_shrink"] is not None]
     table.rate("shrink.ci95", "measured shrink inside ci95, from 3 sigma", with_ends, in_interval)
 
