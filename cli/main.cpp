@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <initializer_list>
@@ -203,7 +204,25 @@ int parse_and_run(int argc, char** argv) {
 
 using namespace trunnion;
 
+namespace {
+
+/// Libraries end the program where memory is missing inside a noexcept function (CLI11, toml++):
+/// that is a limit, too.
+[[noreturn]] void end_without_memory() {
+    try {
+        if (const auto failure = std::current_exception()) std::rethrow_exception(failure);
+    } catch (const std::bad_alloc&) {
+        write_error("trunnion: there is not enough memory (--max-memory, or this computer)\n");
+        std::_Exit(exit_limit);
+    } catch (...) {
+    }
+    std::abort();
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
+    std::set_terminate(end_without_memory);
     prepare_streams();
     try {
         return cli::parse_and_run(argc, argv);

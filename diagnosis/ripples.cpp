@@ -36,13 +36,17 @@ double largest_hole(const std::vector<double>& places, double period) {
 struct Ripple {
     Axis axis;
     double period;
+    double shortest;  ///< period that the catalogue offers
 };
 std::optional<Ripple> ripple_of(const effects::Effect& effect, const std::vector<double>& keys) {
     if (effect.kind != effects::EffectKind::cyclic) return std::nullopt;
     for (std::size_t j = 0; j < keys.size(); ++j) {
-        if (!effect.parameters[j].is_key()) continue;
-        return Ripple{*effect.axis,
-                      effect.parameters[j].name == periods_key ? 2.0 * pi / keys[j] : keys[j]};
+        const effects::EffectParameter& key = effect.parameters[j];
+        if (!key.is_key()) continue;
+        const auto [least, most] = std::minmax_element(key.grid.begin(), key.grid.end());
+        if (key.name == periods_key)
+            return Ripple{*effect.axis, 2.0 * pi / keys[j], 2.0 * pi / *most};
+        return Ripple{*effect.axis, keys[j], *least};
     }
     return std::nullopt;
 }
@@ -62,6 +66,15 @@ std::vector<double> positions_of(const Prepared& prepared, Axis axis) {
     for (std::size_t i = 0; i < prepared.replay.size(); ++i)
         places.push_back(prepared.replay.sample(i).position[axis]);
     return places;
+}
+
+/// True when the positions stand on a grid on which a shorter period of the catalogue has the same
+/// values: its frequency is 1 / step - 1 / period.
+bool has_alias(std::vector<double> places, const Ripple& ripple) {
+    places = distinct(std::move(places));
+    if (places.size() < 2) return false;
+    const double step = grid_step(places);
+    return step > 0.0 && 1.0 / step - 1.0 / ripple.period < 1.0 / ripple.shortest;
 }
 
 /// Features of the textbook effects of the same axis.
@@ -100,7 +113,8 @@ std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& p
                                                std::vector<double> keys) {
     const auto ripple = ripple_of(effect, keys);
     if (ripple) {
-        if (!shows_period(positions_of(prepared, ripple->axis), ripple->period))
+        const std::vector<double> places = positions_of(prepared, ripple->axis);
+        if (!shows_period(places, ripple->period) || has_alias(places, *ripple))
             return std::nullopt;
     }
     const auto added = add_keyed_group(design, prepared, whitener, effect, std::move(keys));

@@ -18,7 +18,8 @@ bool shows_period(std::vector<double> places, double period);
 void add_unresolved_ripple(Design& design, const Prepared& prepared, const Whitener& whitener,
                            const effects::Effect& effect, std::vector<double> keys);
 
-/// Adds the effect with given keys if the positions of its axis resolve it and no textbook effect
+/// Adds the effect with given keys if the positions of its axis resolve it, no shorter period of
+/// the catalogue has the same values on their grid (an alias), and no textbook effect
 /// of that axis is equivalent on these readings (at least a fifth of its squared columns must be
 /// outside theirs).
 std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& prepared,

@@ -178,6 +178,16 @@ void take_values(const BaseModel& base, std::vector<KeyedEffect>& effects) {
                     e.values[j] = f.value;
 }
 
+/// The keys of the effects, at the values of the catalogue; their sigma is not known yet.
+void add_keys(const effects::Catalogue& catalogue, const std::vector<std::string>& effects,
+              std::vector<FitParameter>& parameters) {
+    for (const std::string& name : effects)
+        for (const effects::EffectParameter& p : effects::find_effect(catalogue, name)->parameters)
+            if (p.is_key())
+                parameters.push_back(
+                    {name, p.name, p.unit, -1, p.typical, p.typical, std::nan(""), 0.0, 0.0});
+}
+
 }  // namespace
 
 Identification identify(const setup::Setup& setup, const records::ReadingTable& table,
@@ -216,11 +226,7 @@ Identification identify(const setup::Setup& setup, const records::ReadingTable& 
     BaseModel base = fit_needed_terms({setup, table, replay, effects}, catalogue, notes);
     Identification result;
     result.parameters = base.parameters;
-    for (const std::string& name : effects)
-        for (const effects::EffectParameter& p : effects::find_effect(catalogue, name)->parameters)
-            if (p.is_key())
-                result.parameters.push_back(
-                    {name, p.name, p.unit, -1, p.typical, p.typical, std::nan(""), 0.0, 0.0});
+    add_keys(catalogue, effects, result.parameters);
     take_values(base, with_keys);
     if (!with_keys.empty()) need_gradient(base, replay);
     add_key_uncertainty(replay, with_keys, base, result.parameters);

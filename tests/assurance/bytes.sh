@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # bytes.sh PROGRAM_A PROGRAM_B: the same commands with both; one line each, "same" or "other". Exit 1 when bytes differ.
 set -eu
+# shellcheck disable=SC2034  # read as ${!side}
 a=$(realpath "$1") b=$(realpath "$2")
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 work=$(mktemp -d)

@@ -80,7 +80,7 @@ TEST_CASE("Ctrl-C in identify keeps what is fitted and names what is not") {
     const Bench bench;
     CHECK(bench.signalled(bench.identify(20000), SIGINT, 1.0) == 4);
     bench.check_kept();
-    CHECK_THAT(bench.read("err.txt"), Catch::Contains("interrupted: keys of") &&
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("interrupted: the keys of") &&
                                           Catch::Contains("keep their usual values"));
 }
 
