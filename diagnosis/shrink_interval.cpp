@@ -222,7 +222,8 @@ std::pair<double, double> ShrinkDraws::interval(const Model& model) const {
 }
 
 std::pair<double, double> ShrinkDraws::interval_elsewhere(const Model& model) const {
-    return ends(model, true);
+    const auto here = ends(model, false), there = ends(model, true);
+    return {std::min(here.first, there.first), std::max(here.second, there.second)};
 }
 
 std::pair<double, double> ShrinkDraws::ends(const Model& model, bool elsewhere) const {

@@ -60,8 +60,8 @@ class ShrinkDraws {
     /// 95 % interval of the shrink by `model`, relative to the set-up alone.
     std::pair<double, double> interval(const Model& model) const;
 
-    /// The same when an unknown part of the fresh readings lies over paths that nobody measured:
-    /// there the model leaves what it leaves on left-out paths.
+    /// That and the same when an unknown part of the fresh readings lies over paths that nobody
+    /// measured, where the model leaves what it leaves on left-out paths: the wider ends.
     std::pair<double, double> interval_elsewhere(const Model& model) const;
 
   private:
