@@ -41,14 +41,15 @@ double temper(const Sizes& sizes, std::size_t k, const Folds& folds) {
 }
 
 /// Log weights, relative to the model without member k, of models in which another cause is
-/// replaced as well: one effect may do what two are claimed for.
+/// replaced as well: one effect may do what two are claimed for. None in large models.
 std::vector<double> one_for_two(Design& design, const Model& model, std::size_t k) {
     const auto value = [&](const Offer& o) {
         return o.gain.best + design.group(o.group).log_prior;
     };
+    std::vector<double> scores;
+    if (model.members.size() > pairs_up_to) return scores;
     const Model rest = without(model, k);
     const std::vector<Offer> worth = worth_of_members(design, rest);
-    std::vector<double> scores;
     for (std::size_t m = 0; m < rest.members.size(); ++m) {
         const std::string& replaced = design.group(rest.members[m]).name;
         if (!is_cause(design.group(rest.members[m]).kind)) continue;

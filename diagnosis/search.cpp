@@ -175,8 +175,10 @@ bool named(GroupKind kind) {
     return kind == GroupKind::textbook || kind == GroupKind::periodic;
 }
 
-/// Named effects in place of a pair of members: two effects together may imitate a third one.
+/// Named effects in place of a pair of members: two effects together may imitate a third one. Only
+/// in small models, because the time grows with the square of the members.
 Model joined(Design& design, const SearchSetting& setting, Model model) {
+    if (model.members.size() > pairs_up_to) return model;
     for (std::size_t second = 1; second < model.members.size() && !setting.stopped(); ++second)
         for (std::size_t first = 0; first < second && second < model.members.size(); ++first) {
             if (!named(design.group(model.members[first]).kind) ||

@@ -47,6 +47,9 @@ struct Offer {
 /// accepted by `takes`, if given.
 std::vector<Offer> offers(Design& design, const Model& model,
                           const std::function<bool(GroupKind)>& takes = {});
+/// Members up to which pairs of them are tried against one effect in their place.
+inline constexpr std::size_t pairs_up_to = 6;
+
 /// Gain of the groups that are kept as rivals only (Design::keep_as_rival), best first.
 std::vector<Offer> only_rivals(Design& design, const Model& model);
 /// True for the same member, or the same cause in another form.
