@@ -1,7 +1,10 @@
 // Words not accepted by the control, and variables that it does not have.
 #include <fmt/format.h>
 
+#include <array>
+
 #include "check/section.h"
+#include "interpreter/arguments.h"
 #include "interpreter/memory.h"
 #include "interpreter/word_rules.h"
 
@@ -13,6 +16,33 @@ constexpr int too_many_words = 1090;
 
 std::string alarm_text(const CheckOptions& options, int number) {
     return options.alarm_text ? options.alarm_text(number) : fmt::format("alarm {}", number);
+}
+
+/// What the control says of the arguments of G65, G66 or G66.1; nothing for other blocks.
+std::optional<interpreter::WordFault> argument_fault(const interpreter::BlockWords& words) {
+    std::array<interpreter::WordValue, interpreter::BlockWords::capacity> arguments;
+    std::size_t count = 0;
+    std::string own = "GPL<";  // of the call itself, one each
+    for (const interpreter::WordValue& w : words) {
+        const std::size_t at = own.find(w.letter);
+        if (at == own.npos)
+            arguments[count++] = w;
+        else
+            own.erase(at, 1);
+    }
+    interpreter::Locals locals;
+    try {
+        interpreter::pass_arguments(arguments.data(), arguments.data() + count, {}, locals);
+    } catch (const Alarm& alarm) {
+        return interpreter::WordFault{alarm.number, alarm.where.column, {}};
+    }
+    return std::nullopt;
+}
+
+bool starts_with_macro_call(const interpreter::BlockWords& words) {
+    if (words.count == 0 || words.words[0].letter != 'G') return false;
+    const int code10 = code10_of(words.words[0].value);
+    return code10 == 650 || code10 == 660 || code10 == 661;
 }
 
 void check_block_words(const interpreter::ParsedProgram& program, const interpreter::Block& block,
@@ -28,8 +58,11 @@ void check_block_words(const interpreter::ParsedProgram& program, const interpre
             mapped = mapped || ((w.letter == 'G' || w.letter == 'M') &&
                                 options.calls_program(w.letter, code10_of(w.value)));
     if (mapped) return;  // the words are arguments
-    if (const auto fault =
-            interpreter::find_word_fault(constants->words, options.dialect.family, constants->all))
+    auto fault =
+        interpreter::find_word_fault(constants->words, options.dialect.family, constants->all);
+    if (!fault && starts_with_macro_call(constants->words))
+        fault = argument_fault(constants->words);
+    if (fault)
         findings.add(
             "word", Severity::error, {block, fault->column},
             alarm_text(options, fault->alarm) + (fault->detail.empty() ? "" : " " + fault->detail),

@@ -147,6 +147,7 @@ setup::Setup setup_with(const Prepared& prepared, const Design& design, const Mo
         else if (group.effect)
             identification::add_effect(setup, *group.effect, values_in(group, own));
     }
+    identification::keep_sessions(setup, prepared.replay);
     return setup;
 }
 

@@ -95,7 +95,7 @@ struct Interpreter::State {
     bool return_words(std::size_t at);
     bool code_call(std::size_t at, const CodeCalls::Call& call);
     bool tool_call(std::size_t at);
-    bool cancel_modal(std::size_t at);
+    void cancel_modals();
     bool macro_file_value(const Block& block, const Code& code);
     bool call_every_block();
     void call_after_motion();

@@ -1,4 +1,5 @@
 // Programs that call programs: G65-G67, M98, M99, M198 and codes mapped by parameters.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -12,6 +13,10 @@ namespace {
 const CodeCalls::Call* find_call(const std::map<int, CodeCalls::Call>& calls, double code) {
     const auto it = calls.find(static_cast<int>(std::lround(code)));
     return it == calls.end() ? nullptr : &it->second;
+}
+
+bool is_macro_call(const WordValue& word) {
+    return word.letter == 'G' && (word.value == 65 || word.value == 66 || word.value == 66.1);
 }
 
 /// The eight bytes of a control's MACRO.TXT, most significant first; false when not sixteen hex
@@ -38,6 +43,7 @@ void check_words(const BlockWords& words, DialectFamily family) {
 bool Interpreter::State::special_words(const Block& block, const Code& code) {
     const bool codes_call = !frame().by_code;
     Section* const named = take_name(block, code);
+    cancel_modals();  // the block may call as well: G67 M98 P100
     for (std::size_t i = 0; i < words.count; ++i) {
         const WordValue word = words.words[i];
         if (word.vacant || !special.has(word.letter, word.value)) continue;
@@ -56,7 +62,6 @@ bool Interpreter::State::special_words(const Block& block, const Code& code) {
         if (word.value == 65) return macro_call(i, named, false, false), false;
         if (word.value == 66) return macro_call(i, named, true, false), false;
         if (word.value == 66.1) return macro_call(i, named, true, true), false;
-        if (word.value == 67) return cancel_modal(i);
         if (word.value == 10 && macro_file_value(block, code)) return false;
         const CodeCalls::Call* call = find_call(options.calls.g, word.value * 10.0);
         if (codes_call && call) return code_call(i, *call);
@@ -70,8 +75,8 @@ Section* Interpreter::State::take_name(const Block& block, const Code& code) {
     std::size_t at_name = words.count;
     for (std::size_t i = 0; i < words.count; ++i) {
         const WordValue& w = words.words[i];
-        calls = calls || (w.letter == 'M' && (w.value == 98 || w.value == 198)) ||
-                (w.letter == 'G' && (w.value == 65 || w.value == 66 || w.value == 66.1));
+        calls =
+            calls || (w.letter == 'M' && (w.value == 98 || w.value == 198)) || is_macro_call(w);
         if (w.letter == '<') at_name = i;
     }
     if (at_name == words.count) return nullptr;
@@ -256,12 +261,19 @@ bool Interpreter::State::tool_call(std::size_t at_word) {
     return give_or(todo);
 }
 
-/// G67 cancels the latest modal call; without a modal call it has no effect (post processors output
-/// it as a precaution).
-bool Interpreter::State::cancel_modal(std::size_t at_word) {
-    remove(at_word);
-    if (modal_count > 0) --modal_count;
-    return words.count > 0;
+/// Each G67 cancels the latest modal call; without a modal call it has no effect (post processors
+/// output it as a precaution).
+void Interpreter::State::cancel_modals() {
+    if (std::any_of(words.begin(), words.end(), is_macro_call)) return;  // G67 is out of place
+    for (std::size_t i = 0; i < words.count;) {
+        const WordValue& word = words.words[i];
+        if (word.letter != 'G' || word.value != 67.0 || word.vacant) {
+            ++i;
+            continue;
+        }
+        remove(i);
+        if (modal_count > 0) --modal_count;
+    }
 }
 
 /// `G10L85P500(400777CED9168730)` of MACRO.TXT: #500 from eight bytes. All F is vacant (assumed).

@@ -179,6 +179,39 @@ TEST_CASE("two sessions, each with its own set-up, are explained like one", "[di
     }
 }
 
+TEST_CASE("the written setup of two sessions leaves in each what the report says",
+          "[diagnosis][written]") {
+    const setup::Setup setup = campaign::bc_setup();
+    for (const char* const effect :
+         {"B.tilt: EAB_cos1_rad=4e-5, ECB_sin1_rad=-4e-5", "C.axial: EZC_cos1_mm=0.012",
+          "C.radial: EXC_cos1_mm=0.01, EYC_sin1_mm=-0.006"}) {
+        const setup::Setup first =
+            campaign::with_effect(campaign::real_machine(setup), effect);
+        setup::Setup second = first;
+        for (setup::Artefact& artefact : second.artefacts)
+            artefact.center_W_mm += Vector3(-0.03, 0.02, 0.01);
+        records::ReadingTable map = campaign::empty_table(setup);
+        campaign::add_sphere_map(map, setup, 40, 3);
+        records::ReadingTable a = campaign::measured(first, map, 1);
+        records::ReadingTable b = campaign::measured(second, map, 2);
+        for (records::Reading& row : a.rows) row.session = "Monday";
+        for (records::Reading& row : b.rows) row.session = "Friday";
+        a.optional_columns.push_back("session");
+        b.optional_columns.push_back("session");
+        const records::ReadingTable both = records::join_readings({a, b});
+        const diagnosis::Diagnosis d = diagnosed(setup, both);
+        INFO(said(d));
+        CHECK(d.verdict == diagnosis::Verdict::explained);
+        const std::vector<double> read =
+            emulator::Replay(d.setup, both).predict(effects::active_models(d.setup));
+        double square = 0.0;
+        std::size_t i = 0;
+        for (const records::Reading& row : both.rows)
+            if (row.value_mm) square += std::pow(1e3 * (*row.value_mm - read[i++]), 2);
+        CHECK(std::sqrt(square / static_cast<double>(i)) <= 1.1 * d.after_rms_um);
+    }
+}
+
 TEST_CASE("a backlash is found where nothing tells the side before an axis moves", "[diagnosis]") {
     const setup::Setup setup = campaign::bc_setup();
     setup::Setup truth =

@@ -107,6 +107,14 @@ TEST_CASE("programs come from the source, M198 only from there") {
           Blocks{"X50", "X50", "X50", "M30"});
 }
 
+TEST_CASE("a block with G67 may call or return as well") {
+    CHECK(run("G67M98P9\nX1.\nM30\nO9\nZ9.\nM99\n").blocks == Blocks{"Z9", "X1", "M30"});
+    const Run r = run("G66P9\nX1.\nG67M98P8\nX2.\nM30\nO9\nY9.\nM99\nO8\nX8.\nM99\n");
+    CHECK(r.blocks == Blocks{"X1", "Y9", "X8", "X2", "M30"});
+    CHECK(run("G67J2M98\nM30\n").alarm.value().number == 76);
+    CHECK(run("G65P9G67\nM30\nO9\nM99\n").alarm.value().number == 129);
+}
+
 TEST_CASE("G66 calls behind every motion until G67") {
     const Run r = run("G66P9A5.\nX1.\nM8\nX2.\nG67\nX3.\nM30\nO9\nZ#1\n#1=#1+1.\nM99\n");
     CHECK(r.blocks == Blocks{"X1", "Z5", "M8", "X2", "Z6", "X3", "M30"});
