@@ -26,7 +26,7 @@ bool told_already(const Outcome& f, const ColumnGroup& group) {
 
 /// True for effects of the simulation, and for causes of all sessions.
 bool of_interest(const Outcome& f, const effects::Effect& effect) {
-    return modelled(f.prepared, effect) ||
+    return modelled(f.prepared, effect) || effect.kind == effects::EffectKind::location ||
            std::any_of(f.model.members.begin(), f.model.members.end(), [&](std::size_t m) {
                return f.design.group(m).effect == &effect && !f.design.group(m).is_change();
            });

@@ -93,8 +93,7 @@ void refuse_one_session(const Prepared& prepared) {
 
 bool modelled(const Prepared& prepared, const effects::Effect& effect) {
     const auto& names = prepared.base.setup.model.modelled;
-    return effect.kind == effects::EffectKind::location ||
-           std::find(names.begin(), names.end(), effect.name) != names.end();
+    return std::find(names.begin(), names.end(), effect.name) != names.end();
 }
 
 }  // namespace trunnion::diagnosis

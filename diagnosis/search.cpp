@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/stand_ins.h"
+
 namespace trunnion::diagnosis {
 namespace {
 
 constexpr std::size_t most_members = 12;
 constexpr std::size_t tried = 4;       ///< number of best offers tuned at each step
 constexpr std::size_t looked_at = 20;  ///< number of offers whose exact gain is computed
-constexpr double better = 0.5;         ///< minimum gain of a swap, nats
 constexpr std::size_t swap_tried = 3;  ///< offers tried in place of a member
 constexpr int rounds = 2;
 constexpr double tuning_gain = 10.0;  ///< maximum gain by tuning the variances of a changed model,
@@ -128,20 +129,6 @@ bool grow(Design& design, const SearchSetting& setting, Model& model, bool with_
         best = refined_last(design, setting, std::move(best));
     model = tuned(design, setting, std::move(best), 2);
     return true;
-}
-
-Model pruned(Design& design, const SearchSetting& setting, Model model) {
-    while (!model.members.empty() && !setting.stopped()) {
-        const std::vector<Offer> worth = worth_of_members(design, model);
-        const auto least =
-            std::min_element(worth.begin(), worth.end(),
-                             [](const Offer& a, const Offer& b) { return a.value < b.value; });
-        const auto position = static_cast<std::size_t>(least - worth.begin());
-        const bool zero = design.group(least->group).kind == GroupKind::offset;
-        if (least->value >= 0.0 || (zero && least->gain.best > 0.1)) break;
-        model = tuned(design, setting, without(model, position), 2);
-    }
-    return model;
 }
 
 Model swapped(Design& design, const SearchSetting& setting, Model model) {
@@ -294,6 +281,20 @@ std::vector<Offer> worth_of_members(Design& design, const Model& model) {
     return worth;
 }
 
+Model pruned(Design& design, const SearchSetting& setting, Model model) {
+    while (!model.members.empty() && !setting.stopped()) {
+        const std::vector<Offer> worth = worth_of_members(design, model);
+        const auto least =
+            std::min_element(worth.begin(), worth.end(),
+                             [](const Offer& a, const Offer& b) { return a.value < b.value; });
+        const auto position = static_cast<std::size_t>(least - worth.begin());
+        const bool zero = design.group(least->group).kind == GroupKind::offset;
+        if (least->value >= 0.0 || (zero && least->gain.best > 0.1)) break;
+        model = tuned(design, setting, without(model, position), 2);
+    }
+    return model;
+}
+
 Model grown(Design& design, const SearchSetting& setting, Model model) {
     while (model.members.size() < most_members && !setting.stopped() &&
            grow(design, setting, model, true)) {
@@ -308,6 +309,7 @@ Model settled(Design& design, const SearchSetting& setting, Model model) {
         if (round == 0) model = swapped(design, setting, std::move(model));
         if (round == 0) model = paired(design, setting, std::move(model));
         if (round == 0) model = joined(design, setting, std::move(model));
+        if (round == 0) model = without_stand_ins(design, setting, std::move(model));
         model = grown(design, setting, std::move(model));
         if (model.score < before + 0.1) break;
     }

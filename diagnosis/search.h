@@ -47,6 +47,8 @@ struct Offer {
 /// accepted by `takes`, if given.
 std::vector<Offer> offers(Design& design, const Model& model,
                           const std::function<bool(GroupKind)>& takes = {});
+/// Minimum gain of an exchange, nats.
+inline constexpr double better = 0.5;
 /// Members up to which pairs of them are tried against one effect in their place.
 inline constexpr std::size_t pairs_up_to = 6;
 
@@ -58,6 +60,8 @@ bool same_cause(const ColumnGroup& a, const ColumnGroup& b);
 std::vector<Offer> worth_of_members(Design& design, const Model& model);
 Model without(const Model& model, std::size_t position);
 
+/// Removes the weakest members as long as one does not pay for its prior.
+Model pruned(Design& design, const SearchSetting& setting, Model model);
 /// Adds members one by one as long as the score increases.
 Model grown(Design& design, const SearchSetting& setting, Model model);
 /// Removes weak members, swaps members for better ones, and changes lengths of free forms together

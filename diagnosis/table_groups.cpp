@@ -20,10 +20,15 @@ struct Family {
     std::size_t knots;            ///< maximum
     Eigen::Index shapes;          ///< maximum for one direction
     int owned;                    ///< number of polynomials, or of harmonics of a turn
+    double log_prior = 0.0;       ///< relative to the others
 };
+/// On a single line, which a laser measures, angular errors are what ISO 230-2 calls positioning.
+/// Where both explain all, that name comes first.
+constexpr double by_an_arm = -0.7;  // ln 0.5
+
 constexpr Family families[] = {{EffectKind::positioning, false, true, false, false, 40, 24, 2},
                                {EffectKind::straightness, false, false, false, false, 24, 12, 3},
-                               {EffectKind::angular, false, false, true, true, 16, 8, 2},
+                               {EffectKind::angular, false, false, true, true, 16, 8, 2, by_an_arm},
                                {EffectKind::positioning, true, true, true, false, 40, 24, 2},
                                {EffectKind::radial, true, false, false, false, 24, 12, 3},
                                {EffectKind::axial, true, true, false, false, 24, 12, 2},
@@ -31,6 +36,7 @@ constexpr Family families[] = {{EffectKind::positioning, false, true, false, fal
 constexpr double whole_turn_rad = 5.0;  ///< a wider range counts as a whole turn
 constexpr double least_range_mm = 1.0, least_range_rad = 0.05;
 constexpr int last_order = 24;
+constexpr int last_single_order = 8;
 constexpr double soft_orders[] = {4.0, 12.0};  ///< harmonics decrease beyond these
 
 std::vector<double> places_of(const Prepared& p, Axis axis) {
@@ -70,23 +76,44 @@ Eigen::MatrixXd owned_at(const Family& family, const std::vector<double>& knots)
     return owned;
 }
 
-std::vector<Eigen::MatrixXd> shapes_of(const Family& family, const TableForm& table) {
-    std::vector<Eigen::MatrixXd> shapes;
-    if (!table.knots.empty()) {
-        for (const double length : estimation::correlation_lengths(table.knots))
-            shapes.push_back(estimation::smooth_shapes(
-                table.knots, length, owned_at(family, table.knots), family.shapes));
-    } else {
-        for (const double soft : soft_orders) {
-            Eigen::VectorXd size(2 * table.orders);
-            for (int n = 0; n < table.orders; ++n)
-                size.segment(2 * n, 2).setConstant(
-                    1.0 / (1.0 + std::pow((table.first_order + n) / soft, 2)));
-            shapes.push_back(Eigen::MatrixXd((size * std::sqrt(2.0) / size.norm()).asDiagonal()));
-        }
-    }
-    std::erase_if(shapes, [](const Eigen::MatrixXd& s) { return s.cols() == 0; });
+/// A shape of one direction and its share of the free form's prior.
+struct Shape {
+    Eigen::MatrixXd columns;
+    double log_prior = 0.0;
+};
+
+std::vector<Shape> shapes_at_knots(const Family& family, const std::vector<double>& knots) {
+    std::vector<Shape> shapes;
+    for (const double length : estimation::correlation_lengths(knots))
+        shapes.push_back(
+            {estimation::smooth_shapes(knots, length, owned_at(family, knots), family.shapes)});
+    std::erase_if(shapes, [](const Shape& s) { return s.columns.cols() == 0; });
+    for (Shape& s : shapes) s.log_prior = -std::log(static_cast<double>(shapes.size()));
     return shapes;
+}
+
+/// All harmonics, decreasing, or a single one of a low order: poles of a resolver, lobes of a
+/// bearing. Half of the prior for each kind.
+std::vector<Shape> shapes_of_turn(const TableForm& table) {
+    std::vector<Shape> shapes;
+    for (const double soft : soft_orders) {
+        Eigen::VectorXd size(2 * table.orders);
+        for (int n = 0; n < table.orders; ++n)
+            size.segment(2 * n, 2).setConstant(1.0 /
+                                               (1.0 + std::pow((table.first_order + n) / soft, 2)));
+        shapes.push_back({Eigen::MatrixXd((size * std::sqrt(2.0) / size.norm()).asDiagonal()),
+                          -std::log(2.0 * std::size(soft_orders))});
+    }
+    const int singles = std::min(last_single_order - table.first_order + 1, table.orders);
+    for (int n = 0; n < singles; ++n)
+        shapes.push_back(
+            {Eigen::MatrixXd::Identity(2 * table.orders, 2 * table.orders).middleCols(2 * n, 2),
+             -std::log(2.0 * singles)});
+    return shapes;
+}
+
+std::vector<Shape> shapes_of(const Family& family, const TableForm& table) {
+    return table.knots.empty() ? shapes_of_turn(table) : shapes_at_knots(family, table.knots);
 }
 
 TableForm form_of(const Family& family, const kinematics::AxisGeometry& axis,
@@ -106,19 +133,19 @@ void add_family(Design& design, const Prepared& p, const Whitener& whitener, con
                 const kinematics::AxisGeometry& axis) {
     const TableForm table = form_of(family, axis, places_of(p, axis.axis));
     if (table.orders == 0 && table.knots.size() < 4) return;
-    const std::vector<Eigen::MatrixXd> shapes = shapes_of(family, table);
+    const std::vector<Shape> shapes = shapes_of(family, table);
     if (shapes.empty()) return;
     Eigen::MatrixXd white = table_features(p.replay, p.base.gradient, table);
     whitener.apply(white);
     const Eigen::Index first = design.add_features(white);
-    for (const Eigen::MatrixXd& shape : shapes) {
+    for (const Shape& shape : shapes) {
         ColumnGroup group;
         group.kind = GroupKind::table;
         group.name = effects::effect_name(axis.name, family.motion);
         group.table = table;
-        group.shape = for_each_direction(shape, table.directions.size());
+        group.shape = for_each_direction(shape.columns, table.directions.size());
         for (Eigen::Index k = 0; k < white.cols(); ++k) group.features.push_back(first + k);
-        group.log_prior = rules::table_prior - std::log(static_cast<double>(shapes.size()));
+        group.log_prior = rules::table_prior + family.log_prior + shape.log_prior;
         design.add(std::move(group));
     }
 }

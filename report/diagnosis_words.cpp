@@ -45,6 +45,13 @@ std::string by_words(const diagnosis::Diagnosis& d) {
     return fmt::format("by {} effects, the largest of them", d.causes.size());
 }
 
+/// Name of the first cause that has rivals; empty if none has.
+std::string rivalled(const diagnosis::Diagnosis& d) {
+    for (const diagnosis::Cause& cause : d.causes)
+        if (!cause.rivals.empty()) return cause_name(cause);
+    return "";
+}
+
 std::string size_words(const diagnosis::Diagnosis& d) {
     return fmt::format("{} rms, {} of it noise ({})", length_words(d.rms_um),
                        length_words(d.noise_um), to_string(d.noise.source));
@@ -117,9 +124,15 @@ std::string verdict_sentence(const diagnosis::Diagnosis& d) {
             return fmt::format("The gap is explained{}, {} {}: {}.", where, by_words(d), first,
                                size);
         case diagnosis::Verdict::ambiguous:
+            if (rivalled(d) == first)
+                return fmt::format(
+                    "The gap is explained{}, but these readings cannot tell {} from its rivals: "
+                    "{}.",
+                    where, first, size);
             return fmt::format(
-                "The gap is explained{}, but these readings cannot tell {} from its rivals: {}.",
-                where, first, size);
+                "The gap is explained{}, {} {}, but these readings cannot tell {} from its "
+                "rivals: {}.",
+                where, by_words(d), first, rivalled(d), size);
         case diagnosis::Verdict::partly_explained:
             return fmt::format("The gap is explained in part: {}.", size);
         case diagnosis::Verdict::unexplained:
@@ -143,9 +156,12 @@ std::string answer(const diagnosis::Diagnosis& d) {
             return size + (is_sure(d) ? "The cause is " : "The cause is uncertain, perhaps ") +
                    causes + ". " + shrink_words(d.after);
         case diagnosis::Verdict::ambiguous:
-            return size + "The cause is " + causes +
-                   ", or another effect that these readings cannot tell from it: see below. " +
-                   shrink_words(d.after);
+            if (d.causes.size() < 2)
+                return size + "The cause is " + causes +
+                       ", or another effect that these readings cannot tell from it: see below. " +
+                       shrink_words(d.after);
+            return size + "The causes are " + causes + "; these readings cannot tell " +
+                   rivalled(d) + " from its rivals, see below. " + shrink_words(d.after);
         case diagnosis::Verdict::partly_explained:
             return size + part + " of it is explained: " + causes +
                    ". The rest has a structure that no known effect explains. ";

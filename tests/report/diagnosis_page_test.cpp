@@ -55,6 +55,20 @@ TEST_CASE("values stand in the units of the shop, digits as sure as sigma") {
     CHECK(report::main_size(d.causes[0]) == "gap 81.23 ± 0.90 µrad");
 }
 
+TEST_CASE("rivals are said of the cause that has them") {
+    diagnosis::Diagnosis d = one_cause();
+    CHECK_THAT(report::verdict_sentence(d), Catch::Contains("cannot tell C.backlash from its"));
+    diagnosis::Cause sure = d.causes[0];
+    sure.effect = "X.backlash";
+    sure.rivals.clear();
+    sure.probability = 0.97;
+    d.causes.insert(d.causes.begin(), sure);
+    CHECK_THAT(report::verdict_sentence(d),
+               Catch::Contains("most of it by X.backlash, but these readings cannot tell "
+                               "C.backlash from its rivals"));
+    CHECK_THAT(report::answer(d), Catch::Contains("cannot tell C.backlash from its rivals"));
+}
+
 TEST_CASE("the page says size, cause, rivals and shrink, and is whole") {
     const std::string page = report::page_html(report::diagnosis_page(one_cause(), "a <b>.csv"));
     for (const char* text :

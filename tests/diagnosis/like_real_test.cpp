@@ -1,0 +1,131 @@
+// What diagnose says of files in the shapes of real exports (tests/imports/like_real, made by code
+// that shares nothing with the product): the cause that was put in, and nothing false beside it.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+
+#include "base/read_file.h"
+#include "diagnosis/diagnosis.h"
+#include "imports/import.h"
+
+namespace trunnion {
+namespace {
+
+using imports::ImportKind;
+
+const std::string folder = TRUNNION_SOURCE_DIR "/tests/imports/like_real/";
+
+struct Export {
+    ImportKind kind;
+    std::string file, setup;
+    std::vector<std::string> told = {};
+};
+
+diagnosis::Diagnosis diagnosed(const Export& e) {
+    std::vector<std::string> notes;
+    const setup::Setup setup = setup::load_setup(folder + e.setup, notes);
+    const std::vector<imports::ImportFile> files{{e.file, read_file(folder + e.file)}};
+    const imports::Imported imported =
+        imports::import_readings(e.kind, {setup, files, imports::Facts(e.told), {}});
+    const records::ReadingTable table =
+        records::parse_readings(imported.readings, "r.csv", notes, setup.machine.chain.names());
+    diagnosis::DiagnosisOptions options;
+    options.plan_next = false;
+    return diagnosis::diagnose(setup, table, options);
+}
+
+std::string said(const diagnosis::Diagnosis& d) {
+    std::string text = to_string(d.verdict);
+    for (const diagnosis::Cause& c : d.causes)
+        text += fmt::format(", {} {:.0f} % p {:.2f}", c.effect, 100.0 * c.share, c.probability);
+    return text;
+}
+
+/// The value of a parameter of a claimed effect in textbook form; NaN if it is not claimed.
+double value_of(const diagnosis::Diagnosis& d, const std::string& effect, const std::string& name) {
+    for (const diagnosis::Cause& c : d.causes)
+        for (const identification::FitParameter& p : c.parameters)
+            if (c.effect == effect && p.name == name) return p.value;
+    return std::nan("");
+}
+
+/// Nothing but `allowed` is claimed with a probability of 0.9 or more.
+void check_nothing_false(const diagnosis::Diagnosis& d, const std::set<std::string>& allowed) {
+    for (const diagnosis::Cause& c : d.causes)
+        if (c.probability >= 0.9) CHECK(allowed.contains(c.effect));
+}
+
+}  // namespace
+
+TEST_CASE("a laser's line: the reversal first, the curve is called positioning",
+          "[diagnosis][like_real]") {
+    const diagnosis::Diagnosis d = diagnosed({ImportKind::iso230_2, "laser_x.csv", "bench.toml"});
+    INFO(said(d));
+    REQUIRE(!d.causes.empty());
+    CHECK(d.causes.front().effect == "X.backlash");
+    CHECK(value_of(d, "X.backlash", "gap_mm") == Approx(0.0254).epsilon(0.05));
+    check_nothing_false(d, {"X.backlash", "X.scale", "X.positioning"});
+    for (const diagnosis::Cause& c : d.causes)
+        if (!c.points.empty()) CHECK(c.effect == "X.positioning");
+}
+
+TEST_CASE("a resolver's fourth order is named, although angle and time run alike",
+          "[diagnosis][like_real]") {
+    const diagnosis::Diagnosis d =
+        diagnosed({ImportKind::pointing,
+                   "resolver.dat",
+                   "bench.toml",
+                   {"columns=n, C reference [deg], C resolver [deg]", "step_s=1"}});
+    INFO(said(d));
+    REQUIRE(!d.causes.empty());
+    CHECK(d.explained > 0.9);
+    CHECK(d.causes.front().effect == "C.positioning");
+    REQUIRE(!d.causes.front().points.empty());
+    double largest = 0.0;
+    for (const diagnosis::TablePoint& p : d.causes.front().points)
+        largest = std::max(largest, std::abs(p.value));
+    CHECK(largest == Approx(70.9e-6).epsilon(0.05));
+    CHECK(value_of(d, "C.backlash", "gap_rad") == Approx(22e-6).epsilon(0.05));
+    check_nothing_false(d, {"C.positioning", "C.backlash"});
+}
+
+TEST_CASE("the lean of an azimuth axis that the setup does not model is a cause",
+          "[diagnosis][like_real]") {
+    const diagnosis::Diagnosis d = diagnosed({ImportKind::pointing, "telescope.csv", "mount.toml"});
+    INFO(said(d));
+    REQUIRE(!d.causes.empty());
+    CHECK(d.causes.front().effect == "location");
+    CHECK(d.verdict != diagnosis::Verdict::unexplained);
+    CHECK(value_of(d, "location", "EA0Az_rad") == Approx(-60e-6).epsilon(0.05));
+    CHECK(value_of(d, "location", "EB0Az_rad") == Approx(95e-6).epsilon(0.05));
+    check_nothing_false(d, {"location"});
+}
+
+TEST_CASE("two joint zeros of an arm, not one effect of many parameters that imitates them",
+          "[diagnosis][like_real]") {
+    const diagnosis::Diagnosis d = diagnosed({ImportKind::points, "robot.csv", "arm.toml"});
+    INFO(said(d));
+    CHECK(value_of(d, "J2.zero", "offset_rad") == Approx(550e-6).epsilon(0.05));
+    CHECK(value_of(d, "J3.zero", "offset_rad") == Approx(-900e-6).epsilon(0.05));
+    check_nothing_false(d, {"J2.zero", "J3.zero"});
+}
+
+TEST_CASE("servo logs, plates and a circle: the effect that was put in", "[diagnosis][like_real]") {
+    const diagnosis::Diagnosis mill =
+        diagnosed({ImportKind::axis_log, "mill_log.csv", "bench.toml"});
+    CHECK(value_of(mill, "servo.mismatch", "tau_z_s") == Approx(8.7e-3).epsilon(0.05));
+    check_nothing_false(mill, {"servo.mismatch"});
+
+    const diagnosis::Diagnosis lines =
+        diagnosed({ImportKind::points, "plate_lines.csv", "bench.toml"});
+    CHECK(value_of(lines, "sensor.gain", "gain_ppm") == Approx(-34.0).epsilon(0.05));
+    CHECK(std::abs(value_of(lines, "XY.squareness", "angle_rad")) == Approx(41e-6).epsilon(0.05));
+    check_nothing_false(lines, {"sensor.gain", "XY.squareness"});
+
+    const diagnosis::Diagnosis bar = diagnosed({ImportKind::ballbar, "ballbar.txt", "bench.toml"});
+    CHECK(std::abs(value_of(bar, "XY.squareness", "angle_rad")) == Approx(80e-6).epsilon(0.05));
+    CHECK(value_of(bar, "Y.backlash", "gap_mm") == Approx(6e-3).epsilon(0.05));
+    check_nothing_false(bar, {"XY.squareness", "Y.backlash"});
+}
+
+}  // namespace trunnion
