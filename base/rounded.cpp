@@ -66,6 +66,13 @@ std::string length_words(double length_um) {
                                            : three_digits(length_um / um_per_mm) + " mm";
 }
 
+std::string angle_words(double angle_urad) {
+    constexpr double urad_per_mrad = 1e3;
+    return std::abs(angle_urad) < urad_per_mrad
+               ? three_digits(angle_urad, 3) + " µrad"
+               : three_digits(angle_urad / urad_per_mrad) + " mrad";
+}
+
 std::string shown_unit(std::string_view unit) {
     for (const std::string_view plain : {"um", "urad"})
         if (unit.starts_with(plain) && (unit.size() == plain.size() || unit[plain.size()] == '/'))

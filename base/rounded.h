@@ -27,6 +27,8 @@ std::string with_sigma(double value, double sigma);
 
 /// A size given in µm to three significant digits: "0.502 µm", "12.3 µm", from 1 mm on "32.7 mm".
 std::string length_words(double length_um);
+/// The same of an angle in µrad: "70.9 µrad", from 1 mrad on "2.31 mrad".
+std::string angle_words(double angle_urad);
 /// The unit as shown to people: "um/m" is "µm/m", "urad" is "µrad"; other units stay.
 std::string shown_unit(std::string_view unit);
 

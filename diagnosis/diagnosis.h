@@ -79,6 +79,7 @@ struct NextMeasurement {
 };
 
 struct Diagnosis {
+    bool angles = false;  ///< all readings are angles: what is named _um is µrad
     Verdict verdict = Verdict::no_gap;
     NoiseModel noise;
     Finite rms_um = 0.0, noise_um = 0.0, excess_um = 0.0, p_value = 1.0;

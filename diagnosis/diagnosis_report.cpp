@@ -36,6 +36,11 @@ Eigen::VectorXd noise_mm(const Outcome& f) {
     return v;
 }
 
+/// µm in a mm, or µrad in a rad where all readings are angles.
+double micro(const Outcome& f) {
+    return records::only_angles(f.prepared.table) ? 1e6 : 1e3;
+}
+
 double rms_um(const Outcome& f, const Eigen::VectorXd& v) {
     double sum = 0.0, rows = 0.0;
     for (std::size_t i = 0; i < f.used.size(); ++i) {
@@ -43,7 +48,14 @@ double rms_um(const Outcome& f, const Eigen::VectorXd& v) {
         sum += std::pow(v(static_cast<Eigen::Index>(i)), 2);
         rows += 1.0;
     }
-    return 1e3 * std::sqrt(sum / std::max(1.0, rows));
+    return micro(f) * std::sqrt(sum / std::max(1.0, rows));
+}
+
+/// The readings minus the simulation with the set-up alone, fitted by least squares. (The base model
+/// is robust: where readings are far from noise, its zeros may not lie in their middle.)
+Eigen::VectorXd before_mm(const Outcome& f) {
+    const Model none{{}, {{}, f.model.variances.nu}, 0.0};
+    return left_mm(f.prepared, f.design, none, solved(f.design, none));
 }
 
 double independent_readings(const Outcome& f) {
@@ -157,13 +169,16 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
             d.noise.of(device).scale *= nu;
     }
     const Eigen::VectorXd left = left_mm(f.prepared, f.design, f.model, solution);
-    d.rms_um = rms_um(f, base.residual_mm);
+    const Eigen::VectorXd before = before_mm(f);
+    d.rms_um = rms_um(f, before);
     d.noise_um = rms_um(f, noise_mm(f));
     d.excess_um = std::sqrt(std::max(0.0, d.rms_um * d.rms_um - d.noise_um * d.noise_um));
     d.after_rms_um = rms_um(f, left);
+    d.angles = records::only_angles(f.prepared.table);
+    const double micro_per_one = micro(f);
     for (Eigen::Index i = 0; i < left.size(); ++i) {
-        d.before_um.push_back(1e3 * base.residual_mm(i));
-        d.after_um.push_back(1e3 * left(i));
+        d.before_um.push_back(micro_per_one * before(i));
+        d.after_um.push_back(micro_per_one * left(i));
     }
     d.inseparable = base.inseparable;
     for (const identification::FitParameter& p : base.parameters)
@@ -282,7 +297,7 @@ void widen(HeldOut& h, const std::pair<double, double>& draws) {
 double fitted_shrink(const Outcome& f, const Model& model) {
     if (model.members.empty()) return 0.0;
     const double noise = std::pow(rms_um(f, noise_mm(f)), 2);
-    const double before = std::pow(rms_um(f, f.prepared.base.residual_mm), 2) - noise;
+    const double before = std::pow(rms_um(f, before_mm(f)), 2) - noise;
     const Eigen::VectorXd left = left_mm(f.prepared, f.design, model, solved(f.design, model));
     const double after = std::pow(rms_um(f, left), 2) - noise;
     return before > 0.0 ? 1.0 - std::sqrt(std::max(0.0, after) / before) : 0.0;

@@ -75,9 +75,10 @@ HeldOut measured_shrink(const Outcome& f, const setup::Setup& setup,
     const SquaredSums sums = sums_of(f, setup, holdout);
     const double before = total(sums.before), after = total(sums.after), noise = total(sums.noise);
     const double rows = std::max(1.0, total(sums.rows));
-    HeldOut h{1e3 * std::sqrt(before / rows),
-              1e3 * std::sqrt(after / rows),
-              1e3 * std::sqrt(noise / rows),
+    const double micro = records::only_angles(holdout) ? 1e6 : 1e3;
+    HeldOut h{micro * std::sqrt(before / rows),
+              micro * std::sqrt(after / rows),
+              micro * std::sqrt(noise / rows),
               shrink_of(before, after, noise),
               0.0,
               0.0};

@@ -32,9 +32,8 @@ std::pair<double, double> neighbours(const std::vector<double>& grid, double val
     return {low, high};
 }
 
-double rms_um(const Eigen::VectorXd& v) {
-    return 1e3 *
-           std::sqrt(v.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, v.size())));
+double rms_of(const Eigen::VectorXd& v) {
+    return std::sqrt(v.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, v.size())));
 }
 
 }  // namespace
@@ -232,8 +231,10 @@ Identification identify(const setup::Setup& setup, const records::ReadingTable& 
     add_key_uncertainty(replay, with_keys, base, result.parameters);
     result.inseparable = base.inseparable;
     result.covariance = base.covariance;
-    result.rms_before_um = rms_um(base.start_residual_mm);
-    result.rms_after_um = rms_um(base.residual_mm);
+    result.angles = records::only_angles(table);
+    const double micro = result.angles ? 1e6 : 1e3;
+    result.rms_before_um = micro * rms_of(base.start_residual_mm);
+    result.rms_after_um = micro * rms_of(base.residual_mm);
     result.dof = static_cast<int>(replay.size()) - base.rank;
     if (result.dof < 1)
         throw InputError(

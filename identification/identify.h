@@ -11,6 +11,7 @@ namespace trunnion::identification {
 struct Identification {
     std::vector<FitParameter> parameters;
     std::vector<Inseparable> inseparable;
+    bool angles = false;   ///< all readings are angles: what is named _um is µrad
     Finite rms_before_um;  ///< with the setup as it stands
     Finite rms_after_um;
     int dof = 0;

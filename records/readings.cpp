@@ -258,4 +258,14 @@ std::string format_readings(const ReadingTable& table) {
     return out;
 }
 
+bool only_angles(const ReadingTable& table) {
+    bool any = false;
+    for (const Reading& row : table.rows) {
+        if (row.device == Device::none) continue;
+        if (!row.angular) return false;
+        any = true;
+    }
+    return any;
+}
+
 }  // namespace trunnion::records

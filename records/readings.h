@@ -62,6 +62,9 @@ struct ReadingTable {
     std::vector<Reading> rows;
 };
 
+/// True when every row with a device reads an angle.
+bool only_angles(const ReadingTable& table);
+
 /// Parses the CSV text of a machine with axes `names`. Throws InputError with line and column for a
 /// cell that is not a number, a row that does not fit its device (direction not a unit vector,
 /// degrees instead of mm, an axis without column), a column of an axis that the machine lacks, or

@@ -126,6 +126,7 @@ std::string diagnosis_json(const diagnosis::Diagnosis& d, const std::vector<File
     Json json{{"schema", "trunnion.diagnosis/1"},
               {"verdict", to_string(d.verdict)},
               {"noise_source", to_string(d.noise.source)},
+              {"unit", d.angles ? "urad" : "um"},
               {"gap",
                {{"rms_um", d.rms_um},
                 {"noise_um", d.noise_um},

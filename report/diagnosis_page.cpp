@@ -69,14 +69,19 @@ std::string share_bars(const diagnosis::Diagnosis& d) {
     return bars(list, 100.0, "share of the gap in %");
 }
 
-std::string before_after(const diagnosis::HeldOut& h) {
+const char* unit_of(const diagnosis::Diagnosis& d) {
+    return d.angles ? "µrad" : "µm";
+}
+
+std::string before_after(const diagnosis::Diagnosis& d, const diagnosis::HeldOut& h) {
     if (h.rms_before_um <= 0.0) return "";
     const std::vector<Bar> list{
-        {"simulation as it is", length_words(h.rms_before_um), 1.0, "#d55e00"},
-        {"with the causes added", length_words(h.rms_after_um), h.rms_after_um / h.rms_before_um,
+        {"simulation as it is", size_words(d, h.rms_before_um), 1.0, "#d55e00"},
+        {"with the causes added", size_words(d, h.rms_after_um), h.rms_after_um / h.rms_before_um,
          "#0072b2"}};
-    return bars(list, h.rms_before_um, "difference between machine and simulation, µm rms",
-                h.noise_um, "noise " + length_words(h.noise_um));
+    return bars(list, h.rms_before_um,
+                fmt::format("difference between machine and simulation, {} rms", unit_of(d)),
+                h.noise_um, "noise " + size_words(d, h.noise_um));
 }
 
 /// Machine minus simulation of each reading, without and with the causes, with the noise as a band.
@@ -91,11 +96,14 @@ std::string residual_plot(const diagnosis::Diagnosis& d) {
     const PlotRange x = round_range(0.0, static_cast<double>(n), 6), y = round_range(-top, top, 6);
     Svg svg(740.0, 330.0);
     svg.describe("Machine minus simulation of each reading",
-                 "In the order taken, in µm, without and with the causes; the noise as a band.");
+                 fmt::format("In the order taken, in {}, without and with the causes; the noise as "
+                             "a band.",
+                             unit_of(d)));
     Plot plot(svg, {{64.0, 34.0}, 650.0, 230.0}, x, y);
     const Point2 high = plot.at(0.0, 2.0 * d.noise_um), low = plot.at(x.high, -2.0 * d.noise_um);
     svg.rectangle(high, low.x - high.x, low.y - high.y, {"none", 0.0, "#e8e8e8", ""});
-    plot.frame("", "reading, in the order taken", "machine - simulation, µm");
+    plot.frame("", "reading, in the order taken",
+               fmt::format("machine - simulation, {}", unit_of(d)));
     const std::size_t step = std::max<std::size_t>(1, n / 1200);
     for (const bool after : {false, true})
         for (std::size_t i = 0; i < n; i += step) {
@@ -208,7 +216,7 @@ std::string small_print(const diagnosis::Diagnosis& d) {
     };
     entry("Gap", fmt::format("what the machine reads minus what its simulation reads, after set-up "
                              "and modelled errors were fitted: {} rms over {} readings.",
-                             length_words(d.rms_um), d.readings));
+                             size_words(d, d.rms_um), d.readings));
     entry("Noise", noise_words(d));
     entry("Share",
           "fraction of the squared gap beyond noise that is due to this cause; independent of the "
@@ -233,7 +241,7 @@ std::string causes_section(const diagnosis::Diagnosis& d) {
            section_html(
                "How far the gap shrinks",
                paragraph_html("All causes together, on readings that took no part in the fit.") +
-                   figure_html(before_after(d.after), "Before and after") +
+                   figure_html(before_after(d, d.after), "Before and after") +
                    paragraph_html(fmt::format(
                        "Beyond noise the gap shrinks by {:.0f} % (95 %: {:.0f} to {:.0f} %).",
                        100.0 * d.after.shrink, 100.0 * d.after.low, 100.0 * d.after.high)));

@@ -35,7 +35,7 @@ std::string parameters_text(const std::vector<identification::FitParameter>& par
     return text;
 }
 
-std::string cause_text(const diagnosis::Cause& cause) {
+std::string cause_text(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
     std::string text = fmt::format("\n{}  {:.0f} % of the gap, probability {:.2f}\n",
                                    cause_name(cause), 100 * cause.share, cause.probability);
     text += paragraph(cause.what + ".", 2);
@@ -52,11 +52,11 @@ std::string cause_text(const diagnosis::Cause& cause) {
     if (!cause.rivals.empty())
         text += paragraph(
             fmt::format("cannot be told apart here from: {}", fmt::join(cause.rivals, ", ")), 2);
-    text +=
-        fmt::format("  held out: {} -> {} (noise {}): shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
-                    length_words(cause.heldout.rms_before_um),
-                    length_words(cause.heldout.rms_after_um), length_words(cause.heldout.noise_um),
-                    100 * cause.heldout.shrink, 100 * cause.heldout.low, 100 * cause.heldout.high);
+    text += fmt::format("  held out: {} -> {} (noise {}): shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
+                        size_words(d, cause.heldout.rms_before_um),
+                        size_words(d, cause.heldout.rms_after_um),
+                        size_words(d, cause.heldout.noise_um), 100 * cause.heldout.shrink,
+                        100 * cause.heldout.low, 100 * cause.heldout.high);
     return text;
 }
 
@@ -67,20 +67,20 @@ std::string diagnosis_text(const diagnosis::Diagnosis& d) {
         fmt::format("verdict: {}\n", to_string(d.verdict)) + paragraph(verdict_sentence(d), 0);
     text += paragraph(
         fmt::format("{} readings ({} set aside), rms {}, noise {} ({}), excess {}", d.readings,
-                    d.outliers, length_words(d.rms_um), length_words(d.noise_um),
-                    to_string(d.noise.source), length_words(d.excess_um)),
+                    d.outliers, size_words(d, d.rms_um), size_words(d, d.noise_um),
+                    to_string(d.noise.source), size_words(d, d.excess_um)),
         0);
     for (const identification::FoundSide& s : d.sides) text += fmt::format("  {}\n", to_string(s));
     if (d.chosen_from > 0) text += fmt::format("  chosen evenly from {} readings\n", d.chosen_from);
     for (const diagnosis::DriverShare& w : d.where) text += fmt::format("  {}\n", w.text);
-    for (const diagnosis::Cause& cause : d.causes) text += cause_text(cause);
+    for (const diagnosis::Cause& cause : d.causes) text += cause_text(d, cause);
     if (!d.causes.empty())
         text += "\n" +
                 paragraph(fmt::format("after: rms {}; of readings left out the causes "
                                       "explain {:.0f} %{}; with the "
                                       "written setup the gap shrinks by {:.0f} % ({:.0f} to "
                                       "{:.0f})",
-                                      length_words(d.after_rms_um), 100 * d.explained,
+                                      size_words(d, d.after_rms_um), 100 * d.explained,
                                       d.between_places ? "" : " at the measured places",
                                       100 * d.after.shrink, 100 * d.after.low, 100 * d.after.high),
                           0);

@@ -52,9 +52,9 @@ std::string rivalled(const diagnosis::Diagnosis& d) {
     return "";
 }
 
-std::string size_words(const diagnosis::Diagnosis& d) {
-    return fmt::format("{} rms, {} of it noise ({})", length_words(d.rms_um),
-                       length_words(d.noise_um), to_string(d.noise.source));
+std::string gap_words(const diagnosis::Diagnosis& d) {
+    return fmt::format("{} rms, {} of it noise ({})", size_words(d, d.rms_um),
+                       size_words(d, d.noise_um), to_string(d.noise.source));
 }
 
 std::string shrink_words(const diagnosis::HeldOut& h) {
@@ -75,6 +75,10 @@ std::string causes_words(const diagnosis::Diagnosis& d) {
 }
 
 }  // namespace
+
+std::string size_words(const diagnosis::Diagnosis& d, double size) {
+    return d.angles ? angle_words(size) : length_words(size);
+}
 
 std::string cause_name(const diagnosis::Cause& cause) {
     return cause.since.empty() ? cause.effect : cause.effect + " since " + cause.since;
@@ -115,7 +119,7 @@ std::string main_size(const diagnosis::Cause& cause) {
 }
 
 std::string verdict_sentence(const diagnosis::Diagnosis& d) {
-    const std::string size = size_words(d);
+    const std::string size = gap_words(d);
     const std::string first = d.causes.empty() ? "" : cause_name(d.causes.front());
     const char* where = d.between_places ? "" : " at the measured places";
     switch (d.verdict) {
@@ -145,10 +149,10 @@ std::string answer(const diagnosis::Diagnosis& d) {
     if (d.verdict == diagnosis::Verdict::no_gap)
         return fmt::format(
             "No gap. Machine and simulation differ by {} rms, and noise alone makes {}.",
-            length_words(d.rms_um), length_words(d.noise_um));
+            size_words(d, d.rms_um), size_words(d, d.noise_um));
     const std::string size =
         fmt::format("Machine and simulation differ by {} rms; noise alone would make {}. ",
-                    length_words(d.rms_um), length_words(d.noise_um));
+                    size_words(d, d.rms_um), size_words(d, d.noise_um));
     const std::string causes = causes_words(d);
     const std::string part = fmt::format("{:.0f} %", 100.0 * d.explained);
     switch (d.verdict) {
@@ -175,7 +179,7 @@ std::string answer(const diagnosis::Diagnosis& d) {
 }
 
 std::string noise_words(const diagnosis::Diagnosis& d) {
-    const std::string size = length_words(d.noise_um) + " rms, ";
+    const std::string size = size_words(d, d.noise_um) + " rms, ";
     switch (d.noise.source) {
         case diagnosis::NoiseSource::repeats:
             return size + "measured from poses and passes that were repeated.";

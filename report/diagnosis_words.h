@@ -16,6 +16,8 @@ ShopValue shop_value(const identification::FitParameter& parameter);
 /// "gap 81.2 +- 0.9 urad": the parameter with the largest ratio to its uncertainty.
 std::string main_size(const diagnosis::Cause& cause);
 /// "C.backlash", "C.backlash since friday"
+/// A size that is named _um: "12.3 µm", or in µrad where all readings are angles.
+std::string size_words(const diagnosis::Diagnosis& d, double size);
 std::string cause_name(const diagnosis::Cause& cause);
 /// The verdict with its size, in one sentence.
 std::string verdict_sentence(const diagnosis::Diagnosis& diagnosis);

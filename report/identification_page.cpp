@@ -8,6 +8,7 @@
 #include "base/rounded.h"
 #include "base/units.h"
 #include "report/diagnosis_words.h"
+#include "report/identification_report.h"
 #include "report/scatter.h"
 
 namespace trunnion::report {
@@ -135,7 +136,7 @@ Page identification_page(const identification::Identification& result,
                       [](const FitParameter& p) { return !std::isfinite(p.sigma); }));
     page.verdict = fmt::format(
         "With the values below the readings differ from the simulation by {} rms instead of {}.{}",
-        length_words(result.rms_after_um), length_words(result.rms_before_um),
+        size_words(result, result.rms_after_um), size_words(result, result.rms_before_um),
         unseen == 0 ? ""
                     : fmt::format(" {} of {} parameters cannot be determined from these readings.",
                                   unseen, result.parameters.size()));

@@ -90,6 +90,7 @@ identification::Identification parse_fitted(const Json& json) {
     fitted.set_up_words = json.at("set_up_words").get<std::vector<std::string>>();
     fitted.rms_before_um = number(json.at("rms_before_um"));
     fitted.rms_after_um = number(json.at("rms_after_um"));
+    fitted.angles = json.at("unit") == "urad";
     fitted.dof = json.at("dof").get<int>();
     return fitted;
 }
@@ -129,6 +130,10 @@ Json json_set_up(const std::vector<identification::FitParameter>& parameters) {
 
 }  // namespace
 
+std::string size_words(const identification::Identification& result, double size) {
+    return result.angles ? angle_words(size) : length_words(size);
+}
+
 std::string identification_json(const identification::Identification& result,
                                 const std::vector<FileRead>& inputs) {
     Json json;
@@ -139,6 +144,7 @@ std::string identification_json(const identification::Identification& result,
     json["covariance"] = json_covariance(result.parameters, result.covariance);
     json["rms_before_um"] = result.rms_before_um;
     json["rms_after_um"] = result.rms_after_um;
+    json["unit"] = result.angles ? "urad" : "um";
     json["dof"] = result.dof;
     add_inputs(json, inputs);
     return json_text(json, 1) + "\n";
@@ -160,8 +166,8 @@ std::string identification_text(const identification::Identification& result, bo
     for (const std::string& sentence : result.set_up_words)
         text += fmt::format("set-up: {}\n", sentence);
     return text + fmt::format("rms {} before, {} after, {} degrees of freedom\n",
-                              length_words(result.rms_before_um), length_words(result.rms_after_um),
-                              result.dof);
+                              size_words(result, result.rms_before_um),
+                              size_words(result, result.rms_after_um), result.dof);
 }
 
 std::string format_part(const RepetitionPart& part) {
@@ -176,6 +182,7 @@ std::string format_part(const RepetitionPart& part) {
                       {"set_up_words", part.fitted.set_up_words},
                       {"rms_before_um", part.fitted.rms_before_um},
                       {"rms_after_um", part.fitted.rms_after_um},
+                      {"unit", part.fitted.angles ? "urad" : "um"},
                       {"dof", part.fitted.dof}};
     json["files"] = Json::array();
     for (const FileRead& file : part.files)

@@ -9,6 +9,9 @@
 
 namespace trunnion::report {
 
+/// "12.3 µm", or in µrad where all readings are angles.
+std::string size_words(const identification::Identification& result, double size);
+
 /// trunnion.identification/1.
 std::string identification_json(const identification::Identification& result,
                                 const std::vector<FileRead>& inputs = {});

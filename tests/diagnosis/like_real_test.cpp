@@ -78,6 +78,8 @@ TEST_CASE("a resolver's fourth order is named, although angle and time run alike
                    {"columns=n, C reference [deg], C resolver [deg]", "step_s=1"}});
     INFO(said(d));
     REQUIRE(!d.causes.empty());
+    CHECK(d.angles);
+    CHECK(d.rms_um == Approx(58.0).epsilon(0.1));  // µrad: 70.9 and 38 over root 2, 11
     CHECK(d.explained > 0.9);
     CHECK(d.causes.front().effect == "C.positioning");
     REQUIRE(!d.causes.front().points.empty());
