@@ -3,6 +3,7 @@
 #include "base/alarm.h"
 #include "base/read_file.h"
 #include "cli/notes.h"
+#include "cli/setups.h"
 #include "effects/settings.h"
 
 namespace trunnion::cli {
@@ -41,7 +42,7 @@ setup::Setup load_setup_option(const std::string& path, const std::vector<std::s
             "--setup is missing: readings must be evaluated with the machine that they come from");
     std::vector<std::string> notes;
     setup::Setup setup = setup::load_setup(path, notes);
-    print_notes(notes);
+    tell_setup(setup, notes);
     if (inject.empty()) return setup;
     const effects::Catalogue catalogue = effects::make_catalogue(setup);
     for (const std::string& text : inject)

@@ -1,5 +1,7 @@
 #include "cli/setups.h"
 
+#include <fmt/format.h>
+
 #include "cli/notes.h"
 #include "inputs/open_setup.h"
 
@@ -8,8 +10,15 @@ namespace trunnion::cli {
 setup::Setup open_setup(const std::string& path) {
     std::vector<std::string> notes;
     setup::Setup setup = inputs::open_setup(path, notes);
-    print_notes(notes);
+    tell_setup(setup, notes);
     return setup;
+}
+
+void tell_setup(const setup::Setup& setup, const std::vector<std::string>& notes) {
+    print_notes(notes);
+    if (talk() == Talk::verbose && setup.derived_parameters > 0)
+        print_notes({fmt::format("{}: {} parameters derived from [machine]", setup.path,
+                                 setup.derived_parameters)});
 }
 
 }  // namespace trunnion::cli

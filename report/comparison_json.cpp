@@ -318,9 +318,8 @@ ComparePart parse_part(const std::string& text, const std::string& path) {
         }
         part.report.inputs = inputs_of(j);
         return part;
-    } catch (const std::exception& e) {
-        throw InputError(std::string("not a part written by 'compare --shard': ") + e.what(),
-                         {path, 0, 0});
+    } catch (const std::exception&) {
+        throw InputError("not a part written by 'compare --shard' or 'identify --shard'", {path});
     }
 }
 

@@ -35,11 +35,8 @@ void complete_pivot(Setup& setup, std::vector<std::string>& notes) {
         notes.push_back(setup.path + ": the control compensates backlash or pitch of " + axes +
                         " (1851, 3620 on), which [machine] and [effects] do not have: what it "
                         "adds is an error");
-    std::size_t added = 0;
-    for (const auto& [number, parameter] : parameters.entry) added += !given.contains(number);
-    if (added > 0)
-        notes.push_back(fmt::format("{}: {} parameter{} derived from [machine]", setup.path, added,
-                                    added == 1 ? "" : "s"));
+    for (const auto& [number, parameter] : parameters.entry)
+        if (!given.contains(number)) ++setup.derived_parameters;
 }
 
 }  // namespace

@@ -154,6 +154,7 @@ struct Setup {
     controller::HurcoChoices hurco;             ///< [control.hurco]
     std::map<Axis, Centreline> centrelines;     ///< [control.hurco] centreline: of the part set-up
     offsets::Stores stores;
+    std::size_t derived_parameters = 0;  ///< of the stores: not in the file, taken from [machine]
     std::optional<ProbeSettings> probe;
     std::optional<BallbarSettings> ballbar;
     std::vector<Artefact> artefacts;
