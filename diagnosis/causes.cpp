@@ -1,5 +1,7 @@
 #include "diagnosis/causes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +13,7 @@ namespace {
 
 constexpr double unseen_part = 0.7;  ///< fraction of the prior sigma: a larger posterior sigma
                                      ///< means undetermined
+constexpr std::size_t periods_listed = 4;
 
 std::vector<identification::FitParameter> parameters_of(const ColumnGroup& group,
                                                         const Eigen::VectorXd& own,
@@ -68,6 +71,14 @@ std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorX
     return points;
 }
 
+/// The periods that these positions cannot tell from the one that is named.
+std::string other_periods(const std::vector<double>& keys) {
+    std::string text;
+    for (std::size_t k = 0; k < std::min(keys.size(), periods_listed); ++k)
+        text += fmt::format("{}{:.4g}", k == 0 ? ". At these positions the same: " : ", ", keys[k]);
+    return keys.size() > periods_listed ? text + " and shorter ones" : text;
+}
+
 }  // namespace
 
 std::vector<identification::Inseparable> unseen_of(const Design::Entry& entry) {
@@ -117,7 +128,8 @@ Cause cause_of(const FoundModel& f, const Claim& claim) {
         cause.parameters = parameters_of(group, own, spread.diagonal().cwiseSqrt(),
                                          f.model.variances.tau[claim.position]);
         cause.unseen = unseen_of(f.design.groups()[member]);
-        cause.what = group.effect->what;
+        cause.what = group.effect->what + other_periods(f.judgement.equal_periods[claim.position]);
+        cause.holds_between = f.judgement.interpolates[claim.position];
         cause.usual_cause = group.effect->cause;
         cause.remedy = group.effect->remedy;
         return cause;

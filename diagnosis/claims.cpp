@@ -10,7 +10,7 @@
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr std::size_t rivals_tried = 6;
+constexpr std::size_t rivals_tried = 20;
 constexpr std::size_t replacements_tried = 3;  ///< of each other cause
 constexpr double doubtful = 0.4;               ///< probability of causes that cancel each other
 
@@ -40,49 +40,82 @@ double temper(const Sizes& sizes, std::size_t k, const Folds& folds) {
     return 1.0 / std::max(1.0, expected > 0.0 ? square / expected : 1.0);
 }
 
-/// Log weights, relative to the model without member k, of models in which another cause is
-/// replaced as well: one effect may do what two are claimed for. None in large models.
-std::vector<double> one_for_two(Design& design, const Model& model, std::size_t k) {
-    const auto value = [&](const Offer& o) {
-        return o.gain.best + design.group(o.group).log_prior;
-    };
-    std::vector<double> scores;
-    if (model.members.size() > pairs_up_to) return scores;
-    const Model rest = without(model, k);
+double nats_of(const Design& design, const Offer& o) {
+    return o.gain.best + design.group(o.group).log_prior;
+}
+
+/// Logarithms of the posterior weights of models, relative to the chosen one: each with its own
+/// noise and averaged over the sizes of its members.
+class Weights {
+  public:
+    Weights(const Searching& search, const Model& chosen)
+        : search_(search), chosen_(evidence(search.design, chosen)) {}
+
+    /// `lost`: nats that the model loses with the noise of the chosen one. With its own noise it
+    /// loses less, but at least as much as with noise that is free; if that is too much, its
+    /// weight is 0.
+    void add(const Model& model, double lost, std::vector<double>& list) const {
+        const double freedom = std::max(1.0, search_.design.freedom());
+        if (lost > 0.0 && 0.5 * freedom * std::log1p(2.0 * lost / freedom) > most_lost) return;
+        list.push_back(evidence(search_.design, tuned(search_.design, search_.setting, model, 1)) -
+                       chosen_);
+    }
+
+  private:
+    static constexpr double most_lost = 12.0;
+    const Searching& search_;
+    double chosen_;
+};
+
+/// Adds models without member k in which another cause is replaced as well: one effect may do what
+/// two are claimed for. None for large models.
+void weigh_one_for_two(const Searching& search, const Model& model, const Offer& held,
+                       const Weights& weights, std::vector<double>& list) {
+    Design& design = search.design;
+    if (model.members.size() > pairs_up_to) return;
+    const auto k = std::find(model.members.begin(), model.members.end(), held.group);
+    const Model rest = without(model, static_cast<std::size_t>(k - model.members.begin()));
     const std::vector<Offer> worth = worth_of_members(design, rest);
     for (std::size_t m = 0; m < rest.members.size(); ++m) {
         const std::string& replaced = design.group(rest.members[m]).name;
         if (!is_cause(design.group(rest.members[m]).kind)) continue;
+        const Model none = without(rest, m);
         std::size_t count = 0;
-        for (const Offer& o : offers(design, without(rest, m), is_cause)) {
+        for (const Offer& o : offers(design, none, is_cause)) {
             const std::string& name = design.group(o.group).name;
-            if (name == replaced || name == design.group(model.members[k]).name) continue;
+            if (name == replaced || name == design.group(held.group).name) continue;
             if (count++ == replacements_tried) break;
-            scores.push_back(value(o) - value(worth[m]));
+            weights.add(with(none, o),
+                        nats_of(design, held) + nats_of(design, worth[m]) - nats_of(design, o),
+                        list);
         }
     }
-    return scores;
 }
 
 /// Posterior weight of the models that contain member k, relative to: the chosen model, the model
-/// without it, those with it replaced, and those with another one in place of two (`fewer`).
-double evidence_probability(Design& design, const Offer& held, const std::vector<Offer>& others,
-                            const std::vector<double>& fewer, double zeta) {
-    const double own = held.gain.best + design.group(held.group).log_prior;
-    std::vector<double> scores{zeta * own, 0.0};
-    for (const double value : fewer) scores.push_back(zeta * value);
-    double with = 0.0;
+/// without it, those with it replaced, and those with another one in place of two.
+double evidence_probability(const Searching& search, const Model& model, const Offer& held,
+                            const std::vector<Offer>& others, double zeta) {
+    const Design& design = search.design;
+    const Weights weights(search, model);
+    const auto k = std::find(model.members.begin(), model.members.end(), held.group);
+    const Model rest = without(model, static_cast<std::size_t>(k - model.members.begin()));
+    const double own = nats_of(design, held);
+    std::vector<double> same{0.0}, other;
+    weights.add(rest, own, other);
     std::size_t count = 0;
     for (const Offer& o : others) {
         if (o.group == held.group) continue;
         if (count++ == rivals_tried) break;
-        const double value = o.gain.best + design.group(o.group).log_prior;
-        if (design.group(o.group).name == design.group(held.group).name)
-            with = with == 0.0 ? zeta * value : log_sum({with, zeta * value});
-        scores.push_back(zeta * value);
+        const bool again = design.group(o.group).name == design.group(held.group).name;
+        weights.add(with(rest, o), own - nats_of(design, o), again ? same : other);
     }
-    const double all = log_sum(scores);
-    return std::exp(zeta * own - all) + (with != 0.0 ? std::exp(with - all) : 0.0);
+    weigh_one_for_two(search, model, held, weights, other);
+    for (double& w : same) w *= zeta;
+    for (double& w : other) w *= zeta;
+    const double of_same = log_sum(same);
+    other.push_back(of_same);
+    return std::exp(of_same - log_sum(other));
 }
 
 /// Other causes that explain nearly as much in place of the member.
@@ -110,6 +143,23 @@ void name_rivals(const Design& design, const Offer& held, const std::vector<Offe
 
 }  // namespace
 
+Instead instead_of(Design& design, const Model& model, std::size_t position) {
+    const Model rest = without(model, position);
+    const Offer held = worth_of_members(design, model)[position];
+    std::vector<Offer> others = offers(design, rest, is_cause);
+    for (Offer& o : only_rivals(design, rest)) others.push_back(std::move(o));
+    Claim claim;
+    name_rivals(design, held, others, claim);
+    std::vector<double> scores{0.0};
+    for (const std::size_t group : claim.rival_groups) {
+        const auto is_it = [&](const Offer& o) { return o.group == group; };
+        const Offer& o = *std::find_if(others.begin(), others.end(), is_it);
+        scores.push_back(o.gain.best + design.group(group).log_prior - held.gain.best -
+                         design.group(held.group).log_prior);
+    }
+    return {std::move(claim.rivals), std::exp(-log_sum(scores))};
+}
+
 Sizes sizes_of(Design& design, const Model& model, double floor, const std::vector<bool>& large) {
     Sizes sizes;
     sizes.floor = floor;
@@ -131,8 +181,9 @@ Sizes sizes_of(Design& design, const Model& model, double floor, const std::vect
     return sizes;
 }
 
-std::vector<Claim> claims_of(Design& design, const Model& model, const Sizes& sizes,
+std::vector<Claim> claims_of(const Searching& search, const Model& model, const Sizes& sizes,
                              const HeldOutEvidence& heldout) {
+    Design& design = search.design;
     const std::vector<Offer> worth = worth_of_members(design, model);
     std::vector<Claim> claims;
     double own = 0.0;
@@ -149,11 +200,10 @@ std::vector<Claim> claims_of(Design& design, const Model& model, const Sizes& si
         if (claim.share < rules::least_share && claim.rms < rules::least_rms) continue;
         const std::vector<Offer> others = offers(design, without(model, k));
         const double blocks = heldout.support[k].saving.blocks;
-        claim.probability =
-            std::min({evidence_probability(design, worth[k], others, one_for_two(design, model, k),
-                                           temper(sizes, k, heldout.folds)),
-                      estimation::student_probability(heldout.support[k].saving.t, blocks - 1.0),
-                      (blocks + 1.0) / (blocks + 2.0), std::clamp(heldout.explained, 0.0, 1.0)});
+        claim.probability = std::min(
+            {evidence_probability(search, model, worth[k], others, temper(sizes, k, heldout.folds)),
+             estimation::student_probability(heldout.support[k].saving.t, blocks - 1.0),
+             (blocks + 1.0) / (blocks + 2.0), std::clamp(heldout.explained, 0.0, 1.0)});
         std::vector<Offer> instead = others;
         for (Offer& o : only_rivals(design, without(model, k))) instead.push_back(std::move(o));
         name_rivals(design, worth[k], instead, claim);

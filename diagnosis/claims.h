@@ -41,8 +41,22 @@ struct HeldOutEvidence {
     double explained;  ///< H, the part of the gap that they confirm: no probability is above it
 };
 
+/// Where models are compared, and with which belief in the noise.
+struct Searching {
+    Design& design;
+    const SearchSetting& setting;
+};
+
+/// Causes that explain nearly as much as a driver or a large zero in its place, most likely first,
+/// and the probability of none of them.
+struct Instead {
+    std::vector<std::string> rivals;
+    double probability = 1.0;
+};
+Instead instead_of(Design& design, const Model& model, std::size_t position);
+
 /// Causes above the background, largest share first.
-std::vector<Claim> claims_of(Design& design, const Model& model, const Sizes& sizes,
+std::vector<Claim> claims_of(const Searching& search, const Model& model, const Sizes& sizes,
                              const HeldOutEvidence& heldout);
 
 }  // namespace trunnion::diagnosis

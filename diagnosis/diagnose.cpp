@@ -184,6 +184,21 @@ void add_ripples_instead(Design& design, const Prepared& p, const Whitener& whit
     }
 }
 
+/// Adds keyed effects in place of a driver, which needs no keys: with rough ones they would lose.
+void add_keyed_instead(Design& design, const Prepared& p, const Whitener& whitener, KeySearch& keys,
+                       const Model& model) {
+    for (std::size_t k = 0; k < model.members.size(); ++k) {
+        if (design.group(model.members[k]).kind != GroupKind::driver) continue;
+        const Model rest = without(model, k);
+        const Eigen::VectorXd rest_mm = rest_of(p, design, rest);
+        auto list = promising(p, keys, left_by(p, keys, design, rest), 1);
+        for (KeyedEffect& keyed : list)
+            keyed.keys = identification::refine_keys(p.replay, p.base, *keyed.effect,
+                                                     std::move(keyed.keys), rest_mm);
+        add_keyed(design, p, whitener, list, rest_mm);
+    }
+}
+
 struct Searched {
     Design design;
     SearchSetting setting;
@@ -242,6 +257,7 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const
         add_keyed(design, p, whitener, promising(p, keys, left_by(p, keys, design, model), 1),
                   rest_of(p, design, model));
         add_ripples_instead(design, p, whitener, keys, model);
+        add_keyed_instead(design, p, whitener, keys, model);
         model = settled(design, setting, grown(design, setting, std::move(model)));
         if (model.score < before + 1.0) break;
     }

@@ -233,9 +233,6 @@ void merge_free_forms(const Outcome& f, std::vector<Claim>& claims) {
 /// belief in the noise. The Bayes factor of a p-value is at most 1 / (-e p ln p) (Sellke, Bayarri
 /// and Berger 2001); the prior is that of one more effect.
 double probability_of_unknown(const Outcome& f) {
-    for (std::size_t k = 0; k < f.model.members.size(); ++k)
-        if (f.design.group(f.model.members[k]).kind == GroupKind::driver || f.judgement.large[k])
-            return 1.0;
     const auto rows = static_cast<double>(std::count(f.used.begin(), f.used.end(), true));
     const LeftOut left(f.design, f.model, f.prepared.folds, f.used);
     const double spread = std::hypot(f.noise.prior.spread, 1.0 / std::sqrt(2.0 * rows));
@@ -251,16 +248,25 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
     cause.effect = "unknown";
     cause.known = false;
     cause.share = d.unexplained_share;
-    cause.probability = probability_of_unknown(f);
-    if (cause.probability < 0.5)
-        cause.what = "What left-out readings do not confirm, and the others leave open";
-    else
-        cause.what = "A gap with structure that no effect of the catalogue explains";
+    std::string places;
     for (std::size_t k = 0; k < f.model.members.size(); ++k) {
         const ColumnGroup& group = f.design.group(f.model.members[k]);
-        if (group.kind == GroupKind::driver || f.judgement.large[k])
-            cause.what += fmt::format(": it {} ({})", group.text, group.component);
+        if (group.kind != GroupKind::driver && !f.judgement.large[k]) continue;
+        const Instead instead = instead_of(f.design, f.model, k);
+        cause.probability = std::max(cause.probability.value(), instead.probability);
+        for (const std::string& rival : instead.rivals)
+            if (std::find(cause.rivals.begin(), cause.rivals.end(), rival) == cause.rivals.end())
+                cause.rivals.push_back(rival);
+        places += fmt::format(": it {} ({})", group.text, group.component);
     }
+    if (places.empty()) cause.probability = probability_of_unknown(f);
+    if (places.empty() && cause.probability < 0.5)
+        cause.what = "What left-out readings do not confirm, and the others leave open";
+    else if (cause.rivals.empty())
+        cause.what = "A gap with structure that no effect of the catalogue explains";
+    else
+        cause.what = "A gap with structure that need not be an effect of the catalogue";
+    cause.what += places;
     cause.heldout = held_out(f, f.judgement.left_before, f.judgement.left_before);
     return cause;
 }
@@ -355,7 +361,7 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     std::vector<Claim> claims;
     if (f.judgement.gap) {
         const Sizes sizes = sizes_of(f.design, f.model, f.judgement.floor, f.judgement.large);
-        claims = claims_of(f.design, f.model, sizes,
+        claims = claims_of({f.design, f.setting}, f.model, sizes,
                            {f.judgement.support, f.prepared.folds, f.judgement.part});
         merge_free_forms(f, claims);
     }

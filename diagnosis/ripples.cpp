@@ -5,12 +5,17 @@
 
 #include "base/units.h"
 #include "diagnosis/key_search.h"
+#include "diagnosis/rules.h"
 
 namespace trunnion::diagnosis {
 namespace {
 
 constexpr std::size_t least_places = 8;
 constexpr double least_turns = 2.0, most_hole = 0.4, least_spacings = 2.0, least_outside = 0.2;
+/// On a grid of fewer positions a ripple whose period is not unique is never claimed: it has half
+/// as many frequencies as positions, and one of them resembles an error of any shape.
+constexpr std::size_t many_places = 3 * least_places;
+constexpr double same_frequency = 1e-3;  ///< cycles in one step of a grid
 
 /// Step of a grid that contains all positions, possibly with empty nodes; 0 if there is none. On
 /// it, periods below two steps are aliases of longer ones.
@@ -32,21 +37,23 @@ double largest_hole(const std::vector<double>& places, double period) {
     return hole;
 }
 
-/// Axis and period of a ripple; empty for other effects with keys.
+/// Axis, key and period of a ripple; empty for other effects with keys.
 struct Ripple {
     Axis axis;
-    double period;
-    double shortest;  ///< period that the catalogue offers
+    std::size_t key;              ///< index of the parameter
+    bool counts;                  ///< periods in a turn, else the period itself
+    double period;                ///< mm or rad
+    std::vector<double> offered;  ///< keys that the catalogue offers
+    double period_of(double value) const { return counts ? 2.0 * pi / value : value; }
 };
 std::optional<Ripple> ripple_of(const effects::Effect& effect, const std::vector<double>& keys) {
     if (effect.kind != effects::EffectKind::cyclic) return std::nullopt;
     for (std::size_t j = 0; j < keys.size(); ++j) {
         const effects::EffectParameter& key = effect.parameters[j];
         if (!key.is_key()) continue;
-        const auto [least, most] = std::minmax_element(key.grid.begin(), key.grid.end());
-        if (key.name == periods_key)
-            return Ripple{*effect.axis, 2.0 * pi / keys[j], 2.0 * pi / *most};
-        return Ripple{*effect.axis, keys[j], *least};
+        Ripple ripple{*effect.axis, j, key.name == periods_key, 0.0, key.grid};
+        ripple.period = ripple.period_of(keys[j]);
+        return ripple;
     }
     return std::nullopt;
 }
@@ -68,13 +75,40 @@ std::vector<double> positions_of(const Prepared& prepared, Axis axis) {
     return places;
 }
 
-/// True when the positions stand on a grid on which a shorter period of the catalogue has the same
-/// values: its frequency is 1 / step - 1 / period.
-bool has_alias(std::vector<double> places, const Ripple& ripple) {
-    places = distinct(std::move(places));
-    if (places.size() < 2) return false;
-    const double step = grid_step(places);
-    return step > 0.0 && 1.0 / step - 1.0 / ripple.period < 1.0 / ripple.shortest;
+double frequency_on_grid(double step, double period) {
+    return std::abs(std::remainder(step / period, 1.0));
+}
+
+/// Keys of the catalogue with the same values as the ripple on a grid of this step, longest period
+/// first: any period m / step +- 1 / period, or a number of periods in a turn.
+std::vector<double> aliases_on(double step, const Ripple& ripple) {
+    std::vector<double> list;
+    const auto [least, most] = std::minmax_element(ripple.offered.begin(), ripple.offered.end());
+    const double own = frequency_on_grid(step, ripple.period);
+    if (ripple.counts) {
+        for (double count = std::ceil(*least); count <= *most; ++count)
+            if (std::abs(frequency_on_grid(step, 2.0 * pi / count) - own) < same_frequency)
+                list.push_back(count);
+    } else {
+        for (double cycles = 0.0; step / (cycles + 0.5) >= *least; ++cycles)
+            for (const double f : {cycles - own, cycles + own})
+                if (f > 0.0 && step / f >= *least && step / f <= *most) list.push_back(step / f);
+    }
+    return list;
+}
+
+/// Step of the grid of all positions of an axis; 0 without one.
+double step_of(const std::vector<double>& places) {
+    return places.size() < 2 ? 0.0 : grid_step(places);
+}
+
+/// The key with the longest period among those that the positions cannot tell apart.
+void take_longest_period(const std::vector<double>& places, const Ripple& ripple,
+                         std::vector<double>& keys) {
+    const double step = step_of(places);
+    if (step == 0.0 || ripple.period >= least_spacings * step) return;
+    for (const double alias : aliases_on(step, ripple))
+        if (ripple.period_of(alias) > ripple.period_of(keys[ripple.key])) keys[ripple.key] = alias;
 }
 
 /// Features of the textbook effects of the same axis.
@@ -89,6 +123,13 @@ std::vector<Eigen::Index> of_axis(const Design& design, const effects::Effect& e
     return features;
 }
 
+/// True when a ripple is no alias of textbook effects: a fifth of it is outside their columns, or
+/// what is outside is so much, at its usual size, that they would not count as its rivals.
+bool separable(const Design& design, std::size_t group, const std::vector<Eigen::Index>& others) {
+    const double part = design.outside(group, others);
+    return part >= least_outside || part * design.groups()[group].gram.trace() >= rules::rival_loss;
+}
+
 }  // namespace
 
 bool shows_period(std::vector<double> places, double period) {
@@ -97,6 +138,18 @@ bool shows_period(std::vector<double> places, double period) {
     if (places.back() - places.front() < least_turns * period) return false;
     if (largest_hole(places, period) > most_hole) return false;
     return period >= least_spacings * grid_step(places);
+}
+
+std::vector<double> equal_periods(const Prepared& prepared, const effects::Effect& effect,
+                                  const std::vector<double>& keys) {
+    const auto ripple = ripple_of(effect, keys);
+    if (!ripple) return {};
+    const double step = step_of(distinct(positions_of(prepared, ripple->axis)));
+    if (step == 0.0) return {};
+    std::vector<double> list = aliases_on(step, *ripple);
+    const double own = keys[ripple->key];
+    std::erase_if(list, [&](double key) { return std::abs(key - own) < 1e-2 * own; });
+    return list;
 }
 
 void add_unresolved_ripple(Design& design, const Prepared& prepared, const Whitener& whitener,
@@ -113,12 +166,15 @@ std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& p
                                                std::vector<double> keys) {
     const auto ripple = ripple_of(effect, keys);
     if (ripple) {
-        const std::vector<double> places = positions_of(prepared, ripple->axis);
-        if (!shows_period(places, ripple->period) || has_alias(places, *ripple))
+        const std::vector<double> places = distinct(positions_of(prepared, ripple->axis));
+        take_longest_period(places, *ripple, keys);
+        const bool unique = equal_periods(prepared, effect, keys).empty();
+        if (!shows_period(places, ripple->period_of(keys[ripple->key])) ||
+            (!unique && places.size() < many_places))
             return std::nullopt;
     }
     const auto added = add_keyed_group(design, prepared, whitener, effect, std::move(keys));
-    if (added && ripple && design.outside(*added, of_axis(design, effect)) < least_outside) {
+    if (added && ripple && !separable(design, *added, of_axis(design, effect))) {
         design.hide(*added);
         return std::nullopt;
     }

@@ -12,16 +12,21 @@ namespace trunnion::diagnosis {
 /// grid, with at least two of its steps in a period.
 bool shows_period(std::vector<double> places, double period);
 
+/// Other keys of the catalogue that a ripple may have: at the positions of its axis, which stand on
+/// a grid, their values are the same (aliases). Empty for any other effect.
+std::vector<double> equal_periods(const Prepared& prepared, const effects::Effect& effect,
+                                  const std::vector<double>& keys);
+
 /// Adds a ripple that the positions of its axis do not resolve as a possible rival: no model
 /// contains it, but what another effect explains may be this one. Not for fewer than 8 positions,
 /// where some ripple fits any error.
 void add_unresolved_ripple(Design& design, const Prepared& prepared, const Whitener& whitener,
                            const effects::Effect& effect, std::vector<double> keys);
 
-/// Adds the effect with given keys if the positions of its axis resolve it, no shorter period of
-/// the catalogue has the same values on their grid (an alias), and no textbook effect
-/// of that axis is equivalent on these readings (at least a fifth of its squared columns must be
-/// outside theirs).
+/// Adds the effect with given keys if the positions of its axis resolve it and no textbook effect
+/// of that axis is equivalent on these readings: at least a fifth of its squared columns must be
+/// outside theirs, or so much that they would not count as its rivals. Of periods with the same
+/// values on a grid of many positions the longest is added; on one of fewer positions none.
 std::optional<std::size_t> add_ripple_or_other(Design& design, const Prepared& prepared,
                                                const Whitener& whitener,
                                                const effects::Effect& effect,

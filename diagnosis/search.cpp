@@ -11,6 +11,7 @@ namespace {
 constexpr std::size_t most_members = 12;
 constexpr std::size_t tried = 4;       ///< number of best offers tuned at each step
 constexpr std::size_t looked_at = 20;  ///< number of offers whose exact gain is computed
+constexpr double certain = 30.0;       ///< worth of a member that is not questioned, nats
 constexpr std::size_t swap_tried = 3;  ///< offers tried in place of a member
 constexpr int rounds = 2;
 constexpr double tuning_gain = 10.0;  ///< maximum gain by tuning the variances of a changed model,
@@ -18,12 +19,6 @@ constexpr double tuning_gain = 10.0;  ///< maximum gain by tuning the variances 
 
 bool in(const Model& model, std::size_t group) {
     return std::find(model.members.begin(), model.members.end(), group) != model.members.end();
-}
-
-Model with(Model model, const Offer& offer) {
-    model.members.push_back(offer.group);
-    model.variances.tau.push_back(offer.gain.tau);
-    return model;
 }
 
 Offer offer_of(const Design& design, std::size_t k, const estimation::GroupInformation& left) {
@@ -177,7 +172,7 @@ Model joined(Design& design, const SearchSetting& setting, Model model) {
                 if (rough_score(design, setting, with(rest, best[k])) < model.score - tuning_gain)
                     continue;
                 Model trial = tuned(design, setting, with(rest, best[k]), 2);
-                if (trial.score > model.score) model = std::move(trial);
+                if (evidence(design, trial) > evidence(design, model)) model = std::move(trial);
             }
         }
     return model;
@@ -272,6 +267,12 @@ Model without(const Model& model, std::size_t position) {
     return rest;
 }
 
+Model with(Model model, const Offer& offer) {
+    model.members.push_back(offer.group);
+    model.variances.tau.push_back(offer.gain.tau);
+    return model;
+}
+
 std::vector<Offer> worth_of_members(Design& design, const Model& model) {
     const auto each =
         estimation::each_beside_others(design.equations(model.members), model.variances);
@@ -279,6 +280,13 @@ std::vector<Offer> worth_of_members(Design& design, const Model& model) {
     for (std::size_t k = 0; k < model.members.size(); ++k)
         worth.push_back(offer_of(design, model.members[k], each[k]));
     return worth;
+}
+
+double evidence(Design& design, const Model& model) {
+    double sum = model.score;
+    for (const Offer& member : worth_of_members(design, model))
+        sum -= member.gain.best - member.gain.mean;
+    return sum;
 }
 
 Model pruned(Design& design, const SearchSetting& setting, Model model) {
@@ -289,8 +297,11 @@ Model pruned(Design& design, const SearchSetting& setting, Model model) {
                              [](const Offer& a, const Offer& b) { return a.value < b.value; });
         const auto position = static_cast<std::size_t>(least - worth.begin());
         const bool zero = design.group(least->group).kind == GroupKind::offset;
-        if (least->value >= 0.0 || (zero && least->gain.best > 0.1)) break;
-        model = tuned(design, setting, without(model, position), 2);
+        if (least->value >= certain || (zero && least->gain.best > 0.1)) break;
+        Model rest = tuned(design, setting, without(model, position), 2);
+        // With few readings the noise is larger without the member, and the loss smaller.
+        if (least->value >= 0.0 && evidence(design, rest) < evidence(design, model)) break;
+        model = std::move(rest);
     }
     return model;
 }

@@ -59,6 +59,10 @@ bool same_cause(const ColumnGroup& a, const ColumnGroup& b);
 /// Gain of each member beside the others, in their order.
 std::vector<Offer> worth_of_members(Design& design, const Model& model);
 Model without(const Model& model, std::size_t position);
+Model with(Model model, const Offer& offer);
+/// The score with each member's likelihood averaged over its size (GroupGain::mean) instead of its
+/// maximum: models with different numbers of members are compared by it.
+double evidence(Design& design, const Model& model);
 
 /// Removes the weakest members as long as one does not pay for its prior.
 Model pruned(Design& design, const SearchSetting& setting, Model model);

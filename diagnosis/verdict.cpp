@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/ripples.h"
 #include "diagnosis/rules.h"
 #include "estimation/distributions.h"
 #include "estimation/ranked_least_squares.h"
@@ -56,17 +57,16 @@ double share_of_tables(const Sizes& sizes, const std::vector<bool>& those) {
 
 /// True when there is more than noise. Without a driver the evidence must be confirmed by left-out
 /// readings.
-bool is_gap(const Design& design, const Model& model, const Judgement& j, const Sizes& sizes,
+bool is_gap(Design& design, const Model& model, const Judgement& j, const Sizes& sizes,
             const Saving& saving) {
     if (std::any_of(j.large.begin(), j.large.end(), [](bool b) { return b; })) return true;
     double driver = 0.0;
     for (std::size_t k = 0; k < model.members.size(); ++k)
         if (kind_of(design, model, k) == GroupKind::driver) driver += sizes.square[k];
-    if (driver > rules::least_driver * j.floor * design.rows() &&
-        model.score >= rules::least_evidence)
-        return true;
-    if (model.score < rules::least_evidence) return false;
-    if (saving.t < rules::least_t && model.score < rules::plain_evidence) return false;
+    const double nats = evidence(design, model);
+    if (nats < rules::least_evidence) return false;
+    if (driver > rules::least_driver * j.floor * design.rows()) return true;
+    if (saving.t < rules::least_t && nats < rules::plain_evidence) return false;
     return j.before - j.after >= rules::least_saving * j.floor;
 }
 
@@ -97,8 +97,13 @@ Judgement judged(Design& design, const Prepared& prepared, const Model& model,
         std::vector<bool> rest = all, rest_predicting = predicting;
         rest[k] = rest_predicting[k] = false;
         j.support.push_back({saving_of(left.loss(rest, rest_predicting), after)});
-        j.interpolates.push_back(kind_of(design, model, k) != GroupKind::table ||
-                                 holds_between(design, prepared, model, k, used));
+        const ColumnGroup& group = design.group(model.members[k]);
+        j.equal_periods.push_back(group.kind == GroupKind::periodic
+                                      ? equal_periods(prepared, *group.effect, group.keys)
+                                      : std::vector<double>{});
+        j.interpolates.push_back(
+            j.equal_periods.back().empty() &&
+            (group.kind != GroupKind::table || holds_between(design, prepared, model, k, used)));
     }
     const Sizes sizes = sizes_of(design, model, j.floor, j.large);
     auto local = j.interpolates;

@@ -24,10 +24,12 @@ struct Judgement {
     bool gap = false;
     bool between_places = true;
     std::vector<bool> large;         ///< members that are large zeros
-    std::vector<bool> interpolates;  ///< members: tables valid between their positions
-    std::vector<Support> support;    ///< of each member
-    Eigen::VectorXd left;            ///< whitened left-out residuals, with the causes
-    Eigen::VectorXd left_before;     ///< ... with the set-up alone
+    std::vector<bool> interpolates;  ///< members: tables valid between their positions, ripples of
+                                     ///< a unique period
+    std::vector<std::vector<double>> equal_periods;  ///< of members: the others
+    std::vector<Support> support;                    ///< of each member
+    Eigen::VectorXd left;         ///< whitened left-out residuals, with the causes
+    Eigen::VectorXd left_before;  ///< ... with the set-up alone
 };
 Judgement judged(Design& design, const Prepared& prepared, const Model& model,
                  const NoiseBelief& noise, const std::vector<bool>& used);

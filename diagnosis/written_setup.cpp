@@ -62,9 +62,11 @@ std::vector<Model> candidates_of(const Outcome& f) {
     const auto causes = [&](GroupKind k, std::size_t m) {
         return holds(f, m) && k != GroupKind::driver;
     };
-    const auto named = [&](GroupKind k, std::size_t) { return k != GroupKind::table; };
-    const auto named_causes = [&](GroupKind k, std::size_t) {
-        return k != GroupKind::table && k != GroupKind::driver;
+    const auto named = [&](GroupKind k, std::size_t m) {
+        return holds(f, m) && k != GroupKind::table;
+    };
+    const auto named_causes = [&](GroupKind k, std::size_t m) {
+        return named(k, m) && k != GroupKind::driver;
     };
     std::vector<Model> list;
     for (const TakesMember& takes :

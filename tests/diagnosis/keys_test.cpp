@@ -29,7 +29,7 @@ records::ReadingTable coarse_map_and_passes(const setup::Setup& setup, std::uint
 }  // namespace
 
 TEST_CASE("a ripple that poses in even steps see as positioning is found by what passes see",
-          "[.known][diagnosis]") {
+          "[diagnosis]") {
     setup::Setup setup = campaign::bc_setup();
     setup.artefacts[2].center_W_mm = {20.0, 2.0, 45.0};  // a short lever: the poses weigh more
     for (const int periods : {28, 52, 60}) {

@@ -7,6 +7,7 @@
 #include <Eigen/QR>
 #include <catch2/catch.hpp>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
 #include <set>
 
@@ -146,36 +147,62 @@ bool claims_another(const diagnosis::Diagnosis& d, const std::string& effect) {
     return false;
 }
 
+/// Of the noise; TRUNNION_SEED gives another one.
+std::uint64_t first_seed() {
+    const char* given = std::getenv("TRUNNION_SEED");
+    return given ? std::stoull(given) : 7;
+}
+
 /// How many effects were tried, and what went wrong.
 struct Tally {
     int tried = 0;
     std::vector<std::string> not_first, invented, gap_of_itself;
 };
 
-diagnosis::Diagnosis diagnosed(const Bench& bench, const setup::Setup& believed,
-                               const setup::Setup& real, std::uint64_t seed) {
+struct Judged {
+    setup::Setup believed;
+    records::ReadingTable readings;
+    diagnosis::Diagnosis diagnosis;
+};
+
+Judged diagnosed(const Bench& bench, const setup::Setup& believed, const setup::Setup& real,
+                 std::uint64_t seed) {
     diagnosis::DiagnosisOptions options;
     options.plan_next = false;
-    return diagnosis::diagnose(believed, measured::run_of(real, bench.program, seed), options);
+    records::ReadingTable readings = measured::run_of(real, bench.program, seed);
+    diagnosis::Diagnosis d = diagnosis::diagnose(believed, readings, options);
+    return {believed, std::move(readings), std::move(d)};
+}
+
+/// Adds what went wrong to its list; TRUNNION_KEEP names a folder for readings and setup.
+void keep(std::vector<std::string>& list, const Bench& bench, const std::string& what,
+          const Judged& judged) {
+    list.push_back(fmt::format("{}: {}: {}", bench.name, what, said_by(judged.diagnosis)));
+    if (const char* folder = std::getenv("TRUNNION_KEEP")) {
+        std::string name = fmt::format("{} {}", bench.name, what.substr(0, what.find(" of ")));
+        std::replace(name.begin(), name.end(), ' ', '_');
+        const std::string path = std::string(folder) + "/" + name;
+        std::ofstream(path + ".csv") << records::format_readings(judged.readings);
+        std::ofstream(path + ".toml") << setup::format_setup(judged.believed);
+    }
 }
 
 void try_effect(const Bench& bench, const effects::Effect& effect, Tally& tally) {
     const auto injected = at_five_sigma(bench, effect);
     if (!injected) return;
     ++tally.tried;
-    const std::string what =
-        fmt::format("{}: {} of {:.3g} usual sizes: ", bench.name, effect.name, injected->size);
+    const std::string what = fmt::format("{} of {:.3g} usual sizes", effect.name, injected->size);
     setup::Setup real = bench.setup;
     real.effects.push_back(injected->setting);
-    const diagnosis::Diagnosis d = diagnosed(bench, bench.setup, real, 7);
-    if (!named_first(d, effect.name))
-        tally.not_first.push_back(what + said_by(d));
-    else if (claims_another(d, effect.name))
-        tally.invented.push_back(what + said_by(d));
-    const auto seed = static_cast<std::uint64_t>(7 + tally.tried);
-    const diagnosis::Diagnosis none = diagnosed(bench, real, real, seed);
-    if (none.verdict != diagnosis::Verdict::no_gap)
-        tally.gap_of_itself.push_back(what + said_by(none));
+    const Judged gap = diagnosed(bench, bench.setup, real, first_seed());
+    if (!named_first(gap.diagnosis, effect.name))
+        keep(tally.not_first, bench, what, gap);
+    else if (claims_another(gap.diagnosis, effect.name))
+        keep(tally.invented, bench, what, gap);
+    const auto seed = first_seed() + static_cast<std::uint64_t>(tally.tried);
+    const Judged none = diagnosed(bench, real, real, seed);
+    if (none.diagnosis.verdict != diagnosis::Verdict::no_gap)
+        keep(tally.gap_of_itself, bench, what + " on both sides", none);
 }
 
 void print(const char* what, const std::vector<std::string>& list) {
@@ -246,6 +273,52 @@ TEST_CASE("few poses, each measured twice, name one effect with many parameters"
     }
 }
 
+struct Once {
+    std::size_t machine;
+    const char *program, *effect;
+};
+
+// Each was invented or missed once. Noise that is estimated with a member makes the member look
+// certain on few poses; a ripple on even places has several periods; a slip at a time that no grid
+// holds loses against a driver; a slip before the last visit is the zero of the last test.
+TEST_CASE("few poses, even places and a moment name one effect alone", "[inventions]") {
+    for (const Once& once :
+         {Once{0, "O8300", "B.cyclic"}, Once{0, "long_stylus", "C.backlash"},
+          Once{1, "clamped", "A.positioning"}, Once{3, "warm", "A.tilt"},
+          Once{3, "clamped", "artefact.moved"}, Once{4, "mill.nc", "artefact.moved"}}) {
+        const measured::Shipped& machine = measured::shipped_machines()[once.machine];
+        const setup::Setup setup = shipped_setup(machine);
+        for (const measured::Program& program : measured::programs_of(machine, setup)) {
+            if (program.name != once.program) continue;
+            const Bench bench(machine, setup, program);
+            Tally tally;
+            try_effect(bench, *effects::find_effect(bench.catalogue, once.effect), tally);
+            INFO(machine.file << " " << once.program << " " << once.effect);
+            CHECK(tally.tried == 1);
+            CHECK(tally.not_first.empty());
+            CHECK(tally.invented.empty());
+            CHECK(tally.gap_of_itself.empty());
+        }
+    }
+}
+
+TEST_CASE("a ripple on even places is a cause with all periods that they do not tell apart",
+          "[inventions]") {
+    const measured::Shipped& machine = measured::shipped_machines().front();
+    const setup::Setup setup = shipped_setup(machine);
+    const Bench bench(machine, setup, measured::programs_of(machine, setup)[5]);
+    setup::Setup real = setup;
+    real.effects.push_back(
+        effects::parse_injection("B.cyclic: cos_rad=5e-5, sin_rad=5e-5", bench.catalogue));
+    const diagnosis::Diagnosis d = diagnosed(bench, setup, real, 7).diagnosis;
+    REQUIRE(d.causes.size() == 1);
+    CHECK(d.causes.front().effect == "B.cyclic");
+    CHECK(d.causes.front().parameters.back().value == 90.0);
+    CHECK_THAT(d.causes.front().what, Catch::Contains("the same: 126, 306, 342"));
+    CHECK_FALSE(d.between_places);
+    CHECK(d.setup.effects.empty());  // it would be wrong elsewhere
+}
+
 TEST_CASE("five sigma of backlash on a shipped program is no slipped sphere", "[inventions]") {
     const measured::Shipped& machine = measured::shipped_machines().front();
     const setup::Setup setup = shipped_setup(machine);
@@ -259,7 +332,7 @@ TEST_CASE("five sigma of backlash on a shipped program is no slipped sphere", "[
     // C comes from one side at every reading: its backlash shows as next to nothing.
     setup::Setup real = setup;
     real.effects.push_back(effects::parse_injection("C.backlash=60urad", bench.catalogue));
-    for (const diagnosis::Cause& c : diagnosed(bench, setup, real, 7).causes)
+    for (const diagnosis::Cause& c : diagnosed(bench, setup, real, 7).diagnosis.causes)
         CHECK((c.effect == "C.backlash" || c.probability <= 0.5));
 }
 
