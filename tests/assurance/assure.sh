@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# assure.sh [--seconds 60] [--mutants 20] [--out docs/assurance.md] [--only faults,soak,law,bytes,edits,tidy,fuzz,coverage,mutation]
+# assure.sh [--seconds 60] [--mutants 20] [--out docs/assurance.md] [--only faults,soak,law,bytes,edits,inventions,tidy,fuzz,coverage,mutation]
 # Long checks one after the other; what they found is printed and written as a page. Run by ./dev assure,
 # which builds what is needed.
 set -eu
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-seconds=60 mutants=20 page=docs/assurance.md only=faults,soak,law,bytes,edits,tidy,fuzz,coverage,mutation
+seconds=60 mutants=20 page=docs/assurance.md only=faults,soak,law,bytes,edits,inventions,tidy,fuzz,coverage,mutation
 while [ $# -gt 0 ]; do
   [ $# -ge 2 ] || { echo "assure: $1 needs a value" >&2; exit 2; }
   case $1 in
@@ -74,6 +74,19 @@ edits() {
     grep -oE '[0-9]+ (edits judged:|rewrites,)[^/=]*' | sed 's/^/- /'
 }
 
+inventions() {
+  echo "## One effect on every measuring program"
+  echo
+  build/release/bin/test_diagnosis "[.assure][inventions]" > "$work/inventions.log" 2>&1 && state="is named alone" || state="is NOT always named alone"
+  echo "Each effect of the catalogue at five sigma, on each program, **$state**: it, or a rival listed with it, first, and nothing else above probability 0.5. The same setup on both sides: no gap."
+  echo
+  echo "| machine, program | effects | not first | others claimed | gaps of itself |"
+  echo "|---|---|---|---|---|"
+  sed -nE 's/^(.*): ([0-9]+) effects, not first ([0-9]+), others claimed ([0-9]+), gaps of itself ([0-9]+)$/| \1 | \2 | \3 | \4 | \5 |/p' "$work/inventions.log"
+  echo
+  sed -nE 's/^(NOT FIRST|INVENTED|GAP): (.*)/- \1: \2/p' "$work/inventions.log"
+}
+
 tidy() {
   echo "## clang-tidy on every room"
   echo
@@ -133,6 +146,7 @@ for r in json.load(open(sys.argv[1])): print("| %s | %d of %d | %d |" % (r["room
   echo "    ./dev assure --only law             # what run refuses, check refuses"
   echo "    ./dev assure --only bytes           # a Debug build beside the release"
   echo "    ./dev assure --only edits           # random edits and harmless rewrites, compared"
+  echo "    ./dev assure --only inventions      # each effect on each measuring program, diagnosed"
   echo "    ./dev lint tidy                     # clang-tidy on every room"
   echo "    ./dev fuzz SECONDS"
   echo "    ./dev assure --only coverage"
@@ -143,6 +157,7 @@ for r in json.load(open(sys.argv[1])): print("| %s | %d of %d | %d |" % (r["room
   section law "refused blocks"
   section bytes "Debug against Release"
   section edits "edits and rewrites"
+  section inventions "inventions"
   section tidy "clang-tidy"
   section fuzz "fuzzing"
   section coverage "branches"
