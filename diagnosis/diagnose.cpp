@@ -14,6 +14,7 @@
 #include "diagnosis/ripples.h"
 #include "diagnosis/rules.h"
 #include "diagnosis/solution.h"
+#include "diagnosis/store_gap.h"
 #include "diagnosis/thinning.h"
 #include "diagnosis/verdict.h"
 #include "effects/settings.h"
@@ -377,6 +378,7 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
     Diagnosis d =
         report_of({p, s.design, s.setting, s.model, judgement, round.noise, round.used}, options);
     d.unfinished = unfinished;
+    if (const auto gap = store_gap(setup, table)) add_store_gap(setup, *gap, options.holdout, d);
     return d;
 }
 

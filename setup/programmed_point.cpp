@@ -15,10 +15,9 @@ std::optional<RotaryStores> stores_of(const Setup& setup) {
     }
 }
 
-/// The offset of the probe's own tool, of tool 1 where every tool may be the probe; the physical
-/// length where the control has none.
+/// The offset of the probe; the physical length where the control has none.
 Vector3 believed_tool_mm(const Setup& setup, const Vector3& along) {
-    const auto number = static_cast<std::size_t>(setup.probe->tool > 0 ? setup.probe->tool : 1);
+    const auto number = static_cast<std::size_t>(probe_offset(*setup.probe));
     const auto& tools = setup.stores.tools.tool;
     const double length_mm = number < tools.size() ? tools[number].length_mm() : 0.0;
     return length_mm > 0.0 ? Vector3(length_mm * along) : Vector3(-setup.probe->tip_S_mm);
@@ -29,6 +28,10 @@ bool by_g54(PositioningMode mode) {
 }
 
 }  // namespace
+
+int probe_offset(const ProbeSettings& probe) {
+    return probe.tool > 0 ? probe.tool : 1;
+}
 
 ProgrammedPoint::ProgrammedPoint(const Setup& setup, const std::optional<RotaryStores>& stores)
     : stores_(stores) {

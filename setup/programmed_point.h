@@ -9,6 +9,9 @@
 
 namespace trunnion::setup {
 
+/// Offset number of the probe: that of its own tool, 1 where every tool may be the probe.
+int probe_offset(const ProbeSettings& probe);
+
 /// Axis positions of a probe (mm, rad) as the stores read them.
 class ProgrammedPoint {
   public:
@@ -22,6 +25,7 @@ class ProgrammedPoint {
     /// `extension_mm`: of a longer stylus. Empty where no store takes part.
     std::optional<Vector3> at(PositioningMode mode, const AxisPositions& machine,
                               double extension_mm) const;
+    const std::optional<RotaryStores>& stores() const { return stores_; }
 
   private:
     std::optional<RotaryStores> stores_;
