@@ -66,6 +66,8 @@ struct CheckOptions {
     interpreter::Dialect dialect;
     /// True when the control has this G code (434 is G43.4). Empty: not checked.
     std::function<bool(int code10)> knows_g;
+    /// True for an M code of the builder's profile. Empty: none is.
+    std::function<bool(int code)> builders_m;
     /// True when program O`number` exists outside the file. Empty: not checked.
     std::function<bool(int o_number)> finds_program;
     /// True when the program `<name>` exists outside the file. Empty: unknown.

@@ -32,8 +32,8 @@ constexpr Mark marks[] = {
 
 /// This control has the code, by its dialect or by its builder's profile.
 bool is_own(const Mark& mark, const CheckOptions& options) {
-    return mark.letter == 'G' && !mark.with_other_words && options.knows_g &&
-           options.knows_g(mark.code10);
+    if (mark.letter == 'M') return options.builders_m && options.builders_m(mark.code10 / 10);
+    return !mark.with_other_words && options.knows_g && options.knows_g(mark.code10);
 }
 
 bool has_letters(const interpreter::ParsedProgram& program, const interpreter::Block& block,

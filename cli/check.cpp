@@ -77,6 +77,13 @@ bool knows_g(const setup::Setup& setup, int code10) {
     return code10 == 650 || code10 == 660 || code10 == 661 || code10 == 670;  // of the language
 }
 
+bool has_m(const trunnion::controller::BuilderProfile& builder, int code) {
+    const auto in = [code](const std::vector<int>& codes) {
+        return std::find(codes.begin(), codes.end(), code) != codes.end();
+    };
+    return in(builder.m_codes) || in(builder.m_codes_after);
+}
+
 /// The rules of one setup's control for programs; each variable is looked up once.
 class SetupRules {
   public:
@@ -91,6 +98,7 @@ class SetupRules {
         out.knows_g = [this](int code10) {
             return knows_g(setup_, code10) || cli::calls_program(calls_, 'G', code10);
         };
+        out.builders_m = [this](int code) { return has_m(setup_.builder, code); };
         out.calls_program = [this](char letter, int code10) {
             return cli::calls_program(calls_, letter, code10);
         };

@@ -109,6 +109,14 @@ bool h_alone(const SortedWords& w) {
     return true;
 }
 
+/// True when the axis words are those of a code of the builder's profile.
+bool words_of_builder(const SortedWords& w) {
+    if (w.motion) return false;
+    for (std::size_t i = 0; i < w.code_count; ++i)
+        if (w.code[i]->action == Action::builder) return true;
+    return false;
+}
+
 void set_motion_code(const SortedWords& w, Modal& modal) {
     if (!w.motion) return;
     modal.codes.set(ModalGroup::motion, w.motion->code10);
@@ -139,7 +147,7 @@ void act(Control& c) {
     c.modal.block.gap_free = !c.modal.is(ModalGroup::path_mode, 610) && !w.has_code(90);
     if (w.phases & phase_bit(Phase::shot))
         run_phase(c, Phase::shot);
-    else if (w.has_axis() || moves_by_itself(w, c.modal, c.frames))
+    else if (!words_of_builder(w) && (w.has_axis() || moves_by_itself(w, c.modal, c.frames)))
         run_motion(c);
     c.frames.length_moves = false;
 }

@@ -9,8 +9,9 @@
 
 namespace trunnion::controller {
 
-/// The codes are accepted without effect on positions. A G or M code that moves something needs a
-/// program that it calls (parameters 6050-6089).
+/// The codes are accepted without effect on positions: axis words in the block of a G code without
+/// a motion code (G0 to G3 ..) are its own and move nothing. A G or M code that moves something
+/// needs a program that it calls (parameters 6050-6089).
 struct BuilderProfile {
     std::vector<GCode> g_codes;
     std::vector<int> m_codes;                    ///< act before the motion of their block
@@ -18,7 +19,7 @@ struct BuilderProfile {
     std::vector<std::pair<int, int>> variables;  ///< first and last number: readable and writable
 
     void add_g_code(int code10) {
-        g_codes.push_back({code10, ModalGroup::one_shot, Phase::reading, Action::accepted,
+        g_codes.push_back({code10, ModalGroup::one_shot, Phase::reading, Action::builder,
                            "a code of the machine builder"});
     }
 };

@@ -55,7 +55,8 @@ bool keeps_path(const SortedWords& words, Action action) {
         const double l = words.get('L', 10.0);
         return l >= 10.0 && l <= 13.0;
     }
-    return action == Action::dwell || action == Action::accepted || action == Action::corner_arc;
+    return action == Action::dwell || action == Action::accepted || action == Action::builder ||
+           action == Action::corner_arc;
 }
 
 }  // namespace

@@ -63,6 +63,7 @@ void end_rotation_or_plane(Control& c, const GCode&) {
 constexpr ActionRow rows[] = {
     {Action::sets_group, set_group},
     {Action::accepted, accept},
+    {Action::builder, accept},
     {Action::corner_arc, [](Control& c, const GCode&) { corner_arc(c.words, c.modal, c.mover); }},
     {Action::cutter, cutter},
     {Action::cycle,

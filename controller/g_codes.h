@@ -11,6 +11,7 @@ namespace trunnion::controller {
 enum class Action : std::uint8_t {
     sets_group,  ///< only sets its modal group
     accepted,
+    builder,  ///< accepted; axis words without a motion code are its own
     corner_arc,
     cutter,
     cycle,

@@ -110,6 +110,10 @@ TEST_CASE("a code of this control, or of its builder, is no sign of a Haas", "[c
     const auto findings = check::check_program({"p.nc", *owner, owner}, options);
     REQUIRE(findings.size() == 1);
     CHECK(findings[0].rule == "family");
+    const auto lamp = std::make_shared<const std::string>("O1\nM130\nM97P10\nM30\n");
+    CHECK(check::check_program({"p.nc", *lamp, lamp}, options).size() == 1);
+    options.builders_m = [](int code) { return code == 130 || code == 97; };
+    CHECK(check::check_program({"p.nc", *lamp, lamp}, options).empty());
 }
 
 TEST_CASE("text has a line for each finding, with place and rule, and the remedy below",

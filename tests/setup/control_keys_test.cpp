@@ -101,6 +101,18 @@ TEST_CASE("a builder's codes and variables, and G33 where the control has it") {
     CHECK_THROWS_AS(setup_with("builder = { variables = [[5, 2000]] }\n"), InputError);
 }
 
+TEST_CASE("axis words beside a builder's G code are its own, unless the block has a motion code") {
+    const setup::Setup setup = setup_with("builder = { g_codes = [313] }\n");
+    const auto x_after = [&](const std::string& block) {
+        return run_text(setup, "G21G90G1X1.F100.\n" + block + "\n#100=#5041\nM30\n")
+            .variables.at(100);
+    };
+    CHECK(x_after("G313X5.Y2.") == 1.0);
+    CHECK(x_after("G313G1X5.") == 5.0);
+    CHECK(x_after("G0X3.G313") == 3.0);
+    CHECK(x_after("G313\nX7.") == 7.0);
+}
+
 TEST_CASE("running a backup's G10 files gives the stores that loading them gives") {
     backup::ControlBackup backup{"stick", {}};
     backup.files["EXT_WKZ.TXT"] =
