@@ -49,6 +49,10 @@ std::string three_digits(double value, int most_decimals) {
     return text.find_first_of("123456789") == std::string::npos ? "0" : text;
 }
 
+std::string percent(double fraction) {
+    return decimal(100.0 * fraction, 0);
+}
+
 Rounded rounded(double value, double sigma) {
     if (!std::isfinite(sigma)) return {three_digits(value), nothing};
     const int decimals = decimals_of_sigma(sigma);

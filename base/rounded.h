@@ -16,6 +16,9 @@ int decimals_of_sigma(double sigma);
 /// "1234", "12.3", "0.00123", "0".
 std::string three_digits(double value, int most_decimals = 9);
 
+/// A fraction in whole percent, without the sign of percent: "97". Never "-0".
+std::string percent(double fraction);
+
 /// A value and its sigma, both to two digits of sigma: {"-8.356", "0.057"}. Without a finite sigma
 /// the value has three significant digits and sigma is "–".
 struct Rounded {

@@ -153,6 +153,7 @@ std::string page_of_run(const Options& o, const setup::Setup& setup, const emula
     for (const interpreter::ProgramText& program : programs)
         texts[program.name] = std::string(program.text);
     report::Page page = report::run_page(setup, log, path, texts);
+    page.title = "Run of " + o.program;
     page.origin = page_origin(*o.command, o.page);
     page.origin.seed = o.seed;
     return report::page_html(page);

@@ -22,6 +22,7 @@ std::vector<fs::path> homes() {
         if (folder == folder.root_path()) break;
     }
     folders.emplace_back(TRUNNION_INSTALLED_DATA);
+    folders.emplace_back("/usr/share/trunnion");  // the package, where /proc is not mounted
     folders.emplace_back(TRUNNION_SOURCE_FOLDER);
     return folders;
 }
@@ -35,7 +36,8 @@ std::string shipped(const std::string& relative) {
         const fs::path candidate = folder / relative;
         if (fs::exists(candidate, unknown)) {
             const fs::path near = fs::proximate(candidate, unknown);
-            return unknown ? candidate.string() : near.string();
+            const bool below = !unknown && *near.begin() != "..";
+            return (below ? near : candidate).string();
         }
         places += (places.empty() ? "" : ", ") + folder.string();
     }

@@ -85,8 +85,9 @@ PageTable errors_table(const BallbarResult& r, const std::vector<BallbarErrorRow
 
 std::string errors_section(const BallbarResult& r) {
     if (r.errors.empty()) return {};
-    std::string body =
-        table_html(errors_table(r, r.errors, "At point_mm, the second axis relative to the first"));
+    std::string body = table_html(errors_table(
+        r, r.errors,
+        "At the points of the setup (point_mm), the second axis relative to the first"));
     if (!r.at_intersection.empty())
         body += table_html(errors_table(r, r.at_intersection,
                                         "Axis lines in M at the nominal intersection (2015)"));
@@ -114,8 +115,7 @@ std::string stores_section(const BallbarResult& r) {
 std::string plots_section(const BallbarResult& r) {
     std::string body;
     for (const auto& [name, svg] : ballbar_pictures(r))
-        body += figure_html(
-            svg, name.substr(0, name.find('.')) + ": deviation from the nominal circle, magnified");
+        body += figure_html(svg, "Deviation from the nominal circle, magnified");
     return section_html("Polar plots", body);
 }
 

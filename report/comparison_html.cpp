@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/rounded.h"
+#include "base/units.h"
 #include "report/comparison_picture.h"
 #include "report/comparison_report.h"
 #include "report/page.h"
@@ -96,10 +98,11 @@ std::string short_verdict(const regression::Comparison& c) {
     using regression::CompareStatus;
     if (c.equal || c.differences.empty() || c.status == CompareStatus::bad_input) return c.verdict;
     const std::uint64_t count = c.differences.size() + c.differences_left_out;
-    std::string text =
-        fmt::format("{} by {}: {} difference{}",
-                    c.status == CompareStatus::alarm ? "Stopped, differs" : "Differs",
-                    name_of(c.by), count, count == 1 ? "" : "s");
+    std::string text = fmt::format("{}ot the same: {} difference{} of the {}",
+                                   c.status == CompareStatus::alarm ? "Stopped, and n" : "N", count,
+                                   count == 1 ? "" : "s", name_of(c.by));
+    if (c.position_mm > 0.0)
+        text += fmt::format(", up to {} apart", length_words(um_from_mm(c.position_mm)));
     if (const std::size_t gravest = regression::gravest_difference(c); gravest > 0)
         text += fmt::format(", the most serious is number {}", gravest + 1);
     return text + ".";

@@ -45,8 +45,7 @@ Page compensation_page(const compensation::CompensatedProgram& c, const std::str
     page.title = "Compensated program";
     page.subject = program + " on " + machine;
     page.verdict = fmt::format(
-        "The tip is off by up to {} µm in the original and by up to {} µm in "
-        "the program written, at the ends of {} blocks.",
+        "The tip error falls from {} µm to {} µm: the largest at the ends of {} blocks.",
         um(c.before.tip_mm), um(c.after.tip_mm), c.blocks.size());
     page.tone = c.after.tip_mm <= c.before.tip_mm ? Tone::good : Tone::bad;
     page.body_html = section_html("Before and after", table_html(errors_table(c)));

@@ -17,26 +17,26 @@ std::string gap_size(double apart) {
 PageTable cause_table(const choices::ControlGap& gap) {
     PageTable table{"",
                     {"cause", "what it does", "share, %", "probability", "could also be",
-                     "held out, µm", "shrinks by, %"},
+                     "left-out blocks, rms", "shrinks by, %"},
                     "llrrlll",
                     {}};
     for (const choices::GapCause& c : gap.causes) {
         std::string what = c.what;
         for (const choices::FittedNumber& n : c.numbers) what += "; " + number_words(n);
         const std::string rivals = fmt::format("{}", fmt::join(c.rivals, ", "));
-        table.rows.push_back({c.name, what, fmt::format("{:.0f}", 100 * c.share),
-                              fmt::format("{:.2f}", c.probability),
+        table.rows.push_back({c.name, what, percent(c.share), fmt::format("{:.2f}", c.probability),
                               rivals.empty() ? "none" : rivals,
-                              fmt::format("{} to {}", three_digits(c.heldout.before_um, 3),
-                                          three_digits(c.heldout.after_um, 3)),
-                              fmt::format("{:.0f} ({:.0f} to {:.0f})", 100 * c.heldout.shrink,
-                                          100 * c.heldout.low, 100 * c.heldout.high)});
+                              fmt::format("{} to {}", length_words(c.heldout.before_um),
+                                          length_words(c.heldout.after_um)),
+                              fmt::format("{} ({} to {})", percent(c.heldout.shrink),
+                                          percent(c.heldout.low), percent(c.heldout.high))});
     }
     return table;
 }
 
 PageTable cause_places(const choices::ControlGap& gap) {
-    PageTable table{"", {"cause", "blocks", "first", "apart", "worst", "apart"}, "lrlrlr", {}};
+    PageTable table{
+        "", {"cause", "blocks", "first", "mm or deg", "worst", "mm or deg"}, "lrlrlr", {}};
     for (const choices::GapCause& c : gap.causes)
         table.rows.push_back({c.name, std::to_string(c.blocks), place_words(c.first),
                               gap_size(c.first.apart), place_words(c.worst),
@@ -47,8 +47,7 @@ PageTable cause_places(const choices::ControlGap& gap) {
 PageTable block_table(const std::vector<choices::GapBlock>& blocks) {
     PageTable table{"", {"block", "up to, mm or deg", "share, %", "line of the log"}, "lrrr", {}};
     for (const choices::GapBlock& b : blocks)
-        table.rows.push_back({place_words(b.worst), gap_size(b.worst.apart),
-                              fmt::format("{:.0f}", 100 * b.share),
+        table.rows.push_back({place_words(b.worst), gap_size(b.worst.apart), percent(b.share),
                               std::to_string(b.worst.log_line)});
     return table;
 }
@@ -77,8 +76,10 @@ std::string how_to_read(const choices::ControlGap& gap) {
         "reported only if blocks that took no part in the decision improve too. A choice without "
         "listed rivals may have one that is not in the table.");
     if (!gap.unseen.empty())
-        out += paragraph_html(
-            fmt::format("This program cannot tell: {}.", fmt::join(gap.unseen, ", ")));
+        out += fmt::format(
+            "<details><summary>{} settings and stores that this program cannot tell</summary>{}"
+            "</details>\n",
+            gap.unseen.size(), paragraph_html(fmt::format("{}", fmt::join(gap.unseen, ", "))));
     return section_html("How to read this", out);
 }
 

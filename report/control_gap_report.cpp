@@ -44,8 +44,8 @@ Json blocks_json(const std::vector<choices::GapBlock>& blocks) {
              {"component", fmt::format("line {}", b.worst.line)},
              {"share", b.share},
              {"p_value", b.p_value},
-             {"text", fmt::format("{}: up to {} mm or deg, {:.0f} % of the gap",
-                                  place_words(b.worst), apart_words(b.worst), 100 * b.share)},
+             {"text", fmt::format("{}: up to {} mm or deg, {} % of the gap", place_words(b.worst),
+                                  apart_words(b.worst), percent(b.share))},
              {"place", place_json(b.worst)}});
     return list;
 }
@@ -71,8 +71,8 @@ Json cause_json(const choices::GapCause& cause, double noise_um) {
 }
 
 std::string cause_text(const choices::GapCause& cause) {
-    std::string out = fmt::format("\n{}  {:.0f} % of the gap, probability {:.2f}\n  {}\n",
-                                  cause.name, 100 * cause.share, cause.probability, cause.what);
+    std::string out = fmt::format("\n{}  {} % of the gap, probability {:.2f}\n  {}\n", cause.name,
+                                  percent(cause.share), cause.probability, cause.what);
     for (const choices::FittedNumber& n : cause.numbers) out += "  " + number_words(n) + '\n';
     out += paragraph(
         fmt::format("{} block{}; first at {}: {}; worst at {}: {} mm or deg", cause.blocks,
@@ -83,17 +83,17 @@ std::string cause_text(const choices::GapCause& cause) {
     if (!cause.rivals.empty())
         out += paragraph(
             fmt::format("this log cannot tell it from: {}", fmt::join(cause.rivals, ", ")), 2);
-    return out + fmt::format("  held out: {} -> {}: shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
+    return out + fmt::format("  held out: {} -> {}: shrinks by {} % ({} to {})\n",
                              length_words(cause.heldout.before_um),
-                             length_words(cause.heldout.after_um), 100 * cause.heldout.shrink,
-                             100 * cause.heldout.low, 100 * cause.heldout.high);
+                             length_words(cause.heldout.after_um), percent(cause.heldout.shrink),
+                             percent(cause.heldout.low), percent(cause.heldout.high));
 }
 
 std::string blocks_text(const char* head, const std::vector<choices::GapBlock>& blocks) {
     std::string out = blocks.empty() ? "" : head;
     for (const choices::GapBlock& b : blocks)
-        out += fmt::format("  {}: up to {} mm or deg, {:.0f} % of it\n", place_words(b.worst),
-                           apart_words(b.worst), 100 * b.share);
+        out += fmt::format("  {}: up to {} mm or deg, {} % of it\n", place_words(b.worst),
+                           apart_words(b.worst), percent(b.share));
     return out;
 }
 
@@ -106,8 +106,8 @@ std::string place_words(const choices::GapPlace& place) {
 }
 
 std::string number_words(const choices::FittedNumber& n) {
-    return fmt::format("{} {} -> {} {}", n.name, three_digits(n.from), with_sigma(n.to, n.sigma),
-                       n.unit);
+    return fmt::format("{} from {} to {} {}", n.name, three_digits(n.from),
+                       with_sigma(n.to, n.sigma), n.unit);
 }
 
 std::string verdict_sentence(const choices::ControlGap& gap) {
@@ -120,8 +120,9 @@ std::string verdict_sentence(const choices::ControlGap& gap) {
         return size + "; no choice and no store of this control explains it.";
     std::vector<std::string> names;
     for (const choices::GapCause& cause : gap.causes) names.push_back(cause.name);
-    return fmt::format("{}; {} explain{} {:.0f} % of it on blocks left out.", size,
-                       fmt::join(names, ", "), names.size() == 1 ? "s" : "", 100 * gap.explained);
+    return fmt::format("{}. {} explain{} {} % of it on blocks left out.", size,
+                       fmt::join(names, " and "), names.size() == 1 ? "s" : "",
+                       percent(gap.explained));
 }
 
 std::string control_gap_json(const choices::ControlGap& gap) {
@@ -167,12 +168,12 @@ std::string control_gap_text(const choices::ControlGap& gap) {
     out += blocks_text("most of the gap:\n", gap.where);
     for (const choices::GapCause& cause : gap.causes) out += cause_text(cause);
     if (!gap.causes.empty())
-        out += "\n" + paragraph(fmt::format(
-                                    "after: rms {}; the gap shrinks by {:.0f} % ({:.0f} to {:.0f}) "
-                                    "on blocks left out",
-                                    length_words(gap.after_rms_um), 100 * gap.after.shrink,
-                                    100 * gap.after.low, 100 * gap.after.high),
-                                0);
+        out +=
+            "\n" + paragraph(fmt::format("after: rms {}; the gap shrinks by {} % ({} to {}) "
+                                         "on blocks left out",
+                                         length_words(gap.after_rms_um), percent(gap.after.shrink),
+                                         percent(gap.after.low), percent(gap.after.high)),
+                             0);
     out += gap.causes.empty() ? std::string() : blocks_text("what stays:\n", gap.left);
     return out;
 }

@@ -63,7 +63,7 @@ std::string share_bars(const diagnosis::Diagnosis& d) {
     std::vector<Bar> list;
     for (std::size_t k = 0; k < d.causes.size(); ++k)
         list.push_back(
-            {cause_name(d.causes[k]), fmt::format("{:.0f} %", 100.0 * d.causes[k].share),
+            {cause_name(d.causes[k]), fmt::format("{} %", percent(d.causes[k].share)),
              d.causes[k].share,
              !d.causes[k].known ? std::string("#999999") : plot_colours[k % plot_colours.size()]});
     return bars(list, 100.0, "share of the gap in %");
@@ -141,13 +141,13 @@ std::string cause_table(const diagnosis::Diagnosis& d) {
         const bool known = cause.known;
         text += row({"<b>" + escape_xml(cause_name(cause)) + "</b><br><span class=\"note\">" +
                          escape_xml(cause.what) + "</span>",
-                     fmt::format("{:.0f} %", 100.0 * cause.share),
+                     fmt::format("{} %", percent(cause.share)),
                      known ? escape_xml(main_size(cause)) : "&ndash;",
                      known ? rivals_text(cause) : "&ndash;",
-                     known ? fmt::format("{:.0f} %<br><span class=\"note\">95 %: {:.0f} to "
-                                         "{:.0f} %</span>",
-                                         100.0 * cause.heldout.shrink, 100.0 * cause.heldout.low,
-                                         100.0 * cause.heldout.high)
+                     known ? fmt::format("{} %<br><span class=\"note\">95 %: {} to "
+                                         "{} %</span>",
+                                         percent(cause.heldout.shrink), percent(cause.heldout.low),
+                                         percent(cause.heldout.high))
                            : "&ndash;"});
     }
     return text + "</table></div>\n";
@@ -243,8 +243,8 @@ std::string causes_section(const diagnosis::Diagnosis& d) {
                paragraph_html("All causes together, on readings that took no part in the fit.") +
                    figure_html(before_after(d, d.after), "Before and after") +
                    paragraph_html(fmt::format(
-                       "Beyond noise the gap shrinks by {:.0f} % (95 %: {:.0f} to {:.0f} %).",
-                       100.0 * d.after.shrink, 100.0 * d.after.low, 100.0 * d.after.high)));
+                       "Beyond noise the gap shrinks by {} % (95 %: {} to {} %).",
+                       percent(d.after.shrink), percent(d.after.low), percent(d.after.high))));
 }
 
 Tone tone_of(const diagnosis::Diagnosis& d) {

@@ -36,8 +36,8 @@ std::string parameters_text(const std::vector<identification::FitParameter>& par
 }
 
 std::string cause_text(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
-    std::string text = fmt::format("\n{}  {:.0f} % of the gap, probability {:.2f}\n",
-                                   cause_name(cause), 100 * cause.share, cause.probability);
+    std::string text = fmt::format("\n{}  {} % of the gap, probability {:.2f}\n", cause_name(cause),
+                                   percent(cause.share), cause.probability);
     text += paragraph(cause.what + ".", 2);
     if (!cause.usual_cause.empty())
         text += paragraph("Usual cause: " + cause.usual_cause + ".", 2) +
@@ -52,11 +52,11 @@ std::string cause_text(const diagnosis::Diagnosis& d, const diagnosis::Cause& ca
     if (!cause.rivals.empty())
         text += paragraph(
             fmt::format("cannot be told apart here from: {}", fmt::join(cause.rivals, ", ")), 2);
-    text += fmt::format("  held out: {} -> {} (noise {}): shrinks by {:.0f} % ({:.0f} to {:.0f})\n",
+    text += fmt::format("  held out: {} -> {} (noise {}): shrinks by {} % ({} to {})\n",
                         size_words(d, cause.heldout.rms_before_um),
                         size_words(d, cause.heldout.rms_after_um),
-                        size_words(d, cause.heldout.noise_um), 100 * cause.heldout.shrink,
-                        100 * cause.heldout.low, 100 * cause.heldout.high);
+                        size_words(d, cause.heldout.noise_um), percent(cause.heldout.shrink),
+                        percent(cause.heldout.low), percent(cause.heldout.high));
     return text;
 }
 
@@ -75,15 +75,15 @@ std::string diagnosis_text(const diagnosis::Diagnosis& d) {
     for (const diagnosis::DriverShare& w : d.where) text += fmt::format("  {}\n", w.text);
     for (const diagnosis::Cause& cause : d.causes) text += cause_text(d, cause);
     if (!d.causes.empty())
-        text += "\n" +
-                paragraph(fmt::format("after: rms {}; of readings left out the causes "
-                                      "explain {:.0f} %{}; with the "
-                                      "written setup the gap shrinks by {:.0f} % ({:.0f} to "
-                                      "{:.0f})",
-                                      size_words(d, d.after_rms_um), 100 * d.explained,
-                                      d.between_places ? "" : " at the measured places",
-                                      100 * d.after.shrink, 100 * d.after.low, 100 * d.after.high),
-                          0);
+        text += "\n" + paragraph(fmt::format("after: rms {}; of readings left out the causes "
+                                             "explain {} %{}; with the "
+                                             "written setup the gap shrinks by {} % ({} to "
+                                             "{})",
+                                             size_words(d, d.after_rms_um), percent(d.explained),
+                                             d.between_places ? "" : " at the measured places",
+                                             percent(d.after.shrink), percent(d.after.low),
+                                             percent(d.after.high)),
+                                 0);
     if (d.causes.empty())
         for (const identification::Inseparable& group : d.inseparable)
             text += paragraph("not observable from these readings: " + to_string(group), 0);

@@ -59,17 +59,17 @@ std::string gap_words(const diagnosis::Diagnosis& d) {
 
 std::string shrink_words(const diagnosis::HeldOut& h) {
     return fmt::format(
-        "With that in the simulation the gap beyond noise shrinks by {:.0f} % ({:.0f} to {:.0f} %) "
+        "With that in the simulation the gap beyond noise shrinks by {} % ({} to {} %) "
         "on readings that took no part in the fit.",
-        100.0 * h.shrink, 100.0 * h.low, 100.0 * h.high);
+        percent(h.shrink), percent(h.low), percent(h.high));
 }
 
 std::string causes_words(const diagnosis::Diagnosis& d) {
     std::string text;
     for (const diagnosis::Cause& cause : d.causes) {
         if (!cause.known) continue;
-        text += fmt::format("{}{} ({:.0f} %)", text.empty() ? "" : ", ", cause_name(cause),
-                            100.0 * cause.share);
+        text += fmt::format("{}{} ({} %)", text.empty() ? "" : ", ", cause_name(cause),
+                            percent(cause.share));
     }
     return text;
 }
@@ -154,7 +154,7 @@ std::string answer(const diagnosis::Diagnosis& d) {
         fmt::format("Machine and simulation differ by {} rms; noise alone would make {}. ",
                     size_words(d, d.rms_um), size_words(d, d.noise_um));
     const std::string causes = causes_words(d);
-    const std::string part = fmt::format("{:.0f} %", 100.0 * d.explained);
+    const std::string part = fmt::format("{} %", percent(d.explained));
     switch (d.verdict) {
         case diagnosis::Verdict::explained:
             return size + (is_sure(d) ? "The cause is " : "The cause is uncertain, perhaps ") +

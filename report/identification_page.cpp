@@ -25,17 +25,40 @@ std::string interval(const FitParameter& p) {
     return from.unit == to.unit ? from.value + " to " + to.value : std::string("-");
 }
 
+/// Zero lies outside the 95 % interval.
+bool is_beyond_noise(const FitParameter& p) {
+    return std::isfinite(p.sigma) && std::abs(p.value) > 1.96 * p.sigma;
+}
+
 PageTable values_table(const identification::Identification& result) {
     PageTable table{
         "", {"effect", "parameter", "value", "u", "95 % interval", "unit", ""}, "llrrrll", {}};
     table.header.back() = "beyond noise";
     for (const FitParameter& p : result.parameters) {
         const ShopValue v = shop_value(p);
-        const bool beyond = std::isfinite(p.sigma) && std::abs(p.value) > 1.96 * p.sigma;
-        table.rows.push_back(
-            {p.effect, v.name, v.value, v.sigma, interval(p), v.unit, beyond ? "yes" : "no"});
+        table.rows.push_back({p.effect, v.name, v.value, v.sigma, interval(p), v.unit,
+                              p.of_set_up          ? "–"
+                              : is_beyond_noise(p) ? "yes"
+                                                   : "no"});
     }
     return table;
+}
+
+/// The errors of the machine beyond their noise, the one with the most sigmas first.
+std::string errors_words(const identification::Identification& result) {
+    std::vector<FitParameter> errors = result.parameters;
+    std::erase_if(errors, [](const FitParameter& p) { return p.of_set_up; });
+    const std::size_t fitted = errors.size();
+    std::erase_if(errors, [](const FitParameter& p) { return !is_beyond_noise(p); });
+    if (fitted == 0) return {};
+    if (errors.empty()) return "No error of the machine is larger than its noise. ";
+    const FitParameter& first =
+        *std::max_element(errors.begin(), errors.end(), [](const auto& a, const auto& b) {
+            return std::abs(a.value) / a.sigma < std::abs(b.value) / b.sigma;
+        });
+    const ShopValue v = shop_value(first);
+    return fmt::format("{} of {} values of the machine are beyond noise, clearest {} {} ± {} {}. ",
+                       errors.size(), fitted, v.name, v.value, v.sigma, v.unit);
 }
 
 struct Correlation {
@@ -135,8 +158,9 @@ Page identification_page(const identification::Identification& result,
         std::count_if(result.parameters.begin(), result.parameters.end(),
                       [](const FitParameter& p) { return !std::isfinite(p.sigma); }));
     page.verdict = fmt::format(
-        "With the values below the readings differ from the simulation by {} rms instead of {}.{}",
-        size_words(result, result.rms_after_um), size_words(result, result.rms_before_um),
+        "{}With these values the simulation misses the readings by {} rms, before by {}.{}",
+        errors_words(result), size_words(result, result.rms_after_um),
+        size_words(result, result.rms_before_um),
         unseen == 0 ? ""
                     : fmt::format(" {} of {} parameters cannot be determined from these readings.",
                                   unseen, result.parameters.size()));
@@ -146,7 +170,8 @@ Page identification_page(const identification::Identification& result,
         section_html(
             "How to read this",
             paragraph_html(fmt::format("u is one standard uncertainty; {} degrees of freedom. "
-                                       "\"Beyond noise\": zero lies outside the 95 % interval.",
+                                       "\"Beyond noise\": zero lies outside the 95 % interval; "
+                                       "– for a quantity of the set-up.",
                                        result.dof)) +
                 paragraph_html("Residuals that follow an axis or the time are errors that were not "
                                "fitted: diagnose names them."));

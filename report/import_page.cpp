@@ -57,10 +57,38 @@ std::string values_picture(const records::ReadingTable& table, bool angular) {
     return figure_html(scatter_svg(scatter), "Readings in the order taken");
 }
 
+/// Linear or rotary axes over time.
+std::string positions_picture(const records::ReadingTable& table, bool rotary) {
+    Scatter scatter;
+    scatter.title = rotary ? "Rotary axes" : "Linear axes";
+    scatter.description = "Logged position of each axis over time.";
+    scatter.x_label = "time / s";
+    scatter.y_label = rotary ? "position / deg" : "position / mm";
+    for (const Axis axis : table.axes) {
+        if (table.names.is_rotary(axis) != rotary) continue;
+        ScatterSeries& series = scatter.series.emplace_back();
+        series.name = table.names[axis];
+        for (const records::Reading& row : table.rows)
+            series.points.push_back(
+                {row.time_s, rotary ? deg_from_rad(row.commanded[axis]) : row.commanded[axis]});
+    }
+    if (scatter.series.empty()) return {};
+    return figure_html(scatter_svg(scatter), "Logged positions over time");
+}
+
 std::string lines_section(const std::string& heading, const std::vector<std::string>& lines) {
     std::string body;
     for (const std::string& line : lines) body += paragraph_html(line);
     return lines.empty() ? std::string() : section_html(heading, body);
+}
+
+/// A log of the axes contains no tests: its positions are drawn instead.
+std::string results_html(const records::ReadingTable& table, const PageTable& tests) {
+    if (tests.rows.empty())
+        return section_html("Positions",
+                            positions_picture(table, false) + positions_picture(table, true));
+    return section_html("Tests", table_html(tests)) +
+           section_html("Values", values_picture(table, false) + values_picture(table, true));
 }
 
 }  // namespace
@@ -81,17 +109,17 @@ Page import_page(const records::ReadingTable& table, const std::vector<std::stri
     }
     Page page;
     page.title = "Imported readings";
-    page.verdict = fmt::format("{} readings of {} test{} were understood.", rows, tests.size(),
-                               tests.size() == 1 ? "" : "s");
-    page.body_html =
-        lines_section("What was understood", understood) +
-        lines_section("What was assumed", assumed) + section_html("Tests", table_html(list)) +
-        section_html("Values", values_picture(table, false) + values_picture(table, true)) +
-        section_html("How to read this",
-                     paragraph_html("A reading is actual minus commanded, as "
-                                    "docs/readings.md says for its device. Nothing is "
-                                    "corrected here: identify and diagnose say what "
-                                    "the readings mean."));
+    page.verdict = tests.empty()
+                       ? fmt::format("{} axis positions were understood.", table.rows.size())
+                       : fmt::format("{} readings of {} test{} were understood.", rows,
+                                     tests.size(), tests.size() == 1 ? "" : "s");
+    page.body_html = lines_section("What was understood", understood) +
+                     lines_section("What was assumed", assumed) + results_html(table, list) +
+                     section_html("How to read this",
+                                  paragraph_html("A reading is actual minus commanded, as "
+                                                 "docs/readings.md says for its device. Nothing is "
+                                                 "corrected here: identify and diagnose say what "
+                                                 "the readings mean."));
     return page;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "report/page_assets.h"
@@ -54,10 +55,23 @@ std::string head_html(const Page& page) {
         allowed, page_style.hash, escape_xml(page.title), page_style.text);
 }
 
+/// A command whose lines break between words only: an option keeps its hyphens together.
+std::string command_html(const std::string& command) {
+    std::string out;
+    for (std::size_t from = 0, end; from < command.size(); from = end + 1) {
+        end = std::min(command.find(' ', from), command.size());
+        const std::string word = escape_xml(command.substr(from, end - from));
+        out += from == 0 ? "" : " ";
+        out +=
+            word.find('-') == std::string::npos ? word : "<span class=\"word\">" + word + "</span>";
+    }
+    return out;
+}
+
 std::string footer_html(const PageOrigin& origin) {
     std::string out = "<footer>\n";
     if (!origin.command.empty())
-        out += fmt::format("<p>Made by <code>{}</code></p>\n", escape_xml(origin.command));
+        out += fmt::format("<p>Made by <code>{}</code></p>\n", command_html(origin.command));
     std::string line = fmt::format("trunnion {}", escape_xml(origin.version));
     if (origin.seed) line += fmt::format(", seed {}", *origin.seed);
     if (!origin.date.empty()) line += ", " + escape_xml(origin.date);

@@ -18,7 +18,7 @@ std::string stores_section(const PivotResult& r) {
                     "lrrrrl",
                     {}};
     for (const pivot::StoreVerdict& s : r.verdict.stores) {
-        const Rounded error = rounded(um_from_mm(s.error_mm), um_from_mm(s.sigma_mm));
+        const Rounded error = store_error(s);
         table.rows.push_back({store_name(r, s.in_force), decimal(s.in_force.value_mm, 4),
                               decimal(s.type_mm, 4), error.value, error.sigma,
                               s.stale ? "stale" : "right"});
@@ -29,8 +29,7 @@ std::string stores_section(const PivotResult& r) {
             "With these values entered (in steps of {:g} mm), {} functions are off by up to {}.",
             r.verdict.increment_mm, group_words(r, g.group), length_words(g.left_um)));
     if (r.verdict.groups.size() > 1)
-        body += paragraph_html(
-            fmt::format("All functions then agree within {}.", length_words(r.verdict.agree_um)));
+        body += paragraph_html("All functions then agree" + agreement_words(r.verdict) + ".");
     if (r.hurco) body += paragraph_html("The field names of the part set-up are assumed.");
     return section_html("What to type", body);
 }

@@ -17,6 +17,15 @@ std::string group_words(const PivotResult& r, pivot::PivotGroup group) {
     return r.hurco && group == pivot::PivotGroup::p1970x ? "set-up" : name_of(group);
 }
 
+Rounded store_error(const pivot::StoreVerdict& store) {
+    if (store.sigma_mm < 1e-9) return {"–", "–"};
+    return rounded(um_from_mm(store.error_mm), um_from_mm(store.sigma_mm));
+}
+
+std::string agreement_words(const pivot::PivotVerdict& verdict) {
+    return verdict.agree_um < 1e-3 ? "" : " within " + length_words(verdict.agree_um);
+}
+
 std::string store_name(const PivotResult& r, const setup::StoreNumber& n) {
     if (n.parameter == 0) return n.name;
     if (!r.hurco) return fmt::format("No.{} ({})", n.name, "XYZ"[n.component]);
@@ -69,7 +78,7 @@ std::string stores_table(const PivotResult& r) {
     std::vector<setup::StoreNumber> right;
     if (r.true_right) right = setup::store_numbers(*r.true_right);
     for (const pivot::StoreVerdict& s : v.stores) {
-        const Rounded error = rounded(um_from_mm(s.error_mm), um_from_mm(s.sigma_mm));
+        const Rounded error = store_error(s);
         out += fmt::format("  {:<18} {:>11} {:>11} {:>9} {:>7}", store_name(r, s.in_force),
                            decimal(s.in_force.value_mm, 4), decimal(s.type_mm, 4), error.value,
                            error.sigma);
@@ -90,17 +99,18 @@ std::string quality_text(const PivotResult& r) {
         "the sphere by {}\n",
         length_words(v.fit.noise_um), v.fit.zeroings, length_words(v.fit.zero_scatter_um));
     for (const pivot::GroupVerdict& g : v.groups)
-        out += fmt::format(
-            "with these values entered (in steps of {:g} mm) {} functions are off by up to {}\n",
-            v.increment_mm, group_words(r, g.group), length_words(g.left_um));
+        out +=
+            paragraph(fmt::format("with these values entered (in steps of {:g} mm) {} functions "
+                                  "are off by up to {}",
+                                  v.increment_mm, group_words(r, g.group), length_words(g.left_um)),
+                      0);
     const double apart_um = um_from_mm(setup::step_between_axes_mm(v.right).norm());
     if (v.groups.size() > 1 && apart_um > 0.05)
         out += fmt::format(
             "the rotary axes pass each other by {}: G54 holds one point, so DPP\n"
             "and G54.2 keep an error\n",
             length_words(apart_um));
-    if (v.groups.size() > 1)
-        out += fmt::format("and agree with each other within {}\n", length_words(v.agree_um));
+    if (v.groups.size() > 1) out += "and agree with each other" + agreement_words(v) + "\n";
     out += "not observable from these readings:\n";
     for (const std::string& line : v.unobservable) out += "  " + line + "\n";
     return out;

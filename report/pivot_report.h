@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/read_file.h"
+#include "base/rounded.h"
 #include "pivot/affected_programs.h"
 
 namespace trunnion::report {
@@ -32,5 +33,9 @@ std::string pivot_json(const PivotResult& result, const std::vector<FileRead>& i
 std::string group_words(const PivotResult& result, pivot::PivotGroup group);
 /// Name of a value in the terms of the dialect: "No.19704 (Y)", "C centreline Y - first".
 std::string store_name(const PivotResult& result, const setup::StoreNumber& number);
+/// The error of a store and its sigma, in µm; "–" for a number that nothing sees.
+Rounded store_error(const pivot::StoreVerdict& store);
+/// " within 0.10 µm", nothing below a nanometre.
+std::string agreement_words(const pivot::PivotVerdict& verdict);
 
 }  // namespace trunnion::report

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/numbers.h"
+#include "base/rounded.h"
 #include "base/units.h"
 #include "report/json_values.h"
 #include "report/packed_columns.h"
@@ -71,12 +72,6 @@ std::size_t worst_point(const std::vector<RunPath::Point>& points) {
     return worst;
 }
 
-/// Three digits: um below one millimetre, else mm.
-std::string length_text(double length_mm) {
-    return length_mm < 1.0 ? fmt::format("{:.3g} µm", um_from_mm(length_mm))
-                           : fmt::format("{:.3f} mm", length_mm);
-}
-
 /// Colours of the path (viridis, as in web/src/run.js) from zero to the largest deviation.
 std::string scale_svg(double largest_mm) {
     Svg svg(420.0, 34.0);
@@ -86,7 +81,7 @@ std::string scale_svg(double largest_mm) {
         svg.rectangle({60.0 + 50.0 * static_cast<double>(k), 8.0}, 50.0, 16.0,
                       {"none", 0.0, colours[k], ""});
     svg.text({52.0, 21.0}, "0", {12, "end"});
-    svg.text({318.0, 21.0}, length_text(largest_mm), 12);
+    svg.text({318.0, 21.0}, length_words(um_from_mm(largest_mm)), 12);
     svg.describe("Colours of the path", "From zero, dark, to the largest deviation, yellow.");
     return svg.str();
 }
@@ -280,9 +275,10 @@ void set_verdict(Page& page, const emulator::RunLog& log, const RunPath& path) {
     }
     const RunPath::Point& worst = path.points()[worst_point(path.points())];
     page.verdict = fmt::format(
-        "{}The physical tip leaves the tip that the control believes in by up to {} {}, "
-        "at {}:{}.",
-        ended, length_text(deviation_mm(worst)), worst.feed ? "while it feeds" : "in rapid moves",
+        "{}{} the real tool tip is up to {} away from where the control believes it to be: at "
+        "{}:{}.",
+        ended, worst.feed ? "While feeding," : "In rapid moves",
+        length_words(um_from_mm(deviation_mm(worst))),
         path.programs()[static_cast<std::size_t>(worst.program)], worst.line);
     page.tone = log.result.status == controller::RunStatus::limit ? Tone::bad : Tone::neutral;
 }
@@ -364,7 +360,7 @@ void RunPath::thin() {
 Page run_page(const setup::Setup& setup, const emulator::RunLog& log, const RunPath& path,
               const ProgramTexts& programs) {
     Page page;
-    page.title = path.programs().empty() ? "Run" : "Run of " + path.programs().front();
+    page.title = "Run";
     page.subject = setup.name.empty() ? setup.path : setup.name;
     set_verdict(page, log, path);
     if (!path.points().empty()) {

@@ -37,6 +37,9 @@ TEST_CASE("a value has the digits that its sigma allows") {
 TEST_CASE("without a sigma: three significant digits, no exponent") {
     CHECK(three_digits(4.155531e-05) == "0.0000416");
     CHECK(three_digits(421.72) == "422");
+    CHECK(percent(-0.003) == "0");
+    CHECK(percent(0.966) == "97");
+    CHECK(percent(-0.75) == "-75");
     CHECK(three_digits(-12.345) == "-12.3");
     CHECK(three_digits(9.996) == "10.0");
     CHECK(three_digits(999.6) == "1000");

@@ -55,6 +55,8 @@ const pages = {
   identify: ["identify", readings, "--setup", machine("bc_table.toml"), "--effects", "location"],
   import: ["import", "dprnt", prints, "--setup", machine("bc_table.toml"), "--out",
            join(folder, "imported.csv")],
+  positions: ["import", "axis-log", instrument("control_log.csv"), "--setup",
+              instrument("machine.toml"), "--out", join(folder, "positions.csv")],
   control: ["diagnose", positions, "--program", instrument("control_part.nc"), "--setup",
             instrument("machine.toml")],
   diagnose: ["diagnose", readings, "--setup", machine("bc_table.toml")],
@@ -94,8 +96,13 @@ async function look(name, width, scheme, media) {
   await context.close();
 }
 
-/// Paper shows what the canvas keeps after it was drawn.
+/// Paper shows what the canvas keeps: its size changes, and no frame comes to draw it anew.
 async function tryPrint(tab, where) {
+  await tab.emulateMedia({ media: "screen" });
+  await tab.waitForTimeout(300);
+  await tab.evaluate(() => { globalThis.requestAnimationFrame = () => 0; });
+  await tab.emulateMedia({ media: "print" });
+  await tab.waitForTimeout(300);
   const colours = await tab.evaluate(() => {
     const from = document.querySelector(".stage canvas");
     const to = new OffscreenCanvas(from.width, from.height).getContext("2d");

@@ -19,7 +19,7 @@ export function lineChart(element, chart) {
     axes: [axis(chart.x.label), { ...axis(chart.y.label), size: 64, labelGap: 6 }],
     series: [{ label: chart.x.label }, ...chart.series.map((s, i) => ({
       label: s.label, stroke: colours[i % colours.length], width: 1.5,
-      points: { show: s.values.length < 5000, size: 4, width: 1 },
+      points: { show: s.values.length < 5000, size: s.values.length < 500 ? 7 : 4, width: 1 },
     }))],
     legend: { show: chart.series.length > 1, live: false },
     cursor: { drag: { x: true, y: false } },

@@ -18,6 +18,12 @@ function heat(part) {
   return low.map((v, i) => v + t * (high[i] - v));
 }
 
+/** As tables print it: three significant digits, whole numbers in full. */
+function threeDigits(value) {
+  if (value < 0.0005) return "0";
+  return value.toFixed(Math.max(0, 2 - Math.floor(Math.log10(value))));
+}
+
 function element(id) { return document.getElementById(id); }
 
 async function main() {
@@ -132,11 +138,12 @@ async function main() {
     }
     shape();
     blocks.choose(rowOf(at), fromList);
-    const axes = data.machine.axes.map((a) => a.kind === "rotary"
-      ? `${a.name} ${(where[a.name] * 180 / Math.PI).toFixed(3)}°`
-      : `${a.name} ${where[a.name].toFixed(3)}`).join("  ");
-    element("place").textContent = `${columns.time[at].toFixed(1)} s   ${axes}   ` +
-      `deviation ${deviation[at].toFixed(2)} µm`;
+    const ofKind = (kind, text) => data.machine.axes.filter((a) => a.kind === kind)
+      .map((a) => `${a.name} ${text(where[a.name])}`);
+    const linear = ofKind("linear", (v) => v.toFixed(3)).join(" ");
+    const rotary = ofKind("rotary", (v) => `${(v * 180 / Math.PI).toFixed(3)}°`).join(" ");
+    element("place").textContent = [`${columns.time[at].toFixed(1)} s`, linear && `${linear} mm`,
+      rotary, `deviation ${threeDigits(deviation[at])} µm`].filter(Boolean).join(" · ");
     draw();
   }
 
@@ -148,7 +155,8 @@ async function main() {
   });
 
   const controls = new OrbitControls(camera, renderer.domElement);
-  const draw = () => requestAnimationFrame(() => renderer.render(scene, camera));
+  const drawNow = () => renderer.render(scene, camera);
+  const draw = () => requestAnimationFrame(drawNow);
   controls.addEventListener("change", draw);
   function look() {
     const centre = box.getCenter(new THREE.Vector3());
@@ -161,7 +169,7 @@ async function main() {
     renderer.setSize(stage.clientWidth, stage.clientHeight, false);
     camera.aspect = stage.clientWidth / Math.max(1, stage.clientHeight);
     camera.updateProjectionMatrix();
-    draw();
+    drawNow();  // a new size blanks the canvas, and paper has no next frame
   }).observe(stage);
 
   // A click picks the nearest point of the path on the screen.
