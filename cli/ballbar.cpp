@@ -5,6 +5,7 @@
 #include "ballbar/test/ballbar_measured.h"
 #include "base/output_files.h"
 #include "cli/command.h"
+#include "cli/long_work.h"
 #include "cli/notes.h"
 #include "cli/options.h"
 #include "cli/page_options.h"
@@ -71,6 +72,10 @@ ballbar::test::BallbarResult simulate(const BallbarOptions& o, const setup::Setu
     if (!o.pivot_offset_mm.empty())
         options.pivot_offset_mm = {o.pivot_offset_mm[0], o.pivot_offset_mm[1],
                                    o.pivot_offset_mm[2]};
+    Progress progress;
+    options.watch = [&](int done, const char* what) {
+        progress.step(done, ballbar::test::ballbar_steps, what);
+    };
     return ballbar::test::run_ballbar(setup, options);
 }
 

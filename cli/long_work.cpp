@@ -80,6 +80,15 @@ void Progress::count(std::uint64_t done, std::uint64_t total, const char* things
     });
 }
 
+void Progress::step(int done, int total, const char* what) {
+    const std::chrono::duration<double> passed = Clock::now() - begin_;
+    std::string text = fmt::format("step {} of {}: {}", done + 1, total, what);
+    if (done > 0)
+        text += fmt::format(", {:.2g} a second, {:.0f} s left", done / passed.count(),
+                            (total - done) * passed.count() / done);
+    stage(text);
+}
+
 void Progress::stage(const std::string& text) {
     if (!terminal_) return;
     shown_ = true;

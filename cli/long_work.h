@@ -38,6 +38,8 @@ class Progress {
     void count(std::uint64_t done, std::uint64_t total, const char* things);
     /// The same for work with rare progress reports: shown at once.
     void stage(const std::string& text);
+    /// "step 3 of 4: second run, 0.5 a second, 2 s left": what begins after `done` steps.
+    void step(int done, int total, const char* what);
 
   private:
     using Clock = std::chrono::steady_clock;

@@ -96,17 +96,19 @@ std::string no_such_command(const NamedCommand& named) {
                        did_you_mean(named.unknown, names));
 }
 
-/// Suggestion for an option that the command does not have.
-std::string meant_option(const CLI::App& command, const std::vector<std::string>& words) {
+/// Names the first option that the command does not have; `surplus` is said of words without one.
+std::string no_such_option(const CLI::App& command, const std::vector<std::string>& words,
+                           const std::string& surplus) {
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options())
         for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     for (const std::string& word : words) {
         const std::string name = word.substr(0, word.find('='));
         if (name.starts_with("--") && std::find(names.begin(), names.end(), name) == names.end())
-            return did_you_mean(name, names);
+            return fmt::format("{} has no option '{}'{}", command.get_name(), name,
+                               did_you_mean(name, names));
     }
-    return {};
+    return surplus;
 }
 
 /// Adds --quiet, --verbose and --max-memory to every command.
@@ -191,7 +193,7 @@ int parse_and_run(int argc, char** argv) {
     } catch (const CLI::Success& asked) {
         return show_help(app, asked);
     } catch (const CLI::ExtrasError& e) {
-        return report_usage_error(e.what() + meant_option(*named.command, words));
+        return report_usage_error(no_such_option(*named.command, words, e.what()));
     } catch (const CLI::ParseError& e) {
         return report_usage_error(e.what());
     }

@@ -8,17 +8,12 @@
 namespace trunnion::report {
 namespace {
 
-/// Less than a thousandth is negligible.
-std::string size_of(double value) {
-    return value < 1e-3 ? "below 0.001" : three_digits(value);
-}
-
 std::string um(double mm) {
-    return size_of(um_from_mm(mm));
+    return three_digits(um_from_mm(mm), 3);
 }
 
 std::string urad(double rad) {
-    return size_of(urad_from_rad(rad));
+    return three_digits(urad_from_rad(rad), 3);
 }
 
 PageTable errors_table(const compensation::CompensatedProgram& c) {
@@ -44,9 +39,10 @@ Page compensation_page(const compensation::CompensatedProgram& c, const std::str
     Page page;
     page.title = "Compensated program";
     page.subject = program + " on " + machine;
-    page.verdict = fmt::format(
-        "The tip error falls from {} µm to {} µm: the largest at the ends of {} blocks.",
-        um(c.before.tip_mm), um(c.after.tip_mm), c.blocks.size());
+    page.verdict =
+        fmt::format("The tip error falls from {} to {}: the largest at the ends of {} blocks.",
+                    length_words(um_from_mm(c.before.tip_mm)),
+                    length_words(um_from_mm(c.after.tip_mm)), c.blocks.size());
     page.tone = c.after.tip_mm <= c.before.tip_mm ? Tone::good : Tone::bad;
     page.body_html = section_html("Before and after", table_html(errors_table(c)));
     std::string notes;

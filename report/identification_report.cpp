@@ -152,13 +152,13 @@ std::string identification_json(const identification::Identification& result,
 
 std::string identification_text(const identification::Identification& result, bool repetitions) {
     std::string text =
-        fmt::format("{:<18} {:<18} {:>13} {:>11} {:>11}  {}\n", "effect", "parameter", "value",
+        fmt::format("{:<17} {:<18} {:>13} {:>11} {:>11}  {}\n", "effect", "parameter", "value",
                     "sigma", repetitions ? "Monte Carlo" : "", "unit");
     for (const identification::FitParameter& p : result.parameters) {
         const ShopValue v = shop_value(p);
         identification::FitParameter repeated = p;
         repeated.sigma = p.sigma_monte_carlo;
-        text += fmt::format("{:<18} {:<18} {:>13} {:>11} {:>11}  {}\n", p.effect, v.name, v.value,
+        text += fmt::format("{:<17} {:<18} {:>13} {:>11} {:>11}  {}\n", p.effect, v.name, v.value,
                             v.sigma, repetitions ? shop_value(repeated).sigma : "", v.unit);
     }
     for (const identification::Inseparable& group : result.inseparable)

@@ -8,6 +8,7 @@
 #include "base/rounded.h"
 #include "report/diagnosis_words.h"
 #include "report/page.h"
+#include "report/paragraph.h"
 #include "report/svg.h"
 
 namespace trunnion::report {
@@ -96,7 +97,7 @@ std::string picture(const std::vector<const diagnosis::SessionChange*>& list) {
 
 std::string changes_text(const diagnosis::Diagnosis& d) {
     if (d.sessions.empty()) return {};
-    std::string text = "\n" + sentence(d) + "\n";
+    std::string text = "\n" + paragraph(sentence(d), 0);
     for (const diagnosis::SessionFit& s : d.sessions)
         text += fmt::format("  {:<12} {} readings, rms {} -> {}\n", s.name, s.readings,
                             length_words(s.rms_before_um), length_words(s.rms_after_um));

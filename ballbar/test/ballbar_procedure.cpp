@@ -182,9 +182,11 @@ BallbarResult run_ballbar(const setup::Setup& stated, const BallbarProcedureOpti
     emulator::RunOptions run;
     run.seed = options.seed;
     run.effects = options.effects;
+    options.watch(0, "first run");
     result.before = run_once(setup, result.program, run, result.notes);
     check_complete(BallbarModel(nominal, layout, result.before.readings.rows, {}), result.notes);
     const double declared_mm = mm_from_um(setup.ballbar->noise_um);
+    options.watch(1, "fit of the errors");
     fit_first_run(result, nominal, declared_mm);
 
     const kinematics::Machine known = machine_of(nominal, result.fit);
@@ -192,8 +194,10 @@ BallbarResult run_ballbar(const setup::Setup& stated, const BallbarProcedureOpti
     run.compensation = [&](const AxisPositions& q) {
         return compensated(q, nominal, known, layout.cup_S_mm);
     };
+    options.watch(2, "run with compensation");
     result.after = run_once(setup, result.program, run, result.notes);
     const records::ReadingTable& second = result.after.readings;
+    options.watch(3, "re-test and proof");
     const BallbarModel again(known, layout, second.rows, {});
     check_complete(again, result.notes);
     const BallbarFit rest = again.fit(readings_of(again, second));

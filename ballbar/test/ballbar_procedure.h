@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -101,7 +102,10 @@ struct BallbarProcedureOptions {
     /// Location errors added by `effects` to those of the setup; the true remaining errors include
     /// both.
     std::vector<NamedError> injected_errors;
+    /// Told the number of steps done and what comes next; of `ballbar_steps`.
+    std::function<void(int, const char*)> watch = [](int, const char*) {};
 };
+constexpr int ballbar_steps = 4;
 
 /// Fitted length of the bar minus the reference length.
 struct BarLength {

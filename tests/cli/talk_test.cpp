@@ -1,5 +1,9 @@
 // How much a command says beside its result: --quiet, --verbose, and the line of progress.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <fstream>
+#include <set>
+#include <sstream>
 
 #include "tests/cli/command_bench.h"
 
@@ -51,6 +55,50 @@ TEST_CASE("progress stands on a terminal only, with its rate") {
     CHECK_THAT(on_terminal(bench, endless(bench) + " --quiet"), !Catch::Contains("a second"));
     CHECK(bench.trunnion(endless(bench)) == 4);
     CHECK_THAT(bench.read("err.txt"), !Catch::Contains("a second"));
+}
+
+TEST_CASE("the ballbar test names its steps and the time left") {
+    const CommandBench bench;
+    std::ostringstream text;
+    text << std::ifstream(TRUNNION_SOURCE_DIR "/machines/ac_trunnion.toml").rdbuf();
+    std::string setup = text.str();
+    const std::string rate = "noise_um  = 0.5";
+    setup.replace(setup.find(rate), rate.size(), rate + "\nsample_hz = 8");
+    const std::string words = "ballbar --setup " + bench.write("bar.toml", setup);
+    CHECK_THAT(on_terminal(bench, words, 0),
+               Catch::Contains("step 1 of 4: first run") &&
+                   Catch::Contains("step 3 of 4: run with compensation, ") &&
+                   Catch::Contains(" a second, ") && Catch::Contains(" s left"));
+    CHECK(bench.trunnion(words) == 0);
+    CHECK_THAT(bench.read("err.txt"), !Catch::Contains("step"));
+}
+
+TEST_CASE("a note is said once, and what a terminal shows fits in 80 columns") {
+    const CommandBench bench;
+    const std::string machine = " --setup " TRUNNION_SOURCE_DIR "/machines/bc_table.toml",
+                      readings = bench.file("r.csv");
+    for (const std::string& words :
+         {"run O8003 --readings " + readings + " --print " + bench.file("p.txt"),
+          "identify " + readings + " --effects location" + machine,
+          "diagnose " + readings + machine, "compensate " + part + " --out " + bench.file("c.nc"),
+          "predict " + readings + machine + " --json", std::string("pivot"),
+          "volumetric --grid 3 --rotary-grid 3" + machine}) {
+        CAPTURE(words);
+        REQUIRE(bench.trunnion(words) == 0);
+        std::set<std::string> said;
+        std::istringstream notes(bench.read("err.txt"));
+        for (std::string line; std::getline(notes, line);) {
+            CAPTURE(line);
+            CHECK(said.insert(line).second);
+        }
+        std::istringstream result(words.ends_with("--json") ? "" : bench.read("out.txt"));
+        for (std::string line; std::getline(result, line);) {
+            CAPTURE(line);
+            const auto more = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
+            CHECK(static_cast<long>(line.size()) - std::count_if(line.begin(), line.end(), more) <=
+                  80);
+        }
+    }
 }
 
 TEST_CASE("colour stands on a terminal only, never with NO_COLOR") {
