@@ -111,14 +111,15 @@ Normal normal_of(const Comparer& comparer, const ComparedRun& run,
     return out;
 }
 
-/// Solution with a weak pull towards `otherwise`, which matters only for numbers that no pair
-/// depends on.
+/// Solution with a ridge of 1e-9 of the trace towards `otherwise`. It does not change a number that
+/// the pairs determine; a number on which no pair depends becomes `otherwise`.
 VectorXd solved(Normal normal, const VectorXd& otherwise) {
     const double pull = 1e-9 * std::max(normal.matrix.trace(), 1e-12);
     normal.matrix.diagonal().array() += pull;
     return normal.matrix.ldlt().solve(normal.right + pull * otherwise);
 }
 
+/// With the same ridge, so that a number on which no pair depends has a very large sigma.
 VectorXd sigmas(Normal normal, double scale) {
     const auto n = normal.matrix.rows();
     normal.matrix.diagonal().array() += 1e-9 * std::max(normal.matrix.trace(), 1e-12);

@@ -103,39 +103,39 @@ std::string centre_cause(const std::vector<WrittenWord>& a, const std::vector<Wr
             return from && near(q.value - p.value, sign * *from);
         });
     };
-    if (shifted(1.0)) return letters(a) + " absolute instead of incremental: ";
-    if (shifted(-1.0)) return letters(a) + " incremental instead of absolute: ";
+    if (shifted(1.0)) return letters(a) + " absolute instead of incremental";
+    if (shifted(-1.0)) return letters(a) + " incremental instead of absolute";
     return {};
 }
 
-/// A name for the change of the values, to precede them.
+/// A name for the change of the values.
 std::string value_cause(const std::vector<WrittenWord>& a, const std::vector<WrittenWord>& b) {
     const auto pairs = [&](const auto& holds) { return all_pairs(a, b, holds); };
     if (pairs([](const auto& p, const auto& q) { return p.point() && !q.point(); }))
-        return "decimal point lost: ";
+        return "decimal point lost";
     if (pairs([](const auto& p, const auto& q) { return !p.point() && q.point(); }))
-        return "decimal point added: ";
+        return "decimal point added";
     if (pairs([](const auto& p, const auto& q) { return p.value == -q.value; }))
-        return letters(a) + " of opposite sign: ";
+        return letters(a) + " of opposite sign";
     if (a.size() == 2 && a[0].value == b[1].value && a[1].value == b[0].value)
-        return fmt::format("{} and {} exchanged: ", a[0].letter, a[1].letter);
+        return fmt::format("{} and {} exchanged", a[0].letter, a[1].letter);
     if (pairs([](const auto& p, const auto& q) { return near(p.value, 25.4 * q.value); }))
-        return "inch instead of mm: ";
+        return "inch instead of mm";
     if (pairs([](const auto& p, const auto& q) { return near(25.4 * p.value, q.value); }))
-        return "mm instead of inch: ";
+        return "mm instead of inch";
     return {};
 }
 
 }  // namespace
 
-std::string block_difference(const std::string& block_a, const std::string& block_b,
-                             const std::array<std::optional<double>, 3>& start) {
+BlockDifference block_difference(const std::string& block_a, const std::string& block_b,
+                                 const std::array<std::optional<double>, 3>& start) {
     std::vector<WrittenWord> a = words_of(block_a), b = words_of(block_b);
     if (a.empty() && b.empty()) return {};
     cancel(a, b);
     if (a.empty() && b.empty()) return {};
-    if (b.empty()) return fmt::format("{} is missing in B", joined(a));
-    if (a.empty()) return fmt::format("{} is only in B", joined(b));
+    if (b.empty()) return {"", joined(a) + " is missing in B"};
+    if (a.empty()) return {"", joined(b) + " is only in B"};
     std::string name;
     const auto by_letter = [](const auto& p, const auto& q) { return p.letter < q.letter; };
     std::stable_sort(a.begin(), a.end(), by_letter);
@@ -148,7 +148,11 @@ std::string block_difference(const std::string& block_a, const std::string& bloc
         if (name.empty()) name = centre_cause(a, b, start);
     }
     if (name.empty() && std::max(a.size(), b.size()) > 3) return {};
-    return name + joined(b) + " instead of " + joined(a);
+    return {name, joined(b) + " instead of " + joined(a)};
+}
+
+std::string text_of(const BlockDifference& d) {
+    return d.name.empty() ? d.words : d.name + ": " + d.words;
 }
 
 std::array<std::optional<double>, 3> position_words(const std::string& block) {

@@ -256,9 +256,7 @@ class Explainer {
         const auto cause = written_near(line_a, line_b, beside_contour(i, j));
         if (!cause || cause->what.empty()) return {};
         Found found = found_at(*cause, a, b);
-        const std::size_t name = found.cause.find(": ");
-        if (name != std::string::npos && c.kind != DifferenceKind::feed)
-            found.group = found.cause.substr(0, name);
+        if (c.kind != DifferenceKind::feed) found.group = cause->name;
         return found;
     }
 

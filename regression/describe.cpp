@@ -239,7 +239,7 @@ void describe_gaps(DescribedKeys a, DescribedKeys b, std::size_t most, Compariso
         d.a = place_in(keyed_a, gap.a_first, gap.a_last, a.lines);
         d.b = place_in(keyed_b, gap.b_first, gap.b_last, b.lines);
         if (in_a == 1 && in_b == 1 && result.by != Layer::blocks)
-            d.cause = block_difference(d.a.block, d.b.block, {});
+            d.cause = text_of(block_difference(d.a.block, d.b.block, {}));
         if (!d.cause.empty()) d.what += ": " + d.cause;
         result.differences.push_back(std::move(d));
     });

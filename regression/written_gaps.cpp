@@ -110,10 +110,10 @@ std::array<std::optional<double>, 3> WrittenGaps::start_of(int line_a) {
 }
 
 std::optional<WrittenCause> WrittenGaps::pair(int line_a, int line_b) {
-    std::string what =
+    const BlockDifference found =
         block_difference(lines_a_.line(line_a), lines_b_.line(line_b), start_of(line_a));
-    if (what.empty()) return std::nullopt;
-    return WrittenCause{line_a, line_b, std::move(what)};
+    if (found.words.empty()) return std::nullopt;
+    return WrittenCause{line_a, line_b, text_of(found), found.name};
 }
 
 WrittenCause WrittenGaps::missing(const WrittenGap& gap) {

@@ -22,6 +22,7 @@ struct WrittenGap {
 struct WrittenCause {
     int line_a = 0, line_b = 0;
     std::string what;
+    std::string name = {};  ///< what several blocks have in common: "decimal point lost"
 };
 
 /// The gaps of the layer `words` of two main programs. Texts beyond 16 MB are not searched, because
