@@ -83,8 +83,7 @@ std::vector<DriverShare> shares_by_mode(const records::ReadingTable& table, cons
         const std::string name(records::name_of(mode));
         if (square < 0.05 * sum) continue;
         list.push_back({"mode", name,
-                        fmt::format("{:.0f} % of the gap are positions under {} that the declared "
-                                    "control does not command",
+                        fmt::format("{:.0f} % of the gap are positions of another store under {}",
                                     100.0 * square / sum, name),
                         square / sum, 0.0});
     }
