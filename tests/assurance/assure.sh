@@ -80,9 +80,14 @@ inventions() {
   build/release/bin/test_diagnosis "[.assure][inventions]" > "$work/inventions.log" 2>&1 && state="is named alone" || state="is NOT always named alone"
   echo "Each effect of the catalogue at five sigma, on each program, **$state**: it, or a rival listed with it, first, and nothing else above probability 0.5. The same setup on both sides: no gap."
   echo
-  echo "| machine, program | effects | not first | others claimed | gaps of itself |"
-  echo "|---|---|---|---|---|"
-  sed -nE 's/^(.*): ([0-9]+) effects, not first ([0-9]+), others claimed ([0-9]+), gaps of itself ([0-9]+)$/| \1 | \2 | \3 | \4 | \5 |/p' "$work/inventions.log"
+  echo "| machine | programs | effects | not first | others claimed | gaps of itself |"
+  echo "|---|---|---|---|---|---|"
+  awk '/ effects, not first [0-9]+, / {
+         gsub(/,/, ""); machine = $1; sub(/^[^:]*: /, "")
+         if (!(machine in programs)) order[++machines] = machine
+         programs[machine]++; tried[machine] += $1; first[machine] += $5; other[machine] += $8; own[machine] += $12 }
+       END { for (k = 1; k <= machines; ++k) { m = order[k]
+         print "| " m " | " programs[m] " | " tried[m] " | " first[m] " | " other[m] " | " own[m] " |" } }' "$work/inventions.log"
   echo
   sed -nE 's/^(NOT FIRST|INVENTED|GAP): (.*)/- \1: \2/p' "$work/inventions.log"
 }
