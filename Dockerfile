@@ -5,7 +5,7 @@ RUN apt-get update && apt-get install -y --no-install-recommends \
     libfmt-dev libnlopt-dev libnlopt-cxx-dev libtomlplusplus-dev nlohmann-json3-dev zlib1g-dev \
     pybind11-dev python3-dev python3-numpy
 COPY . /source
-RUN cmake -S /source -B /build -G Ninja -DCMAKE_BUILD_TYPE=Release -DTRUNNION_TESTS=OFF \
+RUN cmake -S /source -B /build -G Ninja -DCMAKE_BUILD_TYPE=Release -DTRUNNION_UNITY=ON -DTRUNNION_TESTS=OFF \
     -DTRUNNION_BENCHMARKS=OFF -DTRUNNION_PYTHON=ON \
  && cmake --build /build && cd /build && cpack
 

@@ -1,5 +1,5 @@
-// A number that is not NaN and not infinite: what crosses the doors of setup, table, fit and
-// verdict.
+// A number that is neither NaN nor infinite: the type of what a setup, a table, a fit or a
+// verdict gives to others.
 #pragma once
 
 #include <fmt/format.h>

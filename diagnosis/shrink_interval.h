@@ -60,8 +60,8 @@ class ShrinkDraws {
     /// 95 % interval of the shrink by `model`, relative to the set-up alone.
     std::pair<double, double> interval(const Model& model) const;
 
-    /// That and the same when an unknown part of the fresh readings lies over paths that nobody
-    /// measured, where the model leaves what it leaves on left-out paths: the wider ends.
+    /// The same, widened by the interval for fresh readings on paths that were not measured: an
+    /// unknown part of them, on which the model fails as it does on left-out paths.
     std::pair<double, double> interval_elsewhere(const Model& model) const;
 
   private:

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "base/rounded.h"
-#include "base/units.h"
 #include "report/comparison_picture.h"
 #include "report/comparison_report.h"
 #include "report/page.h"
@@ -102,7 +100,7 @@ std::string short_verdict(const regression::Comparison& c) {
                                    c.status == CompareStatus::alarm ? "Stopped, and n" : "N", count,
                                    count == 1 ? "" : "s", name_of(c.by));
     if (c.position_mm > 0.0)
-        text += fmt::format(", up to {} apart", length_words(um_from_mm(c.position_mm)));
+        text += fmt::format(", up to {:.4f} mm apart", c.position_mm);
     if (const std::size_t gravest = regression::gravest_difference(c); gravest > 0)
         text += fmt::format(", the most serious is number {}", gravest + 1);
     return text + ".";
