@@ -99,8 +99,7 @@ std::string short_verdict(const regression::Comparison& c) {
     std::string text = fmt::format("{}ot the same: {} difference{} of the {}",
                                    c.status == CompareStatus::alarm ? "Stopped, and n" : "N", count,
                                    count == 1 ? "" : "s", name_of(c.by));
-    if (c.position_mm > 0.0)
-        text += fmt::format(", up to {:.4f} mm apart", c.position_mm);
+    if (c.position_mm > 0.0) text += fmt::format(", up to {:.4f} mm apart", c.position_mm);
     if (const std::size_t gravest = regression::gravest_difference(c); gravest > 0)
         text += fmt::format(", the most serious is number {}", gravest + 1);
     return text + ".";
