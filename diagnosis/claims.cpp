@@ -115,7 +115,9 @@ double evidence_probability(const Searching& search, const Model& model, const O
     for (double& w : other) w *= zeta;
     const double of_same = log_sum(same);
     other.push_back(of_same);
-    return std::exp(of_same - log_sum(other));
+    const double probability = std::exp(of_same - log_sum(other));
+    // A search that was ended early may leave variances at which no likelihood can be computed.
+    return std::isfinite(probability) ? probability : 0.0;
 }
 
 /// Other causes that explain nearly as much in place of the member.

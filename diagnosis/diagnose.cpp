@@ -26,8 +26,9 @@ namespace {
 /// From a longer table this number is selected evenly: enough to identify causes of a hundredth of
 /// the noise.
 constexpr std::size_t most_readings = 10000;
-constexpr int most_rounds = 3;         ///< of search, noise and linearisation
-constexpr double bend_sigma = 0.25;    ///< of a reading: a smaller nonlinearity is ignored
+constexpr int most_rounds = 3;       ///< of search, noise and linearisation
+constexpr double most_bent = 3.0;    ///< growth of the residual by a prediction that is not linear
+constexpr double bend_sigma = 0.25;  ///< of a reading: a smaller nonlinearity is ignored
 constexpr double outlier_sigma = 1e3;  ///< sigma of an excluded reading, relative to its own
 constexpr int first_keys = 2;
 
@@ -281,6 +282,11 @@ bool straighten(Prepared& p, Searched& s) {
         p.base.measured_mm -
         Eigen::Map<const Eigen::VectorXd>(read.data(), static_cast<Eigen::Index>(read.size())) +
         fit;
+    const auto whitened = [&](const Eigen::VectorXd& v) {
+        return v.cwiseQuotient(p.base.sigma_mm).norm();
+    };
+    // Directions that the readings hardly show may be metres long: no machine is bent like that.
+    if (!(whitened(straight) <= most_bent * whitened(p.base.residual_mm))) return false;
     const Eigen::VectorXd change = straight - p.base.residual_mm;
     if (change.cwiseQuotient(p.base.sigma_mm).cwiseAbs().maxCoeff() < bend_sigma) return false;
     p.base.residual_mm = straight;
@@ -319,6 +325,19 @@ bool corrected(Prepared& p, Searched& s, Round& round) {
     }
     if (!s.model.members.empty() && straighten(p, s)) changed = true;
     return changed;
+}
+
+/// Without the members added last, as long as the model cannot be computed: a search that was ended
+/// early may leave variances that no search would keep.
+Model computable(Design& design, const SearchSetting& setting, Model model) {
+    if (!std::isfinite(model.variances.nu)) return empty_model(design, setting);
+    const auto sound = [&] {
+        const Solution solution = solved(design, model);
+        return solution.mean.allFinite() && solution.covariance().allFinite() &&
+               std::isfinite(evidence(design, model));
+    };
+    while (!model.members.empty() && !sound()) model = without(model, model.members.size() - 1);
+    return model;
 }
 
 }  // namespace
@@ -373,6 +392,7 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
         s = search_of(p, round, *keys, &s, options.go_on);
     }
     const bool unfinished = stopped();
+    if (unfinished) s.model = computable(s.design, s.setting, std::move(s.model));
     watch("held-out readings");
     const Judgement judgement = judged(s.design, p, s.model, round.noise, round.used);
     Diagnosis d =

@@ -91,6 +91,17 @@ TEST_CASE("Ctrl-C in diagnose gives the verdict on the best model until then") {
     CHECK_THAT(bench.read("err.txt"), Catch::Contains("interrupted: "));
 }
 
+TEST_CASE("diagnose ends with a verdict whenever its time is up") {
+    const Bench bench;
+    const std::string words = bench.diagnose(3000) + " --max-seconds ";
+    for (int k = 1; k <= 12; ++k) {
+        const int code = bench.trunnion(words + fmt::format("{}", 0.04 * k));
+        INFO(0.04 * k << " s: " << bench.read("err.txt"));
+        CHECK((code == 4 || code == 0));
+        bench.check_kept();
+    }
+}
+
 TEST_CASE("a second signal ends a fit at once, and nothing is half written") {
     const Bench bench;
     const std::string job = "( exec " TRUNNION_BINARY_DIR "/bin/trunnion " + bench.identify(20000) +

