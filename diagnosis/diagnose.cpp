@@ -317,27 +317,14 @@ bool corrected(Prepared& p, Searched& s, Round& round) {
         changed = true;
     }
     if (round.noise.model.source == NoiseSource::repeats && (!s.model.members.empty() || changed)) {
-        NoiseBelief noise = belief_of(p, left, round.sigma_mm);
+        const NoiseBelief noise = belief_of(p, left, round.sigma_mm);
         if (!same_noise(noise.model, round.noise.model)) {
-            round.noise = std::move(noise);
+            round.noise = noise;
             changed = true;
         }
     }
     if (!s.model.members.empty() && straighten(p, s)) changed = true;
     return changed;
-}
-
-/// Without the members added last, as long as the model cannot be computed: a search that was ended
-/// early may leave variances that no search would keep.
-Model computable(Design& design, const SearchSetting& setting, Model model) {
-    if (!std::isfinite(model.variances.nu)) return empty_model(design, setting);
-    const auto sound = [&] {
-        const Solution solution = solved(design, model);
-        return solution.mean.allFinite() && solution.covariance().allFinite() &&
-               std::isfinite(evidence(design, model));
-    };
-    while (!model.members.empty() && !sound()) model = without(model, model.members.size() - 1);
-    return model;
 }
 
 }  // namespace

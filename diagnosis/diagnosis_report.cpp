@@ -36,11 +36,6 @@ Eigen::VectorXd noise_mm(const Outcome& f) {
     return v;
 }
 
-/// µm in a mm, or µrad in a rad where all readings are angles.
-double micro(const Outcome& f) {
-    return records::only_angles(f.prepared.table) ? 1e6 : 1e3;
-}
-
 double rms_um(const Outcome& f, const Eigen::VectorXd& v) {
     double sum = 0.0, rows = 0.0;
     for (std::size_t i = 0; i < f.used.size(); ++i) {
@@ -48,14 +43,7 @@ double rms_um(const Outcome& f, const Eigen::VectorXd& v) {
         sum += std::pow(v(static_cast<Eigen::Index>(i)), 2);
         rows += 1.0;
     }
-    return micro(f) * std::sqrt(sum / std::max(1.0, rows));
-}
-
-/// The readings minus the simulation with the set-up alone, fitted by least squares. (The base model
-/// is robust: where readings are far from noise, its zeros may not lie in their middle.)
-Eigen::VectorXd before_mm(const Outcome& f) {
-    const Model none{{}, {{}, f.model.variances.nu}, 0.0};
-    return left_mm(f.prepared, f.design, none, solved(f.design, none));
+    return micro_per_one(f.prepared) * std::sqrt(sum / std::max(1.0, rows));
 }
 
 double independent_readings(const Outcome& f) {
@@ -169,16 +157,16 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
             d.noise.of(device).scale *= nu;
     }
     const Eigen::VectorXd left = left_mm(f.prepared, f.design, f.model, solution);
-    const Eigen::VectorXd before = before_mm(f);
+    const Eigen::VectorXd before = set_up_left_mm(f.prepared, f.design);
     d.rms_um = rms_um(f, before);
     d.noise_um = rms_um(f, noise_mm(f));
     d.excess_um = std::sqrt(std::max(0.0, d.rms_um * d.rms_um - d.noise_um * d.noise_um));
     d.after_rms_um = rms_um(f, left);
     d.angles = records::only_angles(f.prepared.table);
-    const double micro_per_one = micro(f);
+    const double micro = micro_per_one(f.prepared);
     for (Eigen::Index i = 0; i < left.size(); ++i) {
-        d.before_um.push_back(micro_per_one * before(i));
-        d.after_um.push_back(micro_per_one * left(i));
+        d.before_um.push_back(micro * before(i));
+        d.after_um.push_back(micro * left(i));
     }
     d.inseparable = base.inseparable;
     for (const identification::FitParameter& p : base.parameters)
@@ -303,7 +291,7 @@ void widen(HeldOut& h, const std::pair<double, double>& draws) {
 double fitted_shrink(const Outcome& f, const Model& model) {
     if (model.members.empty()) return 0.0;
     const double noise = std::pow(rms_um(f, noise_mm(f)), 2);
-    const double before = std::pow(rms_um(f, before_mm(f)), 2) - noise;
+    const double before = std::pow(rms_um(f, set_up_left_mm(f.prepared, f.design)), 2) - noise;
     const Eigen::VectorXd left = left_mm(f.prepared, f.design, model, solved(f.design, model));
     const double after = std::pow(rms_um(f, left), 2) - noise;
     return before > 0.0 ? 1.0 - std::sqrt(std::max(0.0, after) / before) : 0.0;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 
 namespace trunnion::diagnosis {
 namespace {
@@ -149,6 +150,26 @@ setup::Setup setup_with(const Prepared& prepared, const Design& design, const Mo
     }
     identification::keep_sessions(setup, prepared.replay);
     return setup;
+}
+
+Eigen::VectorXd set_up_left_mm(const Prepared& prepared, Design& design) {
+    const Model none{{}, {}, 0.0};
+    return left_mm(prepared, design, none, solved(design, none));
+}
+
+double micro_per_one(const Prepared& prepared) {
+    return records::only_angles(prepared.table) ? 1e6 : 1e3;
+}
+
+Model computable(Design& design, const SearchSetting& setting, Model model) {
+    if (!std::isfinite(model.variances.nu)) return empty_model(design, setting);
+    const auto sound = [&] {
+        const Solution solution = solved(design, model);
+        return solution.mean.allFinite() && solution.covariance().allFinite() &&
+               std::isfinite(evidence(design, model));
+    };
+    while (!model.members.empty() && !sound()) model = without(model, model.members.size() - 1);
+    return model;
 }
 
 }  // namespace trunnion::diagnosis

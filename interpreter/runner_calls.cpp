@@ -75,8 +75,7 @@ Section* Interpreter::State::take_name(const Block& block, const Code& code) {
     std::size_t at_name = words.count;
     for (std::size_t i = 0; i < words.count; ++i) {
         const WordValue& w = words.words[i];
-        calls =
-            calls || (w.letter == 'M' && (w.value == 98 || w.value == 198)) || is_macro_call(w);
+        calls = calls || (w.letter == 'M' && (w.value == 98 || w.value == 198)) || is_macro_call(w);
         if (w.letter == '<') at_name = i;
     }
     if (at_name == words.count) return nullptr;

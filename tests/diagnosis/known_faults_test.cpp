@@ -185,8 +185,7 @@ TEST_CASE("the written setup of two sessions leaves in each what the report says
     for (const char* const effect :
          {"B.tilt: EAB_cos1_rad=4e-5, ECB_sin1_rad=-4e-5", "C.axial: EZC_cos1_mm=0.012",
           "C.radial: EXC_cos1_mm=0.01, EYC_sin1_mm=-0.006"}) {
-        const setup::Setup first =
-            campaign::with_effect(campaign::real_machine(setup), effect);
+        const setup::Setup first = campaign::with_effect(campaign::real_machine(setup), effect);
         setup::Setup second = first;
         for (setup::Artefact& artefact : second.artefacts)
             artefact.center_W_mm += Vector3(-0.03, 0.02, 0.01);
