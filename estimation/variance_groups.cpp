@@ -275,9 +275,11 @@ Variances maximise_likelihood(const GroupEquations& equations, Variances start,
     Step now(equations, not_absent(std::move(start)), prior);
     for (int k = 0; k < sweeps; ++k) {
         Step next(equations, one_sweep(equations, now, prior), prior);
-        for (int halved = 0; next.likelihood < now.likelihood && halved < 4; ++halved)
+        // Written so that a likelihood that cannot be computed (NaN) is a worse one.
+        const auto worse = [&] { return !(next.likelihood >= now.likelihood); };
+        for (int halved = 0; worse() && halved < 4; ++halved)
             next = Step(equations, between(now.variances, std::move(next.variances)), prior);
-        if (next.likelihood < now.likelihood) break;
+        if (worse()) break;
         const double gained = next.likelihood - now.likelihood;
         now = std::move(next);
         if (gained < 0.01) break;
