@@ -18,7 +18,7 @@ std::string alarm_text(const CheckOptions& options, int number) {
     return options.alarm_text ? options.alarm_text(number) : fmt::format("alarm {}", number);
 }
 
-/// What the control says of the arguments of G65, G66 or G66.1; nothing for other blocks.
+/// What the control says of the arguments in a block that begins with G65, G66 or G66.1.
 std::optional<interpreter::WordFault> argument_fault(const interpreter::BlockWords& words) {
     std::array<interpreter::WordValue, interpreter::BlockWords::capacity> arguments;
     std::size_t count = 0;
@@ -39,12 +39,6 @@ std::optional<interpreter::WordFault> argument_fault(const interpreter::BlockWor
     return std::nullopt;
 }
 
-bool starts_with_macro_call(const interpreter::BlockWords& words) {
-    if (words.count == 0 || words.words[0].letter != 'G') return false;
-    const int code10 = code10_of(words.words[0].value);
-    return code10 == 650 || code10 == 660 || code10 == 661;
-}
-
 void check_block_words(const interpreter::ParsedProgram& program, const interpreter::Block& block,
                        const CheckOptions& options, Findings& findings) {
     const auto constants = constant_words(program, block);
@@ -60,7 +54,8 @@ void check_block_words(const interpreter::ParsedProgram& program, const interpre
     if (mapped) return;  // the words are arguments
     auto fault =
         interpreter::find_word_fault(constants->words, options.dialect.family, constants->all);
-    if (!fault && starts_with_macro_call(constants->words))
+    if (!fault && constants->words.count > 0 &&
+        interpreter::is_macro_call(constants->words.words[0]))
         fault = argument_fault(constants->words);
     if (fault)
         findings.add(

@@ -17,8 +17,9 @@ setup::Setup open_setup(const std::string& path) {
 void tell_setup(const setup::Setup& setup, const std::vector<std::string>& notes) {
     print_notes(notes);
     if (talk() == Talk::verbose && setup.derived_parameters > 0)
-        print_notes({fmt::format("{}: {} parameters derived from [machine]", setup.path,
-                                 setup.derived_parameters)});
+        print_notes(
+            {fmt::format("{}: {} parameter{} derived from [machine]", setup.path,
+                         setup.derived_parameters, setup.derived_parameters == 1 ? "" : "s")});
 }
 
 }  // namespace trunnion::cli

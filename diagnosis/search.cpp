@@ -136,7 +136,7 @@ Model swapped(Design& design, const SearchSetting& setting, Model model) {
             if (offer.group == held.group) continue;
             if (++count > swap_tried || offer.value < held.value + better) break;
             Model trial = tuned(design, setting, with(rest, offer), 2);
-            if (trial.score < model.score + better) continue;
+            if (!(trial.score >= model.score + better)) continue;
             model = std::move(trial);
             break;
         }
@@ -197,7 +197,7 @@ Model paired(Design& design, const SearchSetting& setting, Model model) {
             if (rough_score(design, setting, with(start, best.front())) < model.score - tuning_gain)
                 continue;
             Model trial = tuned(design, setting, with(start, best.front()), 2);
-            if (trial.score < model.score + better) continue;
+            if (!(trial.score >= model.score + better)) continue;
             model = std::move(trial);
             break;
         }

@@ -95,7 +95,7 @@ Model without_stand_ins(Design& design, const SearchSetting& setting, Model mode
                 trial.variances.tau.push_back(pair.tau);
             }
             trial = pruned(design, setting, tuned(design, setting, std::move(trial), 2));
-            if (evidence(design, trial) < evidence(design, model) + better) continue;
+            if (!(evidence(design, trial) >= evidence(design, model) + better)) continue;
             model = std::move(trial);
             break;
         }

@@ -15,10 +15,6 @@ const CodeCalls::Call* find_call(const std::map<int, CodeCalls::Call>& calls, do
     return it == calls.end() ? nullptr : &it->second;
 }
 
-bool is_macro_call(const WordValue& word) {
-    return word.letter == 'G' && (word.value == 65 || word.value == 66 || word.value == 66.1);
-}
-
 /// The eight bytes of a control's MACRO.TXT, most significant first; false when not sixteen hex
 /// digits.
 bool read_hex_double(std::string_view digits, double& value) {

@@ -202,6 +202,10 @@ std::optional<WordFault> apply(const WordRule& rule, const BlockWords& block, bo
 
 }  // namespace
 
+bool is_macro_call(const WordValue& word) {
+    return is_call(word.letter, code10_of(word));
+}
+
 std::optional<WordFault> find_m_fault(const WordValue& m_word) {
     return fault_of({0, 0, 'M'}, m_word);
 }

@@ -23,6 +23,9 @@ struct WordFault {
 std::optional<WordFault> find_word_fault(const BlockWords& block, DialectFamily family,
                                          bool all_known = true);
 
+/// G65, G66 or G66.1: the words behind it are arguments.
+bool is_macro_call(const WordValue& word);
+
 /// A code number must be an integer >= 0: else PS0007, PS0006.
 std::optional<WordFault> find_m_fault(const WordValue& m_word);
 

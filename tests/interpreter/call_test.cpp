@@ -113,6 +113,7 @@ TEST_CASE("a block with G67 may call or return as well") {
     CHECK(r.blocks == Blocks{"X1", "Y9", "X8", "X2", "M30"});
     CHECK(run("G67J2M98\nM30\n").alarm.value().number == 76);
     CHECK(run("G65P9G67\nM30\nO9\nM99\n").alarm.value().number == 129);
+    CHECK(run("G67G65P9\nM30\nO9\nM99\n").alarm.value().number == 127);
 }
 
 TEST_CASE("G66 calls behind every motion until G67") {
