@@ -54,8 +54,9 @@ std::string store_words(const std::vector<StoreChange>& changes, EffectKind kind
 Cause cause_of(const StoreGap& gap, EffectKind kind) {
     Cause cause;
     cause.effect = effects::word_of(kind);
-    cause.probability =
-        gap.rivals.empty() ? 1.0 : 1.0 / (1.0 + static_cast<double>(gap.rivals.size()));
+    // Never more certain than the places that were compared, as for any other cause.
+    cause.probability = std::min((gap.places + 1.0) / (gap.places + 2.0),
+                                 1.0 / (1.0 + static_cast<double>(gap.rivals.size())));
     for (const EffectKind rival : gap.rivals) cause.rivals.emplace_back(effects::word_of(rival));
     for (const StoreChange& c : gap.changes) {
         if (c.kind != kind) continue;

@@ -128,6 +128,7 @@ std::optional<StoreGap> store_gap(const setup::Setup& setup, const records::Read
     const PointEquations e = point_equations(setup, table, rows);
     const std::vector<NumberSet> sets = smallest_sets(e);
     StoreGap gap;
+    gap.places = static_cast<double>(rows.row.size()) / e.repeats;
     const Eigen::VectorXd left = take_changes(e, sets.front(), gap);
     const double size_mm = std::sqrt(e.square / static_cast<double>(e.difference.size()));
     if (gap.changes.empty() && size_mm < rules::strange_mm) return std::nullopt;

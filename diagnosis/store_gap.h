@@ -23,6 +23,7 @@ struct StoreChange {
 
 /// Axis positions in force against those that the declared control commands for the same points.
 struct StoreGap {
+    double places = 0.0;                              ///< different positions that were compared
     std::vector<StoreChange> changes;                 ///< the fewest numbers that explain them
     std::vector<effects::EffectKind> rivals;          ///< explain them with as many numbers
     std::vector<identification::Inseparable> unseen;  ///< changes that would do the same
