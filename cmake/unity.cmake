@@ -3,6 +3,9 @@
 # configure with -DTRUNNION_UNITY=OFF.
 option(TRUNNION_UNITY "compile the files of a room in groups" OFF)
 
+# Rooms that are compiled file by file all the same: a mutant (preset mutants) then costs one file.
+set(TRUNNION_SINGLE_ROOMS "" CACHE STRING "rooms whose files are not compiled in groups")
+
 # Files whose unnamed namespace has a name of a neighbour's: they are compiled alone.
 set(TRUNNION_ALONE
   controller/dialect_codes.cpp controller/g_codes.cpp controller/m_codes.cpp
@@ -11,7 +14,8 @@ set(TRUNNION_ALONE
   regression/golden.cpp)
 
 function(trunnion_group_files target)
-  if(TRUNNION_UNITY)
+  string(REGEX REPLACE "^trunnion_" "" room ${target})
+  if(TRUNNION_UNITY AND NOT room IN_LIST TRUNNION_SINGLE_ROOMS)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
     # GCC takes the grouped files for headers, whose types should not have unnamed members.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)

@@ -104,13 +104,7 @@ fuzz() {
   echo
   echo "| target | seconds | executions | failures |"
   echo "|---|---|---|---|"
-  for target in build/fuzz/bin/*_fuzz; do
-    name=$(basename "$target")
-    mkdir -p "out/corpus/$name"
-    "$target" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
-      -artifact_prefix="$work/" "out/corpus/$name" tests/nc > "$work/$name.log" 2>&1 && failures=0 || failures=1
-    echo "| $name | $seconds | $(sed -nE 's/stat::number_of_executed_units: *//p' "$work/$name.log") | $failures |"
-  done
+  tests/assurance/fuzz.sh "$seconds" "$work" || true
 }
 
 coverage() {
@@ -128,7 +122,7 @@ mutation() {
   echo "## Mutants that the tests of a room kill"
   echo
   # shellcheck disable=SC2086
-  tests/assurance/mutate.py build/release $rooms --mutants "$mutants" --seed 1 --out "$work/mutation.json" \
+  tests/assurance/mutate.py build/mutants $rooms --mutants "$mutants" --seed 1 --out "$work/mutation.json" \
     > "$work/mutation.log"
   echo "| room | mutants | killed |"
   echo "|---|---|---|"

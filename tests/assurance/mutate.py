@@ -52,7 +52,7 @@ def judge(build, room, mutant, plain_s):
         path.write_text("".join(lines))
         if run(["cmake", "--build", str(build), "--target", f"test_{room}"], 1800) != 0:
             return "killed", lines[number].strip()
-        code = run([str(build / "bin" / f"test_{room}")], 10 * plain_s + 10)
+        code = run([str(build / "bin" / f"test_{room}"), "--abort"], 10 * plain_s + 10)
         return ("survived" if code == 0 else "killed"), lines[number].strip()
     finally:
         path.write_text(before)
