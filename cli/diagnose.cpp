@@ -45,8 +45,12 @@ std::string title_of(const std::vector<std::string>& readings) {
 diagnosis::Diagnosis diagnose_watched(const setup::Setup& setup, const records::ReadingTable& table,
                                       diagnosis::DiagnosisOptions how, BudgetMeter& meter) {
     Progress progress;
-    how.watch = [&](const char* stage) { progress.stage(stage); };
-    how.go_on = how.plan_on = [&] { return meter.allows({}); };
+    std::string now;
+    how.watch = [&](const char* stage) { progress.stage(now = stage); };
+    how.go_on = how.plan_on = [&] {
+        progress.lasting(now);
+        return meter.allows({});
+    };
     return diagnosis::diagnose(setup, table, how);
 }
 

@@ -145,9 +145,12 @@ int identify_command(const Options& options) {
     BudgetMeter meter = fit_meter(options.max_seconds);
     identification::Identification result = [&] {
         Progress progress;
-        progress.stage(fmt::format("fit to {} rows", in.table.rows.size()));
-        return identification::identify(in.setup, in.table, in.effects,
-                                        [&] { return meter.allows({}); });
+        const std::string work = fmt::format("fit to {} rows", in.table.rows.size());
+        progress.stage(work);
+        return identification::identify(in.setup, in.table, in.effects, [&] {
+            progress.lasting(work);
+            return meter.allows({});
+        });
     }();
     print_notes(result.notes);
     std::vector<identification::Repetition> repetitions;

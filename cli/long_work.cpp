@@ -89,6 +89,13 @@ void Progress::step(int done, int total, const char* what) {
     stage(text);
 }
 
+void Progress::lasting(const std::string& text) {
+    show([&] {
+        const std::chrono::duration<double> passed = Clock::now() - begin_;
+        return fmt::format("{}, {:.0f} s so far", text, passed.count());
+    });
+}
+
 void Progress::stage(const std::string& text) {
     if (!terminal_) return;
     shown_ = true;

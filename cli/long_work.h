@@ -41,6 +41,9 @@ class Progress {
     /// "step 3 of 4: second run, 0.5 a second, 2 s left": what begins after `done` steps.
     void step(int done, int total, const char* what);
 
+    /// "search among models, 3 s so far": work whose number of steps nobody knows beforehand.
+    void lasting(const std::string& text);
+
   private:
     using Clock = std::chrono::steady_clock;
     bool terminal_;

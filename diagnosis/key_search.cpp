@@ -82,7 +82,7 @@ Eigen::MatrixXd KeySearch::columns(const effects::Effect& effect, const std::vec
 Eigen::MatrixXd KeySearch::first_orders(const effects::Effect& effect) const {
     Eigen::MatrixXd all(static_cast<Eigen::Index>(rough_rows_.size()), 0);
     for (std::size_t j = 0; j < effect.parameters.size(); ++j) {
-        if (effect.parameters[j].name != periods_key) continue;
+        if (!effect.parameters[j].counts_periods) continue;
         for (const double order : {0.0, 1.0, 2.0}) {
             std::vector<double> values = effect.zeros();
             values[j] = order;

@@ -4,16 +4,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <map>
-#include <string_view>
 #include <vector>
 
 #include "estimation/projection.h"
 #include "identification/base_model.h"
 
 namespace trunnion::diagnosis {
-
-/// Name of the key with the number of periods in one turn of a rotary axis.
-inline constexpr std::string_view periods_key = "periods_per_turn";
 
 /// Evaluates the grids of effects with keys on residuals. The columns of an effect depend on
 /// positions only, so they are computed once, on a fixed selection of rows, and used for every

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/units.h"
-#include "diagnosis/key_search.h"
 #include "diagnosis/rules.h"
 
 namespace trunnion::diagnosis {
@@ -51,7 +50,7 @@ std::optional<Ripple> ripple_of(const effects::Effect& effect, const std::vector
     for (std::size_t j = 0; j < keys.size(); ++j) {
         const effects::EffectParameter& key = effect.parameters[j];
         if (!key.is_key()) continue;
-        Ripple ripple{*effect.axis, j, key.name == periods_key, 0.0, key.grid};
+        Ripple ripple{*effect.axis, j, key.counts_periods, 0.0, key.grid};
         ripple.period = ripple.period_of(keys[j]);
         return ripple;
     }

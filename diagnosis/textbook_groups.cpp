@@ -6,7 +6,6 @@
 #include <set>
 
 #include "diagnosis/candidate_groups.h"
-#include "diagnosis/key_search.h"
 #include "diagnosis/rules.h"
 
 namespace trunnion::diagnosis {
@@ -69,9 +68,8 @@ double log_prior_of_keys(const effects::Effect& effect, const std::vector<double
         const effects::EffectParameter& p = effect.parameters[j];
         if (!p.is_key()) continue;
         double all = 0.0;
-        const bool counts = p.name == periods_key;
-        for (const double g : p.grid) all += counts ? 1.0 / g : 1.0;
-        sum += std::log((counts ? 1.0 / keys[j] : 1.0) / all);
+        for (const double g : p.grid) all += p.counts_periods ? 1.0 / g : 1.0;
+        sum += std::log((p.counts_periods ? 1.0 / keys[j] : 1.0) / all);
     }
     return sum;
 }

@@ -56,7 +56,12 @@ Effect rotary_cyclic(const kinematics::AxisGeometry& axis) {
             "angle + cos_rad cos(n q) + sin_rad sin(n q), n = periods_per_turn",
             {{"cos_rad", "rad", 15e-6, -1, {}, true},
              {"sin_rad", "rad", 15e-6, -1, {}, true},
-             {"periods_per_turn", "1", 90.0, -1, turns, false}},
+             {.name = "periods_per_turn",
+              .unit = "1",
+              .typical = 90.0,
+              .grid = turns,
+              .refine = false,
+              .counts_periods = true}},
             [k = axis.axis](const AxisSample& sample, const emulator::Contact&,
                             std::span<const double> value, kinematics::Perturbation& out) {
                 const double angle = value[2] * sample.position[k];
