@@ -63,11 +63,13 @@ struct LineScanner {
         at = start;
         fail("'" + std::string(text) + "' is not a finite number");
     }
-    int integer() {
+    /// No number of a backup (parameter, offset, variable, axis) has more than eight digits.
+    int integer(int most = 99'999'999) {
         const std::string_view t = number_text();
         int n = 0;
         const auto [end, error] = std::from_chars(t.data(), t.data() + t.size(), n);
         if (error != std::errc() || end != t.data() + t.size()) fail("an integer is expected");
+        if (n < -most || n > most) fail(fmt::format("the number {} is larger than {}", n, most));
         return n;
     }
     BackupValue value(std::string name, std::string_view text, BackupValue::Kind kind, int n,
@@ -86,6 +88,8 @@ struct LineScanner {
     }
 };
 
+constexpr int most_index = 999;  ///< of an axis, spindle, path or group
+
 /// N19700Q1L1P0.0L2P0.0 | N01825 A1 P 3000 A2 P 3000 | N00020Q1P17
 void scan_parameter(LineScanner& s, std::vector<BackupValue>& out) {
     ++s.at;
@@ -100,7 +104,7 @@ void scan_parameter(LineScanner& s, std::vector<BackupValue>& out) {
         char kind = s.peek();
         if (kind == 'A' || kind == 'L' || kind == 'S' || kind == 'T') {
             ++s.at;
-            index = s.integer();
+            index = s.integer(most_index);
             s.skip_blanks();
         } else {
             kind = 0;

@@ -5,11 +5,12 @@ set -eu
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 seconds=$1 logs=$2
 shift 2
+mkdir -p "$logs"
 [ $# -gt 0 ] || set -- build/fuzz/bin/*_fuzz
 
 one() {
   subject=$(basename "$1" _fuzz)
-  mkdir -p "out/corpus/$subject" "$logs"
+  mkdir -p "out/corpus/$subject"
   seeds=("tests/fuzz/corpus/$subject")
   case $subject in control | interpreter | run | compare) seeds+=(tests/nc) ;; esac
   "$1" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \

@@ -100,6 +100,13 @@ TEST_CASE("bad backup lines are refused with their place") {
         b.files["CNC-PARA.TXT"] = std::string("%\nN19700Q1L1P") + number + "\n%\n";
         CHECK_THROWS_AS(backup::list_values(b), InputError);
     }
+    for (const char* line : {"N19700T70097020P1", "N19700A1000P1", "N999999999P1"}) {
+        INFO(line);
+        b.files["CNC-PARA.TXT"] = std::string("%\n") + line + "\n%\n";
+        CHECK_THROWS_AS(backup::list_values(b), InputError);
+    }
+    b.files["CNC-PARA.TXT"] = "%\nN19700A999P1\n%\n";
+    CHECK_NOTHROW(backup::list_values(b));
     backup::ControlBackup variables;
     const auto read = [&](const std::string& digits) {
         variables.files["MACRO.TXT"] = "%\nG10L85P500(" + digits + ")\n%\n";
