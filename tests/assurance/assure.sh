@@ -122,7 +122,8 @@ mutation() {
   echo "## Mutants that the tests of a room kill"
   echo
   # shellcheck disable=SC2086
-  tests/assurance/mutate.py build/mutants $rooms --mutants "$mutants" --seed 1 --out "$work/mutation.json" \
+  tests/assurance/mutate.py build/mutants $rooms --mutants "$mutants" --seed 1 \
+    --named tests/assurance/named_mutants.json --out "$work/mutation.json" \
     > "$work/mutation.log"
   echo "| room | mutants | killed |"
   echo "|---|---|---|"

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Mutation score of rooms: changes one thing in one line, builds the room's tests, runs them.
 
-    mutate.py BUILD ROOM... [--mutants 20] [--seed 1] [--out FILE]
+    mutate.py BUILD ROOM... [--mutants 20] [--seed 1] [--named FILE] [--out FILE]
 
 A mutant is killed when its tests do not compile, fail, or take ten times as long. Survivors are printed with
-file, line and change. The source is changed in place and always put back; run it in a clone of its own.
+file, line and change. FILE holds mutants to be tried besides those drawn (JSON: file, text, instead). The source is changed in place and always put back; run it in a clone of its own.
 """
 import argparse
 import json
@@ -33,6 +33,20 @@ def candidates(root, room):
             for pattern, instead in CHANGES:
                 for match in re.finditer(pattern, line.split("//")[0]):
                     yield path, number, match.span(), instead
+
+
+def named(root, room, file):
+    """Mutants of a room that somebody asked for; an error when a text does not stand in just one place."""
+    for wish in json.loads(file.read_text()) if file else []:
+        if pathlib.PurePath(wish["file"]).parent != pathlib.PurePath(room):
+            continue
+        path = root / wish["file"]
+        places = [(number, line.find(wish["text"]))
+                  for number, line in enumerate(path.read_text().splitlines()) if wish["text"] in line]
+        if len(places) != 1:
+            sys.exit(f"mutate: {wish['text']!r} stands in {len(places)} lines of {wish['file']}")
+        number, begin = places[0]
+        yield path, number, (begin, begin + len(wish["text"])), wish["instead"]
 
 
 def run(command, limit):
@@ -64,6 +78,7 @@ def main():
     parser.add_argument("rooms", nargs="+")
     parser.add_argument("--mutants", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--named", type=pathlib.Path)
     parser.add_argument("--out", type=pathlib.Path)
     options = parser.parse_args()
     root = pathlib.Path(__file__).resolve().parents[2]
@@ -71,7 +86,8 @@ def main():
     for room in options.rooms:
         random.seed(f"{options.seed} {room}")
         every = list(candidates(root, room))
-        chosen = random.sample(every, min(options.mutants, len(every)))
+        chosen = list(named(root, room, options.named))
+        chosen += random.sample(every, min(options.mutants, len(every)))
         if run(["cmake", "--build", str(options.build), "--target", f"test_{room}"], 3600) != 0:
             sys.exit(f"mutate: test_{room} does not build")
         start = time.monotonic()
