@@ -333,7 +333,8 @@ std::string format_value(const BackupValue& like, double number) {
     if (is_hex_double(like))
         return std::isnan(number) ? std::string(16, 'F')
                                   : fmt::format("{:016X}", std::bit_cast<std::uint64_t>(number));
-    if (like.kind == BackupValue::Kind::parameter && is_bits(like.text))
+    const bool byte = number >= 0.0 && number <= 255.0 && number == std::floor(number);
+    if (byte && like.kind == BackupValue::Kind::parameter && is_bits(like.text))
         return fmt::format("{:08b}", static_cast<unsigned>(number));
     const double in_file = like.inch ? inch_from_mm(number) : number;
     std::string text = fmt::format("{}", in_file);

@@ -71,6 +71,15 @@ TEST_CASE("an untouched backup keeps its bytes and a change touches only its val
     CHECK(differences[3].b == "BFF0000000000000");
 }
 
+TEST_CASE("eight bits become a number when the store holds one that no byte can") {
+    backup::ControlBackup b{"f", {}, {}};
+    b.files["CNC-PARA.TXT"] = "%\nN80Q1P11111110P1234567890123\n%\n";
+    offsets::Stores stores;
+    backup::apply_backup(b, stores);
+    backup::update_backup(b, stores);
+    CHECK(b.files["CNC-PARA.TXT"] == "%\nN80Q1P1234567890123P1234567890123\n%\n");
+}
+
 TEST_CASE("files on disk round-trip byte for byte") {
     const auto folder = std::filesystem::temp_directory_path() / "trunnion_backup_test";
     std::filesystem::remove_all(folder);
