@@ -308,10 +308,6 @@ HeldOut alone(const Outcome& f, std::size_t position, const ShrinkDraws& draws) 
     return h;
 }
 
-}  // namespace
-
-namespace {
-
 /// H is that of what is written, if that holds everywhere; separate held-out readings are decisive.
 Judgement as_written(const Outcome& f, const Written& written,
                      const records::ReadingTable* holdout) {
@@ -390,7 +386,7 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     }
     if (!options.plan_next) return d;
     if (options.watch) options.watch("the next measurement (Ctrl-C: the verdict without it)");
-    d.next = plan_next(f.prepared, pairs_of(f, claims, solution), options.plan_on);
+    d.next = plan_next(f.prepared, d.noise, pairs_of(f, claims, solution), options.plan_on);
     return d;
 }
 

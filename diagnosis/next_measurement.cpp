@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <memory>
 
 #include "diagnosis/measurements.h"
 #include "diagnosis/rules.h"
@@ -28,32 +28,47 @@ std::vector<std::string> names_of(const std::vector<identification::FitParameter
 /// A prepared measurement: rows, derivatives and base columns.
 struct Worked {
     Measurement measurement;
-    std::optional<emulator::Replay> replay;
+    std::unique_ptr<emulator::Replay> replay;  ///< at one address: the whitener refers to it
     std::vector<kinematics::Perturbation> gradient;
-    Eigen::VectorXd weight;
+    std::unique_ptr<Whitener> whitener;
     Block block;
 };
 
+Eigen::MatrixXd whitened(const Whitener& whitener, Eigen::MatrixXd columns) {
+    whitener.apply(columns);
+    return columns;
+}
+
 Worked work_out(Measurement m, const setup::Setup& setup, const effects::Catalogue& catalogue,
-                const std::vector<std::string>& effects) {
+                const std::vector<std::string>& effects, const NoiseModel& noise) {
     Worked w;
     w.measurement = std::move(m);
-    w.replay.emplace(setup, w.measurement.table);
+    w.replay = std::make_unique<emulator::Replay>(setup, w.measurement.table);
     const kinematics::ForwardModel forward(setup.machine);
     for (std::size_t i = 0; i < w.replay->size(); ++i)
         w.gradient.push_back(w.replay->gradient(i, forward, {}));
-    w.weight =
-        identification::row_noise(setup, w.measurement.table, *w.replay).sigma_mm.cwiseInverse();
+    w.whitener = std::make_unique<Whitener>(
+        *w.replay, noise_blocks(*w.replay, w.measurement.table), noise,
+        identification::row_noise(setup, w.measurement.table, *w.replay).sigma_mm);
     const identification::BaseColumns base =
         identification::base_columns(setup, *w.replay, catalogue, effects, w.gradient);
-    w.block = {names_of(base.parameters), w.weight.asDiagonal() * base.columns};
+    w.block = {names_of(base.parameters), whitened(*w.whitener, base.columns)};
     return w;
 }
 
-Eigen::MatrixXd effect_block(const emulator::Replay& replay,
-                             const std::vector<kinematics::Perturbation>& gradient,
-                             const Eigen::VectorXd& weight, const ColumnGroup& group) {
-    return weight.asDiagonal() * columns_on(replay, gradient, group);
+Eigen::MatrixXd effect_block(const Worked& w, const ColumnGroup& group) {
+    return whitened(*w.whitener, columns_on(*w.replay, w.gradient, group));
+}
+
+/// The rival with all its linear parameters, those beside its textbook form too: a prediction that
+/// gave it fewer would promise more than the measurement holds.
+ColumnGroup with_all_parameters(ColumnGroup rival) {
+    if (!rival.effect || rival.kind == GroupKind::table) return rival;
+    rival.parameters.clear();
+    for (std::size_t j = 0; j < rival.effect->parameters.size(); ++j)
+        if (!rival.effect->parameters[j].is_key()) rival.parameters.push_back(j);
+    rival.features.assign(rival.parameters.size(), 0);  // counts the columns
+    return rival;
 }
 
 /// Squared part of `target` that neither base nor rival can reproduce; base columns are matched by
@@ -104,15 +119,16 @@ class Mimic {
 constexpr double settled_margin = 1.5;
 
 NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& list,
-                         const Prepared& prepared) {
+                         const Prepared& prepared, const NoiseModel& noise) {
     const identification::BaseModel& base = prepared.base;
-    const Eigen::VectorXd weight = base.sigma_mm.cwiseInverse();
+    const Whitener whitener(prepared.replay, prepared.blocks, noise, base.sigma_mm);
     const auto columns = [&](const ColumnGroup& group) {
-        return effect_block(prepared.replay, base.gradient, weight, group);
+        return whitened(whitener, columns_on(prepared.replay, base.gradient, group));
     };
     Mimic now;
-    const Block old{names_of(base.parameters), weight.asDiagonal() * base.columns};
-    const Eigen::MatrixXd rival = columns(*pair.rival);
+    const Block old{names_of(base.parameters), whitened(whitener, base.columns)};
+    const ColumnGroup rival_group = with_all_parameters(*pair.rival);
+    const Eigen::MatrixXd rival = columns(rival_group);
     const Eigen::VectorXd target = columns(*pair.claimed) * pair.values;
     now.add(old, rival, target);
     const double before = now.left();
@@ -120,8 +136,8 @@ NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& l
     double rate = 0.0;
     for (const Worked& w : list) {
         Mimic then = now;
-        then.add(w.block, effect_block(*w.replay, w.gradient, w.weight, *pair.rival),
-                 effect_block(*w.replay, w.gradient, w.weight, *pair.claimed) * pair.values);
+        then.add(w.block, effect_block(w, rival_group),
+                 effect_block(w, *pair.claimed) * pair.values);
         const double lost = then.left(), gain = 0.5 * (lost - before);
         if (gain < 3.0) continue;
         // Degree of separation for each minute; beyond full separation there is no further benefit.
@@ -146,7 +162,7 @@ NextMeasurement best_for(const AmbiguousPair& pair, const std::vector<Worked>& l
 
 }  // namespace
 
-std::vector<NextMeasurement> plan_next(const Prepared& prepared,
+std::vector<NextMeasurement> plan_next(const Prepared& prepared, const NoiseModel& noise,
                                        const std::vector<AmbiguousPair>& pairs,
                                        const std::function<bool()>& go_on) {
     const identification::BaseModel& base = prepared.base;
@@ -157,12 +173,12 @@ std::vector<NextMeasurement> plan_next(const Prepared& prepared,
     std::vector<Worked> list;
     for (Measurement& m : ready_measurements(base.setup, end_s + 600.0)) {
         if (stopped()) return plan;
-        list.push_back(
-            work_out(std::move(m), base.setup, prepared.catalogue, base.setup.model.modelled));
+        list.push_back(work_out(std::move(m), base.setup, prepared.catalogue,
+                                base.setup.model.modelled, noise));
     }
     for (const AmbiguousPair& pair : pairs) {
         if (stopped()) break;
-        plan.push_back(best_for(pair, list, prepared));
+        plan.push_back(best_for(pair, list, prepared, noise));
     }
     std::stable_sort(plan.begin(), plan.end(),
                      [](const NextMeasurement& a, const NextMeasurement& b) {

@@ -3,6 +3,7 @@
 
 #include "diagnosis/column_group.h"
 #include "diagnosis/diagnosis.h"
+#include "diagnosis/noise.h"
 #include "diagnosis/prepare.h"
 
 namespace trunnion::diagnosis {
@@ -16,9 +17,10 @@ struct AmbiguousPair {
 
 /// For each pair, the ready measurement with the largest predicted discrimination for each minute:
 /// half the chi-squared that the rival, refitted with the base on old and new rows together, cannot
-/// reproduce, beyond the present value. Reports pairs that no measurement separates. `go_on` is
-/// called between steps; false ends the planning with the pairs completed so far.
-std::vector<NextMeasurement> plan_next(const Prepared& prepared,
+/// reproduce, beyond the present value, under the noise found in the old readings. Reports pairs
+/// that no measurement separates. `go_on` is called between steps; false ends the planning with the
+/// pairs completed so far.
+std::vector<NextMeasurement> plan_next(const Prepared& prepared, const NoiseModel& noise,
                                        const std::vector<AmbiguousPair>& pairs,
                                        const std::function<bool()>& go_on);
 

@@ -59,8 +59,8 @@ law() {
 bytes() {
   echo "## Same bytes from a Debug build"
   echo
-  tests/assurance/bytes.sh build/release/bin/trunnion build/debug/bin/trunnion > "$work/bytes.log" && state=are || state="ARE NOT"
-  echo "Outputs of $(grep -c '^same' "$work/bytes.log") commands **$state** the same, byte by byte, from a build with \`-O2 -DNDEBUG\` and one with \`-O1\` and assertions."
+  tests/assurance/bytes.sh build/release/bin/trunnion build/asan/bin/trunnion > "$work/bytes.log" && state=are || state="ARE NOT"
+  echo "Outputs of $(grep -c '^same' "$work/bytes.log") commands **$state** the same, byte by byte, from a build with \`-O2 -DNDEBUG\` and one with \`-O1\`, assertions and sanitizers."
   sed -n 's/^other/- differs:/p' "$work/bytes.log"
 }
 
@@ -144,7 +144,7 @@ for r in json.load(open(sys.argv[1])): print("| %s | %d of %d | %d |" % (r["room
   echo "    ./dev assure --only faults          # a library fails single calls of the system"
   echo "    ./dev soak SECONDS [SEED]           # laws on random programs and machines"
   echo "    ./dev assure --only law             # what run refuses, check refuses"
-  echo "    ./dev assure --only bytes           # a Debug build beside the release"
+  echo "    ./dev assure --only bytes           # a Debug build with sanitizers beside the release"
   echo "    ./dev assure --only edits           # random edits and harmless rewrites, compared"
   echo "    ./dev assure --only inventions      # each effect on each measuring program, diagnosed"
   echo "    ./dev lint tidy                     # clang-tidy on every room"
