@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <exception>
@@ -208,22 +209,33 @@ using namespace trunnion;
 
 namespace {
 
-/// Libraries end the program where memory is missing inside a noexcept function (CLI11, toml++):
-/// that is a limit, too.
+/// The only object that the two handlers below share.
+std::atomic<bool> memory_is_missing = false;
+
+void note_missing_memory() {
+    memory_is_missing = true;
+    throw std::bad_alloc();
+}
+
+/// Libraries end the program where memory is missing inside a noexcept function (CLI11, toml++,
+/// std::filesystem): that is a limit, too. Code of GCC before 13 tells the handler no exception
+/// then, so the note decides.
 [[noreturn]] void end_without_memory() {
     try {
         if (const auto failure = std::current_exception()) std::rethrow_exception(failure);
-    } catch (const std::bad_alloc&) {
-        write_error("trunnion: there is not enough memory (--max-memory, or this computer)\n");
-        std::_Exit(exit_limit);
+    } catch (const std::bad_alloc&) {  // Eigen throws without asking for more
+        memory_is_missing = true;
     } catch (...) {
     }
-    std::abort();
+    if (!memory_is_missing) std::abort();
+    write_error("trunnion: there is not enough memory (--max-memory, or this computer)\n");
+    std::_Exit(exit_limit);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    std::set_new_handler(note_missing_memory);
     std::set_terminate(end_without_memory);
     prepare_streams();
     try {

@@ -169,6 +169,19 @@ bool whole_or_absent(const Outcome& faulted, const Outcome& plain) {
 
 }  // namespace
 
+// std::filesystem ends the program when it finds no memory for the next folder of a search.
+TEST_CASE("no memory for any part of a search for programs ends no command in an abort") {
+    const FaultBench bench;
+    const std::string words = "run O77 --programs in --vars 100";
+    bench.run(words, "malloc:0");
+    const long count = bench.calls();
+    for (long call = std::max(1L, count - 700); call < count; call += 4) {
+        const Outcome faulted = bench.run(words, "malloc:" + std::to_string(call));
+        INFO("malloc " << call << "\n" << bench.read("err.txt"));
+        CHECK((faulted.code == 4 || faulted.code == 2 || faulted.code == 0));
+    }
+}
+
 TEST_CASE("no command crashes, lies or leaves halves when a call of the system fails") {
     const FaultBench bench;
     for (const std::string& words : commands) {
