@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
-# assure.sh [--seconds 60] [--mutants 20] [--out docs/assurance.md] [--only faults,soak,law,bytes,edits,inventions,tidy,fuzz,coverage,mutation]
+# assure.sh [--seconds 60] [--mutants 20] [--minutes 600] [--out docs/assurance.md] [--only faults,soak,law,bytes,edits,inventions,tidy,fuzz,coverage,mutation]
 # Long checks one after the other; what they found is printed and written as a page. Run by ./dev assure,
 # which builds what is needed.
 set -eu
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-seconds=60 mutants=20 page=docs/assurance.md only=faults,soak,law,bytes,edits,inventions,tidy,fuzz,coverage,mutation
+seconds=60 mutants=20 minutes=600 page=docs/assurance.md only=faults,soak,law,bytes,edits,inventions,tidy,fuzz,coverage,mutation
 while [ $# -gt 0 ]; do
   [ $# -ge 2 ] || { echo "assure: $1 needs a value" >&2; exit 2; }
   case $1 in
     --seconds) seconds=$2 ;;
     --mutants) mutants=$2 ;;
+    --minutes) minutes=$2 ;;
     --out) page=$2 ;;
     --only) only=$2 ;;
     *) echo "assure: unknown option $1" >&2; exit 2 ;;
@@ -122,7 +123,7 @@ mutation() {
   echo "## Mutants that the tests of a room kill"
   echo
   # shellcheck disable=SC2086
-  tests/assurance/mutate.py build/mutants $rooms --mutants "$mutants" --seed 1 \
+  tests/assurance/mutate.py build/mutants $rooms --mutants "$mutants" --minutes "$minutes" --seed 1 \
     --named tests/assurance/named_mutants.json --out "$work/mutation.json" \
     > "$work/mutation.log"
   echo "| room | mutants | killed |"

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Mutation score of rooms: changes one thing in one line, builds the room's tests, runs them.
 
-    mutate.py BUILD ROOM... [--mutants 20] [--seed 1] [--named FILE] [--out FILE]
+    mutate.py BUILD ROOM... [--mutants 20] [--seed 1] [--named FILE] [--minutes N] [--out FILE]
 
 A mutant is killed when its tests do not compile, fail, or take ten times as long. Survivors are printed with
-file, line and change. FILE holds mutants to be tried besides those drawn (JSON: file, text, instead). The source is changed in place and always put back; run it in a clone of its own.
+file, line and change. FILE holds mutants to be tried besides those drawn (JSON: file, text, instead). After N
+minutes a room is left with the mutants judged by then. The source is changed in place and always put back; run it in a clone of its own.
 """
 import argparse
 import json
@@ -79,6 +80,7 @@ def main():
     parser.add_argument("--mutants", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--named", type=pathlib.Path)
+    parser.add_argument("--minutes", type=float, default=600)
     parser.add_argument("--out", type=pathlib.Path)
     options = parser.parse_args()
     root = pathlib.Path(__file__).resolve().parents[2]
@@ -94,16 +96,19 @@ def main():
         if run([str(options.build / "bin" / f"test_{room}")], 3600) != 0:
             sys.exit(f"mutate: test_{room} fails before anything is changed")
         plain_s = time.monotonic() - start
-        survivors = []
+        survivors, judged = [], 0
         for mutant in chosen:
+            if time.monotonic() - start > 60 * options.minutes:
+                break
+            judged += 1
             verdict, text = judge(options.build, room, mutant, plain_s)
             place = f"{mutant[0].relative_to(root)}:{mutant[1] + 1}"
             print(f"{verdict:8} {place}: {text}", flush=True)
             if verdict == "survived":
                 survivors.append(f"{place}: {text}")
         run(["cmake", "--build", str(options.build), "--target", f"test_{room}"], 3600)
-        result.append({"room": room, "candidates": len(every), "mutants": len(chosen),
-                       "killed": len(chosen) - len(survivors), "survivors": survivors})
+        result.append({"room": room, "candidates": len(every), "mutants": judged,
+                       "killed": judged - len(survivors), "survivors": survivors})
     if options.out:
         options.out.write_text(json.dumps(result, indent=1) + "\n")
 
