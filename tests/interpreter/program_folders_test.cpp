@@ -60,7 +60,7 @@ TEST_CASE("a file with zero bytes is no program, whatever its lines begin with")
     const Folder folder;
     folder.write("tool", std::string("\x7f"
                                      "ELF\0\0\nO555\nM99\n",
-                                     18));
+                                     16));
     interpreter::ProgramFolders programs({folder.path.string()});
     CHECK_FALSE(programs.find(555));
     CHECK(programs.find(101));
