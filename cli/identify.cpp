@@ -20,6 +20,7 @@
 #include "cli/page_options.h"
 #include "cli/readings_command.h"
 #include "cli/shards.h"
+#include "diagnosis/store_gap.h"
 #include "effects/settings.h"
 #include "emulator/replay.h"
 #include "identification/monte_carlo.h"
@@ -153,6 +154,11 @@ int identify_command(const Options& options) {
         });
     }();
     print_notes(result.notes);
+    if (const auto gap = diagnosis::store_gap(in.setup, in.table))
+        print_notes({"the programmed points (px_mm ..) name other stores than the setup: " +
+                     diagnosis::words_of(*gap) +
+                     ". The fit is of the machine, at the positions in force; diagnose adds the "
+                     "stores"});
     std::vector<identification::Repetition> repetitions;
     if (options.runs > 0) {
         if (const auto shard = shard_of(options.shard))

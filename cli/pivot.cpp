@@ -157,6 +157,7 @@ report::PivotResult judge_readings(const PivotOptions& o, const setup::Setup& se
     std::vector<std::string> notes;
     pivot::PivotEvidence evidence;
     evidence.in_force = pivot::stores_in_force(prints, *declared, notes);
+    pivot::compare_lengths(prints, setup.stores.tools, notes);
     print_notes(notes);
     evidence.known = without_rotary_errors(setup.machine);
     evidence.sphere_mm = prints.sphere_mm();

@@ -40,10 +40,11 @@ HeldOut both(const HeldOut& machine, const Excess& excess) {
     return h;
 }
 
-std::string store_words(const std::vector<StoreChange>& changes, EffectKind kind) {
+std::string store_words(const std::vector<StoreChange>& changes,
+                        std::optional<EffectKind> kind = {}) {
     std::string words;
     for (const StoreChange& c : changes)
-        if (c.kind == kind)
+        if (!kind || c.kind == *kind)
             words += fmt::format("{}{} is {:.4f} in force, {:.4f} in the setup",
                                  words.empty() ? "" : "; ", c.store.name,
                                  c.store.value_mm + c.change_mm, c.store.value_mm);
@@ -135,6 +136,11 @@ void add_vector(const std::vector<double>& more, std::vector<double>& list) {
 }
 
 }  // namespace
+
+std::string words_of(const StoreGap& gap) {
+    return gap.changes.empty() ? "no store explains the positions of these points"
+                               : store_words(gap.changes);
+}
 
 void add_store_gap(const setup::Setup& setup, const StoreGap& gap,
                    const records::ReadingTable* holdout, Diagnosis& d) {

@@ -41,6 +41,9 @@ std::optional<StoreGap> store_gap(const setup::Setup& setup, const records::Read
 std::vector<double> points_um(const setup::Setup& setup, const records::ReadingTable& table);
 double mean_square_of(const std::vector<double>& values);
 
+/// "G54 X is .. in force, .. in the setup": one line for a command that fits the machine only.
+std::string words_of(const StoreGap& gap);
+
 /// The setup with the stores in force.
 setup::Setup with_stores(setup::Setup setup, const StoreGap& gap);
 

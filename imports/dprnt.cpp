@@ -70,6 +70,7 @@ class PrintedRun {
     void end(const PrintedLine& line);
     void store(const PrintedLine& line);
     void take_store(const setup::StoreNumber& declared, double printed_mm);
+    void take_length(const PrintedLine& line);
     void test(const PrintedLine& line);
     void positions(const PrintedLine& line);
     void at(const PrintedLine& line);
@@ -105,6 +106,7 @@ class PrintedRun {
     std::string test_;
     std::optional<AxisPositions> stands_;
     std::optional<setup::RotaryStores> declared_, in_force_;
+    std::optional<double> length_mm_;  ///< of the probe, if it is not the declared one
     setup::ProgrammedPoint meant_;
     double unit_mm_ = 1.0, time_s_ = 0.0;
     std::size_t touches_ = 0, tests_ = 0;
@@ -177,6 +179,7 @@ void PrintedRun::head(const PrintedLine& line) {
     shop_ = {};
     begin_modes();
     in_force_ = declared_;
+    length_mm_.reset();
     meant_ = setup::ProgrammedPoint(setup_, declared_);
 }
 
@@ -195,6 +198,16 @@ void PrintedRun::take_store(const setup::StoreNumber& declared, double printed_m
                         file_.path, declared.name, printed_mm, declared.value_mm));
 }
 
+/// The program prints the offset that it uses for the probe.
+void PrintedRun::take_length(const PrintedLine& line) {
+    const double declared_mm = setup::probe_length_mm(setup_), printed_mm = line.number_behind('V');
+    if (std::abs(printed_mm - declared_mm) <= store_digits_mm) return;
+    length_mm_ = printed_mm;
+    notes_.push_back(
+        fmt::format("{}: H{:g} was {:.4f} when the program ran, the setup declares {:.4f}",
+                    file_.path, line.number_behind('H'), printed_mm, declared_mm));
+}
+
 void PrintedRun::store(const PrintedLine& line) {
     const std::string_view rest = line.text.substr(std::min<std::size_t>(6, line.text.size()));
     if (rest.starts_with("INCH")) {
@@ -202,13 +215,14 @@ void PrintedRun::store(const PrintedLine& line) {
         return;
     }
     if (!declared_) return;
+    if (rest.starts_with("H")) take_length(line);
     for (const setup::StoreNumber& n : setup::store_numbers(*declared_)) {
         if (n.parameter == 0 && rest.starts_with("G54 "))
             take_store(n, line.number_behind("XYZ"[n.component]));
         if (n.parameter != 0 && rest.starts_with(fmt::format("N{} ", n.parameter)))
             take_store(n, unit_mm_ * line.number_behind('V'));
     }
-    meant_ = setup::ProgrammedPoint(setup_, in_force_);
+    meant_ = setup::ProgrammedPoint(setup_, in_force_, length_mm_);
 }
 
 void PrintedRun::test(const PrintedLine& line) {

@@ -101,6 +101,9 @@ class PrintReader {
     void line(const PrintedLine& line);
     void head(const PrintedLine& line, const std::vector<std::string_view>& words);
     void store(const PrintedLine& line, const std::vector<std::string_view>& words);
+    void length(const PrintedLine& line);
+    static void keep(const PrintedLine& line, int number, double value_mm,
+                     std::map<int, double>& values_mm);
     void result(const PrintedLine& line, const std::string& function, std::string_view word);
     void point(const PrintedLine& line, FunctionRun& run, std::string_view word);
     void check(const std::string& function, const FunctionRun& run) const;
@@ -162,11 +165,21 @@ void PrintReader::store(const PrintedLine& line, const std::vector<std::string_v
             dates_.insert(date);
         return;
     }
+    if (words[1][0] == 'H') return length(line);
     const int number = std::atoi(std::string(words[1].substr(1)).c_str());
     if (words[1][0] != 'N' || number < 19700 || number > 19714)
-        line.refuse("STORE wants G54, INCH, DATE or N19700 to N19714");
-    const double value_mm = unit_mm_ * line.value('V', 6);
-    const auto [old, fresh] = prints_.parameters_mm.try_emplace(number, value_mm);
+        line.refuse("STORE wants G54, H, INCH, DATE or N19700 to N19714");
+    keep(line, number, unit_mm_ * line.value('V', 6), prints_.parameters_mm);
+}
+
+/// "STORE H1 V..", with blanks for leading zeros: geometry plus wear of an offset, in mm (G21).
+void PrintReader::length(const PrintedLine& line) {
+    keep(line, static_cast<int>(line.value('H', 6)), line.value('V', 6), prints_.lengths_mm);
+}
+
+void PrintReader::keep(const PrintedLine& line, int number, double value_mm,
+                       std::map<int, double>& values_mm) {
+    const auto [old, fresh] = values_mm.try_emplace(number, value_mm);
     if (!fresh && std::abs(old->second - value_mm) > 1e-6)
         line.refuse(
             fmt::format("{} changed between two programs: run all of them with the same "
@@ -288,6 +301,20 @@ setup::RotaryStores stores_in_force(const PivotPrints& prints, const setup::Rota
                             n.name, *printed_mm, n.value_mm));
     }
     return stores;
+}
+
+void compare_lengths(const PivotPrints& prints, const offsets::ToolOffsets& declared,
+                     std::vector<std::string>& notes) {
+    for (const auto& [number, printed_mm] : prints.lengths_mm) {
+        const auto n = static_cast<std::size_t>(number);
+        const double declared_mm =
+            number > 0 && n < declared.tool.size() ? declared.tool[n].length_mm() : 0.0;
+        if (std::abs(printed_mm - declared_mm) > 1e-6)
+            notes.push_back(fmt::format(
+                "H{} was {:.4f} when the programs ran, the setup has {:.4f}: on a head the "
+                "difference acts as an error of the pivot",
+                number, printed_mm, declared_mm));
+    }
 }
 
 }  // namespace trunnion::pivot

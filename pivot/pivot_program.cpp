@@ -275,7 +275,7 @@ std::string common_program(const PivotPlan& plan) {
                                 {"H", fmt::format("{}", plan.tool_offset)},
                                 {"1", std::string(1, letter_of(plan.first()))},
                                 {"2", std::string(1, letter_of(plan.second()))},
-                                {"STORES", setup::store_prints(plan.stores, plan.hurco)},
+                                {"STORES", setup::store_prints(plan.stores, plan.hurco, "#506")},
                                 {"MAPS", maps_text(plan)}});
 }
 

@@ -15,11 +15,9 @@ std::optional<RotaryStores> stores_of(const Setup& setup) {
     }
 }
 
-/// The offset of the probe; the physical length where the control has none.
+/// By the offset of the probe; its physical length where the control has none.
 Vector3 believed_tool_mm(const Setup& setup, const Vector3& along) {
-    const auto number = static_cast<std::size_t>(probe_offset(*setup.probe));
-    const auto& tools = setup.stores.tools.tool;
-    const double length_mm = number < tools.size() ? tools[number].length_mm() : 0.0;
+    const double length_mm = probe_length_mm(setup);
     return length_mm > 0.0 ? Vector3(length_mm * along) : Vector3(-setup.probe->tip_S_mm);
 }
 
@@ -33,10 +31,19 @@ int probe_offset(const ProbeSettings& probe) {
     return probe.tool > 0 ? probe.tool : 1;
 }
 
-ProgrammedPoint::ProgrammedPoint(const Setup& setup, const std::optional<RotaryStores>& stores)
+double probe_length_mm(const Setup& setup) {
+    const auto number = static_cast<std::size_t>(probe_offset(*setup.probe));
+    const auto& tools = setup.stores.tools.tool;
+    return number < tools.size() ? tools[number].length_mm() : 0.0;
+}
+
+ProgrammedPoint::ProgrammedPoint(const Setup& setup, const std::optional<RotaryStores>& stores,
+                                 std::optional<double> length_mm)
     : stores_(stores) {
     if (!setup.probe) stores_.reset();
-    if (stores_) tool_mm_ = believed_tool_mm(setup, stores_->pivot.tool_direction);
+    if (!stores_) return;
+    const Vector3& along = stores_->pivot.tool_direction;
+    tool_mm_ = length_mm ? Vector3(*length_mm * along) : believed_tool_mm(setup, along);
 }
 
 ProgrammedPoint::ProgrammedPoint(const Setup& setup) : ProgrammedPoint(setup, stores_of(setup)) {}

@@ -11,13 +11,16 @@ namespace trunnion::setup {
 
 /// Offset number of the probe: that of its own tool, 1 where every tool may be the probe.
 int probe_offset(const ProbeSettings& probe);
+/// Length in that offset, mm. The setup has a probe.
+double probe_length_mm(const Setup& setup);
 
 /// Axis positions of a probe (mm, rad) as the stores read them.
 class ProgrammedPoint {
   public:
     /// `stores`: those in force; without them no point is known. `setup`: the length of the probe
-    /// as the control believes it.
-    ProgrammedPoint(const Setup& setup, const std::optional<RotaryStores>& stores);
+    /// as the control believes it; `length_mm` instead of it, if known.
+    ProgrammedPoint(const Setup& setup, const std::optional<RotaryStores>& stores,
+                    std::optional<double> length_mm = {});
     /// With the stores of the setup.
     explicit ProgrammedPoint(const Setup& setup);
 

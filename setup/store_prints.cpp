@@ -4,11 +4,15 @@
 
 namespace trunnion::setup {
 
-std::string store_prints(const RotaryStores& stores, bool hurco) {
+std::string store_prints(const RotaryStores& stores, bool hurco, const std::string& probe_offset) {
     std::string text =
         "#7=#5201+#5221\n#8=#5202+#5222\n#9=#5203+#5223\n"
         "DPRNT[STORE*G54*X#7[47]*Y#8[47]*Z#9[47]]\n"
         "#7=PRM[1001,0]\nDPRNT[STORE*INCH*#7[10]]\n";
+    // The sum is the same whichever of the two ranges is the wear (6000#3).
+    if (!probe_offset.empty())
+        text += fmt::format("#8={}\n#7=#[10000+#8]+#[11000+#8]\nDPRNT[STORE*H#8[30]*V#7[47]]\n",
+                            probe_offset);
     if (hurco) return text;
     for (const StoreNumber& n : store_numbers(stores))
         if (n.parameter != 0)

@@ -237,3 +237,22 @@ TEST_CASE("pivot: a file that is read is never written") {
     for (const char* option : {" --html ", " --print "})
         bench.refuses(prints, "would overwrite", option + bench.file("bad.txt"));
 }
+
+TEST_CASE("identify notes the stores that the programmed points of its readings name",
+          "[cli][pivot]") {
+    const Bench bench;
+    const std::string shipped = machines + "bc_table.toml";
+    REQUIRE(bench.trunnion("run 8003 --print " + bench.file("p.txt")) == 0);
+    REQUIRE(bench.trunnion("import dprnt " + bench.file("p.txt") + " --setup " + shipped +
+                           " --out " + bench.file("r.csv")) == 0);
+    const std::string other =
+        bench.write("other.toml", replaced(whole(shipped), "19700 = 0.1443", "19700 = 0.2"));
+    const auto notes_with = [&](const std::string& setup) {
+        REQUIRE(bench.trunnion("identify " + bench.file("r.csv") + " --setup " + setup +
+                               " --effects C.backlash") == 0);
+        return bench.read("err.txt");
+    };
+    CHECK(notes_with(shipped).find("px_mm") == std::string::npos);
+    CHECK(notes_with(other).find("19700 is 0.1443 in force, 0.2000 in the setup") !=
+          std::string::npos);
+}

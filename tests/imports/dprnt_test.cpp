@@ -1,4 +1,6 @@
 // What the measuring programs print comes in as the readings of the run: shipped and planned ones.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <memory>
@@ -9,6 +11,7 @@
 #include "imports/import.h"
 #include "interpreter/program_folders.h"
 #include "records/readings.h"
+#include "setup/programmed_point.h"
 #include "setup/right_stores.h"
 #include "tests/pivot/pivot_bench.h"
 
@@ -218,6 +221,35 @@ TEST_CASE("one touch by hand: value, place, direction, and a store that is not t
     REQUIRE(result.notes.size() == 1);
     CHECK_THAT(result.notes[0], Catch::Contains("19700 was 0.2000 when the program ran, the setup "
                                                 "declares 0.1443"));
+}
+
+TEST_CASE("the printed length of the probe is the one in force", "[imports][dprnt]") {
+    setup::Setup setup = machine("bc_table.toml");
+    const double declared_mm = setup::probe_length_mm(setup);
+    const auto read = [&](double length_mm) {
+        const imports::Imported result = imported(
+            setup,
+            with(good, "TEST DPP", fmt::format("STORE H   1 V {:.4f}\nTEST DPP", length_mm)));
+        std::vector<std::string> notes;
+        const auto rows = records::parse_readings(result.readings, "r.csv", notes).rows;
+        return std::pair{result.notes.size(), rows.back().point_W_mm.value()};
+    };
+    const auto [notes, point_mm] = read(declared_mm);
+    const auto [more, longer_mm] = read(declared_mm + 0.25);
+    CHECK(notes == 1);  // of 19700
+    CHECK(more == 2);
+    CHECK((longer_mm - point_mm - Vector3(0, 0, -0.25)).norm() < 1e-9);
+}
+
+TEST_CASE("each program that probes prints the length of its probe", "[imports][dprnt]") {
+    setup::Setup setup = machine("bc_table.toml");
+    setup.stores.tools.tool[1].length_geometry_mm = 149.5;
+    setup.stores.tools.tool[1].length_wear_mm = 0.5;
+    interpreter::ProgramFolders source({root + "/programs", root + "/programs/pivot"});
+    const std::string line = "STORE H   1 V  150.0000000";
+    CHECK_THAT(run(setup, source, 8001).printed, Catch::Contains(line));
+    for (const diagnosis::Measurement& m : diagnosis::ready_measurements(setup, 0.0))
+        CHECK_THAT(m.program, Catch::Contains("DPRNT[STORE*H#8[30]*V#7[47]]"));
 }
 
 TEST_CASE("one file of prints may hold several runs, each with a clock of its own",

@@ -236,6 +236,27 @@ TEST_CASE("stores in force come from the prints, and a difference is said") {
     CHECK(notes[0].find("19704") != std::string::npos);
 }
 
+TEST_CASE("a printed length of the probe that is not the declared one is noted") {
+    SeededNoise noise(9);
+    const Case c = random_case("bc_table.toml", noise, pivot::PivotGroup::g54, 0.1);
+    const std::string head = "STORE H   1 V  150.2000000\n";
+    const auto prints_of = [](const std::string& text) {
+        return pivot::parse_pivot_prints({{"p", text}}, Axis::B, Axis::C);
+    };
+    offsets::ToolOffsets declared;
+    declared.tool[1].length_geometry_mm = 150.0;
+    declared.tool[1].length_wear_mm = 0.2;
+    std::vector<std::string> notes;
+    pivot::compare_lengths(prints_of(head + c.printed), declared, notes);
+    CHECK(notes.empty());
+    declared.tool[1].length_wear_mm = -0.2;
+    pivot::compare_lengths(prints_of(head + c.printed), declared, notes);
+    REQUIRE(notes.size() == 1);
+    CHECK(notes[0].find("H1 was 150.2000") != std::string::npos);
+    CHECK(refusal(head + "STORE H1 V150.3\n" + c.printed).find("1 changed between two programs") !=
+          std::string::npos);
+}
+
 TEST_CASE("the day of the measurement comes from the clock that the programs print") {
     SeededNoise noise(12);
     const std::string good =
