@@ -56,6 +56,18 @@ void at_end(const Followed& state, const interpreter::Block& block, Findings& fi
                      "Cancel it with G69 before M30.");
 }
 
+void refuse_code(const CheckOptions& options, int code10, BlockPlace place, Findings& findings) {
+    const std::string option = options.missing_option ? options.missing_option(code10) : "";
+    const std::string name = name_of_code(code10);
+    if (option.empty())
+        findings.add("unknown-code", Severity::error, place, "this control has no " + name,
+                     "Use a code of this control, or map it to a program (parameters 6050-6059).");
+    else
+        findings.add("unknown-code", Severity::error, place,
+                     fmt::format("{} ({}) is an option that is not emulated", name, option),
+                     "Leave it out, or map it to a program (parameters 6050-6059).");
+}
+
 }  // namespace
 
 void check_codes(const CheckSection& section, const CheckOptions& options, Findings& findings) {
@@ -70,10 +82,7 @@ void check_codes(const CheckSection& section, const CheckOptions& options, Findi
             if (!value) continue;
             const int code = code10_of(*value);
             if (options.knows_g && !options.knows_g(code))
-                findings.add(
-                    "unknown-code", Severity::error, {*block, item.column},
-                    "this control has no " + name_of_code(code),
-                    "Use a code of this control, or map it to a program (parameters 6050-6059).");
+                refuse_code(options, code, {*block, item.column}, findings);
             for (const Effect& e : effects)
                 if (e.code10 == code && !(hurco && e.state == &Followed::tool_centre))
                     state.*e.state = e.on;

@@ -23,6 +23,7 @@
 #include "controller/code_calls.h"
 #include "controller/g_codes.h"
 #include "controller/hurco_codes.h"
+#include "controller/missing_codes.h"
 #include "emulator/run.h"
 #include "inputs/program_choice.h"
 #include "inputs/shipped.h"
@@ -95,6 +96,11 @@ class SetupRules {
         out.dialect = setup_.dialect;
         out.arc_centres_are_places =
             setup_.hurco.bnc && setup_.dialect.family == interpreter::DialectFamily::hurco;
+        out.missing_option = [this](int code10) {
+            const bool fanuc = setup_.dialect.family == interpreter::DialectFamily::fanuc;
+            const char* option = fanuc ? controller::missing_option(code10) : nullptr;
+            return std::string(option ? option : "");
+        };
         out.knows_g = [this](int code10) {
             return knows_g(setup_, code10) || cli::calls_program(calls_, 'G', code10);
         };

@@ -1,9 +1,13 @@
 #include "controller/word_sorting.h"
 
+#include <fmt/format.h>
+
 #include <bit>
+#include <cmath>
 
 #include "controller/alarms.h"
 #include "controller/hurco_codes.h"
+#include "controller/missing_codes.h"
 #include "interpreter/word_rules.h"
 
 namespace trunnion::controller {
@@ -46,9 +50,19 @@ void drop_cycle(SortedWords& w) {
     w.code_count = kept;
 }
 
+[[noreturn]] void refuse_g(const ControlSettings& settings, const interpreter::WordValue& word) {
+    const double tenfold = word.value * 10.0;
+    const bool small = tenfold >= 0.0 && tenfold < 1e4;
+    const char* option = settings.is_hurco() || !small
+                             ? nullptr
+                             : missing_option(static_cast<int>(std::lround(tenfold)));
+    if (!option) raise_alarm(10, word.column);
+    raise_alarm(10, fmt::format("({}: an option that is not emulated)", option), word.column);
+}
+
 void add_g(SortedWords& w, const ControlSettings& settings, const interpreter::WordValue& word) {
     const GCode* code = find_g_code(word.value, settings);
-    if (!code) raise_alarm(10, word.column);
+    if (!code) refuse_g(settings, word);
     if (code->phase != Phase::motion) return add_code(w, settings, code, word.column);
     if (w.motion && settings.duplicates_alarm) raise_alarm(5074, word.column);
     drop_cycle(w);  // G81 G0: the cycle is not executed

@@ -116,6 +116,17 @@ TEST_CASE("a code of this control, or of its builder, is no sign of a Haas", "[c
     CHECK(check::check_program({"p.nc", *lamp, lamp}, options).empty());
 }
 
+TEST_CASE("a code of an option that is not emulated is named", "[check]") {
+    check::CheckOptions options;
+    options.knows_g = [](int code10) { return code10 != 62 && code10 != 7770; };
+    options.missing_option = [](int code10) { return code10 == 62 ? "NURBS interpolation" : ""; };
+    const auto owner = std::make_shared<const std::string>("O1\nG6.2\nG777\nM30\n");
+    const auto findings = check::check_program({"p.nc", *owner, owner}, options);
+    REQUIRE(findings.size() == 2);
+    CHECK(findings[0].text == "G6.2 (NURBS interpolation) is an option that is not emulated");
+    CHECK(findings[1].text == "this control has no G777");
+}
+
 TEST_CASE("text has a line for each finding, with place and rule, and the remedy below",
           "[check]") {
     const auto findings = check_text("O1\nGOTO 50\nG777\nM30\n");
