@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/units.h"
+#include "probe/cylinders.h"
 
 namespace trunnion::emulator {
 
@@ -43,6 +44,14 @@ class OnMove {
         return state.poses.pose_MW.inverse() * (state.poses.pose_MS * tip_S) -
                state.extra.work_shift_mm;
     }
+    /// The tool in the frame of the body.
+    probe::Cylinder tool_B(double s, const Pose& pose_BW) const {
+        const kinematics::MachinePose poses = observer_.at(sample(s), contact_).poses;
+        const Vector3 axis_W =
+            poses.pose_MW.rotation.transpose() * (poses.pose_MS.rotation * Vector3::UnitZ());
+        return {pose_BW * middle_W_mm(s), (pose_BW.rotation * axis_W).normalized(),
+                feeler_.length_mm, feeler_.radius_mm};
+    }
     /// Pretravel delays the skip signal by this fraction of the move.
     double later(double s, const setup::Body& body) const {
         if (length_mm_ == 0.0) return 0.0;
@@ -80,38 +89,48 @@ Feeler feeler_of(const setup::PhysicalTool& tool, const motion::AxisMove& move,
     return {tool.tip_S_mm(spindle_rad, turns), tool.radius_mm(turns), tool.length_mm};
 }
 
-std::vector<probe::Solid> solids_of(const setup::Body& body, const Feeler& feeler) {
+std::vector<probe::Solid> solids_of(const setup::Body& body) {
     const double radius = 0.5 * body.diameter_mm;
     const Vector3 half(0.5 * body.size_mm.x(), 0.5 * body.size_mm.y(), 0.0);
     const Vector3 low(0.0, 0.0, -body.height_mm);
-    if (feeler.is_tool() && body.kind != setup::Body::Kind::setter) return {};
     switch (body.kind) {
         case setup::Body::Kind::block:
             return {box({-half.x(), -half.y(), -body.size_mm.z()}, half)};
         case setup::Body::Kind::pocket: return walls(body);
-        case setup::Body::Kind::boss: return {{true, low, Vector3::Zero(), 0.0, radius}};
+        case setup::Body::Kind::boss:
+        case setup::Body::Kind::setter: return {{true, low, Vector3::Zero(), 0.0, radius}};
         case setup::Body::Kind::ring:
             return {{true, low, Vector3::Zero(), radius, radius + body.wall_mm}};
-        case setup::Body::Kind::setter: {
-            const double wider_mm = feeler.is_tool() ? feeler.radius_mm : 0.0;
-            const Vector3 reach(0.0, 0.0, -body.height_mm - feeler.length_mm);
-            return {{true, reach, Vector3::Zero(), 0.0, radius + wider_mm}};
-        }
     }
     return {};
 }
 
+namespace {
+
+std::optional<double> contact_of_ball(const OnMove& on, const setup::Body& body, double radius_mm) {
+    const Pose pose_BW = body.pose_WB().inverse();
+    return probe::first_contact(
+        solids_of(body), [&](double s) { return Vector3(pose_BW * on.middle_W_mm(s)); }, radius_mm);
+}
+
+/// A tool meets setters alone.
+std::optional<double> contact_of_tool(const OnMove& on, const setup::Body& body) {
+    if (body.kind != setup::Body::Kind::setter) return std::nullopt;
+    const Pose pose_BW = body.pose_WB().inverse();
+    const probe::Cylinder disc{Vector3(0.0, 0.0, -body.height_mm), Vector3::UnitZ(), body.height_mm,
+                               0.5 * body.diameter_mm};
+    return probe::first_contact(disc, [&](double s) { return on.tool_B(s, pose_BW); });
+}
+
+}  // namespace
+
 std::optional<BodyTouch> touch_bodies(const motion::AxisMove& move, const AxisSample& start,
                                       const Feeler& feeler, const Observer& observer) {
     const OnMove on(move, start, feeler, observer);
-    const double ball_mm = feeler.is_tool() ? 0.0 : feeler.radius_mm;
     std::optional<BodyTouch> first;
     for (const setup::Body& body : observer.setup().bodies) {
-        const Pose pose_BW = body.pose_WB().inverse();
-        const std::vector<probe::Solid> solids = solids_of(body, feeler);
-        if (solids.empty()) continue;
-        const auto s = probe::first_contact(
-            solids, [&](double t) { return Vector3(pose_BW * on.middle_W_mm(t)); }, ball_mm);
+        const auto s = feeler.is_tool() ? contact_of_tool(on, body)
+                                        : contact_of_ball(on, body, feeler.radius_mm);
         if (s && (!first || *s < first->contact_s)) first = {{*s, *s, &body}};
     }
     if (!first) return first;

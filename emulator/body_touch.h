@@ -21,10 +21,8 @@ Feeler stylus_of(const setup::ProbeSettings& probe);
 /// A tool turns when its move has a spindle speed.
 Feeler feeler_of(const setup::PhysicalTool& tool, const motion::AxisMove& move, double spindle_rad);
 
-/// The solids of a body that the middle of the feeler meets, in its own frame. A tool meets setters
-/// alone; its axis is taken as parallel to the setter's, which then is larger by its radius and
-/// reaches down by its length.
-std::vector<probe::Solid> solids_of(const setup::Body& body, const Feeler& feeler);
+/// The solids of a body in its own frame, for a ball.
+std::vector<probe::Solid> solids_of(const setup::Body& body);
 
 /// A contact with a body.
 struct BodyTouch {

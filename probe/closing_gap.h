@@ -20,9 +20,9 @@ template <class Way>
 double speed_bound(const Way& way) {
     constexpr int samples = 32;
     double most = 0.0;
-    Vector3 last = way(0.0);
+    auto last = way(0.0);
     for (int i = 1; i <= samples; ++i) {
-        const Vector3 next = way(static_cast<double>(i) / samples);
+        const auto next = way(static_cast<double>(i) / samples);
         most = std::max(most, (next - last).norm() * samples);
         last = next;
     }
@@ -61,8 +61,9 @@ double root(const Gap& gap, const Bracket& bracket, double width) {
 
 /// The first s in [0, 1] at which `clearance_mm(way(s))` is zero, accurate to 1e-9 mm of path; 0
 /// when it is not positive at the start; empty when it remains positive. `way` returns a point in
-/// mm. `clearance_mm` must change by no more than the point moves (true for a distance minus a
-/// radius). Contacts less than 1e-6 mm deep may be missed.
+/// mm, or several below one another. `clearance_mm` must change by no more than the point moves
+/// (true for a distance minus a radius), or all of them together. Contacts less than 1e-6 mm deep
+/// may be missed.
 template <class Way, class Clearance>
 std::optional<double> first_closing(const Way& way, const Clearance& clearance_mm) {
     const auto gap = [&](double s) { return clearance_mm(way(s)); };
