@@ -64,6 +64,22 @@ void check_block_words(const interpreter::ParsedProgram& program, const interpre
             "Correct the word.");
 }
 
+/// A dwell of `P10.` is 10 s on a Haas or LinuxCNC; a Fanuc takes no point there.
+void check_dwell(const interpreter::ParsedProgram& program, const interpreter::Block& block,
+                 const CheckOptions& options, Findings& findings) {
+    if (options.dialect.family != interpreter::DialectFamily::fanuc ||
+        !has_code(program, block, 'G', 40) || findings.has_error(block.line))
+        return;
+    for (const interpreter::Item& item : program.items(block))
+        if (item.kind == interpreter::ItemKind::word && item.letter == 'P' && item.decimal_point &&
+            item.a.count == 0)
+            findings.add("dwell-point", Severity::warning, {block, item.column},
+                         fmt::format("G4 P{:g}. is {:g} ms here: a Fanuc takes P without a decimal "
+                                     "point, other controls read seconds",
+                                     item.value, item.value),
+                         "Write milliseconds without a point, or seconds as X.");
+}
+
 /// Alarms 115 and 116 of a variable number.
 int variable_alarm(int number, bool writes, const CheckOptions& options) {
     if (number == 0) return writes ? 116 : 0;
@@ -128,6 +144,7 @@ std::optional<ConstantWords> constant_words(const interpreter::ParsedProgram& pr
 void check_words(const CheckSection& section, const CheckOptions& options, Findings& findings) {
     for (const interpreter::Block* block : section.blocks) {
         check_block_words(*section.program, *block, options, findings);
+        check_dwell(*section.program, *block, options, findings);
         if (block->kind == interpreter::BlockKind::computed ||
             block->kind == interpreter::BlockKind::statements ||
             block->kind == interpreter::BlockKind::program)

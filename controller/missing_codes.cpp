@@ -12,7 +12,8 @@ struct MissingCode {
     const char* text;
 };
 
-/// Their meaning is quoted from memory (assumed); it stands in messages only. All of them move axes
+/// Up to G10.9 as in a public list of the 30i's codes (docs/sources.md), the others quoted from
+/// memory (assumed); the meaning stands in messages only. All of them move axes
 /// or frames in a way that is not emulated, so none may pass without effect.
 constexpr MissingCode options[] = {
     {22, "involute interpolation"},
