@@ -25,6 +25,7 @@ const std::vector<CheckRule>& check_rules() {
         {"unreachable", "Blocks that never run"},
         {"left-on", "A five-axis function is still on at the end"},
         {"word", "A word holds what the control does not take"},
+        {"modal-group", "#4012 is read: some controls have G54-G59 there"},
         {"dwell-point", "A dwell in P with a decimal point"},
         {"variable", "A variable that does not exist or cannot be written"},
         {"tcp-frame", "G43.4 behind an indexing: its frame depends on tcp_frame"},

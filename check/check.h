@@ -66,6 +66,8 @@ struct CheckOptions {
     interpreter::Dialect dialect;
     /// True when the control has this G code (434 is G43.4). Empty: not checked.
     std::function<bool(int code10)> knows_g;
+    /// #4012 reads the work offset, not G66 and G67.
+    bool work_offset_is_group_12 = false;
     /// Name of an option with this code that other controls have; empty: none.
     std::function<std::string(int code10)> missing_option;
     /// True for an M code of the builder's profile. Empty: none is.

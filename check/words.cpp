@@ -80,6 +80,15 @@ void check_dwell(const interpreter::ParsedProgram& program, const interpreter::B
                          "Write milliseconds without a point, or seconds as X.");
 }
 
+void check_group(int number, BlockPlace place, const CheckOptions& options, Findings& findings) {
+    if (options.work_offset_is_group_12 || (number != 4012 && number != 4212 && number != 4412))
+        return;
+    findings.add(
+        "modal-group", Severity::warning, place,
+        fmt::format("#{} reads G66 or G67 here; on some controls it is the work offset", number),
+        "For G54-G59 read the number 2 higher, or set [control] work_offset_is_group_12.");
+}
+
 /// Alarms 115 and 116 of a variable number.
 int variable_alarm(int number, bool writes, const CheckOptions& options) {
     if (number == 0) return writes ? 116 : 0;
@@ -108,8 +117,10 @@ void check_variables(const interpreter::ParsedProgram& program, const interprete
                 item.kind == interpreter::ItemKind::setvn)
                 continue;
             for (const interpreter::Op& op : program.expression(span))
-                if (op.code == interpreter::OpCode::system)
+                if (op.code == interpreter::OpCode::system) {
                     check_variable(op.number, false, {block, op.column}, options, findings);
+                    check_group(op.number, {block, op.column}, options, findings);
+                }
         }
         if (item.kind == interpreter::ItemKind::assign && item.b.count == 0)
             check_variable(whole_of(item.value), true, {block, item.column}, options, findings);

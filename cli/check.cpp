@@ -96,6 +96,7 @@ class SetupRules {
         out.dialect = setup_.dialect;
         out.arc_centres_are_places =
             setup_.hurco.bnc && setup_.dialect.family == interpreter::DialectFamily::hurco;
+        out.work_offset_is_group_12 = setup_.work_offset_is_group_12;
         out.missing_option = [this](int code10) {
             const bool fanuc = setup_.dialect.family == interpreter::DialectFamily::fanuc;
             const char* option = fanuc ? controller::missing_option(code10) : nullptr;

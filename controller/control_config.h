@@ -31,6 +31,8 @@ struct ControlConfig {
     std::vector<ClampCode> clamps;
     /// #5041.. and #5061.. include the tool length (assumed: docs/control.md, own choices).
     bool work_positions_with_length = true;
+    /// #4012 reads G54-G59 and #4014 G66 G67, as on a control that numbers these groups so.
+    bool work_offset_is_group_12 = false;
     /// G89 under G98: feeds all the way out to the initial level, as in the reference paths. False:
     /// feeds to R, then rapid, like G85 (Fanuc's drawing, from memory).
     bool g89_feeds_to_initial = true;

@@ -2,12 +2,24 @@
 
 namespace trunnion::controller {
 
+namespace {
+
+/// The group that a number from #4001 on reads.
+int group_of(int n, const Modal& modal) {
+    constexpr int calls = static_cast<int>(ModalGroup::macro_call),
+                  offsets = static_cast<int>(ModalGroup::work_offset);
+    if (!modal.settings.work_offset_is_group_12 || (n != calls && n != offsets)) return n;
+    return n == calls ? offsets : calls;
+}
+
+}  // namespace
+
 std::optional<double> modal_variable(int number, const Modal& modal, const ProgramPlace& place) {
     if (number < 4001 || number > 4599) return std::nullopt;
     const int n = (number - 4001) % 200 + 1;
     if (n > 130) return std::nullopt;
     if (n < static_cast<int>(modal_group_count))
-        return modal.codes.code10[static_cast<std::size_t>(n)] / 10.0;
+        return modal.codes.code10[static_cast<std::size_t>(group_of(n, modal))] / 10.0;
     switch (n) {
         case 107: return modal.number.radius;
         case 109: return modal.block.feed.programmed;

@@ -101,6 +101,7 @@ ControlSettings decode_settings(const offsets::Parameters& parameters,
     s.radius_is_diameter = parameters.bit(5004, 2);
     s.cutter = decode_cutter(parameters);
     s.work_positions_with_length = config.work_positions_with_length;
+    s.work_offset_is_group_12 = config.work_offset_is_group_12;
     s.wear_first = parameters.bit(6000, 3);
     s.least_surface_rpm = parameters.get(3771);
     if (const double most = parameters.get(3772); most > 0.0) s.most_rpm = most;

@@ -48,6 +48,7 @@ struct ControlSettings {
     bool radius_is_diameter = false;         ///< 5004#2 ODI: D holds diameters
     cutter::CutterSettings cutter;           ///< 5003, 19607, 19625
     bool work_positions_with_length = true;  ///< #5041, #5061 include length (own option, see docs)
+    bool work_offset_is_group_12 = false;    ///< exchanges #4012 and #4014 (own option)
     bool wear_first = false;                 ///< 6000#3 V15: #2001 geometry instead of wear
     std::uint16_t rollover = 0;              ///< 1008#0 ROA by axis letter bit
     std::uint16_t rollover_signed = 0;       ///< 1008#1 RAB: such an axis turns by the word's sign

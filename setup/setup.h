@@ -145,6 +145,7 @@ struct Setup {
     positioning::TcpFrame tcp_frame =
         positioning::TcpFrame::start;           ///< [control] tcp_frame = "start" or "rotary_zero"
     bool work_positions_with_length = true;     ///< #5041.. and #5061.. include the tool length
+    bool work_offset_is_group_12 = false;       ///< #4012 reads G54-G59, #4014 G66 G67
     bool g89_feeds_to_initial = true;           ///< G89 under G98 feeds out all the way
     std::vector<controller::ClampCode> clamps;  ///< [control.clamps]
     std::vector<int> block_skip;                ///< [control] block_skip: active switches 1-9

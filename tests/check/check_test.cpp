@@ -73,6 +73,7 @@ TEST_CASE("each rule finds its fault at its line, once, and not in the mended pr
         {"unreachable", "O1\nM30\nX1.\n", "O1\nG65P5M30\nX1.\nM30\n", 3},
         {"word", "O1\nM29.7\nM30\n", "O1\nM29\nM30\n", 2},
         {"word", "O1\nM98P2.5\nM30\n", "O1\nM98P5\nM30\n", 2},
+        {"modal-group", "O1\nG#4012\nM30\n", "O1\nG#4014\nM30\n", 2},
         {"dwell-point", "O1\nG4P10.\nM30\n", "O1\nG4P10\nG4X1.5\nG4P#1\nG4P[10.]\nM30\n", 2},
         {"variable", "O1\n#99=1\nM30\n", "O1\n#100=1\nM30\n", 2},
         {"tcp-frame", "O1\nG68.2X0Y0Z0I0J0K0\nG53.1\nG69\nG43.4H1\nG49\nM30\n",

@@ -67,6 +67,19 @@ TEST_CASE("whether #5043 includes the tool length is a switch of the setup") {
     CHECK_THROWS_AS(setup_with("work_positions_with_length = 1\n"), InputError);
 }
 
+TEST_CASE("the group of the work offset is a switch of the setup") {
+    const std::string program = "G55\n#100=#4012\n#101=#4014\nM30\n";
+    const auto usual = run_text(setup_with(""), program).variables;
+    CHECK(usual.at(100) == 67.0);
+    CHECK(usual.at(101) == 55.0);
+    const setup::Setup other = setup_with("work_offset_is_group_12 = true\n");
+    const auto exchanged = run_text(other, program).variables;
+    CHECK(exchanged.at(100) == 55.0);
+    CHECK(exchanged.at(101) == 67.0);
+    std::vector<std::string> notes;
+    CHECK(setup::parse_setup(setup::format_setup(other), "t.toml", notes).work_offset_is_group_12);
+}
+
 TEST_CASE("control keys survive a formatted setup") {
     const setup::Setup first = setup_with(
         "generation = \"0i-F\"\nblock_skip = [1, 4]\nclamps.C = { clamp = 68, release = 69, alarm "
