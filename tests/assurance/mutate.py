@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Mutation score of rooms: changes one thing in one line, builds the room's tests, runs them.
+"""Mutation score of rooms: changes one thing in one line, builds the room's tests, runs them (with
+those of tests/nc where these hold what the room does).
 
     mutate.py BUILD ROOM... [--mutants 20] [--seed 1] [--named FILE] [--minutes N] [--out FILE]
 
@@ -23,6 +24,8 @@ CHANGES = [(r" < ", " <= "), (r" <= ", " < "), (r" > ", " >= "), (r" >= ", " > "
            (r"\bfalse\b", "true"), (r"\(!", "("), (r"\bstd::min\b", "std::max"), (r"\bstd::max\b", "std::min"),
            (r"\bstd::cos\b", "std::sin"), (r"\bstd::sin\b", "std::cos"), (r"\b0\.5\b", "0.25"),
            (r"\breturn false;", "return true;"), (r"\bcontinue;", "break;")]
+# Rooms whose behaviour the NC programs of tests/nc hold, besides their own tests.
+WITH_NC = {"interpreter", "offsets", "positioning", "controller"}
 PASSED_OVER = re.compile(r"^\s*(//|#|template|using|static_assert|raise_|throw|case )|fmt::|\"")
 
 
@@ -57,6 +60,10 @@ def run(command, limit):
         return -1
 
 
+def tests_of(room):
+    return [f"test_{room}"] + (["test_nc"] if room in WITH_NC else [])
+
+
 def judge(build, room, mutant, plain_s):
     path, number, (begin, end), instead = mutant
     before = path.read_text()
@@ -65,10 +72,11 @@ def judge(build, room, mutant, plain_s):
     lines[number] = line[:begin] + instead + line[end:]
     try:
         path.write_text("".join(lines))
-        if run(["cmake", "--build", str(build), "--target", f"test_{room}"], 1800) != 0:
+        if run(["cmake", "--build", str(build), "--target", *tests_of(room)], 1800) != 0:
             return "killed", lines[number].strip()
-        code = run([str(build / "bin" / f"test_{room}"), "--abort"], 10 * plain_s + 10)
-        return ("survived" if code == 0 else "killed"), lines[number].strip()
+        lives = all(run([str(build / "bin" / test), "--abort"], 10 * plain_s + 10) == 0
+                    for test in tests_of(room))
+        return ("survived" if lives else "killed"), lines[number].strip()
     finally:
         path.write_text(before)
 
@@ -90,11 +98,12 @@ def main():
         every = list(candidates(root, room))
         chosen = list(named(root, room, options.named))
         chosen += random.sample(every, min(options.mutants, len(every)))
-        if run(["cmake", "--build", str(options.build), "--target", f"test_{room}"], 3600) != 0:
-            sys.exit(f"mutate: test_{room} does not build")
+        if run(["cmake", "--build", str(options.build), "--target", *tests_of(room)], 3600) != 0:
+            sys.exit(f"mutate: the tests of {room} do not build")
         start = time.monotonic()
-        if run([str(options.build / "bin" / f"test_{room}")], 3600) != 0:
-            sys.exit(f"mutate: test_{room} fails before anything is changed")
+        for test in tests_of(room):
+            if run([str(options.build / "bin" / test)], 3600) != 0:
+                sys.exit(f"mutate: {test} fails before anything is changed")
         plain_s = time.monotonic() - start
         survivors, judged = [], 0
         for mutant in chosen:
@@ -106,7 +115,7 @@ def main():
             print(f"{verdict:8} {place}: {text}", flush=True)
             if verdict == "survived":
                 survivors.append(f"{place}: {text}")
-        run(["cmake", "--build", str(options.build), "--target", f"test_{room}"], 3600)
+        run(["cmake", "--build", str(options.build), "--target", *tests_of(room)], 3600)
         result.append({"room": room, "candidates": len(every), "mutants": judged,
                        "killed": judged - len(survivors), "survivors": survivors})
     if options.out:

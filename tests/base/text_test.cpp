@@ -14,6 +14,12 @@ TEST_CASE("printable text holds nothing that a terminal obeys") {
     CHECK(printable("\xC2\x9B"
                     "2J") == "?2J");  // the one-character form of ESC [
     CHECK(printable("\xC2\xA0") == "\xC2\xA0");
+    // U+D7FF is the last before the surrogates, U+D800 the first of them.
+    CHECK(printable("\xED\x9F\xBF") == "\xED\x9F\xBF");
+    CHECK(printable("\xED\xA0\x80") == "???");
+    CHECK(printable("\xE0\x9F\xBF") == "???");
+    CHECK(printable("\xF0\x8F\xBF\xBF") == "????");
+    CHECK(printable("\xF4\x90\x80\x80") == "????");
     CHECK(screen_width("a\xC2\xB5m") == 3);
 }
 

@@ -44,6 +44,14 @@ TEST_CASE("circle fits reproduce Chernov's programs on six points") {
     CHECK(std::abs(fit_circle(gander)->rms_mm - 0.4571757) < 6e-8);
 }
 
+TEST_CASE("the rms of a plane is that of the distances from it") {
+    const std::vector<Vector3> points = {{0, 0, 1.5}, {10, 0, 0.5}, {10, 10, 1.5}, {0, 10, 0.5}};
+    const auto plane = fit_plane(points);
+    REQUIRE(plane);
+    CHECK((plane->normal - Vector3::UnitZ()).norm() < 1e-12);
+    CHECK(plane->rms_mm == Approx(0.5));
+}
+
 TEST_CASE("the reference's Kasa line halves one unknown too early") {
     // Cholesky of the centred moments: G G^T (B', C') = (Mxz, Myz), centre = half of (B', C').
     Vector2 mean = Vector2::Zero();

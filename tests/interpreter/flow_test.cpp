@@ -50,6 +50,8 @@ TEST_CASE("WHILE loops nest three deep and run the right number of times") {
 TEST_CASE("loop faults") {
     CHECK(alarm_of("#1=1\nWHILE[#1EQ1]DO1\n#1=0\n") == 124);
     CHECK(alarm_of("END1\n") == 1124);
+    // A jump into a loop that has run before finds no active DO.
+    CHECK(alarm_of("#1=0\nWHILE[#1LT1]DO1\nN5#1=#1+1\nEND1\nGOTO5\nM30\n") == 1124);
     CHECK(alarm_of("WHILE[1EQ1]DO4\nEND4\n") == 126);
     CHECK(alarm_of("WHILE[1EQ1]DO1\nWHILE[1EQ1]DO1\nEND1\nEND1\n") == 124);
     CHECK(alarm_of("WHILE[1EQ1]DO1\nWHILE[1EQ1]DO2\nEND1\nEND2\n") == 124);

@@ -7,6 +7,7 @@
 #include "base/alarm.h"
 #include "base/random.h"
 #include "base/units.h"
+#include "offsets/axis_numbers.h"
 #include "tests/support/table_parameters.h"
 
 namespace trunnion {
@@ -59,6 +60,16 @@ TEST_CASE("axis numbers follow 1020, then the control's order, then the letters"
     CHECK(offsets::decode_pivot(p, bc_order)->second.axis == Axis::A);
 }
 
+TEST_CASE("an axis number without a name counts from 1 to the last axis") {
+    const offsets::Parameters none;
+    CHECK_FALSE(offsets::axis_of_number(none, 0, bc_order));
+    CHECK_FALSE(offsets::axis_of_number(none, -1, bc_order));
+    CHECK(offsets::axis_of_number(none, 1, bc_order) == bc_order.front());
+    const int last = static_cast<int>(bc_order.size());
+    CHECK(offsets::axis_of_number(none, last, bc_order) == bc_order.back());
+    CHECK_FALSE(offsets::axis_of_number(none, last + 1, bc_order));
+}
+
 TEST_CASE("inclined axes, limits, hypothetical axis, reference tool direction") {
     offsets::Parameters p = bc_table();
     p.set(19682, 5);  // YZ plane
@@ -97,7 +108,11 @@ TEST_CASE("values that cannot be are alarm 5459") {
     CHECK(with(19682, 7) == 5459);
     CHECK(with(19682, 2.5) == 5459);
     CHECK(with(19684, 2) == 5459);
+    CHECK(with(19697, -1) == 5459);
+    CHECK(with(19697, 0) == 0);  // the reference direction is Z then
+    CHECK(with(19697, 3) == 0);
     CHECK(with(19697, 4) == 5459);
+    CHECK(with(19681, 1e30) == 5459);
     CHECK(with(19700, std::numeric_limits<double>::infinity()) == 5459);
     CHECK(with(19742, 10) == 5459);  // lower limit above the upper one
     CHECK(with(19696, 3) == 5459);   // both axes hypothetical

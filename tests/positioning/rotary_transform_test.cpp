@@ -206,6 +206,15 @@ TEST_CASE("a hypothetical axis stands where 19685 or 19690 says") {
     REQUIRE(sideways.size() == 1);
     CHECK(sideways[0].first_rad == Approx(-pi / 2));
     CHECK(angled.orient(Vector3::UnitZ(), angled.rotaries({})).empty());
+
+    // -180 and +180 degrees are one angle.
+    for (const double turned_rad : {pi, -pi}) {
+        angle_head.second.hypothetical_rad = turned_rad;
+        const positioning::RotaryTransform upside_down(angle_head);
+        const Vector3 tool_W = upside_down.tool_direction_W({});
+        CHECK((tool_W + Vector3::UnitZ()).norm() < 1e-15);
+        CHECK_FALSE(upside_down.orient(tool_W, upside_down.rotaries({})).empty());
+    }
 }
 
 TEST_CASE("derivatives against central differences") {

@@ -1,0 +1,32 @@
+#include "base/toml_reader.h"
+
+#include <catch2/catch.hpp>
+
+using namespace trunnion;
+
+TEST_CASE("a message shows the line as it stands in the file, whatever ends it") {
+    for (const std::string end : {"\n", "\r\n"}) {
+        const TomlFile file("[a]" + end + "x = \"y\"" + end + "z = [1, 2" + "]" + end, "s.toml");
+        const TomlValue* const x = file.root().find("a")->find("x");
+        REQUIRE(x);
+        try {
+            file.number(*x);
+            FAIL("a text was taken for a number");
+        } catch (const InputError& e) {
+            CHECK(e.where.line == 2);
+            CHECK(e.line_text == "x = \"y\"");
+        }
+    }
+    const TomlFile last("x = \"y\"", "s.toml");  // no end of line at all
+    CHECK_THROWS_AS(last.number(*last.root().find("x")), InputError);
+}
+
+TEST_CASE("numbers are finite, at most 1e12, and positive where that is asked") {
+    const TomlFile file("a = 1e12\nb = 1.0000001e12\nc = nan\nd = -1\ne = 0\nf = inf\n", "s.toml");
+    const auto value = [&](const char* key) { return *file.root().find(key); };
+    CHECK(double(file.number(value("a"))) == 1e12);
+    CHECK(double(file.number(value("d"))) == -1.0);
+    for (const char* key : {"b", "c", "f"}) CHECK_THROWS_AS(file.number(value(key)), InputError);
+    CHECK(double(file.positive(value("a"))) == 1e12);
+    for (const char* key : {"d", "e"}) CHECK_THROWS_AS(file.positive(value(key)), InputError);
+}
