@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t rivals_tried = 20;
 constexpr std::size_t replacements_tried = 3;  ///< of each other cause
-constexpr double doubtful = 0.4;               ///< probability of causes that cancel each other
+constexpr double doubtful = 0.4;  ///< probability at most of causes that cancel each other
 
 double log_sum(const std::vector<double>& values) {
     const double most = *std::max_element(values.begin(), values.end());
@@ -206,6 +206,8 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
             {evidence_probability(search, model, worth[k], others, temper(sizes, k, heldout.folds)),
              estimation::student_probability(heldout.support[k].saving.t, blocks - 1.0),
              (blocks + 1.0) / (blocks + 2.0), std::clamp(heldout.explained, 0.0, 1.0)});
+        // It works against the other causes: the correction of a form that is not theirs.
+        if (sizes.along[k] <= 0.0) claim.probability = std::min(claim.probability, doubtful);
         std::vector<Offer> instead = others;
         for (Offer& o : only_rivals(design, without(model, k))) instead.push_back(std::move(o));
         name_rivals(design, worth[k], instead, claim);

@@ -187,7 +187,9 @@ Eigen::MatrixXd Design::columns(std::size_t k) const {
     const ColumnGroup& group = groups_[k].group;
     Eigen::MatrixXd storage;
     const auto raw = gathered(group.features, &Block::white, storage);
-    return group.shape.size() > 0 ? Eigen::MatrixXd(raw * group.shape) : Eigen::MatrixXd(raw);
+    Eigen::MatrixXd own =
+        group.shape.size() > 0 ? Eigen::MatrixXd(raw * group.shape) : Eigen::MatrixXd(raw);
+    return group.kind == GroupKind::driver ? projection_.beside(own) : own;
 }
 
 Eigen::VectorXd Design::combined(std::size_t k, const Eigen::VectorXd& coefficients) const {
@@ -227,6 +229,8 @@ const Eigen::MatrixXd& Design::coordinates(std::size_t member) {
     Eigen::MatrixXd& own = seen_[member].coordinates;
     const ColumnGroup& group = groups_[member].group;
     if (own.cols() == group.columns()) return own;
+    if (group.kind == GroupKind::driver)
+        return own = Eigen::MatrixXd::Zero(projection_.rank(), group.columns());
     Eigen::MatrixXd storage;
     const auto raw = gathered(group.features, &Block::coordinates, storage);
     own = group.shape.size() > 0 ? Eigen::MatrixXd(raw * group.shape) : Eigen::MatrixXd(raw);

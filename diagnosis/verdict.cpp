@@ -48,6 +48,16 @@ bool holds_between(Design& design, const Prepared& prepared, const Model& model,
     return without - with > rules::between_least * std::max(1e-12, without - noise);
 }
 
+/// True for a drift beside what else depends on time: its course is not that of a drift, which
+/// would grow or stand still after the last reading.
+bool is_other_course(const Design& design, const Model& model, std::size_t position) {
+    const ColumnGroup& group = design.group(model.members[position]);
+    return group.effect && group.effect->kind == effects::EffectKind::thermal_drift &&
+           std::any_of(model.members.begin(), model.members.end(), [&](std::size_t m) {
+               return design.group(m).kind == GroupKind::driver && design.group(m).name == "time";
+           });
+}
+
 double share_of_tables(const Sizes& sizes, const std::vector<bool>& those) {
     double sum = 0.0;
     for (std::size_t k = 0; k < those.size(); ++k)
@@ -102,7 +112,7 @@ Judgement judged(Design& design, const Prepared& prepared, const Model& model,
                                       ? equal_periods(prepared, *group.effect, group.keys)
                                       : std::vector<double>{});
         j.interpolates.push_back(
-            j.equal_periods.back().empty() &&
+            j.equal_periods.back().empty() && !is_other_course(design, model, k) &&
             (group.kind != GroupKind::table || holds_between(design, prepared, model, k, used)));
     }
     const Sizes sizes = sizes_of(design, model, j.floor, j.large);

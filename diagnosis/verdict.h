@@ -25,7 +25,7 @@ struct Judgement {
     bool between_places = true;
     std::vector<bool> large;         ///< members that are large zeros
     std::vector<bool> interpolates;  ///< members: tables valid between their positions, ripples of
-                                     ///< a unique period
+                                     ///< a unique period, drifts that nothing of time is beside
     std::vector<std::vector<double>> equal_periods;  ///< of members: the others
     std::vector<Support> support;                    ///< of each member
     Eigen::VectorXd left;         ///< whitened left-out residuals, with the causes

@@ -8,8 +8,7 @@
 namespace trunnion::diagnosis {
 namespace {
 
-/// Limit of the loss on left-out paths, relative to the set-up alone: an effect seen on one path
-/// only cannot be predicted there, but does no harm either.
+/// Limit of the loss on left-out paths, relative to the set-up alone.
 constexpr double most_harm = 1.2;
 
 using TakesMember = std::function<bool(GroupKind, std::size_t group)>;
@@ -89,11 +88,23 @@ Model without_causes(const Outcome& f) {
     });
 }
 
-/// Loss of a candidate on left-out paths, against the set-up alone (`before`): a table must predict
-/// there, anything else do no harm.
-bool holds_elsewhere(bool table, double before, double after, double noise) {
-    if (!table) return after <= most_harm * before;
-    return before - after >= rules::between_least * std::max(0.0, before - noise);
+/// True when left-out paths deviate from the model by little more than the other paths leave
+/// uncertain of them: what one path alone determines cannot be predicted there, but is not refuted.
+bool as_expected(const Outcome& f, const Model& model, const Folds& paths, double before) {
+    const auto rows = static_cast<double>(std::count(f.used.begin(), f.used.end(), true));
+    const double noise = model.variances.nu * model.variances.nu;
+    const double beyond = LeftOut(f.design, model, paths, f.used).surprise() / rows - noise;
+    return beyond <= (1.0 - rules::explained) * std::max(0.0, before - noise);
+}
+
+/// Loss of a candidate on left-out paths (`after`), against the set-up alone (`before`): a table
+/// must predict there, anything else do no harm; or it is as the model expects.
+bool holds_elsewhere(const Outcome& f, const Model& model, const Folds& paths, double before,
+                     double noise) {
+    const double after = loss_of(f, model, paths).mean();
+    const double least = rules::between_least * std::max(0.0, before - noise);
+    if (has_tables(f, model) ? before - after >= least : after <= most_harm * before) return true;
+    return as_expected(f, model, paths, before);
 }
 
 /// Takes the best candidate on left-out readings that holds on left-out paths, if there is one.
@@ -106,8 +117,7 @@ void choose(const Outcome& f, const Folds& paths, Written& w) {
     for (Model& model : candidates_of(f)) {
         const BlockLoss loss = loss_of(f, model, f.prepared.folds);
         if (loss.mean() >= least || saving_of(before, loss).t < rules::least_t) continue;
-        const double there = loss_of(f, model, paths).mean();
-        if (!holds_elsewhere(has_tables(f, model), elsewhere, there, noise)) {
+        if (!holds_elsewhere(f, model, paths, elsewhere, noise)) {
             w.only_here = true;
             continue;
         }

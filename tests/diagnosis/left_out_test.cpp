@@ -89,4 +89,28 @@ TEST_CASE("what left-out readings miss is chi-squared, however little the others
     CHECK(sum / draws == Approx(1.0).margin(0.08));
 }
 
+// Set-up and driver may imitate each other with large and opposite values: without the driver, which
+// predicts nothing, the set-up would stand there alone.
+TEST_CASE("a driver that the set-up nearly imitates leaves no hole when it does not predict",
+          "[diagnosis]") {
+    SeededNoise random(21);
+    constexpr int rows = 120;
+    const Eigen::MatrixXd known = random_matrix(random, rows, 4);
+    const Eigen::MatrixXd effect = random_matrix(random, rows, 1);
+    const Eigen::MatrixXd trend = 30.0 * known.col(0) + 0.5 * random_matrix(random, rows, 1);
+    const Eigen::VectorXd data = 5.0 * effect + 0.8 * trend + random_matrix(random, rows, 1);
+    diagnosis::Design design(known, data, rows);
+    diagnosis::ColumnGroup cause, driver;
+    cause.features = {design.add_features(effect)};
+    driver.kind = diagnosis::GroupKind::driver;
+    driver.features = {design.add_features(trend)};
+    const diagnosis::Model model{{design.add(cause), design.add_beside(driver, 1)},
+                                 {{5.0, 1.0}, 1.0},
+                                 0.0};
+    const diagnosis::LeftOut left(design, model, folds_of(rows, 24), std::vector<bool>(rows, true));
+    const double with = left.loss({true, true}, {true, false}).mean();
+    CHECK(with < 1.2 * left.loss({true, false}, {true, false}).mean());
+    CHECK(with < 0.1 * left.loss({false, false}, {false, false}).mean());
+}
+
 }  // namespace trunnion
