@@ -57,8 +57,8 @@ class Design {
     double rows() const { return rows_; }
     double freedom() const { return rows_ - static_cast<double>(projection_.rank()); }
     /// Whitened columns of a group without projecting out the set-up: rows x columns. Those of a
-    /// driver are beside the set-up: a driver predicts nothing, and where it is left out, the set-up
-    /// must not lack what both of them can do.
+    /// driver are beside the set-up: a driver predicts nothing, and where it is left out, the
+    /// set-up must not lack what both of them can do.
     Eigen::MatrixXd columns(std::size_t group) const;
     /// These columns times coefficients.
     Eigen::VectorXd combined(std::size_t group, const Eigen::VectorXd& coefficients) const;

@@ -89,8 +89,8 @@ TEST_CASE("what left-out readings miss is chi-squared, however little the others
     CHECK(sum / draws == Approx(1.0).margin(0.08));
 }
 
-// Set-up and driver may imitate each other with large and opposite values: without the driver, which
-// predicts nothing, the set-up would stand there alone.
+// Set-up and driver may imitate each other with large and opposite values: without the driver,
+// which predicts nothing, the set-up would stand there alone.
 TEST_CASE("a driver that the set-up nearly imitates leaves no hole when it does not predict",
           "[diagnosis]") {
     SeededNoise random(21);
@@ -104,9 +104,8 @@ TEST_CASE("a driver that the set-up nearly imitates leaves no hole when it does 
     cause.features = {design.add_features(effect)};
     driver.kind = diagnosis::GroupKind::driver;
     driver.features = {design.add_features(trend)};
-    const diagnosis::Model model{{design.add(cause), design.add_beside(driver, 1)},
-                                 {{5.0, 1.0}, 1.0},
-                                 0.0};
+    const diagnosis::Model model{
+        {design.add(cause), design.add_beside(driver, 1)}, {{5.0, 1.0}, 1.0}, 0.0};
     const diagnosis::LeftOut left(design, model, folds_of(rows, 24), std::vector<bool>(rows, true));
     const double with = left.loss({true, true}, {true, false}).mean();
     CHECK(with < 1.2 * left.loss({true, false}, {true, false}).mean());
