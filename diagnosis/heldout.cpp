@@ -72,7 +72,7 @@ LeftOut::LeftOut(Design& design, const Model& model, const Folds& folds,
         fold.data = design.data()(fold.rows);
         fold.gram = whole.gram;
         fold.product = whole.product;
-        if (fold.rows.empty()) continue;  // fewer blocks than folds
+        if (fold.rows.empty() || count == 0) continue;  // fewer blocks than folds; nothing to fit
         fold.gram.selfadjointView<Eigen::Lower>().rankUpdate(fold.out.transpose(), -1.0);
         fold.gram.triangularView<Eigen::StrictlyUpper>() = fold.gram.transpose();
         fold.product -= fold.out.transpose() * fold.data;
@@ -150,13 +150,14 @@ double LeftOut::surprise() const {
     for (const Fold& fold : fold_) {
         if (fold.rows.empty()) continue;
         const Eigen::VectorXd left = fold.data - fold.out * fit(fold, all);
+        sum += left.squaredNorm();
+        if (fold.out.cols() == 0) continue;
         // (I + X P^-1 X')^-1 = I - X (P + X'X)^-1 X', P the information of the other rows.
         Eigen::MatrixXd whole = fold.gram;
         whole.diagonal() += precision_;
         whole.selfadjointView<Eigen::Lower>().rankUpdate(fold.out.transpose());
         const Eigen::VectorXd product = fold.out.transpose() * left;
-        sum += left.squaredNorm() -
-               whole.selfadjointView<Eigen::Lower>().llt().matrixL().solve(product).squaredNorm();
+        sum -= whole.selfadjointView<Eigen::Lower>().llt().matrixL().solve(product).squaredNorm();
     }
     return sum;
 }
