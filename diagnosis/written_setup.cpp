@@ -97,14 +97,21 @@ bool as_expected(const Outcome& f, const Model& model, const Folds& paths, doubl
     return beyond <= (1.0 - rules::explained) * std::max(0.0, before - noise);
 }
 
+/// True where known forms alone explain the gap. A form beside tables, or beside what is missing,
+/// has an uncertainty that excuses anything.
+bool known_forms_explain(const Outcome& f) {
+    return !has_tables(f, f.model) && f.judgement.part >= rules::explained;
+}
+
 /// Loss of a candidate on left-out paths (`after`), against the set-up alone (`before`): a table
-/// must predict there, anything else do no harm; or it is as the model expects.
+/// must predict there, anything else do no harm, or be as the model expects.
 bool holds_elsewhere(const Outcome& f, const Model& model, const Folds& paths, double before,
                      double noise) {
     const double after = loss_of(f, model, paths).mean();
-    const double least = rules::between_least * std::max(0.0, before - noise);
-    if (has_tables(f, model) ? before - after >= least : after <= most_harm * before) return true;
-    return as_expected(f, model, paths, before);
+    if (has_tables(f, model))
+        return before - after >= rules::between_least * std::max(0.0, before - noise);
+    return after <= most_harm * before ||
+           (known_forms_explain(f) && as_expected(f, model, paths, before));
 }
 
 /// Takes the best candidate on left-out readings that holds on left-out paths, if there is one.
