@@ -106,7 +106,7 @@ TEST_CASE("a second signal ends a fit at once, and nothing is half written") {
     const Bench bench;
     const std::string job = "( exec " TRUNNION_BINARY_DIR "/bin/trunnion " + bench.identify(20000) +
                             " >" + bench.file("out.txt") + " 2>" + bench.file("err.txt") +
-                            " ) & job=$!; sleep 1; kill -TERM $job; sleep 0.3; kill -TERM $job; "
+                            " ) & job=$!; sleep 0.3; kill -TERM $job; sleep 0.03; kill -TERM $job; "
                             "wait $job";
     CHECK(WEXITSTATUS(std::system(job.c_str())) == 128 + SIGTERM);
     CHECK_FALSE(std::filesystem::exists(bench.file("x.toml")));

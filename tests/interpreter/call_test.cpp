@@ -59,8 +59,8 @@ TEST_CASE("M98 shares the caller's variables and takes its repeats packed or as 
     CHECK(run("G90M98P5X3.\n" + sub).blocks == Blocks{"G90 X3", "X1", "M30"});
     CHECK(run("M98P7Q20\nM30\nO7\nX1.\nN20X2.\nM99\n").blocks == Blocks{"X2", "M30"});
     CHECK(alarm_of("M98P77\n") == 76);
-    CHECK(alarm_of("M198P-7\n") == 3);
-    CHECK(alarm_of("M198P7.5\n") == 3);
+    CHECK(alarm_of("M198P-7\n") == 6);
+    CHECK(alarm_of("M198P7.5\n") == 7);
     CHECK(alarm_of("M198\n") == 76);
     CHECK(alarm_of("M98P7Q21\nM30\nO7\nX1.\nN20X2.\nM99\n") == 78);
 }
