@@ -70,6 +70,15 @@ void set_all_errors(kinematics::Machine& machine, SeededNoise& noise) {
 
 }  // namespace
 
+TEST_CASE("a chain finds each of its axes by its identity, and no other") {
+    const kinematics::Machine machine = bc_table();
+    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z, Axis::B, Axis::C}) {
+        REQUIRE(machine.chain.find(axis));
+        CHECK(machine.chain.find(axis)->axis == axis);
+    }
+    CHECK_FALSE(machine.chain.find(Axis::A));
+}
+
 TEST_CASE("chain text is read from the bed outwards") {
     const kinematics::Chain chain = kinematics::parse_chain("w C B b X Y Z t");
     REQUIRE(chain.work.size() == 2);
