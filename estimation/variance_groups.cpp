@@ -184,7 +184,8 @@ GivenMembers::GivenMembers(const GroupEquations& equations, const Variances& var
 }
 
 Eigen::MatrixXd GivenMembers::taken(const Eigen::MatrixXd& cross) const {
-    if (half_.size() == 0) return Eigen::MatrixXd(0, cross.cols());
+    // Without rows or columns Eigen would multiply by way of a null pointer.
+    if (half_.size() == 0 || cross.cols() == 0) return Eigen::MatrixXd(half_.rows(), cross.cols());
     Eigen::MatrixXd t = half_.triangularView<Eigen::Lower>() * cross;
     return t / (nu_ * nu_);
 }
