@@ -13,8 +13,8 @@ struct MissingCode {
 };
 
 /// Up to G10.9 as in a public list of the 30i's codes (docs/sources.md), the others quoted from
-/// memory (assumed); the meaning stands in messages only. All of them move axes
-/// or frames in a way that is not emulated, so none may pass without effect.
+/// memory (assumed); the meaning stands in messages only. All of them move axes or frames in a way
+/// that is not emulated, so none may pass without effect.
 constexpr MissingCode options[] = {
     {22, "involute interpolation"},
     {23, "exponential interpolation"},
