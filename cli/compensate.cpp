@@ -24,7 +24,7 @@
 namespace trunnion::cli {
 namespace {
 
-struct Options {
+struct CompensateOptions {
     std::string program, setup, out = "-";
     std::vector<std::string> folders;
     double tolerance_um = 0.05, largest_turn_deg = 0.1;
@@ -35,13 +35,6 @@ struct Options {
     const CLI::App* command = nullptr;
 };
 
-int report_alarm(const Alarm& alarm) {
-    print_error("{}\n",
-                format_diagnostic(alarm.where, fmt::format("alarm {} {}", alarm.number, alarm.text),
-                                  alarm.block));
-    return exit_alarm;
-}
-
 void print_direction(const char* where, double before_rad, double after_rad) {
     if (before_rad <= 0.0 && after_rad <= 0.0) return;
     print_error("tool direction {}: {} µrad before, {} µrad after\n", where,
@@ -49,7 +42,7 @@ void print_direction(const char* where, double before_rad, double after_rad) {
                 three_digits(urad_from_rad(after_rad), 3));
 }
 
-int run_command(const Options& o) {
+int run_command(const CompensateOptions& o) {
     if (o.json && o.out == "-") throw InputError("--json needs --out FILE for the program");
     if (o.tolerance_um <= 0.0) throw InputError("--tol-um must be above 0");
     if (o.largest_turn_deg < 0.0) throw InputError("--max-turn-deg must be 0 or more");
@@ -62,8 +55,8 @@ int run_command(const Options& o) {
         {mm_from_um(o.tolerance_um), o.decimals, rad_from_deg(o.largest_turn_deg),
          budget_of(o.limits)});
     print_notes(c.notes);
-    if (c.original.alarm) return report_alarm(*c.original.alarm);
-    if (c.executed.alarm) return report_alarm(*c.executed.alarm);
+    if (c.original.alarm) throw Alarm(*c.original.alarm);
+    if (c.executed.alarm) throw Alarm(*c.executed.alarm);
     if (c.limit != BudgetLimit::none) return report_limit(c.limit, c.original.blocks);
     OutputFiles files;
     files.add(o.out, c.program);
@@ -88,7 +81,7 @@ int run_command(const Options& o) {
 }  // namespace
 
 void add_compensate(CLI::App& app, Run& run) {
-    const auto o = std::make_shared<Options>();
+    const auto o = std::make_shared<CompensateOptions>();
     CLI::App* command = app.add_subcommand(
         "compensate", "write a program that compensates the known errors of the machine");
     reads_file(command->add_option("PROGRAM", o->program, "program file or O number"))->required();

@@ -24,7 +24,7 @@
 namespace trunnion::cli {
 namespace {
 
-struct Options {
+struct DiagnoseOptions {
     std::vector<std::string> readings;
     std::string setup, holdout, out, over;
     PageOptions page;
@@ -54,7 +54,7 @@ diagnosis::Diagnosis diagnose_watched(const setup::Setup& setup, const records::
     return diagnosis::diagnose(setup, table, how);
 }
 
-int diagnose_log(const Options& options) {
+int diagnose_log(const DiagnoseOptions& options) {
     if (!options.holdout.empty() || options.allow_large || options.readings.size() != 1)
         throw InputError(
             "--program takes one log of axis positions, without --holdout and --allow-large");
@@ -72,7 +72,7 @@ int report_unfinished(const diagnosis::Diagnosis& d, BudgetLimit limit) {
     return exit_limit;
 }
 
-int diagnose_command(const Options& options) {
+int diagnose_command(const DiagnoseOptions& options) {
     if (!options.program.empty()) return diagnose_log(options);
     if (!options.folders.empty()) throw InputError("--programs requires --program");
     const Interruption interruption;  // while the tables are read too
@@ -105,7 +105,7 @@ int diagnose_command(const Options& options) {
 void add_diagnose(CLI::App& app, Run& run) {
     auto* command = app.add_subcommand(
         "diagnose", "find the causes of the gap between simulation and readings");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<DiagnoseOptions>();
     reads_file(
         command->add_option("readings", options->readings,
                             "table of readings (CSV); several tables are joined in this order"))

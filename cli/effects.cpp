@@ -14,22 +14,24 @@
 namespace trunnion::cli {
 namespace {
 
-struct Options {
+struct EffectsOptions {
     std::string name, setup;
     bool json = false;
 };
 
 /// The effect named, or all of them.
-std::vector<effects::Effect> chosen(const effects::Catalogue& catalogue, const std::string& name) {
+std::vector<effects::Effect> chosen_effects(const effects::Catalogue& catalogue,
+                                            const std::string& name) {
     if (name.empty()) return catalogue;
     if (const effects::Effect* effect = effects::find_effect(catalogue, name)) return {*effect};
     throw InputError("no effect is named '" + name + "'" +
                      did_you_mean(name, effects::names_of(catalogue)));
 }
 
-int effects_command(const Options& o) {
+int effects_command(const EffectsOptions& o) {
     const setup::Setup setup = open_setup(o.setup);
-    const std::vector<effects::Effect> list = chosen(effects::make_catalogue(setup), o.name);
+    const std::vector<effects::Effect> list =
+        chosen_effects(effects::make_catalogue(setup), o.name);
     print_out("{}", o.json           ? report::effects_json(list, ReadRecord::files())
                     : o.name.empty() ? report::effects_text(list)
                                      : report::effect_text(list.front()));
@@ -39,7 +41,7 @@ int effects_command(const Options& o) {
 }  // namespace
 
 void add_effects(CLI::App& app, Run& run) {
-    const auto o = std::make_shared<Options>();
+    const auto o = std::make_shared<EffectsOptions>();
     CLI::App* command = app.add_subcommand(
         "effects", "list the effects of a machine: names for --inject and --effects");
     command->add_option("NAME", o->name, "show one effect with its formula and parameters");

@@ -31,7 +31,7 @@
 namespace trunnion::cli {
 namespace {
 
-struct Options {
+struct IdentifyOptions {
     std::vector<std::string> readings;
     std::string setup, effects, out, shard;
     int runs = 0;
@@ -70,7 +70,7 @@ void print_stores(const setup::Setup& identified, const identification::Identifi
 }
 
 /// Shows how far it is; a limit leaves what the repetitions done so far say.
-std::vector<identification::Repetition> repeat(const Inputs& in, const Options& options,
+std::vector<identification::Repetition> repeat(const Inputs& in, const IdentifyOptions& options,
                                                const identification::Identification& fitted,
                                                const regression::Shard& shard, BudgetMeter& meter) {
     Progress progress;
@@ -113,7 +113,7 @@ int report_done(const identification::Identification& fitted, std::size_t done, 
 
 /// A shard of the repetitions: its part alone is written, for 'merge'; none when the fit was ended,
 /// for parts of other shards belong to another fit.
-int identify_part(const Inputs& in, const Options& options,
+int identify_part(const Inputs& in, const IdentifyOptions& options,
                   const identification::Identification& fitted, const regression::Shard& shard,
                   BudgetMeter& meter) {
     if (!fitted.not_searched.empty()) return report_done(fitted, 0, 0, meter.reached());
@@ -127,7 +127,7 @@ int identify_part(const Inputs& in, const Options& options,
 }
 
 /// Residuals of the identified setup alone, as `predict` computes them.
-std::string page_of(const Options& options, const identification::Identification& result,
+std::string page_of(const IdentifyOptions& options, const identification::Identification& result,
                     const records::ReadingTable& table) {
     const records::ReadingTable predicted =
         emulator::predicted(result.setup, table, effects::active_models(result.setup));
@@ -136,7 +136,7 @@ std::string page_of(const Options& options, const identification::Identification
     return finished_page(std::move(page), *options.command, options.page);
 }
 
-int identify_command(const Options& options) {
+int identify_command(const IdentifyOptions& options) {
     const Interruption interruption;  // while the tables are read too
     if (!options.shard.empty() && options.runs == 0)
         throw InputError("--shard requires --monte-carlo");
@@ -183,7 +183,7 @@ int identify_command(const Options& options) {
 
 void add_identify(CLI::App& app, Run& run) {
     auto* command = app.add_subcommand("identify", "fit effects to readings");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<IdentifyOptions>();
     reads_file(
         command->add_option("readings", options->readings,
                             "table of readings (CSV); several tables are joined in this order"))

@@ -23,7 +23,7 @@
 namespace trunnion::cli {
 namespace {
 
-struct Options {
+struct ImportOptions {
     std::string kind, setup, map, out, svg;
     std::vector<std::string> files, told;
     bool json = false;
@@ -37,14 +37,14 @@ const std::map<std::string, imports::ImportKind> kinds{
     {"table", imports::ImportKind::table},      {"dprnt", imports::ImportKind::dprnt},
     {"pointing", imports::ImportKind::pointing}};
 
-records::ReadingTable table_of(const Options& options, const setup::Setup& setup,
+records::ReadingTable table_of(const ImportOptions& options, const setup::Setup& setup,
                                const imports::Imported& result) {
     std::vector<std::string> notes;
     return records::parse_readings(result.readings, options.out, notes,
                                    setup.machine.chain.names());
 }
 
-std::string page_of(const Options& options, const setup::Setup& setup,
+std::string page_of(const ImportOptions& options, const setup::Setup& setup,
                     const imports::Imported& result) {
     return finished_page(
         report::import_page(table_of(options, setup, result), result.summary, result.notes),
@@ -73,7 +73,7 @@ void add_pictures(const std::string& folder, const std::string& readings, const 
     make_folder(folder);
 }
 
-int import_command(const Options& options) {
+int import_command(const ImportOptions& options) {
     const imports::ImportKind kind = kinds.at(options.kind);
     if (!options.svg.empty() && kind != imports::ImportKind::iso230_2)
         throw InputError("--svg is for tables of ISO 230-2 only");
@@ -102,7 +102,7 @@ int import_command(const Options& options) {
 void add_import(CLI::App& app, Run& run) {
     auto* command =
         app.add_subcommand("import", "convert files of instruments and controls into readings");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ImportOptions>();
     command
         ->add_option(
             "kind", options->kind,

@@ -17,7 +17,7 @@
 namespace trunnion::cli {
 namespace {
 
-struct Options {
+struct PredictOptions {
     std::string readings, setup, jacobian, effects;
     std::vector<std::string> inject;
     bool noise = false, json = false;
@@ -40,14 +40,14 @@ std::string jacobian_text(const identification::Sensitivity& found) {
 }
 
 /// Computes the derivatives only when they are requested.
-std::optional<identification::Sensitivity> derivatives(const Options& options,
+std::optional<identification::Sensitivity> derivatives(const PredictOptions& options,
                                                        const setup::Setup& setup,
                                                        const records::ReadingTable& table) {
     if (options.jacobian.empty() && !(options.json && !options.effects.empty())) return {};
     return identification::sensitivity(setup, table, split_names(options.effects));
 }
 
-int predict(const Options& options) {
+int predict(const PredictOptions& options) {
     const setup::Setup setup = load_setup_option(options.setup, options.inject);
     const records::ReadingTable table = load_readings(options.readings, setup);
     const auto found = derivatives(options, setup, table);
@@ -66,7 +66,7 @@ int predict(const Options& options) {
 
 void add_predict(CLI::App& app, Run& run) {
     auto* command = app.add_subcommand("predict", "simulate the readings at given positions");
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<PredictOptions>();
     reads_file(command->add_option("readings", options->readings, "table of readings (CSV)"))
         ->required();
     reads_file(command->add_option("--setup", options->setup, "setup file (required)"));

@@ -23,7 +23,7 @@
 namespace trunnion::cli {
 namespace {
 
-struct Options {
+struct RunCommandOptions {
     std::string program, setup, control, trace, readings, print, variables;
     std::vector<std::string> folders, sets, injections, measure;
     std::uint64_t seed = 1;
@@ -78,7 +78,7 @@ std::vector<int> parse_variables(const std::string& text) {
     return numbers;
 }
 
-setup::Setup setup_of(const Options& o) {
+setup::Setup setup_of(const RunCommandOptions& o) {
     setup::Setup setup = open_setup(o.setup);
     if (!o.control.empty()) backup::apply_backup(backup::read_backup(o.control), setup.stores);
     const effects::Catalogue catalogue = effects::make_catalogue(setup);
@@ -88,13 +88,13 @@ setup::Setup setup_of(const Options& o) {
 }
 
 /// The programs of a backup lie in its control's memory.
-std::vector<std::string> folders_of(const Options& o) {
+std::vector<std::string> folders_of(const RunCommandOptions& o) {
     std::vector<std::string> folders = o.folders;
     if (!o.control.empty()) folders.push_back(o.control);
     return folders;
 }
 
-emulator::RunOptions run_options(const Options& o, const setup::Setup& setup) {
+emulator::RunOptions run_options(const RunCommandOptions& o, const setup::Setup& setup) {
     emulator::RunOptions options;
     options.seed = o.seed;
     options.trace = !o.trace.empty();
@@ -111,7 +111,7 @@ emulator::RunOptions run_options(const Options& o, const setup::Setup& setup) {
 }
 
 /// An alarm or a limit ends a run like M30: the files contain everything up to that point.
-void write_files(const Options& o, const emulator::RunLog& log, OutputFiles& files) {
+void write_files(const RunCommandOptions& o, const emulator::RunLog& log, OutputFiles& files) {
     if (!o.readings.empty()) files.add(o.readings, records::format_readings(log.readings));
     if (!o.print.empty()) files.add(o.print, log.printed);
     files.write();
@@ -146,8 +146,8 @@ void follow_path(emulator::RunOptions& options, report::RunPath& path) {
     options.trace_chunk = [&path](std::string_view text) { path.add(text); };
 }
 
-std::string page_of_run(const Options& o, const setup::Setup& setup, const emulator::RunLog& log,
-                        const report::RunPath& path,
+std::string page_of_run(const RunCommandOptions& o, const setup::Setup& setup,
+                        const emulator::RunLog& log, const report::RunPath& path,
                         const std::vector<interpreter::ProgramText>& programs) {
     report::ProgramTexts texts;
     for (const interpreter::ProgramText& program : programs)
@@ -159,7 +159,7 @@ std::string page_of_run(const Options& o, const setup::Setup& setup, const emula
     return report::page_html(page);
 }
 
-int run_command(const Options& o) {
+int run_command(const RunCommandOptions& o) {
     if (!o.page.html.empty() && !o.trace.empty())
         throw InputError(
             "--html and --trace cannot be combined: the page samples the curves itself");
@@ -195,7 +195,7 @@ int run_command(const Options& o) {
 }  // namespace
 
 void add_run(CLI::App& app, Run& run) {
-    const auto o = std::make_shared<Options>();
+    const auto o = std::make_shared<RunCommandOptions>();
     CLI::App* command = app.add_subcommand("run", "run an NC program on the emulated machine");
     reads_file(command->add_option("PROGRAM", o->program, "program file or O number"))->required();
     reads_file(command->add_option("--setup", o->setup, "setup file (machines/bc_table.toml)"));

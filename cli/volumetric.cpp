@@ -20,7 +20,7 @@
 namespace trunnion::cli {
 namespace {
 
-struct Options {
+struct VolumetricCommandOptions {
     std::string setup, csv, svg;
     volumetric::VolumetricOptions map;
     bool json = false;
@@ -51,7 +51,7 @@ volumetric::VolumetricMap watched_map(const setup::Setup& setup,
     return volumetric::volumetric_map(setup, names, effects::active_models(setup), options);
 }
 
-int run_command(const Options& o) {
+int run_command(const VolumetricCommandOptions& o) {
     if (o.map.grid < 2 || o.map.grid > 50) throw InputError("--grid must be 2 to 50");
     if (o.map.rotary_grid < 1 || o.map.rotary_grid > 72)
         throw InputError("--rotary-grid must be 1 to 72");
@@ -86,7 +86,7 @@ int run_command(const Options& o) {
 }  // namespace
 
 void add_volumetric(CLI::App& app, Run& run) {
-    const auto o = std::make_shared<Options>();
+    const auto o = std::make_shared<VolumetricCommandOptions>();
     CLI::App* command =
         app.add_subcommand("volumetric",
                            "map the tool point errors over the working volume: each axis over its "

@@ -1,5 +1,5 @@
-# Several files of a room compiled as one: a fresh build reads each header once for eight files and
-# takes about half the time. One changed file then compiles its seven neighbours too; for daily work
+# Several files of a room compiled as one: a fresh build reads each header once for twenty files and
+# takes about half the time. One changed file then compiles its neighbours too; for daily work
 # configure with -DTRUNNION_UNITY=OFF.
 option(TRUNNION_UNITY "compile the files of a room in groups" OFF)
 
@@ -16,7 +16,7 @@ set(TRUNNION_ALONE
 function(trunnion_group_files target)
   string(REGEX REPLACE "^trunnion_" "" room ${target})
   if(TRUNNION_UNITY AND NOT room IN_LIST TRUNNION_SINGLE_ROOMS)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 20)
     # GCC takes the grouped files for headers, whose types should not have unnamed members.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()

@@ -40,14 +40,6 @@ motion::ArcPath arc_in_machine(const Frames& frames, const ProgramArc& arc,
     return path;
 }
 
-double arc_length(const motion::ArcPath& path, const Vector3& from, const Vector3& to) {
-    const Vector3 radius_vector = from - path.centre_mm;
-    const double rise = path.normal.dot(to - from);
-    const double radius = (radius_vector - radius_vector.dot(path.normal) * path.normal).norm();
-    const double bow = radius * path.sweep_rad;
-    return std::sqrt(bow * bow + rise * rise);
-}
-
 }  // namespace
 
 AxisMover::AxisMover(const SortedWords& words, Modal& modal, Frames& frames,
@@ -201,7 +193,8 @@ void AxisMover::arc(motion::MotionKind kind, const offsets::ControlPosition& tar
     m.from = frames_.axes;
     m.to = offsets::axis_positions_of(machine);
     const motion::ArcPath path = arc_in_machine(frames_, arc, kind);
-    m.length_mm = arc_length(path, offsets::xyz_of(frames_.machine), offsets::xyz_of(machine));
+    m.length_mm =
+        motion::arc_length_mm(path, offsets::xyz_of(frames_.machine), offsets::xyz_of(machine));
     if (modal_.spindle.by_surface) follow_surface_speed(modal_, frames_.program, target);
     const double way = std::sqrt(m.length_mm * m.length_mm +
                                  feed_square(frames_.machine, machine, modal_.units.unit_mm, 3));

@@ -8,12 +8,6 @@ namespace trunnion::controller {
 
 namespace {
 
-double arc_length(const motion::ArcPath& arc, const Vector3& from, const Vector3& to) {
-    const Vector3 radius = from - arc.centre_mm;
-    const double bow = radius.cross(arc.normal).norm() * arc.sweep_rad;
-    return std::hypot(bow, arc.normal.dot(to - from));
-}
-
 /// Rotary axes at rest: the arc of the axes themselves.
 motion::ArcPath arc_of_axes(const motion::ToolCentrePoint& tcp, const motion::ArcPath& arc_W,
                             const AxisPositions& to) {
@@ -146,7 +140,7 @@ void TipMover::arc(motion::MotionKind kind, const offsets::ControlPosition& targ
     const AxisPositions& to = tip.target.axes;
     const motion::ArcPath path_W = arc_in_W(arc, to);
     CurveMove way;
-    way.length_mm = way.feed_length_mm = arc_length(path_W, tip.start_W, tip.end_W);
+    way.length_mm = way.feed_length_mm = motion::arc_length_mm(path_W, tip.start_W, tip.end_W);
     const motion::TipArc curve(tcp(), frames_.axes, to, {tip.start_W, tip.end_W, path_W});
     if (turns(to))
         way.curve = &curve;

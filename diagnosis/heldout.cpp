@@ -6,14 +6,12 @@
 #include <map>
 
 #include "base/units.h"
+#include "diagnosis/rules.h"
 #include "estimation/free_form.h"
 
 namespace trunnion::diagnosis {
 namespace {
 
-/// Set-up quantities are within this number of typical sizes; directions that a fold does not
-/// determine stay constant.
-constexpr double set_up_range = 20.0;
 constexpr std::size_t sectors = 24;  ///< of a whole turn
 
 }  // namespace
@@ -60,7 +58,7 @@ LeftOut::LeftOut(Design& design, const Model& model, const Folds& folds,
     all.leftCols(known_) = design.known();
     for (std::size_t k = 0; k < model.members.size(); ++k)
         all.middleCols(first_[k], size_[k]) = design.columns(model.members[k]);
-    precision_.setConstant(count, 1.0 / (set_up_range * set_up_range));
+    precision_.setConstant(count, 1.0 / (rules::set_up_range * rules::set_up_range));
     retune(std::vector<bool>(model.members.size(), true), model.variances);
     for (std::size_t i = 0; i < folds_.group.size(); ++i)
         if (folds_.group[i] >= 0)

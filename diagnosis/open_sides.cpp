@@ -5,7 +5,8 @@
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr double promising = 25.0;  ///< minimum weighted squares explained by an effect: five sigma
+constexpr double promising_squares =
+    25.0;  ///< minimum weighted squares explained by an effect: five sigma
 
 std::vector<identification::FoundSide> sides_for(
     Prepared& p, const std::vector<identification::KeyedEffect>& by) {
@@ -35,7 +36,7 @@ void take_promising_sides(Prepared& p) {
     double most = 0.0;
     for (bool grown = !p.open_sides.empty(); std::exchange(grown, false);) {
         const effects::Effect* best = nullptr;
-        double promised = most + promising;
+        double promised = most + promising_squares;
         for (const effects::Effect& effect : p.catalogue) {
             if (!may_join(p, effect, taken)) continue;
             auto joined = taken;

@@ -35,6 +35,9 @@ constexpr double driver_share = 0.05;
 constexpr double rival_loss = 12.0;  ///< maximum chi-squared lost by a rival
 constexpr double rival_part = 0.04;  ///< ... or as a part of the contribution
 
+constexpr double set_up_range = 20.0;  ///< typical sizes: sigma of a set-up value beforehand;
+                                       ///< unobservable directions stay constant
+
 constexpr double store_sigmas = 5.0;  ///< of a store's number: claimed from there, missed below
 constexpr double strange_mm = 5e-3;   ///< differences of programmed points that no store explains:
                                       ///< larger than the last digits of rotary axes

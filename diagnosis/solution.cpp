@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/rules.h"
+
 namespace trunnion::diagnosis {
 namespace {
-
-constexpr double set_up_range = 20.0;  ///< typical sizes: unobservable directions stay constant
 
 kinematics::ErrorCurve::Harmonic& harmonic_of(kinematics::ErrorCurve& curve, double order) {
     for (kinematics::ErrorCurve::Harmonic& h : curve.harmonics)
@@ -70,7 +70,7 @@ Solution solved(Design& design, const Model& model) {
     s.known = design.known().cols();
     Design::Normal normal = design.normal(model.members);
     Eigen::VectorXd precision(normal.product.size());
-    precision.head(s.known).setConstant(1.0 / (set_up_range * set_up_range));
+    precision.head(s.known).setConstant(1.0 / (rules::set_up_range * rules::set_up_range));
     Eigen::Index count = s.known;
     for (std::size_t k = 0; k < model.members.size(); ++k) {
         s.first.push_back(count);

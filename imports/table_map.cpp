@@ -14,7 +14,7 @@ namespace trunnion::imports {
 namespace {
 
 /// One key of the map: a constant text or number, or a column (minus another one).
-struct Source {
+struct MappedColumn {
     std::string name;  ///< of the readings column
     records::StoreCell store;
     std::string constant;
@@ -23,7 +23,7 @@ struct Source {
     double factor = 1.0;  ///< from the column to the unit of the readings column
 };
 
-using Sources = std::vector<Source>;
+using Sources = std::vector<MappedColumn>;
 
 struct Map {
     Sources common;
@@ -86,8 +86,8 @@ class MapReader {
         return list;
     }
 
-    Source source(const std::string& key, const TomlValue& value) const {
-        Source result;
+    MappedColumn source(const std::string& key, const TomlValue& value) const {
+        MappedColumn result;
         result.name = key;
         if (const records::ReadingColumn* column = records::find_reading_column(key)) {
             result.store = column->store;
@@ -106,14 +106,14 @@ class MapReader {
         return result;
     }
 
-    void read_text(const TomlValue& value, Source& result) const {
+    void read_text(const TomlValue& value, MappedColumn& result) const {
         if (value.kind == TomlValue::Kind::table)
             result.text_column = column(*required(value, "column"));
         else
             result.constant = file_.text(value);
     }
 
-    void read_number(const TomlValue& value, const Told& told, Source& result) const {
+    void read_number(const TomlValue& value, const Told& told, MappedColumn& result) const {
         if (value.kind == TomlValue::Kind::number) {
             result.constant = shortest(file_.number(value));
             return;
@@ -171,12 +171,12 @@ class LineReader {
         table_.read(i, cells_);
     }
     void fill(const Sources& sources, records::Reading& reading) const {
-        for (const Source& source : sources) fill(source, reading);
+        for (const MappedColumn& source : sources) fill(source, reading);
     }
     double time_s() const { return time_.time_s(table_, row_, cells_); }
 
   private:
-    void fill(const Source& source, records::Reading& reading) const {
+    void fill(const MappedColumn& source, records::Reading& reading) const {
         if (source.time_column) return;  // read by TimeColumn, which also reads dates
         records::TableLine line = table_.line(row_);
         records::TableCell cell{source.constant, 1, false};
@@ -190,7 +190,7 @@ class LineReader {
         }
         source.store(reading, line, cell);
     }
-    double value(const Source& source) const {
+    double value(const MappedColumn& source) const {
         double v = number_in(table_, row_, cells_, *source.column);
         if (source.minus) v -= number_in(table_, row_, cells_, *source.minus);
         return v * source.factor;
@@ -215,7 +215,7 @@ void check_rows(const std::string& readings, const std::string& map_path, const 
 }
 
 std::optional<std::size_t> time_column_of(const Map& map) {
-    for (const Source& source : map.common)
+    for (const MappedColumn& source : map.common)
         if (source.time_column) return source.time_column;
     return std::nullopt;
 }

@@ -22,6 +22,14 @@ Vector3 point_on_arc(const ArcPath& arc, const Vector3& from, const Vector3& to,
            (height_start + s * (height_end - height_start)) * arc.normal;
 }
 
+double arc_length_mm(const ArcPath& arc, const Vector3& from, const Vector3& to) {
+    const Vector3 radius_vector = from - arc.centre_mm;
+    const double rise = arc.normal.dot(to - from);
+    const double radius = (radius_vector - radius_vector.dot(arc.normal) * arc.normal).norm();
+    const double bow = radius * arc.sweep_rad;
+    return std::sqrt(bow * bow + rise * rise);
+}
+
 double turns_of(double sweep_rad) {
     const double begun = std::ceil(std::abs(sweep_rad) / (2.0 * pi) - 1e-9);
     return std::copysign(std::fmax(1.0, begun), sweep_rad);

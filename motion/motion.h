@@ -31,6 +31,9 @@ struct ArcPath {
 /// start and end.
 Vector3 point_on_arc(const ArcPath& arc, const Vector3& from, const Vector3& to, double s);
 
+/// Length of an arc or helix: radius at its start, rise along the normal.
+double arc_length_mm(const ArcPath& arc, const Vector3& from, const Vector3& to);
+
 /// ArcPath::turns of a sweep: number of turns begun, at least one, with the sign of the sweep.
 double turns_of(double sweep_rad);
 

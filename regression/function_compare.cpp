@@ -29,7 +29,7 @@ FunctionEvents kept(const FunctionEvents& all, bool stores, bool coolant) {
     return events;
 }
 
-double distance(const FunctionEvent& p, const FunctionEvent& q) {
+double event_distance(const FunctionEvent& p, const FunctionEvent& q) {
     return std::hypot(p.tip_mm[0] - q.tip_mm[0], p.tip_mm[1] - q.tip_mm[1],
                       p.tip_mm[2] - q.tip_mm[2]);
 }
@@ -83,7 +83,7 @@ class FunctionComparer {
         const double cut_a = p.cut_mm - cut_a_mm_, cut_b = q.cut_mm - cut_b_mm_;
         if (std::abs(cut_a - cut_b) > 0.01 * std::max(cut_a, cut_b) + 0.05) return true;
         if (side_a_.run.path.modes() != side_b_.run.path.modes()) return false;
-        return distance(p, q) > 4.0 * options_.tolerances.position_mm;
+        return event_distance(p, q) > 4.0 * options_.tolerances.position_mm;
     }
 
     void gap_between(const KeyGap& gap) {

@@ -4,14 +4,11 @@
 
 #include <cmath>
 
+#include "regression/hash_mix.h"
+
 namespace trunnion::regression {
 
 namespace {
-
-std::uint64_t mix(std::uint64_t h, std::uint64_t n) {
-    h = (h ^ n) * 0xBF58476D1CE4E5B9ULL;
-    return h ^ (h >> 29U);
-}
 
 std::uint64_t key_of(const FunctionEvent& e) {
     const std::uint64_t h = mix(11, static_cast<std::uint64_t>(e.kind));

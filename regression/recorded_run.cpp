@@ -10,6 +10,7 @@
 #include "emulator/run.h"
 #include "interpreter/program_folders.h"
 #include "positioning/rotary_transform.h"
+#include "regression/hash_mix.h"
 
 namespace trunnion::regression {
 
@@ -43,10 +44,6 @@ class BlockKeys {
   private:
     static std::uint64_t grid(double value) {
         return static_cast<std::uint64_t>(std::llround(value * 1e4));
-    }
-    static std::uint64_t mix(std::uint64_t h, std::uint64_t n) {
-        h = (h ^ n) * 0xBF58476D1CE4E5B9ULL;
-        return h ^ (h >> 29);
     }
 
     KeyedLines& lines_;

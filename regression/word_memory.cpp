@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "regression/hash_mix.h"
+
 namespace trunnion::regression {
 
 namespace {
@@ -42,11 +44,6 @@ std::uint64_t bits_of(double value) {
     std::uint64_t bits = 0;
     std::memcpy(&bits, &plain, sizeof bits);
     return bits;
-}
-
-std::uint64_t mix(std::uint64_t h, std::uint64_t n) {
-    h = (h ^ n) * 0xBF58476D1CE4E5B9ULL;
-    return h ^ (h >> 29);
 }
 
 /// Letters whose meaning changes without decimal point (parameter 3401#0).

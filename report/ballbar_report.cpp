@@ -18,7 +18,7 @@ double small(const kinematics::ErrorName& name, double value) {
     return name.angular() ? urad_from_rad(value) : um_from_mm(value);
 }
 
-std::string error_table(const std::vector<ballbar::test::BallbarErrorRow>& rows, bool after) {
+std::string table_of_errors(const std::vector<ballbar::test::BallbarErrorRow>& rows, bool after) {
     std::string text =
         after ? fmt::format("{:6} {:>10} {:>9} {:>10} {:>9} {:>11} {:>10}  {}\n", "error", "before",
                             "u(before)", "after", "u(after)", "truly left", "published", "unit")
@@ -187,10 +187,10 @@ std::string location_text(const ballbar::test::BallbarResult& r) {
         return "no passes of the rotary axes: location errors are not evaluated\n\n";
     std::string text =
         "location errors at point_mm, second axis relative to the first that carries it\n" +
-        error_table(r.errors, r.has_after);
+        table_of_errors(r.errors, r.has_after);
     if (!r.at_intersection.empty())
         text += "\nthe same axis lines in M at the nominal intersection (as in the 2015 paper)\n" +
-                error_table(r.at_intersection, r.has_after);
+                table_of_errors(r.at_intersection, r.has_after);
     text +=
         "\npublished: circles, planes and transport of 2015; its bias against the exact fit\n"
         "is the cosine error of the bar\n";

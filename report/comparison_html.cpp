@@ -49,7 +49,7 @@ std::string differences_html(const regression::Comparison& c, std::size_t shown)
     return out;
 }
 
-std::string both(const std::array<double, 2>& a, const std::array<double, 2>& b) {
+std::string both_html(const std::array<double, 2>& a, const std::array<double, 2>& b) {
     const auto range = [](const std::array<double, 2>& r) {
         return r[0] == r[1] ? fmt::format("{:g}", r[1]) : fmt::format("{:g} to {:g}", r[0], r[1]);
     };
@@ -66,10 +66,11 @@ std::string tools_html(const regression::Comparison& c) {
         if (r.says_something())
             table.rows.push_back({fmt::format("T{}", r.tool), fmt::format("{:.3f}", r.cut_a_mm),
                                   fmt::format("{:+.3f}", r.cut_b_mm - r.cut_a_mm + 0.0),
-                                  both(r.feed_a, r.feed_b), both(r.spindle_a, r.spindle_b),
-                                  fmt::format("{}", r.equal), fmt::format("{}", r.moved),
-                                  fmt::format("{}", r.changed), fmt::format("{}", r.reordered),
-                                  fmt::format("{}", r.only_a), fmt::format("{}", r.only_b)});
+                                  both_html(r.feed_a, r.feed_b),
+                                  both_html(r.spindle_a, r.spindle_b), fmt::format("{}", r.equal),
+                                  fmt::format("{}", r.moved), fmt::format("{}", r.changed),
+                                  fmt::format("{}", r.reordered), fmt::format("{}", r.only_a),
+                                  fmt::format("{}", r.only_b)});
     return table.rows.empty() ? "" : table_html(table);
 }
 

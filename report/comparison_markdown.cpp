@@ -28,7 +28,7 @@ std::string place(const regression::ComparePlace& p) {
     return p.line > 0 ? fmt::format("{}:{}", plain(p.program), p.line) : plain(p.program);
 }
 
-std::string row(const regression::Comparison& c) {
+std::string comparison_row(const regression::Comparison& c) {
     const std::string name = c.name.empty() ? c.b : c.name;
     return fmt::format("| {} | {} | {} |\n", plain(name), c.equal ? "equal" : "**differs**",
                        plain(c.verdict));
@@ -66,7 +66,8 @@ std::string comparison_markdown(const regression::CompareReport& report) {
     std::string out = fmt::format("## {}\n", plain(verdict_of(report)));
     if (order.empty()) return out;
     out += "\n| program | | answer |\n|---|---|---|\n";
-    for (std::size_t k = 0; k < std::min(listed, order.size()); ++k) out += row(*order[k]);
+    for (std::size_t k = 0; k < std::min(listed, order.size()); ++k)
+        out += comparison_row(*order[k]);
     if (order.size() > listed)
         out += fmt::format("\n{} more programs differ\n", order.size() - listed);
     for (std::size_t k = 0; k < std::min(detailed, order.size()); ++k)

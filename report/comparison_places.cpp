@@ -13,7 +13,7 @@ namespace trunnion::report {
 
 namespace {
 
-const std::vector<ReportRule>& rules() {
+const std::vector<ReportRule>& difference_rules() {
     static const std::vector<ReportRule> table = {
         {"moved", "The same path, shifted"},
         {"path", "Another path"},
@@ -159,7 +159,7 @@ std::string format_comparison(const regression::CompareReport& report, ReportFor
         case ReportFormat::html: return page_html(comparison_page(report));
         case ReportFormat::junit: return junit_of(report);
         case ReportFormat::sarif:
-            return format_sarif(rules(), items_of(report), {}, left_out_of(report));
+            return format_sarif(difference_rules(), items_of(report), {}, left_out_of(report));
         case ReportFormat::github: return format_github(annotations_of(report));
         case ReportFormat::markdown: return comparison_markdown(report);
     }

@@ -11,7 +11,7 @@ namespace trunnion::report {
 
 namespace {
 
-std::string place_text(const char* side, const regression::ComparePlace& p) {
+std::string side_text(const char* side, const regression::ComparePlace& p) {
     if (p.line == 0) return fmt::format("    {} {}: nothing here\n", side, p.program);
     std::string out = fmt::format("    {} {}:{}\n", side, p.program, p.line);
     for (int k = 0; k < static_cast<int>(p.context.size()); ++k)
@@ -24,7 +24,7 @@ std::string place_text(const char* side, const regression::ComparePlace& p) {
 std::string difference_text(const regression::Difference& d, std::size_t number) {
     std::string out = paragraph(fmt::format("{}. {}", number, printable(d.what)), 2);
     if (d.expected) out += paragraph(fmt::format("expected: {}", d.reason), 4);
-    return out + place_text("A", d.a) + place_text("B", d.b);
+    return out + side_text("A", d.a) + side_text("B", d.b);
 }
 
 std::string range_text(const std::array<double, 2>& range) {
@@ -32,7 +32,7 @@ std::string range_text(const std::array<double, 2>& range) {
     return fmt::format("{:g}..{:g}", range[0], range[1]);
 }
 
-std::string both(const std::array<double, 2>& a, const std::array<double, 2>& b) {
+std::string both_text(const std::array<double, 2>& a, const std::array<double, 2>& b) {
     return a == b ? range_text(a) : range_text(a) + " -> " + range_text(b);
 }
 
@@ -58,10 +58,10 @@ std::string table_text(const regression::Comparison& c) {
     std::string out = "\n  tool  cut A mm  cut B mm longer by  feed mm/min  spindle rpm  passes\n";
     for (const regression::ToolRow& r : c.tools)
         if (r.says_something())
-            out +=
-                fmt::format("  T{:<4} {:>8.3f} {:>9.3f} {:>+9.3f}  {:<11}  {:<11}  {}\n", r.tool,
-                            r.cut_a_mm, r.cut_b_mm, r.cut_b_mm - r.cut_a_mm + 0.0,
-                            both(r.feed_a, r.feed_b), both(r.spindle_a, r.spindle_b), fate_text(r));
+            out += fmt::format("  T{:<4} {:>8.3f} {:>9.3f} {:>+9.3f}  {:<11}  {:<11}  {}\n", r.tool,
+                               r.cut_a_mm, r.cut_b_mm, r.cut_b_mm - r.cut_a_mm + 0.0,
+                               both_text(r.feed_a, r.feed_b), both_text(r.spindle_a, r.spindle_b),
+                               fate_text(r));
     return out;
 }
 

@@ -8,7 +8,7 @@ namespace trunnion::report {
 namespace {
 
 constexpr std::size_t most_marks = 1500;
-constexpr double left_px = 80, top_px = 60, width_px = 620, height_px = 260;
+constexpr double left_px = 80, top_px = 60, plot_width_px = 620, plot_height_px = 260;
 
 struct Extent {
     double low = 0.0, high = 0.0;
@@ -36,10 +36,10 @@ std::string scatter_svg(const Scatter& scatter) {
     Extent x, y;
     for (const ScatterSeries& series : scatter.series)
         for (const Point2& p : series.points) x.include(p.x), y.include(p.y);
-    Svg svg(left_px + width_px + 30, top_px + height_px + 60);
+    Svg svg(left_px + plot_width_px + 30, top_px + plot_height_px + 60);
     svg.describe(scatter.title, scatter.description);
-    Plot plot(svg, {{left_px, top_px}, width_px, height_px}, round_range(x.low, x.high, 8),
-              round_range(y.low, y.high));
+    Plot plot(svg, {{left_px, top_px}, plot_width_px, plot_height_px},
+              round_range(x.low, x.high, 8), round_range(y.low, y.high));
     plot.frame(scatter.title, scatter.x_label, scatter.y_label);
     double legend_px = left_px;
     for (std::size_t k = 0; k < scatter.series.size(); ++k) {

@@ -40,8 +40,6 @@ std::vector<BallbarErrorRow> rows_of(const std::vector<ErrorEstimate>& before,
 
 namespace {
 
-constexpr std::size_t points_per_pass = 720;  ///< for the parameters of the circle: half a degree
-
 /// Planar passes reduced to means of neighbouring readings, because range parameters must not grow
 /// with the sampling rate. Values are relative to the nominal length of the bar.
 records::ReadingTable thinned(const records::ReadingTable& table, double warm_mm) {

@@ -11,7 +11,6 @@
 namespace trunnion::ballbar::test {
 namespace {
 
-constexpr std::size_t points_per_pass = 720;
 constexpr double full_weight_gain = 30.0;  ///< minimum gain of a trace with key, times the noise
                                            ///< variance
 

@@ -11,6 +11,9 @@
 
 namespace trunnion::ballbar::test {
 
+/// Readings of a pass are reduced to this number of means: one each half a degree.
+constexpr std::size_t points_per_pass = 720;
+
 /// One direction of travel on one circle. Angles counter-clockwise in the plane from its first axis
 /// (XY from X, YZ from Y, ZX from Z).
 struct CircularPass {
