@@ -43,7 +43,7 @@ double rms_um(const Outcome& f, const Eigen::VectorXd& v) {
         sum += std::pow(v(static_cast<Eigen::Index>(i)), 2);
         rows += 1.0;
     }
-    return micro_per_one(f.prepared) * std::sqrt(sum / std::max(1.0, rows));
+    return records::micro_per_one(f.prepared.table) * std::sqrt(sum / std::max(1.0, rows));
 }
 
 double independent_readings(const Outcome& f) {
@@ -163,7 +163,7 @@ void describe_size(const Outcome& f, const Solution& solution, Diagnosis& d) {
     d.excess_um = std::sqrt(std::max(0.0, d.rms_um * d.rms_um - d.noise_um * d.noise_um));
     d.after_rms_um = rms_um(f, left);
     d.angles = records::only_angles(f.prepared.table);
-    const double micro = micro_per_one(f.prepared);
+    const double micro = records::micro_per_one(f.prepared.table);
     for (Eigen::Index i = 0; i < left.size(); ++i) {
         d.before_um.push_back(micro * before(i));
         d.after_um.push_back(micro * left(i));

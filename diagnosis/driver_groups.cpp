@@ -158,8 +158,10 @@ class DriverList {
         if (end - start > 60.0) {
             auto functions = smooth(t, start, end, false, 6);
             add("time", "machine frame", "drifts with time", functions, machine_axes());
+            drivers_.back().of_time = true;
             add("time", "table frame", "moves with the table at some moment", functions,
                 table_axes());
+            drivers_.back().of_time = true;
         }
         if (warm - cold < 0.3) return;
         const RowFunction warmth = [this](std::size_t i) {
@@ -265,6 +267,7 @@ void add_driver_groups(Design& design, const Prepared& prepared, const Whitener&
         group.name = driver.by;
         group.component = driver.component;
         group.text = driver.text;
+        group.of_time = driver.of_time;
         const Eigen::Index first = design.add_features(columns);
         for (Eigen::Index k = 0; k < columns.cols(); ++k) group.features.push_back(first + k);
         group.log_prior = prior;

@@ -75,7 +75,7 @@ HeldOut measured_shrink(const Outcome& f, const setup::Setup& setup,
     const SquaredSums sums = sums_of(f, setup, holdout);
     const double before = total(sums.before), after = total(sums.after), noise = total(sums.noise);
     const double rows = std::max(1.0, total(sums.rows));
-    const double micro = records::only_angles(holdout) ? 1e6 : 1e3;
+    const double micro = records::micro_per_one(holdout);
     HeldOut h{micro * std::sqrt(before / rows),
               micro * std::sqrt(after / rows),
               micro * std::sqrt(noise / rows),

@@ -157,10 +157,6 @@ Eigen::VectorXd set_up_left_mm(const Prepared& prepared, Design& design) {
     return left_mm(prepared, design, none, solved(design, none));
 }
 
-double micro_per_one(const Prepared& prepared) {
-    return records::only_angles(prepared.table) ? 1e6 : 1e3;
-}
-
 Model computable(Design& design, const SearchSetting& setting, Model model) {
     if (!std::isfinite(model.variances.nu)) return empty_model(design, setting);
     const auto sound = [&] {

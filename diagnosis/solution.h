@@ -39,8 +39,6 @@ setup::Setup setup_with(const Prepared& prepared, const Design& design, const Mo
 /// Readings minus simulation with the set-up alone, fitted by least squares, mm. (The base model is
 /// robust: where readings are far from noise, its zeros may not lie in their middle.)
 Eigen::VectorXd set_up_left_mm(const Prepared& prepared, Design& design);
-/// µm in a mm, or µrad in a rad where all readings are angles.
-double micro_per_one(const Prepared& prepared);
 
 /// Without the members added last, as long as the model cannot be computed: a search that was ended
 /// early may leave variances that no search would keep.

@@ -53,9 +53,8 @@ bool holds_between(Design& design, const Prepared& prepared, const Model& model,
 bool is_other_course(const Design& design, const Model& model, std::size_t position) {
     const ColumnGroup& group = design.group(model.members[position]);
     return group.effect && group.effect->kind == effects::EffectKind::thermal_drift &&
-           std::any_of(model.members.begin(), model.members.end(), [&](std::size_t m) {
-               return design.group(m).kind == GroupKind::driver && design.group(m).name == "time";
-           });
+           std::any_of(model.members.begin(), model.members.end(),
+                       [&](std::size_t m) { return design.group(m).of_time; });
 }
 
 double share_of_tables(const Sizes& sizes, const std::vector<bool>& those) {

@@ -232,7 +232,7 @@ Identification identify(const setup::Setup& setup, const records::ReadingTable& 
     result.inseparable = base.inseparable;
     result.covariance = base.covariance;
     result.angles = records::only_angles(table);
-    const double micro = result.angles ? 1e6 : 1e3;
+    const double micro = records::micro_per_one(table);
     result.rms_before_um = micro * rms_of(base.start_residual_mm);
     result.rms_after_um = micro * rms_of(base.residual_mm);
     result.dof = static_cast<int>(replay.size()) - base.rank;

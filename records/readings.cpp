@@ -268,4 +268,8 @@ bool only_angles(const ReadingTable& table) {
     return any;
 }
 
+double micro_per_one(const ReadingTable& table) {
+    return only_angles(table) ? 1e6 : 1e3;
+}
+
 }  // namespace trunnion::records

@@ -64,6 +64,8 @@ struct ReadingTable {
 
 /// True when every row with a device reads an angle.
 bool only_angles(const ReadingTable& table);
+/// µm in a mm, or µrad in a rad where all readings are angles.
+double micro_per_one(const ReadingTable& table);
 
 /// Parses the CSV text of a machine with axes `names`. Throws InputError with line and column for a
 /// cell that is not a number, a row that does not fit its device (direction not a unit vector,

@@ -7,6 +7,7 @@
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/ripples.h"
 #include "tests/support/campaign.h"
+#include "tests/support/said.h"
 
 namespace trunnion {
 namespace {
@@ -15,13 +16,6 @@ diagnosis::Diagnosis diagnosed(const setup::Setup& setup, const records::Reading
     diagnosis::DiagnosisOptions options;
     options.plan_next = false;
     return diagnosis::diagnose(setup, table, options);
-}
-
-std::string said(const diagnosis::Diagnosis& d) {
-    std::string text = to_string(d.verdict);
-    for (const diagnosis::Cause& c : d.causes)
-        text += fmt::format(", {} {:.0f} % p {:.2f}", c.effect, 100.0 * c.share, c.probability);
-    return text;
 }
 
 bool claims(const diagnosis::Diagnosis& d, const std::string& effect) {

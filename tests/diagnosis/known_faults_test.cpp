@@ -5,16 +5,10 @@
 
 #include "diagnosis/diagnosis.h"
 #include "tests/support/campaign.h"
+#include "tests/support/said.h"
 
 namespace trunnion {
 namespace {
-
-std::string said(const diagnosis::Diagnosis& d) {
-    std::string text = to_string(d.verdict);
-    for (const diagnosis::Cause& c : d.causes)
-        text += fmt::format(", {} {:.0f} % p {:.2f}", c.effect, 100.0 * c.share, c.probability);
-    return text;
-}
 
 const diagnosis::Cause* claim_of(const diagnosis::Diagnosis& d, const std::string& effect) {
     const auto at = std::find_if(d.causes.begin(), d.causes.end(),

@@ -7,6 +7,7 @@
 #include "base/read_file.h"
 #include "diagnosis/diagnosis.h"
 #include "imports/import.h"
+#include "tests/support/said.h"
 
 namespace trunnion {
 namespace {
@@ -32,13 +33,6 @@ diagnosis::Diagnosis diagnosed(const Export& e) {
     diagnosis::DiagnosisOptions options;
     options.plan_next = false;
     return diagnosis::diagnose(setup, table, options);
-}
-
-std::string said(const diagnosis::Diagnosis& d) {
-    std::string text = to_string(d.verdict);
-    for (const diagnosis::Cause& c : d.causes)
-        text += fmt::format(", {} {:.0f} % p {:.2f}", c.effect, 100.0 * c.share, c.probability);
-    return text;
 }
 
 /// The value of a parameter of a claimed effect in textbook form; NaN if it is not claimed.

@@ -6,6 +6,7 @@
 #include "base/alarm.h"
 #include "diagnosis/diagnosis.h"
 #include "tests/support/campaign.h"
+#include "tests/support/said.h"
 
 namespace trunnion {
 namespace {
@@ -47,15 +48,6 @@ diagnosis::Diagnosis diagnosed(const setup::Setup& setup, const records::Reading
     options.plan_next = false;
     options.over_sessions = true;
     return diagnosis::diagnose(setup, table, options);
-}
-
-std::string said(const diagnosis::Diagnosis& d) {
-    std::string text = to_string(d.verdict);
-    for (const diagnosis::Cause& c : d.causes)
-        text +=
-            fmt::format(", {}{} {:.0f} % p {:.2f}", c.effect,
-                        c.since.empty() ? "" : " since " + c.since, 100.0 * c.share, c.probability);
-    return text;
 }
 
 const diagnosis::Cause* claim_of(const diagnosis::Diagnosis& d, const std::string& effect,
