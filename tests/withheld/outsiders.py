@@ -218,10 +218,48 @@ def form_errors(rng, machine):
     size = rng.normal(size=(3, 3, waves)) * (length / 600.0)
     def apply(scene, errors, a):
         for i in range(3):
-            angle = 2 * np.pi * scene.rows.pos_mm[:, i, None, None] / length[i] + phase[i]
-            errors.gauge_mm += a[i] * (size[i] * np.sin(angle)).sum(axis=2)
-    return Effect("form", ["X_mm", "Y_mm", "Z_mm"], [3e-3, 3e-3, 3e-3], apply)
+            errors.gauge_mm += a[i] * form_curves(waves_of, scene.rows, i)
+    waves_of = (length, phase, size)
+    return Effect("form", ["X_mm", "Y_mm", "Z_mm"], [3e-3, 3e-3, 3e-3], apply, keys={"waves_of": waves_of})
 
+
+def form_curves(waves_of, rows, i):
+    """The curves of axis i at the rows, per amplitude: (n,3), along X, Y, Z."""
+    length, phase, size = waves_of
+    angle = 2 * np.pi * rows.pos_mm[:, i, None, None] / length[i] + phase[i]
+    return (size[i] * np.sin(angle)).sum(axis=2)
+
+
+def straight_part(rows, i, curves):
+    """The part of curves of axis i that is proportional to its position, over the rows that are read."""
+    use, way = rows.read, rows.pos_mm[:, i] - rows.pos_mm[rows.read, i].mean()
+    slope = way[use] @ curves[use] / max(way[use] @ way[use], 1e-12)
+    return way[:, None] * slope
+
+
+def form_parts(form):
+    """The single errors that form_errors() consists of, by the names that a diagnosis may give them.
+
+    X.positioning and X.straightness: the whole curves. X.scale and XY.squareness: their parts that are proportional
+    to position, which are parts of the former too.
+    """
+    waves_of, parts = form.keys["waves_of"], {}
+    def part(name, take):
+        def apply(scene, errors, a):
+            for i in range(3):
+                errors.gauge_mm += a[i] * take(scene.rows, i, form_curves(waves_of, scene.rows, i))
+        parts[name] = Effect(name, form.labels, form.amplitude, apply)
+    for k, axis in enumerate("XYZ"):
+        along = np.eye(3)[k]
+        part(axis + ".positioning", lambda rows, i, c, k=k, along=along: c * along * (i == k))
+        part(axis + ".straightness", lambda rows, i, c, k=k, along=along: c * (1 - along) * (i == k))
+        part(axis + ".scale", lambda rows, i, c, k=k, along=along: straight_part(rows, i, c) * along * (i == k))
+    for pair in ((0, 1), (1, 2), (2, 0)):
+        def lean(rows, i, c, pair=pair):
+            other = np.eye(3)[pair[1 - pair.index(i)]] if i in pair else np.zeros(3)
+            return straight_part(rows, i, c) * other
+        part("".join("XYZ"[k] for k in pair) + ".squareness", lean)
+    return parts
 
 OUTSIDERS = (drift_two_times, backlash_by_position, guide_bump, cubic_bow, over_centre_play, harmonic_five, jump_in_y,
              stick_slip, angle_interaction, wander)

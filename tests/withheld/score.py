@@ -11,6 +11,7 @@ import math
 import os
 import sys
 
+from all_claims import false_claims, score_claims
 from statistics_table import median_line, middle, rate, rate_line
 
 SIZES = ((0.0, 2.0), (2.0, 3.0), (3.0, 4.5), (4.5, 99.0))
@@ -92,6 +93,7 @@ def judge(seed, truth, verdict, values):
               "verdict": verdict.get("verdict"), "noise_source": verdict.get("noise_source"),
               "claimed": claimed, "free": free, "rivals": rivals, "p_value": number((verdict.get("gap") or {}).get("p_value")),
               "probability": number(causes[0].get("probability")) if causes else None,
+              "probabilities": [number(c.get("probability")) for c in causes], "forms": truth.get("forms", {}),
               "oracle_shrink": truth["oracle_shrink"], "claimed_shrink": number(after.get("heldout_shrink")),
               "ci95": after.get("ci95"), "measured_shrink": None, "z_after": None}
     if values is not None and truth["base_excess_um"] > 0:
@@ -379,11 +381,12 @@ def main(arguments=None):
                        "rate, hits/count, Wilson 95 %, lowest and highest seed")
     table.rate("verdicts", "a verdict and predictions were given", records,
                lambda r: r["verdict"] is not None and r["measured_shrink"] is not None)
-    for part in (score_nulls, score_singles, score_others, score_form, score_shrink, score_calibration):
+    for part in (score_nulls, score_singles, score_others, score_form, score_shrink, score_calibration, score_claims):
         part(table, records)
     if not options.brief:
         table.lines += ["", "single effects", *by_effect(records), "", "outsiders and foreign forms",
-                        *by_outsider(records), "", "not as wished", *mistakes(records)]
+                        *by_outsider(records), "", "not as wished", *mistakes(records),
+                        "", "false with 0.95 and more", *false_claims(records)]
     print("\n".join(table.lines))
     if options.json:
         with open(options.json, "w") as out:

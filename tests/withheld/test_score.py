@@ -10,6 +10,7 @@ import unittest
 
 import generate
 import score
+from all_claims import is_right
 from statistics_table import wilson
 
 
@@ -89,6 +90,25 @@ class Scorer(unittest.TestCase):
         self.assertEqual(found["null.right_or_repeats"]["rate"], 0.0)
         self.assertIsNone(found["shrink.ratio"]["median"])
         self.assertGreater(found["shrink.ratio"]["missing"], 0)
+
+    def test_claims_beside_forms(self):
+        truth, forms = ["C.backlash", "Y.cyclic"], {"X.straightness": 2.0, "X.scale": 0.3, "Z.positioning": 0.69}
+        for claim, free in (("C.backlash", False), ("X.straightness", True), ("X.straightness", False),
+                            ("Y.positioning", True), ("free form of X", True), ("free form of Y", True)):
+            self.assertTrue(is_right(claim, free, truth, forms), claim)
+        for claim, free in (("X.angular", True), ("X.scale", False), ("Z.positioning", True), ("free form of Z", True),
+                            ("Y.positioning", False), ("C.positioning", True), ("free form of C", True)):
+            self.assertFalse(is_right(claim, free, truth, forms), claim)
+
+    def test_every_false_claim_counts(self):
+        def give(truth):
+            said = answer("explained", ["Q.angular", *truth["effects"]], 1.0)
+            said["causes"][0]["form"] = "table"
+            return said, truth["holdout_clean"]
+        found = self.figures(give)
+        self.assertEqual(found["claims.0.95.free form"]["rate"], 0.0)
+        self.assertEqual(found["claims.0.95.named"]["hits"],
+                         sum(len(t["effects"]) for t in self.truths if t["kind"] in ("single", "multi", "outliers")))
 
     def test_wilson(self):
         low, high = wilson(0, 162)

@@ -2,6 +2,15 @@
 import numpy as np
 
 from oracle import Fit
+from outsiders import form_parts
+from rivals import signature
+
+
+def forms_of(case):
+    """Visible rms, in sigma, of each single error of the smooth forms: {} without any."""
+    return {name: case.projector.rms(signature(case, part)) for name, part in form_parts(case.background).items()} \
+        if case.background else {}
+
 
 def excess_um(predicted, clean, use):
     """rms of prediction - noise-free truth."""
@@ -29,7 +38,8 @@ def describe(name, case):
         "devices": list(case.plan.devices), "plan": vars(case.plan) | {"devices": list(case.plan.devices)},
         "effects": [e.name for e in case.effects] or ["none"],
         "params": {e.name: e.parameters() for e in case.effects},
-        "readings": int((case.sigma_train > 0).sum()), "size_sigma": case.sizes, "form_sigma": case.wish.form_sigma, "rivals": case.rivals, "nearest": case.nearest, "outlier_rows": [int(i) for i in case.outlier_rows],
+        "readings": int((case.sigma_train > 0).sum()), "size_sigma": case.sizes, "form_sigma": case.wish.form_sigma, "forms": forms_of(case),
+        "rivals": case.rivals, "nearest": case.nearest, "outlier_rows": [int(i) for i in case.outlier_rows],
         "noise_um_true": case.noise_um, "noise_um_setup": case.machine.noise_um,
         "base": dict(zip(case.base.labels(), map(float, case.base_values))),
         "base_train_z_rms": plain.z_rms, "base_holdout_z_rms": z_rms(before),
