@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "diagnosis/contenders.h"
 #include "diagnosis/rules.h"
 #include "estimation/distributions.h"
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr std::size_t rivals_tried = 20;
 constexpr std::size_t replacements_tried = 3;  ///< of each other cause
+constexpr double sure = 0.95;     ///< against the best model without it: nothing is named
 constexpr double doubtful = 0.4;  ///< probability at most of causes that cancel each other
 
 double log_sum(const std::vector<double>& values) {
@@ -93,7 +95,8 @@ void weigh_one_for_two(const Searching& search, const Model& model, const Offer&
 }
 
 /// Posterior weight of the models that contain member k, relative to: the chosen model, the model
-/// without it, those with it replaced, and those with another one in place of two.
+/// without it, those with it replaced, and those with another one in
+/// place of two.
 double evidence_probability(const Searching& search, const Model& model, const Offer& held,
                             const std::vector<Offer>& others, double zeta) {
     const Design& design = search.design;
@@ -137,6 +140,20 @@ void name_rivals(const Design& design, const Offer& held, const std::vector<Offe
     for (const auto& [worse, k] : found) {
         const std::string& name = design.group(k).name;
         if (std::find(claim.rivals.begin(), claim.rivals.end(), name) != claim.rivals.end())
+            continue;
+        claim.rivals.push_back(name);
+        claim.rival_groups.push_back(k);
+    }
+}
+
+/// What the best model without the member has in its place, where that leaves the member unsure.
+void name_contender(Design& design, const Model& model, const Contender& contender,
+                    const Eigen::VectorXd& part, Claim& claim) {
+    if (probability_against(contender) >= sure) return;
+    for (const std::size_t k : in_place_of(design, model, contender.model, part)) {
+        const std::string& name = design.group(k).name;
+        if (name == claim.name ||
+            std::find(claim.rivals.begin(), claim.rivals.end(), name) != claim.rivals.end())
             continue;
         claim.rivals.push_back(name);
         claim.rival_groups.push_back(k);
@@ -202,8 +219,10 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         if (claim.share < rules::least_share && claim.rms < rules::least_rms) continue;
         const std::vector<Offer> others = offers(design, without(model, k));
         const double blocks = heldout.support[k].saving.blocks;
+        const Contender& contender = heldout.contenders[k];
         claim.probability = std::min(
             {evidence_probability(search, model, worth[k], others, temper(sizes, k, heldout.folds)),
+             probability_against(contender),
              estimation::student_probability(heldout.support[k].saving.t, blocks - 1.0),
              (blocks + 1.0) / (blocks + 2.0), std::clamp(heldout.explained, 0.0, 1.0)});
         // It works against the other causes: the correction of a form that is not theirs.
@@ -211,6 +230,8 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         std::vector<Offer> instead = others;
         for (Offer& o : only_rivals(design, without(model, k))) instead.push_back(std::move(o));
         name_rivals(design, worth[k], instead, claim);
+        name_contender(design, model, contender, sizes.parts.col(static_cast<Eigen::Index>(k)),
+                       claim);
         claims.push_back(std::move(claim));
     }
     if (own > rules::most_own)  // contributions cancel, so none of them is reliable

@@ -1,8 +1,7 @@
 // Claims of the chosen model: share, probability and rivals of each cause.
 #pragma once
 
-#include "diagnosis/heldout.h"
-#include "diagnosis/search.h"
+#include "diagnosis/contenders.h"
 
 namespace trunnion::diagnosis {
 
@@ -37,14 +36,9 @@ struct Support {
 /// What left-out readings say about a model.
 struct HeldOutEvidence {
     const std::vector<Support>& support;  ///< of each member
+    const std::vector<Contender>& contenders;  ///< of each member
     const Folds& folds;
     double explained;  ///< H, the part of the gap that they confirm: no probability is above it
-};
-
-/// Where models are compared, and with which belief in the noise.
-struct Searching {
-    Design& design;
-    const SearchSetting& setting;
 };
 
 /// Causes that explain nearly as much as a driver or a large zero in its place, most likely first,

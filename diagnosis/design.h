@@ -84,7 +84,8 @@ class Design {
     }
     /// Excludes the group from further offers.
     void hide(std::size_t group) { groups_[group].hidden = true; }
-    /// The same, but it may be named as a rival.
+    void offer_again(std::size_t group) { groups_[group].hidden = false; }
+    /// The same as hide(), but it may be named as a rival.
     void keep_as_rival(std::size_t group) {
         groups_[group].hidden = groups_[group].only_rival = true;
     }

@@ -263,7 +263,7 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const
         model = settled(design, setting, grown(design, setting, std::move(model)));
         if (model.score < before + 1.0) break;
     }
-    model = without_idle_members(design, setting, p, std::move(model), round.used);
+    model = without_idle_members(design, setting, {p.folds, round.used}, std::move(model));
     setting.refine = {};  // what it refers to ends here
     setting.go_on = {};
     return {std::move(design), std::move(setting), std::move(model)};
@@ -327,6 +327,12 @@ bool corrected(Prepared& p, Searched& s, Round& round) {
     return changed;
 }
 
+/// The model with the contenders of its causes; without any when the search was ended.
+Challenged contested(const Prepared& p, Searched& s, const Round& round, bool unfinished) {
+    if (unfinished) return {s.model, std::vector<Contender>(s.model.members.size())};
+    return challenged({s.design, s.setting}, {p.folds, round.used}, s.model);
+}
+
 }  // namespace
 
 const char* to_string(Verdict verdict) {
@@ -381,9 +387,11 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
     const bool unfinished = stopped();
     if (unfinished) s.model = computable(s.design, s.setting, std::move(s.model));
     watch("held-out readings");
-    const Judgement judgement = judged(s.design, p, s.model, round.noise, round.used);
-    Diagnosis d =
-        report_of({p, s.design, s.setting, s.model, judgement, round.noise, round.used}, options);
+    const Challenged found = contested(p, s, round, unfinished);
+    const Judgement judgement = judged(s.design, p, found.model, round.noise, round.used);
+    Diagnosis d = report_of({p, s.design, s.setting, found.model, judgement, round.noise,
+                             round.used, found.contenders},
+                            options);
     d.unfinished = unfinished;
     if (const auto gap = store_gap(setup, table)) add_store_gap(setup, *gap, options.holdout, d);
     return d;

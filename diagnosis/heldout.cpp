@@ -33,13 +33,14 @@ Saving saving_of(const BlockLoss& without, const BlockLoss& with) {
     for (std::size_t b = 0; b < without.square.size(); ++b)
         if (const double d = without.square[b] - with.square[b]; std::abs(d) > 1e-6 * scale)
             saved.push_back(d);
-    Saving result{0.0, static_cast<double>(saved.size())};
-    if (saved.size() < 2) return result;
     for (const double d : saved) sum += d;
+    Saving result{0.0, static_cast<double>(saved.size()), sum, std::abs(sum)};
+    if (saved.size() < 2) return result;
     const double mean = sum / result.blocks;
     for (const double d : saved) square += (d - mean) * (d - mean);
     const double error = std::sqrt(square / (result.blocks - 1.0) / result.blocks);
     result.t = error > 0.0 ? mean / error : 0.0;
+    result.spread = error * result.blocks;
     return result;
 }
 

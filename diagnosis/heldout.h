@@ -15,8 +15,15 @@ struct BlockLoss {
 /// difference.
 struct Saving {
     double t = 0.0, blocks = 0.0;
+    double sum = 0.0, spread = 0.0;  ///< of all blocks together; its standard deviation
 };
 Saving saving_of(const BlockLoss& without, const BlockLoss& with);
+
+/// What is left out together, and which rows count.
+struct LeftOutRows {
+    const Folds& folds;
+    const std::vector<bool>& used;
+};
 
 /// Fits of set-up and members to all folds but one, for any selection of predicting members.
 class LeftOut {

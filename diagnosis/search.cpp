@@ -8,7 +8,6 @@
 namespace trunnion::diagnosis {
 namespace {
 
-constexpr std::size_t most_members = 12;
 constexpr std::size_t tried = 4;       ///< number of best offers tuned at each step
 constexpr std::size_t looked_at = 20;  ///< number of offers whose exact gain is computed
 constexpr double certain = 30.0;       ///< worth of a member that is not questioned, nats
@@ -214,7 +213,7 @@ double Offer::explained() const {
 }
 
 SearchSetting search_setting(Design& design, const estimation::NoisePrior& noise) {
-    SearchSetting setting{noise, 0.0, {}, {}};
+    SearchSetting setting{noise, 0.0};
     const estimation::GroupEquations e = design.equations({});
     setting.empty = estimation::restricted_likelihood(
         e, estimation::maximise_likelihood(e, {{}, std::exp(noise.log_mean)}, noise, 1), noise);
@@ -307,7 +306,7 @@ Model pruned(Design& design, const SearchSetting& setting, Model model) {
 }
 
 Model grown(Design& design, const SearchSetting& setting, Model model) {
-    while (model.members.size() < most_members && !setting.stopped() &&
+    while (model.members.size() < setting.most_members && !setting.stopped() &&
            grow(design, setting, model, true)) {
     }
     return model;

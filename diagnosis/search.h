@@ -26,6 +26,7 @@ struct SearchSetting {
     std::function<std::optional<std::size_t>(const Model& model, std::size_t position)> refine = {};
     /// Asked at each step: false ends the search with the best model so far. Empty: never.
     std::function<bool()> go_on = {};
+    std::size_t most_members = 12;
 
     bool stopped() const { return go_on && !go_on(); }
 };

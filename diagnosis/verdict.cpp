@@ -131,11 +131,11 @@ Verdict verdict_of(const Judgement& j, const std::vector<Claim>& claims) {
     return rivalled ? Verdict::ambiguous : Verdict::explained;
 }
 
-Model without_idle_members(Design& design, const SearchSetting& setting, const Prepared& prepared,
-                           Model model, const std::vector<bool>& used) {
+Model without_idle_members(Design& design, const SearchSetting& setting, const LeftOutRows& rows,
+                           Model model) {
     constexpr double least_t = 1.0;
     if (model.members.empty()) return model;
-    LeftOut left(design, model, prepared.folds, used);
+    LeftOut left(design, model, rows.folds, rows.used);
     const std::vector<std::size_t> first = model.members;
     std::vector<bool> fitted(first.size(), true);
     auto predicting = marked(design, model,

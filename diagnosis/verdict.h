@@ -37,8 +37,8 @@ Judgement judged(Design& design, const Prepared& prepared, const Model& model,
 Verdict verdict_of(const Judgement& judgement, const std::vector<Claim>& claims);
 
 /// Removes members without benefit for left-out readings, the weakest first.
-Model without_idle_members(Design& design, const SearchSetting& setting, const Prepared& prepared,
-                           Model model, const std::vector<bool>& used);
+Model without_idle_members(Design& design, const SearchSetting& setting, const LeftOutRows& rows,
+                           Model model);
 
 /// Drivers that the readings depend on when only the set-up is fitted, strongest first.
 std::vector<DriverShare> where_of(const Design& design, double floor);

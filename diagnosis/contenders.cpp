@@ -1,0 +1,179 @@
+#include "diagnosis/contenders.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "diagnosis/verdict.h"
+
+namespace trunnion::diagnosis {
+namespace {
+
+constexpr double least_overlap = 0.1;  ///< part of a contribution that a rival must do
+constexpr double hopeless = 60.0;      ///< evidence behind, nats, that no exchange makes up for
+constexpr std::size_t more = 2;        ///< members that it may have beyond the chosen model
+constexpr int most_replaced = 3;       ///< models that give way to a contender
+
+/// Groups taken out of the offers as long as this exists.
+class Withheld {
+  public:
+    Withheld(Design& design, const std::function<bool(const ColumnGroup&)>& excluded)
+        : design_(design) {
+        for (std::size_t k = 0; k < design.groups().size(); ++k)
+            if (!design.groups()[k].hidden && excluded(design.group(k))) {
+                design.hide(k);
+                groups_.push_back(k);
+            }
+    }
+    ~Withheld() {
+        for (const std::size_t k : groups_) design_.offer_again(k);
+    }
+    Withheld(const Withheld&) = delete;
+    Withheld& operator=(const Withheld&) = delete;
+
+  private:
+    Design& design_;
+    std::vector<std::size_t> groups_;
+};
+
+/// True for the textbook form of what the table gives in free form.
+bool is_part_of(const ColumnGroup& textbook, const TableForm& table) {
+    if (textbook.kind != GroupKind::textbook || textbook.effect->axis != table.axis.axis)
+        return false;
+    const effects::EffectKind kind = textbook.effect->kind;
+    return kind == table.motion ||
+           (kind == effects::EffectKind::scale && table.motion == effects::EffectKind::positioning);
+}
+
+/// Evidence of a model. An error with a form of its own has a textbook part as often as not: that
+/// is no second improbable cause beside the table.
+double weight_of(Design& design, const Model& model) {
+    double sum = evidence(design, model);
+    for (const std::size_t k : model.members) {
+        const ColumnGroup& group = design.group(k);
+        const auto own = [&](std::size_t m) {
+            return design.group(m).kind == GroupKind::table &&
+                   is_part_of(group, design.group(m).table);
+        };
+        if (std::any_of(model.members.begin(), model.members.end(), own))
+            sum += std::log(0.5) - group.log_prior;
+    }
+    return sum;
+}
+
+BlockLoss loss_of(Design& design, const Model& model, const LeftOutRows& rows) {
+    const std::vector<bool> all(model.members.size(), true);
+    return LeftOut(design, model, rows.folds, rows.used).loss(all, all);
+}
+
+/// Name of a member that is a cause, else empty.
+std::string cause_of_member(const Design& design, const Model& model, std::size_t position) {
+    const ColumnGroup& group = design.group(model.members[position]);
+    return is_cause(group.kind) ? group.name : "";
+}
+
+/// An earlier member that is part of the same cause, whose contender is known.
+std::optional<std::size_t> earlier_member(const Design& design, const Challenged& so_far,
+                                          const std::string& cause) {
+    for (std::size_t k = 0; k < so_far.contenders.size(); ++k)
+        if (cause_of_member(design, so_far.model, k) == cause) return k;
+    return std::nullopt;
+}
+
+/// The difference of two models on left-out readings, both predicting with all of their members.
+void compare_predictions(Design& design, const Model& chosen, const LeftOutRows& rows,
+                         Contender& contender) {
+    const Saving saving =
+        saving_of(loss_of(design, contender.model, rows), loss_of(design, chosen, rows));
+    const double per_nat = 2.0 * chosen.variances.nu * chosen.variances.nu;
+    contender.predicted = saving.sum / per_nat;
+    contender.spread = saving.spread / per_nat;
+}
+
+}  // namespace
+
+Contender best_without(const Searching& search, const Model& chosen, const LeftOutRows& rows,
+                       const std::string& cause) {
+    Design& design = search.design;
+    const auto is_it = [&](const ColumnGroup& group) {
+        return is_cause(group.kind) && group.name == cause;
+    };
+    const Withheld withheld(design, is_it);
+    Model model = chosen;
+    for (std::size_t k = model.members.size(); k-- > 0;)
+        if (is_it(design.group(model.members[k]))) model = without(model, k);
+    SearchSetting setting = search.setting;
+    setting.most_members = std::max(setting.most_members, chosen.members.size() + more);
+    model = grown(design, setting, tuned(design, setting, std::move(model), 2));
+    const double own = weight_of(design, chosen);
+    if (weight_of(design, model) > own - hopeless)
+        model = settled(design, setting, std::move(model));
+    Contender contender{std::move(model), 0.0};
+    contender.ahead = weight_of(design, contender.model) - own;
+    compare_predictions(design, chosen, rows, contender);
+    return contender;
+}
+
+double probability_against(const Contender& contender) {
+    // Left-out readings exaggerate what separates the models, because each is fitted without them:
+    // the evidence scatters as much as they do in proportion.
+    const double margin = -contender.ahead;
+    const double exaggerated =
+        std::max(1.0, std::abs(contender.predicted) / std::max(1e-9, std::abs(margin)));
+    const double spread = contender.spread / exaggerated;
+    // The mean of 1 / (1 + exp(-x)) over a normal x (MacKay 1992).
+    return 1.0 / (1.0 + std::exp(-margin / std::sqrt(1.0 + pi / 8.0 * spread * spread)));
+}
+
+Challenged challenged(const Searching& search, const LeftOutRows& rows, Model model) {
+    Design& design = search.design;
+    // Members without benefit for left-out readings come back on both sides, or on none.
+    const auto whole = [&](const Model& m) { return grown(design, search.setting, m); };
+    Challenged result{std::move(model), {}};
+    Model chosen = whole(result.model);
+    for (int replaced = 0; result.contenders.size() < result.model.members.size();) {
+        const std::string cause = cause_of_member(design, result.model, result.contenders.size());
+        if (cause.empty()) {
+            result.contenders.emplace_back();
+            continue;
+        }
+        if (const auto same = earlier_member(design, result, cause)) {
+            result.contenders.push_back(Contender(result.contenders[*same]));
+            continue;
+        }
+        Contender contender = best_without(search, chosen, rows, cause);
+        const bool is_better =
+            contender.ahead >= better && contender.predicted < contender.spread;
+        if (is_better && replaced < most_replaced) {
+            result = {without_idle_members(design, search.setting, rows, contender.model), {}};
+            chosen = whole(result.model);
+            ++replaced;
+        } else {
+            result.contenders.push_back(std::move(contender));
+        }
+    }
+    return result;
+}
+
+std::vector<std::size_t> in_place_of(Design& design, const Model& chosen, const Model& contender,
+                                     const Eigen::VectorXd& part) {
+    const Eigen::VectorXd along =
+        contributions(design, contender, fit_of(design, contender)).transpose() * part;
+    std::vector<std::pair<double, std::size_t>> found;
+    for (std::size_t k = 0; k < contender.members.size(); ++k) {
+        const std::size_t group = contender.members[k];
+        const auto same = [&](std::size_t m) {
+            return same_cause(design.group(m), design.group(group));
+        };
+        if (is_cause(design.group(group).kind) &&
+            std::none_of(chosen.members.begin(), chosen.members.end(), same) &&
+            along(static_cast<Eigen::Index>(k)) > least_overlap * part.squaredNorm())
+            found.emplace_back(-along(static_cast<Eigen::Index>(k)), group);
+    }
+    std::sort(found.begin(), found.end());
+    std::vector<std::size_t> groups;
+    for (const auto& [unused, group] : found) groups.push_back(group);
+    return groups;
+}
+
+}  // namespace trunnion::diagnosis

@@ -1,0 +1,160 @@
+// Probabilities of claims on made-up columns, where it is known what can be told apart.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "base/random.h"
+#include "diagnosis/claims.h"
+#include "diagnosis/rules.h"
+
+namespace trunnion {
+namespace {
+
+constexpr int rows = 400, blocks = 80;
+
+Eigen::MatrixXd random_matrix(SeededNoise& random, Eigen::Index columns) {
+    Eigen::MatrixXd m(rows, columns);
+    for (Eigen::Index c = 0; c < columns; ++c)
+        for (Eigen::Index r = 0; r < rows; ++r) m(r, c) = random.normal();
+    return m;
+}
+
+const effects::Effect& straightness_of_Z() {
+    static const effects::Effect effect{
+        {"Z.straightness", effects::EffectKind::straightness, Axis::Z}, "", "", "", "", {}, {}};
+    return effect;
+}
+
+diagnosis::ColumnGroup group_of(diagnosis::Design& design, const std::string& name,
+                                diagnosis::GroupKind kind, const Eigen::MatrixXd& columns) {
+    diagnosis::ColumnGroup group;
+    group.kind = kind;
+    group.name = name;
+    group.log_prior = diagnosis::rules::effect_prior;
+    if (kind == diagnosis::GroupKind::textbook) group.effect = &straightness_of_Z();
+    group.table.motion = effects::EffectKind::straightness;
+    group.table.axis.axis = name[0] == 'Z' ? Axis::Z : Axis::X;
+    const Eigen::Index first = design.add_features(columns);
+    for (Eigen::Index k = 0; k < columns.cols(); ++k) group.features.push_back(first + k);
+    return group;
+}
+
+diagnosis::Folds folds_of_blocks() {
+    diagnosis::Folds folds;
+    for (int i = 0; i < rows; ++i) folds.group.push_back(i * blocks / rows);
+    for (int b = 0; b < blocks; ++b) folds.fold.push_back(b % diagnosis::Folds::count);
+    return folds;
+}
+
+/// The claims of a model whose members left-out readings support without doubt.
+std::vector<diagnosis::Claim> claims_of(const diagnosis::Searching& search,
+                                        const diagnosis::Challenged& found) {
+    const std::vector<bool> none(found.model.members.size(), false);
+    const diagnosis::Sizes sizes = diagnosis::sizes_of(search.design, found.model, 1.0, none);
+    const std::vector<diagnosis::Support> support(found.model.members.size(),
+                                                  {{50.0, 1000.0, 1.0, 1.0}});
+    return diagnosis::claims_of(search, found.model, sizes,
+                                {support, found.contenders, folds_of_blocks(), 1.0});
+}
+
+const diagnosis::Claim& claim_named(const std::vector<diagnosis::Claim>& claims,
+                                    const std::string& name) {
+    const auto at = std::find_if(claims.begin(), claims.end(),
+                                 [&](const diagnosis::Claim& c) { return c.name == name; });
+    REQUIRE(at != claims.end());
+    return *at;
+}
+
+}  // namespace
+
+TEST_CASE("a cause that works against the others is doubtful, however much evidence it has",
+          "[diagnosis]") {
+    SeededNoise random(4);
+    const Eigen::MatrixXd base = random_matrix(random, 2);
+    const Eigen::MatrixXd large = base.col(0), against = -0.9 * base.col(0) + 0.44 * base.col(1);
+    const Eigen::VectorXd data =
+        10.0 * large.col(0) + 4.0 * against.col(0) + random_matrix(random, 1).col(0);
+    diagnosis::Design design(random_matrix(random, 2), data, rows);
+    for (const auto& [name, columns] : {std::pair("large", large), std::pair("against", against)})
+        design.add(group_of(design, name, diagnosis::GroupKind::textbook, columns));
+    const diagnosis::SearchSetting setting = diagnosis::search_setting(design, {0.0, 0.1});
+    const diagnosis::Model model =
+        diagnosis::tuned(design, setting, {{0, 1}, {{10.0, 4.0}, 1.0}, 0.0}, 3);
+    const auto claims = claims_of({design, setting}, {model, std::vector<diagnosis::Contender>(2)});
+    CHECK(claim_named(claims, "large").probability > 0.95);
+    CHECK(claim_named(claims, "against").probability <= 0.4);
+}
+
+// An angular error seen through one tool length is a straightness with its bow: two causes in place
+// of one, and neither of them alone.
+TEST_CASE("a free form that two other causes imitate together shares its probability",
+          "[diagnosis]") {
+    using diagnosis::GroupKind;
+    SeededNoise random(11);
+    const std::vector<bool> used(rows, true);
+    const diagnosis::Folds folds = folds_of_blocks();
+    for (const bool imitated : {true, false}) {
+        const Eigen::MatrixXd shapes = random_matrix(random, 8), bow = random_matrix(random, 1);
+        Eigen::MatrixXd one(rows, 9);
+        one << shapes, bow;
+        if (!imitated) one += 0.5 * random_matrix(random, 9);
+        const Eigen::VectorXd size = 3.0 * Eigen::VectorXd::Random(9);
+        const Eigen::VectorXd data = one * size + random_matrix(random, 1).col(0);
+        diagnosis::Design design(random_matrix(random, 2), data, rows);
+        diagnosis::ColumnGroup angular = group_of(design, "Z.angular", GroupKind::table, one);
+        angular.table.motion = effects::EffectKind::angular;
+        const std::size_t held = design.add(angular);
+        design.add(group_of(design, "Z.straightness", GroupKind::table, shapes));
+        design.add(group_of(design, "Z.straightness", GroupKind::textbook, bow));
+        const diagnosis::SearchSetting setting = diagnosis::search_setting(design, {0.0, 0.1});
+        const diagnosis::Model model =
+            diagnosis::tuned(design, setting, {{held}, {{2.0}, 1.0}, 0.0}, 3);
+        const diagnosis::Searching search{design, setting};
+        const diagnosis::Challenged found = diagnosis::challenged(search, {folds, used}, model);
+        REQUIRE(found.model.members == model.members);
+        const diagnosis::Claim claim = claim_named(claims_of(search, found), "Z.angular");
+        INFO(imitated << ": " << claim.probability);
+        const auto names = [&](const char* rival) {
+            return std::find(claim.rivals.begin(), claim.rivals.end(), rival) !=
+                   claim.rivals.end();
+        };
+        CHECK((claim.probability > 0.95) != imitated);
+        CHECK(names("Z.straightness") == imitated);
+        for (const auto& entry : design.groups()) CHECK_FALSE(entry.hidden);
+    }
+}
+
+TEST_CASE("a model that a contender beats gives way to it", "[diagnosis]") {
+    SeededNoise random(12);
+    const std::vector<bool> used(rows, true);
+    const diagnosis::Folds folds = folds_of_blocks();
+    const Eigen::MatrixXd truth = random_matrix(random, 1);
+    const Eigen::VectorXd data = 4.0 * truth.col(0) + random_matrix(random, 1).col(0);
+    diagnosis::Design design(random_matrix(random, 2), data, rows);
+    const Eigen::MatrixXd like = truth + 0.2 * random_matrix(random, 1);
+    design.add(group_of(design, "like", diagnosis::GroupKind::textbook, like));
+    design.add(group_of(design, "truth", diagnosis::GroupKind::textbook, truth));
+    const diagnosis::SearchSetting setting = diagnosis::search_setting(design, {0.0, 0.1});
+    const diagnosis::Model model = diagnosis::tuned(design, setting, {{0}, {{4.0}, 1.0}, 0.0}, 3);
+    const diagnosis::Challenged found =
+        diagnosis::challenged({design, setting}, {folds, used}, model);
+    CHECK(found.model.members == std::vector<std::size_t>{1});
+    REQUIRE(found.contenders.size() == 1);
+    CHECK(diagnosis::probability_against(found.contenders.front()) > 0.95);
+}
+
+TEST_CASE("the probability against a contender is that of the evidence, less what the blocks leave "
+          "open",
+          "[diagnosis]") {
+    const auto of = [](double ahead, double predicted, double spread) {
+        return diagnosis::probability_against({{}, ahead, predicted, spread});
+    };
+    CHECK(of(-3.0, 3.0, 0.0) == Approx(1.0 / (1.0 + std::exp(-3.0))));
+    CHECK(of(0.0, 5.0, 2.0) == Approx(0.5));
+    CHECK(of(-30.0, 30.0, 30.0) < 0.9);  // blocks that differ as much as their sum
+    CHECK(of(-30.0, 30.0, 3.0) > 0.99);
+    CHECK(of(-30.0, 300.0, 30.0) == Approx(of(-30.0, 30.0, 3.0)));
+    CHECK(of(30.0, -30.0, 3.0) < 0.01);
+    CHECK(diagnosis::probability_against({}) == 1.0);  // no contender
+}
+
+}  // namespace trunnion

@@ -1,0 +1,138 @@
+// What is written beside what is found: made-up columns on the rows of a real campaign.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "diagnosis/written_setup.h"
+#include "tests/support/campaign.h"
+
+namespace trunnion {
+namespace {
+
+using diagnosis::GroupKind;
+
+/// Passes of the ballbar, and random set-up columns in place of the real ones.
+struct Rows {
+    setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = readings(setup);
+    diagnosis::Prepared prepared = diagnosis::prepare(setup, table);
+    Eigen::Index count = static_cast<Eigen::Index>(prepared.replay.size());
+    std::vector<bool> used = std::vector<bool>(prepared.replay.size(), true);
+    SeededNoise random{17};
+
+    static records::ReadingTable readings(const setup::Setup& setup) {
+        records::ReadingTable table = campaign::empty_table(setup);
+        campaign::add_ballbar(table, setup, 36);
+        return campaign::measured(setup, table, 5);
+    }
+    Eigen::MatrixXd noise(Eigen::Index columns) {
+        Eigen::MatrixXd m(count, columns);
+        for (Eigen::Index c = 0; c < columns; ++c)
+            for (Eigen::Index r = 0; r < count; ++r) m(r, c) = random.normal();
+        return m;
+    }
+    diagnosis::Design design(const Eigen::VectorXd& data) {
+        return {noise(prepared.base.columns.cols()), data, static_cast<double>(count)};
+    }
+    const effects::Effect& effect(const char* name) const {
+        return *std::find_if(prepared.catalogue.begin(), prepared.catalogue.end(),
+                             [&](const effects::Effect& e) { return e.name == name; });
+    }
+};
+
+std::size_t add(diagnosis::Design& design, diagnosis::ColumnGroup group,
+                const Eigen::MatrixXd& column) {
+    group.features = {design.add_features(column)};
+    if (group.effect) {
+        group.name = group.effect->name;
+        group.parameters = {0};
+        group.keys = group.effect->zeros();
+    }
+    return design.add(std::move(group));
+}
+
+diagnosis::ColumnGroup of_kind(GroupKind kind, const effects::Effect* effect) {
+    diagnosis::ColumnGroup group;
+    group.kind = kind;
+    group.effect = effect;
+    return group;
+}
+
+const diagnosis::NoiseBelief plain_noise{{}, {0.0, 0.1}, 1e300};
+
+diagnosis::Model fitted(diagnosis::Design& design, std::vector<std::size_t> members) {
+    const diagnosis::SearchSetting setting = diagnosis::search_setting(design, plain_noise.prior);
+    const std::vector<double> start(members.size(), 1.0);
+    return diagnosis::tuned(design, setting, {std::move(members), {start, 1.0}, 0.0}, 5);
+}
+
+bool writes(const Rows& rows, diagnosis::Design& design, const diagnosis::Model& model,
+            const diagnosis::Judgement& judgement) {
+    const diagnosis::SearchSetting setting =
+        diagnosis::search_setting(design, plain_noise.prior);
+    const auto written =
+        diagnosis::written_setup({rows.prepared, design, setting, model, judgement, plain_noise,
+                                  rows.used, std::vector<diagnosis::Contender>()});
+    const auto& list = written.model.members;
+    return std::find(list.begin(), list.end(), model.members.front()) != list.end();
+}
+
+}  // namespace
+
+TEST_CASE("a drift beside another course of time is not written", "[diagnosis][written]") {
+    Rows rows;
+    const Eigen::MatrixXd drift = rows.noise(1), course = rows.noise(1);
+    diagnosis::Design design =
+        rows.design(5.0 * drift.col(0) + 2.0 * course.col(0) + rows.noise(1).col(0));
+    const std::size_t cause =
+        add(design, of_kind(GroupKind::periodic, &rows.effect("thermal.drift")), drift);
+    for (const std::string driver : {"time", "speed"}) {
+        diagnosis::ColumnGroup group = of_kind(GroupKind::driver, nullptr);
+        group.name = driver;
+        const diagnosis::Model model = fitted(design, {cause, add(design, group, course)});
+        const diagnosis::Judgement judgement =
+            diagnosis::judged(design, rows.prepared, model, plain_noise, rows.used);
+        INFO(driver);
+        CHECK(judgement.interpolates[0] == (driver != "time"));
+        CHECK(writes(rows, design, model, judgement) == (driver != "time"));
+    }
+}
+
+// The other paths see a thousandth of it, and what their noise says is wrong: predicted from them,
+// the path is missed by more than without the effect, as the model itself expects.
+TEST_CASE("an effect that a single path shows is written where known forms explain the gap",
+          "[diagnosis][written]") {
+    Rows rows;
+    const diagnosis::Folds paths = diagnosis::path_folds(rows.prepared.blocks, rows.prepared.replay,
+                                                         rows.prepared.table.axes);
+    Eigen::VectorXd shown(rows.count), elsewhere = Eigen::VectorXd::Zero(rows.count);
+    for (Eigen::Index i = 0; i < rows.count; ++i) {
+        const auto block = static_cast<std::size_t>(paths.group[static_cast<std::size_t>(i)]);
+        const bool path = paths.fold[block] == 0;
+        shown(i) = path ? 10.0 : 0.01 * rows.random.normal();
+        if (!path) elsewhere(i) = shown(i);
+    }
+    constexpr double size = 3.0;
+    constexpr double said_elsewhere = -1.5;  // 1.7 of its sigma there off
+    Eigen::VectorXd data = size * shown + rows.noise(1).col(0);
+    data += (said_elsewhere - elsewhere.dot(data) / elsewhere.squaredNorm()) * elsewhere;
+    diagnosis::Design design = rows.design(data);
+    const std::size_t cause =
+        add(design, of_kind(GroupKind::textbook, &rows.effect("C.backlash")), shown);
+    const std::size_t table = add(design, of_kind(GroupKind::table, nullptr), rows.noise(1));
+    diagnosis::Model model = fitted(design, {cause});
+    diagnosis::Judgement judgement =
+        diagnosis::judged(design, rows.prepared, model, plain_noise, rows.used);
+    REQUIRE(judgement.part > 0.9);
+    CHECK(writes(rows, design, model, judgement));
+    model = fitted(design, {cause, table});  // a table, which itself is not written
+    judgement.interpolates.push_back(false);
+    judgement.large.push_back(false);
+    CHECK_FALSE(writes(rows, design, model, judgement));
+    judgement.interpolates.pop_back();
+    judgement.large.pop_back();
+    model = fitted(design, {cause});
+    judgement.part = 0.7;  // much is missing
+    CHECK_FALSE(writes(rows, design, model, judgement));
+}
+
+}  // namespace trunnion
