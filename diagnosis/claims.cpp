@@ -160,6 +160,25 @@ void name_contender(Design& design, const Model& model, const Contender& contend
     }
 }
 
+/// A free form of which the readings do not tell the family (seen through one tool length, an
+/// angular error is a straightness) has the name of what its rivals have in common.
+void name_axis(const Design& design, const Challenged& found, double seen, Claim& claim) {
+    const ColumnGroup& own = design.group(found.model.members[claim.position]);
+    const auto is_family = [&](std::size_t k) {
+        const ColumnGroup& group = design.group(k);
+        return group.kind == GroupKind::table && group.table.axis.axis == own.table.axis.axis;
+    };
+    const double any = std::min(seen, probability_against(found.of_axis[claim.position]));
+    if (own.kind != GroupKind::table || found.of_axis[claim.position].model.members.empty() ||
+        claim.probability >= any ||
+        std::none_of(claim.rival_groups.begin(), claim.rival_groups.end(), is_family))
+        return;
+    claim.rivals.insert(claim.rivals.begin(), claim.name);
+    claim.rival_groups.insert(claim.rival_groups.begin(), found.model.members[claim.position]);
+    claim.name = "free form of " + own.name.substr(0, own.name.find('.'));
+    claim.probability = any;
+}
+
 }  // namespace
 
 Instead instead_of(Design& design, const Model& model, std::size_t position) {
@@ -219,12 +238,13 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         if (claim.share < rules::least_share && claim.rms < rules::least_rms) continue;
         const std::vector<Offer> others = offers(design, without(model, k));
         const double blocks = heldout.support[k].saving.blocks;
-        const Contender& contender = heldout.contenders[k];
+        const Contender& contender = heldout.found.contenders[k];
+        const double seen =
+            std::min({estimation::student_probability(heldout.support[k].saving.t, blocks - 1.0),
+                      (blocks + 1.0) / (blocks + 2.0), std::clamp(heldout.explained, 0.0, 1.0)});
         claim.probability = std::min(
             {evidence_probability(search, model, worth[k], others, temper(sizes, k, heldout.folds)),
-             probability_against(contender),
-             estimation::student_probability(heldout.support[k].saving.t, blocks - 1.0),
-             (blocks + 1.0) / (blocks + 2.0), std::clamp(heldout.explained, 0.0, 1.0)});
+             probability_against(contender), seen});
         // It works against the other causes: the correction of a form that is not theirs.
         if (sizes.along[k] <= 0.0) claim.probability = std::min(claim.probability, doubtful);
         std::vector<Offer> instead = others;
@@ -232,6 +252,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         name_rivals(design, worth[k], instead, claim);
         name_contender(design, model, contender, sizes.parts.col(static_cast<Eigen::Index>(k)),
                        claim);
+        name_axis(design, heldout.found, seen, claim);
         claims.push_back(std::move(claim));
     }
     if (own > rules::most_own)  // contributions cancel, so none of them is reliable

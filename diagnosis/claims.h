@@ -36,7 +36,7 @@ struct Support {
 /// What left-out readings say about a model.
 struct HeldOutEvidence {
     const std::vector<Support>& support;  ///< of each member
-    const std::vector<Contender>& contenders;  ///< of each member
+    const Challenged& found;
     const Folds& folds;
     double explained;  ///< H, the part of the gap that they confirm: no probability is above it
 };

@@ -11,14 +11,14 @@ namespace {
 
 constexpr double least_overlap = 0.1;  ///< part of a contribution that a rival must do
 constexpr double hopeless = 60.0;      ///< evidence behind, nats, that no exchange makes up for
+constexpr double family = 0.8;         ///< probability below which a free form's family is open
 constexpr std::size_t more = 2;        ///< members that it may have beyond the chosen model
 constexpr int most_replaced = 3;       ///< models that give way to a contender
 
 /// Groups taken out of the offers as long as this exists.
 class Withheld {
   public:
-    Withheld(Design& design, const std::function<bool(const ColumnGroup&)>& excluded)
-        : design_(design) {
+    Withheld(Design& design, const Excluded& excluded) : design_(design) {
         for (std::size_t k = 0; k < design.groups().size(); ++k)
             if (!design.groups()[k].hidden && excluded(design.group(k))) {
                 design.hide(k);
@@ -93,15 +93,12 @@ void compare_predictions(Design& design, const Model& chosen, const LeftOutRows&
 }  // namespace
 
 Contender best_without(const Searching& search, const Model& chosen, const LeftOutRows& rows,
-                       const std::string& cause) {
+                       const Excluded& excluded) {
     Design& design = search.design;
-    const auto is_it = [&](const ColumnGroup& group) {
-        return is_cause(group.kind) && group.name == cause;
-    };
-    const Withheld withheld(design, is_it);
+    const Withheld withheld(design, excluded);
     Model model = chosen;
     for (std::size_t k = model.members.size(); k-- > 0;)
-        if (is_it(design.group(model.members[k]))) model = without(model, k);
+        if (excluded(design.group(model.members[k]))) model = without(model, k);
     SearchSetting setting = search.setting;
     setting.most_members = std::max(setting.most_members, chosen.members.size() + more);
     model = grown(design, setting, tuned(design, setting, std::move(model), 2));
@@ -125,11 +122,26 @@ double probability_against(const Contender& contender) {
     return 1.0 / (1.0 + std::exp(-margin / std::sqrt(1.0 + pi / 8.0 * spread * spread)));
 }
 
+namespace {
+
+/// The best model without free forms of the member's axis, where the member is one and not sure.
+Contender contender_of_axis(const Searching& search, const Model& chosen, const LeftOutRows& rows,
+                            const Challenged& found, std::size_t position) {
+    const ColumnGroup held = search.design.group(found.model.members[position]);
+    if (held.kind != GroupKind::table || probability_against(found.contenders[position]) >= family)
+        return {};
+    return best_without(search, chosen, rows, [&](const ColumnGroup& group) {
+        return group.kind == GroupKind::table && group.table.axis.axis == held.table.axis.axis;
+    });
+}
+
+}  // namespace
+
 Challenged challenged(const Searching& search, const LeftOutRows& rows, Model model) {
     Design& design = search.design;
     // Members without benefit for left-out readings come back on both sides, or on none.
     const auto whole = [&](const Model& m) { return grown(design, search.setting, m); };
-    Challenged result{std::move(model), {}};
+    Challenged result{std::move(model), {}, {}};
     Model chosen = whole(result.model);
     for (int replaced = 0; result.contenders.size() < result.model.members.size();) {
         const std::string cause = cause_of_member(design, result.model, result.contenders.size());
@@ -141,18 +153,26 @@ Challenged challenged(const Searching& search, const LeftOutRows& rows, Model mo
             result.contenders.push_back(Contender(result.contenders[*same]));
             continue;
         }
-        Contender contender = best_without(search, chosen, rows, cause);
-        const bool is_better =
-            contender.ahead >= better && contender.predicted < contender.spread;
+        Contender contender = best_without(search, chosen, rows, [&](const ColumnGroup& group) {
+            return is_cause(group.kind) && group.name == cause;
+        });
+        const bool is_better = contender.ahead >= better && contender.predicted < contender.spread;
         if (is_better && replaced < most_replaced) {
-            result = {without_idle_members(design, search.setting, rows, contender.model), {}};
+            result = {without_idle_members(design, search.setting, rows, contender.model), {}, {}};
             chosen = whole(result.model);
             ++replaced;
         } else {
             result.contenders.push_back(std::move(contender));
         }
     }
+    for (std::size_t k = 0; k < result.contenders.size(); ++k)
+        result.of_axis.push_back(contender_of_axis(search, chosen, rows, result, k));
     return result;
+}
+
+Challenged unchallenged(Model model) {
+    const std::vector<Contender> none(model.members.size());
+    return {std::move(model), none, none};
 }
 
 std::vector<std::size_t> in_place_of(Design& design, const Model& chosen, const Model& contender,

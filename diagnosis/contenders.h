@@ -16,6 +16,9 @@ struct Searching {
     const SearchSetting& setting;
 };
 
+/// Which groups a model must do without.
+using Excluded = std::function<bool(const ColumnGroup&)>;
+
 /// The best model found without a cause, against the chosen model with it.
 struct Contender {
     Model model;
@@ -25,7 +28,7 @@ struct Contender {
     double predicted = 0.0, spread = 0.0;
 };
 Contender best_without(const Searching& search, const Model& chosen, const LeftOutRows& rows,
-                       const std::string& cause);
+                       const Excluded& excluded);
 
 /// Probability of the chosen model against the contender, if other blocks had been measured: the
 /// mean over what they would say, a normal distribution of the log odds.
@@ -34,10 +37,15 @@ double probability_against(const Contender& contender);
 struct Challenged {
     Model model;
     std::vector<Contender> contenders;  ///< of each member; without a model for what is no cause
+    /// Of a free form that is not sure: the best model without any free form of its axis.
+    std::vector<Contender> of_axis;
 };
 /// Contenders of all causes of a model. One that is better by its evidence, and not worse on
 /// left-out readings, becomes the model.
 Challenged challenged(const Searching& search, const LeftOutRows& rows, Model model);
+
+/// A model of which no cause is questioned: its search was ended.
+Challenged unchallenged(Model model);
 
 /// Causes that the contender has and the chosen model has not, and that do in it what `part` (a
 /// contribution to the whitened readings) does; the largest first.

@@ -327,12 +327,6 @@ bool corrected(Prepared& p, Searched& s, Round& round) {
     return changed;
 }
 
-/// The model with the contenders of its causes; without any when the search was ended.
-Challenged contested(const Prepared& p, Searched& s, const Round& round, bool unfinished) {
-    if (unfinished) return {s.model, std::vector<Contender>(s.model.members.size())};
-    return challenged({s.design, s.setting}, {p.folds, round.used}, s.model);
-}
-
 }  // namespace
 
 const char* to_string(Verdict verdict) {
@@ -387,11 +381,12 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
     const bool unfinished = stopped();
     if (unfinished) s.model = computable(s.design, s.setting, std::move(s.model));
     watch("held-out readings");
-    const Challenged found = contested(p, s, round, unfinished);
+    const Challenged found =
+        unfinished ? unchallenged(std::move(s.model))
+                   : challenged({s.design, s.setting}, {p.folds, round.used}, std::move(s.model));
     const Judgement judgement = judged(s.design, p, found.model, round.noise, round.used);
-    Diagnosis d = report_of({p, s.design, s.setting, found.model, judgement, round.noise,
-                             round.used, found.contenders},
-                            options);
+    Diagnosis d = report_of(
+        {p, s.design, s.setting, found.model, judgement, round.noise, round.used, found}, options);
     d.unfinished = unfinished;
     if (const auto gap = store_gap(setup, table)) add_store_gap(setup, *gap, options.holdout, d);
     return d;

@@ -326,7 +326,7 @@ void tell_sessions(const Outcome& f, const std::vector<Claim>& claims, Diagnosis
     d.sessions = sessions_of(f, d.before_um, d.after_um);
     const Model none{{}, {{}, f.model.variances.nu}, 0.0};
     const Outcome told{f.prepared,  f.design, f.setting, f.judgement.gap ? f.model : none,
-                       f.judgement, f.noise,  f.used,    f.contenders};
+                       f.judgement, f.noise,  f.used,    f.found};
     std::vector<bool> claimed(told.model.members.size(), false);
     for (const Claim& claim : claims) claimed[claim.position] = true;
     d.changes = changes_of(told, solved(told.design, told.model), claimed);
@@ -338,7 +338,7 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     Written written = written_setup(found);
     const Judgement judgement = as_written(found, written, options.holdout);
     const Outcome f{found.prepared, found.design, found.setting, found.model,
-                    judgement,      found.noise,  found.used,    found.contenders};
+                    judgement,      found.noise,  found.used,    found.found};
     Diagnosis d;
     const Solution solution = solved(f.design, f.model);
     describe_size(f, solution, d);
@@ -346,7 +346,7 @@ Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options) {
     if (f.judgement.gap) {
         const Sizes sizes = sizes_of(f.design, f.model, f.judgement.floor, f.judgement.large);
         claims = claims_of({f.design, f.setting}, f.model, sizes,
-                           {f.judgement.support, f.contenders, f.prepared.folds, f.judgement.part});
+                           {f.judgement.support, f.found, f.prepared.folds, f.judgement.part});
         merge_free_forms(f, claims);
     }
     d.verdict = verdict_of(f.judgement, claims);

@@ -15,7 +15,7 @@ struct Outcome {
     const Judgement& judgement;
     const NoiseBelief& noise;
     const std::vector<bool>& used;
-    const std::vector<Contender>& contenders;  ///< of each member
+    const Challenged& found;  ///< the model with the contenders of its causes
 };
 Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options);
 

@@ -67,11 +67,10 @@ diagnosis::Model fitted(diagnosis::Design& design, std::vector<std::size_t> memb
 
 bool writes(const Rows& rows, diagnosis::Design& design, const diagnosis::Model& model,
             const diagnosis::Judgement& judgement) {
-    const diagnosis::SearchSetting setting =
-        diagnosis::search_setting(design, plain_noise.prior);
+    const diagnosis::SearchSetting setting = diagnosis::search_setting(design, plain_noise.prior);
     const auto written =
         diagnosis::written_setup({rows.prepared, design, setting, model, judgement, plain_noise,
-                                  rows.used, std::vector<diagnosis::Contender>()});
+                                  rows.used, diagnosis::Challenged{}});
     const auto& list = written.model.members;
     return std::find(list.begin(), list.end(), model.members.front()) != list.end();
 }
@@ -102,8 +101,8 @@ TEST_CASE("a drift beside another course of time is not written", "[diagnosis][w
 TEST_CASE("an effect that a single path shows is written where known forms explain the gap",
           "[diagnosis][written]") {
     Rows rows;
-    const diagnosis::Folds paths = diagnosis::path_folds(rows.prepared.blocks, rows.prepared.replay,
-                                                         rows.prepared.table.axes);
+    const diagnosis::Folds paths =
+        diagnosis::path_folds(rows.prepared.blocks, rows.prepared.replay, rows.prepared.table.axes);
     Eigen::VectorXd shown(rows.count), elsewhere = Eigen::VectorXd::Zero(rows.count);
     for (Eigen::Index i = 0; i < rows.count; ++i) {
         const auto block = static_cast<std::size_t>(paths.group[static_cast<std::size_t>(i)]);
