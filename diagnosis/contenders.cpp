@@ -137,6 +137,11 @@ Contender contender_of_axis(const Searching& search, const Model& chosen, const 
 
 }  // namespace
 
+Challenged unchallenged(Model model) {
+    const std::vector<Contender> none(model.members.size());
+    return {std::move(model), none, none};
+}
+
 Challenged challenged(const Searching& search, const LeftOutRows& rows, Model model) {
     Design& design = search.design;
     // Members without benefit for left-out readings come back on both sides, or on none.
@@ -144,6 +149,7 @@ Challenged challenged(const Searching& search, const LeftOutRows& rows, Model mo
     Challenged result{std::move(model), {}, {}};
     Model chosen = whole(result.model);
     for (int replaced = 0; result.contenders.size() < result.model.members.size();) {
+        if (search.setting.stopped()) return unchallenged(std::move(result.model));
         const std::string cause = cause_of_member(design, result.model, result.contenders.size());
         if (cause.empty()) {
             result.contenders.emplace_back();
@@ -167,12 +173,9 @@ Challenged challenged(const Searching& search, const LeftOutRows& rows, Model mo
     }
     for (std::size_t k = 0; k < result.contenders.size(); ++k)
         result.of_axis.push_back(contender_of_axis(search, chosen, rows, result, k));
+    // A search that is ended leaves half a contender.
+    if (search.setting.stopped()) return unchallenged(std::move(result.model));
     return result;
-}
-
-Challenged unchallenged(Model model) {
-    const std::vector<Contender> none(model.members.size());
-    return {std::move(model), none, none};
 }
 
 std::vector<std::size_t> in_place_of(Design& design, const Model& chosen, const Model& contender,

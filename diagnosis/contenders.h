@@ -40,12 +40,11 @@ struct Challenged {
     /// Of a free form that is not sure: the best model without any free form of its axis.
     std::vector<Contender> of_axis;
 };
+/// A model of which no cause is questioned: its search was ended.
+Challenged unchallenged(Model model);
 /// Contenders of all causes of a model. One that is better by its evidence, and not worse on
 /// left-out readings, becomes the model.
 Challenged challenged(const Searching& search, const LeftOutRows& rows, Model model);
-
-/// A model of which no cause is questioned: its search was ended.
-Challenged unchallenged(Model model);
 
 /// Causes that the contender has and the chosen model has not, and that do in it what `part` (a
 /// contribution to the whitened readings) does; the largest first.

@@ -378,12 +378,15 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
         if (!corrected(p, s, round) && !turned) break;
         s = search_of(p, round, *keys, &s, options.go_on);
     }
-    const bool unfinished = stopped();
+    bool unfinished = stopped();
     if (unfinished) s.model = computable(s.design, s.setting, std::move(s.model));
     watch("held-out readings");
+    s.setting.go_on = options.go_on;
     const Challenged found =
         unfinished ? unchallenged(std::move(s.model))
                    : challenged({s.design, s.setting}, {p.folds, round.used}, std::move(s.model));
+    s.setting.go_on = {};
+    unfinished = unfinished || stopped();
     const Judgement judgement = judged(s.design, p, found.model, round.noise, round.used);
     Diagnosis d = report_of(
         {p, s.design, s.setting, found.model, judgement, round.noise, round.used, found}, options);

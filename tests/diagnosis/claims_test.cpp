@@ -147,6 +147,29 @@ TEST_CASE("a model that a contender beats gives way to it", "[diagnosis]") {
     CHECK(diagnosis::probability_against(found.contenders.front()) > 0.95);
 }
 
+TEST_CASE("a search that is ended questions no cause, rather than by half a contender",
+          "[diagnosis]") {
+    SeededNoise random(13);
+    const std::vector<bool> used(rows, true);
+    const diagnosis::Folds folds = folds_of_blocks();
+    const Eigen::MatrixXd truth = random_matrix(random, 1);
+    const Eigen::VectorXd data = 4.0 * truth.col(0) + random_matrix(random, 1).col(0);
+    diagnosis::Design design(random_matrix(random, 2), data, rows);
+    design.add(group_of(design, "truth", diagnosis::GroupKind::textbook, truth));
+    diagnosis::SearchSetting setting = diagnosis::search_setting(design, {0.0, 0.1});
+    const diagnosis::Model model = diagnosis::tuned(design, setting, {{0}, {{4.0}, 1.0}, 0.0}, 3);
+    for (const int steps : {0, 1, 2, 3}) {
+        int asked = 0;
+        setting.go_on = [&] { return asked++ < steps; };
+        const diagnosis::Challenged found =
+            diagnosis::challenged({design, setting}, {folds, used}, model);
+        CHECK(found.model.members == model.members);
+        REQUIRE(found.contenders.size() == 1);
+        CHECK(found.contenders.front().model.members.empty());
+        CHECK(diagnosis::probability_against(found.contenders.front()) == 1.0);
+    }
+}
+
 TEST_CASE(
     "the probability against a contender is that of the evidence, less what the blocks leave "
     "open",
