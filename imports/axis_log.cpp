@@ -13,10 +13,10 @@ void write_row(const LineCells& line, LogColumns& log, records::Reading row, Row
     const std::string block =
         log.block ? std::string(cells[log.block->column].text) : std::string();
     const bool places_only = log.places_only();
-    for (const AxisColumns& axis : log.axes)
+    for (AxisColumns& axis : log.axes)
         if (const auto q =
                 number_or_none(table, i, cells, places_only ? axis.place() : axis.commanded))
-            row.commanded[axis.axis] = *q;
+            row.commanded[axis.axis] = places_only ? *q : without_roll_over(axis, *q);
     if (places_only) {
         rows.add(row, table.line(i).number, block);
         return;

@@ -187,8 +187,13 @@ void import_circle(const ImportRequest& request, const TextTable& table, RowWrit
     rows.begin_file(table, facts);
     if (time.dated()) rows.name_days();
     std::vector<records::TableCell> cells;
+    std::size_t missing = 0;
     for (std::size_t i = 0; i < table.size(); ++i) {
         table.read(i, cells);
+        if (is_missing(cells[columns.value.index].text)) {
+            ++missing;
+            continue;
+        }
         row.time_s = times[i];
         row.commanded = bar.on_circle(circle, angles[i]);
         row.value_mm = number_in(table, i, cells, columns.value) -
@@ -196,8 +201,11 @@ void import_circle(const ImportRequest& request, const TextTable& table, RowWrit
         rows.add(row, table.line(i).number);
     }
     result.summary.push_back(fmt::format("{}: ballbar, {}, {} readings; {}", table.path(),
-                                         circle_words(circle, angles), table.size(),
+                                         circle_words(circle, angles), table.size() - missing,
                                          table.dialect_words()));
+    if (missing > 0)
+        result.notes.push_back(
+            fmt::format("{}: {} rows without a value are left out", table.path(), missing));
     if (time.invented())
         result.notes.push_back(table.path() +
                                (circle.feed_mm_min

@@ -53,12 +53,22 @@ Facts::Facts(const std::vector<std::string>& told) {
 
 Facts Facts::with_head_of(const TextTable& table) const {
     Facts all = *this;
-    for (const auto& [word, value] : table.head()) {
+    std::vector<TextTable::HeadEntry> days;
+    for (const auto& [word, entry] : table.head()) {
         const auto other = other_words().find(word);
         const std::string& key = other == other_words().end() ? word : other->second;
-        if (known_keys().contains(key) && key != "columns") all.facts_.emplace(key, value);
-        if (const auto day = key == "day" ? day_in(value) : std::nullopt)
-            all.facts_.emplace("session", *day);
+        if (known_keys().contains(key) && key != "columns") all.facts_.emplace(key, entry.value);
+        if (key == "day" && !is_missing(entry.value)) days.push_back(entry);
+    }
+    if (all.has("session")) return all;
+    for (const TextTable::HeadEntry& entry : days) {
+        const auto day = day_in(entry.value);
+        if (!day)
+            table.head_line(entry).fail("'" + entry.value +
+                                            "' is no date as 2024-03-01 (01/02/2024 is two days); "
+                                            "--with session=NAME names the rows instead",
+                                        1);
+        all.facts_.emplace("session", *day);
     }
     return all;
 }

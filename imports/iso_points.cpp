@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <map>
+#include <numeric>
 
 #include "base/alarm.h"
 #include "base/numbers.h"
@@ -62,21 +62,63 @@ double value_factor(const Source& source, std::size_t column) {
         .factor;
 }
 
-bool close(double values, double apart, double targets) {
-    return targets > 0.0 && apart < 0.05 * targets && values > 0.5 * targets;
-}
+/// Values beside their targets, in one unit.
+struct Beside {
+    std::vector<double> targets, apart;  ///< apart: value - target
 
-/// Values are positions if the user says so, or if they follow the targets.
-bool holds_positions(const std::vector<IsoPoint>& points, const Source& source) {
-    if (source.facts.has("values")) return source.facts.text("values") == "positions";
-    if (source.quantities.value != source.quantities.target) return false;
-    double values = 0.0, apart = 0.0, targets = 0.0;
-    for (const IsoPoint& p : points) {
-        values += std::abs(p.deviation);
-        apart += std::abs(p.deviation - p.target);
-        targets += std::abs(p.target);
+    bool positions() const {  ///< "100.003" at the target 100
+        return sum(apart, 0.0) < 0.05 * sum(targets, 0.0);
     }
-    return close(values, apart, targets);
+    bool displacements() const {  ///< "200.003" at the target 100: counted from another zero
+        return spread(apart) < 0.05 * spread(targets);
+    }
+    /// What deviations do not do: change as much as the targets.
+    bool as_far_as_targets(const std::vector<double>& values) const {
+        return spread(targets) > 0.0 && spread(values) > 0.5 * spread(targets);
+    }
+
+  private:
+    static double sum(const std::vector<double>& list, double from) {
+        double total = 0.0;
+        for (const double v : list) total += std::abs(v - from);
+        return total;
+    }
+    static double spread(const std::vector<double>& list) {
+        const double total = std::accumulate(list.begin(), list.end(), 0.0);
+        return sum(list, total / static_cast<double>(std::max<std::size_t>(1, list.size())));
+    }
+};
+
+/// Values are positions if the user says so, or if they follow the targets. Then subtracts the
+/// targets; displacements are counted from the first reading.
+void take_deviations(const Source& source, std::vector<IsoPoint>& points,
+                     std::vector<std::string>& notes) {
+    const bool angle = source.quantities.target == Quantity::angle;
+    Beside beside;
+    std::vector<double> values;
+    for (const IsoPoint& p : points) {
+        const double apart = p.deviation - p.target;
+        beside.targets.push_back(p.target);
+        beside.apart.push_back(angle ? std::remainder(apart, 2.0 * pi) : apart);
+        values.push_back(p.deviation);
+    }
+    const std::string told = source.facts.text("values");
+    const bool same = source.quantities.value == source.quantities.target;
+    const bool positions = told.empty() ? same && beside.positions() : told == "positions";
+    if (positions || (told.empty() && same && beside.displacements())) {
+        const double zero = positions ? 0.0 : beside.apart.front();
+        for (std::size_t k = 0; k < points.size(); ++k)
+            points[k].deviation = values[k] = beside.apart[k] - zero;
+        notes.push_back(source.table.path() +
+                        (positions ? ": values are positions: deviation = value - target"
+                                   : ": values are displacements: deviation = value - target, "
+                                     "counted from the first reading"));
+    }
+    if (told != "deviations" && same && beside.as_far_as_targets(values))
+        source.table.header_line().fail(
+            "the values change as much as the targets: another column, unit or sign? "
+            "--with values=deviations takes them as they are",
+            1);
 }
 
 /// Sorts a pass by its direction: a file has its targets rising or falling. A length that does both
@@ -212,18 +254,18 @@ double list_factor(const Source& source, std::size_t column) {
     const TextTable& table = source.table;
     if (!table.columns()[column].unit.empty() || source.facts.has("unit"))
         return value_factor(source, column);
-    double values = 0.0, apart = 0.0, targets = 0.0;
+    Beside beside;
     Cells cells;
     for (std::size_t i = 0; i < table.size(); ++i) {
         table.read(i, cells);
         const auto target = table.find_number(cells[source.target].text),
                    value = table.find_number(cells[column].text);
         if (!target || !value) continue;
-        values += std::abs(*value);
-        apart += std::abs(*value - *target);
-        targets += std::abs(*target);
+        beside.targets.push_back(*target);
+        beside.apart.push_back(*value - *target);
     }
-    return close(values, apart, targets) ? source.factor : value_factor(source, column);
+    const bool follow = beside.positions() || beside.displacements();
+    return follow ? source.factor : value_factor(source, column);
 }
 
 ListColumns list_columns(const Source& source) {
@@ -308,14 +350,7 @@ void finish(const Source& source, IsoSeries& series, Imported& result) {
     std::vector<IsoPoint>& points = series.points;
     if (points.empty()) throw InputError("no value in the table", {table.path(), 1, 1});
     if (source.quantities.target == Quantity::angle) unwrap_turns(points);
-    if (holds_positions(points, source)) {
-        for (IsoPoint& p : points) {
-            p.deviation -= p.target;
-            if (source.quantities.target == Quantity::angle)
-                p.deviation = std::remainder(p.deviation, 2.0 * pi);
-        }
-        result.notes.push_back(table.path() + ": values are positions: deviation = value - target");
-    }
+    take_deviations(source, points, result.notes);
     follow_order(table, points);
     check_order(table, points);
 }

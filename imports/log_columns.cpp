@@ -3,11 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "base/units.h"
 #include "imports/column_roles.h"
 
 namespace trunnion::imports {
 namespace {
+
+/// A step of a rotary axis between two rows of a log that samples its motion.
+const double longest_step_rad = rad_from_deg(60.0);
 
 Quantity quantity_of(bool rotary, Rate rate) {
     if (rate == Rate::acceleration) return Quantity::per_s2;
@@ -131,13 +136,13 @@ LogColumns log_columns(const TextTable& table, const setup::Setup& setup, const 
         AxisColumns& columns = columns_of(log, setup, *axis);
         std::optional<NumberColumn>& place = place_of(columns, *role);
         if (place) table.header_line().fail("a second column for this", column.column);
-        log.units_assumed |= column.unit.empty() && !facts.has("unit");
-        const bool rate = role->rate != Rate::position;
+        const std::string usual = usual_unit(columns.rotary, role->rate);
+        const bool rate = role->rate != Rate::position, error = &place == &columns.error;
+        log.units_assumed |= !error && column.unit.empty() && !facts.has("unit");
+        // The unit of a deviation is never guessed.
         place = number_column(table, k, quantity_of(columns.rotary, role->rate),
-                              rate ? usual_unit(columns.rotary, role->rate)
-                                   : facts.text("unit", usual_unit(columns.rotary, role->rate)));
-        if (&place == &columns.error)
-            columns.error_sign = sign_of_error(table, column, role->role, facts);
+                              rate ? usual : facts.text("unit", error ? "" : usual));
+        if (error) columns.error_sign = sign_of_error(table, column, role->role, facts);
     }
     for (const auto& [axis, k] : plain)
         take_plain(table, k, facts, columns_of(log, setup, axis), log);
@@ -158,7 +163,19 @@ std::optional<LogEntry> log_entry(const TextTable& table, std::size_t row,
     const auto commanded = number_or_none(table, row, cells, axis.commanded);
     const auto read = number_or_none(table, row, cells, axis.actual ? axis.actual : axis.error);
     if (!commanded || !read) return std::nullopt;
-    return LogEntry{*commanded, axis.actual ? *read - *commanded : axis.error_sign * *read};
+    const double error = axis.actual ? *read - *commanded : axis.error_sign * *read;
+    return LogEntry{*commanded, axis.rotary ? std::remainder(error, 2.0 * pi) : error};
+}
+
+double without_roll_over(AxisColumns& axis, double commanded) {
+    if (!axis.rotary) return commanded;
+    const double step = axis.last_rad ? commanded + axis.turns_rad - *axis.last_rad : 0.0;
+    if (std::abs(std::abs(step) - 2.0 * pi) < longest_step_rad) {
+        axis.turns_rad -= std::copysign(2.0 * pi, step);
+        axis.rolled_over = true;
+    }
+    axis.last_rad = commanded + axis.turns_rad;
+    return *axis.last_rad;
 }
 
 std::string axes_words(const LogColumns& log) {
@@ -174,6 +191,10 @@ std::vector<std::string> log_notes(const TextTable& table, const LogColumns& log
     std::vector<std::string> notes;
     if (log.units_assumed)
         notes.push_back(table.path() + ": columns without unit taken as mm, deg, mm/s");
+    for (const AxisColumns& axis : log.axes)
+        if (axis.rolled_over)
+            notes.push_back(table.path() + ": " + axis.name +
+                            ": steps between 0 and 360 deg are taken as motion that goes on");
     for (const AxisColumns& axis : log.axes)
         if (axis.missing > 0)
             notes.push_back(fmt::format("{}: {}: {} rows without a value are left out",

@@ -18,6 +18,9 @@ struct AxisColumns {
     std::size_t missing = 0;
     std::optional<NumberColumn> commanded, actual, error, velocity, acceleration;
     double error_sign = 1.0;
+    std::optional<double> last_rad;  ///< commanded position of the row before, and whole turns
+    double turns_rad = 0.0;          ///< added to it after steps from 360 to 0 deg
+    bool rolled_over = false;
 
     bool read() const { return (commanded && actual) || (commanded && error); }
     const std::optional<NumberColumn>& place() const { return commanded ? commanded : actual; }
@@ -52,10 +55,13 @@ LogColumns log_columns(const TextTable& table, const setup::Setup& setup, const 
 struct LogEntry {
     double commanded = 0.0, error = 0.0;  ///< error: read - commanded
 };
-/// Empty when one of the two is missing.
+/// Empty when one of the two is missing. The error of a rotary axis is below half a turn.
 std::optional<LogEntry> log_entry(const TextTable& table, std::size_t row,
                                   const std::vector<records::TableCell>& cells,
                                   const AxisColumns& axis);
+/// A commanded position. A control that shows a rotary axis from 0 to 360 deg steps back by a turn
+/// while the axis goes on: a step of a turn, within 60 deg, is taken as such.
+double without_roll_over(AxisColumns& axis, double commanded);
 /// A number; empty when it is missing.
 std::optional<double> number_or_none(const TextTable& table, std::size_t row,
                                      const std::vector<records::TableCell>& cells,

@@ -1,6 +1,7 @@
 #include "imports/point_columns.h"
 
 #include <algorithm>
+#include <set>
 
 #include "imports/column_roles.h"
 
@@ -53,6 +54,15 @@ void take(const PointTable& source, std::size_t k, const ColumnRole& role, Point
     place = number_column(table, k, Quantity::length, unit);
 }
 
+/// The unit of a deviation is never guessed. Beside nominal and measured it is not needed.
+void refuse_guess(const TextTable& table, std::size_t k, const ColumnRole& role,
+                  PointColumns& columns) {
+    const auto d = component_of(role.axis);
+    const bool both = d && columns.measured[*d] && (columns.nominal[*d] || !columns.axes.empty());
+    if (d && !both) number_column(table, k, Quantity::length, "");
+    columns.unused.push_back(table.columns()[k].name);
+}
+
 /// True for "X", "Y", "Z" (or "x-coordinate") in the cell of the first row.
 bool names_coordinate(const TextTable& table, std::size_t column) {
     Cells cells;
@@ -62,7 +72,8 @@ bool names_coordinate(const TextTable& table, std::size_t column) {
 }
 
 /// One line for each coordinate: name, axis, nominal, actual, deviation.
-bool take_lines(const TextTable& table, const Facts& facts, PointColumns& columns) {
+bool take_lines(const TextTable& table, const Facts& facts, const TimeColumn& time,
+                PointColumns& columns) {
     const auto coordinate =
         find_first_column(table, {{"coordinate", "coord", "koordinate"},
                                   {"axis", "achse", "ax"},
@@ -76,13 +87,20 @@ bool take_lines(const TextTable& table, const Facts& facts, PointColumns& column
     columns.name = find_first_column(table, {{"name", "label", "point", "punkt", "element"},
                                              {"feature", "id", "no", "nr", "number"}});
     const std::string unit = facts.text("unit", "mm");
-    const auto place = [&](const std::optional<std::size_t>& column) {
-        return column ? std::optional(number_column(table, *column, Quantity::length, unit))
+    const auto place = [&](const std::optional<std::size_t>& column, const std::string& otherwise) {
+        return column ? std::optional(number_column(table, *column, Quantity::length, otherwise))
                       : std::nullopt;
     };
-    columns.nominal[0] = place(nominal);
-    columns.measured[0] = place(measured);
-    columns.error[0] = place(error);
+    columns.nominal[0] = place(nominal, unit);
+    columns.measured[0] = place(measured, unit);
+    // A deviation beside both is not used; alone it must tell its unit.
+    if (!nominal || !measured) columns.error[0] = place(error, facts.text("unit"));
+    std::set<std::optional<std::size_t>> used{coordinate, columns.name, nominal,
+                                              measured,   error,        columns.session};
+    if (columns.sigma) used.insert(columns.sigma->index);
+    for (std::size_t k = 0; k < table.columns().size(); ++k)
+        if (!used.contains(k) && !time.is_column(k))
+            columns.unused.push_back(table.columns()[k].name);
     return true;
 }
 
@@ -127,15 +145,20 @@ PointColumns point_columns(const TextTable& table, const setup::Setup& setup, co
     const auto sigma = find_column(table, {"sigma", "u", "uncertainty", "unsicherheit"});
     if (sigma)
         columns.sigma = number_column(table, *sigma, Quantity::length, facts.text("unit", "mm"));
-    if (take_lines(table, facts, columns)) return columns;
+    if (take_lines(table, facts, time, columns)) return columns;
+    std::vector<std::pair<std::size_t, ColumnRole>> unit_open;
     for (std::size_t k = 0; k < table.columns().size(); ++k) {
         if (time.is_column(k) || columns.session == k || sigma == k) continue;
-        const auto role = role_of(table.columns()[k].name, setup.machine.chain.names());
-        if (role && role->rate == Rate::position && role->role != Role::following_error)
-            take({table, setup, facts}, k, *role, columns);
+        const TextColumn& column = table.columns()[k];
+        const auto role = role_of(column.name, setup.machine.chain.names());
+        if (!role || role->rate != Rate::position || role->role == Role::following_error)
+            columns.unused.push_back(column.name);
+        else if (role->role == Role::error && column.unit.empty() && !facts.has("unit"))
+            unit_open.emplace_back(k, *role);
         else
-            columns.unused.push_back(table.columns()[k].name);
+            take({table, setup, facts}, k, *role, columns);
     }
+    for (const auto& [k, role] : unit_open) refuse_guess(table, k, role, columns);
     check(table, columns);
     return columns;
 }

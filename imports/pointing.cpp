@@ -2,9 +2,6 @@
 // telescope against stars.
 #include <fmt/format.h>
 
-#include <cmath>
-
-#include "base/units.h"
 #include "imports/log_columns.h"
 #include "imports/row_writer.h"
 
@@ -80,17 +77,17 @@ class Mount {
     std::vector<bool> on_work_;
 };
 
-/// Rows of one line of the table.
-void write_line(const TextTable& table, std::size_t i, const Mount& mount, records::Reading row,
+/// Rows of one line of the table; false if one of its values is missing.
+bool write_line(const TextTable& table, std::size_t i, const Mount& mount, records::Reading row,
                 RowWriter& rows) {
     std::vector<records::TableCell> cells;
     table.read(i, cells);
     std::vector<double> errors_rad;
     for (const AxisColumns& axis : mount.axes()) {
         const auto entry = log_entry(table, i, cells, axis);
-        if (!entry) return;
+        if (!entry) return false;
         row.commanded[axis.axis] = entry->commanded;
-        errors_rad.push_back(std::remainder(entry->error, 2.0 * pi));
+        errors_rad.push_back(entry->error);
     }
     const std::string test = row.test;
     for (const Component& component : mount.components(row.commanded, errors_rad)) {
@@ -99,6 +96,7 @@ void write_line(const TextTable& table, std::size_t i, const Mount& mount, recor
         row.value_mm = component.angle_rad;
         rows.add(row, table.line(i).number);
     }
+    return true;
 }
 
 void import_sights(const TextTable& table, const ImportRequest& request, RowWriter& rows,
@@ -117,15 +115,19 @@ void import_sights(const TextTable& table, const ImportRequest& request, RowWrit
     rows.begin_file(table, facts);
     if (time.dated()) rows.name_days();
     const int before = rows.count();
+    int missing = 0;
     std::vector<records::TableCell> cells;
     for (std::size_t i = 0; i < table.size(); ++i) {
         table.read(i, cells);
         row.time_s = time.time_s(table, i, cells);
-        write_line(table, i, mount, row, rows);
+        missing += write_line(table, i, mount, row, rows) ? 0 : 1;
     }
     result.summary.push_back(fmt::format(
         "{}: pointing of {}, {} lines, {} readings, {}; {}", table.path(), axes_words(log),
         table.size(), rows.count() - before, time.words(), table.dialect_words()));
+    if (missing > 0)
+        result.notes.push_back(
+            fmt::format("{}: {} lines without a value are left out", table.path(), missing));
     for (std::string& note : log_notes(table, log)) result.notes.push_back(std::move(note));
 }
 

@@ -132,26 +132,27 @@ void write_point(const PointFile& file, const MeasuredPoint& point,
     }
 }
 
+/// Points of one instrument in one session.
+struct SessionPoints {
+    std::size_t count = 0;
+    SourceRef first;
+    std::string text;  ///< line of the first one
+};
+using PointCounts = std::map<std::pair<std::string, std::string>, SessionPoints>;
+
 /// A free pose has six parameters for each session: at least three points are required.
-void check_pose(const PointFile& file, const setup::Instrument* instrument) {
-    if (!instrument || !instrument->free_pose) return;
+void check_poses(const setup::Setup& setup, const PointCounts& counts) {
     constexpr std::size_t fewest = 3;
-    std::map<std::string, std::pair<std::size_t, std::size_t>> sessions;  // first row, number of
-                                                                          // points
-    std::vector<records::TableCell> cells;
-    for (const MeasuredPoint& point : file.points) {
-        file.table.read(point.row, cells);
-        const std::string name = file.columns.session ? cells[*file.columns.session].plain() : "";
-        ++sessions.try_emplace(name, point.row, 0).first->second.second;
+    for (const auto& [key, points] : counts) {
+        const auto& [name, session] = key;
+        const setup::Instrument* instrument = setup.find_instrument(name);
+        if (!instrument || !instrument->free_pose || points.count >= fewest) continue;
+        throw InputError(fmt::format("{} point{} of {}{} not fix its pose, which the setup leaves "
+                                     "free: three at least",
+                                     points.count, points.count == 1 ? "" : "s", name,
+                                     session.empty() ? " do" : " in session " + session + " do"),
+                         points.first, points.text);
     }
-    for (const auto& [name, entry] : sessions)
-        if (entry.second < fewest)
-            file.table.line(entry.first)
-                .fail(fmt::format("{} point{} of {}{} not fix its pose, which the setup leaves "
-                                  "free: three at least",
-                                  entry.second, entry.second == 1 ? "" : "s", instrument->name,
-                                  name.empty() ? " do" : " in session " + name + " do"),
-                      1);
 }
 
 void tell(const PointFile& file, const TimeColumn& time, const std::string& instrument,
@@ -174,8 +175,19 @@ void tell(const PointFile& file, const TimeColumn& time, const std::string& inst
         result.notes.push_back(table.path() + ": column '" + name + "' is not used");
 }
 
+void count_point(const TextTable& table, std::size_t row,
+                 const std::pair<std::string, std::string>& key, PointCounts& counts) {
+    const records::TableLine line = table.line(row);
+    auto& points =
+        counts
+            .try_emplace(key,
+                         SessionPoints{0, {table.path(), line.number, 1}, std::string(line.text)})
+            .first->second;
+    ++points.count;
+}
+
 void import_table_of_points(const TextTable& table, const ImportRequest& request, RowWriter& rows,
-                            Imported& result) {
+                            PointCounts& counts, Imported& result) {
     const setup::Setup& setup = request.setup;
     const Facts facts = request.facts.with_head_of(table);
     const TimeColumn time(table, facts);
@@ -194,12 +206,14 @@ void import_table_of_points(const TextTable& table, const ImportRequest& request
     if (time.dated()) rows.name_days();
     std::size_t left_out = 0;
     const PointFile file{table, columns, target, setup, measured_points(table, columns, left_out)};
-    check_pose(file, instrument);
     std::vector<records::TableCell> cells;
     for (const MeasuredPoint& point : file.points) {
         table.read(point.row, cells);
         row.time_s = time.time_s(table, point.row, cells);
+        const int before = rows.count();
         write_point(file, point, cells, row, rows);
+        if (rows.count() > before)
+            count_point(table, point.row, {row.instrument, rows.session()}, counts);
     }
     tell(file, time, row.instrument, left_out, result);
 }
@@ -209,8 +223,10 @@ void import_table_of_points(const TextTable& table, const ImportRequest& request
 Imported import_points(const ImportRequest& request) {
     Imported result;
     RowWriter rows(request.setup, "points", {"sigma_mm", "instrument"}, true, false);
+    PointCounts counts;
     for (const TextTable& table : tables_of(request, result.notes))
-        import_table_of_points(table, request, rows, result);
+        import_table_of_points(table, request, rows, counts, result);
+    check_poses(request.setup, counts);
     result.readings = rows.take();
     return result;
 }

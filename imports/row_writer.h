@@ -34,6 +34,7 @@ class RowWriter {
     /// `line`: in the file, 0 for a generated row; `more`: text in the added column.
     void add(records::Reading row, int line, const std::string& more = "");
     int count() const { return index_; }
+    const std::string& session() const { return last_session_; }  ///< of the last row
     std::string take() { return std::move(text_); }
 
   private:

@@ -216,6 +216,18 @@ bool TextTable::leads_to_header(const std::vector<Line>& lines, std::size_t at) 
     return false;
 }
 
+/// A row of this table soon after a short line, which is then a row that lost cells, not the first
+/// of the results below the table.
+bool TextTable::row_follows(const std::vector<Line>& lines, std::size_t at) const {
+    const std::size_t end = std::min(lines.size(), at + longest_head);
+    for (std::size_t i = at + 1; i < end; ++i) {
+        Cells row = cells(lines[i]);
+        drop_empty_end(row);
+        if (row.size() == columns_.size() && row_like(row, dialect_)) return true;
+    }
+    return false;
+}
+
 /// Takes rows up to a text line, i.e. the end or the head of another table.
 void TextTable::take_rows(const std::vector<Line>& lines, std::size_t begin) {
     for (end_ = begin; end_ < lines.size(); ++end_) {
@@ -225,7 +237,9 @@ void TextTable::take_rows(const std::vector<Line>& lines, std::size_t begin) {
             const Cells row = cells(line);
             const bool says = line.text.find_first_of(":=") != std::string_view::npos;
             if (!is_data(row, dialect_)) return;
-            if (row.size() < columns_.size() && (says || leads_to_header(lines, end_))) return;
+            if (row.size() < columns_.size() &&
+                (says || leads_to_header(lines, end_) || !row_follows(lines, end_)))
+                return;
         }
         rows_.push_back(line);
     }
@@ -255,7 +269,7 @@ void TextTable::read_head(const std::vector<Line>& lines, std::size_t begin, std
         value = value.substr(0, value.find_first_of(cuts.substr(2) + "\""));
         std::string key = lower(records::without_blanks(text.substr(0, cut)));
         std::erase(key, '"');
-        head_[key] = records::without_blanks(value);
+        head_[key] = {std::string(records::without_blanks(value)), lines[i]};
     }
 }
 

@@ -27,7 +27,12 @@ class TextTable {
         std::string_view text;
         int number = 0;
     };
-    using Head = std::map<std::string, std::string>;
+    /// What a line above the table says behind its key, and where.
+    struct HeadEntry {
+        std::string value;
+        Line line;
+    };
+    using Head = std::map<std::string, HeadEntry>;
 
     /// The first table at or after lines[begin]; it ends before a text line that is not one of its
     /// rows. `told`: comma-separated column names if no line has them. Throws InputError (with
@@ -47,8 +52,9 @@ class TextTable {
     std::size_t end() const { return end_; }  ///< index of the first line after the table
     /// Cells of row `i`; throws InputError when their number differs from the header.
     void read(std::size_t i, std::vector<records::TableCell>& cells) const;
-    records::TableLine line(std::size_t i) const { return {rows_[i].text, rows_[i].number, path_}; }
-    records::TableLine header_line() const { return {header_.text, header_.number, path_}; }
+    records::TableLine line(std::size_t i) const { return whole(rows_[i]); }
+    records::TableLine header_line() const { return whole(header_); }
+    records::TableLine head_line(const HeadEntry& entry) const { return whole(entry.line); }
     /// The cell as a number, with decimal comma if the file uses it. Throws InputError with its
     /// position.
     double number(std::size_t i, const records::TableCell& cell, std::string_view what) const;
@@ -70,6 +76,7 @@ class TextTable {
     std::size_t first_told_row(const std::vector<Line>& lines, std::size_t begin,
                                const std::string& told);
     bool leads_to_header(const std::vector<Line>& lines, std::size_t at) const;
+    bool row_follows(const std::vector<Line>& lines, std::size_t at) const;
     void read_header(const std::vector<Line>& lines, std::size_t at);
     void read_head(const std::vector<Line>& lines, std::size_t begin, std::size_t end);
     void take_rows(const std::vector<Line>& lines, std::size_t begin);

@@ -1,4 +1,7 @@
 // Separators, decimal marks, byte order marks, line ends, units and times as files have them.
+#include <algorithm>
+
+#include "base/units.h"
 #include "imports/text_table.h"
 #include "imports/times.h"
 #include "imports/units.h"
@@ -105,6 +108,57 @@ TEST_CASE("a value that is missing leaves its row out, with a note") {
         REQUIRE(notes.size() == 1);
         CHECK_THAT(notes[0], Catch::Contains("X: 1 rows without a value"));
     }
+}
+
+TEST_CASE("a missing length of a ballbar and a missing sight are left out, with a note") {
+    const Case bar{imports::ImportKind::ballbar,
+                   "angle [deg],deviation [um]\n0,1\n90,\n180,3\n270,2\n",
+                   {"plane=XY", "sense=ccw", "feed=1000"},
+                   ""};
+    const auto rows = import_bench::read_rows(import_bench::setup(), bar);
+    REQUIRE(rows.size() == 3);
+    CHECK(rows[1].source == "f.txt:4");
+    const auto told = import_bench::imported(import_bench::setup(), bar).notes;
+    REQUIRE(told.size() == 2);
+    CHECK_THAT(told[0], Catch::Contains("1 rows without a value"));
+    const Case sight{imports::ImportKind::pointing,
+                     "C cmd [deg],C act [deg]\n0,0.001\n90,-\n180,180.002\n",
+                     {},
+                     ""};
+    CHECK(import_bench::read_rows(import_bench::setup(), sight).size() == 2);
+    const auto notes = import_bench::imported(import_bench::setup(), sight).notes;
+    CHECK(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+        return note.find("1 lines without a value") != std::string::npos;
+    }));
+}
+
+TEST_CASE("a rotary axis that is shown from 0 to 360 deg goes on, with its lag") {
+    std::string text = "time [ms],C cmd [deg],C act [deg]\n";
+    for (const double q : {340.0, 350.0, 0.0, 10.0, 0.0, 350.0})
+        text += std::to_string(text.size()) + ',' + std::to_string(q) + ',' +
+                std::to_string(q < 5.0 ? 359.5 : q - 0.5) + '\n';
+    const Case log{imports::ImportKind::axis_log, text, {}, ""};
+    const auto rows = import_bench::read_rows(import_bench::setup(), log);
+    REQUIRE(rows.size() == 6);
+    const double commanded[] = {340, 350, 360, 370, 360, 350};
+    for (std::size_t k = 0; k < 6; ++k) {
+        CHECK(rows[k].commanded[Axis::C] == Approx(rad_from_deg(commanded[k])));
+        CHECK(*rows[k].value_mm == Approx(rad_from_deg(-0.5)));
+    }
+    const auto notes = import_bench::imported(import_bench::setup(), log).notes;
+    REQUIRE(notes.size() == 1);
+    CHECK_THAT(notes[0], Catch::Contains("C: steps between 0 and 360 deg"));
+}
+
+TEST_CASE("a column that no point needs is named, one coordinate a line too") {
+    const auto result = import_bench::imported(
+        import_bench::setup(),
+        {imports::ImportKind::points,
+         "Merkmal;Achse;Soll;Ist;Serie\nP1;X;0,0;0,001;kalt\nP1;Y;0,0;0,001;kalt\n",
+         {},
+         ""});
+    REQUIRE(!result.notes.empty());
+    CHECK_THAT(result.notes.back(), Catch::Contains("'Serie' is not used"));
 }
 
 TEST_CASE("dates become sessions: one for each day, none for a pause at lunch") {

@@ -155,6 +155,12 @@ TEST_CASE("an ISO 230-2 table with its targets across, and one of bare direction
 }
 
 TEST_CASE("targets and positions are known by the words of their names") {
+    CHECK(read_rows(import_bench::setup(),
+                    {imports::ImportKind::iso230_2,
+                     "Zeit;Ziel X [mm];Abweichung [um]\n08:00:00;0;1\n08:00:09;10;2\n",
+                     {"axis=X"},
+                     ""})
+              .size() == 2);
     const auto rows = read_rows(import_bench::setup(),
                                 {imports::ImportKind::iso230_2,
                                  "No.;Soll-Pos.;Messwert\n1;0;0,001\n2;50;50,003\n3;100;100,002\n"
