@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "imports/printed_lines.h"
 #include "imports/row_writer.h"
+#include "imports/touch_start.h"
 #include "records/stops.h"
 #include "records/told_lines.h"
 #include "setup/programmed_point.h"
@@ -105,6 +106,7 @@ class PrintedRun {
     PositioningMode mode_ = PositioningMode::none, plain_mode_ = PositioningMode::none;
     std::string test_;
     std::optional<AxisPositions> stands_;
+    std::optional<TouchStart> begun_;  ///< of the last touch
     std::optional<setup::RotaryStores> declared_, in_force_;
     std::optional<double> length_mm_;  ///< of the probe, if it is not the declared one
     setup::ProgrammedPoint meant_;
@@ -175,6 +177,7 @@ void PrintedRun::head(const PrintedLine& line) {
         line.fail("prints of another machine: the setup has the rotary axes " + rotary, at + 6);
     stops_.clear();
     stands_.reset();
+    begun_.reset();
     timed_ = false;
     shop_ = {};
     begin_modes();
@@ -276,13 +279,18 @@ std::string PrintedRun::sphere_at(const PrintedLine& line, const AxisPositions& 
 void PrintedRun::touch(const PrintedLine& line) {
     if (!stands_) line.fail("a touch before any line AT: where it began is not known");
     const Vector3 way = line.vector_behind("IJK");
-    const Vector3 gone = line.vector_behind("UVW") - line.vector_behind("XYZ");
+    const Vector3 start = line.vector_behind("XYZ"), gone = line.vector_behind("UVW") - start;
     const double length_mm = way.norm();
     if (length_mm <= 0.0) line.fail("a touch without a way (I J K are 0)");
     const double along_mm = gone.dot(way) / length_mm;
     if ((gone - along_mm / length_mm * way).norm() > most_beside_mm ||
         along_mm > length_mm + most_beside_mm || along_mm < -most_beside_mm)
         line.fail("the skip position U V W is not on the way I J K from X Y Z");
+    const TouchStart begins{test_, mode_, *stands_, start};
+    if (begun_ && !advances(*begun_, begins, most_beside_mm))
+        line.fail(
+            "this touch does not begin where the line AT before it stands: a line is missing");
+    begun_ = begins;
     records::Reading row;
     row.device = records::Device::touch;
     row.direction_M = way / length_mm;

@@ -11,8 +11,11 @@ std::string store_prints(const RotaryStores& stores, bool hurco, const std::stri
         "#7=PRM[1001,0]\nDPRNT[STORE*INCH*#7[10]]\n";
     // The sum is the same whichever of the two ranges is the wear (6000#3).
     if (!probe_offset.empty())
-        text += fmt::format("#8={}\n#7=#[10000+#8]+#[11000+#8]\nDPRNT[STORE*H#8[30]*V#7[47]]\n",
-                            probe_offset);
+        text += fmt::format(
+            "(TOOL OFFSET MEMORY A, ONE VALUE A TOOL, HAS NO #11001 AND UP:)\n"
+            "(DELETE +#[11000+#8] IN THE SECOND OF THE NEXT LINES)\n"
+            "#8={}\n#7=#[10000+#8]+#[11000+#8]\nDPRNT[STORE*H#8[30]*V#7[47]]\n",
+            probe_offset);
     if (hurco) return text;
     for (const StoreNumber& n : store_numbers(stores))
         if (n.parameter != 0)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <memory>
+#include <sstream>
 
 #include "diagnosis/measurements.h"
 #include "effects/settings.h"
@@ -250,6 +251,45 @@ TEST_CASE("each program that probes prints the length of its probe", "[imports][
     CHECK_THAT(run(setup, source, 8001).printed, Catch::Contains(line));
     for (const diagnosis::Measurement& m : diagnosis::ready_measurements(setup, 0.0))
         CHECK_THAT(m.program, Catch::Contains("DPRNT[STORE*H#8[30]*V#7[47]]"));
+}
+
+TEST_CASE("a touch whose line AT was lost is refused", "[imports][dprnt]") {
+    setup::Setup setup = machine("bc_table.toml");
+    interpreter::ProgramFolders source({root + "/programs", root + "/programs/pivot"});
+    std::istringstream printed(run(setup, source, 8003).printed);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(printed, line);) lines.push_back(line);
+    int refused = 0, touches = 0;
+    for (std::size_t k = 1; k < lines.size(); ++k) {
+        if (!lines[k].starts_with("TOUCH") || ++touches % 60 != 30) continue;
+        std::string text;
+        for (std::size_t i = 0; i < lines.size(); ++i)
+            if (i + 1 != k) text += lines[i] + '\n';
+        refuses(setup, text, "a line is missing", static_cast<int>(k));
+        ++refused;
+    }
+    CHECK(refused == 10);
+}
+
+TEST_CASE("for a control with tool offset memory A the program says what to delete",
+          "[imports][dprnt]") {
+    setup::Setup setup = machine("bc_table.toml");
+    setup.stores.tools.tool[1].length_geometry_mm = 0.0;  // all in #10001, the only one of memory A
+    setup.stores.tools.tool[1].length_wear_mm = 150.0;
+    const std::string comment = "(DELETE +#[11000+#8] IN THE SECOND OF THE NEXT LINES)\n#8=";
+    for (const diagnosis::Measurement& m : diagnosis::ready_measurements(setup, 0.0))
+        CHECK_THAT(m.program, Catch::Contains(comment + "1\n#7=#[10000+#8]+#[11000+#8]\n"));
+    const pivot::PivotPlan plan = pivot::plan_pivot_test(setup);
+    auto programs = pivot::pivot_programs(plan);
+    std::string& common = programs["common.nc"];
+    REQUIRE_THAT(common, Catch::Contains(comment + "#506\n#7=#[10000+#8]+#[11000+#8]\n"));
+    common = with(common, "\n#7=#[10000+#8]+#[11000+#8]", "\n#7=#[10000+#8]");
+    interpreter::ProgramFolders source({root + "/programs"});
+    for (const auto& [name, text] : programs) {
+        const auto owner = std::make_shared<std::string>(text);
+        source.add_file({name, *owner, owner});
+    }
+    CHECK_THAT(run(setup, source, 8001).printed, Catch::Contains("STORE H   1 V  150.0000000"));
 }
 
 TEST_CASE("one file of prints may hold several runs, each with a clock of its own",
