@@ -48,6 +48,7 @@ void write_points(const TextTable& table, const std::vector<IsoPoint>& points, r
             records::Reading before = row;
             before.device = records::Device::none;
             before.angular = false;
+            before.value_mm.reset();
             before.commanded[axis] = p.target - overrun * p.direction;
             before.time_s = k == 0 ? p.time_s - 1.0 : 0.5 * (points[k - 1].time_s + p.time_s);
             rows.add(std::move(before), 0);

@@ -191,7 +191,10 @@ TEST_CASE("each target read three times in passing, the last ones no second pass
                                 {"axis=X"},
                                 ""});
     int approaches = 0;
-    for (const auto& row : all.rows) approaches += row.device == records::Device::none ? 1 : 0;
+    for (const auto& row : all.rows) {
+        approaches += row.device == records::Device::none ? 1 : 0;
+        CHECK(row.value_mm.has_value() == (row.device != records::Device::none));
+    }
     CHECK(approaches == 2);
 }
 
