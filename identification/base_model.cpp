@@ -11,16 +11,13 @@
 #include "effects/settings.h"
 #include "emulator/device_noise.h"
 #include "estimation/ranked_least_squares.h"
+#include "identification/plausible.h"
 #include "identification/unknowns.h"
 #include "identification/zero_scatter.h"
 
 namespace trunnion::identification {
 namespace {
 
-constexpr double absurd_mm = 5.0;  ///< limit of a plausible residual; beyond it units, frame or
-                                   ///< setup are wrong
-constexpr double absurd_rms_mm = 0.5;
-constexpr double absurd_rad = 0.03;  ///< of a location error
 constexpr int most_passes = 20;
 constexpr std::size_t most_gradients = 100000;  ///< rows of which the derivatives are kept
 constexpr double least_damping = 1e-4, most_damping = 1e8;  ///< of information in typical sizes
@@ -68,6 +65,7 @@ struct Equations {
     Eigen::MatrixXd information;
     Eigen::VectorXd gradient;
     Weighting weighting;
+    const Eigen::MatrixXd& to_unknowns;  ///< zeros_from_first
 };
 
 /// Applies a step (in the units of the parameters) unless it increases the misfit.
@@ -96,7 +94,8 @@ Eigen::VectorXd take_step(BaseModel& model, const emulator::Replay& replay,
             damped.diagonal().array() += damping;
             step = damped.ldlt().solve(e.gradient);
         }
-        if (!taken(model, replay, slots, e.weighting, typical.cwiseProduct(step))) continue;
+        if (!taken(model, replay, slots, e.weighting, typical.cwiseProduct(e.to_unknowns * step)))
+            continue;
         damping = damping > least_damping ? 0.1 * damping : 0.0;
         return step;
     }
@@ -130,42 +129,6 @@ void take_measured(BaseModel& model, const records::ReadingTable& table,
                              records::place_of(table, row));
         model.measured_mm(i) = *row.value_mm;
     }
-}
-
-/// Implausible results are refused, or noted when the user declared them as intended.
-void tell_absurd(BaseModel& model, bool meant, const std::string& what, const SourceRef& where) {
-    const std::string message = what +
-                                " after fitting: wrong units (um for mm?), wrong frame, or "
-                                "the setup of another machine";
-    if (!meant) throw InputError(message + "; --allow-large accepts it", where);
-    model.notes.push_back(where.program + ": " + message + "; accepted");
-}
-
-void tell_absurd_residuals(BaseModel& model, const emulator::Replay& replay,
-                           const records::ReadingTable& table) {
-    const bool allowed = model.setup.model.allow_large;
-    Eigen::Index worst = 0;
-    const double most = model.residual_mm.cwiseAbs().maxCoeff(&worst);
-    const records::Reading& row = table.rows[replay.table_row(static_cast<std::size_t>(worst))];
-    const bool meant = allowed || row.sigma_mm.value_or(0.0) > 0.0;
-    if (most > absurd_mm)
-        tell_absurd(model, meant, fmt::format("a residual of {} mm", three_digits(most)),
-                    records::place_of(table, row));
-    const double rms =
-        std::sqrt(model.residual_mm.squaredNorm() / static_cast<double>(model.residual_mm.size()));
-    if (rms > absurd_rms_mm)
-        tell_absurd(model, meant, fmt::format("residuals of {} mm rms", three_digits(rms)),
-                    {table.path, 0, 0});
-}
-
-/// An implausible location error means that the setup describes another machine.
-void tell_absurd_location(BaseModel& model, const FitParameter& p,
-                          const records::ReadingTable& table) {
-    if (p.location && std::isfinite(p.sigma) &&
-        std::abs(p.value) > (p.unit == "mm" ? absurd_mm : absurd_rad))
-        tell_absurd(model, model.setup.model.allow_large,
-                    fmt::format("{} comes out as {} {}", p.name, three_digits(p.value), p.unit),
-                    {table.path, 0, 0});
 }
 
 void name_null_space(BaseModel& model, const std::vector<Slot>& slots,
@@ -212,18 +175,27 @@ void add_prior(const FitParameter& prior, const setup::Setup& setup, Eigen::Inde
     gradient(j) += pull * pull * (prior.prior_value - location_value(setup, prior)) / prior.typical;
 }
 
+/// True if the step that was left to do exceeds a tenth of a sigma.
+bool far_from_solution(const estimation::LinearFit& fit) {
+    for (Eigen::Index j = 0; j < fit.value.size(); ++j)
+        if (std::abs(fit.value(j)) > 0.1 * fit.sigma(j)) return true;
+    return false;
+}
+
 /// Robust weights; the model's setup moves to the solution. Returns the last step's fit, in typical
 /// sizes.
 estimation::LinearFit iterate(BaseModel& model, const emulator::Replay& replay,
                               const ZeroScatter& zeros, const std::vector<Slot>& slots) {
     estimation::LinearFit fit;
+    const Eigen::MatrixXd to_unknowns = zeros_from_first(slots, replay, model.columns);
     double damping = 0.0;
     for (int pass = 0; pass < most_passes && !slots.empty(); ++pass) {
         const Eigen::VectorXd weight = row_weights(model, model.residual_mm);
         const Eigen::MatrixXd a = weight.asDiagonal() * model.columns;
         Equations e{zeros.product(a, a, weight),
                     zeros.product(a, weight.cwiseProduct(model.residual_mm), weight),
-                    {zeros, weight}};
+                    {zeros, weight},
+                    to_unknowns};
         for (std::size_t j = 0; j < slots.size(); ++j)
             add_prior(slots[j].fit, model.setup, static_cast<Eigen::Index>(j), e.information,
                       e.gradient);
@@ -231,6 +203,14 @@ estimation::LinearFit iterate(BaseModel& model, const emulator::Replay& replay,
         const Eigen::VectorXd step = take_step(model, replay, slots, e, damping);
         if (step.cwiseAbs().maxCoeff() < 1e-7) break;
     }
+    if (far_from_solution(fit))
+        model.notes.emplace_back(
+            "the fit has not settled: its values may be off by more than their sigma");
+    fit.covariance = to_unknowns * fit.covariance * to_unknowns.transpose();
+    for (std::size_t j = 0; j < slots.size(); ++j)
+        if (const auto k = static_cast<Eigen::Index>(j);
+            is_zero(slots[j].fit) && std::isfinite(fit.sigma(k)))
+            fit.sigma(k) = std::sqrt(fit.covariance(k, k));
     return fit;
 }
 

@@ -109,6 +109,22 @@ Eigen::MatrixXd columns_of(const std::vector<Slot>& slots, const emulator::Repla
     return filler.take();
 }
 
+Eigen::MatrixXd zeros_from_first(const std::vector<Slot>& slots, const emulator::Replay& replay,
+                                 const Eigen::MatrixXd& columns) {
+    const auto n = static_cast<Eigen::Index>(slots.size());
+    Eigen::MatrixXd steps = Eigen::MatrixXd::Identity(n, n);
+    for (Eigen::Index z = 0; z < n; ++z) {
+        const FitParameter& zero = slots[static_cast<std::size_t>(z)].fit;
+        if (!is_zero(zero)) continue;
+        const auto group = static_cast<std::size_t>(zero.set_up.index);
+        const auto first = static_cast<Eigen::Index>(replay.zeros()[group].rows.front());
+        for (Eigen::Index j = 0; j < n; ++j)
+            if (!is_zero(slots[static_cast<std::size_t>(j)].fit))
+                steps(z, j) = columns(first, j) / zero.typical;
+    }
+    return steps;
+}
+
 std::vector<kinematics::Perturbation> gradients_of(const emulator::Replay& replay,
                                                    const kinematics::Machine& machine) {
     const kinematics::ForwardModel forward(machine);

@@ -38,6 +38,13 @@ Eigen::MatrixXd columns_of(const std::vector<Unknowns::Slot>& slots, const emula
 /// The same; each gradient is computed and forgotten.
 Eigen::MatrixXd columns_of(const std::vector<Unknowns::Slot>& slots, const emulator::Replay& replay,
                            const kinematics::Machine& machine);
+inline bool is_zero(const FitParameter& p) {  ///< of a test with a laser or autocollimator
+    return p.of_set_up && p.set_up.kind == SetUpQuantity::Kind::zero;
+}
+/// The zero of a test is its first reading (Replay::predict), which the other unknowns change, too:
+/// a step along the columns, in typical sizes, times this matrix is the step of the unknowns.
+Eigen::MatrixXd zeros_from_first(const std::vector<Unknowns::Slot>& slots,
+                                 const emulator::Replay& replay, const Eigen::MatrixXd& columns);
 /// Derivatives of all device rows by a Perturbation.
 std::vector<kinematics::Perturbation> gradients_of(const emulator::Replay& replay,
                                                    const kinematics::Machine& machine);

@@ -1,5 +1,7 @@
 // identify, diagnose, predict, compensate at the command line: what they refuse, and the whole loop
 // from readings to a compensated program.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -189,6 +191,26 @@ TEST_CASE("a large gap that is true: refused with a message, or warned of and ac
         CHECK_THAT(bench.read("err.txt"), Catch::Contains("accepted"));
         CHECK_FALSE(bench.read("out.txt").empty());
     }
+}
+
+TEST_CASE("the lag of a servo is no wrong unit, a jump at rest is") {
+    const Bench bench;
+    const Good good;
+    const std::string setup = bench.write("setup.toml", setup::format_setup(good.setup));
+    const auto log = [&](double jump_mm) {
+        std::string text = "index,time_s,test,device,feature,x_mm,y_mm,z_mm,b_deg,c_deg,value_mm\n";
+        for (int k = 0; k < 400; ++k) {  // 500 mm/s and a lag of 20 ms: 10 mm
+            const double phase = 0.01 * k;
+            text += fmt::format("{},{},log,axis,X,{},0,0,0,0,{}\n", k, phase,
+                                500.0 * std::sin(phase), -10.0 * std::cos(phase));
+        }
+        return bench.write("log.csv", text + fmt::format("400,5,rest,axis,X,0,0,0,0,0,{}\n"
+                                                         "401,6,rest,axis,X,0,0,0,0,0,0\n",
+                                                         jump_mm));
+    };
+    CHECK(bench.trunnion("identify " + log(0.0) + " --setup " + setup) == 0);
+    CHECK(bench.trunnion("identify " + log(6.0) + " --setup " + setup) == 2);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("log.csv:402: error: a residual of 6.00 mm"));
 }
 
 TEST_CASE("several tables are read as one") {

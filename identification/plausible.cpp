@@ -1,0 +1,72 @@
+#include "identification/plausible.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/alarm.h"
+#include "base/rounded.h"
+
+namespace trunnion::identification {
+namespace {
+
+constexpr double absurd_mm = 5.0;  ///< limit of a plausible residual; beyond it units, frame or
+                                   ///< setup are wrong
+constexpr double absurd_rms_mm = 0.5;
+constexpr double absurd_rad = 0.03;  ///< of a location error
+/// Delay of a slow position loop: its following error at speed is large, and plausible.
+constexpr double longest_lag_s = 0.1;
+
+/// Implausible results are refused, or noted when the user declared them as intended.
+void tell_absurd(BaseModel& model, bool meant, const std::string& what, const SourceRef& where) {
+    const std::string message = what +
+                                " after fitting: wrong units (um for mm?), wrong frame, or "
+                                "the setup of another machine";
+    if (!meant) throw InputError(message + "; --allow-large accepts it", where);
+    model.notes.push_back(where.program + ": " + message + "; accepted");
+}
+
+/// Sizes of the residuals; those of a servo log as far as no lag of the axis explains them.
+Eigen::VectorXd without_lag(const BaseModel& model, const emulator::Replay& replay) {
+    Eigen::VectorXd size = model.residual_mm.cwiseAbs();
+    for (Eigen::Index i = 0; i < size.size(); ++i) {
+        const auto row = static_cast<std::size_t>(i);
+        const emulator::Contact& contact = replay.contact(row);
+        if (contact.device != records::Device::axis) continue;
+        const double lag_mm = longest_lag_s * std::abs(replay.sample(row).velocity[contact.axis]);
+        size(i) = std::max(0.0, size(i) - lag_mm);
+    }
+    return size;
+}
+
+}  // namespace
+
+void tell_absurd_residuals(BaseModel& model, const emulator::Replay& replay,
+                           const records::ReadingTable& table) {
+    const bool allowed = model.setup.model.allow_large;
+    const Eigen::VectorXd size = without_lag(model, replay);
+    Eigen::Index worst = 0;
+    const double most = size.maxCoeff(&worst);
+    const records::Reading& row = table.rows[replay.table_row(static_cast<std::size_t>(worst))];
+    const bool meant = allowed || row.sigma_mm.value_or(0.0) > 0.0;
+    if (most > absurd_mm)
+        tell_absurd(model, meant, fmt::format("a residual of {} mm", three_digits(most)),
+                    records::place_of(table, row));
+    const double rms = std::sqrt(size.squaredNorm() / static_cast<double>(size.size()));
+    if (rms > absurd_rms_mm)
+        tell_absurd(model, meant, fmt::format("residuals of {} mm rms", three_digits(rms)),
+                    {table.path, 0, 0});
+}
+
+/// An implausible location error means that the setup describes another machine.
+void tell_absurd_location(BaseModel& model, const FitParameter& p,
+                          const records::ReadingTable& table) {
+    if (p.location && std::isfinite(p.sigma) &&
+        std::abs(p.value) > (p.unit == "mm" ? absurd_mm : absurd_rad))
+        tell_absurd(model, model.setup.model.allow_large,
+                    fmt::format("{} comes out as {} {}", p.name, three_digits(p.value), p.unit),
+                    {table.path, 0, 0});
+}
+
+}  // namespace trunnion::identification
