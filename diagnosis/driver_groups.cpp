@@ -18,6 +18,7 @@ namespace {
 struct Driver {
     std::string by, component, text;
     std::vector<std::vector<double>> columns;  ///< by column, one entry for each row
+    bool of_time = false;
 };
 
 constexpr double usual_mm = 5e-3;  ///< typical size of a dependence on a driver
@@ -67,7 +68,7 @@ class DriverList {
     /// Adds columns f * carrier for all pairs.
     void add(std::string by, std::string component, std::string text,
              const std::vector<RowFunction>& functions, const std::vector<RowFunction>& carriers) {
-        Driver driver{std::move(by), std::move(component), std::move(text), {}};
+        Driver driver{std::move(by), std::move(component), std::move(text), {}, false};
         for (const RowFunction& f : functions)
             for (const RowFunction& c : carriers)
                 driver.columns.push_back(tabulate(n(), [&](std::size_t i) { return f(i) * c(i); }));
