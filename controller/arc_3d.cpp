@@ -12,7 +12,7 @@ std::optional<ProgramArc> arc_through(const Vector3& start, const Vector3& middl
                                       const Vector3& end) {
     const Vector3 a = start - end, b = middle - end;
     const Vector3 across = a.cross(b);
-    if (across.norm() <= 1e-9 * a.norm() * b.norm() || b.norm() == 0.0) return std::nullopt;
+    if (across.norm() <= 1e-9 * a.norm() * b.norm()) return std::nullopt;
     ProgramArc arc;
     // From the third corner to the centre of the circle through the triangle.
     const Vector3 to_centre =

@@ -26,15 +26,13 @@ void take_shortest_way(const SortedWords& words, const Modal& modal,
     }
 }
 
-/// The axis words outside the plane, or all of them.
+/// The axis words as coordinates.
 offsets::ControlPosition plain_target(const SortedWords& words, const Modal& modal,
-                                      const offsets::ControlPosition& present, bool with_plane) {
+                                      const offsets::ControlPosition& present) {
     offsets::ControlPosition out = present;
-    const motion::PlaneAxes& plane = modal.plane();
     for (const ControlAxis& entry : modal.settings.axes) {
         const Axis axis = entry.axis;
         if (!words.has(axis)) continue;
-        if (!with_plane && (axis == plane.first || axis == plane.second)) continue;
         const double value = words.axis_value(axis);
         out[axis] = modal.absolute() ? value : out[axis] + value;
     }
@@ -44,7 +42,7 @@ offsets::ControlPosition plain_target(const SortedWords& words, const Modal& mod
 offsets::ControlPosition polar_target(const SortedWords& words, Modal& modal,
                                       const offsets::ControlPosition& present) {
     const motion::PlaneAxes& plane = modal.plane();
-    offsets::ControlPosition out = plain_target(words, modal, present, false);
+    offsets::ControlPosition out = plain_target(words, modal, present);
     const char radius_word = letter_of(plane.first), angle_word = letter_of(plane.second);
     if (!words.has(radius_word) && !words.has(angle_word)) return out;
     const double x = present[plane.first], y = present[plane.second];
@@ -65,7 +63,7 @@ offsets::ControlPosition polar_target(const SortedWords& words, Modal& modal,
 offsets::ControlPosition commanded_position(const SortedWords& words, Modal& modal,
                                             const Frames& frames) {
     if (modal.is(ModalGroup::polar_words, 160)) return polar_target(words, modal, frames.program);
-    offsets::ControlPosition out = plain_target(words, modal, frames.program, true);
+    offsets::ControlPosition out = plain_target(words, modal, frames.program);
     if (modal.absolute() && (modal.settings.rollover || modal.shortest_way))
         take_shortest_way(words, modal, frames.program, out);
     return out;

@@ -150,8 +150,8 @@ class Explainer {
         found.group = found.cause;
         const bool value_alone = fields.size() == 1 &&
                                  std::string_view(snapshot_fields()[fields[0]].name) == "work zero";
-        if (value_alone && in_.gaps != nullptr)
-            if (const auto written = in_.gaps->first_that_writes()) {
+        if (value_alone)
+            if (const auto written = in_.gaps.first_that_writes()) {
                 found.cause = written->what.empty() ? found.cause : written->what;
                 found.a.line = static_cast<std::uint32_t>(written->line_a);
                 found.b.line = static_cast<std::uint32_t>(written->line_b);
@@ -185,8 +185,7 @@ class Explainer {
 
     /// True when B's block in place of A's line sets it, although it was already active.
     bool written_in_b(std::uint32_t line_a, const std::string& text) {
-        if (in_.gaps == nullptr) return false;
-        const auto cause = in_.gaps->before(static_cast<int>(line_a), 0);
+        const auto cause = in_.gaps.before(static_cast<int>(line_a), 0);
         return cause && cause->line_a == static_cast<int>(line_a) &&
                cause->what.find(text + " ") != std::string::npos;
     }
@@ -204,10 +203,9 @@ class Explainer {
     /// The moving block exists on one side only: the states at the next block do not explain
     /// anything.
     Found by_missing_block(std::uint64_t i, std::uint64_t j) {
-        if (in_.gaps == nullptr) return {};
         const CausePlace a = place(path_a_, i), b = place(path_b_, j);
         const auto cause =
-            in_.gaps->block_missing(static_cast<int>(a.line), static_cast<int>(b.line));
+            in_.gaps.block_missing(static_cast<int>(a.line), static_cast<int>(b.line));
         return cause ? found_at(*cause, a, b) : Found{};
     }
 
@@ -222,10 +220,9 @@ class Explainer {
     /// The block of a pass on one side only, if the other side has it with other words (K2 instead
     /// of K3).
     Found by_own_block(bool in_a, std::uint64_t i, std::uint64_t j) {
-        if (in_.gaps == nullptr) return {};
         const CausePlace a = place(path_a_, i), b = place(path_b_, j);
         const auto cause =
-            in_.gaps->at(in_a ? static_cast<int>(a.line) : 0, in_a ? 0 : static_cast<int>(b.line));
+            in_.gaps.at(in_a ? static_cast<int>(a.line) : 0, in_a ? 0 : static_cast<int>(b.line));
         return cause ? found_at(*cause, a, b) : Found{};
     }
 
@@ -241,16 +238,15 @@ class Explainer {
     /// shortly after them.
     std::optional<WrittenCause> written_near(int line_a, int line_b, bool read_ahead) {
         constexpr int ahead = 3;
-        auto behind = in_.gaps->before(line_a, line_b);
+        auto behind = in_.gaps.before(line_a, line_b);
         const bool here = behind && behind->line_a == line_a && behind->line_b == line_b;
         if (here || (behind && !behind->what.empty() && !read_ahead)) return behind;
-        auto next = in_.gaps->before(line_a + ahead, line_b + ahead);
+        auto next = in_.gaps.before(line_a + ahead, line_b + ahead);
         const bool follows = next && (next->line_a > line_a || next->line_b > line_b);
         return follows && !next->what.empty() ? next : behind;
     }
 
     Found by_blocks(const PathCluster& c, std::uint64_t i, std::uint64_t j) {
-        if (in_.gaps == nullptr) return {};
         const CausePlace a = place(path_a_, i), b = place(path_b_, j);
         const int line_a = static_cast<int>(a.line), line_b = static_cast<int>(b.line);
         const auto cause = written_near(line_a, line_b, beside_contour(i, j));

@@ -15,7 +15,7 @@ namespace trunnion::regression {
 struct CauseInput {
     const RecordedRun& a;
     const RecordedRun& b;
-    WrittenGaps* gaps = nullptr;  ///< nullptr: no text available (a golden)
+    WrittenGaps& gaps;
     const std::optional<positioning::RotaryTransform>& transform;
     Tolerances tolerances;
 };

@@ -140,7 +140,7 @@ class ProgramComparer {
     std::vector<ExplainedCluster> explained(const PathComparison& found, PathSpace space) {
         if (run_a_ && one_control() && space == PathSpace::tip)
             return explain(found.clusters,
-                           {*run_a_, *run_b_, &written_gaps(), transform(), options_.tolerances});
+                           {*run_a_, *run_b_, written_gaps(), transform(), options_.tolerances});
         std::vector<ExplainedCluster> plain;
         for (const PathCluster& cluster : found.clusters) plain.push_back({cluster});
         return plain;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 
 namespace trunnion::regression {
 
@@ -21,6 +22,12 @@ DifferenceKind kind_of(RegionKind kind) {
         case RegionKind::path: break;
     }
     return DifferenceKind::path;
+}
+
+/// False for feed, spindle, coolant and tool.
+bool is_path(RegionKind kind) {
+    return kind == RegionKind::path || kind == RegionKind::moved || kind == RegionKind::only_a ||
+           kind == RegionKind::only_b;
 }
 
 class PathComparer {
@@ -88,12 +95,44 @@ class PathComparer {
             result_.approaches_differ += regions.empty() ? 0 : 1;
             regions.clear();
             walk(p.cut_first, p.last, q.cut_first, q.last, regions);
-        } else if ((pair.a.first == 0 && pair.b.first == 0) || starts_alike(p, q)) {
+        } else if ((pair.a.first == 0 && pair.b.first == 0) ||
+                   apart_mm(p.first, q.first) <= options_.tolerances.position_mm) {
             walk(p.first, p.last, q.first, q.last, regions);
-        } else {  // after a pass on one side only the path to this place necessarily differs
+        } else {
+            compare_approach(p, q, regions);
             walk(p.cut_first, p.last, q.cut_first, q.last, regions);
         }
         take(regions, pair.a);
+    }
+
+    /// The path to a cut from another place on each side: it necessarily differs by as much as the
+    /// places do. What is further apart is a difference of its own.
+    void compare_approach(const Pass& p, const Pass& q, std::vector<PathRegion>& regions) {
+        std::vector<PathRegion> found;
+        walk_.compare({p.first, p.cut_first}, {q.first, q.cut_first}, found, unused_);
+        double begins_apart_mm = apart_mm(p.first, q.first);
+        const double ends_apart_mm = p.cuts() ? apart_mm(p.cut_first, q.cut_first) : 0.0;
+        for (PathRegion& r : found) {
+            const bool at_cut = r.a.last == p.cut_first && r.b.last == q.cut_first;
+            double allowed_mm = at_cut ? ends_apart_mm : 0.0;
+            if (is_path(r.kind)) {
+                allowed_mm = std::max(allowed_mm, std::exchange(begins_apart_mm, 0.0));
+                if (allowed_mm > options_.tolerances.position_mm) {
+                    allowed_mm += options_.tolerances.position_mm;
+                    if (r.position_mm <= allowed_mm) continue;
+                    skip_near(r, allowed_mm);
+                }
+            }
+            result_.totals.worst(r.position_mm, r.direction_rad, r.a.first, r.b.first);
+            regions.push_back(r);
+        }
+    }
+
+    /// Leaves out the blocks of a region that end no further apart than this.
+    void skip_near(PathRegion& r, double allowed_mm) {
+        while (r.a.first + 1 < r.a.last && r.b.first + 1 < r.b.last &&
+               apart_mm(r.a.first + 1, r.b.first + 1) <= allowed_mm)
+            ++r.a.first, ++r.b.first;
     }
 
     /// The path to the cut cannot agree: another machine, or another positioning function there.
@@ -142,10 +181,9 @@ class PathComparer {
         walk_.compare({a_first, a_last}, {b_first, b_last}, regions, result_.totals);
     }
 
-    bool starts_alike(const Pass& p, const Pass& q) {
-        const Vector3 apart =
-            seen_a_[p.first - 1].end().position_mm - seen_b_[q.first - 1].end().position_mm;
-        return apart.norm() <= options_.tolerances.position_mm;
+    /// Distance of the places where two segments begin.
+    double apart_mm(std::uint64_t i, std::uint64_t j) {
+        return (seen_a_[i - 1].end().position_mm - seen_b_[j - 1].end().position_mm).norm();
     }
 
     /// Adds the regions to the clusters and counts the result of each pass of A.

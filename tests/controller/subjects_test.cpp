@@ -1,6 +1,8 @@
 // Subjects of the control, each with the owners that it needs and no whole control.
 #include <catch2/catch.hpp>
+#include <cmath>
 
+#include "controller/arc_3d.h"
 #include "controller/arcs.h"
 #include "controller/commanded.h"
 #include "controller/cycles.h"
@@ -125,6 +127,23 @@ TEST_CASE("skip: the place of the trigger, or where it ends, and no feed without
     controller::skip_move(skip, p.words, p.modal, p.frames, p.mover);
     CHECK_FALSE(skip.triggered);
     CHECK(p.sink.moves.size() == 1);
+}
+
+TEST_CASE("an arc in space bends by more than 1e-9 of its chords") {
+    const Vector3 start(0, 0, 0), end(1000, 0, 0);
+    CHECK_FALSE(controller::arc_through(start, {500, 4e-7, 0}, end));
+    const auto arc = controller::arc_through(start, {500, 0.01, 0}, end);
+    REQUIRE(arc);
+    CHECK(arc->centre.y() == Approx(0.01 / 2 - 500.0 * 500.0 / (2 * 0.01)));  // sagitta
+    CHECK(arc->normal.z() == Approx(-1.0));
+    CHECK(arc->sweep_rad == Approx(4.0 * std::atan2(0.01, 500.0)));
+    for (const Vector3& middle : {start, end})
+        CHECK_FALSE(controller::arc_through(start, middle, end));
+    // More than half a turn; the direction follows from the point on the way.
+    const auto long_way = controller::arc_through({1, 0, 0}, {-1, 0, 0}, {0, -1, 0});
+    REQUIRE(long_way);
+    CHECK(long_way->sweep_rad == Approx(1.5 * pi));
+    CHECK(long_way->normal.z() == Approx(1.0));
 }
 
 }  // namespace trunnion

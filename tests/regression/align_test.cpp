@@ -193,3 +193,37 @@ TEST_CASE("beyond the resync window the verdict stays right and the search goes 
         if (inserts) CHECK(r.clusters[0].first.b.first == 201);
     }
 }
+
+TEST_CASE("passes are alike by tool, place, ends and length of the cut, each within its limit",
+          "[compare]") {
+    regression::Tolerances t;
+    t.position_mm = 0.01;
+    regression::Pass p;
+    p.last = 9;
+    p.tool = 3;
+    p.cut_mm = 100.0;
+    CHECK(regression::alike(p, p, t));
+    const auto alike_with = [&](auto change) {
+        regression::Pass q = p;
+        change(q);
+        CHECK(regression::alike(p, q, t) == regression::alike(q, p, t));
+        return regression::alike(p, q, t);
+    };
+    CHECK_FALSE(alike_with([](regression::Pass& q) { q.tool = 4; }));
+    for (const auto place :
+         {&regression::Pass::start_mm, &regression::Pass::end_mm, &regression::Pass::centroid_mm})
+        for (std::size_t k = 0; k < 3; ++k) {
+            CHECK(alike_with([&](regression::Pass& q) { (q.*place)[k] = -0.019; }));
+            CHECK_FALSE(alike_with([&](regression::Pass& q) { (q.*place)[k] = 0.021; }));
+        }
+    // A thousandth and four tolerances.
+    CHECK(alike_with([](regression::Pass& q) { q.cut_mm = 100.139; }));
+    CHECK_FALSE(alike_with([](regression::Pass& q) { q.cut_mm = 100.141; }));
+    CHECK(alike_with([](regression::Pass& q) { q.cut_mm = 99.8615; }));
+    CHECK_FALSE(alike_with([](regression::Pass& q) { q.cut_mm = 99.8585; }));
+    // Rapids alone: alike wherever they lead, but never like a cut.
+    CHECK_FALSE(alike_with([](regression::Pass& q) { q.cut_first = q.last; }));
+    p.cut_first = p.last;
+    CHECK(alike_with([](regression::Pass& q) { q.start_mm = {5.0, 5.0, 5.0}; }));
+    CHECK_FALSE(alike_with([](regression::Pass& q) { q.tool = 4; }));
+}

@@ -24,6 +24,35 @@ TEST_CASE("shifts along the tool in five poses are one length", "[compare]") {
     }
 }
 
+TEST_CASE("a pose that only rapid moves visit is part of one moved pivot, its own fault is not",
+          "[compare]") {
+    const setup::Setup setup = bc_table();
+    // The shift grows with the turn: a rapid visit at C180 shows ten times what the cuts show.
+    const auto post = [](const Vector3& pivot_mm, double fault_mm) {
+        const std::string cuts = own_kinematics_post(pivot_mm, 0.0, 0.15);
+        const Matrix3 turned = rotation_about(-Vector3::UnitZ(), pi);
+        const auto at = [&](double x, double y) {
+            const Vector3 p = turned * (Vector3(x, y, 150.0) - pivot_mm) + pivot_mm;
+            return fmt::format("X{:.4f} Y{:.4f} Z{:.4f}\n", p.x() + fault_mm, p.y(), p.z());
+        };
+        return replaced(cuts, "G0 Z200.\nM5\n",
+                        "G0 Z200.\nG0 B0 C180.\n" + at(10.0, 5.0) + at(40.0, 5.0) + "Z200.\nM5\n");
+    };
+    const std::string a = post(Vector3::Zero(), 0.0);
+    const Vector3 moved_mm(1.0, 0.5, 0.0);
+    const regression::Comparison r =
+        compare_texts(a, post(moved_mm, 0.0), setup, only(regression::Layer::path));
+    INFO(r.verdict);
+    REQUIRE_FALSE(r.equal);
+    for (const auto& d : r.differences) UNSCOPED_INFO(d.what);
+    CHECK(r.differences.size() == 1);
+    CHECK(r.differences.front().what.find("one pivot moved by (1.000") != std::string::npos);
+    const regression::Comparison other =
+        compare_texts(a, post(moved_mm, 3.0), setup, only(regression::Layer::path));
+    for (const auto& d : other.differences) UNSCOPED_INFO(d.what);
+    CHECK(other.differences.size() == 2);
+}
+
 TEST_CASE("shifts that no length and no pivot explains are said one by one", "[compare]") {
     const setup::Setup setup = bc_table();
     const std::string a = own_kinematics_post(Vector3::Zero(), 0.0);

@@ -169,6 +169,38 @@ TEST_CASE("passes removed, inserted, reordered are named as such and the rest is
     }
 }
 
+TEST_CASE("behind a moved cut the rapids are compared, and only what the move does not explain",
+          "[compare]") {
+    // Two cuts; the first one ends at x_mm, the travel between them is at over_mm, and behind the
+    // last one at away_mm.
+    const auto two_cuts = [](double x_mm, double over_mm, double away_mm) {
+        Pen pen;
+        pen.at(0, 0, 50).rapid(0, 0, 2).cut(0, 0, 0).cut(x_mm, 0, 0);
+        pen.rapid(x_mm, 0, over_mm).rapid(100, 0, over_mm).rapid(100, 0, 2);
+        pen.cut(100, 0, 0).cut(100 + x_mm, 0, 0).rapid(100 + x_mm, 0, 50).rapid(away_mm, 40, 50);
+        return pen;
+    };
+    const auto compared = [&](double x_mm, double over_mm, double away_mm) {
+        Pen a = two_cuts(10.0, 50.0, 150.0), b = two_cuts(x_mm, over_mm, away_mm);
+        return compare(a, b);
+    };
+    const auto moved = compared(10.06, 50.0, 150.0);
+    REQUIRE(moved.clusters.size() == 1);
+    CHECK(moved.clusters[0].kind == regression::DifferenceKind::moved);
+    CHECK(moved.totals.position_mm == Approx(0.06));
+    const auto low = compared(10.06, 3.0, 150.0);
+    REQUIRE(low.clusters.size() == 2);
+    CHECK(low.clusters[1].kind == regression::DifferenceKind::path);
+    CHECK(low.clusters[1].position_mm == Approx(47.0).margin(0.1));
+    CHECK(low.totals.position_mm == Approx(47.0).margin(0.1));
+    const auto far = compared(10.06, 50.0, 160.0);
+    REQUIRE(far.clusters.size() == 2);
+    CHECK(far.clusters[1].position_mm == Approx(10.0).margin(0.5));
+    CHECK(far.clusters[1].first.a.last == 11);
+    CHECK(far.clusters[1].first.a.first == 10);
+    CHECK(far.tools.front().changed == 1);
+}
+
 TEST_CASE("an arc the other way round has the same ends and differs", "[compare]") {
     Pen a, b;
     a.at(10, 0, 0).arc(-10, 0, 0, {0, 0, 0}, pi).cut(-20, 0, 0);

@@ -66,12 +66,15 @@ inline std::string small_post(const SmallPart& p) {
 }
 
 /// Five sections by the post's own kinematics: it works the turn of the BC table out with its own
-/// pivot (mm, machine coordinates) and tool length, so that an error of them shows.
-inline std::string own_kinematics_post(const Vector3& pivot_mm, double length_mm) {
+/// pivot (mm, machine coordinates) and tool length, so that an error of them shows. `part` of the
+/// angles is turned.
+inline std::string own_kinematics_post(const Vector3& pivot_mm, double length_mm,
+                                       double part = 1.0) {
     std::string out = "%\nO1001\nG21 G90 G17 G94 G40 G49\nG54\nT1 M6\nS5000 M3\n";
     const double angles[5][2] = {
         {0.0, 0.0}, {20.0, 0.0}, {20.0, 60.0}, {-15.0, 30.0}, {35.0, 110.0}};
-    for (const auto& [b, c] : angles) {
+    for (const auto& [whole_b, whole_c] : angles) {
+        const double b = part * whole_b, c = part * whole_c;
         // ISO 841: a table axis turns against the tool.
         const Matrix3 turned = rotation_about(-Vector3::UnitY(), rad_from_deg(b)) *
                                rotation_about(-Vector3::UnitZ(), rad_from_deg(c));
