@@ -47,6 +47,7 @@ double ControlVariables::parameter(int number, int bit, int axis) {
     const bool five_axis = number >= 19680 && number <= 19749;
     if (five_axis && c_.modal.settings.is_hurco())
         raise_alarm(9003, "PRM[" + std::to_string(number) + "]");
+    if (bit > 7) raise_alarm(115);
     const auto it = c_.stores.parameters.entry.find(number);
     if (it == c_.stores.parameters.entry.end()) return 0.0;
     double value = it->second.value;
@@ -55,7 +56,6 @@ double ControlVariables::parameter(int number, int bit, int axis) {
         if (own != it->second.by_axis.end()) value = own->second;
     }
     if (bit < 0) return value;
-    if (bit > 7) raise_alarm(115);
     return static_cast<double>(static_cast<unsigned>(value) >> static_cast<unsigned>(bit) & 1U);
 }
 

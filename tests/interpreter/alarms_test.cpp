@@ -64,6 +64,70 @@ TEST_CASE("every alarm of the language is reached by a program") {
     CHECK(interpreter::language_alarm(1) == nullptr);
 }
 
+TEST_CASE("each way to an alarm of the language") {
+    const std::string long_name(33, 'A');
+    const std::vector<std::pair<int, std::string>> programs{
+        // numbers of programs, blocks and skips
+        {5, "OX\n"},
+        {7, "O1.5\n"},
+        {3, "O123456789\n"},
+        {5, "NX1\n"},
+        {3, "N1234567890\n"},
+        {4, "/0X1\n"},
+        // names
+        {9, "<>\n"},
+        {9, "<NAME\n"},
+        {9, "<A*B>\n"},
+        {9, "<" + long_name + ">\n"},
+        {9, "M98<" + long_name + ">\n"},
+        {1096, "X#[#PART_2]\n"},
+        // words and values
+        {9, "X1.,Q2.\n"},
+        {7, "X.\n"},
+        {7, "X1.2.\n"},
+        {6, "#1=-+1\n"},
+        {114, "#1=FOO[1]\n"},
+        {7, "#1=.\n"},
+        {3, "#1=1234567890123456\n"},
+        {7, "#1=1.2.3\n"},
+        {7, "#1.5=1\n"},
+        {115, "#1234567890=1\n"},
+        // statements
+        {1138, "WHILE 1EQ1]DO1\n"},
+        {1138, "WHILE[1EQ1]5\n"},
+        {126, "WHILE[1EQ1]DO1.\n"},
+        {126, "DO0\n"},
+        {126, "WHILE[1EQ1]DO\n"},
+        {128, "GOTOX\n"},
+        {7, "GOTO1.5\n"},
+        {1143, "DPRNT X\n"},
+        {1143, "DPRNT[X\n"},
+        {1143, "DPRNT[#1[X]]\n"},
+        {1143, "DPRNT[#1[12X]]\n"},
+        {1143, "BPRNT[#1[X]]\n"},
+        {1139, "SETVN[A]\n"},
+        {1139, "SETVN1234567890[A]\n"},
+        {1139, "SETVN5.5[A]\n"},
+        {1139, "SETVN500[A\n"},
+        // functions outside their range
+        {119, "#1=ATAN[0]/[0]\n"},
+        {119, "#1=ASIN[1.001]\n"},
+        {119, "#1=ACOS[-1.001]\n"},
+        {119, "#1=BIN[10]\n"},
+        {119, "#1=BCD[-1]\n"},
+        {119, "#1=BCD[100000000]\n"},
+        {110, "#1=-3000000000 OR 1\n"},
+        {112, "#1=POW[0,-1]\n"},
+        {119, "#1=POW[-2,0.5]\n"},
+        {119, "#1=LN[0]\n"},
+        {110, "#1=PRM[9999999999]\n"},
+    };
+    for (const auto& [number, program] : programs) {
+        INFO(program);
+        CHECK(alarm_of(program) == number);
+    }
+}
+
 TEST_CASE("an alarm inside a called program shows that program's place") {
     interpreter::ProgramsInMemory folder;
     folder.add(50, "O0050\nX1.\n  #1=1/0\nM99\n");
