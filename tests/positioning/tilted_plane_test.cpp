@@ -205,4 +205,59 @@ TEST_CASE("G68.3: Z along the tool, X square to the vertical") {
     CHECK((turned - rotation_about(Vector3::UnitZ(), 30 * deg)).norm() < 1e-15);
 }
 
+TEST_CASE("words of a plane that say no plane") {
+    const auto letter_of_error = [](const positioning::PlaneWords& w) {
+        try {
+            positioning::PlaneDefinition().add(w);
+        } catch (const positioning::PlaneFormatError& error) {
+            return error.letter == 0 ? '0' : error.letter;
+        }
+        return '-';
+    };
+    positioning::PlaneWords w = angles(10, 20, 30);
+    w.p = 1.5;
+    CHECK(letter_of_error(w) == 'P');
+    w.p = 1000.0;
+    CHECK(letter_of_error(w) == 'P');
+    w = angles(10, 20, 30);
+    w.p = 1.0;
+    w.q = 123.5;
+    CHECK(letter_of_error(w) == 'Q');
+    w = angles(90, 90, 0);
+    w.p = 4.0;
+    CHECK(letter_of_error(w) == 'I');
+    CHECK(letter_of_error({}) == '0');
+    for (const auto angle :
+         {&positioning::PlaneWords::i, &positioning::PlaneWords::j, &positioning::PlaneWords::k}) {
+        w = {};
+        w.*angle = 0.0;
+        CHECK(letter_of_error(w) == '-');
+    }
+}
+
+TEST_CASE("each point of a plane needs all of its coordinates, and the blocks come in any order") {
+    for (const auto missing :
+         {&positioning::PlaneWords::x, &positioning::PlaneWords::y, &positioning::PlaneWords::z}) {
+        positioning::PlaneDefinition definition;
+        definition.add(block(2, 0));
+        definition.add(point(1, 0, 0, 0));
+        definition.add(point(2, 1, 0, 0));
+        positioning::PlaneWords third = point(3, 0, 1, 0);
+        (third.*missing).reset();
+        CHECK_THROWS_AS(definition.add(third), positioning::PlaneFormatError);
+    }
+    for (const auto& [first, second] : {std::pair{1.0, 2.0}, {2.0, 1.0}}) {
+        positioning::PlaneDefinition definition;
+        const auto vector = [](double q) {
+            positioning::PlaneWords v = block(3, q);
+            (q == 1.0 ? v.i : v.k) = 1.0;
+            return v;
+        };
+        CHECK_FALSE(definition.add(vector(first)));
+        const auto frame = definition.add(vector(second));
+        REQUIRE(frame);
+        CHECK((frame->rotation - Matrix3::Identity()).norm() < 1e-12);
+    }
+}
+
 }  // namespace trunnion
