@@ -112,6 +112,18 @@ std::string no_such_option(const CLI::App& command, const std::vector<std::strin
     return surplus;
 }
 
+/// An option in the place of another one's value, as in `--svg --json`; empty if there is none.
+std::string option_as_value(const CLI::App& command, const std::vector<std::string>& words) {
+    for (std::size_t k = 1; k < words.size(); ++k) {
+        const CLI::Option* before = command.get_option_no_throw(words[k - 1]);
+        const bool takes_value =
+            words[k - 1].starts_with("--") && before && before->get_items_expected_min() > 0;
+        if (takes_value && words[k].starts_with("--") && command.get_option_no_throw(words[k]))
+            return fmt::format("{} needs a value, and {} is an option", words[k - 1], words[k]);
+    }
+    return {};
+}
+
 /// Adds --quiet, --verbose and --max-memory to every command.
 void add_common(CLI::App& app) {
     for (CLI::App* command : app.get_subcommands({})) {
@@ -189,6 +201,8 @@ int parse_and_run(int argc, char** argv) {
     const std::vector<std::string> words(argv + 1, argv + argc);
     const NamedCommand named = named_command(app, words);
     if (!named.unknown.empty()) return report_usage_error(no_such_command(named));
+    if (const std::string fault = option_as_value(*named.command, words); !fault.empty())
+        return report_usage_error(fault);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) {

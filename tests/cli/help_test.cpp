@@ -61,6 +61,8 @@ TEST_CASE("mistyped commands, options, effects and axes lead to the word that wa
     const CommandBench bench;
     const std::pair<const char*, const char*> cases[] = {
         {"rum p.nc", "there is no command 'rum', did you mean 'run'?"},
+        {"pivot --svg --json", "--svg needs a value, and --json is an option"},
+        {"pivot --svg --help", "--svg needs a value, and --help is an option"},
         {"run p.nc --trac t.csv", "did you mean '--trace'?"},
         {"pivot --htlm=p.html", "did you mean '--html'?"},
         {"run p.nc --inject 'C.backlsh=60urad'", "did you mean 'C.backlash'?"},
