@@ -47,7 +47,8 @@ int diagnose_program(const ProgramDiagnosis& options) {
         files.add(options.page.html,
                   finished_page(report::control_gap_page(gap, options.log, options.program),
                                 *options.command, options.page));
-    files.add("-", options.json ? report::control_gap_json(gap) : report::control_gap_text(gap));
+    files.add("-", options.json ? report::control_gap_json(gap, ReadRecord::files())
+                                : report::control_gap_text(gap));
     files.write();
     return options.limit_um >= 0.0 && gap.excess_um > options.limit_um ? exit_differs : exit_done;
 }

@@ -164,14 +164,18 @@ std::size_t TextTable::find_header(const std::vector<Line>& lines, std::size_t b
 
 std::size_t TextTable::widest(const std::vector<Line>& lines) const {
     const std::size_t end = std::min(lines.size(), sample_lines);
-    std::size_t width = 0;
+    std::size_t width = 0, full = 0;  // without and with empty cells at the end
     for (std::size_t i = 0; i < end; ++i)
         if (Cells row = cells(lines[i]); has_number(row, dialect_)) {
+            full = std::max(full, row.size());
             drop_empty_end(row);
             width = std::max(width, row.size());
         }
-    for (std::size_t i = 0; i < end && width > 0; ++i)
-        if (lines[i].text[0] != '#' && header_cells(lines[i], width).size() == width) return i;
+    for (std::size_t i = 0; i < end && width > 0; ++i) {
+        if (lines[i].text[0] == '#') continue;
+        const std::size_t names = header_cells(lines[i], width).size();
+        if (names == width || names == full) return i;
+    }
     throw InputError("no table: no line of numbers in the first 200", {path_, 1, 1});
 }
 

@@ -125,7 +125,7 @@ std::string verdict_sentence(const choices::ControlGap& gap) {
                        percent(gap.explained));
 }
 
-std::string control_gap_json(const choices::ControlGap& gap) {
+std::string control_gap_json(const choices::ControlGap& gap, const std::vector<FileRead>& inputs) {
     Json json{{"schema", "trunnion.diagnosis/1"},
               {"of", "control"},
               {"verdict", to_string(gap.verdict)},
@@ -153,6 +153,7 @@ std::string control_gap_json(const choices::ControlGap& gap) {
     json["rows"] = gap.rows;
     json["blocks"] = gap.blocks;
     json["stopped"] = gap.stopped;
+    add_inputs(json, inputs);
     return json.dump(1) + "\n";
 }
 

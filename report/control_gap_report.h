@@ -3,13 +3,14 @@
 
 #include <string>
 
+#include "base/read_file.h"
 #include "choices/control_gap.h"
 
 namespace trunnion::report {
 
 /// One JSON object of schema trunnion.diagnosis/1 with `"of": "control"`; lengths in um, positions
-/// with program, line and block.
-std::string control_gap_json(const choices::ControlGap& gap);
+/// with program, line and block; the files read with their hashes.
+std::string control_gap_json(const choices::ControlGap& gap, const std::vector<FileRead>& inputs);
 std::string control_gap_text(const choices::ControlGap& gap);
 
 /// The verdict with its size, in one sentence.

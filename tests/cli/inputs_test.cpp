@@ -74,6 +74,9 @@ TEST_CASE("the JSON of every command names all that it read, by hash") {
     b.tells("predict " + b.table + with, {b.table, b.setup});
     b.tells("identify " + b.table + with + " --effects C.backlash", {b.table, b.setup});
     b.tells("diagnose " + b.table + with + " --holdout " + b.table, {b.table, b.setup});
+    const std::string log = b.file("log.csv");
+    REQUIRE(b.trunnion("run " + b.other + " --setup " + b.setup + " --trace " + log) == 0);
+    b.tells("diagnose " + log + " --program " + b.other + with, {log, b.other, b.setup});  // a row
     CHECK(b.inputs("pivot" + with).count(b.setup) == 1);
     CHECK(b.inputs("pivot" + with).size() > 1);  // the programs of the test
 }
