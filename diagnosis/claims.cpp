@@ -95,8 +95,7 @@ void weigh_one_for_two(const Searching& search, const Model& model, const Offer&
 }
 
 /// Posterior weight of the models that contain member k, relative to: the chosen model, the model
-/// without it, those with it replaced, and those with another one in
-/// place of two.
+/// without it, those with it replaced, and those with another one in place of two.
 double evidence_probability(const Searching& search, const Model& model, const Offer& held,
                             const std::vector<Offer>& others, double zeta) {
     const Design& design = search.design;
@@ -175,7 +174,7 @@ void name_axis(const Design& design, const Challenged& found, double seen, Claim
         return;
     claim.rivals.insert(claim.rivals.begin(), claim.name);
     claim.rival_groups.insert(claim.rival_groups.begin(), found.model.members[claim.position]);
-    claim.name = "free form of " + own.name.substr(0, own.name.find('.'));
+    claim.name = "free form of " + own.table.axis.name;
     claim.probability = any;
 }
 
