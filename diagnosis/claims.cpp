@@ -202,17 +202,20 @@ Sizes sizes_of(Design& design, const Model& model, double floor, const std::vect
     sizes.floor = floor;
     sizes.parts = contributions(design, model, fit_of(design, model));
     sizes.remainder = design.projection().beside(design.data());
-    Eigen::VectorXd causes = Eigen::VectorXd::Zero(sizes.remainder.size());
+    Eigen::VectorXd causes = Eigen::VectorXd::Zero(sizes.remainder.size()), changes = causes;
     for (std::size_t k = 0; k < model.members.size(); ++k) {
         const auto c = sizes.parts.col(static_cast<Eigen::Index>(k));
         sizes.remainder -= c;
         sizes.square.push_back(c.squaredNorm());
         if (is_cause(design.group(model.members[k]).kind)) causes += c;
+        if (design.group(model.members[k]).is_change()) changes += c;
         const bool place = design.group(model.members[k]).kind == GroupKind::driver || large[k];
         if (place) sizes.whole += sizes.square.back();
     }
     for (std::size_t k = 0; k < model.members.size(); ++k)
-        sizes.along.push_back(sizes.parts.col(static_cast<Eigen::Index>(k)).dot(causes));
+        sizes.along.push_back(
+            sizes.parts.col(static_cast<Eigen::Index>(k))
+                .dot(design.group(model.members[k]).is_change() ? changes : causes));
     sizes.whole += causes.squaredNorm() +
                    std::max(0.0, sizes.remainder.squaredNorm() - design.freedom() * floor);
     return sizes;

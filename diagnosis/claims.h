@@ -10,7 +10,8 @@ struct Sizes {
     double floor = 1.0;          ///< variance of the noise of one reading
     double whole = 0.0;          ///< E: all causes together, residual beyond noise, drivers, zeros
     std::vector<double> square;  ///< |c_k|^2 of each member
-    std::vector<double> along;   ///< c_k . sum of all causes
+    std::vector<double> along;   ///< c_k . sum of all causes; of a change: of all changes, because
+                                 ///< an error that became smaller is no correction of another
     Eigen::MatrixXd parts;       ///< rows x members
     Eigen::VectorXd remainder;   ///< whitened residual of the model, rows
 };

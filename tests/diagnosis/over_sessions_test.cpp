@@ -25,7 +25,7 @@ setup::Setup mounted_anew(setup::Setup truth, std::uint64_t seed) {
         return Vector3(0.02 * random.normal(), 0.02 * random.normal(), 0.02 * random.normal());
     };
     for (setup::Artefact& artefact : truth.artefacts) artefact.center_W_mm += some();
-    truth.ballbar->cup_S_mm += some();
+    if (truth.ballbar) truth.ballbar->cup_S_mm += some();
     return truth;
 }
 
@@ -193,6 +193,57 @@ TEST_CASE("set-up columns of two sessions never repeat each other", "[diagnosis]
             INFO(names[static_cast<std::size_t>(a)] << " " << names[static_cast<std::size_t>(b)]);
             CHECK(std::abs(base.columns.col(a).dot(base.columns.col(b))) < (1.0 - 1e-9) * both);
         }
+}
+
+namespace {
+
+/// Runs of a laser along X, both ways at 11 targets; a run ends where the next one begins.
+records::ReadingTable laser_runs(const setup::Setup& setup, int runs) {
+    records::ReadingTable table = campaign::empty_table(setup);
+    for (int k = 0; k < 22 * runs; ++k) {
+        const int target = k % 22 < 11 ? k % 22 : 21 - k % 22;
+        records::Reading row;
+        row.index = k;
+        row.time_s = 12.0 * k;
+        row.test = "X";
+        row.device = records::Device::linear;
+        row.feature = "R1";
+        row.direction_M = Vector3::UnitX();
+        row.commanded[Axis::X] = 70.0 * target - 350.0;
+        table.rows.push_back(row);
+    }
+    return table;
+}
+
+setup::Setup laser_bench() {
+    std::vector<std::string> notes;
+    return setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n"
+        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -150]\n"
+        "[model]\nmodelled = []\nnoise_um = { linear = 0.8 }\n",
+        "s.toml", notes);
+}
+
+}  // namespace
+
+TEST_CASE("a scale that became smaller is a change, and no noise of repeated runs",
+          "[diagnosis][over]") {
+    const setup::Setup setup = laser_bench();
+    const records::ReadingTable table = laser_runs(setup, 4);
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+        const setup::Setup cold = campaign::with_effect(setup, "X.scale: scale_ppm=40"),
+                           warm = campaign::with_effect(setup, "X.scale: scale_ppm=25");
+        const records::ReadingTable read = measured_over({cold, warm}, table, seed);
+        const diagnosis::Diagnosis d = diagnosed(setup, read);
+        INFO(said(d));
+        CHECK(d.noise_um < 1.5 * d.after_rms_um);
+        const auto changed = std::find_if(d.causes.begin(), d.causes.end(),
+                                          [](const auto& c) { return c.since == "Friday"; });
+        REQUIRE(changed != d.causes.end());
+        CHECK(changed->share > 0.05);
+        const diagnosis::SessionChange* scale = change_of(d, "X.scale.scale_ppm", "Friday");
+        if (scale) CHECK(scale->parameter.value == Approx(-15.0).margin(4.0 * scale->parameter.sigma));
+    }
 }
 
 TEST_CASE("one session has nothing to compare", "[diagnosis][over]") {
