@@ -12,6 +12,7 @@ namespace {
 constexpr double least_overlap = 0.1;  ///< part of a contribution that a rival must do
 constexpr double hopeless = 60.0;      ///< evidence behind, nats, that no exchange makes up for
 constexpr double family = 0.8;         ///< probability below which a free form's family is open
+constexpr double main_part = 0.5;      ///< of a contribution: the cause is rather what does it
 constexpr std::size_t more = 2;        ///< members that it may have beyond the chosen model
 constexpr int most_replaced = 3;       ///< models that give way to a contender
 
@@ -80,14 +81,91 @@ std::optional<std::size_t> earlier_member(const Design& design, const Challenged
     return std::nullopt;
 }
 
-/// The difference of two models on left-out readings, both predicting with all of their members.
-void compare_predictions(Design& design, const Model& chosen, const LeftOutRows& rows,
-                         Contender& contender) {
+/// A model against the chosen one, on left-out readings with all members of both.
+Contender against(Design& design, const Model& chosen, const LeftOutRows& rows, Model model) {
+    Contender contender{std::move(model), 0.0};
+    contender.ahead = weight_of(design, contender.model) - weight_of(design, chosen);
     const Saving saving =
         saving_of(loss_of(design, contender.model, rows), loss_of(design, chosen, rows));
     const double per_nat = 2.0 * chosen.variances.nu * chosen.variances.nu;
     contender.predicted = saving.sum / per_nat;
     contender.spread = saving.spread / per_nat;
+    return contender;
+}
+
+/// Causes that a contender has and the chosen model has not, with the fraction of `part` that each
+/// does in it, the largest first.
+std::vector<std::pair<double, std::size_t>> others_in(Design& design, const Model& chosen,
+                                                      const Model& contender,
+                                                      const Eigen::VectorXd& part) {
+    const Eigen::VectorXd along =
+        contributions(design, contender, fit_of(design, contender)).transpose() * part;
+    std::vector<std::pair<double, std::size_t>> found;
+    for (std::size_t k = 0; k < contender.members.size(); ++k) {
+        const std::size_t group = contender.members[k];
+        const auto same = [&](std::size_t m) {
+            return same_cause(design.group(m), design.group(group));
+        };
+        if (is_cause(design.group(group).kind) &&
+            std::none_of(chosen.members.begin(), chosen.members.end(), same))
+            found.emplace_back(-along(static_cast<Eigen::Index>(k)), group);
+    }
+    std::sort(found.begin(), found.end());
+    for (auto& [does, group] : found) does *= -1.0 / part.squaredNorm();
+    return found;
+}
+
+/// True for an effect that may contain the slope of an axis's mean line.
+bool has_slope(const ColumnGroup& group) {
+    return group.kind == GroupKind::textbook &&
+           std::any_of(group.effect->parameters.begin(), group.effect->parameters.end(),
+                       [](const effects::EffectParameter& p) { return p.mean_line; });
+}
+
+bool is_squareness(const ColumnGroup& group) {
+    return group.kind == GroupKind::textbook && !group.is_change() &&
+           group.effect->kind == effects::EffectKind::squareness;
+}
+
+/// Fraction of a contribution that a group of one column does by itself.
+double alone(const Design& design, std::size_t group, const Eigen::VectorXd& part) {
+    const Eigen::VectorXd column = design.projection().beside(design.columns(group)).col(0);
+    const double along = column.dot(part);
+    return along * along / (column.squaredNorm() * part.squaredNorm());
+}
+
+/// The chosen model with a squareness, and what that leaves of the cause without its slope, in
+/// place of a member that is mostly slope. An axis with a bow has such a squareness as often as
+/// not: it is no second improbable cause.
+std::optional<Contender> with_slope_apart(const Searching& search, const Model& chosen,
+                                          const LeftOutRows& rows, std::size_t position) {
+    Design& design = search.design;
+    const std::string cause = design.group(chosen.members[position]).name;
+    const Eigen::VectorXd part = contributions(design, chosen, fit_of(design, chosen))
+                                     .col(static_cast<Eigen::Index>(position));
+    Model model = without(chosen, position);
+    const auto added = [&](const std::function<bool(std::size_t)>& takes) -> std::optional<double> {
+        for (const Offer& offer : offers(design, model, is_cause)) {
+            if (!takes(offer.group)) continue;
+            model = tuned(design, search.setting, with(model, offer), 2);
+            return design.group(offer.group).log_prior;
+        }
+        return std::nullopt;
+    };
+    const auto prior = added([&](std::size_t k) {
+        return is_squareness(design.group(k)) && alone(design, k, part) > main_part;
+    });
+    if (!prior) return std::nullopt;
+    added([&](std::size_t k) {
+        const ColumnGroup& group = design.group(k);
+        return group.name == cause && std::none_of(group.parameters.begin(), group.parameters.end(),
+                                                   [&](std::size_t j) {
+                                                       return group.effect->parameters[j].mean_line;
+                                                   });
+    });
+    Contender contender = against(design, chosen, rows, std::move(model));
+    contender.ahead += std::log(0.5) - *prior;
+    return contender;
 }
 
 }  // namespace
@@ -102,13 +180,9 @@ Contender best_without(const Searching& search, const Model& chosen, const LeftO
     SearchSetting setting = search.setting;
     setting.most_members = std::max(setting.most_members, chosen.members.size() + more);
     model = grown(design, setting, tuned(design, setting, std::move(model), 2));
-    const double own = weight_of(design, chosen);
-    if (weight_of(design, model) > own - hopeless)
+    if (weight_of(design, model) > weight_of(design, chosen) - hopeless)
         model = settled(design, setting, std::move(model));
-    Contender contender{std::move(model), 0.0};
-    contender.ahead = weight_of(design, contender.model) - own;
-    compare_predictions(design, chosen, rows, contender);
-    return contender;
+    return against(design, chosen, rows, std::move(model));
 }
 
 double probability_against(const Contender& contender) {
@@ -123,6 +197,23 @@ double probability_against(const Contender& contender) {
 }
 
 namespace {
+
+/// The best model without a cause; or, where its slope is most of it, the one in which that slope
+/// is squareness, if that is more likely. ISO 230-1 takes straightness from the mean line: its
+/// slope is squareness, and what is left of it may be there as well.
+Contender contender_of(const Searching& search, const Model& chosen, const LeftOutRows& rows,
+                       std::size_t held) {
+    Design& design = search.design;
+    const std::string cause = design.group(held).name;
+    Contender without_cause = best_without(search, chosen, rows, [&](const ColumnGroup& group) {
+        return is_cause(group.kind) && group.name == cause;
+    });
+    const auto at = std::find(chosen.members.begin(), chosen.members.end(), held);
+    if (!has_slope(design.group(held)) || at == chosen.members.end()) return without_cause;
+    std::optional<Contender> apart = with_slope_apart(
+        search, chosen, rows, static_cast<std::size_t>(at - chosen.members.begin()));
+    return apart && apart->ahead > without_cause.ahead ? *apart : without_cause;
+}
 
 /// The best model without free forms of the member's axis, where the member is one and not sure.
 Contender contender_of_axis(const Searching& search, const Model& chosen, const LeftOutRows& rows,
@@ -159,9 +250,8 @@ Challenged challenged(const Searching& search, const LeftOutRows& rows, Model mo
             result.contenders.push_back(Contender(result.contenders[*same]));
             continue;
         }
-        Contender contender = best_without(search, chosen, rows, [&](const ColumnGroup& group) {
-            return is_cause(group.kind) && group.name == cause;
-        });
+        Contender contender = contender_of(search, chosen, rows,
+                                           result.model.members[result.contenders.size()]);
         const bool is_better = contender.ahead >= better && contender.predicted < contender.spread;
         if (is_better && replaced < most_replaced) {
             result = {without_idle_members(design, search.setting, rows, contender.model), {}, {}};
@@ -180,22 +270,9 @@ Challenged challenged(const Searching& search, const LeftOutRows& rows, Model mo
 
 std::vector<std::size_t> in_place_of(Design& design, const Model& chosen, const Model& contender,
                                      const Eigen::VectorXd& part) {
-    const Eigen::VectorXd along =
-        contributions(design, contender, fit_of(design, contender)).transpose() * part;
-    std::vector<std::pair<double, std::size_t>> found;
-    for (std::size_t k = 0; k < contender.members.size(); ++k) {
-        const std::size_t group = contender.members[k];
-        const auto same = [&](std::size_t m) {
-            return same_cause(design.group(m), design.group(group));
-        };
-        if (is_cause(design.group(group).kind) &&
-            std::none_of(chosen.members.begin(), chosen.members.end(), same) &&
-            along(static_cast<Eigen::Index>(k)) > least_overlap * part.squaredNorm())
-            found.emplace_back(-along(static_cast<Eigen::Index>(k)), group);
-    }
-    std::sort(found.begin(), found.end());
     std::vector<std::size_t> groups;
-    for (const auto& [unused, group] : found) groups.push_back(group);
+    for (const auto& [does, group] : others_in(design, chosen, contender, part))
+        if (does > least_overlap) groups.push_back(group);
     return groups;
 }
 

@@ -1,0 +1,78 @@
+// A plate measured at points: the part lies as it was clamped, so that its pose is free.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "diagnosis/diagnosis.h"
+#include "effects/settings.h"
+#include "emulator/replay.h"
+#include "tests/support/said.h"
+
+namespace trunnion {
+namespace {
+
+setup::Setup bench() {
+    std::vector<std::string> notes;
+    return setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n"
+        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -150]\n"
+        "[[instrument]]\nname = \"CMM\"\nframe = \"W\"\nfree = [\"pose\"]\n"
+        "[model]\nmodelled = []\nnoise_um = { point = 1.5 }\n",
+        "s.toml", notes);
+}
+
+/// A grid of 6 x 5 points on two days, three coordinates each.
+records::ReadingTable grid() {
+    records::ReadingTable table;
+    table.path = "plate.csv";
+    table.axes = {Axis::X, Axis::Y, Axis::Z};
+    for (int k = 0; k < 180; ++k) {
+        records::Reading row;
+        row.index = k;
+        row.time_s = 60.0 * (k / 3);
+        row.test = "plate";
+        row.session = k < 90 ? "a" : "b";
+        row.device = records::Device::point;
+        row.feature = "R1";
+        row.instrument = "CMM";
+        row.direction_M = Vector3::Unit(k % 3);
+        row.commanded[Axis::X] = 35.0 * (k % 90 / 15);
+        row.commanded[Axis::Y] = 40.0 * (k / 3 % 5);
+        table.rows.push_back(row);
+    }
+    table.optional_columns = {"session", "instrument"};
+    return table;
+}
+
+}  // namespace
+
+// The slope of a line is squareness by definition (ISO 230-1); a bow of the scatter beside it must
+// not turn all of it into straightness.
+TEST_CASE("squareness with a bow beside it is not called straightness without a rival",
+          "[diagnosis]") {
+    const setup::Setup setup = bench();
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+        setup::Setup real = setup;
+        real.effects.push_back({"XY.squareness", {{"angle_rad", {70e-6}}}});
+        real.effects.push_back(
+            {"Y.straightness", {{"EXY_p2_mm", {-9e-3}}, {"EZY_p2_mm", {-7e-3}}}});
+        records::ReadingTable read =
+            emulator::predicted(real, grid(), effects::active_models(real));
+        std::mt19937_64 engine(seed);
+        std::normal_distribution<double> noise(0.0, 1.5e-3);
+        for (records::Reading& row : read.rows) *row.value_mm += noise(engine);
+        diagnosis::DiagnosisOptions options;
+        options.plan_next = false;
+        const diagnosis::Diagnosis d = diagnosis::diagnose(setup, read, options);
+        INFO(seed << ": " << said(d));
+        bool named = false;
+        for (const diagnosis::Cause& c : d.causes) {
+            named = named || c.effect == "XY.squareness" ||
+                    std::find(c.rivals.begin(), c.rivals.end(), "XY.squareness") != c.rivals.end();
+            if (c.effect == "Y.straightness" && c.share > 0.5) CHECK(c.probability < 0.95);
+        }
+        CHECK(named);
+    }
+}
+
+}  // namespace trunnion
