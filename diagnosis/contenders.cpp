@@ -158,10 +158,9 @@ std::optional<Contender> with_slope_apart(const Searching& search, const Model& 
     if (!prior) return std::nullopt;
     added([&](std::size_t k) {
         const ColumnGroup& group = design.group(k);
-        return group.name == cause && std::none_of(group.parameters.begin(), group.parameters.end(),
-                                                   [&](std::size_t j) {
-                                                       return group.effect->parameters[j].mean_line;
-                                                   });
+        return group.name == cause &&
+               std::none_of(group.parameters.begin(), group.parameters.end(),
+                            [&](std::size_t j) { return group.effect->parameters[j].mean_line; });
     });
     Contender contender = against(design, chosen, rows, std::move(model));
     contender.ahead += std::log(0.5) - *prior;
@@ -250,8 +249,8 @@ Challenged challenged(const Searching& search, const LeftOutRows& rows, Model mo
             result.contenders.push_back(Contender(result.contenders[*same]));
             continue;
         }
-        Contender contender = contender_of(search, chosen, rows,
-                                           result.model.members[result.contenders.size()]);
+        Contender contender =
+            contender_of(search, chosen, rows, result.model.members[result.contenders.size()]);
         const bool is_better = contender.ahead >= better && contender.predicted < contender.spread;
         if (is_better && replaced < most_replaced) {
             result = {without_idle_members(design, search.setting, rows, contender.model), {}, {}};

@@ -149,8 +149,8 @@ DeviceNoise estimate(const emulator::Replay& replay, records::Device device,
     return best;
 }
 
-/// Key of repeats: device rows with equal keys repeat each other in different passes of one session.
-/// What differs between sessions may be the machine, not its noise.
+/// Key of repeats: device rows with equal keys repeat each other in different passes of one
+/// session. What differs between sessions may be the machine, not its noise.
 using Key = std::tuple<std::size_t, int, int, int, std::vector<long>, std::vector<int>>;
 
 Key key_of(const emulator::Replay& replay, const records::ReadingTable& table, std::size_t i) {
@@ -169,8 +169,12 @@ Key key_of(const emulator::Replay& replay, const records::ReadingTable& table, s
     place.push_back(std::lround(sample.load_kg * 10.0));
     place.push_back(std::lround(sample.spindle_rad * 100.0));
     place.push_back(sample.clamped ? 1 : 0);
-    return {replay.session(i), static_cast<int>(contact.device), contact.artefact,
-            static_cast<int>(sample.mode), place, travel};
+    return {replay.session(i),
+            static_cast<int>(contact.device),
+            contact.artefact,
+            static_cast<int>(sample.mode),
+            place,
+            travel};
 }
 
 /// Pairs of blocks that repeat each other row by row.

@@ -242,7 +242,8 @@ TEST_CASE("a scale that became smaller is a change, and no noise of repeated run
         REQUIRE(changed != d.causes.end());
         CHECK(changed->share > 0.05);
         const diagnosis::SessionChange* scale = change_of(d, "X.scale.scale_ppm", "Friday");
-        if (scale) CHECK(scale->parameter.value == Approx(-15.0).margin(4.0 * scale->parameter.sigma));
+        if (scale)
+            CHECK(scale->parameter.value == Approx(-15.0).margin(4.0 * scale->parameter.sigma));
     }
 }
 
