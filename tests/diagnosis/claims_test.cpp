@@ -34,6 +34,7 @@ diagnosis::ColumnGroup group_of(diagnosis::Design& design, const std::string& na
     if (kind == diagnosis::GroupKind::textbook) group.effect = &straightness_of_Z();
     group.table.motion = effects::EffectKind::straightness;
     group.table.axis.axis = name[0] == 'Z' ? Axis::Z : Axis::X;
+    group.table.axis.name = name.substr(0, 1);
     const Eigen::Index first = design.add_features(columns);
     for (Eigen::Index k = 0; k < columns.cols(); ++k) group.features.push_back(first + k);
     return group;
