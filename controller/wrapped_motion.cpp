@@ -1,5 +1,6 @@
 #include "controller/wrapped_motion.h"
 
+#include <array>
 #include <cmath>
 
 #include "controller/alarms.h"
@@ -44,7 +45,13 @@ class PolarCurve : public FigureCurve {
   public:
     PolarCurve(const PlaneElement& figure, const AxisPositions& from, const AxisPositions& to,
                const PolarMotion& axes)
-        : FigureCurve(figure, from, to), axes_(axes) {}
+        : FigureCurve(figure, from, to), axes_(axes) {
+        for (int i = 1; i <= steps; ++i) {
+            const auto before = static_cast<std::size_t>(i - 1);
+            turned_rad_[before + 1] =
+                turned_rad_[before] + angle_between(station(i - 1), station(i));
+        }
+    }
 
     AxisPositions at(double s) const override {
         AxisPositions out = others_at(s);
@@ -53,21 +60,24 @@ class PolarCurve : public FigureCurve {
         out[axes_.rotary] = from_[axes_.rotary] + turned(s);
         return out;
     }
-    /// Angle about the pole up to s, accumulated in steps so that full turns about the pole count.
+    /// Angle about the pole up to s, rad: counted from station to station, so that full turns
+    /// about the pole count.
     double turned(double s) const {
-        constexpr int steps = 64;
-        double angle = 0.0;
-        PlanePoint before = figure_.start;
-        const int whole = static_cast<int>(std::ceil(s * steps));
-        for (int i = 1; i <= whole; ++i) {
-            const PlanePoint p = point_on(figure_, std::min(s, static_cast<double>(i) / steps));
-            angle += std::atan2(cross(before, p), dot(before, p));
-            before = p;
-        }
-        return angle;
+        if (s <= 0.0) return 0.0;
+        const int passed = static_cast<int>(std::ceil(s * steps)) - 1;
+        return turned_rad_[static_cast<std::size_t>(passed)] +
+               angle_between(station(passed), point_on(figure_, s));
     }
 
   private:
+    static constexpr int steps = 64;
+    static double angle_between(PlanePoint from, PlanePoint to) {
+        return std::atan2(cross(from, to), dot(from, to));
+    }
+    PlanePoint station(int i) const {
+        return i == 0 ? figure_.start : point_on(figure_, static_cast<double>(i) / steps);
+    }
+    std::array<double, steps + 1> turned_rad_{};
     PolarMotion axes_;
 };
 

@@ -10,7 +10,8 @@ double harmonic_sum(double angle_rad, std::span<const double> values) {
     double sum = 0.0;
     for (std::size_t k = 0; k + 1 < values.size(); k += 2) {
         if (values[k] == 0.0 && values[k + 1] == 0.0) continue;
-        const double angle = static_cast<double>(k / 2 + 1) * angle_rad;
+        const std::size_t order = k / 2 + 1;
+        const double angle = static_cast<double>(order) * angle_rad;
         sum += values[k] * std::cos(angle) + values[k + 1] * std::sin(angle);
     }
     return sum;

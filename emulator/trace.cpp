@@ -12,24 +12,20 @@ namespace trunnion::emulator {
 namespace {
 
 constexpr std::size_t chunk_bytes = 1 << 16;
-constexpr const char* motion_names[] = {"G0", "G1", "G2", "G3"};
+constexpr std::string_view motion_names[] = {"G0", "G1", "G2", "G3"};
+
+constexpr std::ptrdiff_t integer_room = 24;
 
 template <class Integer>
-void append_integer(std::string& out, Integer value) {
-    std::array<char, 24> text;
-    out.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr);
+char* write_integer(char* out, Integer value) {
+    return std::to_chars(out, out + integer_room, value).ptr;
 }
 
-/// Appends a program name as a CSV cell.
-void append_name(std::string& out, const std::string* name) {
-    if (!name) return;
-    if (name->find_first_of(",\"\r\n") == std::string::npos) {
-        out += *name;
-        return;
-    }
-    out += '"';
-    for (const char c : *name) out.append(c == '"' ? 2 : 1, c);
-    out += '"';
+std::string csv_cell(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string cell = "\"";
+    for (const char c : text) cell.append(c == '"' ? 2 : 1, c);
+    return cell + '"';
 }
 
 }  // namespace
@@ -87,19 +83,34 @@ void TraceWriter::add_numbers(std::span<const TraceNumber> numbers) {
     }
 }
 
+/// seq, program, line, motion, tool.
+void TraceWriter::add_head(const motion::AxisMove& move, bool end) {
+    const std::string_view name = move.program ? std::string_view(*move.program) : "";
+    if (name != program_) {
+        program_ = name;
+        program_cell_ = csv_cell(program_);
+    }
+    std::array<char, 4 * integer_room> text;
+    char* at = write_integer(text.data(), rows_++);
+    *at++ = ',';
+    text_.append(text.data(), at);
+    text_ += program_cell_;
+    at = text.data();
+    *at++ = ',';
+    at = write_integer(at, move.line);
+    *at++ = ',';
+    const std::string_view motion =
+        end ? motion_names[static_cast<std::size_t>(move.kind)] : "SAMPLE";
+    at += motion.copy(at, motion.size());
+    *at++ = ',';
+    at = write_integer(at, move.tool);
+    text_.append(text.data(), at);
+}
+
 void TraceWriter::add(const motion::AxisMove& move, double s, double time_s, bool end,
                       const Vector3* true_tip_W) {
     const AxisPositions q = move.at(s);
-    append_integer(text_, rows_++);
-    text_ += ',';
-    append_name(text_, move.program);
-    text_ += ',';
-    append_integer(text_, move.line);
-    text_ += ',';
-    text_ += end ? motion_names[static_cast<std::size_t>(move.kind)] : "SAMPLE";
-    text_ += ',';
-    append_integer(text_, move.tool);
-
+    add_head(move, end);
     TraceNumber* next = numbers_.data();
     const auto set = [&next](const Vector3& v) {
         for (int i = 0; i < 3; ++i) (next++)->set(v[i]);

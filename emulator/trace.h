@@ -55,12 +55,14 @@ class TraceWriter {
     std::string take() { return std::move(text_); }
 
   private:
+    void add_head(const motion::AxisMove& move, bool end);
     void add_numbers(std::span<const TraceNumber> numbers);
 
     std::vector<Axis> axes_;
     bool truth_ = false;
     TraceChunk chunk_;
     std::uint64_t rows_ = 0;
+    std::string program_, program_cell_;  ///< of the latest row
     std::vector<TraceNumber> numbers_;  ///< values of the row, in the order of the columns
     std::string text_;
 };

@@ -52,25 +52,6 @@ std::optional<PlanePoint> line_line(PlanePoint p1, PlanePoint t1, PlanePoint p2,
 
 }  // namespace
 
-PlanePoint operator+(PlanePoint a, PlanePoint b) {
-    return {a.x + b.x, a.y + b.y};
-}
-PlanePoint operator-(PlanePoint a, PlanePoint b) {
-    return {a.x - b.x, a.y - b.y};
-}
-PlanePoint operator*(double k, PlanePoint a) {
-    return {k * a.x, k * a.y};
-}
-double dot(PlanePoint a, PlanePoint b) {
-    return a.x * b.x + a.y * b.y;
-}
-double cross(PlanePoint a, PlanePoint b) {
-    return a.x * b.y - a.y * b.x;
-}
-double length_of(PlanePoint a) {
-    return std::hypot(a.x, a.y);
-}
-
 double sweep_of(PlanePoint centre, PlanePoint start, PlanePoint end, bool clockwise) {
     const PlanePoint r0 = start - centre, r1 = end - centre;
     const double angle = std::atan2(cross(r0, r1), dot(r0, r1));

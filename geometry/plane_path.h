@@ -1,6 +1,7 @@
 // Lines and arcs in a plane: tangents, offset curves and their intersections.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 namespace trunnion::inline geometry {
@@ -20,12 +21,24 @@ struct PlaneElement {
     double radius() const;
 };
 
-PlanePoint operator+(PlanePoint a, PlanePoint b);
-PlanePoint operator-(PlanePoint a, PlanePoint b);
-PlanePoint operator*(double k, PlanePoint a);
-double dot(PlanePoint a, PlanePoint b);
-double cross(PlanePoint a, PlanePoint b);
-double length_of(PlanePoint a);
+inline PlanePoint operator+(PlanePoint a, PlanePoint b) {
+    return {a.x + b.x, a.y + b.y};
+}
+inline PlanePoint operator-(PlanePoint a, PlanePoint b) {
+    return {a.x - b.x, a.y - b.y};
+}
+inline PlanePoint operator*(double k, PlanePoint a) {
+    return {k * a.x, k * a.y};
+}
+inline double dot(PlanePoint a, PlanePoint b) {
+    return a.x * b.x + a.y * b.y;
+}
+inline double cross(PlanePoint a, PlanePoint b) {
+    return a.x * b.y - a.y * b.x;
+}
+inline double length_of(PlanePoint a) {
+    return std::hypot(a.x, a.y);
+}
 inline PlanePoint left_of(PlanePoint t) {
     return {-t.y, t.x};
 }

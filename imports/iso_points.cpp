@@ -304,7 +304,7 @@ IsoPoint list_point(const Source& source, const ListColumns& columns, std::size_
         const records::TableCell& cell = cells[*columns.run];
         const RunName name = run_name(cell.plain());
         point.run = name.run > 0 ? name.run : static_cast<int>(table.number(i, cell, "run"));
-        if (name.direction != 0 && word_before(cell.plain()).size() != 0)
+        if (name.direction != 0 && !word_before(cell.plain()).empty())
             point.direction = name.direction;
     }
     if (columns.direction) {

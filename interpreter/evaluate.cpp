@@ -184,7 +184,8 @@ int qualifiers(OpCode code) {
 int whole_number(double value, int column) {
     if (is_vacant(value)) return 0;
     if (!(std::fabs(value) < 1e9)) raise_language_alarm(110, column);
-    return static_cast<int>(std::lround(value));
+    const int whole = static_cast<int>(value);
+    return whole == value ? whole : static_cast<int>(std::lround(value));
 }
 
 double evaluate(const Op* code, std::uint32_t count, const Memory& memory,

@@ -65,9 +65,8 @@ bool is_at_limit(std::uint64_t blocks, std::uint64_t passed, std::uint64_t most)
 
 }  // namespace
 
-bool Interpreter::State::limit_hit() {
+bool Interpreter::State::look_up_limits() {
     const std::uint64_t passed = lines + files.lines_searched();
-    if (passed < look_up_at) return false;
     constexpr std::uint64_t stride = 4096;
     limit = is_at_limit(executed, passed, options.max_blocks) ||
             (options.go_on && !options.go_on(executed));

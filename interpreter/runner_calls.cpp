@@ -33,13 +33,22 @@ void check_words(const BlockWords& words, DialectFamily family) {
         raise_language_alarm(fault->alarm, fault->column);
 }
 
+bool is_modal_cancel(const WordValue& word) {
+    return word.letter == 'G' && word.value == 67.0 && !word.vacant;
+}
+
 }  // namespace
 
 /// `words` contain a code of the language. True: words remain for the control.
 bool Interpreter::State::special_words(const Block& block, const Code& code) {
     const bool codes_call = !frame().by_code;
-    Section* const named = take_name(block, code);
-    cancel_modals();  // the block may call as well: G67 M98 P100
+    bool has_name = false, cancels = false;
+    for (const WordValue& word : words) {
+        has_name = has_name || word.letter == '<';
+        cancels = cancels || is_modal_cancel(word);
+    }
+    Section* const named = has_name ? take_name(block, code) : nullptr;
+    if (cancels) cancel_modals();  // the block may call as well: G67 M98 P100
     for (std::size_t i = 0; i < words.count; ++i) {
         const WordValue word = words.words[i];
         if (word.vacant || !special.has(word.letter, word.value)) continue;
@@ -65,17 +74,15 @@ bool Interpreter::State::special_words(const Block& block, const Code& code) {
     return words.count > 0;
 }
 
-/// Removes `<NAME>` from the block and returns the program of that name; nullptr without a name.
+/// Removes `<NAME>` from the block and returns the program of that name.
 Section* Interpreter::State::take_name(const Block& block, const Code& code) {
-    bool calls = false;
-    std::size_t at_name = words.count;
-    for (std::size_t i = 0; i < words.count; ++i) {
-        const WordValue& w = words.words[i];
-        calls = calls || (w.letter == 'M' && (w.value == 98 || w.value == 198)) || is_macro_call(w);
-        if (w.letter == '<') at_name = i;
-    }
-    if (at_name == words.count) return nullptr;
+    std::size_t at_name = 0;
+    for (std::size_t i = 0; i < words.count; ++i)
+        if (words.words[i].letter == '<') at_name = i;
     const int column = words.words[at_name].column;
+    const bool calls = std::any_of(words.begin(), words.end(), [](const WordValue& w) {
+        return (w.letter == 'M' && (w.value == 98 || w.value == 198)) || is_macro_call(w);
+    });
     if (!calls) raise_language_alarm(9, column, "a program name without a call");
     std::string_view name;
     for (std::uint32_t i = 0; i < block.items.count; ++i) {
@@ -261,8 +268,7 @@ bool Interpreter::State::tool_call(std::size_t at_word) {
 void Interpreter::State::cancel_modals() {
     if (std::any_of(words.begin(), words.end(), is_macro_call)) return;  // G67 is out of place
     for (std::size_t i = 0; i < words.count;) {
-        const WordValue& word = words.words[i];
-        if (word.letter != 'G' || word.value != 67.0 || word.vacant) {
+        if (!is_modal_cancel(words.words[i])) {
             ++i;
             continue;
         }

@@ -120,7 +120,7 @@ constexpr int key_of(char letter, int code10) {
     return 2 * code10 + (letter == 'M' ? 1 : 0);
 }
 
-/// The rows of each code, in the order of the keys.
+/// The rows of each code.
 constexpr auto rows_of_codes = [] {
     std::array<CodeRows, std::size(rows)> sets{};
     for (std::size_t i = 0; i < sets.size(); ++i) {
@@ -129,16 +129,28 @@ constexpr auto rows_of_codes = [] {
                        return key_of(r.code_letter, r.code10) == key;
                    })};
     }
-    std::sort(sets.begin(), sets.end(),
-              [](const CodeRows& a, const CodeRows& b) { return a.key < b.key; });
     return sets;
+}();
+
+constexpr std::size_t key_count = [] {
+    int most = 0;
+    for (const CodeRows& code : rows_of_codes) most = std::max(most, code.key);
+    return static_cast<std::size_t>(most) + 1;
+}();
+
+/// One more than the index of a key in rows_of_codes; 0: a code without rules.
+constexpr auto index_of_key = [] {
+    std::array<std::uint8_t, key_count> index{};
+    for (std::size_t i = 0; i < rows_of_codes.size(); ++i)
+        index[static_cast<std::size_t>(rows_of_codes[i].key)] = static_cast<std::uint8_t>(i + 1);
+    return index;
 }();
 
 RowSet rows_of_code(char letter, int code10) {
     const int key = key_of(letter, code10);
-    const auto at = std::lower_bound(rows_of_codes.begin(), rows_of_codes.end(), key,
-                                     [](const CodeRows& c, int k) { return c.key < k; });
-    return at != rows_of_codes.end() && at->key == key ? at->set : 0;
+    if (key < 0 || static_cast<std::size_t>(key) >= key_count) return 0;
+    const std::size_t index = index_of_key[static_cast<std::size_t>(key)];
+    return index == 0 ? 0 : rows_of_codes[index - 1].set;
 }
 
 bool is_canned_cycle(int code10) {
@@ -148,12 +160,13 @@ bool is_canned_cycle(int code10) {
 /// Rows whose code and word (unless it is required) are in the block.
 struct Applicable {
     RowSet set = 0;
-    bool calls = false;
+    bool calls = false;  ///< a macro call: the other words are arguments
+    bool m_words = false;
 };
 
 Applicable applicable_rows(const BlockWords& block, bool hurco) {
     RowSet of_codes = of_every_block, of_words = with_required_word;
-    bool calls = false;
+    bool calls = false, m_words = false;
     for (const WordValue& word : block) {
         if (word.vacant) continue;
         if (word.letter >= 'A' && word.letter <= 'Z')
@@ -161,12 +174,13 @@ Applicable applicable_rows(const BlockWords& block, bool hurco) {
         if (word.letter != 'G' && word.letter != 'M') continue;
         const int code10 = code10_of(word);
         calls = calls || is_call(word.letter, code10);
+        m_words = m_words || word.letter == 'M';
         const bool cycle = word.letter == 'G' && is_canned_cycle(code10);
         of_codes |= rows_of_code(word.letter, cycle ? canned_cycle : code10);
     }
     if (calls) of_codes &= of_calls;
     if (hurco) of_codes &= ~of_fanuc_alone;
-    return {of_codes & of_words, calls};
+    return {of_codes & of_words, calls, m_words};
 }
 
 std::string range_text(const WordRule& rule) {
@@ -178,13 +192,23 @@ std::string range_text(const WordRule& rule) {
            std::to_string(std::lround(rule.most)) + ")";
 }
 
+bool is_whole(double value) {
+    if (std::abs(value) < 1e9 && value == static_cast<int>(value)) return true;
+    return std::abs(value - std::round(value)) <= 1e-6;
+}
+
+/// 0: the word keeps the rule.
+int alarm_of(const WordRule& rule, double value) {
+    if (rule.no_sign && rule.out_of_range == 3 && value < 0.0) return 6;
+    if (rule.whole && !is_whole(value)) return 7;
+    return value > rule.most || value < rule.least ? rule.out_of_range : 0;
+}
+
 std::optional<WordFault> fault_of(const WordRule& rule, const WordValue& word) {
-    const auto fault = [&](int alarm) { return WordFault{alarm, word.column, {}}; };
-    if (rule.no_sign && rule.out_of_range == 3 && word.value < 0.0) return fault(6);
-    if (rule.whole && std::abs(word.value - std::round(word.value)) > 1e-6) return fault(7);
-    if (word.value > rule.most || word.value < rule.least)
-        return WordFault{rule.out_of_range, word.column, range_text(rule)};
-    return std::nullopt;
+    const int alarm = alarm_of(rule, word.value);
+    if (alarm == 0) return std::nullopt;
+    const bool of_range = alarm == rule.out_of_range;
+    return WordFault{alarm, word.column, of_range ? range_text(rule) : std::string{}};
 }
 
 std::optional<WordFault> apply(const WordRule& rule, const BlockWords& block, bool all_known) {
@@ -203,7 +227,7 @@ std::optional<WordFault> apply(const WordRule& rule, const BlockWords& block, bo
 }  // namespace
 
 bool is_macro_call(const WordValue& word) {
-    return is_call(word.letter, code10_of(word));
+    return word.letter == 'G' && is_call('G', code10_of(word));
 }
 
 std::optional<WordFault> find_m_fault(const WordValue& m_word) {
@@ -212,10 +236,10 @@ std::optional<WordFault> find_m_fault(const WordValue& m_word) {
 
 std::optional<WordFault> find_word_fault(const BlockWords& block, DialectFamily family,
                                          bool all_known) {
-    const auto [set, calls] = applicable_rows(block, family == DialectFamily::hurco);
+    const auto [set, calls, m_words] = applicable_rows(block, family == DialectFamily::hurco);
     for (RowSet left = set & ~of_cycles; left != 0; left &= left - 1)
         if (auto fault = apply(rows[std::countr_zero(left)], block, all_known)) return fault;
-    if (!calls)
+    if (m_words && !calls)
         for (const WordValue& word : block)
             if (word.letter == 'M' && !word.vacant)
                 if (auto fault = find_m_fault(word)) return fault;

@@ -30,11 +30,12 @@ std::vector<double> distances_um(const std::vector<Vector3>& errors_mm) {
 }
 
 struct Panels {
-    std::size_t count;
-    Svg svg{940, 80.0 + 360.0 * static_cast<double>((count + 1) / 2)};
+    std::size_t count, rows = (count + 1) / 2;
+    Svg svg{940, 80.0 + 360.0 * static_cast<double>(rows)};
     Point2 corner(std::size_t k) const {
-        return {80.0 + 450.0 * static_cast<double>(k % 2),
-                90.0 + 360.0 * static_cast<double>(k / 2)};
+        const std::size_t column = k % 2, row = k / 2;
+        return {80.0 + 450.0 * static_cast<double>(column),
+                90.0 + 360.0 * static_cast<double>(row)};
     }
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -39,10 +40,19 @@ Json position_json(const AxisPositions& q, const std::vector<kinematics::AxisGeo
     return out;
 }
 
-Json programs_json(const std::vector<interpreter::ProgramText>& programs) {
+/// The hash that was noted when the program was read; made anew for a text that is no file, and for
+/// a file that changed between two readings.
+std::string hash_of(const interpreter::ProgramText& program, const std::vector<FileRead>& inputs) {
+    const auto is_it = [&](const FileRead& file) { return file.path == program.name; };
+    if (std::count_if(inputs.begin(), inputs.end(), is_it) != 1) return sha256(program.text);
+    return std::find_if(inputs.begin(), inputs.end(), is_it)->sha256;
+}
+
+Json programs_json(const std::vector<interpreter::ProgramText>& programs,
+                   const std::vector<FileRead>& inputs) {
     Json list = Json::array();
     for (const interpreter::ProgramText& program : programs)
-        list.push_back({{"path", program.name}, {"sha256", sha256(program.text)}});
+        list.push_back({{"path", program.name}, {"sha256", hash_of(program, inputs)}});
     return list;
 }
 
@@ -68,7 +78,7 @@ std::string run_json(const emulator::RunLog& log, const std::vector<kinematics::
          {{"machine", position_json(r.machine, axes)}, {"work", position_json(r.work, axes)}}},
         {"modal", r.modal},
         {"variables", variables},
-        {"programs", programs_json(programs)},
+        {"programs", programs_json(programs, inputs)},
         {"printed", log.printed}};
     add_inputs(json, inputs);
     return json_text(json, 2) + '\n';

@@ -268,11 +268,13 @@ std::string axes_picture(const volumetric::VolumetricMap& map) {
     svg.text({676, 32}, "worst", 12);
     svg.line({730, 28}, {760, 28}, {plot_colours[0], 2.0, "none", "6 3"});
     svg.text({766, 32}, "rms", 12);
-    for (std::size_t i = 0; i < map.axes.size(); ++i)
+    for (std::size_t i = 0; i < map.axes.size(); ++i) {
+        const std::size_t column = i % 2, row = i / 2;
         axis_plot(
             svg,
-            {90.0 + 420.0 * static_cast<double>(i % 2), 80.0 + 240.0 * static_cast<double>(i / 2)},
+            {90.0 + 420.0 * static_cast<double>(column), 80.0 + 240.0 * static_cast<double>(row)},
             map, map.axes[i]);
+    }
     cause_bars(svg, {90, 105 + plots}, 780, map);
     return svg.str();
 }

@@ -27,7 +27,8 @@ std::vector<double> steps_of(const kinematics::AxisGeometry& axis,
     if (count == 1) return {std::clamp(0.0, low, high)};
     if (axis.rotary && high - low > 2.0 * pi - 1e-9) {
         const double step = 2.0 * pi / count;
-        return evenly(-step * ((count - 1) / 2), step, count);
+        const int below_zero = (count - 1) / 2;
+        return evenly(-step * below_zero, step, count);
     }
     return evenly(low, (high - low) / (count - 1), count);
 }
