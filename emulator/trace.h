@@ -63,7 +63,7 @@ class TraceWriter {
     TraceChunk chunk_;
     std::uint64_t rows_ = 0;
     std::string program_, program_cell_;  ///< of the latest row
-    std::vector<TraceNumber> numbers_;  ///< values of the row, in the order of the columns
+    std::vector<TraceNumber> numbers_;    ///< values of the row, in the order of the columns
     std::string text_;
 };
 

@@ -72,9 +72,7 @@ struct Interpreter::State {
     bool give_out(const Block& block, const Code& code);
     bool program_block(const Block& block, Code& code, int index);
     void end_of_section();
-    bool limit_hit() {
-        return lines + files.lines_searched() >= look_up_at && look_up_limits();
-    }
+    bool limit_hit() { return lines + files.lines_searched() >= look_up_at && look_up_limits(); }
     bool look_up_limits();
 
     // runner_statements.cpp
