@@ -197,31 +197,32 @@ bool is_whole(double value) {
     return std::abs(value - std::round(value)) <= 1e-6;
 }
 
-/// 0: the word keeps the rule.
-int alarm_of(const WordRule& rule, double value) {
-    if (rule.no_sign && rule.out_of_range == 3 && value < 0.0) return 6;
-    if (rule.whole && !is_whole(value)) return 7;
-    return value > rule.most || value < rule.least ? rule.out_of_range : 0;
+/// Alarm 0: the rule is kept. Column 0: the word is missing.
+struct Violation {
+    int alarm = 0, column = 0;
+};
+
+Violation violation_of(const WordRule& rule, const WordValue& word) {
+    if (rule.no_sign && rule.out_of_range == 3 && word.value < 0.0) return {6, word.column};
+    if (rule.whole && !is_whole(word.value)) return {7, word.column};
+    if (word.value > rule.most || word.value < rule.least) return {rule.out_of_range, word.column};
+    return {};
 }
 
-std::optional<WordFault> fault_of(const WordRule& rule, const WordValue& word) {
-    const int alarm = alarm_of(rule, word.value);
-    if (alarm == 0) return std::nullopt;
-    const bool of_range = alarm == rule.out_of_range;
-    return WordFault{alarm, word.column, of_range ? range_text(rule) : std::string{}};
-}
-
-std::optional<WordFault> apply(const WordRule& rule, const BlockWords& block, bool all_known) {
+Violation violation_in(const WordRule& rule, const BlockWords& block, bool all_known) {
     bool found = false;
     for (const WordValue& word : block) {
         found = found || word.letter == '<';  // a program name replaces P
         if (word.letter != rule.letter || word.vacant) continue;
         found = true;
-        if (const auto fault = fault_of(rule, word)) return fault;
+        if (const Violation v = violation_of(rule, word); v.alarm != 0) return v;
     }
-    if (!found && all_known && rule.missing != 0)
-        return WordFault{rule.missing, 0, range_text(rule)};
-    return std::nullopt;
+    return {!found && all_known ? rule.missing : 0, 0};
+}
+
+WordFault fault_of(const WordRule& rule, const Violation& v) {
+    const bool of_any_word = v.alarm == 6 || v.alarm == 7;
+    return {v.alarm, v.column, of_any_word ? std::string{} : range_text(rule)};
 }
 
 }  // namespace
@@ -231,20 +232,30 @@ bool is_macro_call(const WordValue& word) {
 }
 
 std::optional<WordFault> find_m_fault(const WordValue& m_word) {
-    return fault_of({0, 0, 'M'}, m_word);
+    constexpr WordRule rule{0, 0, 'M'};
+    const Violation v = violation_of(rule, m_word);
+    if (v.alarm == 0) return std::nullopt;
+    return fault_of(rule, v);
 }
 
 std::optional<WordFault> find_word_fault(const BlockWords& block, DialectFamily family,
                                          bool all_known) {
     const auto [set, calls, m_words] = applicable_rows(block, family == DialectFamily::hurco);
-    for (RowSet left = set & ~of_cycles; left != 0; left &= left - 1)
-        if (auto fault = apply(rows[std::countr_zero(left)], block, all_known)) return fault;
+    const auto violated_row = [&](RowSet left) {
+        while (left != 0 && violation_in(rows[std::countr_zero(left)], block, all_known).alarm == 0)
+            left &= left - 1;
+        return left;
+    };
+    const auto fault_of_row = [&](RowSet left) {
+        const WordRule& rule = rows[std::countr_zero(left)];
+        return fault_of(rule, violation_in(rule, block, all_known));
+    };
+    if (const RowSet left = violated_row(set & ~of_cycles)) return fault_of_row(left);
     if (m_words && !calls)
         for (const WordValue& word : block)
             if (word.letter == 'M' && !word.vacant)
                 if (auto fault = find_m_fault(word)) return fault;
-    for (RowSet left = set & of_cycles; left != 0; left &= left - 1)
-        if (auto fault = apply(rows[std::countr_zero(left)], block, all_known)) return fault;
+    if (const RowSet left = violated_row(set & of_cycles)) return fault_of_row(left);
     return std::nullopt;
 }
 
