@@ -37,6 +37,7 @@ class DriverList {
                const identification::BaseModel& base)
         : replay_(replay), table_(table), base_(base) {
         positions();
+        products();
         directions();
         clocks();
         states();
@@ -98,20 +99,58 @@ class DriverList {
         return list;
     }
 
+    /// The positions of an axis that moves; empty where its readings cannot show a dependence.
+    struct Travel {
+        Axis axis = Axis::X;
+        RowFunction q;
+        double low = 1e300, high = -1e300, mean = 0.0;
+        bool turn = false;  ///< a whole turn of a rotary axis
+    };
+    std::optional<Travel> travel(Axis axis) const {
+        Travel t{axis, [this, axis](std::size_t i) { return replay_.sample(i).position[axis]; }};
+        for (std::size_t i = 0; i < n(); ++i) {
+            t.low = std::min(t.low, t.q(i));
+            t.high = std::max(t.high, t.q(i));
+            t.mean += t.q(i) / static_cast<double>(n());
+        }
+        if (!(t.high - t.low >= (turns(axis) ? 0.05 : 1.0))) return std::nullopt;
+        t.turn = turns(axis) && t.high - t.low > 5.0;
+        return t;
+    }
+
+    /// Second Legendre polynomial.
+    static double bow(double u) { return 1.5 * u * u - 0.5; }
+
+    /// Products of two positions, and of their bows: an error over a plane that no motion of single
+    /// axes makes (a slope along one axis that depends on the other is an angular error motion).
+    void products() {
+        std::vector<Travel> moving;
+        for (const Axis axis : table_.axes)
+            if (const auto t = travel(axis); t && !t->turn) moving.push_back(*t);
+        const auto reduced = [](const Travel& t) {
+            const double half = 0.5 * (t.high - t.low);
+            return [t, half](std::size_t i) { return (t.q(i) - t.mean) / half; };
+        };
+        for (std::size_t a = 0; a < moving.size(); ++a)
+            for (std::size_t b = a + 1; b < moving.size(); ++b) {
+                const std::string names =
+                    table_.names[moving[a].axis] + " and " + table_.names[moving[b].axis];
+                const RowFunction u = reduced(moving[a]), v = reduced(moving[b]);
+                add(names, "machine frame", "follows the product of the positions of " + names,
+                    {[u, v](std::size_t i) { return u(i) * v(i); },
+                     [u, v](std::size_t i) { return bow(u(i)) * bow(v(i)); }},
+                    machine_axes());
+            }
+    }
+
     void positions() {
         for (const Axis axis : table_.axes) {
-            const RowFunction q = [this, axis](std::size_t i) {
-                return replay_.sample(i).position[axis];
-            };
-            double low = 1e300, high = -1e300;
-            for (std::size_t i = 0; i < n(); ++i) {
-                low = std::min(low, q(i));
-                high = std::max(high, q(i));
-            }
-            if (high - low < (turns(axis) ? 0.05 : 1.0)) continue;
-            const bool turn = turns(axis) && high - low > 5.0;
-            auto functions = smooth(q, low, high, turn, turn ? 6 : 7);
-            if (low < 0.0 && high > 0.0 && !turn)
+            const auto moving = travel(axis);
+            if (!moving) continue;
+            const RowFunction& q = moving->q;
+            const bool turn = moving->turn;
+            auto functions = smooth(q, moving->low, moving->high, turn, turn ? 6 : 7);
+            if (moving->low < 0.0 && moving->high > 0.0 && !turn)
                 functions.push_back([q](std::size_t i) { return q(i) > 0.0 ? 1.0 : -1.0; });
             std::vector<RowFunction> carriers{machine(0), machine(1), machine(2)};
             carriers.push_back(axis_response(axis));

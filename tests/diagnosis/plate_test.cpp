@@ -75,4 +75,30 @@ TEST_CASE("squareness with a bow beside it is not called straightness without a 
     }
 }
 
+// A plane with a bow along Y that depends on X: no motion of single axes makes it. (A slope along Y
+// that depends on X is X.angular, a roll.)
+TEST_CASE("an error over a plane is located at the product of two positions", "[diagnosis]") {
+    const setup::Setup setup = bench();
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+        records::ReadingTable read =
+            emulator::predicted(setup, grid(), effects::active_models(setup));
+        std::mt19937_64 engine(seed);
+        std::normal_distribution<double> noise(0.0, 1.5e-3);
+        for (records::Reading& row : read.rows) {
+            const double u = row.commanded[Axis::X] / 87.5 - 1.0;
+            const double v = row.commanded[Axis::Y] / 80.0 - 1.0;
+            const double bows = (1.5 * u * u - 0.5) * (1.5 * v * v - 0.5);
+            *row.value_mm += 12e-3 * bows * row.direction_M.z() + noise(engine);
+        }
+        diagnosis::DiagnosisOptions options;
+        options.plan_next = false;
+        const diagnosis::Diagnosis d = diagnosis::diagnose(setup, read, options);
+        INFO(seed << ": " << said(d));
+        CHECK(d.verdict == diagnosis::Verdict::unexplained);
+        REQUIRE_FALSE(d.causes.empty());
+        CHECK(d.causes.front().effect == "unknown");
+        CHECK_THAT(d.causes.front().what, Catch::Contains("X and Y"));
+    }
+}
+
 }  // namespace trunnion
