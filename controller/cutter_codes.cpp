@@ -65,8 +65,7 @@ void set_cutter(const SortedWords& words, Modal& modal, const Frames& frames, Mo
                 int code10) {
     if (words.has('D')) modal.number.radius = words.whole('D');
     const int offsets = static_cast<int>(frames.stores().tools.tool.size());
-    if (modal.number.radius < 0 || modal.number.radius >= offsets)
-        raise_alarm(30, words.column_of('D'));
+    if (modal.number.radius >= offsets) raise_alarm(30, words.column_of('D'));
     const bool on = code10 != 400, alone = !words.has_axis();
     const bool changes = modal.cutter_is_off() == on;
     if (is_round(modal) && changes && !alone) raise_alarm(34);

@@ -35,7 +35,6 @@ void shortest_way_off(const SortedWords&, Modal& modal, Frames&, Mover&) {
 /// (inferred: the part set-up is a table frame).
 void start_management(const SortedWords&, Modal&, Frames& frames, Mover& mover) {
     const positioning::RotaryTransform& transform = frames.transform(5420);
-    if (frames.fixture_number != 0) raise_alarm(5421, "(G54.2 is in force)");
     cancel_tool_centre(frames, mover);
     frames.tip.by_vector = false;
     frames.tip.by_angle_or_vector = true;

@@ -1,7 +1,5 @@
 #include "controller/fixture_offset_codes.h"
 
-#include <fmt/format.h>
-
 #include "controller/alarms.h"
 
 namespace trunnion::controller {
@@ -9,10 +7,7 @@ namespace trunnion::controller {
 void set_fixture_offset(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover) {
     if (frames.tip.in_force) raise_alarm(5421, "(G54.2 under it)");
     if (frames.plane) raise_alarm(5457, "(G54.2 inside a tilted plane)");
-    const int most = static_cast<int>(frames.stores().fixture.set.size());
-    const int p = words.has('P') ? words.whole('P') : -1;
-    if (p < 0 || p > most)
-        raise_alarm(31, fmt::format("(G54.2: P is 0 to {})", most), words.column_of('P'));
+    const int p = words.whole('P');
     modal.codes.set(ModalGroup::fixture, p == 0 ? 0 : 542);
     frames.fixture_number = p;
     frames.stages.fixture = {};

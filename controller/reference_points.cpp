@@ -10,9 +10,7 @@ namespace {
 /// 1 for G28; P of G30, default 2.
 int reference_number(const SortedWords& words, int code10) {
     if (code10 == 280) return 1;
-    const int p = words.has('P') ? words.whole('P') : 2;
-    if (p < 2 || p > 4) raise_alarm(46, words.column_of('P'));
-    return p;
+    return words.has('P') ? words.whole('P') : 2;
 }
 
 void no_cycle(const Modal& modal) {

@@ -33,7 +33,7 @@ double ControlVariables::get(int number) {
 }
 
 void ControlVariables::set(int number, double value, const char* comment) {
-    if (c_.clock.set(number, value, comment ? comment : "", c_.mover)) return;
+    if (c_.clock.set(number, value, comment, c_.mover)) return;
     if (set_signal_variable(number, value, c_.stores.signals)) return;
     if (is_free(number)) return void(free_[number] = value);
     const double written = interpreter::is_vacant(value) ? 0.0 : value;

@@ -167,9 +167,7 @@ std::string solutions_text(const offsets::PivotParameters& pivot,
 }
 
 positioning::Branch branch_of(const SortedWords& words) {
-    const int p = words.has('P') ? words.whole('P') : 0;
-    if (p < 0 || p > 2) raise_alarm(5458, "(P is 0, 1 or 2)", words.column_of('P'));
-    return static_cast<positioning::Branch>(p);
+    return static_cast<positioning::Branch>(words.has('P') ? words.whole('P') : 0);
 }
 
 /// Rotary positions that align the tool with Z of the feature frame.

@@ -38,8 +38,7 @@ void put_in_force(const offsets::ControlPosition& length, const Modal& modal, Fr
 }  // namespace
 
 double tool_length_mm(const SortedWords& words, const offsets::ToolOffsets& tools, int number) {
-    if (number < 0 || number >= static_cast<int>(tools.tool.size()))
-        raise_alarm(30, words.column_of('H'));
+    if (number >= static_cast<int>(tools.tool.size())) raise_alarm(30, words.column_of('H'));
     return number == 0 ? 0.0 : tools.tool[static_cast<std::size_t>(number)].length_mm();
 }
 

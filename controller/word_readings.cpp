@@ -46,7 +46,7 @@ void dwell(const SortedWords& words, const Modal& modal, Mover& mover) {
         const bool in_ms = words.is_bare(letter) && !modal.settings.bare_is_unit;
         duration_s = words.get(letter) * (in_ms ? 0.001 : 1.0);
     }
-    if (duration_s < 0.0) raise_alarm(6, words.column_of(words.has('P') ? 'P' : 'X'));
+    if (duration_s < 0.0) raise_alarm(6, words.column_of('P'));
     mover.dwell(duration_s);
 }
 

@@ -18,7 +18,7 @@ void set_work_offset(const SortedWords& words, Modal& modal, Frames& frames, Mov
     int number = 0;
     if (additional) {
         const int most = static_cast<int>(frames.stores().work.additional.size());
-        number = words.has('P') ? words.whole('P') : 0;
+        number = words.whole('P');
         if (number < 1 || number > most)
             raise_alarm(31, fmt::format("(G54.1: P is 1 to {})", most), words.column_of('P'));
     }

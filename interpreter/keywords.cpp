@@ -101,7 +101,6 @@ const char* spelling(OpCode code) {
     for (const FunctionRow& row : functions)
         if (row.code == code) return row.word;
     if (code == OpCode::round_increment) return "ROUND";
-    if (code == OpCode::atan2) return "ATAN";
     return nullptr;
 }
 

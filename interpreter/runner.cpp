@@ -70,7 +70,7 @@ bool Interpreter::State::look_up_limits() {
     constexpr std::uint64_t stride = 4096;
     limit = is_at_limit(executed, passed, options.max_blocks) ||
             (options.go_on && !options.go_on(executed));
-    ended = ended || limit;
+    ended = limit;  // asked only while it runs
     const std::uint64_t blocks_left =
         options.max_blocks > executed ? options.max_blocks - executed : stride;
     look_up_at = passed + std::min(stride, blocks_left);

@@ -34,7 +34,7 @@ void check_words(const BlockWords& words, DialectFamily family) {
 }
 
 bool is_modal_cancel(const WordValue& word) {
-    return word.letter == 'G' && word.value == 67.0 && !word.vacant;
+    return word.letter == 'G' && word.value == 67.0;  // vacant is NaN
 }
 
 }  // namespace
@@ -292,9 +292,10 @@ bool Interpreter::State::macro_file_value(const Block& block, const Code& code) 
     return true;
 }
 
-/// G66.1: the block itself is the argument list. False: not active in this program.
+/// G66.1: the block itself is the argument list. False: not active in this program. Some modal
+/// call is.
 bool Interpreter::State::call_every_block() {
-    if (modal_count == 0 || frame().modal_limit < static_cast<int>(modal_count)) return false;
+    if (frame().modal_limit < static_cast<int>(modal_count)) return false;
     ModalCall& call = modals[modal_count - 1];
     if (!call.every_block) return false;
     ArgumentRules r = argument_rules();
