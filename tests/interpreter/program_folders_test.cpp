@@ -85,3 +85,32 @@ TEST_CASE("programs are found by file name, then by what the files hold") {
     CHECK_THROWS_AS(interpreter::read_program("/no/such/file"), InputError);
     CHECK_THROWS_AS(interpreter::read_program(folder.path.string()), InputError);
 }
+
+TEST_CASE("file names that look like numbers, and a name that only the shipped folder knows") {
+    const Folder folder;
+    folder.write("O-5.nc", "M99\n");
+    folder.write("O99999999999.nc", "M99\n");
+    folder.write("O5A.nc", "M99\n");
+    folder.write("O.nc", "M99\n");
+    folder.write("b/SHIPPED.nc", "<NAME>\nM99\nO\nM99\n");
+    interpreter::ProgramFolders programs({(folder.path / "b").string()}, {folder.path.string()});
+    for (const int n : {-5, 5, 0, 999}) CHECK_FALSE(programs.find(n));
+    CHECK_THAT(programs.find("shipped")->name, Catch::EndsWith("SHIPPED.nc"));
+    CHECK(programs.announcements().empty());
+    CHECK(programs.find("Named Part"));
+    CHECK(programs.find("named part"));
+    CHECK(programs.announcements().size() == 2);
+    CHECK(programs.used().size() == 2);
+    programs.add_file({"main.nc", "O5\n", nullptr});
+    CHECK(programs.used().size() == 3);
+}
+
+TEST_CASE("a main program with nothing in it is refused") {
+    const Folder folder;
+    folder.write("blank.nc", "%\r\n \t\n%\n");
+    CHECK_THROWS_AS(interpreter::read_main_program((folder.path / "blank.nc").string()),
+                    InputError);
+    CHECK_THROWS_AS(interpreter::read_main_program((folder.path / "empty.nc").string()),
+                    InputError);
+    CHECK(interpreter::read_main_program((folder.path / "34.NC").string()).text == "M30\n");
+}

@@ -1,0 +1,10 @@
+%
+O0001 (G39 BEFORE THE FIRST SIDE)
+(SET TOOL 1 = 0. 2.)
+(EXPECT NOTE G39 without a side before it)
+G41 D1
+G39
+G1 X10. F100.
+G40 X20.
+M30
+%
