@@ -23,14 +23,6 @@ std::string lower(std::string text) {
     return text;
 }
 
-std::optional<int> leading_number(std::string_view text, std::size_t* length = nullptr) {
-    int number = 0;
-    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (fault != std::errc{} || number < 0) return std::nullopt;
-    if (length) *length = static_cast<std::size_t>(end - text.data());
-    return number;
-}
-
 bool has_program_ending(const fs::path& path) {
     const std::string ending = lower(path.extension().string());
     return std::find(endings.begin(), endings.end(), ending) != endings.end();
@@ -40,10 +32,12 @@ bool has_program_ending(const fs::path& path) {
 std::optional<int> number_of_file(const fs::path& path) {
     if (!has_program_ending(path)) return std::nullopt;
     std::string stem = lower(path.stem().string());
-    if (!stem.empty() && stem[0] == 'o') stem.erase(0, 1);
-    std::size_t length = 0;
-    const auto number = leading_number(stem, &length);
-    return length == stem.size() ? number : std::nullopt;
+    if (stem.starts_with('o')) stem.erase(0, 1);
+    int number = 0;
+    const char* const last = stem.data() + stem.size();
+    const auto [end, fault] = std::from_chars(stem.data(), last, number);
+    if (fault != std::errc{} || end != last || number < 0) return std::nullopt;
+    return number;
 }
 
 /// A picture or an executable without an ending is no program, whatever its lines begin with.

@@ -134,7 +134,7 @@ void Interpreter::State::print_line(const Code& code, const Item* item, const It
         if (item->kind == ItemKind::print_text) {
             for (const char c : std::string_view(code.text).substr(item->b.first, item->b.count))
                 line += c == '*' ? ' ' : c;
-        } else if (item->kind == ItemKind::print_value) {
+        } else {
             const double v = value(code, *item);
             line += binary ? binary_print(v, item->digits)
                            : decimal_print(v, item->number, item->digits,

@@ -14,11 +14,10 @@ namespace {
 /// A value that violates the rule raises PS0007 (not an integer), PS0006 (negative),
 /// `out_of_range`, or `missing` when the word is absent.
 struct WordRule {
-    char code_letter;     ///< G or M; 0: every block that passes no arguments
-    int code10;           ///< of that code, times 10
-    char letter;          ///< the word
-    bool whole = true;    ///< must be an integer
-    bool no_sign = true;  ///< must not be negative
+    char code_letter;   ///< G or M; 0: every block that passes no arguments
+    int code10;         ///< of that code, times 10
+    char letter;        ///< the word
+    bool whole = true;  ///< must be an integer
     double most = 99999999.0;
     double least = 0.0;
     int out_of_range = 3;  ///< alarm
@@ -40,28 +39,28 @@ constexpr WordRule rows[] = {
     {'G', 40, 'U', false},
     {'G', 100, 'L'},
     {'G', 100, 'P'},
-    {'G', 300, 'P', true, true, 4, 2, 46},
-    {'G', 531, 'P', true, true, 2, 0, 5458},
-    {'G', 536, 'P', true, true, 2, 0, 5458},
-    {'G', 541, 'P', true, true, 300, 1, 31, 31},
-    {'G', 542, 'P', true, true, 8, 0, 31, 31},
+    {'G', 300, 'P', true, 4, 2, 46},
+    {'G', 531, 'P', true, 2, 0, 5458},
+    {'G', 536, 'P', true, 2, 0, 5458},
+    {'G', 541, 'P', true, 300, 1, 31, 31},
+    {'G', 542, 'P', true, 8, 0, 31, 31},
     {'G', 682, 'P'},
     {'G', 682, 'Q'},
     {'G', 684, 'P'},
     {'G', 684, 'Q'},
     {'G', 960, 'P'},
-    {'G', 650, 'P', true, true, any, 0, 3, 76},
+    {'G', 650, 'P', true, any, 0, 3, 76},
     {'G', 650, 'L'},
-    {'G', 660, 'P', true, true, any, 0, 3, 76},
+    {'G', 660, 'P', true, any, 0, 3, 76},
     {'G', 660, 'L'},
-    {'G', 661, 'P', true, true, any, 0, 3, 76},
+    {'G', 661, 'P', true, any, 0, 3, 76},
     {'G', 661, 'L'},
-    {'M', 980, 'P', true, true, 999999999.0, 0, 3, 76},
+    {'M', 980, 'P', true, 999999999.0, 0, 3, 76},
     {'M', 980, 'L'},
-    {'M', 980, 'Q', true, true, 999999999.0},
-    {'M', 1980, 'P', true, true, 999999999.0, 0, 3, 76},
+    {'M', 980, 'Q', true, 999999999.0},
+    {'M', 1980, 'P', true, 999999999.0, 0, 3, 76},
     {'M', 1980, 'L'},
-    {'M', 990, 'P', true, true, 999999999.0},
+    {'M', 990, 'P', true, 999999999.0},
     {'M', 990, 'L'},
     {'G', canned_cycle, 'P'},
     {'G', canned_cycle, 'K'},
@@ -203,7 +202,7 @@ struct Violation {
 };
 
 Violation violation_of(const WordRule& rule, const WordValue& word) {
-    if (rule.no_sign && rule.out_of_range == 3 && word.value < 0.0) return {6, word.column};
+    if (rule.out_of_range == 3 && word.value < 0.0) return {6, word.column};
     if (rule.whole && !is_whole(word.value)) return {7, word.column};
     if (word.value > rule.most || word.value < rule.least) return {rule.out_of_range, word.column};
     return {};
