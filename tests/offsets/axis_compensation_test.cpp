@@ -106,4 +106,35 @@ TEST_CASE("numbers that describe no table compensate nothing") {
     CHECK(offsets::decode_compensation(p, order).empty());
 }
 
+TEST_CASE("points of a table that stand in no order compensate nothing") {
+    const auto has_table = [](double reference, double first, double last) {
+        offsets::Parameters p = linear_table();
+        p.entry[3620].by_axis = {{1, reference}};
+        p.entry[3621].by_axis = {{1, first}};
+        p.entry[3622].by_axis = {{1, last}};
+        return !offsets::decode_compensation(p, order).empty();
+    };
+    CHECK(has_table(40, 39, 43));
+    CHECK(has_table(40, 41, 43));
+    CHECK(has_table(43, 39, 43));
+    CHECK_FALSE(has_table(40, -1, 43));
+    CHECK_FALSE(has_table(40, 42, 43));  // begins behind the step at the reference
+    CHECK_FALSE(has_table(44, 39, 43));  // ends before the reference
+    CHECK_FALSE(has_table(40, 40, 40));
+}
+
+TEST_CASE("a rotary axis whose table repeats before the turn does, by 3625") {
+    offsets::Parameters p;
+    p.entry[3620].by_axis = {{4, 60.0}};
+    p.entry[3621].by_axis = {{4, 61.0}};
+    p.entry[3622].by_axis = {{4, 62.0}};
+    p.entry[3624].by_axis = {{4, 60.0}};
+    p.entry[3625].by_axis = {{4, 120.0}};
+    p.set(10061, 3.0);
+    p.set(10062, -3.0);
+    for (const double at_deg : {60.0, 180.0, -60.0})
+        CHECK(of(p, Axis::B).pitch(rad_from_deg(at_deg)) == Approx(rad_from_deg(0.003)));
+    CHECK(std::abs(of(p, Axis::B).pitch(rad_from_deg(120.0))) < 1e-15);
+}
+
 }  // namespace trunnion

@@ -162,4 +162,41 @@ TEST_CASE("encode and decode give the same geometry") {
     CHECK_THROWS_AS(offsets::encode_pivot(askew, p), InputError);
 }
 
+TEST_CASE("encode keeps the limits of an axis, a hypothetical first axis, and a machine without") {
+    offsets::PivotParameters pivot;
+    pivot.unit = offsets::MechanicalUnit::table_table;
+    pivot.first.hypothetical = true;
+    pivot.first.hypothetical_rad = rad_from_deg(15);
+    pivot.second.axis = Axis::C;
+    pivot.second.min_rad = rad_from_deg(-90);
+    for (const bool both : {false, true}) {
+        if (both) pivot.second.max_rad = rad_from_deg(120);
+        offsets::Parameters p;
+        offsets::encode_pivot(pivot, p, bc_order);
+        const auto back = offsets::decode_pivot(p, bc_order);
+        REQUIRE(back);
+        CHECK(back->first.hypothetical);
+        CHECK(back->first.hypothetical_rad == Approx(rad_from_deg(15)));
+        CHECK_FALSE(back->second.hypothetical);
+        CHECK(back->second.min_rad.has_value() == both);  // one limit alone cannot be written
+        if (both) CHECK(*back->second.max_rad == Approx(rad_from_deg(120)));
+    }
+    offsets::Parameters none;
+    offsets::encode_pivot({}, none, bc_order);
+    CHECK(none.get(19680) == 0.0);
+    CHECK_FALSE(offsets::decode_pivot(none, bc_order));
+    pivot.tool_direction = Vector3(0, 0, -1);
+    CHECK_THROWS_AS(offsets::encode_pivot(pivot, none, bc_order), InputError);
+}
+
+TEST_CASE("19698 and 19699 tilt the reference direction of the tool, each alone") {
+    offsets::Parameters p = bc_table();
+    p.set(19697, 3);
+    p.set(19699, 90);
+    CHECK((offsets::decode_pivot(p, bc_order)->tool_direction - Vector3(1, 0, 0)).norm() < 1e-15);
+    p.set(19699, 0);
+    p.set(19698, 90);
+    CHECK((offsets::decode_pivot(p, bc_order)->tool_direction - Vector3(0, -1, 0)).norm() < 1e-15);
+}
+
 }  // namespace trunnion

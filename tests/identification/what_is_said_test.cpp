@@ -1,0 +1,165 @@
+// What a fit says beside its values: bends, poses in words, sides, searches that were ended.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "base/alarm.h"
+#include "identification/monte_carlo.h"
+#include "identification/set_up_words.h"
+#include "identification/unknown_sides.h"
+#include "tests/support/campaign.h"
+
+namespace trunnion {
+namespace {
+
+setup::Setup machine() {
+    std::vector<std::string> notes;
+    return setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w C B b X Y Z t\"\n"
+        "[machine.axis.B]\ndirection = [0, -1, 0]\npoint_mm = [0, 0, 0]\n"
+        "[machine.axis.C]\ndirection = [0, 0, -1]\npoint_mm = [0, 0, 0]\n"
+        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -150]\n"
+        "[model]\nmodelled = []\nnoise_um = { linear = 0.4 }\n",
+        "s.toml", notes);
+}
+
+/// A laser along X, -400 to 400 mm, of a scale with a bend; its repetitions are off by +-0.3 um.
+records::ReadingTable laser(const setup::Setup& setup, double scale_ppm, double bow_mm) {
+    records::ReadingTable table;
+    table.path = "laser.csv";
+    table.names = setup.machine.chain.names();
+    for (const kinematics::AxisGeometry& axis : setup.machine.chain.axes())
+        table.axes.push_back(axis.axis);
+    for (int k = 0; k < 34; ++k) {
+        records::Reading row;
+        row.index = k;
+        row.time_s = 60.0 * k;
+        row.test = "X";
+        row.feature = "R1";
+        row.direction_M = Vector3::UnitX();
+        const double x_mm = 50.0 * (k / 2 - 8);
+        row.device = records::Device::linear;
+        row.commanded[Axis::X] = x_mm;
+        row.value_mm = 1e-6 * scale_ppm * x_mm + bow_mm * std::pow(x_mm / 200.0, 2) +
+                       (k % 2 == 0 ? 3e-4 : -3e-4);
+        table.rows.push_back(row);
+    }
+    return table;
+}
+
+std::vector<std::string> notes_of(double scale_ppm, double bow_mm) {
+    const setup::Setup setup = machine();
+    return identification::identify(setup, laser(setup, scale_ppm, bow_mm), {"X.scale"}).notes;
+}
+
+identification::FitParameter pose_part(int component, double value) {
+    identification::FitParameter p;
+    p.of_set_up = true;
+    p.set_up.kind = identification::SetUpQuantity::Kind::instrument;
+    p.set_up.component = component;
+    p.value = value;
+    return p;
+}
+
+}  // namespace
+
+TEST_CASE("a scale that bends is said with its straight line, one that does not is held straight",
+          "[identification]") {
+    const std::vector<std::string> bent = notes_of(30.0, 0.004), straight = notes_of(30.0, 0.0);
+    REQUIRE(bent.size() == 1);
+    // The bow is even over the travel: the straight line has the scale alone.
+    CHECK(bent[0] == "X.scale bends; as one straight line over -400 to 400 mm it is 30 ppm");
+    REQUIRE(straight.size() == 1);
+    CHECK(straight[0] == "X.scale: the readings show no curvature; its higher terms are 0");
+}
+
+TEST_CASE("the pose of an instrument in words has the parts that the readings tell",
+          "[identification]") {
+    setup::Setup setup = machine();
+    setup.instruments.emplace_back();
+    setup.instruments[0].name = "T1";
+    const auto words = [&](const std::vector<identification::FitParameter>& parts) {
+        return identification::set_up_words(setup, parts);
+    };
+    CHECK(words({}).empty());
+    CHECK(words({pose_part(6, 5e-6)}) ==
+          std::vector<std::string>{"T1 sees the machine scaled by 5.00 ppm"});
+    CHECK(
+        words({pose_part(5, 1e-3), pose_part(6, 5e-6)}) ==
+        std::vector<std::string>{"T1 sees the machine turned by 0.05730 deg, scaled by 5.00 ppm"});
+    CHECK(words({pose_part(1, 0.02)}) ==
+          std::vector<std::string>{"T1 sees the machine shifted by (0.0000, 0.0200, 0.0000) mm"});
+    CHECK(words({pose_part(2, 0.02), pose_part(4, 1e-3), pose_part(6, -1e-6)}) ==
+          std::vector<std::string>{"T1 sees the machine turned by 0.05730 deg, shifted by (0.0000, "
+                                   "0.0000, 0.0200) mm, scaled by -1.00 ppm"});
+    setup.instruments[0].sees_table = true;
+    identification::FitParameter unseen = pose_part(0, 0.5);
+    unseen.sigma = std::numeric_limits<double>::quiet_NaN();
+    CHECK(words({unseen}).empty());
+    CHECK(words({unseen, pose_part(3, 1e-3)}) ==
+          std::vector<std::string>{"the part was turned by 0.05730 deg"});
+}
+
+TEST_CASE("a side that nothing tells is said to be taken, one that the fit tells by how much",
+          "[identification]") {
+    identification::FoundSide side{0, "C", -1};
+    CHECK_FALSE(side.told());
+    CHECK(side.value() == 0.0);
+    CHECK(side.sigma() == 1.0);
+    CHECK(identification::to_string(side) ==
+          "no row tells from which side C came before its first motion, nor do the readings: taken "
+          "as -");
+    side.worse = 40.0;
+    side.side = 1;
+    CHECK(side.told());
+    CHECK(side.value() == Approx(1.0));
+    CHECK(side.sigma() < 1e-4);
+    CHECK_THAT(identification::to_string(side),
+               Catch::Contains("C came travelling + (the other side fits worse by 40 "));
+}
+
+TEST_CASE("a fit needs two readings, more readings than unknowns and effects that there are",
+          "[identification]") {
+    const setup::Setup setup = machine();
+    records::ReadingTable table = laser(setup, 10.0, 0.0);
+    CHECK_THROWS_AS(identification::identify(setup, table, {"X.scales"}), InputError);
+    table.rows = {table.rows[0], table.rows[2]};  // a scale and the laser's zero
+    CHECK_THROWS_AS(identification::identify(setup, table, {"X.scale"}), InputError);
+    table.rows.resize(1);
+    CHECK_THROWS_AS(identification::identify(setup, table, {"X.scale"}), InputError);
+}
+
+TEST_CASE("a search of keys that is ended names what it did not search", "[identification]") {
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 20, 3);
+    const records::ReadingTable readings = campaign::measured(setup, table, 1);
+    const auto result =
+        identification::identify(setup, readings, {"thermal.drift"}, [] { return false; });
+    CHECK(result.not_searched == std::vector<std::string>{"thermal.drift"});
+    CHECK(identification::identify(setup, readings, {"thermal.drift"}, [] {
+              return true;
+          }).not_searched.empty());
+}
+
+TEST_CASE("what ends a repetition by an exception comes out of all threads", "[identification]") {
+    const setup::Setup setup = machine();
+    const records::ReadingTable table = laser(setup, 10.0, 0.0);
+    identification::Identification fitted = identification::identify(setup, table, {"X.scale"});
+    for (const unsigned threads : {1U, 3U}) {
+        const identification::RepetitionPlan plan{
+            9, 1, 0, 1, threads, [](int) -> bool { throw InputError("enough", {}); }};
+        CHECK_THROWS_AS(
+            identification::repeat_identification(setup, table, {"X.scale"}, plan, fitted),
+            InputError);
+    }
+    CHECK(identification::spread({}).empty());
+    fitted.parameters[0].sigma = std::numeric_limits<double>::quiet_NaN();
+    identification::RepetitionPlan plan;
+    plan.runs = 3;
+    identification::enter_spread(
+        identification::repeat_identification(setup, table, {"X.scale"}, plan, fitted), fitted);
+    CHECK(std::isnan(fitted.parameters[0].sigma_monte_carlo));
+    CHECK(fitted.parameters[1].sigma_monte_carlo > 0.0);
+}
+
+}  // namespace trunnion
