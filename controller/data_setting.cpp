@@ -75,6 +75,9 @@ DataEntry set_data(const SortedWords& words, const Modal& modal, Frames& frames,
             set_vector(words, modal, work_offset(words, stores.work, l == 20));
             work_offset_changed(modal, frames, mover);
             return DataEntry::none;
+        case 1:  // another spelling of L11 (B-63124EN/01 p. 236)
+            set_tool_offset(words, modal, stores.tools, 11);
+            return DataEntry::none;
         case 10:
         case 11:
         case 12:

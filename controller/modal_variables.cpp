@@ -4,6 +4,9 @@ namespace trunnion::controller {
 
 namespace {
 
+/// #3005, the setting data: of its bits only INI, inch input (from memory).
+constexpr double inch_bit = 4.0;
+
 /// The group that a number from #4001 on reads.
 int group_of(int n, const Modal& modal) {
     constexpr int calls = static_cast<int>(ModalGroup::macro_call),
@@ -15,6 +18,8 @@ int group_of(int n, const Modal& modal) {
 }  // namespace
 
 std::optional<double> modal_variable(int number, const Modal& modal, const ProgramPlace& place) {
+    if (number == 3005) return modal.is(ModalGroup::units, 200) ? inch_bit : 0.0;
+    if (number == 3008) return 0.0;
     if (number < 4001 || number > 4599) return std::nullopt;
     const int n = (number - 4001) % 200 + 1;
     if (n > 130) return std::nullopt;

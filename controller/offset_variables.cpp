@@ -13,7 +13,8 @@ struct Place {
     bool length = true;  ///< in mm: read and written in the active unit
 };
 
-/// Tool offsets, memory C. Rows quoted from memory; 6000#3 V15 exchanges wear and geometry.
+/// Tool offsets, memory C. Rows quoted from memory; 6000#3 V15 exchanges wear and geometry. D
+/// offsets are #2401 and on with 6004#5 D10 only; else work offsets have those numbers.
 struct ToolRange {
     int first, count;
     double offsets::ToolOffset::*wear_order;
@@ -22,6 +23,8 @@ struct ToolRange {
 constexpr ToolRange tool_ranges[] = {
     {2001, 200, &offsets::ToolOffset::length_wear_mm, &offsets::ToolOffset::length_geometry_mm},
     {2201, 200, &offsets::ToolOffset::length_geometry_mm, &offsets::ToolOffset::length_wear_mm},
+    {2401, 200, &offsets::ToolOffset::radius_wear_mm, &offsets::ToolOffset::radius_geometry_mm},
+    {2601, 200, &offsets::ToolOffset::radius_geometry_mm, &offsets::ToolOffset::radius_wear_mm},
     {10001, 999, &offsets::ToolOffset::length_wear_mm, &offsets::ToolOffset::length_geometry_mm},
     {11001, 999, &offsets::ToolOffset::length_geometry_mm, &offsets::ToolOffset::length_wear_mm},
     {12001, 999, &offsets::ToolOffset::radius_wear_mm, &offsets::ToolOffset::radius_geometry_mm},
@@ -45,7 +48,32 @@ Place axis_place(const ControlSettings& settings, offsets::OffsetVector& vector,
     return {&vector[axis.axis], !axis.rotary};
 }
 
+/// #2500 external, #2501 G54 .. #2506 G59 of the first axis, #2600 .. of the second, up to the
+/// fourth; from memory.
+bool is_work_by_axis(const ControlSettings& settings, int number) {
+    return !settings.d_offsets_from_2401 && number >= 2500 && number <= 2806 && number % 100 <= 6;
+}
+
+/// #100301 external, #100351 G54 .. #100601 G59, #101001 G54.1 P1 .., 50 numbers each; from memory.
+Place work_place_of_six_digits(const ControlSettings& settings, offsets::WorkOffsets& work,
+                               int number) {
+    const int n = (number - 1) % 50 + 1, set = (number - 100301) / 50;
+    if (number < 100301 || !settings.has_six_digit_variables) return {};
+    if (set == 0) return axis_place(settings, work.external, n);
+    if (set <= 6) return axis_place(settings, work.standard[static_cast<std::size_t>(set - 1)], n);
+    if (number < 101001 || number >= 101001 + 50 * 300) return {};
+    return axis_place(settings, work.additional[static_cast<std::size_t>((number - 101001) / 50)],
+                      n);
+}
+
 Place work_place(const ControlSettings& settings, offsets::WorkOffsets& work, int number) {
+    if (is_work_by_axis(settings, number)) {
+        const int set = number % 100, n = (number - 2400) / 100;
+        return axis_place(
+            settings, set == 0 ? work.external : work.standard[static_cast<std::size_t>(set - 1)],
+            n);
+    }
+    if (number >= 100301) return work_place_of_six_digits(settings, work, number);
     if (number >= 5201 && number < 5341) {
         const int set = (number - 5201) / 20, n = (number - 5201) % 20 + 1;
         return axis_place(
@@ -71,8 +99,9 @@ Place fixture_place(const ControlSettings& settings, offsets::FixtureOffsets& fi
 }
 
 Place place_of(int number, const ControlSettings& settings, offsets::Stores& stores) {
-    if (number < 2001 || (number > 2400 && number < 5201)) return {};
-    if (number <= 2400 || (number >= 10001 && number <= 13999))
+    const int last_tool = settings.d_offsets_from_2401 ? 2800 : 2400;
+    if (number < 2001 || (number > 2806 && number < 5201)) return {};
+    if (number <= last_tool || (number >= 10001 && number <= 13999))
         return tool_place(settings, stores.tools, number);
     if (number >= 5521 && number < 5681) return fixture_place(settings, stores.fixture, number);
     return work_place(settings, stores.work, number);
@@ -93,7 +122,8 @@ bool set_offset_variable(int number, double value, const Modal& modal, Frames& f
     *place.value = place.length ? value * modal.units.unit_mm : value;
     if (number >= 5521 && number < 5681)
         fixture_sets_changed(modal, frames, mover);
-    else if ((number >= 5201 && number <= 8000) || number >= 14001)
+    else if ((number >= 5201 && number <= 8000) || number >= 14001 ||
+             is_work_by_axis(modal.settings, number))
         work_offset_changed(modal, frames, mover);
     return true;
 }

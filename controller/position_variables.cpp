@@ -23,10 +23,19 @@ std::optional<double> in_units(const offsets::ControlPosition& p, int n, const M
     return p[axis.axis] / (axis.rotary ? 1.0 : modal.units.unit_mm);
 }
 
+/// The rows of #5001.. again, with room for 50 axes; the servo deviation is the last of them.
+std::optional<double> position_of_six_digits(int number, const Modal& modal, const Frames& frames,
+                                             const SkipState& skip) {
+    if (!modal.settings.has_six_digit_variables || number > 100300) return std::nullopt;
+    const int n = number - 100001;
+    return in_units(shown_position(n / 50, modal, frames, skip), n % 50, modal);
+}
+
 }  // namespace
 
 std::optional<double> position_variable(int number, const Modal& modal, const Frames& frames,
                                         const SkipState& skip) {
+    if (number >= 100001) return position_of_six_digits(number, modal, frames, skip);
     if (number == 5500) return frames.fixture_number;
     if (number > 5500 && number <= 5520)
         return in_units(frames.stages.fixture, number - 5501, modal);

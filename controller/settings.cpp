@@ -89,6 +89,8 @@ ControlSettings decode_settings(const offsets::Parameters& parameters,
     s.tcp_frame = config.tcp_frame;
     if (config.dialect.generation == interpreter::ControlGeneration::fanuc_16i)
         s.largest_position = 99999999.0;
+    s.has_six_digit_variables =
+        !s.is_hurco() && config.dialect.generation != interpreter::ControlGeneration::fanuc_16i;
     s.bare_is_noted = !parameters.find(3401);
     s.bare_is_unit = s.bare_is_noted || parameters.bit(3401, 0);
     s.duplicates_alarm = parameters.bit(3403, 6);
@@ -103,6 +105,7 @@ ControlSettings decode_settings(const offsets::Parameters& parameters,
     s.work_positions_with_length = config.work_positions_with_length;
     s.work_offset_is_group_12 = config.work_offset_is_group_12;
     s.wear_first = parameters.bit(6000, 3);
+    s.d_offsets_from_2401 = parameters.bit(6004, 5);
     s.least_surface_rpm = parameters.get(3771);
     if (const double most = parameters.get(3772); most > 0.0) s.most_rpm = most;
     s.measuring = {parameters.get(6241), parameters.get(6251), parameters.get(6254)};

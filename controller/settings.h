@@ -50,6 +50,8 @@ struct ControlSettings {
     bool work_positions_with_length = true;  ///< #5041, #5061 include length (own option, see docs)
     bool work_offset_is_group_12 = false;    ///< exchanges #4012 and #4014 (own option)
     bool wear_first = false;                 ///< 6000#3 V15: #2001 geometry instead of wear
+    bool d_offsets_from_2401 = false;        ///< 6004#5 D10: #2401.. D offsets, no work offsets
+    bool has_six_digit_variables = true;     ///< #100001.. of a 30i and 0i-F
     std::uint16_t rollover = 0;              ///< 1008#0 ROA by axis letter bit
     std::uint16_t rollover_signed = 0;       ///< 1008#1 RAB: such an axis turns by the word's sign
     double least_surface_rpm = 0.0;          ///< 3771: minimum speed under G96

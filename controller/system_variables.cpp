@@ -26,8 +26,11 @@ std::optional<double> ControlVariables::find(int number) const {
 }
 
 double ControlVariables::get(int number) {
-    if (number >= 5061 && number <= 5080) reads_skip_ = true;
+    if ((number >= 5061 && number <= 5080) || (number >= 100151 && number <= 100200))
+        reads_skip_ = true;
     const auto value = find(number);
+    const bool of_d = number >= 2401 && number <= 2800 && !c_.modal.settings.d_offsets_from_2401;
+    if (!value && of_d) raise_alarm(115, "(D offsets are here with 6004#5 = 1)");
     if (!value) raise_alarm(115);
     return *value;
 }
