@@ -60,6 +60,8 @@ constexpr Switch switches[] = {
      "#5041 and on leave the tool length out", "#5041 and on include the tool length"},
     {"g89_feeds_to_initial", &Setup::g89_feeds_to_initial, "G89 under G98 feeds out to R only",
      "G89 under G98 feeds out to the initial level"},
+    {"g53_under_g91_moves", &Setup::g53_under_g91_moves, "G53 under G91 does not move",
+     "G53 under G91 moves by its words"},
     {"optional_stop", &Setup::optional_stop, "M01 goes on", "M01 stops"},
     {"threading", &Setup::threading, "there is no G33", "there is G33"},
 };

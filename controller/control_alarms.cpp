@@ -103,6 +103,10 @@ constexpr AlarmRow alarm_rows[] = {
      "G37, G45 to G48 or G60 in a state in which the emulator does not know the motion: an "
      "arc, a canned cycle, cutter compensation, G44.",
      "Write the positions themselves."},
+    {9006, "EX", "SKIP NOT EMULATED",
+     "G31 P98 ends at a torque limit, not at the skip signal, and something is in its way; G31 "
+     "P90 latches positions without a stop.",
+     "Use G31 or G31 P99, which end at the skip signal."},
 };
 
 }  // namespace

@@ -36,6 +36,8 @@ struct ControlConfig {
     /// G89 under G98: feeds all the way out to the initial level, as in the reference paths. False:
     /// feeds to R, then rapid, like G85 (Fanuc's drawing, from memory).
     bool g89_feeds_to_initial = true;
+    /// G53 under G91: moves by its words as if G53 were not there. False: the block does not move.
+    bool g53_under_g91_moves = false;
     std::vector<bool> skip_switches = std::vector<bool>(10, false);
     bool threading = false;  ///< option G33
     BuilderProfile builder;

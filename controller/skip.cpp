@@ -40,16 +40,27 @@ bool touch_again(const offsets::ControlPosition& from, const offsets::ControlPos
     return touched;
 }
 
+/// P of a Fanuc's G31. P1 to P4 and P99 end at the skip signal. P98 ends at a torque limit alone
+/// (B-63944EN-1/02 p. 27): with nothing in its way it arrives, else where the drive gives up is not
+/// known. P90, the continuous skip, is refused (from memory).
+int skip_number(const SortedWords& words, const Modal& modal) {
+    const int p = words.has('P') && !modal.settings.is_hurco() ? words.whole('P') : 0;
+    if (p == 90) raise_alarm(9006, "(G31 P90)", words.column_of('P'));
+    return p;
+}
+
 }  // namespace
 
 void skip_move(SkipState& skip, const SortedWords& words, Modal& modal, const Frames& frames,
                Mover& mover) {
     if (!modal.cutter_is_off()) raise_alarm(36);
     skip.triggered = false;
+    const bool by_torque = skip_number(words, modal) == 98;
     if (words.has_axis() || (words.present & tool_vector_letters)) {
         const offsets::ControlPosition from = frames.program;
         const offsets::ControlPosition target = commanded_position(words, modal, frames);
         skip.triggered = touch(target, mover);
+        if (skip.triggered && by_torque) raise_alarm(9006, "(G31 P98)", words.column_of('P'));
         if (skip.triggered && modal.touches_twice)
             skip.triggered = touch_again(from, target, modal, frames, mover);
     }

@@ -14,8 +14,8 @@ struct SkipState {
 /// Present position in the work frame, mm and deg: #5041... Includes the tool length if so
 /// configured (default, assumed).
 offsets::ControlPosition work_position(const Modal& modal, const Frames& frames);
-/// PS0036 under cutter compensation. After M42 a Hurco touches twice. Without an axis word there is
-/// no motion and no feed is needed.
+/// PS0036 under cutter compensation; 9006 for skips that do not end at the skip signal. After M42 a
+/// Hurco touches twice. Without an axis word there is no motion and no feed is needed.
 void skip_move(SkipState& skip, const SortedWords& words, Modal& modal, const Frames& frames,
                Mover& mover);
 

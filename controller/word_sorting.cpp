@@ -22,22 +22,30 @@ constexpr std::uint32_t known_letters =
 constexpr std::uint32_t plane_vector_letters =
     SortedWords::bit('U') | SortedWords::bit('V') | SortedWords::bit('W');
 
+/// One-shot codes that use the words of the block: of G53 and G31, say, only one can.
+bool uses_words(const GCode& code) {
+    return code.phase == Phase::shot && code.action != Action::accepted;
+}
+
+/// True when a block executes only the later one of the two.
+bool exclude_each_other(const GCode& a, const GCode& b) {
+    return a.group == b.group &&
+           (a.group != ModalGroup::one_shot || (uses_words(a) && uses_words(b)));
+}
+
 void add_code(SortedWords& w, const ControlSettings& settings, const GCode* code,
               std::uint16_t column) {
-    if (code->group != ModalGroup::one_shot) {
-        for (std::size_t i = 0; i < w.code_count; ++i) {
-            if (w.code[i]->group != code->group) continue;
-            if (settings.duplicates_alarm) raise_alarm(5074, column);
-            w.code[i] = code;
-            w.code_column[i] = column;
-            w.phases |= phase_bit(code->phase);
-            return;
-        }
+    w.phases |= phase_bit(code->phase);
+    for (std::size_t i = 0; i < w.code_count; ++i) {
+        if (!exclude_each_other(*w.code[i], *code)) continue;
+        if (settings.duplicates_alarm) raise_alarm(5074, column);
+        w.code[i] = code;
+        w.code_column[i] = column;
+        return;
     }
     if (w.code_count == SortedWords::max_codes) raise_alarm(10, column);
     w.code_column[w.code_count] = column;
     w.code[w.code_count++] = code;
-    w.phases |= phase_bit(code->phase);
 }
 
 void drop_cycle(SortedWords& w) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "controller/alarms.h"
+#include "controller/commanded.h"
 
 namespace trunnion::controller {
 
@@ -33,9 +34,25 @@ void set_local_shift(const SortedWords& words, const Modal& modal, Frames& frame
     mover.frames_changed();
 }
 
-void go_to_machine_position(const SortedWords& words, const Modal& modal, Frames& frames,
-                            Mover& mover) {
-    if (!modal.absolute()) return;
+namespace {
+
+/// G53 under G91 "is ignored" (Fanuc, from memory), which a reader can take for the block or for
+/// the code alone; a Mitsubishi M700V moves incrementally (manual p. 508).
+void without_g53(const SortedWords& words, Modal& modal, const Frames& frames, Mover& mover) {
+    if (!words.has_axis()) return;
+    if (!modal.settings.g53_under_g91_moves)
+        return mover.note(
+            "G53 under G91 is ignored and nothing moves; with g53_under_g91_moves = true the "
+            "words move incrementally");
+    mover.line(
+        modal.is(ModalGroup::motion, 0) ? motion::MotionKind::rapid : motion::MotionKind::linear,
+        commanded_position(words, modal, frames));
+}
+
+}  // namespace
+
+void go_to_machine_position(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover) {
+    if (!modal.absolute()) return without_g53(words, modal, frames, mover);
     offsets::ControlPosition target = frames.machine;
     for (const ControlAxis& entry : modal.settings.axes)
         if (words.has(entry.axis)) target[entry.axis] = words.axis_value(entry.axis);

@@ -14,8 +14,7 @@ void work_offset_changed(const Modal& modal, Frames& frames, Mover& mover);
 /// G52, absolute under G91 too.
 void set_local_shift(const SortedWords& words, const Modal& modal, Frames& frames, Mover& mover);
 /// G53: a rapid to machine coordinates; ignored under G91, as on the control.
-void go_to_machine_position(const SortedWords& words, const Modal& modal, Frames& frames,
-                            Mover& mover);
+void go_to_machine_position(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover);
 /// G92. The present position gets the coordinates given. G52 of these axes is cancelled, and all
 /// work coordinate systems shift by the same amount. In a tilted plane the shift acts along its
 /// axes and ends with it (assumed). S limits the speed of G96.

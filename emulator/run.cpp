@@ -54,6 +54,7 @@ controller::ControlConfig control_config(const setup::Setup& setup) {
     config.work_positions_with_length = setup.work_positions_with_length;
     config.work_offset_is_group_12 = setup.work_offset_is_group_12;
     config.g89_feeds_to_initial = setup.g89_feeds_to_initial;
+    config.g53_under_g91_moves = setup.g53_under_g91_moves;
     config.clamps = setup.clamps;
     config.optional_stop = setup.optional_stop;
     config.threading = setup.threading;

@@ -147,6 +147,7 @@ struct Setup {
     bool work_positions_with_length = true;     ///< #5041.. and #5061.. include the tool length
     bool work_offset_is_group_12 = false;       ///< #4012 reads G54-G59, #4014 G66 G67
     bool g89_feeds_to_initial = true;           ///< G89 under G98 feeds out all the way
+    bool g53_under_g91_moves = false;           ///< G53 under G91 moves by its words
     std::vector<controller::ClampCode> clamps;  ///< [control.clamps]
     std::vector<int> block_skip;                ///< [control] block_skip: active switches 1-9
     bool optional_stop = false;                 ///< [control] optional_stop: M01 stops

@@ -252,6 +252,7 @@ void read_control(const TomlFile& file, const TomlValue& control, const BackupRe
     read_switch(file, control, "work_positions_with_length", setup.work_positions_with_length);
     read_switch(file, control, "work_offset_is_group_12", setup.work_offset_is_group_12);
     read_switch(file, control, "g89_feeds_to_initial", setup.g89_feeds_to_initial);
+    read_switch(file, control, "g53_under_g91_moves", setup.g53_under_g91_moves);
     read_switch(file, control, "optional_stop", setup.optional_stop);
     read_switch(file, control, "threading", setup.threading);
     if (const TomlValue* table = control.find("builder"))

@@ -251,6 +251,8 @@ void read_set(Expectation& e, std::istringstream& in) {
         e.config.tcp_frame = positioning::TcpFrame::rotary_zero;
     } else if (what == "POSITIONS") {
         e.config.work_positions_with_length = false;
+    } else if (what == "G53") {
+        e.config.g53_under_g91_moves = true;
     } else if (what == "GROUP") {
         e.config.work_offset_is_group_12 = true;
     } else {

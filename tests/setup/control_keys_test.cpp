@@ -114,6 +114,15 @@ TEST_CASE("a builder's codes and variables, and G33 where the control has it") {
     CHECK_THROWS_AS(setup_with("builder = { variables = [[5, 2000]] }\n"), InputError);
 }
 
+TEST_CASE("G53 under G91 moves where the setup says so, and the setup is written so") {
+    const std::string program = "G21G90G0X5.\nG91G53X2.\n#100=#5021\nM30\n";
+    const setup::Setup first = setup_with("g53_under_g91_moves = true\n");
+    std::vector<std::string> notes;
+    const setup::Setup again = setup::parse_setup(setup::format_setup(first), "t.toml", notes);
+    CHECK(run_text(again, program).variables.at(100) == 7.0);
+    CHECK(run_text(setup_with(""), program).variables.at(100) == 5.0);
+}
+
 TEST_CASE("axis words beside a builder's G code are its own, unless the block has a motion code") {
     const setup::Setup setup = setup_with("builder = { g_codes = [313] }\n");
     const auto x_after = [&](const std::string& block) {
