@@ -29,7 +29,8 @@ struct EffectParameter {
                                                          ///< is
     bool mean_line = false;  ///< slope of the mean line of an axis. ISO 230-1 takes straightness
                              ///< from that line, and its slope is squareness
-    bool counts_periods = false;  ///< key: a number of periods in a turn, not a length or an angle
+    std::string also_set_by = {};  ///< name in files that sets several parameters to one value
+    bool counts_periods = false;   ///< key: a number of periods in a turn, not a length or an angle
     bool is_key() const { return !grid.empty(); }
 };
 

@@ -1,7 +1,28 @@
-// Dynamic errors of the drives: lag mismatch between axes, and circle contraction.
+// Dynamic errors of the drives: the response of each position loop to its commanded motion, order
+// by order. A loop of first order with the time constant T lags by T, T^2 and T^3 (the error
+// coefficients of control engineering); one of second order has others.
 #include "effects/models.h"
 
 namespace trunnion::effects {
+namespace {
+
+/// One of each axis, alike but for the name.
+void add_parameters(Effect& effect, const kinematics::Chain& chain, const char* before,
+                    const EffectParameter& like) {
+    for (const kinematics::AxisGeometry& axis : chain.axes()) {
+        effect.parameters.push_back(like);
+        effect.parameters.back().name = axis_parameter(before, axis, like.name.c_str());
+        if (axis.rotary) effect.parameters.back().also_set_by.clear();
+    }
+}
+
+std::vector<Axis> axes_of(const kinematics::Chain& chain) {
+    std::vector<Axis> axes;
+    for (const kinematics::AxisGeometry& axis : chain.axes()) axes.push_back(axis.axis);
+    return axes;
+}
+
+}  // namespace
 
 Effect servo_mismatch(const kinematics::Chain& chain) {
     Effect effect{identity_of(EffectKind::servo_mismatch),
@@ -12,14 +33,10 @@ Effect servo_mismatch(const kinematics::Chain& chain) {
                   {},
                   {},
                   SeenBy::any_encoder};
-    std::vector<Axis> axes;
-    for (const kinematics::AxisGeometry& axis : chain.axes()) {
-        axes.push_back(axis.axis);
-        effect.parameters.push_back(
-            {axis_parameter("tau_", axis, "_s"), "s", 0.25e-3, -1, {}, true});
-    }
-    effect.add = [axes](const AxisSample& sample, const emulator::Contact&,
-                        std::span<const double> value, kinematics::Perturbation& out) {
+    add_parameters(effect, chain, "tau_", {"_s", "s", 0.25e-3});
+    effect.add = [axes = axes_of(chain)](const AxisSample& sample, const emulator::Contact&,
+                                         std::span<const double> value,
+                                         kinematics::Perturbation& out) {
         for (std::size_t j = 0; j < axes.size(); ++j)
             out.axis[axes[j]] -= value[j] * sample.velocity[axes[j]];
     };
@@ -27,20 +44,28 @@ Effect servo_mismatch(const kinematics::Chain& chain) {
 }
 
 Effect servo_contour(const kinematics::Chain& chain) {
-    std::vector<Axis> axes;
-    for (const kinematics::AxisGeometry& axis : chain.axes())
-        if (!axis.rotary) axes.push_back(axis.axis);
-    return {identity_of(EffectKind::servo_contour),
-            "Fast circles come out too small or too large, growing with the square of the feed",
-            "limited bandwidth of the position loop, acceleration filters",
-            "raise loop gain or feed-forward, or lower the feed on tight curves",
-            "position + lag2_s2 * acceleration of the linear axes",
-            {{"lag2_s2", "s^2", 1.0e-4, -1, {}, true}},
-            [axes](const AxisSample& sample, const emulator::Contact&,
-                   std::span<const double> value, kinematics::Perturbation& out) {
-                for (const Axis axis : axes) out.axis[axis] += value[0] * sample.acceleration[axis];
-            },
-            SeenBy::any_encoder};
+    Effect effect{
+        identity_of(EffectKind::servo_contour),
+        "Fast circles come out too small or too large, growing with the square of the feed",
+        "limited bandwidth of the position loop, acceleration filters",
+        "raise loop gain or feed-forward, or lower the feed on tight curves",
+        "position + lag2_s2 * acceleration - lag3_s3 * jerk, each axis its own; lag2_s2 without an "
+        "axis is that of all linear axes",
+        {},
+        {},
+        SeenBy::any_encoder};
+    EffectParameter second{"_s2", "s^2", 1.0e-4};
+    second.also_set_by = "lag2_s2";
+    add_parameters(effect, chain, "lag2_", second);
+    add_parameters(effect, chain, "lag3_", {"_s3", "s^3", 1.0e-6});
+    effect.add = [axes = axes_of(chain)](const AxisSample& sample, const emulator::Contact&,
+                                         std::span<const double> value,
+                                         kinematics::Perturbation& out) {
+        for (std::size_t j = 0; j < axes.size(); ++j)
+            out.axis[axes[j]] += value[j] * sample.acceleration[axes[j]] -
+                                 value[axes.size() + j] * sample.jerk[axes[j]];
+    };
+    return effect;
 }
 
 }  // namespace trunnion::effects

@@ -110,9 +110,13 @@ class Scanner {
     std::size_t at_ = 0, word_ = 0;
 };
 
+bool is_set_by(const EffectParameter& p, const std::string& name) {
+    return p.name == name || (!name.empty() && p.also_set_by == name);
+}
+
 const EffectParameter* find_parameter(const Effect& effect, const std::string& name) {
     for (const EffectParameter& p : effect.parameters)
-        if (p.name == name) return &p;
+        if (is_set_by(p, name)) return &p;
     return nullptr;
 }
 
@@ -162,10 +166,10 @@ std::vector<double> values_of(const Effect& effect, const setup::EffectSetting& 
         std::size_t used = 0;
         for (std::size_t j = 0; j < values.size(); ++j) {
             const EffectParameter& p = effect.parameters[j];
-            if (p.name != name) continue;
+            if (!is_set_by(p, name)) continue;
             const auto k = static_cast<std::size_t>(std::max(0, p.component));
             if (k < list.size()) values[j] = list[k];
-            ++used;
+            used = std::max(used, k + 1);
         }
         if (used == 0)
             throw InputError("effect " + effect.name + " has no parameter '" + name + "'");

@@ -53,6 +53,7 @@ struct AxisSample {
     AxisPositions position;      ///< commanded machine coordinates, mm and rad
     AxisPositions velocity;      ///< mm/s and rad/s, 0 for an axis at rest
     AxisPositions acceleration;  ///< mm/s^2 and rad/s^2, commanded
+    AxisPositions jerk;          ///< mm/s^3 and rad/s^3, commanded
     AxisSides travel{};  ///< side from which each axis arrived; 0: at a reversal, or unknown
     std::array<bool, axis_count> side_unknown{};      ///< the side is not known; `travel` is
                                                       ///< assumed

@@ -47,7 +47,7 @@ class Pass {
             if (!is_continuous(row(k).device)) continue;
             const Neighbours around = neighbours(k);
             for (const Axis axis : axes) fill_velocity(k, around, axis, sample);
-            fill_acceleration(k, axes, sample);
+            fill_curvature(k, axes, sample);
             take_told(row(k), sample);
         }
     }
@@ -78,7 +78,38 @@ class Pass {
             time_s > 0.0 ? sign_of(moved, rounding) : static_cast<signed char>(0);
         const bool moves = sign_of(q(around.after, axis) - q(k, axis), rounding) != 0;
         if (sign != 0 || moves) sample.travel[index_of(axis)] = sign;
-        if (sign != 0) sample.velocity[axis] = moved / time_s;
+        if (sign == 0) return;
+        sample.velocity[axis] = moved / time_s;
+        if (row(k).device == Device::axis)
+            if (const auto at_end = velocity_at_end(k, around, axis))
+                sample.velocity[axis] = *at_end;
+    }
+
+    /// Of the first or last row of a servo log: the parabola through the velocities of the next
+    /// three rows. The difference to one side is the velocity half a step away; with a lag of 10
+    /// ms, 2 m/s^2 and rows of 10 ms that is 0.1 mm.
+    std::optional<double> velocity_at_end(std::size_t k, const Neighbours& around,
+                                          Axis axis) const {
+        const bool first = row(around.before).time_s == row(k).time_s;
+        const bool last = row(around.after).time_s == row(k).time_s;
+        if (first == last) return std::nullopt;
+        std::array<double, 3> time_s{}, velocity{};
+        std::size_t at = k;
+        for (std::size_t j = 0; j < time_s.size(); ++j) {
+            at = first ? neighbours(at).after : neighbours(at).before;
+            const auto [before, after] = neighbours(at);
+            if (row(before).time_s == row(at).time_s || row(after).time_s == row(at).time_s)
+                return std::nullopt;
+            time_s[j] = row(at).time_s - row(k).time_s;
+            velocity[j] =
+                (q(after, axis) - q(before, axis)) / (row(after).time_s - row(before).time_s);
+        }
+        double sum = 0.0;
+        for (std::size_t j = 0; j < time_s.size(); ++j) {
+            const double s = time_s[(j + 1) % 3], t = time_s[(j + 2) % 3];
+            sum += velocity[j] * s * t / ((time_s[j] - s) * (time_s[j] - t));
+        }
+        return sum;
     }
 
     using Moments = std::array<std::size_t, 5>;
@@ -96,23 +127,25 @@ class Pass {
         return list;
     }
 
-    /// Second derivatives at row k from parabolas through the neighbouring rows.
-    void fill_acceleration(std::size_t k, const std::vector<Axis>& axes, AxisSample& sample) const {
+    /// Second and third derivatives at row k from cubics through the neighbouring rows.
+    void fill_curvature(std::size_t k, const std::vector<Axis>& axes, AxisSample& sample) const {
         const std::optional<Moments> around = moments(k);
         if (!around) return;
-        Eigen::Matrix<double, 5, 3> a;
+        Eigen::Matrix<double, 5, 4> a;
         for (std::size_t j = 0; j < around->size(); ++j) {
             const double t = row((*around)[j]).time_s - row(k).time_s;
-            a.row(static_cast<Eigen::Index>(j)) << 1.0, t, 0.5 * t * t;
+            a.row(static_cast<Eigen::Index>(j)) << 1.0, t, t * t / 2.0, t * t * t / 6.0;
         }
-        const Eigen::LDLT<Eigen::Matrix3d> normal(a.transpose() * a);
+        const Eigen::LDLT<Eigen::Matrix4d> normal(a.transpose() * a);
         for (const Axis axis : axes) {
             Eigen::Matrix<double, 5, 1> moved;
             for (std::size_t j = 0; j < around->size(); ++j)
                 moved(static_cast<Eigen::Index>(j)) = q((*around)[j], axis) - q(k, axis);
             if (moved.isZero(0.0)) continue;
-            const Vector3 fit = normal.solve(a.transpose() * moved);
-            if (std::isfinite(fit(2))) sample.acceleration[axis] = fit(2);
+            const Eigen::Vector4d fit = normal.solve(a.transpose() * moved);
+            if (!fit.allFinite()) continue;
+            sample.acceleration[axis] = fit(2);
+            sample.jerk[axis] = fit(3);
         }
     }
 

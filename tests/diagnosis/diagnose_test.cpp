@@ -57,7 +57,7 @@ TEST_CASE("a single effect is named first, with its size and how far the gap shr
         {"X.backlash: gap_mm=0.004", "X.backlash", "gap_mm", 0.004},
         {"XY.squareness: angle_rad=4e-5", "XY.squareness", "angle_rad", 4e-5},
         {"servo.mismatch: tau_x_s=4e-4", "servo.mismatch", "", 0},
-        {"servo.contour: lag2_s2=1e-4", "servo.contour", "lag2_s2", 1e-4},
+        {"servo.contour: lag2_s2=1e-4", "servo.contour", "lag2_x_s2", 1e-4},
         {"thermal.drift: d_mm=[0.01, 0, 0.02], tau_s=900", "thermal.drift", "", 0},
         {"pivot.g54: dg_mm=[0.005, 0.004, -0.005]", "pivot.g54", "", 0},
         {"B.positioning: cos2_rad=2e-5, sin1_rad=2e-5", "B.positioning", "", 0},

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <random>
 
+#include "base/units.h"
 #include "diagnosis/diagnosis.h"
 #include "effects/settings.h"
 #include "emulator/replay.h"
+#include "tests/support/said.h"
 
 namespace trunnion {
 namespace {
@@ -47,6 +49,41 @@ records::ReadingTable measured(const setup::Setup& real, const records::ReadingT
     std::normal_distribution<double> noise(0.0, 1e-3);
     for (records::Reading& row : read.rows) *row.value_mm += noise(engine);
     return read;
+}
+
+/// Steady response of a loop 1 / (1 + T s + c s^2) to the oval, known in closed form, minus the
+/// command.
+double following_mm(double size_mm, double w, double phase, const double (&loop)[2]) {
+    const double real = 1.0 - loop[1] * w * w, imaginary = loop[0] * w;
+    return size_mm * (std::sin(phase - std::atan2(imaginary, real)) / std::hypot(real, imaginary) -
+                      std::sin(phase));
+}
+
+/// X and Y on ovals, 100 times a second; each test begins at a reversal of Y. `loop`: T (s) and
+/// c (s^2) of X and of Y.
+records::ReadingTable ovals(const double (&loop)[2][2], std::mt19937_64& engine) {
+    std::normal_distribution<double> noise(0.0, 3e-4);
+    std::uniform_real_distribution<double> amplitude_mm(20.0, 60.0), hz(0.3, 1.0);
+    records::ReadingTable all = log("", 0, 0.0);
+    for (int test = 0; test < 5; ++test) {
+        const double w = 2.0 * pi * hz(engine);
+        const double size_mm[] = {amplitude_mm(engine), amplitude_mm(engine)};
+        for (int k = 0; k < 600; ++k) {
+            const double phase[] = {w * 0.01 * (k / 2), w * 0.01 * (k / 2) + pi / 2};
+            const int axis = k % 2;
+            records::Reading row;
+            row.index = static_cast<int>(all.rows.size());
+            row.time_s = 10.0 * test + 0.01 * (k / 2);
+            row.test = "t" + std::to_string(test);
+            row.device = records::Device::axis;
+            row.feature = axis == 0 ? "X" : "Y";
+            row.commanded[Axis::X] = size_mm[0] * std::sin(phase[0]);
+            row.commanded[Axis::Y] = size_mm[1] * std::sin(phase[1]);
+            row.value_mm = following_mm(size_mm[axis], w, phase[axis], loop[axis]) + noise(engine);
+            all.rows.push_back(row);
+        }
+    }
+    return all;
 }
 
 }  // namespace
@@ -95,6 +132,38 @@ TEST_CASE("zeros that scatter less than the noise stand in the set-up with their
     for (const auto& p : d.set_up)
         if (p.name == "scatter of the zero of a pass") found_mm = p.value;
     CHECK(found_mm == Approx(std::sqrt(square)).epsilon(0.25));
+}
+
+TEST_CASE("the lag of a loop is mismatch and contour: no spike, no gain beside it", "[diagnosis]") {
+    const setup::Setup setup = machine();
+    std::uniform_real_distribution<double> lag_s(4e-3, 12e-3);
+    for (const unsigned seed : {1u, 2u, 3u, 4u}) {
+        std::mt19937_64 engine(seed);
+        const bool second_order = seed % 2 == 0;
+        double loop[2][2];
+        for (auto& [lag, square] : loop) {
+            lag = lag_s(engine);
+            square = second_order ? 0.5 * lag * lag : 0.0;
+        }
+        diagnosis::DiagnosisOptions options;
+        options.plan_next = false;
+        const auto d = diagnosis::diagnose(setup, ovals(loop, engine), options);
+        INFO(said(d));
+        const bool named = d.verdict == diagnosis::Verdict::explained ||
+                           d.verdict == diagnosis::Verdict::ambiguous;
+        CHECK(named);
+        REQUIRE(d.causes.size() == 2);
+        CHECK(d.causes[0].effect == "servo.mismatch");
+        CHECK(d.causes[1].effect == "servo.contour");
+        for (std::size_t axis : {0u, 1u}) {
+            const auto& [lag, square] = loop[axis];
+            const auto& p = d.causes[0].parameters[axis];
+            CHECK(std::abs(p.value - lag) < 4.0 * p.sigma);
+            CHECK(p.sigma < 1e-6);
+            CHECK(d.causes[1].parameters[axis].value == Approx(lag * lag - square).epsilon(0.02));
+        }
+        CHECK(d.after_rms_um < 0.5);
+    }
 }
 
 }  // namespace trunnion

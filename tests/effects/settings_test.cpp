@@ -90,8 +90,9 @@ TEST_CASE("injections that mean nothing are refused with their place", "[effects
     const effects::Catalogue catalogue = effects::make_catalogue(campaign::bc_setup());
     for (const char* text :
          {"C.wobble=3", "C.backlash: gap=3", "C.backlash=", "C.backlash=3 um",
-          "C.backlash: gap_rad", "C.backlash=1e-5 rest", "", "pivot.g54: dg_mm=[1, 2]",
-          "A.backlash=1urad", "C.backlash=nan", "C.backlash=infurad", "X.backlash=1e308m"}) {
+          "C.backlash: gap_rad", "C.backlash: =1", "C.backlash=1e-5 rest",
+          "servo.contour: lag2_s2=[1, 2]", "", "pivot.g54: dg_mm=[1, 2]", "A.backlash=1urad",
+          "C.backlash=nan", "C.backlash=infurad", "X.backlash=1e308m"}) {
         INFO(text);
         try {
             effects::parse_injection(text, catalogue);
@@ -102,6 +103,24 @@ TEST_CASE("injections that mean nothing are refused with their place", "[effects
             CHECK(error.line_text == text);
         }
     }
+}
+
+TEST_CASE("one name sets the contour lag of all linear axes", "[effects]") {
+    const effects::Catalogue catalogue = effects::make_catalogue(campaign::bc_setup());
+    const auto value = [&](const std::string& text, const std::string& name) {
+        const effects::Effect& effect = *effects::find_effect(catalogue, "servo.contour");
+        const auto values = effects::values_of(effect, effects::parse_injection(text, catalogue));
+        for (std::size_t j = 0; j < values.size(); ++j)
+            if (effect.parameters[j].name == name) return values[j];
+        FAIL("no parameter " << name);
+        return 0.0;
+    };
+    for (const char* name : {"lag2_x_s2", "lag2_y_s2", "lag2_z_s2"})
+        CHECK(value("servo.contour: lag2_s2=1e-4", name) == 1e-4);
+    for (const char* name : {"lag2_b_s2", "lag2_c_s2", "lag3_x_s3"})
+        CHECK(value("servo.contour: lag2_s2=1e-4", name) == 0.0);
+    CHECK(value("servo.contour: lag2_s2=1e-4, lag2_y_s2=2e-4", "lag2_y_s2") == 2e-4);
+    CHECK(value("servo.contour: lag2_s2=1e-4, lag2_y_s2=2e-4", "lag2_x_s2") == 1e-4);
 }
 
 TEST_CASE("values and settings are each other's inverse", "[effects]") {
