@@ -46,11 +46,11 @@ std::vector<TablePoint> points_of(const ColumnGroup& group, const Eigen::VectorX
         for (Eigen::Index j = 0; j < each && !table.knots.empty(); ++j) {
             const int d = table.directions[k];
             const Eigen::Index at = static_cast<Eigen::Index>(k) * each + j;
-            points.push_back({effects::motion_name(d, table.axis),
-                              table.knots[static_cast<std::size_t>(j)], value(at),
-                              sigma(at) * table_unit(d), table.axis.rotary ? "rad" : "mm",
-                              d < 3 ? "mm" : "rad",
-                              !table.axis.rotary && d == effects::main_direction(table.axis)});
+            points.push_back(
+                {table.play ? "gap" : effects::motion_name(d, table.axis),
+                 table.knots[static_cast<std::size_t>(j)], value(at), sigma(at) * table_unit(d),
+                 table.axis.rotary ? "rad" : "mm", d < 3 ? "mm" : "rad",
+                 !table.play && !table.axis.rotary && d == effects::main_direction(table.axis)});
         }
     constexpr int places = 36;  // points of a whole turn, from its harmonics
     for (std::size_t k = 0; k < table.directions.size() && table.knots.empty(); ++k)
@@ -136,6 +136,16 @@ Cause cause_of(const FoundModel& f, const Claim& claim) {
     }
     cause.points = points_of(group, own, spread);
     cause.holds_between = f.judgement.interpolates[claim.position];
+    if (group.table.play) {
+        cause.what =
+            "The backlash of the axis changes along its travel; beside it, what is the same "
+            "everywhere is a cause of its own";
+        cause.usual_cause = "screw or rack worn where it works most";
+        cause.remedy =
+            "inspect the screw; one backlash value of the control is right at one place "
+            "only, pitch error tables for both directions are right at all";
+        return cause;
+    }
     cause.what = "An error of the axis that follows its position in a form of its own";
     cause.usual_cause = "screw, scale, guide or bearing as they are; no single fault";
     cause.remedy = "enter the table as pitch or straightness compensation of the axis";

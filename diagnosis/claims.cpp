@@ -165,7 +165,7 @@ void name_axis(const Design& design, const Challenged& found, double seen, Claim
     const ColumnGroup& own = design.group(found.model.members[claim.position]);
     const auto is_family = [&](std::size_t k) {
         const ColumnGroup& group = design.group(k);
-        return group.kind == GroupKind::table && group.table.axis.axis == own.table.axis.axis;
+        return group.kind == GroupKind::table && are_kindred(group.table, own.table);
     };
     const double any = std::min(seen, probability_against(found.of_axis[claim.position]));
     if (own.kind != GroupKind::table || found.of_axis[claim.position].model.members.empty() ||

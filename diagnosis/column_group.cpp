@@ -11,6 +11,10 @@ double table_unit(int direction) {
     return direction < 3 ? 5e-3 : 40e-6;
 }
 
+bool are_kindred(const TableForm& a, const TableForm& b) {
+    return a.axis.axis == b.axis.axis && (a.play == nullptr) == (b.play == nullptr);
+}
+
 bool has_keys(const effects::Effect& effect) {
     return std::any_of(effect.parameters.begin(), effect.parameters.end(),
                        [](const effects::EffectParameter& p) { return p.is_key(); });
@@ -31,13 +35,20 @@ Eigen::MatrixXd table_features(const emulator::Replay& replay,
     Eigen::MatrixXd features =
         Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(replay.size()),
                               each * static_cast<Eigen::Index>(table.directions.size()));
+    Eigen::VectorXd play;
+    if (table.play)
+        play =
+            identification::effect_column(replay, gradient, {*table.play, table.play->zeros(), 0}) *
+            (table_unit(table.directions[0]) / table.play->parameters[0].typical);
     for (std::size_t i = 0; i < replay.size(); ++i) {
         const double q = replay.sample(i).position[table.axis.axis];
         const SmallMotion& motion = gradient[i].motion[index_of(table.axis.axis)];
         const auto row = static_cast<Eigen::Index>(i);
         for (std::size_t k = 0; k < table.directions.size(); ++k) {
             const int d = table.directions[k];
-            const double by = table_unit(d) * (d < 3 ? motion.shift_mm(d) : motion.tilt_rad(d - 3));
+            const double by =
+                table.play ? play(row)
+                           : table_unit(d) * (d < 3 ? motion.shift_mm(d) : motion.tilt_rad(d - 3));
             const Eigen::Index at = each * static_cast<Eigen::Index>(k);
             if (!table.knots.empty()) {
                 const auto [knot, weight] = estimation::place_between(table.knots, q);

@@ -27,11 +27,14 @@ struct TableForm {
     kinematics::AxisGeometry axis;  ///< as in the chain
     std::vector<int> directions;    ///< 0..5 = X Y Z (mm), A B C (rad), along and about + axes of M
     std::vector<double> knots;      ///< mm or rad, rising; empty: harmonics
-    int first_order = 0, orders = 0;  ///< cos, sin of each order
+    int first_order = 0, orders = 0;        ///< cos, sin of each order
+    const effects::Effect* play = nullptr;  ///< a backlash: its value depends on the place
     Eigen::Index per_direction() const {
         return knots.empty() ? 2 * orders : static_cast<Eigen::Index>(knots.size());
     }
 };
+/// Tables that the same readings may confuse: of one axis, both or neither of its play.
+bool are_kindred(const TableForm& a, const TableForm& b);
 /// Size of one unit of a table's feature: 5 um or 40 urad, returned in mm or rad.
 double table_unit(int direction);
 

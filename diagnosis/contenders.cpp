@@ -221,7 +221,7 @@ Contender contender_of_axis(const Searching& search, const Model& chosen, const 
     if (held.kind != GroupKind::table || probability_against(found.contenders[position]) >= family)
         return {};
     return best_without(search, chosen, rows, [&](const ColumnGroup& group) {
-        return group.kind == GroupKind::table && group.table.axis.axis == held.table.axis.axis;
+        return group.kind == GroupKind::table && are_kindred(group.table, held.table);
     });
 }
 

@@ -205,7 +205,8 @@ void merge_free_forms(const Outcome& f, std::vector<Claim>& claims) {
         double sum = 0.0, most = 0.0;
         for (std::size_t k = 0; k < claims.size(); ++k) {
             const ColumnGroup& group = f.design.group(f.model.members[claims[k].position]);
-            if (group.kind != GroupKind::table || group.table.axis.axis != axis) continue;
+            if (group.kind != GroupKind::table || group.table.axis.axis != axis || group.table.play)
+                continue;
             forms.push_back(k);
             sum += claims[k].share;
             most = std::max(most, claims[k].share);

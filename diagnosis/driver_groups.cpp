@@ -34,8 +34,8 @@ std::vector<double> tabulate(std::size_t n, const RowFunction& f) {
 class DriverList {
   public:
     DriverList(const emulator::Replay& replay, const records::ReadingTable& table,
-               const identification::BaseModel& base)
-        : replay_(replay), table_(table), base_(base) {
+               const identification::BaseModel& base, std::vector<Axis> with_play)
+        : replay_(replay), table_(table), base_(base), with_play_(std::move(with_play)) {
         positions();
         products();
         directions();
@@ -74,6 +74,27 @@ class DriverList {
             for (const RowFunction& c : carriers)
                 driver.columns.push_back(tabulate(n(), [&](std::size_t i) { return f(i) * c(i); }));
         drivers_.push_back(std::move(driver));
+    }
+
+    /// More columns of the driver added last.
+    void extend(const std::vector<RowFunction>& functions,
+                const std::vector<RowFunction>& carriers) {
+        for (const RowFunction& f : functions)
+            for (const RowFunction& c : carriers)
+                drivers_.back().columns.push_back(
+                    tabulate(n(), [&](std::size_t i) { return f(i) * c(i); }));
+    }
+
+    /// Carriers of what depends on side and place. Along an axis whose play has a table that is a
+    /// cause with a name, and no driver.
+    std::vector<RowFunction> beside_play(Axis axis) const {
+        if (std::find(with_play_.begin(), with_play_.end(), axis) == with_play_.end())
+            return {machine(0), machine(1), machine(2), axis_response(axis)};
+        std::vector<RowFunction> across;
+        const int along = effects::main_direction(*base_.setup.machine.chain.find(axis));
+        for (int d = 0; d < 3; ++d)
+            if (d != along) across.push_back(machine(d));
+        return across;
     }
 
     std::vector<RowFunction> machine_axes() const { return {machine(0), machine(1), machine(2)}; }
@@ -179,10 +200,11 @@ class DriverList {
                 return sign(i) * std::exp(-s / (turns(axis) ? 0.1 : 3.0));
             };
             add("direction of " + name, "machine frame",
-                "changes sign with the direction of " + name,
-                {sign, [=](std::size_t i) { return sign(i) * q(i); },
-                 [=](std::size_t i) { return sign(i) * q(i) * q(i); }, since},
+                "changes sign with the direction of " + name, {sign, since},
                 {machine(0), machine(1), machine(2), axis_response(axis)});
+            extend({[=](std::size_t i) { return sign(i) * q(i); },
+                    [=](std::size_t i) { return sign(i) * q(i) * q(i); }},
+                   beside_play(axis));
         }
     }
 
@@ -285,6 +307,7 @@ class DriverList {
     const emulator::Replay& replay_;
     const records::ReadingTable& table_;
     const identification::BaseModel& base_;
+    std::vector<Axis> with_play_;  ///< axes whose play has a table
     std::vector<Driver> drivers_;
 };
 
@@ -292,7 +315,10 @@ class DriverList {
 
 void add_driver_groups(Design& design, const Prepared& prepared, const Whitener& whitener,
                        Eigen::Index owned) {
-    const DriverList list(prepared.replay, prepared.table, prepared.base);
+    std::vector<Axis> with_play;
+    for (const Design::Entry& entry : design.groups())
+        if (entry.group.table.play) with_play.push_back(entry.group.table.axis.axis);
+    const DriverList list(prepared.replay, prepared.table, prepared.base, std::move(with_play));
     const double prior = rules::table_prior - std::log(static_cast<double>(list.all().size()));
     for (const Driver& driver : list.all()) {
         Eigen::MatrixXd columns(static_cast<Eigen::Index>(prepared.replay.size()),

@@ -37,6 +37,10 @@ void add_free_form(setup::Setup& setup, const ColumnGroup& group,
                    const Eigen::VectorXd& coefficients) {
     const Eigen::VectorXd value = table_values(group, coefficients);
     const Eigen::Index each = group.table.per_direction();
+    if (group.table.play) {
+        add_table(setup.gap[index_of(group.table.axis.axis)], group.table.knots, value);
+        return;
+    }
     auto& motion = setup.machine.errors.axis[index_of(group.table.axis.axis)].motion;
     for (std::size_t k = 0; k < group.table.directions.size(); ++k) {
         kinematics::ErrorCurve& curve = motion[static_cast<std::size_t>(group.table.directions[k])];

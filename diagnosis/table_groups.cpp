@@ -29,6 +29,7 @@ constexpr double by_an_arm = -0.7;  // ln 0.5
 constexpr Family families[] = {{EffectKind::positioning, false, true, false, false, 40, 24, 2},
                                {EffectKind::straightness, false, false, false, false, 24, 12, 3},
                                {EffectKind::angular, false, false, true, true, 16, 8, 2, by_an_arm},
+                               {EffectKind::backlash, false, true, false, false, 24, 12, 1},
                                {EffectKind::positioning, true, true, true, false, 40, 24, 2},
                                {EffectKind::radial, true, false, false, false, 24, 12, 3},
                                {EffectKind::axial, true, true, false, false, 24, 12, 2},
@@ -116,6 +117,23 @@ std::vector<Shape> shapes_of(const Family& family, const TableForm& table) {
     return table.knots.empty() ? shapes_of_turn(table) : shapes_at_knots(family, table.knots);
 }
 
+/// True when the readings see the play from both sides on most of the range; elsewhere it cannot
+/// be told from positioning.
+bool sees_both_sides(const Prepared& p, const TableForm& table) {
+    std::vector<int> sides(table.knots.size(), 0);
+    const Eigen::VectorXd column = identification::effect_column(
+        p.replay, p.base.gradient, {*table.play, table.play->zeros(), 0});
+    for (std::size_t i = 0; i < p.replay.size(); ++i) {
+        const int travel = p.replay.sample(i).travel[index_of(table.axis.axis)];
+        if (travel == 0 || column(static_cast<Eigen::Index>(i)) == 0.0) continue;
+        const auto [knot, weight] =
+            estimation::place_between(table.knots, p.replay.sample(i).position[table.axis.axis]);
+        sides[static_cast<std::size_t>(knot) + (weight > 0.5 ? 1 : 0)] |= travel > 0 ? 1 : 2;
+    }
+    const auto both = std::count(sides.begin(), sides.end(), 3);
+    return both >= 4 && 2 * static_cast<std::size_t>(both) >= sides.size();
+}
+
 TableForm form_of(const Family& family, const kinematics::AxisGeometry& axis,
                   const std::vector<double>& places) {
     TableForm table{family.motion, axis, directions_of(family, axis), {}, 0, 0};
@@ -131,8 +149,12 @@ TableForm form_of(const Family& family, const kinematics::AxisGeometry& axis,
 
 void add_family(Design& design, const Prepared& p, const Whitener& whitener, const Family& family,
                 const kinematics::AxisGeometry& axis) {
-    const TableForm table = form_of(family, axis, places_of(p, axis.axis));
+    TableForm table = form_of(family, axis, places_of(p, axis.axis));
     if (table.orders == 0 && table.knots.size() < 4) return;
+    if (family.motion == EffectKind::backlash) {
+        table.play = effects::find_effect(p.catalogue, family.motion, axis.axis);
+        if (!table.play || !sees_both_sides(p, table)) return;
+    }
     const std::vector<Shape> shapes = shapes_of(family, table);
     if (shapes.empty()) return;
     Eigen::MatrixXd white = table_features(p.replay, p.base.gradient, table);

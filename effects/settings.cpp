@@ -1,6 +1,7 @@
 #include "effects/settings.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -236,12 +237,41 @@ void refuse_effect_name(const setup::Setup& setup, const std::string& name) {
     throw InputError(message);
 }
 
+namespace {
+
+/// The play of an axis where it depends on the place.
+class PlayOverPlace final : public emulator::EffectModel {
+  public:
+    PlayOverPlace(EffectFunction backlash, Axis axis, kinematics::ErrorCurve gap)
+        : backlash_(std::move(backlash)), axis_(axis), gap_(std::move(gap)) {}
+    void perturb(const AxisSample& sample, const emulator::Contact& contact,
+                 kinematics::Perturbation& out) const override {
+        backlash_(sample, contact, std::array{gap_(sample.position[axis_])}, out);
+    }
+
+  private:
+    EffectFunction backlash_;
+    Axis axis_;
+    kinematics::ErrorCurve gap_;
+};
+
+bool has_gaps(const setup::Setup& setup) {
+    return std::any_of(setup.gap.begin(), setup.gap.end(),
+                       [](const kinematics::ErrorCurve& gap) { return !gap.is_zero(); });
+}
+
+}  // namespace
+
 emulator::EffectModels active_models(const setup::Setup& setup) {
     emulator::EffectModels models;
     if (auto compensation = emulator::control_compensation(setup))
         models.push_back(std::move(compensation));
-    if (setup.effects.empty()) return models;
+    if (setup.effects.empty() && !has_gaps(setup)) return models;
     const Catalogue catalogue = make_catalogue(setup);
+    for (const Effect& effect : catalogue)
+        if (effect.kind == EffectKind::backlash && !setup.gap[index_of(*effect.axis)].is_zero())
+            models.push_back(std::make_shared<PlayOverPlace>(effect.add, *effect.axis,
+                                                             setup.gap[index_of(*effect.axis)]));
     for (const setup::EffectSetting& setting : setup.effects) {
         const Effect* effect = find_effect(catalogue, setting.name);
         if (!effect) refuse_effect_name(setup, setting.name);

@@ -140,7 +140,10 @@ struct Setup {
                                                      ///< the first move
     std::array<bool, axis_count> scale_encoder{};  ///< encoder = "scale": does not see the backlash
                                                    ///< of the drive
-    std::vector<EffectSetting> effects;            ///< including the keys backlash and pretravel
+    /// Backlash that depends on the place: backlash_mm, backlash_rad given as a table. The gap at a
+    /// position, mm or rad; it adds to the effect X.backlash.
+    std::array<kinematics::ErrorCurve, axis_count> gap{};
+    std::vector<EffectSetting> effects;  ///< including the keys backlash and pretravel
     interpreter::Dialect dialect;
     positioning::TcpFrame tcp_frame =
         positioning::TcpFrame::start;           ///< [control] tcp_frame = "start" or "rotary_zero"

@@ -135,6 +135,9 @@ std::string machine_text(const Setup& setup) {
         const kinematics::AxisErrors& own = setup.machine.errors.axis[index_of(axis.axis)];
         out += axis_text(axis);
         if (setup.scale_encoder[index_of(axis.axis)]) out += "encoder = \"scale\"\n";
+        if (const kinematics::ErrorCurve& gap = setup.gap[index_of(axis.axis)]; !gap.is_zero())
+            out += (axis.rotary ? "backlash_rad = " : "backlash_mm = ") +
+                   curve_text(gap, axis.rotary) + '\n';
         errors += axis_error_text(axis, own);
     }
     for (const kinematics::AxisGeometry& axis : setup.auxiliary)

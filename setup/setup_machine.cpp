@@ -67,6 +67,22 @@ void read_direction(const TomlFile& file, const TomlValue& table, kinematics::Ax
     axis.direction = std::abs(v.norm() - 1.0) < 1e-15 ? v : Vector3(v.normalized());
 }
 
+kinematics::ErrorCurve read_curve(const TomlFile& file, const TomlValue& value, bool rotary);
+
+/// One gap everywhere is the effect; a gap that depends on the place is a curve.
+void read_gap(const TomlFile& file, const TomlValue& table, const kinematics::AxisGeometry& axis,
+              Setup& setup) {
+    const TomlValue* gap = table.find(axis.rotary ? "backlash_rad" : "backlash_mm");
+    if (!gap) return;
+    if (gap->kind == TomlValue::Kind::table)
+        setup.gap[index_of(axis.axis)] = read_curve(file, *gap, axis.rotary);
+    else
+        add_effect_key(
+            file, *gap,
+            {axis.name + ".backlash", axis.rotary ? "gap_rad" : "gap_mm", file.number(*gap)},
+            setup);
+}
+
 void read_axis(const TomlFile& file, const TomlValue& table, kinematics::AxisGeometry& axis,
                Setup& setup) {
     read_kind(file, table, axis);
@@ -80,11 +96,7 @@ void read_axis(const TomlFile& file, const TomlValue& table, kinematics::AxisGeo
     read_direction(file, table, axis);
     read_limits(file, table, axis);
     read_dynamics(file, table, axis);
-    if (const TomlValue* gap = table.find(axis.rotary ? "backlash_rad" : "backlash_mm"))
-        add_effect_key(
-            file, *gap,
-            {axis.name + ".backlash", axis.rotary ? "gap_rad" : "gap_mm", file.number(*gap)},
-            setup);
+    read_gap(file, table, axis, setup);
 }
 
 kinematics::AxisGeometry* find_axis(kinematics::Chain& chain, std::string_view name) {

@@ -79,6 +79,11 @@ void add_keys(const kinematics::Chain& chain, std::vector<Wrong>& list) {
         const std::string of(1, letter_of(axis.axis)), section = "[machine.axis." + of + "]";
         const std::string gap = axis.rotary ? "backlash_rad = 6e-5" : "backlash_mm = 0.006";
         list.push_back({of + " backlash key", {{section, gap}}});
+        const std::string curve =
+            axis.rotary ? "backlash_rad = { constant = 2e-5, harmonics = [[2, 4e-5, 1e-5]] }"
+                        : "backlash_mm = { at_mm = [-300, 0, 40, 300], value = [0.004, 0.01, 0, "
+                          "0.006] }";
+        list.push_back({of + " backlash over the place", {{section, curve}}});
         list.push_back({of + " backlash, side -",
                         {{section, gap}, {"[machine]", "side = { " + of + " = \"-\" }"}}});
         const Vector3 &d = axis.direction, &q = axis.point_mm;

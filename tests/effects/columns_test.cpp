@@ -93,6 +93,25 @@ TEST_CASE("backlash shifts by half the gap on the side it comes from", "[effects
     }
 }
 
+TEST_CASE("a backlash over the place is at each place the backlash of that gap", "[effects]") {
+    const Bench bench;
+    setup::Setup on = bench.setup;
+    on.gap[index_of(Axis::X)].at = {-1000.0, 1000.0};
+    on.gap[index_of(Axis::X)].value = {-0.1, 0.1};  // 0.1 um a mm
+    const auto gap = bench.change("X.backlash=1um");
+    const auto read = emulator::predicted(on, bench.table, effects::active_models(on));
+    const auto off = emulator::predicted(bench.setup, bench.table, {});
+    double most = 0.0;
+    for (std::size_t i = 0; i < bench.table.rows.size(); ++i) {
+        if (!off.rows[i].value_mm) continue;
+        const double change = *read.rows[i].value_mm - *off.rows[i].value_mm;
+        const double at_mm = bench.table.rows[i].commanded[Axis::X];
+        CHECK(change == Approx(gap[i] * 0.1 * at_mm).margin(2e-6));
+        most = std::max(most, std::abs(change));
+    }
+    CHECK(most > 1e-3);
+}
+
 TEST_CASE("rotary backlash moves the found sphere tangentially", "[effects]") {
     const Bench bench;
     const auto change = bench.change("C.backlash=60urad");

@@ -322,6 +322,23 @@ TEST_CASE("names of effects without quotes are told how to write them") {
     CHECK(read(head + "[effects.\"C.backlash\"]\ngap_rad = 1e-5\n").effects.size() == 1);
 }
 
+TEST_CASE("a backlash that depends on the place is a curve beside the effect") {
+    const setup::Setup s = read(
+        "[machine]\nchain = \"w C b X Y Z t\"\n"
+        "[machine.axis.C]\ndirection = [0, 0, -1]\npoint_mm = [0, 0, 0]\n"
+        "backlash_rad = { constant = 1e-5 }\n"
+        "[machine.axis.X]\nbacklash_mm = { at_mm = [0, 400], value = [0.004, 0.012] }\n"
+        "[effects]\n\"X.backlash\" = { gap_mm = 0.001 }\n");
+    REQUIRE(s.effects.size() == 1);
+    CHECK(s.gap[index_of(Axis::X)](100.0) == Approx(0.006));
+    CHECK(s.gap[index_of(Axis::X)](500.0) == Approx(0.012));
+    CHECK(s.gap[index_of(Axis::C)](1.0) == 1e-5);
+    CHECK(s.gap[index_of(Axis::Y)].is_zero());
+    const std::string text = setup::format_setup(s);
+    CHECK_THAT(text, Catch::Contains("backlash_mm = { at_mm = [0, 400]"));
+    CHECK(setup::format_setup(read(text)) == text);
+}
+
 TEST_CASE("keys for backlash and pretravel are effects") {
     const std::string head =
         "[machine]\nchain = \"w C b X Y Z t\"\nside = { C = \"-\" }\n"

@@ -1,0 +1,122 @@
+// A backlash that depends on the place: a laser's runs both ways (ISO 230-2) tell it, one way does
+// not.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "diagnosis/diagnosis.h"
+#include "effects/settings.h"
+#include "emulator/replay.h"
+#include "tests/support/said.h"
+
+namespace trunnion {
+namespace {
+
+constexpr double range_mm = 400.0, sigma_mm = 4e-4;
+
+setup::Setup machine() {
+    std::vector<std::string> notes;
+    return setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n"
+        "[machine.axis.X]\ndirection = [1, 0, 0]\n"
+        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -150]\n"
+        "[model]\nmodelled = []\nnoise_um = { linear = 0.4 }\n",
+        "s.toml", notes);
+}
+
+using GapOverPlace = std::function<double(double at_mm)>;
+
+/// Five runs over 21 targets, up and down, or only up. The play is in the values, not in a setup.
+records::ReadingTable laser(const GapOverPlace& gap_mm, unsigned seed, bool both_ways = true) {
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> noise(0.0, sigma_mm);
+    records::ReadingTable table;
+    table.path = "laser.csv";
+    table.axes = {Axis::X, Axis::Y, Axis::Z};
+    table.side_before[index_of(Axis::X)] = -1;
+    const auto add = [&](double at_mm, int side) {
+        records::Reading row;
+        row.index = static_cast<int>(table.rows.size());
+        row.time_s = 5.0 * row.index;
+        row.test = "laser";
+        row.commanded[Axis::X] = at_mm;
+        if (side != 0) {
+            row.device = records::Device::linear;
+            row.feature = "R1";
+            row.direction_M = Vector3(1, 0, 0);
+            row.value_mm = 0.5 * side * gap_mm(at_mm) + noise(engine);
+        }
+        table.rows.push_back(row);
+    };
+    for (int run = 0; run < 5; ++run) {
+        add(-10.0, 0);
+        for (int k = 0; k <= 20; ++k) add(20.0 * k, 1);
+        add(range_mm + 10.0, 0);
+        for (int k = 20; k >= 0 && both_ways; --k) add(20.0 * k, -1);
+    }
+    return table;
+}
+
+diagnosis::Diagnosis diagnosed(const records::ReadingTable& table) {
+    diagnosis::DiagnosisOptions options;
+    options.plan_next = false;
+    return diagnosis::diagnose(machine(), table, options);
+}
+
+const diagnosis::Cause* table_of_play(const diagnosis::Diagnosis& d) {
+    for (const diagnosis::Cause& c : d.causes)
+        if (c.effect == "X.backlash" && !c.points.empty()) return &c;
+    return nullptr;
+}
+
+/// Largest difference between the gap that the written setup has and the true one.
+double farthest_mm(const setup::Setup& setup, const GapOverPlace& gap_mm) {
+    double constant_mm = 0.0, most = 0.0;
+    for (const setup::EffectSetting& e : setup.effects)
+        if (e.name == "X.backlash") constant_mm = e.parameters.at("gap_mm").front();
+    for (double at_mm = 0.0; at_mm <= range_mm; at_mm += 20.0)
+        most = std::max(
+            most, std::abs(constant_mm + setup.gap[index_of(Axis::X)](at_mm) - gap_mm(at_mm)));
+    return most;
+}
+
+}  // namespace
+
+TEST_CASE("a play that grows along the travel, or is worn in the middle, is a table",
+          "[diagnosis]") {
+    const GapOverPlace shapes[] = {
+        [](double at_mm) { return 4e-3 + 8e-3 * at_mm / range_mm; },
+        [](double at_mm) { return 10e-3 * std::exp(-std::pow((at_mm - 200.0) / 70.0, 2)); }};
+    for (const GapOverPlace& gap_mm : shapes)
+        for (const unsigned seed : {1u, 2u}) {
+            const auto d = diagnosed(laser(gap_mm, seed));
+            INFO(said(d));
+            CHECK(d.explained > 0.9);
+            const diagnosis::Cause* play = table_of_play(d);
+            REQUIRE(play);
+            CHECK(play->points.front().error == "gap");
+            CHECK(d.after_rms_um < 0.6);
+            for (const diagnosis::Cause& c : d.causes) CHECK(c.effect == "X.backlash");
+            CHECK(farthest_mm(d.setup, gap_mm) < 4.0 * sigma_mm);
+        }
+}
+
+TEST_CASE("the same play everywhere is no table", "[diagnosis]") {
+    for (const unsigned seed : {1u, 2u, 3u}) {
+        const auto d = diagnosed(laser([](double) { return 8e-3; }, seed));
+        INFO(said(d));
+        CHECK_FALSE(table_of_play(d));
+        CHECK(d.verdict == diagnosis::Verdict::explained);
+    }
+}
+
+TEST_CASE("runs one way do not tell play from positioning", "[diagnosis]") {
+    const auto d = diagnosed(
+        laser([](double at_mm) { return 10e-3 * std::exp(-std::pow((at_mm - 200.0) / 70.0, 2)); },
+              1, false));
+    INFO(said(d));
+    CHECK_FALSE(table_of_play(d));
+}
+
+}  // namespace trunnion
