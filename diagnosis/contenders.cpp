@@ -16,6 +16,9 @@ constexpr double main_part = 0.5;      ///< of a contribution: the cause is rath
 constexpr std::size_t more = 2;        ///< members that it may have beyond the chosen model
 constexpr int most_replaced = 3;       ///< models that give way to a contender
 
+/// Which groups a model must do without.
+using Excluded = std::function<bool(const ColumnGroup&)>;
+
 /// Groups taken out of the offers as long as this exists.
 class Withheld {
   public:
@@ -62,9 +65,9 @@ double weight_of(Design& design, const Model& model) {
     return sum;
 }
 
-BlockLoss loss_of(Design& design, const Model& model, const LeftOutRows& rows) {
+BlockLoss loss_of(FoldColumns& columns, const Model& model) {
     const std::vector<bool> all(model.members.size(), true);
-    return LeftOut(design, model, rows.folds, rows.used).loss(all, all);
+    return LeftOut(columns, model).loss(all, all);
 }
 
 /// Name of a member that is a cause, else empty.
@@ -81,13 +84,23 @@ std::optional<std::size_t> earlier_member(const Design& design, const Challenged
     return std::nullopt;
 }
 
+/// The chosen model with what every contender is compared with.
+struct Standing {
+    Model model;
+    double weight;
+    BlockLoss loss;  ///< of left-out readings
+    Standing(FoldColumns& columns, Model chosen)
+        : model(std::move(chosen)),
+          weight(weight_of(columns.design(), model)),
+          loss(loss_of(columns, model)) {}
+};
+
 /// A model against the chosen one, on left-out readings with all members of both.
-Contender against(Design& design, const Model& chosen, const LeftOutRows& rows, Model model) {
+Contender against(FoldColumns& rows, const Standing& chosen, Model model) {
     Contender contender{std::move(model), 0.0};
-    contender.ahead = weight_of(design, contender.model) - weight_of(design, chosen);
-    const Saving saving =
-        saving_of(loss_of(design, contender.model, rows), loss_of(design, chosen, rows));
-    const double per_nat = 2.0 * chosen.variances.nu * chosen.variances.nu;
+    contender.ahead = weight_of(rows.design(), contender.model) - chosen.weight;
+    const Saving saving = saving_of(loss_of(rows, contender.model), chosen.loss);
+    const double per_nat = 2.0 * chosen.model.variances.nu * chosen.model.variances.nu;
     contender.predicted = saving.sum / per_nat;
     contender.spread = saving.spread / per_nat;
     return contender;
@@ -137,13 +150,13 @@ double alone(const Design& design, std::size_t group, const Eigen::VectorXd& par
 /// The chosen model with a squareness, and what that leaves of the cause without its slope, in
 /// place of a member that is mostly slope. An axis with a bow has such a squareness as often as
 /// not: it is no second improbable cause.
-std::optional<Contender> with_slope_apart(const Searching& search, const Model& chosen,
-                                          const LeftOutRows& rows, std::size_t position) {
+std::optional<Contender> with_slope_apart(const Searching& search, const Standing& chosen,
+                                          FoldColumns& rows, std::size_t position) {
     Design& design = search.design;
-    const std::string cause = design.group(chosen.members[position]).name;
-    const Eigen::VectorXd part = contributions(design, chosen, fit_of(design, chosen))
+    const std::string cause = design.group(chosen.model.members[position]).name;
+    const Eigen::VectorXd part = contributions(design, chosen.model, fit_of(design, chosen.model))
                                      .col(static_cast<Eigen::Index>(position));
-    Model model = without(chosen, position);
+    Model model = without(chosen.model, position);
     const auto added = [&](const std::function<bool(std::size_t)>& takes) -> std::optional<double> {
         for (const Offer& offer : offers(design, model, is_cause)) {
             if (!takes(offer.group)) continue;
@@ -162,27 +175,28 @@ std::optional<Contender> with_slope_apart(const Searching& search, const Model& 
                std::none_of(group.parameters.begin(), group.parameters.end(),
                             [&](std::size_t j) { return group.effect->parameters[j].mean_line; });
     });
-    Contender contender = against(design, chosen, rows, std::move(model));
+    Contender contender = against(rows, chosen, std::move(model));
     contender.ahead += std::log(0.5) - *prior;
     return contender;
 }
 
-}  // namespace
-
-Contender best_without(const Searching& search, const Model& chosen, const LeftOutRows& rows,
+/// The best model without a cause, with up to `more` members more.
+Contender best_without(const Searching& search, const Standing& chosen, FoldColumns& rows,
                        const Excluded& excluded) {
     Design& design = search.design;
     const Withheld withheld(design, excluded);
-    Model model = chosen;
+    Model model = chosen.model;
     for (std::size_t k = model.members.size(); k-- > 0;)
         if (excluded(design.group(model.members[k]))) model = without(model, k);
     SearchSetting setting = search.setting;
-    setting.most_members = std::max(setting.most_members, chosen.members.size() + more);
+    setting.most_members = std::max(setting.most_members, chosen.model.members.size() + more);
     model = grown(design, setting, tuned(design, setting, std::move(model), 2));
-    if (weight_of(design, model) > weight_of(design, chosen) - hopeless)
+    if (weight_of(design, model) > chosen.weight - hopeless)
         model = settled(design, setting, std::move(model));
-    return against(design, chosen, rows, std::move(model));
+    return against(rows, chosen, std::move(model));
 }
+
+}  // namespace
 
 double probability_against(const Contender& contender) {
     // Left-out readings exaggerate what separates the models, because each is fitted without them:
@@ -200,22 +214,23 @@ namespace {
 /// The best model without a cause; or, where its slope is most of it, the one in which that slope
 /// is squareness, if that is more likely. ISO 230-1 takes straightness from the mean line: its
 /// slope is squareness, and what is left of it may be there as well.
-Contender contender_of(const Searching& search, const Model& chosen, const LeftOutRows& rows,
+Contender contender_of(const Searching& search, const Standing& chosen, FoldColumns& rows,
                        std::size_t held) {
     Design& design = search.design;
     const std::string cause = design.group(held).name;
     Contender without_cause = best_without(search, chosen, rows, [&](const ColumnGroup& group) {
         return is_cause(group.kind) && group.name == cause;
     });
-    const auto at = std::find(chosen.members.begin(), chosen.members.end(), held);
-    if (!has_slope(design.group(held)) || at == chosen.members.end()) return without_cause;
-    std::optional<Contender> apart = with_slope_apart(
-        search, chosen, rows, static_cast<std::size_t>(at - chosen.members.begin()));
+    const std::vector<std::size_t>& members = chosen.model.members;
+    const auto at = std::find(members.begin(), members.end(), held);
+    if (!has_slope(design.group(held)) || at == members.end()) return without_cause;
+    std::optional<Contender> apart =
+        with_slope_apart(search, chosen, rows, static_cast<std::size_t>(at - members.begin()));
     return apart && apart->ahead > without_cause.ahead ? *apart : without_cause;
 }
 
 /// The best model without free forms of the member's axis, where the member is one and not sure.
-Contender contender_of_axis(const Searching& search, const Model& chosen, const LeftOutRows& rows,
+Contender contender_of_axis(const Searching& search, const Standing& chosen, FoldColumns& rows,
                             const Challenged& found, std::size_t position) {
     const ColumnGroup held = search.design.group(found.model.members[position]);
     if (held.kind != GroupKind::table || probability_against(found.contenders[position]) >= family)
@@ -234,10 +249,13 @@ Challenged unchallenged(Model model) {
 
 Challenged challenged(const Searching& search, const LeftOutRows& rows, Model model) {
     Design& design = search.design;
+    FoldColumns columns(design, rows);
     // Members without benefit for left-out readings come back on both sides, or on none.
-    const auto whole = [&](const Model& m) { return grown(design, search.setting, m); };
+    const auto whole = [&](const Model& m) {
+        return Standing(columns, grown(design, search.setting, m));
+    };
     Challenged result{std::move(model), {}, {}};
-    Model chosen = whole(result.model);
+    Standing chosen = whole(result.model);
     for (int replaced = 0; result.contenders.size() < result.model.members.size();) {
         if (search.setting.stopped()) return unchallenged(std::move(result.model));
         const std::string cause = cause_of_member(design, result.model, result.contenders.size());
@@ -250,7 +268,7 @@ Challenged challenged(const Searching& search, const LeftOutRows& rows, Model mo
             continue;
         }
         Contender contender =
-            contender_of(search, chosen, rows, result.model.members[result.contenders.size()]);
+            contender_of(search, chosen, columns, result.model.members[result.contenders.size()]);
         const bool is_better = contender.ahead >= better && contender.predicted < contender.spread;
         if (is_better && replaced < most_replaced) {
             result = {without_idle_members(design, search.setting, rows, contender.model), {}, {}};
@@ -261,7 +279,7 @@ Challenged challenged(const Searching& search, const LeftOutRows& rows, Model mo
         }
     }
     for (std::size_t k = 0; k < result.contenders.size(); ++k)
-        result.of_axis.push_back(contender_of_axis(search, chosen, rows, result, k));
+        result.of_axis.push_back(contender_of_axis(search, chosen, columns, result, k));
     // A search that is ended leaves half a contender.
     if (search.setting.stopped()) return unchallenged(std::move(result.model));
     return result;

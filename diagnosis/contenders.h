@@ -16,9 +16,6 @@ struct Searching {
     const SearchSetting& setting;
 };
 
-/// Which groups a model must do without.
-using Excluded = std::function<bool(const ColumnGroup&)>;
-
 /// The best model found without a cause, against the chosen model with it.
 struct Contender {
     Model model;
@@ -27,8 +24,6 @@ struct Contender {
     /// deviation of this sum that the scatter of the blocks implies, nats.
     double predicted = 0.0, spread = 0.0;
 };
-Contender best_without(const Searching& search, const Model& chosen, const LeftOutRows& rows,
-                       const Excluded& excluded);
 
 /// Probability of the chosen model against the contender, if other blocks had been measured: the
 /// mean over what they would say, a normal distribution of the log odds.

@@ -10,6 +10,11 @@ namespace trunnion::diagnosis {
 namespace {
 
 constexpr double visible_part = 0.02, visible_square = 1e-4;
+constexpr double mostly_zero = 0.75;  ///< fraction of zeros from which products leave them out
+
+bool is_shaped(const ColumnGroup& group) {
+    return group.shape.size() > 0;
+}
 
 std::vector<Eigen::Index> first_features(Eigen::Index count) {
     std::vector<Eigen::Index> list(static_cast<std::size_t>(count));
@@ -37,27 +42,60 @@ Eigen::Index Design::add_features(const Eigen::MatrixXd& white) {
     block.first = features_;
     block.white = Eigen::MatrixXd::Zero(data_.size(), white.cols());
     block.white.topRows(white.rows()) = white;
-    block.coordinates = projection_.coordinates(block.white);
-    block.product.noalias() = block.white.transpose() * data_;
-    block.product.noalias() -= block.coordinates.transpose() * data_coordinates_;
+    if (const auto zeros = (white.array() == 0.0).count();
+        static_cast<double>(zeros) > mostly_zero * static_cast<double>(white.size()))
+        block.sparse = block.white.sparseView();
+    block.coordinates = block.sparse.size() > 0
+                            ? Eigen::MatrixXd(projection_.basis().transpose() * block.sparse)
+                            : projection_.coordinates(block.white);
     features_ += white.cols();
+    products_.conservativeResize(features_);
+    products_.tail(white.cols()) = block.white.transpose() * data_;
+    products_.tail(white.cols()).noalias() -= block.coordinates.transpose() * data_coordinates_;
+    squares_.conservativeResize(features_);
+    squares_.tail(white.cols()) = block.white.colwise().squaredNorm().transpose();
     blocks_.push_back(std::move(block));
     return blocks_.back().first;
 }
 
-const Design::Block& Design::block_of(Eigen::Index feature) const {
+std::size_t Design::block_index(Eigen::Index feature) const {
     const auto after = std::upper_bound(blocks_.begin(), blocks_.end(), feature,
                                         [](Eigen::Index f, const Block& b) { return f < b.first; });
-    return *std::prev(after);
+    return static_cast<std::size_t>(std::prev(after) - blocks_.begin());
+}
+
+std::vector<Design::Run> Design::runs_of(const std::vector<Eigen::Index>& features) const {
+    std::vector<Run> runs;
+    for (std::size_t k = 0; k < features.size(); ++k) {
+        const std::size_t block = block_index(features[k]);
+        const Eigen::Index inside = features[k] - blocks_[block].first;
+        if (!runs.empty() && runs.back().block == block &&
+            inside == runs.back().first + runs.back().count)
+            ++runs.back().count;
+        else
+            runs.push_back({block, static_cast<Eigen::Index>(k), inside, 1});
+    }
+    return runs;
+}
+
+Eigen::MatrixXd Design::products_of(const Block& a, const Block& b) {
+    if (a.sparse.size() > 0) return a.sparse.transpose() * b.white;
+    if (b.sparse.size() > 0) return (b.sparse.transpose() * a.white).transpose();
+    return a.white.transpose() * b.white;
+}
+
+/// Products of the features of two blocks, set-up projected out.
+const Eigen::MatrixXd& Design::between(std::size_t first, std::size_t second) const {
+    Eigen::MatrixXd& gram = between_[{first, second}];
+    if (gram.size() > 0) return gram;
+    const Block &a = blocks_[first], &b = blocks_[second];
+    gram = products_of(a, b);
+    gram.noalias() -= a.coordinates.transpose() * b.coordinates;
+    return gram;
 }
 
 Eigen::VectorXd Design::product_of(const std::vector<Eigen::Index>& features) const {
-    Eigen::VectorXd product(static_cast<Eigen::Index>(features.size()));
-    for (std::size_t k = 0; k < features.size(); ++k) {
-        const Block& b = block_of(features[k]);
-        product(static_cast<Eigen::Index>(k)) = b.product(features[k] - b.first);
-    }
-    return product;
+    return products_(features);
 }
 
 /// Columns of features side by side; not copied if they are already adjacent.
@@ -80,63 +118,50 @@ Eigen::Map<const Eigen::MatrixXd> Design::gathered(const std::vector<Eigen::Inde
     return {storage.data(), rows, count};
 }
 
-Eigen::MatrixXd Design::gram_of(const std::vector<Eigen::Index>& a,
-                                const std::vector<Eigen::Index>& b) const {
-    if (a.empty() || b.empty())
-        return Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(a.size()),
-                                     static_cast<Eigen::Index>(b.size()));
-    Eigen::MatrixXd sa, sb;
-    Eigen::MatrixXd gram =
-        gathered(a, &Block::white, sa).transpose() * gathered(b, &Block::white, sb);
-    gram.noalias() -=
-        gathered(a, &Block::coordinates, sa).transpose() * gathered(b, &Block::coordinates, sb);
+Eigen::MatrixXd Design::gram_of(const std::vector<Run>& a, const std::vector<Run>& b) const {
+    const auto length = [](const std::vector<Run>& runs) {
+        return runs.empty() ? 0 : runs.back().at + runs.back().count;
+    };
+    Eigen::MatrixXd gram(length(a), length(b));
+    for (const Run& r : a)
+        for (const Run& c : b) {
+            auto part = gram.block(r.at, c.at, r.count, c.count);
+            if (r.block <= c.block)
+                part = between(r.block, c.block).block(r.first, c.first, r.count, c.count);
+            else
+                part =
+                    between(c.block, r.block).block(c.first, r.first, c.count, r.count).transpose();
+        }
     return gram;
 }
 
-/// Consecutive groups share features (the correlation lengths of a table), so the last products are
-/// cached.
-const Design::Products& Design::of_features(const std::vector<Eigen::Index>& features) {
-    if (last_.features == features) return last_;
-    last_ = {features, gram_of(features, features), {}};
-    last_.whole.resize(static_cast<Eigen::Index>(features.size()));
-    for (std::size_t k = 0; k < features.size(); ++k) {
-        const Block& b = block_of(features[k]);
-        last_.whole(static_cast<Eigen::Index>(k)) =
-            b.white.col(features[k] - b.first).squaredNorm();
-    }
-    return last_;
-}
-
 std::size_t Design::add(ColumnGroup group) {
-    const Products& p = of_features(group.features);
     Entry entry;
-    entry.gram = p.gram;
+    entry.runs = runs_of(group.features);
+    entry.gram = gram_of(entry.runs, entry.runs);
     entry.product = product_of(group.features);
-    entry.whole = p.whole.sum();
-    if (group.shape.size() > 0) {
-        entry.gram = group.shape.transpose() * p.gram * group.shape;
-        entry.product = group.shape.transpose() * entry.product;
-        entry.whole = p.whole.dot(group.shape.array().square().matrix().rowwise().sum());
+    const Eigen::VectorXd whole = squares_(group.features);
+    entry.whole = whole.sum();
+    if (is_shaped(group)) {
+        entry.gram = (group.shape.transpose() * entry.gram * group.shape).eval();
+        entry.product = (group.shape.transpose() * entry.product).eval();
+        entry.whole = whole.dot(group.shape.array().square().matrix().rowwise().sum());
     }
     entry.group = std::move(group);
     return append(std::move(entry));
 }
 
 std::size_t Design::append(Entry entry) {
-    entry.first = columns_;
-    columns_ += entry.group.columns();
     entry.reduced.emplace(entry.gram);
-    products_.conservativeResize(columns_);
-    products_.tail(entry.product.size()) = entry.product;
     groups_.push_back(std::move(entry));
     return groups_.size() - 1;
 }
 
 const Eigen::MatrixXd& Design::owned_inverse(Eigen::Index owned) const {
     if (inverse_.rows() == owned) return inverse_;
-    const auto list = first_features(owned);
+    const std::vector<Run> runs = runs_of(first_features(owned));
     inverse_ =
-        estimation::solve_ranked(gram_of(list, list), Eigen::VectorXd::Zero(owned)).covariance;
+        estimation::solve_ranked(gram_of(runs, runs), Eigen::VectorXd::Zero(owned)).covariance;
     return inverse_;
 }
 
@@ -157,10 +182,11 @@ Eigen::MatrixXd own_directions(const Eigen::MatrixXd& left, const Eigen::MatrixX
 
 std::size_t Design::add_beside(ColumnGroup group, Eigen::Index owned) {
     const auto list = first_features(owned);
-    const Eigen::MatrixXd cross = gram_of(list, group.features);
+    const std::vector<Run> runs = runs_of(group.features);
+    const Eigen::MatrixXd cross = gram_of(runs_of(list), runs);
     const Eigen::MatrixXd taken = owned_inverse(owned) * cross;
     Entry entry;
-    const Eigen::MatrixXd alone = gram_of(group.features, group.features);
+    const Eigen::MatrixXd alone = gram_of(runs, runs);
     const Eigen::MatrixXd rest = own_directions(alone - cross.transpose() * taken, alone);
     entry.gram = rest.transpose() * (alone - cross.transpose() * taken) * rest;
     entry.product =
@@ -169,26 +195,32 @@ std::size_t Design::add_beside(ColumnGroup group, Eigen::Index owned) {
     group.shape.resize(owned + group.columns(), group.columns());
     group.shape << -taken * rest, rest;
     group.features.insert(group.features.begin(), list.begin(), list.end());
+    entry.runs = runs_of(group.features);
     entry.group = std::move(group);
     return append(std::move(entry));
 }
 
 double Design::outside(std::size_t k, const std::vector<Eigen::Index>& features) const {
     const ColumnGroup& group = groups_[k].group;
-    Eigen::MatrixXd cross = gram_of(features, group.features);
-    if (group.shape.size() > 0) cross = (cross * group.shape).eval();
+    const std::vector<Run> runs = runs_of(features);
+    Eigen::MatrixXd cross = gram_of(runs, groups_[k].runs);
+    if (is_shaped(group)) cross = (cross * group.shape).eval();
     const estimation::LinearFit all =
-        estimation::solve_ranked(gram_of(features, features), Eigen::VectorXd::Zero(cross.rows()));
+        estimation::solve_ranked(gram_of(runs, runs), Eigen::VectorXd::Zero(cross.rows()));
     const double inside = (all.covariance * cross).cwiseProduct(cross).sum();
     return 1.0 - inside / std::max(1e-300, groups_[k].gram.trace());
 }
 
 Eigen::MatrixXd Design::columns(std::size_t k) const {
     const ColumnGroup& group = groups_[k].group;
+    if (const std::vector<Run>& runs = groups_[k].runs; runs.size() == 1 && is_shaped(group))
+        if (const auto& sparse = blocks_[runs.front().block].sparse;
+            runs.front().count == sparse.cols())
+            return sparse * group.shape;
     Eigen::MatrixXd storage;
     const auto raw = gathered(group.features, &Block::white, storage);
     Eigen::MatrixXd own =
-        group.shape.size() > 0 ? Eigen::MatrixXd(raw * group.shape) : Eigen::MatrixXd(raw);
+        is_shaped(group) ? Eigen::MatrixXd(raw * group.shape) : Eigen::MatrixXd(raw);
     return group.kind == GroupKind::driver ? projection_.beside(own) : own;
 }
 
@@ -196,44 +228,30 @@ Eigen::VectorXd Design::combined(std::size_t k, const Eigen::VectorXd& coefficie
     const ColumnGroup& group = groups_[k].group;
     Eigen::MatrixXd storage;
     const auto raw = gathered(group.features, &Block::white, storage);
-    if (group.shape.size() == 0) return raw * coefficients;
+    if (!is_shaped(group)) return raw * coefficients;
     return raw * (group.shape * coefficients);
 }
 
-const Eigen::MatrixXd& Design::products(std::size_t member) {
-    Seen& seen = seen_[member];
-    if (seen.groups == groups_.size()) return seen.products;
-    const Eigen::MatrixXd own = projection_.beside(columns(member));
-    std::map<Eigen::Index, Eigen::MatrixXd> by_block;
-    seen.products.conservativeResize(columns_, own.cols());
-    for (; seen.groups < groups_.size(); ++seen.groups) {
-        const Entry& entry = groups_[seen.groups];
-        const auto& features = entry.group.features;
-        Eigen::MatrixXd raw(static_cast<Eigen::Index>(features.size()), own.cols());
-        for (std::size_t k = 0; k < features.size(); ++k) {
-            const Block& b = block_of(features[k]);
-            Eigen::MatrixXd& with = by_block[b.first];
-            if (with.size() == 0) with.noalias() = b.white.transpose() * own;
-            raw.row(static_cast<Eigen::Index>(k)) = with.row(features[k] - b.first);
-        }
-        auto rows = seen.products.middleRows(entry.first, entry.group.columns());
-        if (entry.group.shape.size() > 0)
-            rows.noalias() = entry.group.shape.transpose() * raw;
-        else
-            rows = raw;
-    }
-    return seen.products;
+/// Products of the columns of two groups, the first not after the second.
+const Eigen::MatrixXd& Design::products(std::size_t first, std::size_t second) {
+    Eigen::MatrixXd& own = products_of_[{first, second}];
+    if (own.size() > 0) return own;
+    const Entry &a = groups_[first], &b = groups_[second];
+    own = gram_of(a.runs, b.runs);
+    if (is_shaped(b.group)) own = (own * b.group.shape).eval();
+    if (is_shaped(a.group)) own = (a.group.shape.transpose() * own).eval();
+    return own;
 }
 
 const Eigen::MatrixXd& Design::coordinates(std::size_t member) {
-    Eigen::MatrixXd& own = seen_[member].coordinates;
+    Eigen::MatrixXd& own = coordinates_[member];
     const ColumnGroup& group = groups_[member].group;
     if (own.cols() == group.columns()) return own;
     if (group.kind == GroupKind::driver)
         return own = Eigen::MatrixXd::Zero(projection_.rank(), group.columns());
     Eigen::MatrixXd storage;
     const auto raw = gathered(group.features, &Block::coordinates, storage);
-    own = group.shape.size() > 0 ? Eigen::MatrixXd(raw * group.shape) : Eigen::MatrixXd(raw);
+    own = is_shaped(group) ? Eigen::MatrixXd(raw * group.shape) : Eigen::MatrixXd(raw);
     return own;
 }
 
@@ -245,15 +263,18 @@ Eigen::MatrixXd Design::cross(const std::vector<std::size_t>& members,
     Eigen::MatrixXd cross(rows, columns);
     Eigen::Index row = 0;
     for (const std::size_t m : members) {
-        const Eigen::MatrixXd& own = products(m);
+        const Eigen::Index height = groups_[m].group.columns();
         Eigen::Index column = 0;
         for (const std::size_t g : groups) {
-            const Eigen::Index count = groups_[g].group.columns();
-            cross.block(row, column, own.cols(), count) =
-                own.middleRows(groups_[g].first, count).transpose();
-            column += count;
+            const Eigen::Index width = groups_[g].group.columns();
+            auto part = cross.block(row, column, height, width);
+            if (m <= g)
+                part = products(m, g);
+            else
+                part = products(g, m).transpose();
+            column += width;
         }
-        row += own.cols();
+        row += height;
     }
     return cross;
 }
@@ -273,14 +294,38 @@ estimation::GroupEquations Design::equations(const std::vector<std::size_t>& mem
 
 Eigen::VectorXd Design::left(const std::vector<std::size_t>& members,
                              const Eigen::VectorXd& coefficients) {
-    Eigen::VectorXd left = products_;
+    Eigen::VectorXd fitted = Eigen::VectorXd::Zero(features_), left = products_;
+    std::vector<bool> moved(blocks_.size(), false);
     Eigen::Index at = 0;
     for (const std::size_t m : members) {
-        const Eigen::MatrixXd& own = products(m);
-        left.noalias() -= own * coefficients.segment(at, own.cols());
-        at += own.cols();
+        const ColumnGroup& group = groups_[m].group;
+        const auto own = coefficients.segment(at, group.columns());
+        if (is_shaped(group))
+            fitted(group.features) += group.shape * own;
+        else
+            fitted(group.features) += own;
+        for (const Run& run : groups_[m].runs) moved[run.block] = true;
+        at += group.columns();
+    }
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+        if (!moved[k]) continue;
+        const auto own = fitted.segment(blocks_[k].first, blocks_[k].white.cols());
+        for (std::size_t b = 0; b < blocks_.size(); ++b) {
+            auto part = left.segment(blocks_[b].first, blocks_[b].white.cols());
+            if (b <= k)
+                part.noalias() -= between(b, k) * own;
+            else
+                part.noalias() -= between(k, b).transpose() * own;
+        }
     }
     return left;
+}
+
+Eigen::VectorXd Design::of_group(std::size_t k, const Eigen::VectorXd& left) const {
+    const ColumnGroup& group = groups_[k].group;
+    const Eigen::VectorXd own = left(group.features);
+    if (!is_shaped(group)) return own;
+    return group.shape.transpose() * own;
 }
 
 Design::Normal Design::normal(const std::vector<std::size_t>& members) {

@@ -6,14 +6,15 @@
 // Features    derivatives by single parameters, or by knots of a table. A group combines features
 //             linearly (ColumnGroup::shape), so that all correlation lengths of a table share one
 //             set of knots.
-// Products    of features with the data, and within one group, are computed when they are added;
-//             products of a member with the columns of all groups when it first becomes a member.
-//             Search and solution then use only these small matrices.
+// Products    of two sets of features, and of the columns of two groups, are computed when they are
+//             first needed, and kept. Search and solution then use only these small matrices.
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "diagnosis/column_group.h"
@@ -35,14 +36,19 @@ class Design {
     /// Adds a group made orthogonal to all features below `owned` (those of the textbook effects).
     std::size_t add_beside(ColumnGroup group, Eigen::Index owned);
 
+    /// Features of a list that are adjacent in one block.
+    struct Run {
+        std::size_t block = 0;
+        Eigen::Index at = 0, first = 0, count = 0;  ///< in the list; in the block; features
+    };
     struct Entry {
         ColumnGroup group;
+        std::vector<Run> runs;    ///< of its features
         Eigen::MatrixXd gram;     ///< of its columns, set-up projected out
         Eigen::VectorXd product;  ///< with the data
         double whole = 0.0;       ///< squared sum of its columns before projection
         bool hidden = false;
         bool only_rival = false;  ///< hidden, but may be named as a rival of a claim
-        Eigen::Index first = 0;   ///< index of its first column among those of all groups
         std::optional<estimation::ReducedGroup> reduced;  ///< of its gram
         /// True when a typical change moves the readings noticeably and the set-up cannot absorb
         /// it.
@@ -67,10 +73,12 @@ class Design {
     /// Products of the members' columns with those of other groups, side by side in their order.
     Eigen::MatrixXd cross(const std::vector<std::size_t>& members,
                           const std::vector<std::size_t>& groups);
-    /// Products of all groups' columns (Entry::first) with the residual of the data after members
-    /// with these coefficients.
+    /// Products of all features with the residual of the data after members with these
+    /// coefficients.
     Eigen::VectorXd left(const std::vector<std::size_t>& members,
                          const Eigen::VectorXd& coefficients);
+    /// Of these, the products of the columns of one group.
+    Eigen::VectorXd of_group(std::size_t group, const Eigen::VectorXd& left) const;
     /// Products of set-up (first) and members, without projection, with each other and with the
     /// data.
     struct Normal {
@@ -80,7 +88,8 @@ class Design {
     Normal normal(const std::vector<std::size_t>& members);
     /// Information and product with the data of single features, independent of groups.
     estimation::GroupInformation of(const std::vector<Eigen::Index>& features) const {
-        return {gram_of(features, features), product_of(features)};
+        const std::vector<Run> runs = runs_of(features);
+        return {gram_of(runs, runs), product_of(features)};
     }
     /// Excludes the group from further offers.
     void hide(std::size_t group) { groups_[group].hidden = true; }
@@ -96,24 +105,22 @@ class Design {
     struct Block {
         Eigen::Index first = 0;
         Eigen::MatrixXd white, coordinates;
-        Eigen::VectorXd product;
+        Eigen::SparseMatrix<double> sparse;  ///< the same as `white` if most of it is zero (values
+                                             ///< of a table move few readings), else empty
     };
-    struct Products {
-        std::vector<Eigen::Index> features;
-        Eigen::MatrixXd gram;
-        Eigen::VectorXd whole;  ///< squared length of each feature, without projection
-    };
-    const Block& block_of(Eigen::Index feature) const;
+    std::vector<Run> runs_of(const std::vector<Eigen::Index>& features) const;
+    std::size_t block_index(Eigen::Index feature) const;
+    const Block& block_of(Eigen::Index feature) const { return blocks_[block_index(feature)]; }
+    const Eigen::MatrixXd& between(std::size_t first, std::size_t second) const;
+    static Eigen::MatrixXd products_of(const Block& a, const Block& b);
     Eigen::Map<const Eigen::MatrixXd> gathered(const std::vector<Eigen::Index>& list,
                                                Eigen::MatrixXd Block::*part,
                                                Eigen::MatrixXd& storage) const;
-    const Products& of_features(const std::vector<Eigen::Index>& features);
     std::size_t append(Entry entry);
-    const Eigen::MatrixXd& products(std::size_t member);
+    const Eigen::MatrixXd& products(std::size_t first, std::size_t second);
     const Eigen::MatrixXd& coordinates(std::size_t member);
     Eigen::VectorXd product_of(const std::vector<Eigen::Index>& features) const;
-    Eigen::MatrixXd gram_of(const std::vector<Eigen::Index>& a,
-                            const std::vector<Eigen::Index>& b) const;
+    Eigen::MatrixXd gram_of(const std::vector<Run>& a, const std::vector<Run>& b) const;
     const Eigen::MatrixXd& owned_inverse(Eigen::Index owned) const;
 
     Eigen::MatrixXd known_;
@@ -122,20 +129,16 @@ class Design {
     estimation::Projection projection_;
     Eigen::VectorXd data_coordinates_;
     Eigen::MatrixXd known_coordinates_;
-    Eigen::Index features_ = 0, columns_ = 0;
-    Eigen::VectorXd products_;  ///< of all groups' columns with the data
+    Eigen::Index features_ = 0;
+    Eigen::VectorXd products_, squares_;  ///< of all features: with the data; squared length
     std::vector<Block> blocks_;
     std::vector<Entry> groups_;
-    Products last_;
-    /// For each member: its products with the columns of all groups seen so far, and its component
-    /// within the set-up.
-    struct Seen {
-        Eigen::MatrixXd products;
-        std::size_t groups = 0;
-        Eigen::MatrixXd coordinates;
-    };
-    std::map<std::size_t, Seen> seen_;
-    mutable Eigen::MatrixXd inverse_;  ///< inverse gram of the owned features
+    using Pair = std::pair<std::size_t, std::size_t>;
+    mutable std::map<Pair, Eigen::MatrixXd>
+        between_;                                  ///< of blocks, the first not after the second
+    std::map<Pair, Eigen::MatrixXd> products_of_;  ///< of groups, likewise
+    std::map<std::size_t, Eigen::MatrixXd> coordinates_;  ///< of members: inside the set-up
+    mutable Eigen::MatrixXd inverse_;                     ///< inverse gram of the owned features
 };
 
 }  // namespace trunnion::diagnosis

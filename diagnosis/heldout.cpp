@@ -1,8 +1,8 @@
 #include "diagnosis/heldout.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 
 #include "base/units.h"
@@ -44,36 +44,115 @@ Saving saving_of(const BlockLoss& without, const BlockLoss& with) {
     return result;
 }
 
+namespace {
+
+constexpr std::size_t set_up = SIZE_MAX;  ///< in place of a group
+
+std::vector<std::size_t> with_set_up(std::vector<std::size_t> members) {
+    members.insert(members.begin(), set_up);
+    return members;
+}
+
+}  // namespace
+
+FoldColumns::FoldColumns(Design& design, const LeftOutRows& rows)
+    : design_(design), left_out_(rows) {
+    const Folds& folds = rows.folds;
+    for (const int f : folds.fold)
+        rows_.resize(std::max(rows_.size(), static_cast<std::size_t>(f) + 1));
+    for (std::size_t i = 0; i < folds.group.size(); ++i)
+        if (folds.group[i] >= 0)
+            rows_[static_cast<std::size_t>(folds.fold[static_cast<std::size_t>(folds.group[i])])]
+                .push_back(static_cast<Eigen::Index>(i));
+}
+
+const FoldColumns::ByFold& FoldColumns::of(std::size_t group) {
+    ByFold& own = columns_[group];
+    if (!own.empty()) return own;
+    const Eigen::MatrixXd all = group == set_up ? design_.known() : design_.columns(group);
+    for (const auto& rows : rows_) own.push_back(all(rows, Eigen::all));
+    return own;
+}
+
+/// The first not after the second; the set-up last.
+const FoldColumns::ByFold& FoldColumns::products(std::size_t first, std::size_t second) {
+    ByFold& own = products_[{first, second}];
+    if (!own.empty()) return own;
+    const ByFold &a = of(first), &b = of(second);
+    for (std::size_t f = 0; f < rows_.size(); ++f) own.push_back(a[f].transpose() * b[f]);
+    return own;
+}
+
+Eigen::MatrixXd FoldColumns::columns(std::size_t fold, const std::vector<std::size_t>& members) {
+    Eigen::Index count = 0;
+    const std::vector<std::size_t> groups = with_set_up(members);
+    for (const std::size_t g : groups) count += of(g)[fold].cols();
+    Eigen::MatrixXd all(static_cast<Eigen::Index>(rows_[fold].size()), count);
+    Eigen::Index at = 0;
+    for (const std::size_t g : groups) {
+        const Eigen::MatrixXd& own = of(g)[fold];
+        all.middleCols(at, own.cols()) = own;
+        at += own.cols();
+    }
+    return all;
+}
+
+Eigen::MatrixXd FoldColumns::gram(std::size_t fold, const std::vector<std::size_t>& members) {
+    Eigen::Index count = 0, row = 0;
+    const std::vector<std::size_t> groups = with_set_up(members);
+    for (const std::size_t g : groups) count += of(g)[fold].cols();
+    Eigen::MatrixXd gram(count, count);
+    for (std::size_t a = 0; a < groups.size(); ++a) {
+        const Eigen::Index height = of(groups[a])[fold].cols();
+        Eigen::Index column = row;
+        for (std::size_t b = a; b < groups.size(); ++b) {
+            const bool ordered = groups[a] <= groups[b];
+            const Eigen::MatrixXd& own = ordered ? products(groups[a], groups[b])[fold]
+                                                 : products(groups[b], groups[a])[fold];
+            const Eigen::Index width = of(groups[b])[fold].cols();
+            auto part = gram.block(row, column, height, width);
+            if (ordered)
+                part = own;
+            else
+                part = own.transpose();
+            if (b != a) gram.block(column, row, width, height) = part.transpose();
+            column += width;
+        }
+        row += height;
+    }
+    return gram;
+}
+
 LeftOut::LeftOut(Design& design, const Model& model, const Folds& folds,
-                 const std::vector<bool>& used)
-    : folds_(folds), used_(used), known_(design.known().cols()) {
-    for (const int f : folds_.fold)
-        fold_.resize(std::max(fold_.size(), static_cast<std::size_t>(f) + 1));
+                 const std::vector<bool>& used) {
+    FoldColumns columns(design, {folds, used});
+    *this = LeftOut(columns, model);
+}
+
+LeftOut::LeftOut(FoldColumns& columns, const Model& model)
+    : folds_(columns.left_out().folds),
+      used_(columns.left_out().used),
+      known_(columns.design().known().cols()),
+      fold_(columns.rows().size()) {
+    Design& design = columns.design();
     Eigen::Index count = known_;
     for (const std::size_t m : model.members) {
         first_.push_back(count);
         size_.push_back(design.group(m).columns());
         count += size_.back();
     }
-    Eigen::MatrixXd all(design.data().size(), count);
-    all.leftCols(known_) = design.known();
-    for (std::size_t k = 0; k < model.members.size(); ++k)
-        all.middleCols(first_[k], size_[k]) = design.columns(model.members[k]);
     precision_.setConstant(count, 1.0 / (rules::set_up_range * rules::set_up_range));
     retune(std::vector<bool>(model.members.size(), true), model.variances);
-    for (std::size_t i = 0; i < folds_.group.size(); ++i)
-        if (folds_.group[i] >= 0)
-            fold_[static_cast<std::size_t>(folds_.fold[static_cast<std::size_t>(folds_.group[i])])]
-                .rows.push_back(static_cast<Eigen::Index>(i));
     const Design::Normal whole = design.normal(model.members);
-    for (Fold& fold : fold_) {
-        fold.out = all(fold.rows, Eigen::all);
+    for (std::size_t f = 0; f < fold_.size(); ++f) {
+        Fold& fold = fold_[f];
+        fold.rows = columns.rows()[f];
+        fold.out = columns.columns(f, model.members);
         fold.data = design.data()(fold.rows);
         fold.gram = whole.gram;
         fold.product = whole.product;
         if (fold.rows.empty() || count == 0) continue;  // fewer blocks than folds; nothing to fit
-        fold.gram.selfadjointView<Eigen::Lower>().rankUpdate(fold.out.transpose(), -1.0);
-        fold.gram.triangularView<Eigen::StrictlyUpper>() = fold.gram.transpose();
+        fold.gram -= columns.gram(f, model.members);
         fold.product -= fold.out.transpose() * fold.data;
     }
 }
@@ -86,7 +165,10 @@ void LeftOut::retune(const std::vector<bool>& fitted, const estimation::Variance
         const double tau = std::max(1e-9, variances.tau[next++]);
         precision_.segment(first_[m], size_[m]).setConstant(noise / (tau * tau));
     }
-    for (Fold& fold : fold_) fold.covariance.resize(0, 0);
+    for (Fold& fold : fold_) {
+        fold.covariance.resize(0, 0);
+        fold.mean.resize(0);
+    }
 }
 
 /// Column indices of the marked members, preceded by those of the set-up if `known`.
@@ -113,14 +195,16 @@ Eigen::VectorXd LeftOut::fit(const Fold& fold, const std::vector<bool>& fitted) 
         x(own) = part;
         return x;
     }
-    if (fold.covariance.size() == 0) {
+    if (fold.mean.size() == 0) {
         Eigen::MatrixXd a = fold.gram;
         a.diagonal() += precision_;
-        const Eigen::LLT<Eigen::MatrixXd> llt(a);
-        fold.covariance = llt.solve(Eigen::MatrixXd::Identity(a.rows(), a.cols()));
-        fold.mean = llt.solve(fold.product);
+        fold.factor.compute(a);
+        fold.mean = fold.factor.solve(fold.product);
     }
     if (gone.empty()) return fold.mean;
+    if (fold.covariance.size() == 0)
+        fold.covariance =
+            fold.factor.solve(Eigen::MatrixXd::Identity(fold.mean.size(), fold.mean.size()));
     const Eigen::MatrixXd inside = fold.covariance(gone, gone);
     const Eigen::VectorXd held = fold.mean(gone), force = inside.llt().solve(held);
     Eigen::VectorXd x = fold.mean - fold.covariance(Eigen::all, gone) * force;

@@ -1,6 +1,10 @@
 // Cross-validation: loss of a model on left-out blocks and left-out positions.
 #pragma once
 
+#include <Eigen/Cholesky>
+#include <map>
+#include <utility>
+
 #include "diagnosis/prepare.h"
 #include "diagnosis/search.h"
 
@@ -25,11 +29,37 @@ struct LeftOutRows {
     const std::vector<bool>& used;
 };
 
+/// Columns of set-up and groups on the rows of each fold, with their products: computed once, for
+/// all models that are compared on these folds.
+class FoldColumns {
+  public:
+    FoldColumns(Design& design, const LeftOutRows& rows);
+
+    Design& design() const { return design_; }
+    const LeftOutRows& left_out() const { return left_out_; }
+    const std::vector<std::vector<Eigen::Index>>& rows() const { return rows_; }  ///< of each fold
+    /// Set-up and members side by side on the rows of a fold, and products of all with each other.
+    Eigen::MatrixXd columns(std::size_t fold, const std::vector<std::size_t>& members);
+    Eigen::MatrixXd gram(std::size_t fold, const std::vector<std::size_t>& members);
+
+  private:
+    using ByFold = std::vector<Eigen::MatrixXd>;
+    const ByFold& of(std::size_t group);
+    const ByFold& products(std::size_t first, std::size_t second);
+
+    Design& design_;
+    LeftOutRows left_out_;
+    std::vector<std::vector<Eigen::Index>> rows_;
+    std::map<std::size_t, ByFold> columns_;
+    std::map<std::pair<std::size_t, std::size_t>, ByFold> products_;
+};
+
 /// Fits of set-up and members to all folds but one, for any selection of predicting members.
 class LeftOut {
   public:
     /// `group`: block of each row (negative: never left out); `fold`: fold of each block. The
     /// members' variances are those of `model`.
+    LeftOut(FoldColumns& columns, const Model& model);
     LeftOut(Design& design, const Model& model, const Folds& folds, const std::vector<bool>& used);
 
     /// Sets the variances of the members marked by `fitted`, in their order.
@@ -49,8 +79,9 @@ class LeftOut {
         std::vector<Eigen::Index> rows;
         Eigen::MatrixXd out, gram;  ///< columns of its rows; products over all other rows
         Eigen::VectorXd data, product;
-        /// With all members fitted: mean and covariance (divided by the noise variance), from which
-        /// any smaller fit follows. Empty until needed.
+        /// With all members fitted: factor of the information, mean and covariance (divided by the
+        /// noise variance), from which any smaller fit follows. Empty until needed.
+        mutable Eigen::LLT<Eigen::MatrixXd> factor;
         mutable Eigen::MatrixXd covariance;
         mutable Eigen::VectorXd mean;
     };

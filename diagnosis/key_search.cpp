@@ -26,11 +26,13 @@ std::vector<std::size_t> scattered_rows(std::size_t all, std::size_t count) {
 
 constexpr double least_square = 1e-9;  ///< columns below this move no reading
 
-/// Information of columns `own` beside others, with the prior of an effect: its parameters are
-/// normally distributed with variance 1 in typical sizes, so the matrix gets the identity. That is
-/// a statement on machines, no ridge.
-Eigen::LLT<Eigen::MatrixXd> information(const Eigen::MatrixXd& own) {
-    Eigen::MatrixXd square = own.transpose() * own;
+/// Directions of the fitted columns below the root of this are rounding: they take nothing away.
+constexpr double rounding = 1e-12;
+
+/// Information from the products of columns beside others, with the prior of an effect: its
+/// parameters are normally distributed with variance 1 in typical sizes, so the matrix gets the
+/// identity. That is a statement on machines, no ridge.
+Eigen::LLT<Eigen::MatrixXd> information(Eigen::MatrixXd square) {
     square.diagonal().array() += 1.0;
     return square.llt();
 }
@@ -103,7 +105,7 @@ std::vector<KeySearch::Setting> KeySearch::worked_out(const effects::Effect& eff
         const bool alias = orders.cols() > 0 && first.beside(rough).squaredNorm() <= alias_square;
         if (alias || rough.squaredNorm() < least_square) continue;
         Eigen::MatrixXd own = base_columns_.beside(rough);
-        auto factor = information(own);
+        auto factor = information(own.transpose() * own);
         list.push_back({std::move(values), std::move(own), std::move(factor), {}});
     }
     return list;
@@ -116,9 +118,47 @@ std::vector<KeySearch::Setting>& KeySearch::settings_of(const effects::Effect& e
 
 KeySearch::Remainder KeySearch::remainder(const Eigen::VectorXd& left_mm,
                                           const Eigen::MatrixXd& fitted) const {
-    return {left_mm(rough_rows_).cwiseProduct(rough_weight_),
-            left_mm(fine_rows_).cwiseProduct(fine_weight_),
-            estimation::Projection(fine_weight_.asDiagonal() * fitted(fine_rows_, Eigen::all))};
+    Remainder r{left_mm(rough_rows_).cwiseProduct(rough_weight_),
+                left_mm(fine_rows_).cwiseProduct(fine_weight_),
+                fine_weight_.asDiagonal() * fitted(fine_rows_, Eigen::all),
+                {},
+                {}};
+    for (auto column : r.fitted.colwise())
+        if (const double length = column.norm(); length > 0.0) column /= length;
+    const Eigen::Index count = r.fitted.cols();
+    Eigen::MatrixXd square = rounding * Eigen::MatrixXd::Identity(count, count);
+    square.selfadjointView<Eigen::Lower>().rankUpdate(r.fitted.transpose());
+    r.factor.compute(square);
+    r.along = r.factor.matrixL().solve(r.fitted.transpose() * r.fine);
+    return r;
+}
+
+/// Chi-squared that each setting explains beside the fitted columns, on the fine rows.
+Eigen::VectorXd KeySearch::fine_gains(const std::vector<Setting*>& finalists,
+                                      const Remainder& remainder) const {
+    Eigen::Index count = 0;
+    for (const Setting* s : finalists) count += s->fine.cols();
+    Eigen::MatrixXd all(remainder.fine.size(), count);
+    Eigen::Index at = 0;
+    for (const Setting* s : finalists) {
+        all.middleCols(at, s->fine.cols()) = s->fine;
+        at += s->fine.cols();
+    }
+    const Eigen::MatrixXd cross = remainder.fitted.transpose() * all;
+    const Eigen::MatrixXd taken = remainder.factor.matrixL().solve(cross);
+    Eigen::VectorXd gain(static_cast<Eigen::Index>(finalists.size()));
+    at = 0;
+    for (std::size_t k = 0; k < finalists.size(); ++k) {
+        const Eigen::MatrixXd& fine = finalists[k]->fine;
+        const auto own = taken.middleCols(at, fine.cols());
+        const Eigen::VectorXd product =
+            fine.transpose() * remainder.fine - own.transpose() * remainder.along;
+        const auto factor = information(fine.transpose() * fine - own.transpose() * own);
+        gain(static_cast<Eigen::Index>(k)) =
+            fine.squaredNorm() < least_square ? 0.0 : factor.matrixL().solve(product).squaredNorm();
+        at += fine.cols();
+    }
+    return gain;
 }
 
 std::vector<std::vector<double>> KeySearch::best(const effects::Effect& effect,
@@ -137,17 +177,15 @@ std::vector<std::vector<double>> KeySearch::best(const effects::Effect& effect,
     }
     std::stable_sort(found.begin(), found.end(), better);
     if (found.size() > finalists) found.resize(finalists);
-    for (Found& f : found) {
+    std::vector<Setting*> finalists;
+    for (const Found& f : found) {
         Setting& s = settings[f.order];
         if (s.fine.size() == 0) s.fine = columns(effect, s.values, fine_rows_, fine_weight_);
-        if (s.fine.squaredNorm() < least_square) {
-            f.gain = 0.0;
-            continue;
-        }
-        const Eigen::MatrixXd own = remainder.others.beside(s.fine);
-        const Eigen::VectorXd product = own.transpose() * remainder.fine;
-        f.gain = information(own).matrixL().solve(product).squaredNorm();
+        finalists.push_back(&s);
     }
+    const Eigen::VectorXd gain = fine_gains(finalists, remainder);
+    for (std::size_t k = 0; k < found.size(); ++k)
+        found[k].gain = gain(static_cast<Eigen::Index>(k));
     std::stable_sort(found.begin(), found.end(), better);
     std::vector<std::vector<double>> best;
     std::vector<std::size_t> taken;

@@ -20,8 +20,10 @@ class KeySearch {
 
     /// A residual (mm) with the columns (mm, base first) that are fitted again beside an effect.
     struct Remainder {
-        Eigen::VectorXd rough, fine;    ///< of the selected rows, in sigma
-        estimation::Projection others;  ///< the fitted columns on the fine rows
+        Eigen::VectorXd rough, fine;         ///< of the selected rows, in sigma
+        Eigen::MatrixXd fitted;              ///< these columns on the fine rows, of length 1
+        Eigen::LLT<Eigen::MatrixXd> factor;  ///< L, of their products L L'
+        Eigen::VectorXd along;               ///< L^-1 fitted' fine
     };
     Remainder remainder(const Eigen::VectorXd& left_mm, const Eigen::MatrixXd& fitted) const;
 
@@ -37,6 +39,8 @@ class KeySearch {
         Eigen::LLT<Eigen::MatrixXd> factor;  ///< of their information and prior
         Eigen::MatrixXd fine;                ///< on the fine rows, empty until needed
     };
+    Eigen::VectorXd fine_gains(const std::vector<Setting*>& finalists,
+                               const Remainder& remainder) const;
     std::vector<Setting>& settings_of(const effects::Effect& effect);
     std::vector<Setting> worked_out(const effects::Effect& effect) const;
     Eigen::MatrixXd first_orders(const effects::Effect& effect) const;

@@ -36,8 +36,8 @@ void keep_best(std::vector<std::size_t>& offered, Design& design, const Model& m
     std::vector<std::pair<double, std::size_t>> least;
     for (const std::size_t k : offered) {
         const auto& entry = design.groups()[k];
-        const estimation::GroupGain gain = estimation::group_gain(
-            *entry.reduced, left.segment(entry.first, entry.group.columns()), factor);
+        const estimation::GroupGain gain =
+            estimation::group_gain(*entry.reduced, design.of_group(k, left), factor);
         least.emplace_back(-gain.mean - entry.group.log_prior, k);
     }
     std::nth_element(least.begin(), least.begin() + static_cast<long>(looked_at), least.end());
@@ -87,6 +87,15 @@ Model refined_last(Design& design, const SearchSetting& setting, Model model) {
     return trial.score > model.score ? trial : model;
 }
 
+/// The score with unchanged variances; tuning adds a few nats at most.
+double rough_score(Design& design, const SearchSetting& setting, const Model& model) {
+    double score = estimation::restricted_likelihood(design.equations(model.members),
+                                                     model.variances, setting.noise) -
+                   setting.empty;
+    for (const std::size_t m : model.members) score += design.group(m).log_prior;
+    return score;
+}
+
 /// A member in another textbook form, where that is better by itself than a new member beside: what
 /// a form without all its terms leaves is no second cause.
 Model in_other_form(Design& design, const SearchSetting& setting, const Model& model, Model best) {
@@ -97,6 +106,7 @@ Model in_other_form(Design& design, const SearchSetting& setting, const Model& m
             if (in(model, k) || !same_cause(design.group(k), held)) continue;
             Model trial = model;
             trial.members[position] = k;
+            if (rough_score(design, setting, trial) < best.score - tuning_gain) continue;
             trial = tuned(design, setting, std::move(trial), 1);
             if (trial.score > best.score + 1e-6) best = std::move(trial);
         }
@@ -141,15 +151,6 @@ Model swapped(Design& design, const SearchSetting& setting, Model model) {
         }
     }
     return model;
-}
-
-/// The score with unchanged variances; tuning adds a few nats at most.
-double rough_score(Design& design, const SearchSetting& setting, const Model& model) {
-    double score = estimation::restricted_likelihood(design.equations(model.members),
-                                                     model.variances, setting.noise) -
-                   setting.empty;
-    for (const std::size_t m : model.members) score += design.group(m).log_prior;
-    return score;
 }
 
 bool named(GroupKind kind) {
@@ -214,9 +215,9 @@ double Offer::explained() const {
 
 SearchSetting search_setting(Design& design, const estimation::NoisePrior& noise) {
     SearchSetting setting{noise, 0.0};
-    const estimation::GroupEquations e = design.equations({});
-    setting.empty = estimation::restricted_likelihood(
-        e, estimation::maximise_likelihood(e, {{}, std::exp(noise.log_mean)}, noise, 1), noise);
+    setting.empty = estimation::maximise_likelihood(design.equations({}),
+                                                    {{}, std::exp(noise.log_mean)}, noise, 1)
+                        .likelihood;
     return setting;
 }
 
@@ -225,10 +226,10 @@ Model empty_model(Design& design, const SearchSetting& setting) {
 }
 
 Model tuned(Design& design, const SearchSetting& setting, Model model, int sweeps) {
-    const estimation::GroupEquations e = design.equations(model.members);
-    model.variances = estimation::maximise_likelihood(e, model.variances, setting.noise, sweeps);
-    model.score =
-        estimation::restricted_likelihood(e, model.variances, setting.noise) - setting.empty;
+    estimation::BestVariances best = estimation::maximise_likelihood(
+        design.equations(model.members), std::move(model.variances), setting.noise, sweeps);
+    model.variances = std::move(best.variances);
+    model.score = best.likelihood - setting.empty;
     for (const std::size_t m : model.members) model.score += design.group(m).log_prior;
     return model;
 }

@@ -86,23 +86,24 @@ double remaining_noise(const GroupEquations& equations, const GivenMembers& give
     return best_noise(std::max(0.0, left), equations.rows - given.freedom_used(), prior);
 }
 
-double likelihood_of(const GroupEquations& equations, const GivenMembers& given, double nu,
+double likelihood_of(const GroupEquations& equations, const FactoredMembers& members,
                      const NoisePrior& prior) {
-    const double nu2 = nu * nu, off = (std::log(nu) - prior.log_mean) / prior.spread;
-    return -0.5 * (equations.rows * std::log(nu2) + given.log_determinant() +
-                   (equations.square - given.fitted() / nu2) / nu2 - equations.square) -
+    const double nu2 = members.nu * members.nu,
+                 off = (std::log(members.nu) - prior.log_mean) / prior.spread;
+    return -0.5 * (equations.rows * std::log(nu2) + members.log_determinant +
+                   (equations.square - members.z.squaredNorm() / nu2) / nu2 - equations.square) -
            0.5 * off * off;
 }
 
 /// Variances with their factorisation.
 struct Step {
     Variances variances;
-    GivenMembers given;
+    FactoredMembers members;
     double likelihood;
     Step(const GroupEquations& equations, Variances v, const NoisePrior& prior)
         : variances(std::move(v)),
-          given(equations, variances),
-          likelihood(likelihood_of(equations, given, variances.nu, prior)) {}
+          members(equations, variances),
+          likelihood(likelihood_of(equations, members, prior)) {}
 };
 
 std::vector<GroupInformation> each_beside(const GroupEquations& equations,
@@ -125,7 +126,7 @@ std::vector<GroupInformation> each_beside(const GroupEquations& equations,
 
 Variances one_sweep(const GroupEquations& equations, const Step& from, const NoisePrior& prior) {
     Variances next = from.variances;
-    const auto groups = each_beside(equations, from.variances.tau, from.given);
+    const auto groups = each_beside(equations, from.variances.tau, GivenMembers(from.members));
     for (std::size_t g = 0; g < groups.size(); ++g) next.tau[g] = group_gain(groups[g]).tau;
     next.nu = remaining_noise(equations, GivenMembers(equations, next), prior);
     return next;
@@ -167,20 +168,24 @@ Eigen::Index GroupEquations::first(std::size_t group) const {
 
 double restricted_likelihood(const GroupEquations& equations, const Variances& variances,
                              const NoisePrior& prior) {
-    return likelihood_of(equations, GivenMembers(equations, variances), variances.nu, prior);
+    return likelihood_of(equations, FactoredMembers(equations, variances), prior);
 }
 
-GivenMembers::GivenMembers(const GroupEquations& equations, const Variances& variances)
-    : nu_(variances.nu) {
-    if (equations.product.size() == 0) return;
-    const Eigen::VectorXd tau = by_column(equations, variances);
-    const Eigen::LLT<Eigen::MatrixXd> factor(scaled_gram(equations, tau, nu_));
-    half_ = factor.matrixL();
-    log_determinant_ = 2.0 * half_.diagonal().array().log().sum();
+FactoredMembers::FactoredMembers(const GroupEquations& equations, const Variances& variances)
+    : nu(variances.nu), tau(by_column(equations, variances)) {
+    if (tau.size() == 0) return;
+    factor.compute(scaled_gram(equations, tau, nu));
+    log_determinant = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+    z = factor.matrixL().solve(tau.cwiseProduct(equations.product));
+}
+
+GivenMembers::GivenMembers(FactoredMembers factored) : nu_(factored.nu), z_(std::move(factored.z)) {
+    const Eigen::VectorXd& tau = factored.tau;
+    if (tau.size() == 0) return;
+    half_ = factored.factor.matrixL();
     invert_lower(half_);
     used_ = static_cast<double>(tau.size()) - half_.squaredNorm();
-    half_ = half_ * tau.asDiagonal();
-    z_.noalias() = half_.triangularView<Eigen::Lower>() * equations.product;
+    for (Eigen::Index k = 0; k < tau.size(); ++k) half_.col(k) *= tau(k);
 }
 
 Eigen::MatrixXd GivenMembers::taken(const Eigen::MatrixXd& cross) const {
@@ -271,8 +276,8 @@ std::vector<GroupInformation> each_beside_others(const GroupEquations& equations
     return each_beside(equations, given.tau, GivenMembers(equations, given));
 }
 
-Variances maximise_likelihood(const GroupEquations& equations, Variances start,
-                              const NoisePrior& prior, int sweeps) {
+BestVariances maximise_likelihood(const GroupEquations& equations, Variances start,
+                                  const NoisePrior& prior, int sweeps) {
     Step now(equations, not_absent(std::move(start)), prior);
     for (int k = 0; k < sweeps; ++k) {
         Step next(equations, one_sweep(equations, now, prior), prior);
@@ -285,7 +290,7 @@ Variances maximise_likelihood(const GroupEquations& equations, Variances start,
         now = std::move(next);
         if (gained < 0.01) break;
     }
-    return now.variances;
+    return {std::move(now.variances), now.likelihood};
 }
 
 }  // namespace trunnion::estimation

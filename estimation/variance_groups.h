@@ -52,11 +52,24 @@ struct GroupInformation {
     Eigen::VectorXd product;      ///< k
 };
 
-/// Members with their variances, for evaluating what they leave to another group. One factorisation
-/// L L' = I + D G D / nu^2 and its inverse are used throughout.
+/// Members with their variances: the factorisation L L' = I + D G D / nu^2, which is all that the
+/// likelihood needs.
+struct FactoredMembers {
+    FactoredMembers(const GroupEquations& equations, const Variances& variances);
+
+    double nu = 1.0;
+    Eigen::VectorXd tau;                 ///< of each column: the diagonal of D
+    Eigen::LLT<Eigen::MatrixXd> factor;  ///< L
+    Eigen::VectorXd z;                   ///< L^-1 D h
+    double log_determinant = 0.0;        ///< of I + D G D / nu^2
+};
+
+/// The same with the inverse of L, for evaluating what the members leave to another group.
 class GivenMembers {
   public:
-    GivenMembers(const GroupEquations& equations, const Variances& variances);
+    explicit GivenMembers(FactoredMembers factored);
+    GivenMembers(const GroupEquations& equations, const Variances& variances)
+        : GivenMembers(FactoredMembers(equations, variances)) {}
 
     /// Information of a group after the members. `cross` = A_J'A_g (m x k), `gram` = A_g'A_g,
     /// `product` = A_g'y, all beside N.
@@ -68,16 +81,14 @@ class GivenMembers {
     GroupInformation leave_beside(const Eigen::Ref<const Eigen::MatrixXd>& taken,
                                   const Eigen::MatrixXd& gram,
                                   const Eigen::VectorXd& product) const;
-    Eigen::VectorXd mean() const;                                ///< of b, m entries
-    Eigen::MatrixXd covariance() const;                          ///< of b: D (L L')^-1 D
-    const Eigen::MatrixXd& half() const { return half_; }        ///< R = L^-1 D: R'R = covariance
-    double log_determinant() const { return log_determinant_; }  ///< of I + D G D / nu^2
-    double fitted() const { return z_.squaredNorm(); }           ///< z'z
-    double freedom_used() const { return used_; }                ///< m - trace (L L')^-1
+    Eigen::VectorXd mean() const;                          ///< of b, m entries
+    Eigen::MatrixXd covariance() const;                    ///< of b: D (L L')^-1 D
+    const Eigen::MatrixXd& half() const { return half_; }  ///< R = L^-1 D: R'R = covariance
+    double freedom_used() const { return used_; }          ///< m - trace (L L')^-1
 
   private:
     double nu_;
-    double log_determinant_ = 0.0, used_ = 0.0;
+    double used_ = 0.0;
     Eigen::MatrixXd half_;
     Eigen::VectorXd z_;
 };
@@ -120,7 +131,11 @@ std::vector<GroupInformation> each_beside_others(const GroupEquations& equations
 /// its best size beside the others at their previous sizes, then the noise is estimated from the
 /// remainder. A sweep that lowers the likelihood is halved (in logarithms). Ends when a sweep gains
 /// less than 0.01 or after `sweeps` sweeps.
-Variances maximise_likelihood(const GroupEquations& equations, Variances start,
-                              const NoisePrior& prior, int sweeps);
+struct BestVariances {
+    Variances variances;
+    double likelihood = 0.0;  ///< restricted_likelihood() at these variances
+};
+BestVariances maximise_likelihood(const GroupEquations& equations, Variances start,
+                                  const NoisePrior& prior, int sweeps);
 
 }  // namespace trunnion::estimation
