@@ -97,21 +97,17 @@ bool as_expected(const Outcome& f, const Model& model, const Folds& paths, doubl
     return beyond <= (1.0 - rules::explained) * std::max(0.0, before - noise);
 }
 
-/// True where known forms alone explain the gap. A form beside tables, or beside what is missing,
-/// has an uncertainty that excuses anything.
-bool known_forms_explain(const Outcome& f) {
-    return !has_tables(f, f.model) && f.judgement.part >= rules::explained;
-}
-
-/// Loss of a candidate on left-out paths (`after`), against the set-up alone (`before`): a table
-/// must predict there, anything else do no harm, or be as the model expects.
+/// Loss of a candidate on left-out paths (`after`), against the set-up alone (`before`): what was
+/// found with tables, and is fitted with or without them, must predict there; known forms alone do
+/// no harm, or be as the model expects.
 bool holds_elsewhere(const Outcome& f, const Model& model, const Folds& paths, double before,
                      double noise) {
     const double after = loss_of(f, model, paths).mean();
-    if (has_tables(f, model))
+    if (has_tables(f, f.model))
         return before - after >= rules::between_least * std::max(0.0, before - noise);
+    // Beside what is missing, a form has an uncertainty that excuses anything.
     return after <= most_harm * before ||
-           (known_forms_explain(f) && as_expected(f, model, paths, before));
+           (f.judgement.part >= rules::explained && as_expected(f, model, paths, before));
 }
 
 /// Takes the best candidate on left-out readings that holds on left-out paths, if there is one.
@@ -144,6 +140,8 @@ Written written_setup(const Outcome& f) {
         const Folds paths = path_folds(f.prepared.blocks, f.prepared.replay, f.prepared.table.axes);
         w.model = none;
         choose(f, paths, w);
+        // A cause is no more likely than this part: rather not there, it is not written.
+        if (w.part < rules::partly) w.model = none;
         w.blocks = {f.judgement.left_before, residual_of(f, w.model, f.prepared.folds)};
         w.paths = {residual_of(f, none, paths), residual_of(f, w.model, paths)};
     } else {

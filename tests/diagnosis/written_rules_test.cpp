@@ -96,6 +96,24 @@ TEST_CASE("a drift beside another course of time is not written", "[diagnosis][w
     }
 }
 
+TEST_CASE("a cause that removes less than half of the gap is not written", "[diagnosis][written]") {
+    Rows rows;
+    const Eigen::MatrixXd backlash = rows.noise(1);
+    const diagnosis::NoiseBelief noise{{}, {0.0, 0.1}, 1.2};  // more than this is no noise
+    for (const double size : {1.0, 5.0}) {
+        diagnosis::Design design = rows.design(size * backlash.col(0) + 2.0 * rows.noise(1).col(0));
+        const diagnosis::Model model = fitted(
+            design,
+            {add(design, of_kind(GroupKind::textbook, &rows.effect("C.backlash")), backlash)});
+        const diagnosis::Judgement judgement =
+            diagnosis::judged(design, rows.prepared, model, noise, rows.used);
+        INFO(size);
+        REQUIRE(judgement.gap);
+        CHECK((judgement.part < 0.5) == (size < 2.0));
+        CHECK(writes(rows, design, model, judgement) == (size > 2.0));
+    }
+}
+
 // The other paths see a thousandth of it, and what their noise says is wrong: predicted from them,
 // the path is missed by more than without the effect, as the model itself expects.
 TEST_CASE("an effect that a single path shows is written where known forms explain the gap",
