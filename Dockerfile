@@ -5,9 +5,10 @@ RUN apt-get update && apt-get install -y --no-install-recommends \
     libfmt-dev libnlopt-dev libnlopt-cxx-dev libtomlplusplus-dev nlohmann-json3-dev zlib1g-dev \
     pybind11-dev python3-dev python3-numpy
 COPY . /source
-RUN cmake -S /source -B /build -G Ninja -DCMAKE_BUILD_TYPE=Release -DTRUNNION_UNITY=ON -DTRUNNION_TESTS=OFF \
-    -DTRUNNION_BENCHMARKS=OFF -DTRUNNION_PYTHON=ON \
- && cmake --build /build && cd /build && cpack
+WORKDIR /source
+RUN cmake --preset release -B /build -DTRUNNION_TESTS=OFF -DTRUNNION_BENCHMARKS=OFF \
+    -DTRUNNION_PYTHON=ON -DTRUNNION_WARNINGS_ARE_ERRORS=OFF \
+ && cmake --build /build && cd /build && cpack -G DEB
 
 FROM debian:12-slim
 COPY --from=build /build/trunnion_*.deb /tmp/

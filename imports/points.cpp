@@ -178,12 +178,12 @@ void tell(const PointFile& file, const TimeColumn& time, const std::string& inst
 void count_point(const TextTable& table, std::size_t row,
                  const std::pair<std::string, std::string>& key, PointCounts& counts) {
     const records::TableLine line = table.line(row);
-    auto& points =
-        counts
-            .try_emplace(key,
-                         SessionPoints{0, {table.path(), line.number, 1}, std::string(line.text)})
-            .first->second;
-    ++points.count;
+    const auto [at, is_first] = counts.try_emplace(key);
+    if (is_first) {
+        at->second.first = {table.path(), line.number, 1};
+        at->second.text = line.text;
+    }
+    ++at->second.count;
 }
 
 void import_table_of_points(const TextTable& table, const ImportRequest& request, RowWriter& rows,
