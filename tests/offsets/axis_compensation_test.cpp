@@ -84,6 +84,7 @@ TEST_CASE("the pitch table of a rotary axis repeats with the turn") {
     const double step[] = {1.0, 4.0, -2.0, -3.0, 1.0};  // 61 to 64 add up to 0
     for (int i = 0; i < 5; ++i) p.set(10060 + i, step[i]);
     const offsets::AxisCompensation b = of(p, Axis::B);
+    CHECK(b.at.size() == 5);  // the step before the first point is the last one of the turn
     const double mdeg[] = {0, 4, 2, -1, 0};
     for (int turn = -3; turn <= 3; ++turn)
         for (int i = 0; i < 5; ++i) {
@@ -92,6 +93,14 @@ TEST_CASE("the pitch table of a rotary axis repeats with the turn") {
             CHECK(std::abs(b.pitch(q) - rad_from_deg(1e-3 * mdeg[i])) < 1e-12);
         }
     CHECK(b.pitch(rad_from_deg(-315.0)) == Approx(rad_from_deg(0.002)));
+    p.entry[1240].by_axis = {{4, 45.0}};  // the reference position stands at B45.
+    for (const double turned : {-720.0, -360.0, 0.0, 360.0}) {
+        const auto at = [&](double deg) {
+            return of(p, Axis::B).pitch(rad_from_deg(turned + deg));
+        };
+        CHECK(at(60.0) == Approx(rad_from_deg(0.004 / 6.0)));
+        CHECK(at(30.0) == Approx(rad_from_deg(-0.001 / 6.0)));  // before the first point
+    }
 }
 
 TEST_CASE("numbers that describe no table compensate nothing") {
