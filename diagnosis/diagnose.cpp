@@ -220,7 +220,9 @@ Model carried_over(const Searched& earlier, Design& design, const Prepared& p,
             if (same_cause(design.group(g), group) &&
                 design.group(g).parameters == group.parameters &&
                 design.group(g).shape.rows() == group.shape.rows() &&
-                (group.kind != GroupKind::table || design.group(g).shape == group.shape))
+                (group.kind != GroupKind::table ||
+                 (design.group(g).shape.cols() == group.shape.cols() &&
+                  design.group(g).shape == group.shape)))
                 at = g;
         if (!at) continue;
         model.members.push_back(*at);
