@@ -1,6 +1,7 @@
 // Dynamic errors of the drives: the response of each position loop to its commanded motion, order
 // by order. A loop of first order with the time constant T lags by T, T^2 and T^3 (the error
-// coefficients of control engineering); one of second order has others.
+// coefficients of control engineering); one of second order has others. Odd orders are a delay,
+// even ones make circles smaller or larger.
 #include "effects/models.h"
 
 namespace trunnion::effects {
@@ -29,16 +30,18 @@ Effect servo_mismatch(const kinematics::Chain& chain) {
                   "Axes follow with different delay: circles become ovals at 45 degrees",
                   "different position-loop gains or feed-forward between axes",
                   "set the loop gains of all interpolating axes alike",
-                  "position - tau_s * velocity, each axis its own tau_s",
+                  "position - tau_s * velocity - lag3_s3 * jerk, each axis its own",
                   {},
                   {},
                   SeenBy::any_encoder};
     add_parameters(effect, chain, "tau_", {"_s", "s", 0.25e-3});
+    add_parameters(effect, chain, "lag3_", {"_s3", "s^3", 1.0e-6});
     effect.add = [axes = axes_of(chain)](const AxisSample& sample, const emulator::Contact&,
                                          std::span<const double> value,
                                          kinematics::Perturbation& out) {
         for (std::size_t j = 0; j < axes.size(); ++j)
-            out.axis[axes[j]] -= value[j] * sample.velocity[axes[j]];
+            out.axis[axes[j]] -=
+                value[j] * sample.velocity[axes[j]] + value[axes.size() + j] * sample.jerk[axes[j]];
     };
     return effect;
 }
@@ -49,21 +52,20 @@ Effect servo_contour(const kinematics::Chain& chain) {
         "Fast circles come out too small or too large, growing with the square of the feed",
         "limited bandwidth of the position loop, acceleration filters",
         "raise loop gain or feed-forward, or lower the feed on tight curves",
-        "position + lag2_s2 * acceleration - lag3_s3 * jerk, each axis its own; lag2_s2 without an "
-        "axis is that of all linear axes",
+        "position + lag2_s2 * acceleration, each axis its own; lag2_s2 without an axis is that of "
+        "all "
+        "linear axes",
         {},
         {},
         SeenBy::any_encoder};
     EffectParameter second{"_s2", "s^2", 1.0e-4};
     second.also_set_by = "lag2_s2";
     add_parameters(effect, chain, "lag2_", second);
-    add_parameters(effect, chain, "lag3_", {"_s3", "s^3", 1.0e-6});
     effect.add = [axes = axes_of(chain)](const AxisSample& sample, const emulator::Contact&,
                                          std::span<const double> value,
                                          kinematics::Perturbation& out) {
         for (std::size_t j = 0; j < axes.size(); ++j)
-            out.axis[axes[j]] += value[j] * sample.acceleration[axes[j]] -
-                                 value[axes.size() + j] * sample.jerk[axes[j]];
+            out.axis[axes[j]] += value[j] * sample.acceleration[axes[j]];
     };
     return effect;
 }

@@ -117,7 +117,7 @@ TEST_CASE("one name sets the contour lag of all linear axes", "[effects]") {
     };
     for (const char* name : {"lag2_x_s2", "lag2_y_s2", "lag2_z_s2"})
         CHECK(value("servo.contour: lag2_s2=1e-4", name) == 1e-4);
-    for (const char* name : {"lag2_b_s2", "lag2_c_s2", "lag3_x_s3"})
+    for (const char* name : {"lag2_b_s2", "lag2_c_s2"})
         CHECK(value("servo.contour: lag2_s2=1e-4", name) == 0.0);
     CHECK(value("servo.contour: lag2_s2=1e-4, lag2_y_s2=2e-4", "lag2_y_s2") == 2e-4);
     CHECK(value("servo.contour: lag2_s2=1e-4, lag2_y_s2=2e-4", "lag2_x_s2") == 1e-4);
