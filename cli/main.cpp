@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <initializer_list>
 #include <new>
 #include <optional>
 #include <sstream>
@@ -32,27 +31,43 @@ namespace trunnion::cli {
 
 namespace {
 
+struct Command {
+    std::string_view name;
+    void (*add)(CLI::App&, Run&);
+    bool tells_of_all = false;  ///< what it prints depends on all commands
+};
+
 /// One line a command: file cli/NAME.cpp, declared in cli/command.h.
 // clang-format off
-const std::initializer_list<void (*)(CLI::App&, Run&)> commands = {
-    add_backup,
-    add_ballbar,
-    add_check,
-    add_compare,
-    add_compensate,
-    add_completion,
-    add_diagnose,
-    add_effects,
-    add_help,
-    add_identify,
-    add_import,
-    add_merge,
-    add_pivot,
-    add_predict,
-    add_run,
-    add_volumetric,
+constexpr Command commands[] = {
+    {"backup", add_backup},
+    {"ballbar", add_ballbar},
+    {"check", add_check},
+    {"compare", add_compare},
+    {"compensate", add_compensate},
+    {"completion", add_completion, true},
+    {"diagnose", add_diagnose},
+    {"effects", add_effects},
+    {"help", add_help, true},
+    {"identify", add_identify},
+    {"import", add_import},
+    {"merge", add_merge},
+    {"pivot", add_pivot},
+    {"predict", add_predict},
+    {"run", add_run},
+    {"volumetric", add_volumetric},
 };
 // clang-format on
+
+/// The command that the first word names, or all: the options of one command are quick to declare,
+/// those of all take longer than a short program runs.
+void add_commands(CLI::App& app, Run& run, const std::vector<std::string>& words) {
+    const auto is_asked = [&](const Command& c) { return !words.empty() && c.name == words[0]; };
+    const auto asked = std::find_if(std::begin(commands), std::end(commands), is_asked);
+    const bool all = asked == std::end(commands) || asked->tells_of_all;
+    for (const Command& command : commands)
+        if (all || &command == asked) command.add(app, run);
+}
 
 int report_alarm(const Alarm& alarm) {
     print_error("{}\n",
@@ -194,11 +209,11 @@ int parse_and_run(int argc, char** argv) {
     app.require_subcommand(1);
     app.set_version_flag("--version", TRUNNION_VERSION);
     Run run;
-    for (const auto add : commands) add(app, run);
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    add_commands(app, run, words);
     add_common(app);
     check_numbers(app);
     set_help(app);
-    const std::vector<std::string> words(argv + 1, argv + argc);
     const NamedCommand named = named_command(app, words);
     if (!named.unknown.empty()) return report_usage_error(no_such_command(named));
     if (const std::string fault = option_as_value(*named.command, words); !fault.empty())
