@@ -69,11 +69,8 @@ class DriverList {
     /// Adds columns f * carrier for all pairs.
     void add(std::string by, std::string component, std::string text,
              const std::vector<RowFunction>& functions, const std::vector<RowFunction>& carriers) {
-        Driver driver{std::move(by), std::move(component), std::move(text), {}, false};
-        for (const RowFunction& f : functions)
-            for (const RowFunction& c : carriers)
-                driver.columns.push_back(tabulate(n(), [&](std::size_t i) { return f(i) * c(i); }));
-        drivers_.push_back(std::move(driver));
+        drivers_.push_back({std::move(by), std::move(component), std::move(text), {}, false});
+        extend(functions, carriers);
     }
 
     /// More columns of the driver added last.
@@ -124,8 +121,8 @@ class DriverList {
     struct Travel {
         Axis axis = Axis::X;
         RowFunction q;
-        double low = 1e300, high = -1e300, mean = 0.0;
-        bool turn = false;  ///< a whole turn of a rotary axis
+        double low = 1e300, high = -1e300, mean = 0.0;  ///< mm or rad
+        bool turn = false;                              ///< a whole turn of a rotary axis
     };
     std::optional<Travel> travel(Axis axis) const {
         Travel t{axis, [this, axis](std::size_t i) { return replay_.sample(i).position[axis]; }};

@@ -127,14 +127,14 @@ GroupGain group_gain(const ReducedGroup& group, const Eigen::VectorXd& product, 
 std::vector<GroupInformation> each_beside_others(const GroupEquations& equations,
                                                  const Variances& variances);
 
-/// Variances that maximise the restricted likelihood, from `start`. In each sweep every group gets
-/// its best size beside the others at their previous sizes, then the noise is estimated from the
-/// remainder. A sweep that lowers the likelihood is halved (in logarithms). Ends when a sweep gains
-/// less than 0.01 or after `sweeps` sweeps.
 struct BestVariances {
     Variances variances;
     double likelihood = 0.0;  ///< restricted_likelihood() at these variances
 };
+/// Variances that maximise the restricted likelihood, from `start`. In each sweep every group gets
+/// its best size beside the others at their previous sizes, then the noise is estimated from the
+/// remainder. A sweep that lowers the likelihood is halved (in logarithms). Ends when a sweep gains
+/// less than 0.01 or after `sweeps` sweeps.
 BestVariances maximise_likelihood(const GroupEquations& equations, Variances start,
                                   const NoisePrior& prior, int sweeps);
 

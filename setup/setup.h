@@ -141,7 +141,7 @@ struct Setup {
     std::array<bool, axis_count> scale_encoder{};  ///< encoder = "scale": does not see the backlash
                                                    ///< of the drive
     /// Backlash that depends on the place: backlash_mm, backlash_rad given as a table. The gap at a
-    /// position, mm or rad; it adds to the effect X.backlash.
+    /// position, mm or rad, with the sign of the effect X.backlash, to which it adds.
     std::array<kinematics::ErrorCurve, axis_count> gap{};
     std::vector<EffectSetting> effects;  ///< including the keys backlash and pretravel
     interpreter::Dialect dialect;

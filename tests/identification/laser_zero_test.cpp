@@ -7,20 +7,10 @@
 #include "effects/settings.h"
 #include "identification/identify.h"
 #include "identification/sensitivity.h"
+#include "tests/support/laser_machine.h"
 
 namespace trunnion {
 namespace {
-
-setup::Setup machine() {
-    std::vector<std::string> notes;
-    return setup::parse_setup(
-        "[machine]\nname = \"m\"\nchain = \"w C B b X Y Z t\"\n"
-        "[machine.axis.B]\ndirection = [0, -1, 0]\npoint_mm = [0, 0, 0]\n"
-        "[machine.axis.C]\ndirection = [0, 0, -1]\npoint_mm = [0, 0, 0]\n"
-        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -150]\n"
-        "[model]\nmodelled = []\nnoise_um = { linear = 0.4 }\n",
-        "s.toml", notes);
-}
 
 /// A run of X from -350 to 350 mm and back, by a formula: scale, reversal, zero of the laser.
 records::ReadingTable laser(const setup::Setup& setup, double scale_ppm, double gap_mm,
@@ -60,7 +50,7 @@ const identification::FitParameter& fitted(const identification::Identification&
 
 TEST_CASE("scale and reversal of a laser that begins at the end of the travel",
           "[identification][laser]") {
-    const setup::Setup setup = machine();
+    const setup::Setup setup = laser_machine();
     for (const double scale_ppm : {54.7, -200.0}) {
         const identification::Identification found = identification::identify(
             setup, laser(setup, scale_ppm, -0.005, 0.0017), {"X.scale", "X.backlash"});
@@ -78,7 +68,7 @@ TEST_CASE("scale and reversal of a laser that begins at the end of the travel",
 
 TEST_CASE("the derivatives of a laser's readings are those of what predict computes",
           "[identification][laser]") {
-    const setup::Setup setup = machine();
+    const setup::Setup setup = laser_machine();
     const records::ReadingTable table = laser(setup, 0.0, 0.0, 0.0);
     const auto catalogue = effects::make_catalogue(setup, effects::extent_of(setup, table));
     const auto found = identification::sensitivity(setup, table, {"X.scale", "X.backlash"});

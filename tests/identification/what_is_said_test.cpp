@@ -7,20 +7,10 @@
 #include "identification/set_up_words.h"
 #include "identification/unknown_sides.h"
 #include "tests/support/campaign.h"
+#include "tests/support/laser_machine.h"
 
 namespace trunnion {
 namespace {
-
-setup::Setup machine() {
-    std::vector<std::string> notes;
-    return setup::parse_setup(
-        "[machine]\nname = \"m\"\nchain = \"w C B b X Y Z t\"\n"
-        "[machine.axis.B]\ndirection = [0, -1, 0]\npoint_mm = [0, 0, 0]\n"
-        "[machine.axis.C]\ndirection = [0, 0, -1]\npoint_mm = [0, 0, 0]\n"
-        "[[artefact]]\nname = \"R1\"\nkind = \"target\"\ntool_mm = [0, 0, -150]\n"
-        "[model]\nmodelled = []\nnoise_um = { linear = 0.4 }\n",
-        "s.toml", notes);
-}
 
 /// A laser along X, -400 to 400 mm, of a scale with a bend; its repetitions are off by +-0.3 um.
 records::ReadingTable laser(const setup::Setup& setup, double scale_ppm, double bow_mm) {
@@ -47,7 +37,7 @@ records::ReadingTable laser(const setup::Setup& setup, double scale_ppm, double 
 }
 
 std::vector<std::string> notes_of(double scale_ppm, double bow_mm) {
-    const setup::Setup setup = machine();
+    const setup::Setup setup = laser_machine();
     return identification::identify(setup, laser(setup, scale_ppm, bow_mm), {"X.scale"}).notes;
 }
 
@@ -74,7 +64,7 @@ TEST_CASE("a scale that bends is said with its straight line, one that does not 
 
 TEST_CASE("the pose of an instrument in words has the parts that the readings tell",
           "[identification]") {
-    setup::Setup setup = machine();
+    setup::Setup setup = laser_machine();
     setup.instruments.emplace_back();
     setup.instruments[0].name = "T1";
     const auto words = [&](const std::vector<identification::FitParameter>& parts) {
@@ -119,7 +109,7 @@ TEST_CASE("a side that nothing tells is said to be taken, one that the fit tells
 
 TEST_CASE("a fit needs two readings, more readings than unknowns and effects that there are",
           "[identification]") {
-    const setup::Setup setup = machine();
+    const setup::Setup setup = laser_machine();
     records::ReadingTable table = laser(setup, 10.0, 0.0);
     CHECK_THROWS_AS(identification::identify(setup, table, {"X.scales"}), InputError);
     table.rows = {table.rows[0], table.rows[2]};  // a scale and the laser's zero
@@ -142,7 +132,7 @@ TEST_CASE("a search of keys that is ended names what it did not search", "[ident
 }
 
 TEST_CASE("what ends a repetition by an exception comes out of all threads", "[identification]") {
-    const setup::Setup setup = machine();
+    const setup::Setup setup = laser_machine();
     const records::ReadingTable table = laser(setup, 10.0, 0.0);
     identification::Identification fitted = identification::identify(setup, table, {"X.scale"});
     for (const unsigned threads : {1U, 3U}) {

@@ -4,6 +4,7 @@
 
 #include "interpreter/print.h"
 #include "support.h"
+#include "tests/support/printed_program.h"
 
 using namespace trunnion;
 using namespace trunnion::test;
@@ -31,19 +32,6 @@ void check_run(const std::string& text, const interpreter::InterpreterOptions& o
     REQUIRE(r.alarm->where.line >= 1);
     REQUIRE(r.alarm->where.line <= lines_of(text));
     REQUIRE(r.alarm->where.column >= 1);
-}
-
-/// What is left of the text says the same when it is printed and read again.
-void check_print(const std::string& text, const interpreter::Dialect& dialect) {
-    const interpreter::ParsedProgram a = interpreter::parse_program({"a", text, nullptr}, dialect);
-    const std::string once = interpreter::print_program(a);
-    const interpreter::ParsedProgram b = interpreter::parse_program({"b", once, nullptr}, dialect);
-    INFO(text);
-    INFO(once);
-    REQUIRE(b.faults.empty());
-    REQUIRE(a.blocks.size() == b.blocks.size());
-    for (std::size_t i = 0; i < a.blocks.size(); ++i)
-        REQUIRE(interpreter::same_block(a, a.blocks[i], b, b.blocks[i]));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "support.h"
+#include "tests/support/printed_program.h"
 
 using namespace trunnion;
 using namespace trunnion::test;
@@ -18,16 +19,8 @@ std::string printed(const std::string& text) {
 
 /// Law 3: parse, print, parse gives the same blocks, and printing again the same text.
 void check_fixpoint(const std::string& text) {
-    const interpreter::ParsedProgram a = interpreter::parse_program({"a", text, nullptr}, {});
-    const std::string once = interpreter::print_program(a);
-    const interpreter::ParsedProgram b = interpreter::parse_program({"b", once, nullptr}, {});
-    INFO(text);
-    INFO(once);
-    REQUIRE(b.faults.empty());
-    REQUIRE(a.blocks.size() == b.blocks.size());
-    for (std::size_t i = 0; i < a.blocks.size(); ++i)
-        REQUIRE(interpreter::same_block(a, a.blocks[i], b, b.blocks[i]));
-    CHECK(interpreter::print_program(b) == once);
+    const auto [once, again] = check_print(text, {});
+    CHECK(again == once);
 }
 
 }  // namespace
