@@ -2,8 +2,8 @@
 FROM debian:12-slim AS build
 RUN apt-get update && apt-get install -y --no-install-recommends \
     build-essential cmake ninja-build dpkg-dev file libboost-math-dev libcli11-dev libeigen3-dev \
-    libfmt-dev libnlopt-dev libnlopt-cxx-dev libtomlplusplus-dev nlohmann-json3-dev zlib1g-dev \
-    pybind11-dev python3-dev python3-numpy
+    libfmt-dev libnlopt-dev libnlopt-cxx-dev libtomlplusplus-dev nettle-dev nlohmann-json3-dev \
+    zlib1g-dev pybind11-dev python3-dev python3-numpy
 COPY . /source
 WORKDIR /source
 RUN cmake --preset release -B /build -DTRUNNION_TESTS=OFF -DTRUNNION_BENCHMARKS=OFF \

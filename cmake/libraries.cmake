@@ -8,7 +8,9 @@ function(trunnion_use room)
   endif()
 endfunction()
 
-trunnion_use(base tomlplusplus::tomlplusplus)
+# nettle's SHA-256 uses the processor's instructions for it. Debian ships no CMake file with nettle.
+find_library(NETTLE_LIBRARY nettle REQUIRED)
+trunnion_use(base tomlplusplus::tomlplusplus nettle)
 trunnion_use(regression tomlplusplus::tomlplusplus nlohmann_json::nlohmann_json Threads::Threads)
 trunnion_use(estimation Boost::headers)
 trunnion_use(identification NLopt::nlopt Threads::Threads)
