@@ -71,7 +71,9 @@ struct SortedWords {
     bool has_code(int code10) const;
 
     /// Column of a word; 0 when the block does not have it.
-    int column_of(char letter) const { return column_of_first(bit(letter)); }
+    int column_of(char letter) const {
+        return has(letter) ? column[static_cast<std::size_t>(letter - 'A')] : 0;
+    }
     /// Column of the leftmost word with one of these letters (bits as in `present`); 0: none.
     int column_of_first(std::uint32_t letters) const {
         int first = 0;

@@ -200,7 +200,7 @@ bool Interpreter::State::give_out(const Block& block, const Code& code) {
     words.line = block.line;
     words.byte = block.byte;
     words.count = block.items.count;
-    bool any_special = false;
+    std::size_t first_special = words.count;
     const Item* item = code.items.data() + block.items.first;
     for (std::size_t i = 0; i < words.count; ++i, ++item) {
         WordValue& word = words.words[i];
@@ -210,9 +210,10 @@ bool Interpreter::State::give_out(const Block& block, const Code& code) {
         word.decimal_point = item->decimal_point;
         word.vacant = is_vacant(v);
         word.column = item->column;
-        any_special = any_special || word.letter == '<' || special.has(word.letter, v);
+        if (first_special == words.count && (word.letter == '<' || special.has(word.letter, v)))
+            first_special = i;
     }
-    return !any_special || special_words(block, code);
+    return first_special == words.count || special_words(block, code, first_special);
 }
 
 }  // namespace trunnion::interpreter

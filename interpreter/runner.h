@@ -89,7 +89,7 @@ struct Interpreter::State {
     std::string comment_of(const Block& block, const Code& code) const;
 
     // runner_calls.cpp
-    bool special_words(const Block& block, const Code& code);
+    bool special_words(const Block& block, const Code& code, std::size_t first);
     void macro_call(std::size_t at, Section* named, bool modal, bool every_block);
     bool subprogram_words(std::size_t at, Section* named, bool outside);
     Section* take_name(const Block& block, const Code& code);

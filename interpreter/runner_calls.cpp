@@ -39,17 +39,18 @@ bool is_modal_cancel(const WordValue& word) {
 
 }  // namespace
 
-/// `words` contain a code of the language. True: words remain for the control.
-bool Interpreter::State::special_words(const Block& block, const Code& code) {
+/// `words` contain a code of the language or a program name, the first of them at `first`. True:
+/// words remain for the control.
+bool Interpreter::State::special_words(const Block& block, const Code& code, std::size_t first) {
     const bool codes_call = !frame().by_code;
     bool has_name = false, cancels = false;
-    for (const WordValue& word : words) {
-        has_name = has_name || word.letter == '<';
-        cancels = cancels || is_modal_cancel(word);
+    for (std::size_t i = first; i < words.count; ++i) {
+        has_name = has_name || words.words[i].letter == '<';
+        cancels = cancels || is_modal_cancel(words.words[i]);
     }
     Section* const named = has_name ? take_name(block, code) : nullptr;
     if (cancels) cancel_modals();  // the block may call as well: G67 M98 P100
-    for (std::size_t i = 0; i < words.count; ++i) {
+    for (std::size_t i = first; i < words.count; ++i) {
         const WordValue word = words.words[i];
         if (word.vacant || !special.has(word.letter, word.value)) continue;
         if (word.letter == 'T') {

@@ -49,12 +49,6 @@ constexpr WordRule rows[] = {
     {'G', 684, 'P'},
     {'G', 684, 'Q'},
     {'G', 960, 'P'},
-    {'G', 650, 'P', true, any, 0, 3, 76},
-    {'G', 650, 'L'},
-    {'G', 660, 'P', true, any, 0, 3, 76},
-    {'G', 660, 'L'},
-    {'G', 661, 'P', true, any, 0, 3, 76},
-    {'G', 661, 'L'},
     {'M', 980, 'P', true, 999999999.0, 0, 3, 76},
     {'M', 980, 'L'},
     {'M', 980, 'Q', true, 999999999.0},
@@ -66,6 +60,10 @@ constexpr WordRule rows[] = {
     {'G', canned_cycle, 'K'},
     {'G', canned_cycle, 'L'},
 };
+
+/// Of G65, G66 and G66.1, in whose blocks the other words are arguments.
+constexpr WordRule program_of_call{'G', 650, 'P', true, any, 0, 3, 76};
+constexpr WordRule repeats_of_call{'G', 650, 'L'};
 
 int code10_of(const WordValue& word) {
     const double tenfold = word.value * 10.0;
@@ -88,13 +86,7 @@ constexpr RowSet rows_where(Condition condition) {
     return set;
 }
 
-constexpr bool is_call(char letter, int code10) {
-    return letter == 'G' && (code10 == 650 || code10 == 660 || code10 == 661);
-}
-
 constexpr RowSet of_every_block = rows_where([](const WordRule& r) { return r.code_letter == 0; });
-constexpr RowSet of_calls =
-    rows_where([](const WordRule& r) { return is_call(r.code_letter, r.code10); });
 constexpr RowSet of_cycles = rows_where([](const WordRule& r) { return r.code10 == canned_cycle; });
 constexpr RowSet with_required_word = rows_where([](const WordRule& r) { return r.missing != 0; });
 constexpr RowSet of_fanuc_alone = rows_where([](const WordRule& r) {
@@ -159,27 +151,24 @@ bool is_canned_cycle(int code10) {
 /// Rows whose code and word (unless it is required) are in the block.
 struct Applicable {
     RowSet set = 0;
-    bool calls = false;  ///< a macro call: the other words are arguments
     bool m_words = false;
 };
 
 Applicable applicable_rows(const BlockWords& block, bool hurco) {
     RowSet of_codes = of_every_block, of_words = with_required_word;
-    bool calls = false, m_words = false;
+    bool m_words = false;
     for (const WordValue& word : block) {
         if (word.vacant) continue;
         if (word.letter >= 'A' && word.letter <= 'Z')
             of_words |= rows_of_letter[static_cast<std::size_t>(word.letter - 'A')];
         if (word.letter != 'G' && word.letter != 'M') continue;
         const int code10 = code10_of(word);
-        calls = calls || is_call(word.letter, code10);
         m_words = m_words || word.letter == 'M';
         const bool cycle = word.letter == 'G' && is_canned_cycle(code10);
         of_codes |= rows_of_code(word.letter, cycle ? canned_cycle : code10);
     }
-    if (calls) of_codes &= of_calls;
     if (hurco) of_codes &= ~of_fanuc_alone;
-    return {of_codes & of_words, calls, m_words};
+    return {of_codes & of_words, m_words};
 }
 
 std::string range_text(const WordRule& rule) {
@@ -219,6 +208,24 @@ Violation violation_in(const WordRule& rule, const BlockWords& block, bool all_k
     return {!found && all_known ? rule.missing : 0, 0};
 }
 
+/// One walk over the words, because programs call macros in their inner loops.
+Violation violation_in_call(const BlockWords& block, bool all_known) {
+    bool has_program = false;
+    Violation in_repeats;
+    for (const WordValue& word : block) {
+        has_program = has_program || word.letter == '<';
+        if (word.letter != 'P' && word.letter != 'L') continue;
+        if (word.vacant) continue;
+        const bool is_program = word.letter == 'P';
+        const Violation v = violation_of(is_program ? program_of_call : repeats_of_call, word);
+        if (is_program && v.alarm != 0) return v;
+        if (!is_program && in_repeats.alarm == 0) in_repeats = v;
+        has_program = has_program || is_program;
+    }
+    if (!has_program && all_known) return {program_of_call.missing, 0};
+    return in_repeats;
+}
+
 WordFault fault_of(const WordRule& rule, const Violation& v) {
     const bool of_any_word = v.alarm == 6 || v.alarm == 7;
     return {v.alarm, v.column, of_any_word ? std::string{} : range_text(rule)};
@@ -227,7 +234,9 @@ WordFault fault_of(const WordRule& rule, const Violation& v) {
 }  // namespace
 
 bool is_macro_call(const WordValue& word) {
-    return word.letter == 'G' && is_call('G', code10_of(word));
+    if (word.letter != 'G' || word.vacant) return false;
+    const int code10 = code10_of(word);
+    return code10 == 650 || code10 == 660 || code10 == 661;
 }
 
 std::optional<WordFault> find_m_fault(const WordValue& m_word) {
@@ -239,7 +248,11 @@ std::optional<WordFault> find_m_fault(const WordValue& m_word) {
 
 std::optional<WordFault> find_word_fault(const BlockWords& block, DialectFamily family,
                                          bool all_known) {
-    const auto [set, calls, m_words] = applicable_rows(block, family == DialectFamily::hurco);
+    if (std::any_of(block.begin(), block.end(), is_macro_call)) {
+        const Violation v = violation_in_call(block, all_known);
+        return v.alarm == 0 ? std::nullopt : std::optional(fault_of(program_of_call, v));
+    }
+    const auto [set, m_words] = applicable_rows(block, family == DialectFamily::hurco);
     const auto violated_row = [&](RowSet left) {
         while (left != 0 && violation_in(rows[std::countr_zero(left)], block, all_known).alarm == 0)
             left &= left - 1;
@@ -250,7 +263,7 @@ std::optional<WordFault> find_word_fault(const BlockWords& block, DialectFamily 
         return fault_of(rule, violation_in(rule, block, all_known));
     };
     if (const RowSet left = violated_row(set & ~of_cycles)) return fault_of_row(left);
-    if (m_words && !calls)
+    if (m_words)
         for (const WordValue& word : block)
             if (word.letter == 'M' && !word.vacant)
                 if (auto fault = find_m_fault(word)) return fault;
