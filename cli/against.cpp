@@ -35,9 +35,10 @@ bool take_choice(const std::string& what, setup::Setup& setup) {
 }
 
 regression::ControlReading reading_of(const setup::Setup& setup, const std::string& name,
-                                      std::uint64_t max_blocks) {
+                                      const RunLimits& limits) {
     regression::ControlReading out{name, emulator::control_config(setup), setup.stores};
-    out.config.max_blocks = max_blocks;
+    out.config.max_blocks = limits.max_blocks;
+    out.config.go_on = limits.go_on;
     return out;
 }
 
@@ -59,10 +60,10 @@ std::vector<check::Finding> differences_against(const setup::Setup& setup,
                                                 const OtherReading& other,
                                                 const interpreter::ProgramText& program,
                                                 const std::vector<std::string>& folders,
-                                                std::uint64_t max_blocks) {
+                                                const RunLimits& limits) {
     const auto found =
-        regression::compare_controls(reading_of(setup, "this control", max_blocks),
-                                     reading_of(other.setup, other.name, max_blocks), program, [&] {
+        regression::compare_controls(reading_of(setup, "this control", limits),
+                                     reading_of(other.setup, other.name, limits), program, [&] {
                                          return std::make_unique<interpreter::ProgramFolders>(
                                              inputs::folders_of_file(program, folders));
                                      });

@@ -1,6 +1,8 @@
 // check --against: the same setup with another control, option or parameter.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,11 +21,16 @@ struct OtherReading {
     const setup::Setup& setup;
     const std::string& name;
 };
+/// What ends a run of `check`; `go_on` is asked every few thousand blocks.
+struct RunLimits {
+    std::uint64_t max_blocks = 10'000'000;
+    std::function<bool(std::uint64_t blocks)> go_on;
+};
 /// Findings of rule "reading": blocks of the program that would move differently on `other`.
 std::vector<check::Finding> differences_against(const setup::Setup& setup,
                                                 const OtherReading& other,
                                                 const interpreter::ProgramText& program,
                                                 const std::vector<std::string>& folders,
-                                                std::uint64_t max_blocks);
+                                                const RunLimits& limits);
 
 }  // namespace trunnion::cli

@@ -11,9 +11,12 @@
 #include <memory>
 
 #include "base/alarm.h"
+#include "base/console.h"
 #include "base/output_files.h"
 #include "cli/against.h"
+#include "cli/budget_options.h"
 #include "cli/command.h"
+#include "cli/long_work.h"
 #include "cli/notes.h"
 #include "cli/options.h"
 #include "cli/page_options.h"
@@ -40,7 +43,8 @@ struct CheckCommand {
     std::vector<std::string> paths, folders;
     std::string setup, against, format = "text", out = "-";
     bool run = false;
-    std::uint64_t max_blocks = 10'000'000;
+    RunLimits limits;
+    double time_s = 0.0;
     PageOptions page;
     const CLI::App* command = nullptr;
 };
@@ -144,13 +148,14 @@ void run_without_devices(const setup::Setup& setup, const interpreter::ProgramTe
     NoDevices sink;
     interpreter::ProgramFolders programs = inputs::folders_of_file(program, c.folders);
     controller::ControlConfig config = emulator::control_config(setup);
-    config.max_blocks = c.max_blocks;
+    config.max_blocks = c.limits.max_blocks;
+    config.go_on = c.limits.go_on;
     controller::Controller controller(std::move(config), stores, programs, sink,
                                       [](std::string_view) {});
     const controller::RunResult result = controller.run(program);
-    if (result.status == controller::RunStatus::limit)
+    if (result.status == controller::RunStatus::limit && c.limits.go_on(0))
         findings.push_back({"alarm", check::Severity::error, program.name, 1, 1,
-                            fmt::format("does not end within {} blocks", c.max_blocks),
+                            fmt::format("does not end within {} blocks", c.limits.max_blocks),
                             "Look for an endless loop, or give --max-blocks."});
     if (!result.alarm) return;
     const Alarm& alarm = *result.alarm;
@@ -244,24 +249,24 @@ class CheckedMachines {
     std::map<std::string, std::unique_ptr<CheckedMachine>> machines_;
 };
 
-int check(const CheckCommand& c) {
-    CheckedMachines machines(c);
-    const std::vector<std::string> files = files_of(c.paths);
-    std::vector<check::Finding> findings;
-    for (const std::string& file : files) {
-        const interpreter::ProgramText program = interpreter::read_main_program(file);
-        interpreter::ProgramFolders programs = inputs::folders_of_file(program, c.folders);
-        std::vector<check::Finding> found;
-        const CheckedMachine& machine = machines.for_program(program, programs, found);
-        findings.insert(findings.end(), found.begin(), found.end());
-        if (c.run) run_without_devices(machine.setup, program, c, findings);
-        if (machine.other) {
-            const auto apart = differences_against(machine.setup, {*machine.other, c.against},
-                                                   program, c.folders, c.max_blocks);
-            findings.insert(findings.end(), apart.begin(), apart.end());
-        }
-        print_notes(programs.announcements());
+void check_one(const CheckCommand& c, const std::string& file, CheckedMachines& machines,
+               std::vector<check::Finding>& findings) {
+    const interpreter::ProgramText program = interpreter::read_main_program(file);
+    interpreter::ProgramFolders programs = inputs::folders_of_file(program, c.folders);
+    std::vector<check::Finding> found;
+    const CheckedMachine& machine = machines.for_program(program, programs, found);
+    findings.insert(findings.end(), found.begin(), found.end());
+    if (c.run) run_without_devices(machine.setup, program, c, findings);
+    if (machine.other) {
+        const auto apart = differences_against(machine.setup, {*machine.other, c.against}, program,
+                                               c.folders, c.limits);
+        findings.insert(findings.end(), apart.begin(), apart.end());
     }
+    print_notes(programs.announcements());
+}
+
+void write_findings(const CheckCommand& c, const std::vector<check::Finding>& findings,
+                    const std::vector<std::string>& files) {
     OutputFiles out;
     if (!c.page.html.empty()) {
         out.add(c.page.html,
@@ -269,7 +274,29 @@ int check(const CheckCommand& c) {
     }
     out.add(c.out, report::format_findings(findings, files, c.format, ReadRecord::files()));
     out.write();
-    return findings.empty() ? exit_done : exit_differs;
+}
+
+/// After Ctrl-C or --max-seconds: the findings of the programs that were checked whole.
+int check(CheckCommand c) {
+    CheckedMachines machines(c);
+    const std::vector<std::string> files = files_of(c.paths);
+    const Interruption interruption;
+    BudgetMeter meter = fit_meter(c.time_s);
+    c.limits.go_on = [&](std::uint64_t) { return meter.allows({}); };
+    std::vector<check::Finding> findings;
+    std::size_t done = 0;
+    for (Progress progress; done < files.size() && meter.allows({}); ++done) {
+        progress.count(done, files.size(), "programs");
+        std::vector<check::Finding> found;
+        check_one(c, files[done], machines, found);
+        if (!meter.allows({})) break;
+        findings.insert(findings.end(), found.begin(), found.end());
+    }
+    write_findings(c, findings, {files.begin(), files.begin() + static_cast<std::ptrdiff_t>(done)});
+    if (done == files.size()) return findings.empty() ? exit_done : exit_differs;
+    print_error("trunnion: stopped after {} of {} programs ({})\n", done, files.size(),
+                reason_of(meter.reached()));
+    return exit_limit;
 }
 
 }  // namespace
@@ -286,7 +313,11 @@ void add_check(CLI::App& app, Run& run) {
         "--against", c->against,
         "also run the programs on another control and report differences: hurco, hurco-bnc, 16i, "
         "0i-F, tcp_frame=start, a parameter like 5006=64, or a setup file");
-    command->add_option("--max-blocks", c->max_blocks, "stop a run after this number of blocks");
+    command->add_option("--max-blocks", c->limits.max_blocks,
+                        "stop a run after this number of blocks");
+    not_negative(command->add_option("--max-seconds", c->time_s,
+                                     "stop after this time, s, with the findings so far (0: "
+                                     "never)"));
     command->add_option("--format", c->format, "text, json, junit, sarif or github");
     command->add_flag_callback(
         "--json", [c] { c->format = "json"; }, "same as --format json");

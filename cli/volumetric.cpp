@@ -7,6 +7,7 @@
 #include "base/alarm.h"
 #include "base/console.h"
 #include "base/output_files.h"
+#include "cli/budget_options.h"
 #include "cli/command.h"
 #include "cli/long_work.h"
 #include "cli/options.h"
@@ -24,6 +25,7 @@ struct VolumetricCommandOptions {
     std::string setup, csv, svg;
     volumetric::VolumetricOptions map;
     bool json = false;
+    double time_s = 0.0;
     PageOptions page;
     const CLI::App* command = nullptr;
 };
@@ -39,14 +41,14 @@ void check_size(const setup::Setup& setup, const volumetric::VolumetricOptions& 
                                      poses, most_poses));
 }
 
-/// Shows progress; Ctrl-C ends the map with the completed poses.
+/// Shows progress; Ctrl-C and --max-seconds end the map with the completed poses.
 volumetric::VolumetricMap watched_map(const setup::Setup& setup,
                                       const std::vector<std::string>& names,
-                                      volumetric::VolumetricOptions options) {
+                                      volumetric::VolumetricOptions options, BudgetMeter& meter) {
     Progress progress;
     options.go_on = [&](std::size_t done, std::size_t total) {
         progress.count(done, total, "poses");
-        return !Interruption::asked();
+        return meter.allows({});
     };
     return volumetric::volumetric_map(setup, names, effects::active_models(setup), options);
 }
@@ -60,8 +62,9 @@ int run_command(const VolumetricCommandOptions& o) {
     std::vector<std::string> names;
     for (const setup::EffectSetting& effect : setup.effects) names.push_back(effect.name);
     const Interruption interruption;
-    const volumetric::VolumetricMap map = watched_map(setup, names, o.map);
-    const bool whole = !Interruption::asked();
+    BudgetMeter meter = fit_meter(o.time_s);
+    const volumetric::VolumetricMap map = watched_map(setup, names, o.map, meter);
+    const bool whole = meter.reached() == BudgetLimit::none;
     OutputFiles files;
     if (!o.csv.empty()) files.add(o.csv, report::volumetric_csv(map));
     if (!o.svg.empty() && whole) {
@@ -77,8 +80,8 @@ int run_command(const VolumetricCommandOptions& o) {
     else if (o.csv != "-")
         print_out("{}", report::volumetric_text(map));
     if (whole) return exit_done;
-    print_error("trunnion: interrupted: these are the first {} poses of the grid{}\n",
-                map.points.size(),
+    print_error("trunnion: {}: these are the first {} poses of the grid{}\n",
+                reason_of(meter.reached()), map.points.size(),
                 o.svg.empty() && o.page.html.empty() ? "" : ", without pictures");
     return exit_limit;
 }
@@ -101,6 +104,8 @@ void add_volumetric(CLI::App& app, Run& run) {
     writes_file(command->add_option(
         "--svg", o->svg, "folder for pictures: one for each height, and one of the axes"));
     command->add_flag("--json", o->json, "print the result as one JSON object");
+    not_negative(command->add_option("--max-seconds", o->time_s,
+                                     "stop after this time, s, with the poses so far (0: never)"));
     add_page_options(*command, o->page);
     o->command = command;
     command->callback([o, &run] { run = [o] { return run_command(*o); }; });

@@ -85,6 +85,37 @@ TEST_CASE("max-seconds ends the runs of compare, of two programs and of folders"
     CHECK(bench.trunnion("compare " + part + " " + part + " --max-seconds -1") == 2);
 }
 
+TEST_CASE("max-seconds ends check with the findings of the programs that it has read") {
+    const Bench bench;
+    std::filesystem::create_directories(bench.path / "two");
+    bench.write("two/a.nc", "O1\nG90 G21 G54\nG77\nM30\n");
+    bench.write("two/b.nc", "O2\nN1 #100=1-#100\nGOTO 1\nM30\n");
+    const std::string two = "check " + bench.file("two") + " --run --max-blocks 0 --json";
+    for (const char* also : {"", " --against tcp_frame=start"}) {
+        CHECK(bench.trunnion(two + also + " --max-seconds 0.3") == 4);
+        CHECK_THAT(bench.read("err.txt"),
+                   Catch::Contains("stopped after 1 of 2 programs (--max-seconds)"));
+        const Json report = Json::parse(bench.read("out.txt"));
+        REQUIRE(report["findings"].size() == 1);
+        CHECK(report["findings"][0]["line"] == 3);
+    }
+    const std::string one = "check " + bench.file("two/a.nc") + " --run";
+    CHECK(bench.trunnion(one + " --max-seconds 100") == 1);
+    CHECK(bench.trunnion(one + " --max-seconds 0") == 1);
+    CHECK(bench.trunnion(one + " --max-seconds -1") == 2);
+}
+
+TEST_CASE("max-seconds ends a volumetric map with the poses so far") {
+    const Bench bench;
+    const std::string map = "volumetric --setup " TRUNNION_SOURCE_DIR
+                            "/machines/bc_table.toml --csv " +
+                            bench.file("m.csv");
+    CHECK(bench.trunnion(map + " --grid 20 --rotary-grid 10 --max-seconds 0.05") == 4);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("--max-seconds: these are the first "));
+    CHECK(bench.trunnion(map + " --grid 2 --max-seconds 100") == 0);
+    CHECK(bench.trunnion(map + " --grid 2 --max-seconds -1") == 2);
+}
+
 TEST_CASE("max-memory ends a command that needs more, with one message and no output") {
     const Bench bench;
     std::string text =
