@@ -73,7 +73,9 @@ int help_command(const CLI::App& app, const std::string& name) {
             print_out("{}", command->help("trunnion"));
             return exit_done;
         }
-    throw InputError("no help on '" + name + "'" + did_you_mean(name, names_of(app)));
+    const std::string near = did_you_mean(name, names_of(app));
+    throw InputError("no help on '" + name + "'" +
+                     (near.empty() ? "; 'trunnion help' lists commands and topics" : near));
 }
 
 }  // namespace

@@ -146,14 +146,15 @@ class SuiteReader {
         c.b = path_of(program);
         c.name = text_or(table, "name", fs::path(program).replace_extension().generic_string());
         if (name_setup) c.name += "@" + fs::path(setup).stem().string();
-        const std::string against = text_or(table, "against", "");
+        const std::string against = text_or(table, "against", ""),
+                          own = text_or(table, "goldens", ""),
+                          of_all = text_or(file_.root(), "goldens", "goldens");
         if (against.empty()) {
             if (!stays_inside(c.name))
                 file_.fail(table, "the golden '" + c.name + "' would lie outside its folder");
-            const std::string goldens =
-                text_or(table, "goldens", text_or(file_.root(), "goldens", "goldens"));
-            c.golden = path_of(goldens) + "/" + c.name + ".csv";
+            c.golden = path_of(own.empty() ? of_all : own) + "/" + c.name + ".csv";
         } else {
+            if (!own.empty()) file_.fail(table, "a case has either against or goldens, not both");
             c.a = path_of(against);
             if (fs::is_directory(c.a)) c.a += "/" + fs::path(program).filename().string();
         }

@@ -95,6 +95,14 @@ TEST_CASE("effects lists the catalogue, and one of it with formula and example")
     CHECK(json["effects"][0]["parameters"][0]["name"] == "gap_rad");
 }
 
+TEST_CASE("help on an unknown topic says where the topics are listed") {
+    const CommandBench bench;
+    CHECK(bench.trunnion("help qqqqq") == 2);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("'trunnion help' lists commands and topics"));
+    CHECK(bench.trunnion("help unit") == 2);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("units"));
+}
+
 TEST_CASE("completion and the man page name the program's own options") {
     const CommandBench bench;
     for (const char* form : {"bash", "zsh", "fish", "man"}) {

@@ -54,6 +54,18 @@ using Names = std::vector<std::string>;
 
 }  // namespace
 
+TEST_CASE("a case is compared with a program or with a golden", "[suite]") {
+    const Folder folder;
+    const std::string common = "goldens = \"g\"\n", against = "against = \"b/p1.nc\"\n",
+                      one = "[[case]]\nprogram = \"a/p1.nc\"\n";
+    CHECK(folder.read(common + one + against).cases.front().golden.empty());
+    CHECK(folder.read(common + one).cases.front().golden == folder.at("g/a/p1.csv"));
+    CHECK(folder.read(common + one + "goldens = \"h\"\n").cases.front().golden ==
+          folder.at("h/a/p1.csv"));
+    CHECK_THAT(folder.refusal(one + against + "goldens = \"h\"\n"),
+               Catch::Contains("either against or goldens"));
+}
+
 TEST_CASE("programs of a folder: known endings in any case, and O with digits", "[suite]") {
     const Folder folder;
     CHECK(regression::programs_below(folder.at("a")) ==
