@@ -1,6 +1,7 @@
 #include "diagnosis/written_setup.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "diagnosis/rules.h"
 #include "diagnosis/solution.h"
@@ -10,6 +11,8 @@ namespace {
 
 /// Limit of the loss on left-out paths, relative to the set-up alone.
 constexpr double most_harm = 1.2;
+constexpr double least_agreement = 1.0;  ///< t statistic of a searched form on left-out paths
+constexpr double least_part = 0.1;       ///< of its contribution that it must save there
 
 using TakesMember = std::function<bool(GroupKind, std::size_t group)>;
 
@@ -20,14 +23,13 @@ Model only(const Outcome& f, Model model, const TakesMember& takes) {
     return model;
 }
 
-bool holds(const Outcome& f, std::size_t group) {
+std::size_t position_of(const Outcome& f, std::size_t group) {
     const auto at = std::find(f.model.members.begin(), f.model.members.end(), group);
-    return f.judgement.interpolates[static_cast<std::size_t>(at - f.model.members.begin())];
+    return static_cast<std::size_t>(at - f.model.members.begin());
 }
 
 bool is_large(const Outcome& f, std::size_t group) {
-    const auto at = std::find(f.model.members.begin(), f.model.members.end(), group);
-    return f.judgement.large[static_cast<std::size_t>(at - f.model.members.begin())];
+    return f.judgement.large[position_of(f, group)];
 }
 
 /// Which members contribute to a prediction: causes and small zeros.
@@ -55,14 +57,56 @@ bool has_tables(const Outcome& f, const Model& model) {
                        [&](std::size_t m) { return f.design.group(m).kind == GroupKind::table; });
 }
 
+/// True for what was chosen among many forms, so that it fits what other causes leave, too.
+bool has_searched_form(GroupKind kind) {
+    return kind == GroupKind::table || kind == GroupKind::periodic;
+}
+
+/// Squares that a searched form saves on left-out paths: more than their scatter, and a part of
+/// what it contributes to the model.
+bool helps(const Saving& saving, double contribution) {
+    return saving.t >= least_agreement && saving.sum >= least_part * contribution;
+}
+
+/// For each member: whether it predicts between its positions and, where its form was searched,
+/// helps on left-out paths. What does not help is dropped one by one, the worst first.
+std::vector<bool> predicting_elsewhere(const Outcome& f, const Folds& paths) {
+    const std::vector<bool> counts = predicting(f, f.model);
+    const Eigen::MatrixXd parts = contributions(f.design, f.model, fit_of(f.design, f.model));
+    const LeftOut left(f.design, f.model, paths, f.used);
+    const auto loss = [&](const std::vector<bool>& fitted) {
+        std::vector<bool> predicts = counts;
+        for (std::size_t k = 0; k < fitted.size(); ++k) predicts[k] = predicts[k] && fitted[k];
+        return left.loss(fitted, predicts);
+    };
+    std::vector<bool> kept = f.judgement.interpolates;
+    for (BlockLoss with = loss(kept);; with = loss(kept)) {
+        std::optional<std::size_t> worst;
+        double least = 1e300;
+        for (std::size_t k = 0; k < kept.size(); ++k) {
+            if (!kept[k] || !has_searched_form(f.design.group(f.model.members[k]).kind)) continue;
+            std::vector<bool> rest = kept;
+            rest[k] = false;
+            const Saving saving = saving_of(loss(rest), with);
+            const double contribution = parts.col(static_cast<Eigen::Index>(k)).squaredNorm();
+            if (helps(saving, contribution) || saving.t >= least) continue;
+            least = saving.t;
+            worst = k;
+        }
+        if (!worst) return kept;
+        kept[*worst] = false;
+    }
+}
+
 /// The found model without the parts that do not predict, the most complete one first.
-std::vector<Model> candidates_of(const Outcome& f) {
-    const auto all = [&](GroupKind, std::size_t m) { return holds(f, m); };
+std::vector<Model> candidates_of(const Outcome& f, const Folds& paths) {
+    const std::vector<bool> kept = predicting_elsewhere(f, paths);
+    const auto all = [&](GroupKind, std::size_t m) { return bool{kept[position_of(f, m)]}; };
     const auto causes = [&](GroupKind k, std::size_t m) {
-        return holds(f, m) && k != GroupKind::driver;
+        return all(k, m) && k != GroupKind::driver;
     };
     const auto named = [&](GroupKind k, std::size_t m) {
-        return holds(f, m) && k != GroupKind::table;
+        return all(k, m) && k != GroupKind::table;
     };
     const auto named_causes = [&](GroupKind k, std::size_t m) {
         return named(k, m) && k != GroupKind::driver;
@@ -97,17 +141,24 @@ bool as_expected(const Outcome& f, const Model& model, const Folds& paths, doubl
     return beyond <= (1.0 - rules::explained) * std::max(0.0, before - noise);
 }
 
-/// Loss of a candidate on left-out paths (`after`), against the set-up alone (`before`): what was
-/// found with tables, and is fitted with or without them, must predict there; known forms alone do
-/// no harm, or be as the model expects.
-bool holds_elsewhere(const Outcome& f, const Model& model, const Folds& paths, double before,
-                     double noise) {
+/// Loss of the set-up alone on left-out blocks and on left-out paths, and of the noise.
+struct Alone {
+    double blocks = 0.0, paths = 0.0, noise = 0.0;
+};
+
+/// What was found with tables, and is fitted with or without them, must leave at most half of the
+/// gap on left-out paths, seen on these or within the paths: where the set-up alone misses them by
+/// more than the gap, they say nothing of a gap. Known forms alone do no harm, or are as the model
+/// expects.
+bool holds_elsewhere(const Outcome& f, const Model& model, const Folds& paths, const Alone& alone) {
     const double after = loss_of(f, model, paths).mean();
-    if (has_tables(f, f.model))
-        return before - after >= rules::between_least * std::max(0.0, before - noise);
+    if (has_tables(f, f.model)) {
+        const double gap = std::min(alone.blocks, alone.paths) - alone.noise;
+        return after - alone.noise <= (1.0 - rules::between_least) * std::max(0.0, gap);
+    }
     // Beside what is missing, a form has an uncertainty that excuses anything.
-    return after <= most_harm * before ||
-           (f.judgement.part >= rules::explained && as_expected(f, model, paths, before));
+    return after <= most_harm * alone.paths ||
+           (f.judgement.part >= rules::explained && as_expected(f, model, paths, alone.paths));
 }
 
 /// Takes the best candidate on left-out readings that holds on left-out paths, if there is one.
@@ -115,19 +166,19 @@ void choose(const Outcome& f, const Folds& paths, Written& w) {
     const double rank = static_cast<double>(f.design.projection().rank());
     const double noise = f.judgement.floor * (1.0 + rank / std::max(1.0, f.design.rows()));
     const BlockLoss before = loss_of(f, w.model, f.prepared.folds);
-    const double elsewhere = loss_of(f, w.model, paths).mean();
-    double least = before.mean();
-    for (Model& model : candidates_of(f)) {
+    const Alone alone{before.mean(), loss_of(f, w.model, paths).mean(), noise};
+    double least = alone.blocks;
+    for (Model& model : candidates_of(f, paths)) {
         const BlockLoss loss = loss_of(f, model, f.prepared.folds);
         if (loss.mean() >= least || saving_of(before, loss).t < rules::least_t) continue;
-        if (!holds_elsewhere(f, model, paths, elsewhere, noise)) {
+        if (!holds_elsewhere(f, model, paths, alone)) {
             w.only_here = true;
             continue;
         }
         least = loss.mean();
         w.model = std::move(model);
     }
-    if (before.mean() > noise) w.part = (before.mean() - least) / (before.mean() - noise);
+    if (alone.blocks > noise) w.part = (alone.blocks - least) / (alone.blocks - noise);
 }
 
 }  // namespace

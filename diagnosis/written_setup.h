@@ -19,10 +19,11 @@ struct Written {
 };
 
 /// The causes that predict left-out readings significantly better than the set-up alone in their
-/// written form: without drivers and large zeros and without tables that fail between their
-/// positions. On whole left-out paths what was found with tables must predict half of the excess,
-/// anything else do no harm. If there are none, or if they remove less than half of the excess on
-/// left-out readings: the re-identified setup without causes.
+/// written form: without drivers and large zeros, without tables that fail between their positions
+/// and without searched forms that do not help on whole left-out paths. There, what was found with
+/// tables must leave at most half of the gap, anything else do no harm. If there are none, or if
+/// they remove less than half of the excess on left-out readings: the re-identified setup without
+/// causes.
 Written written_setup(const Outcome& found);
 
 }  // namespace trunnion::diagnosis
