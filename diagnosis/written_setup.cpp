@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "diagnosis/outliers.h"
 #include "diagnosis/rules.h"
 #include "diagnosis/solution.h"
+#include "estimation/ranked_least_squares.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -181,6 +183,29 @@ void choose(const Outcome& f, const Folds& paths, Written& w) {
     if (alone.blocks > noise) w.part = (alone.blocks - least) / (alone.blocks - noise);
 }
 
+bool has_causes(const Outcome& f, const Model& model) {
+    return std::any_of(model.members.begin(), model.members.end(),
+                       [&](std::size_t m) { return is_cause(f.design.group(m).kind); });
+}
+
+/// The set-up fitted by least squares to all readings but lone ones: those that only a model which
+/// is not written sets aside belong to the gap.
+setup::Setup set_up_alone(const Outcome& f) {
+    const identification::BaseModel& base = f.prepared.base;
+    Eigen::VectorXd weight = base.sigma_mm.cwiseInverse();
+    for (const std::size_t i :
+         lone_probe_readings(f.prepared, std::vector<bool>(f.prepared.replay.size(), true)))
+        weight(static_cast<Eigen::Index>(i)) = 0.0;
+    const Eigen::MatrixXd columns = weight.asDiagonal() * base.columns;
+    const Model none{{}, {{}, 1.0}, 0.0};
+    Solution solution = solved(f.design, none);
+    solution.mean =
+        estimation::solve_ranked(columns.transpose() * columns,
+                                 columns.transpose() * weight.cwiseProduct(base.residual_mm))
+            .value;
+    return setup_with(f.prepared, f.design, none, solution);
+}
+
 }  // namespace
 
 Written written_setup(const Outcome& f) {
@@ -199,7 +224,9 @@ Written written_setup(const Outcome& f) {
         w.blocks = {f.judgement.left_before, f.judgement.left_before};
         w.paths = w.blocks;
     }
-    w.setup = setup_with(f.prepared, f.design, w.model, solved(f.design, w.model));
+    w.setup = has_causes(f, w.model)
+                  ? setup_with(f.prepared, f.design, w.model, solved(f.design, w.model))
+                  : set_up_alone(f);
     return w;
 }
 
