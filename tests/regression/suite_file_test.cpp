@@ -18,8 +18,9 @@ class Folder {
   public:
     Folder() {
         for (const char* part : {"a/sub", "b", "empty"}) fs::create_directories(path / part);
-        for (const char* program : {"a/p1.nc", "a/p2.NC", "a/p10.txt", "a/O1234", "a/O12x", "a/O",
-                                    "a/sub/q.tap", "a/note.md", "b/p1.nc", "b/new.cnc"})
+        for (const char* program :
+             {"a/p1.nc", "a/p2.NC", "a/p10.txt", "a/O1234", "a/O12x", "a/O", "a/O-1", "a/o77",
+              "a/P77", "a/sub/q.tap", "a/note.md", "b/p1.nc", "b/new.cnc"})
             std::ofstream(path / program) << "M30\n";
     }
     ~Folder() { fs::remove_all(path); }
@@ -69,7 +70,7 @@ TEST_CASE("a case is compared with a program or with a golden", "[suite]") {
 TEST_CASE("programs of a folder: known endings in any case, and O with digits", "[suite]") {
     const Folder folder;
     CHECK(regression::programs_below(folder.at("a")) ==
-          std::set<std::string>{"O1234", "p1.nc", "p10.txt", "p2.NC", "sub/q.tap"});
+          std::set<std::string>{"O1234", "o77", "p1.nc", "p10.txt", "p2.NC", "sub/q.tap"});
     CHECK(regression::programs_below(folder.at("empty")).empty());
     CHECK_THROWS_AS(regression::programs_below(folder.at("none")), InputError);
 }
@@ -78,11 +79,12 @@ TEST_CASE("two folders are a suite of all their programs, on one side or both", 
     const Folder folder;
     const regression::Suite suite =
         regression::suite_of_folders(folder.at("a"), folder.at("b"), {});
-    CHECK(names_of(suite) == Names{"O1234", "new.cnc", "p1.nc", "p10.txt", "p2.NC", "sub/q.tap"});
+    CHECK(names_of(suite) ==
+          Names{"O1234", "new.cnc", "o77", "p1.nc", "p10.txt", "p2.NC", "sub/q.tap"});
     CHECK(suite.cases[1].a.empty());
     CHECK(suite.cases[1].b == folder.at("b/new.cnc"));
-    CHECK(suite.cases[2].a == folder.at("a/p1.nc"));
-    CHECK(suite.cases[3].b.empty());
+    CHECK(suite.cases[3].a == folder.at("a/p1.nc"));
+    CHECK(suite.cases[4].b.empty());
     CHECK_THROWS_AS(regression::suite_of_folders(folder.at("empty"), folder.at("empty"), {}),
                     InputError);
 }
@@ -95,7 +97,7 @@ TEST_CASE("patterns of a suite match names of one folder", "[suite]") {
     CHECK(matched("a/p?.nc") == Names{"a/p1"});
     CHECK(matched("a/p*.*") == Names{"a/p1", "a/p10", "a/p2"});
     CHECK(matched("a/*1*0*t") == Names{"a/p10"});
-    CHECK(matched("a/O*") == Names{"a/O", "a/O1234", "a/O12x"});
+    CHECK(matched("a/O*") == Names{"a/O", "a/O-1", "a/O1234", "a/O12x"});
     CHECK(matched("a/gone.nc") == Names{"a/gone"});
     for (const char* none : {"a/x*", "a/p1.nc?", "gone/*.nc", "*/p1.nc"})
         CHECK_THAT(folder.refusal(std::string("[[case]]\nprogram = \"") + none + "\"\n"),

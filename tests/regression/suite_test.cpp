@@ -1,5 +1,6 @@
 #include "regression/suite.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -184,6 +185,9 @@ TEST_CASE("the environment of arrays, indexed jobs and MPI names the shard", "[s
         {{{"OMPI_COMM_WORLD_RANK", "5"}, {"OMPI_COMM_WORLD_SIZE", "6"}}, "env", 6, 6},
         {{{"PMI_RANK", "1"}, {"PMI_SIZE", "2"}}, "env", 2, 2},
         {{}, "2/5", 2, 5},
+        {{{"PMIX_RANK", "2"}, {"SLURM_NTASKS", "4"}}, "env", 3, 4},
+        {{{"SLURM_ARRAY_TASK_ID", "4"}, {"SLURM_ARRAY_TASK_STEP", "0"}}, "/9", 4, 9},
+        {{{"SLURM_ARRAY_TASK_ID", "x"}, {"PMI_RANK", "0"}, {"PMI_SIZE", "2"}}, "env", 1, 2},
     }));
     for (const auto& [name, value] : row.environment) ::setenv(name, value, 1);
     const regression::Shard shard = regression::parse_shard(row.text);
@@ -192,4 +196,165 @@ TEST_CASE("the environment of arrays, indexed jobs and MPI names the shard", "[s
     CHECK(shard.count == row.count);
     for (const char* bad : {"0/3", "4/3", "x", "1/", "env", "/0"})
         CHECK_THROWS_AS(regression::parse_shard(bad), InputError);
+}
+
+TEST_CASE("a shard of the environment counts only where that says how many", "[suite]") {
+    using Variables = std::vector<std::pair<const char*, const char*>>;
+    const auto with = [](const Variables& variables, const auto& asked) {
+        for (const auto& [name, value] : variables) ::setenv(name, value, 1);
+        const auto answer = asked();
+        for (const auto& [name, value] : variables) ::unsetenv(name);
+        return answer;
+    };
+    const auto found = [&](const Variables& variables) {
+        return with(variables, [] {
+            const auto shard = regression::shard_of_environment();
+            return shard ? fmt::format("{}/{}", shard->index, shard->count) : "none";
+        });
+    };
+    CHECK(found({}) == "none");
+    CHECK(found({{"JOB_COMPLETION_INDEX", "0"}}) == "none");
+    CHECK(found({{"PMI_RANK", "0"}, {"PMI_SIZE", "1"}}) == "none");
+    CHECK(found({{"PMI_RANK", "0"}, {"PMI_SIZE", "2x"}}) == "none");
+    CHECK(found({{"PMI_RANK", "1"}, {"PMI_SIZE", "3"}}) == "2/3");
+    const auto refused = [&](const Variables& variables, const char* text) {
+        return with(variables, [text]() -> std::string {
+            try {
+                regression::parse_shard(text);
+            } catch (const InputError& error) {
+                return error.what();
+            }
+            return "";
+        });
+    };
+    CHECK_THAT(refused({{"JOB_COMPLETION_INDEX", "0"}}, "env"), Catch::Contains("how many"));
+    CHECK_THAT(refused({{"PMI_RANK", "3"}, {"PMI_SIZE", "3"}}, "env"),
+               Catch::Contains("4 of 3 is no shard"));
+    CHECK_THAT(refused({}, "/3"), Catch::Contains("names no shard"));
+    CHECK_THAT(refused({}, "1/2/3"), Catch::Contains("is no shard"));
+}
+
+TEST_CASE("a bad file, a missing side and an error outside of NC affect their own case",
+          "[suite]") {
+    const Folder folder;
+    write_suite(folder);
+    folder.write("old/only_a.nc", part_program);
+    folder.write("new/only_b.nc", part_program);
+    folder.write("goldens.csv", "no golden\n");
+    regression::Suite suite = regression::suite_of_folders((folder.path / "old").string(),
+                                                           (folder.path / "new").string(), {});
+    REQUIRE(suite.cases.size() == 7);
+    suite.cases[6].golden = (folder.path / "goldens.csv").string();
+    suite.cases[6].b = suite.cases[5].b;
+    const regression::SuiteRun run = regression::run_suite(suite, {}, load_default, 2);
+    CHECK(run.report.cases[0].verdict.find("only in A: ") == 0);
+    CHECK(run.report.cases[1].verdict.find("only in B: ") == 0);
+    CHECK(run.report.cases[2].equal);
+    CHECK(run.report.cases[6].status == regression::CompareStatus::bad_input);
+    CHECK(run.report.cases[6].verdict.find("not a golden") != std::string::npos);
+    CHECK(regression::exit_code(run.report) == 2);
+    // What a progress display throws ends the run, from any thread.
+    const regression::SuiteWatch watch{
+        [](std::size_t, std::size_t) { throw std::runtime_error("no display"); }, {}};
+    CHECK_THROWS_WITH(regression::run_suite(suite, {}, load_default, 2, watch), "no display");
+}
+
+TEST_CASE("all differences must be expected, in this case or in any, and none be left out",
+          "[suite]") {
+    const Folder folder;
+    write_suite(folder);
+    const std::string two = replaced(replaced(part_program, "F200.", "F210."), "X50.", "X50.1");
+    folder.write("new/p3.nc", two);
+    regression::Suite suite = regression::read_suite((folder.path / "suite.toml").string(), {});
+    const auto run = [&] { return regression::run_suite(suite, {}, load_default, 1).report; };
+    const regression::CompareReport before = run();
+    std::vector<std::string> prints;
+    for (const regression::Difference& d : before.cases[3].differences)
+        prints.push_back(d.fingerprint);
+    REQUIRE(prints.size() >= 2);
+    suite.expected.push_back({"", prints[0], "anywhere"});
+    CHECK_FALSE(run().cases[3].equal);
+    for (std::size_t k = 1; k < prints.size(); ++k)
+        suite.expected.push_back({"new/p3", prints[k], "here"});
+    CHECK(run().cases[3].equal);
+    CHECK(run().cases[3].verdict ==
+          fmt::format("equal but for {} expected differences", prints.size()));
+    suite.expected.back().case_name = "new/p2";
+    CHECK_FALSE(run().cases[3].equal);
+    suite.expected.back().case_name = "new/p3";
+    suite.cases[3].options.most_differences = 1;
+    CHECK_FALSE(run().cases[3].equal);
+}
+
+TEST_CASE("no golden is written of a program that stops, nor of a case without one", "[suite]") {
+    const Folder folder;
+    write_suite(folder);
+    folder.write("new/p.nc", replaced(part_program, "X50.", "X5000."));
+    const std::string head = "schema = \"trunnion.suite/1\"\n[[case]]\n";
+    regression::Suite suite =
+        regression::read_suite(folder.write("s.toml", head + "program = \"new/p.nc\"\n"), {});
+    CHECK_THROWS_AS(regression::updated_goldens(suite, "r", load_default), Alarm);
+    suite.cases[0].options.max_blocks = 5;
+    CHECK_THROWS_AS(regression::updated_goldens(suite, "r", load_default), InputError);
+    CHECK(regression::updated_goldens(
+              regression::read_suite((folder.path / "suite.toml").string(), {}), "r", load_default)
+              .empty());
+}
+
+TEST_CASE("the gravest of several cases is the verdict of all", "[suite]") {
+    using regression::CompareStatus;
+    regression::CompareReport report;
+    report.single = false;
+    const auto add = [&](CompareStatus status) {
+        regression::Comparison c;
+        c.status = status;
+        c.equal = status == CompareStatus::equal;
+        report.cases.push_back(c);
+        return regression::exit_code(report);
+    };
+    CHECK(add(CompareStatus::equal) == 0);
+    CHECK(verdict_of(report) == "equal: all 1 programs");
+    CHECK(add(CompareStatus::differs) == 1);
+    CHECK(add(CompareStatus::limit) == 4);
+    CHECK(add(CompareStatus::alarm) == 3);
+    CHECK(add(CompareStatus::bad_input) == 2);
+    CHECK(verdict_of(report) == "differs: 4 of 5 programs");
+    report.single = true;
+    CHECK(verdict_of(report) == "differs: 4 of 5 programs");
+    // What can no longer be seen is not called gone.
+    report.expected = {{"", "print", "reason"}};
+    CHECK(regression::no_longer_occurring(report).empty());
+    report.cases.resize(2);
+    CHECK(regression::no_longer_occurring(report).size() == 1);
+    report.cases[1].differences.push_back({});
+    report.cases[1].differences[0].fingerprint = "print";
+    CHECK(regression::no_longer_occurring(report).size() == 1);  // it is not this suite's
+    report.cases[1].differences[0].expected = true;
+    CHECK(regression::no_longer_occurring(report).empty());
+}
+
+TEST_CASE("the order of gravity: not compared, alarm, missing, far, elsewhere, equal", "[suite]") {
+    using regression::DifferenceKind;
+    const auto gravity = [](DifferenceKind kind, double position_mm) {
+        regression::Comparison c;
+        c.equal = false;
+        c.differences.push_back({});
+        c.differences[0].kind = kind;
+        c.differences[0].position_mm = position_mm;
+        return regression::gravity_of(c);
+    };
+    regression::Comparison none;
+    const double equal = regression::gravity_of(none);
+    none.equal = false;
+    const std::vector<double> falling{regression::gravity_of(none),
+                                      gravity(DifferenceKind::alarm, 0.0),
+                                      gravity(DifferenceKind::only_a, 5.0),
+                                      gravity(DifferenceKind::only_b, 4.0),
+                                      gravity(DifferenceKind::tool, 0.0),
+                                      gravity(DifferenceKind::moved, 50.0),
+                                      gravity(DifferenceKind::function, 0.0),
+                                      gravity(DifferenceKind::path, 1.0),
+                                      gravity(DifferenceKind::reordered, 0.0),
+                                      equal};
+    for (std::size_t k = 1; k < falling.size(); ++k) CHECK(falling[k - 1] > falling[k]);
 }
