@@ -24,18 +24,14 @@ bool holds(std::string_view text, std::string_view word) {
 /// The line without blanks and comments, in upper case: for blocks with computed values.
 std::uint64_t key_of_text(std::string_view line, bool keep_number) {
     std::string bare;
-    int comment = 0;
+    bool comment = false;
     const bool prints = holds(line, "PRNT");  // blanks and case are printed there
     for (const char c : line) {
-        if (prints) {
-            if (!interpreter::is_line_end(c)) bare += c;
-            continue;
-        }
-        if (c == '(')
-            ++comment;
-        else if (c == ')')
-            comment = 0;
-        else if (comment == 0 && !interpreter::is_blank(c) && !interpreter::is_line_end(c))
+        if (prints)
+            bare += c;
+        else if (c == '(' || c == ')')
+            comment = c == '(';
+        else if (!comment && !interpreter::is_blank(c))
             bare += interpreter::upper(c);
     }
     std::size_t start = 0;
@@ -102,8 +98,9 @@ class WordKeys : public LineKeys {
                 interpreter::parse_block(text_, byte_, number, options_, code_);
             if (is_plain(block, code_)) return key_of_words(block);
             forget_by(block);
-        } catch (const Alarm&) {  // compared as written
+        } catch (const Alarm&) {  // nothing of it may be passed over: it stops the program
             memory_.forget();
+            return hash_of(line);
         }
         const std::uint64_t written = key_of_text(line, jumps_ || in_table_);
         return written != 0 ? std::optional(written) : std::nullopt;

@@ -120,3 +120,45 @@ TEST_CASE("programs that move nothing are compared by what they leave", "[compar
     const regression::Comparison code = compare_texts(a, replaced(a, "M8", "M7"), machine());
     CHECK_FALSE(code.equal);
 }
+
+TEST_CASE("a comment that is not closed stops a program: it is never equal to one without",
+          "[compare]") {
+    for (const char* open : {"N10 (OPEN\nX20.", "(OPEN\nX20.", "X20. (OPEN"}) {
+        INFO(open);
+        const regression::Comparison r =
+            compare_texts(part, replaced(part, "X20.", open), machine());
+        CHECK(r.status == CompareStatus::alarm);
+        CHECK_FALSE(r.equal);
+        CHECK(r.alarm_b.starts_with("9 "));
+    }
+}
+
+TEST_CASE("a program that moves against one that does not", "[compare]") {
+    const std::string none = "O1\nG90 G21 G94 G54\nT1 M6\nS500 M3\nM30\n";
+    for (const bool moves_in_a : {true, false}) {
+        const regression::Comparison r =
+            compare_texts(moves_in_a ? part : none, moves_in_a ? none : part, machine());
+        INFO(r.verdict);
+        CHECK(r.status == CompareStatus::differs);
+        CHECK(r.by == regression::Layer::path);
+        CHECK(r.differences.front().kind == (moves_in_a ? regression::DifferenceKind::only_a
+                                                        : regression::DifferenceKind::only_b));
+    }
+}
+
+TEST_CASE("an alarm in the call of both programs is told at the call", "[compare]") {
+    regression::CompareOptions options;
+    options.call = "G65 P1 Z[1";
+    const regression::Comparison r =
+        compare_texts(part, replaced(part, "X20.", "X21."), machine(), options);
+    CHECK_FALSE(r.equal);
+    CHECK(r.by == regression::Layer::words);
+    CHECK(r.alarm_a == r.alarm_b);
+    // Of one side alone: the argument that it asks for.
+    options.call = "G65 P1 A1.";
+    const std::string asks = replaced(part, "G90 G21", "IF[#1EQ1.]THEN#3000=7(NO)\nG90 G21");
+    const regression::Comparison one = compare_texts(part, asks, machine(), options);
+    CHECK(one.status == CompareStatus::alarm);
+    CHECK(one.alarm_b.starts_with("3007 "));
+    CHECK(one.differences.front().b.line == 2);
+}

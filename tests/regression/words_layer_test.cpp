@@ -39,7 +39,10 @@ TEST_CASE("computed blocks are compared as written, without blanks, case and com
         {"DPRNT[a]\n", "DPRNT[A]\n", false},
         {"M98 <ONE>\n", "M98 <TWO>\n", false},
         {"G1 X1. ?\n", "G1 X1. ?? \n", false},
-        {"G1 X1. ?\n", "g1x1.?\n", true},
+        {"G1 X1. ?\n", "g1x1.?\n", false},  // it stops the program: as written
+        {"X1.\nN10 (OPEN\n", "X1.\n", false},
+        {"X1.\n(OPEN\n", "X1.\n", false},
+        {"X1. (\n", "X1.\n", false},
     }));
     INFO(row.a << " | " << row.b);
     CHECK(same(row.a, row.b) == row.same);
