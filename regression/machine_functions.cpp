@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "regression/hash_mix.h"
 
@@ -15,6 +17,10 @@ std::uint64_t key_of(const FunctionEvent& e) {
     if (e.kind == FunctionKind::dwell) return h;  // its duration is compared with a tolerance
     return mix(mix(h, static_cast<std::uint64_t>(std::llround(e.value * 1e3))),
                static_cast<std::uint64_t>(std::llround(e.detail)));
+}
+
+std::uint32_t line_of(const BlockLook& look) {
+    return static_cast<std::uint32_t>(std::max(0, look.line));
 }
 
 }  // namespace
@@ -61,7 +67,8 @@ void FunctionRecorder::m_code(int code, int tool, int line) {
 void FunctionRecorder::block(const ControlSnapshot& s, const BlockLook& look) {
     now_.tool = s.tool_selected;
     const bool exact_mode = s.modal10[15] == 610;
-    if (exact_mode != exact_mode_) exact_line_ = static_cast<std::uint32_t>(std::max(0, look.line));
+    if (exact_mode != exact_mode_)  // a move of this block may have told it
+        exact_line_ = told_.exact_stop == (exact_mode ? 1 : 0) ? 0 : line_of(look);
     exact_mode_ = exact_mode;
     const std::int16_t path_mode = s.modal10[15] == 610 ? std::int16_t{640} : s.modal10[15];
     if (path_mode != path_mode_) add(FunctionKind::path_mode, path_mode * 0.1, 0.0, false);
@@ -76,8 +83,7 @@ void FunctionRecorder::block(const ControlSnapshot& s, const BlockLook& look) {
     }
     if (held_.empty()) return;
     const bool known = look.program != nullptr;
-    write_held(static_cast<std::uint32_t>(std::max(0, look.line)),
-               known ? path_.program_index(*look.program) : std::uint16_t{0});
+    write_held(line_of(look), known ? path_.program_index(*look.program) : std::uint16_t{0});
 }
 
 void FunctionRecorder::finish() {
@@ -89,7 +95,9 @@ void FunctionRecorder::tell_states() {
     tell(now_.tool, told_.tool, FunctionKind::tool_call);
     tell(now_.spindle, told_.spindle, FunctionKind::spindle, now_.spindle_line);
     tell(now_.coolant, told_.coolant, FunctionKind::coolant, now_.coolant_line);
-    tell(now_.exact_stop, told_.exact_stop, FunctionKind::exact_stop, exact_line_);
+    if (now_.exact_stop != told_.exact_stop)
+        tell(now_.exact_stop, told_.exact_stop, FunctionKind::exact_stop,
+             std::exchange(exact_line_, 0));
 }
 
 void FunctionRecorder::tell(int now, int& told, FunctionKind kind, std::uint32_t line) {

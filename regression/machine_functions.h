@@ -74,7 +74,7 @@ class FunctionRecorder {
     States now_, told_;
     std::int16_t path_mode_ = 640;
     bool exact_mode_ = false;
-    std::uint32_t exact_line_ = 0;  ///< of G61, G64
+    std::uint32_t exact_line_ = 0;  ///< of G61 or G64 that no move has told; 0: the running block
     std::array<float, 3> smoothing_{};
     std::uint8_t mode_ = 0;
     std::vector<FunctionEvent> held_;  ///< of the running block, whose line is known at its end

@@ -150,3 +150,25 @@ TEST_CASE("spindle, coolant and tool of a cut are said with both values", "[comp
     CHECK(path("T1 M6", "T2 M6").find("tool T1 -> T2") != std::string::npos);
     CHECK(path("F200.", "F300.").find("feed 200 -> 300 mm/min (T1)") != std::string::npos);
 }
+
+TEST_CASE("an exact stop that ends earlier is said on the side that says so", "[compare]") {
+    const std::string on = replaced(part, "G1 Z140.", "G61 G1 Z140.");
+    const std::string off = replaced(on, "X60.", "G64 X60.");
+    CHECK(functions(on, off) == "end of exact stop (G64) is only in B x1 @15,12\n");
+    CHECK(functions(off, on) == "end of exact stop (G64) is missing in B x1 @12,15\n");
+    // What one side begins and ends is one difference.
+    const std::string again =
+        replaced(off, "G0 Z150.\n", "G0 Z150.\nG61\nG1 X50. F300.\nG64\nX60.\n");
+    const std::string found = functions(off, again);
+    CHECK(found.find("exact stop (G9, G61) is only in B x1") == 0);
+    CHECK(found.find("end of exact stop") == std::string::npos);
+}
+
+TEST_CASE("a full circle and a block that stands still", "[compare]") {
+    static const setup::Setup setup = bc_table();
+    const std::string circle = replaced(part, "X60.\n", "G3 I-5.\nG1 X60.\n");
+    CHECK(compare_texts(circle, replaced(circle, "I-5.", "I-5.0 J0."), setup).equal);
+    CHECK_FALSE(compare_texts(circle, part, setup).equal);
+    CHECK_FALSE(compare_texts(circle, replaced(circle, "I-5.", "I-5.1"), setup).equal);
+    CHECK(compare_texts(part, replaced(part, "X60.\n", "G91 X0.\nG90 X50.\nX60.\n"), setup).equal);
+}
