@@ -39,14 +39,15 @@ double weighted_squares(const BaseModel& model) {
     return model.residual_mm.cwiseQuotient(model.sigma_mm).squaredNorm();
 }
 
-/// Increase of the misfit without the terms, in units of the scatter that remains with them.
+/// Increase of the misfit without the terms, in units of the scatter that remains with them;
+/// infinite where nothing remains.
 double cost(const BaseModel& with, const BaseModel& without) {
     const double dof = std::max(
         1.0, static_cast<double>(with.residual_mm.size()) - static_cast<double>(with.rank));
     const double terms = std::max(1, with.rank - without.rank);
     const double scatter = weighted_squares(with) / dof;
-    return scatter > 0.0 ? (weighted_squares(without) - weighted_squares(with)) / terms / scatter
-                         : 2.0 * chance_f;
+    const double more = weighted_squares(without) - weighted_squares(with);
+    return more > 0.0 ? more / terms / scatter : 0.0;
 }
 
 /// The effect's values in the fitted model, in the order of its parameters.

@@ -42,6 +42,15 @@ TEST_CASE("a side that no row tells is found with the gap it belongs to", "[iden
     }
 }
 
+TEST_CASE("the side of a day is told with its day", "[identification]") {
+    const setup::Setup truth = campaign::with_effect(campaign::bc_setup(), "C.backlash=60urad");
+    records::ReadingTable read = circles(truth, -1);
+    for (records::Reading& row : read.rows) row.session = "monday";
+    const auto result = identification::identify(campaign::bc_setup(), read, {"C.backlash"});
+    REQUIRE_FALSE(result.notes.empty());
+    CHECK_THAT(result.notes[0], Catch::Contains("C of monday came travelling -"));
+}
+
 TEST_CASE("nothing free is a model too", "[identification]") {
     setup::Setup setup = campaign::bc_setup();
     setup.model.modelled.clear();
