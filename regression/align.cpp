@@ -34,7 +34,7 @@ class MyersWalk {
         for (long d = 0; d <= most; ++d) {
             for (long k = -d; k <= d; k += 2) {
                 long x = k == -d || (k != d && at(k - 1) < at(k + 1)) ? at(k + 1) : at(k - 1) + 1;
-                while (x < n_ && x - k < m_ && x - k >= 0 && same(x, x - k)) ++x;
+                while (x < n_ && x - k < m_ && same(x, x - k)) ++x;
                 at(k) = x;
                 if (x >= n_ && x - k >= m_) {
                     keep(best, d, most);
@@ -52,8 +52,7 @@ class MyersWalk {
         for (long d = static_cast<long>(trace_.size()) - 1; d > 0; --d) {
             const std::vector<std::int32_t>& before = trace_[static_cast<std::size_t>(d - 1)];
             const auto at = [&](long k) {
-                return std::abs(k) > d - 1 ? -1L
-                                           : long{before[static_cast<std::size_t>(k + d - 1)]};
+                return long{before[static_cast<std::size_t>(k + d - 1)]};
             };
             const long k = x - y;
             const bool down = k == -d || (k != d && at(k - 1) < at(k + 1));
@@ -189,10 +188,9 @@ std::vector<IndexPair> nth_with_nth(const Keys& a, IndexPair from, const Keys& b
 }
 
 std::vector<IndexPair> match_sequences(const Keys& a, const Keys& b, std::size_t most_edits) {
-    IndexPair from, to{a.size(), b.size()};
+    const IndexPair from;
+    IndexPair to{a.size(), b.size()};
     std::vector<IndexPair> pairs;
-    while (from.a < to.a && from.b < to.b && a[from.a] == b[from.b])
-        pairs.push_back({from.a++, from.b++});
     std::vector<IndexPair> tail;
     while (from.a < to.a && from.b < to.b && a[to.a - 1] == b[to.b - 1])
         tail.push_back({--to.a, --to.b});

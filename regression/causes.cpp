@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <map>
+#include <string_view>
 
 #include "regression/moved_pivot.h"
 #include "regression/run_states.h"
@@ -25,21 +27,24 @@ unsigned explaining(DifferenceKind kind) {
     }
 }
 
+bool is_among(std::string_view name, std::initializer_list<std::string_view> names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 /// Reported only if no earlier field of the table explains the difference, because these follow
 /// from others.
-bool follows_from_others(const std::string& name) {
-    return name == "cutter radius" || name == "tool length" || name == "work zero" ||
-           name == "work zero of the rotary axes" || name == "motion" || name == "local shift" ||
-           name == "angles of the tilted plane" || name == "feed" || name == "speed";
+bool follows_from_others(std::string_view name) {
+    return is_among(name,
+                    {"cutter radius", "tool length", "work zero", "work zero of the rotary axes",
+                     "motion", "local shift", "angles of the tilted plane", "feed", "speed"});
 }
 
 /// True for fields that may differ for a while before the path shows it.
-bool can_lie_hidden(const std::string& name, bool arc) {
+bool can_lie_hidden(std::string_view name, bool arc) {
     if (name == "plane") return arc;
-    return name == "units" || name == "feed mode" || name == "radius number" ||
-           name == "cutter radius" || name == "level after a cycle" || name == "surface speed" ||
-           name == "spindle" || name == "speed" || name == "coolant" || name == "tool" ||
-           name == "feed";
+    return is_among(name,
+                    {"units", "feed mode", "radius number", "cutter radius", "level after a cycle",
+                     "surface speed", "spindle", "speed", "coolant", "tool", "feed"});
 }
 
 /// An item on one side only needs no state as its cause: its block is its position.
@@ -95,7 +100,6 @@ class Explainer {
         if (c.kind == DifferenceKind::reordered)
             return {"passes reordered", fmt::format("reordered T{}", c.tool), {}, {}};
         if (says_all(c.kind)) return by_own_block(c.kind == DifferenceKind::only_a, i, j);
-        if (a_.empty() || b_.empty()) return {};
         const Fields now = differing(i, j, explaining(c.kind));
         Fields fresh = now;
         if (i > 1 && j > 1) {
@@ -228,7 +232,6 @@ class Explainer {
 
     /// G41 or G42 on either side: the following blocks change the end of this one.
     bool beside_contour(std::uint64_t i, std::uint64_t j) {
-        if (a_.empty() || b_.empty()) return false;
         constexpr std::size_t cutter = 7;
         return a_.row(a_.at(i)).state.modal10[cutter] > 400 ||
                b_.row(b_.at(j)).state.modal10[cutter] > 400;

@@ -132,8 +132,12 @@ class ProgramComparer {
         describe_paths(found, explained(found, space),
                        {{a, lines_a_}, {b, lines_b_}, space, options_.tolerances}, result_);
         if (result_.differences.empty() || !run_a_ || !one_control()) return;
-        for (const std::string& hint : {frame_hint(*run_a_, "A"), frame_hint(*run_b_, "B")})
-            if (!hint.empty()) result_.notes.push_back(hint);
+        add_hint(frame_hint(*run_a_, "A"));
+        add_hint(frame_hint(*run_b_, "B"));
+    }
+
+    void add_hint(std::string hint) {
+        if (!hint.empty()) result_.notes.push_back(std::move(hint));
     }
 
     /// States of different machines differ anyway, and a golden has none.
@@ -328,7 +332,7 @@ class ProgramComparer {
                   SourceLines& lines) {
         if (run.status == controller::RunStatus::limit && result_.status != CompareStatus::alarm)
             result_.status = CompareStatus::limit;
-        if (run.status != controller::RunStatus::alarm || !run.alarm) return;
+        if (run.status != controller::RunStatus::alarm) return;
         alarm = fmt::format("{} {}", run.alarm->number, run.alarm->text);
         if (result_.by == Layer::text || result_.by == Layer::words) return;
         result_.status = CompareStatus::alarm;

@@ -60,7 +60,7 @@ void add_value(Comparison& result, const std::string& what) {
 std::string value_text(const Values& values, const std::string& name) {
     const auto found = values.find(name);
     if (found == values.end()) return name.starts_with("#") ? "vacant" : "0";
-    return std::isnan(found->second) ? "vacant" : fmt::format("{:.10g}", found->second);
+    return fmt::format("{:.10g}", found->second);
 }
 
 void compare_values(const Values& a, const Values& b, const Tolerances& t, Comparison& result) {
@@ -70,13 +70,17 @@ void compare_values(const Values& a, const Values& b, const Tolerances& t, Compa
     for (const std::string& name : names) {
         ++result.compared;
         const auto in_a = a.find(name), in_b = b.find(name);
-        if (in_a != a.end() && in_b != b.end()) {
-            if (std::isnan(in_a->second) && std::isnan(in_b->second)) continue;
-            if (std::abs(in_a->second - in_b->second) <= t.position_mm) continue;
-        }
+        if (in_a != a.end() && in_b != b.end() &&
+            std::abs(in_a->second - in_b->second) <= t.position_mm)
+            continue;
         add_value(result,
                   fmt::format("{}: {} -> {}", name, value_text(a, name), value_text(b, name)));
     }
+}
+
+std::string quoted(bool there, const std::string& line) {
+    if (!there) return "nothing";
+    return "'" + line + "'";
 }
 
 void compare_printed(const std::string& a, const std::string& b, Comparison& result) {
@@ -88,9 +92,8 @@ void compare_printed(const std::string& a, const std::string& b, Comparison& res
         if (!more_a && !more_b) return;
         ++result.compared;
         if (more_a && more_b && line_a == line_b) continue;
-        add_value(result, fmt::format("printed line {}: {} -> {}", n,
-                                      more_a ? "'" + line_a + "'" : "nothing",
-                                      more_b ? "'" + line_b + "'" : "nothing"));
+        add_value(result, fmt::format("printed line {}: {} -> {}", n, quoted(more_a, line_a),
+                                      quoted(more_b, line_b)));
         if (more_a != more_b) return;
     }
 }

@@ -86,11 +86,16 @@ class FunctionComparer {
         return event_distance(p, q) > 4.0 * options_.tolerances.position_mm;
     }
 
+    static bool writes(SpilledWindow<FunctionEvent>& events, std::uint64_t first,
+                       std::uint64_t last) {
+        for (std::uint64_t k = first; k < last; ++k)
+            if (events[k].kind == FunctionKind::store) return true;
+        return false;
+    }
+
     void gap_between(const KeyGap& gap) {
-        for (std::uint64_t k = gap.a_first; k < gap.a_last; ++k)
-            same_writes_ = same_writes_ && a_[k].kind != FunctionKind::store;
-        for (std::uint64_t k = gap.b_first; k < gap.b_last; ++k)
-            same_writes_ = same_writes_ && b_[k].kind != FunctionKind::store;
+        if (writes(a_, gap.a_first, gap.a_last) || writes(b_, gap.b_first, gap.b_last))
+            same_writes_ = false;
         const std::uint64_t in_a = gap.a_last - gap.a_first, in_b = gap.b_last - gap.b_first;
         const std::uint64_t both = std::min(in_a, in_b);
         for (std::uint64_t k = 0; k < both; ++k) {

@@ -65,7 +65,7 @@ class RecordingSink : public motion::MotionSink {
         run_.skips = run_.skips || move.until_skip;
         motion::AxisMove seen = move;
         if (made.skipped) seen.to = made.stopped;
-        if (control_ != nullptr) path_.feeds_by_time(feeds_by_inverse_time(*control_));
+        path_.feeds_by_time(feeds_by_inverse_time(*control_));
         functions_.before_move(seen);
         keys_.move(seen);
         path_.move(seen);
@@ -82,8 +82,7 @@ class RecordingSink : public motion::MotionSink {
         functions_.dwell(duration_s);
     }
     void m_code(int code) override {
-        if (control_ != nullptr)
-            functions_.m_code(code, tool_in_spindle(*control_), running_line(*control_));
+        functions_.m_code(code, tool_in_spindle(*control_), running_line(*control_));
     }
     void printed(std::string_view text) {
         run_.printed += text;
@@ -121,7 +120,7 @@ class RecordingSink : public motion::MotionSink {
     BlockKeys keys_;
     FunctionRecorder functions_;
     std::optional<emulator::MachineSink> machine_;
-    const controller::Control* control_ = nullptr;
+    const controller::Control* control_ = nullptr;  ///< seen before the first block
     ControlSnapshot state_, kept_;
     std::array<double, 3> rotary_deg_{};
     std::uint64_t segments_before_ = 0;

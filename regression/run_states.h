@@ -13,7 +13,6 @@ class RunStates {
   public:
     explicit RunStates(const RecordedRun& run) : rows_(run.states) {}
 
-    bool empty() const { return rows_.size() == 0; }
     /// The state row of a segment.
     std::uint64_t at(std::uint64_t segment);
     StateRow row(std::uint64_t index) { return rows_[index]; }

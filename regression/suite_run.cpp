@@ -28,8 +28,8 @@ class Setups {
   public:
     Setups(const Suite& suite, SetupLoader load) {
         for (const SuiteCase& c : suite.cases)
-            for (const std::string& path : {c.setup, c.setup_b})
-                if (!by_path_.contains(path)) by_path_.emplace(path, load(path));
+            for (const std::string* path : {&c.setup, &c.setup_b})
+                if (!by_path_.contains(*path)) by_path_.emplace(*path, load(*path));
     }
     const setup::Setup& at(const std::string& path) const { return by_path_.at(path); }
 

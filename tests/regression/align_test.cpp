@@ -227,3 +227,44 @@ TEST_CASE("passes are alike by tool, place, ends and length of the cut, each wit
     CHECK(alike_with([](regression::Pass& q) { q.start_mm = {5.0, 5.0, 5.0}; }));
     CHECK_FALSE(alike_with([](regression::Pass& q) { q.tool = 4; }));
 }
+
+TEST_CASE("sequences with a common head, a common tail, both and none are matched", "[align]") {
+    const auto matched = [](const regression::Keys& a, const regression::Keys& b,
+                            std::size_t most_edits = 1000) {
+        std::string text;
+        for (const auto& p : regression::match_sequences(a, b, most_edits))
+            text += std::to_string(p.a) + "=" + std::to_string(p.b) + " ";
+        return text;
+    };
+    for (const std::size_t edits : {1000, 1}) {
+        CHECK(matched({}, {}, edits).empty());
+        CHECK(matched({1}, {}, edits).empty());
+        CHECK(matched({1, 2, 3}, {1, 2, 3}, edits) == "0=0 1=1 2=2 ");
+        CHECK(matched({1, 2, 3}, {1, 2, 4, 5}, edits) == "0=0 1=1 ");
+        CHECK(matched({1, 2, 3}, {9, 2, 3}, edits) == "1=1 2=2 ");
+        CHECK(matched({1, 2, 3, 4}, {1, 7, 8, 3, 4}, edits) == "0=0 2=3 3=4 ");
+        CHECK(matched({1, 2}, {3, 4}, edits).empty());
+    }
+}
+
+TEST_CASE("two sequences with nothing alike, or only far behind, keep every item", "[align]") {
+    regression::Keys a, b;
+    for (std::uint64_t k = 0; k < 100; ++k) {
+        a.push_back(k);
+        b.push_back(1000 + k);
+    }
+    const auto none = aligned(a, b, windows(4));
+    check_complete(a, b, none);
+    REQUIRE(none.size() == 1);
+    CHECK(none[0].pairing == regression::Pairing::changed);
+    // The only match of the largest window lies in its last quarter.
+    for (const std::size_t at : {13, 14, 15}) {
+        regression::Keys far = b;
+        far[at] = a[at];
+        const auto found = aligned(a, far, windows(4));
+        check_complete(a, far, found);
+        CHECK(std::any_of(found.begin(), found.end(), [&](const regression::PassPair& p) {
+            return p.pairing == regression::Pairing::same && p.a.first == at;
+        }));
+    }
+}

@@ -127,3 +127,40 @@ TEST_CASE("a program called by name in brackets is found and compared", "[calls]
     REQUIRE(r.differences.size() == 1);
     CHECK(r.differences[0].what == "1 block changed: X21. instead of X20.");
 }
+
+TEST_CASE("a difference that begins in a called program and ends in the caller", "[calls]") {
+    const TwoSides sides;
+    const std::string caller = replaced(main_program, "M98 P2\nM98 P2\n", "M98 P2\nX30.\nX40.\n");
+    for (const char* side : {"a", "b"})
+        sides.write((side + std::string("/main.nc")).c_str(), caller);
+    sides.write("a/O2.nc", called);
+    sides.write("b/O2.nc", replaced(called, "X20.", "X20. Y7."));
+    const regression::Comparison r = sides.compare(regression::Layer::path);
+    REQUIRE_FALSE(r.equal);
+    const regression::ComparePlace& place = r.differences.front().b;
+    CHECK(place.program == (sides.path / "b/O2.nc").string());
+    CHECK(place.line == line_with(called, "X20."));
+    CHECK(place.last_line == place.line);  // the end lies in another program
+}
+
+TEST_CASE("a program that calls itself, and one that nobody finds", "[calls]") {
+    const TwoSides sides;
+    const std::string itself =
+        "%\nO1\nG90 G21 G54\n#100=#100+1\nG1 X[#100] F300.\nIF[#100GT3]GOTO9\nM98 P1\nN9 M99\n%\n";
+    sides.write("a/main.nc", itself);
+    sides.write("b/main.nc", replaced(itself, "GT3", "GT4"));
+    const regression::Comparison r = sides.compare(regression::Layer::words);
+    REQUIRE(r.differences.size() == 1);  // once, not for the call again
+    sides.write("b/main.nc", replaced(itself, "GT3", "GE4"));
+    CHECK_FALSE(sides.compare(regression::Layer::words).equal);
+    // Neither side has O7: both stop there.
+    const std::string missing =
+        replaced(main_program, "M98 P2\nM98 P2\n", "G1 X5. F300.\nM98 P7\n");
+    sides.write("a/main.nc", missing);
+    sides.write("b/main.nc", replaced(missing, "X5.", "X6."));
+    const regression::Comparison stopped = sides.compare({});
+    CHECK_FALSE(stopped.equal);
+    CHECK(stopped.alarm_a == stopped.alarm_b);
+    REQUIRE(stopped.differences.size() == 1);
+    CHECK(stopped.differences[0].what == "1 block changed: X6. instead of X5.");
+}

@@ -128,3 +128,16 @@ TEST_CASE("what is no golden is refused with its place", "[golden]") {
         CHECK(said.find(std::string("4:6 not a number: '") + bad + "'") == 0);
     }
 }
+
+TEST_CASE("a jump of the believed tip is kept, and a path without a move is a head alone",
+          "[golden]") {
+    Pen pen;
+    pen.at(0, 0, 0).cut(1, 0, 0);
+    pen.add(pen.segment(regression::SegmentKind::jump, 1, 0, 5)).cut(2, 0, 5);
+    const std::string text = regression::format_golden(pen.done(), {});
+    CHECK(text.find("\nJUMP,1,0,8000,0,0,1,0,5,") != std::string::npos);
+    CHECK(regression::format_golden(regression::parse_golden(text, "g").path, {}) == text);
+    const std::string empty = regression::format_golden(regression::PathRecord{}, {"none"});
+    CHECK(empty.ends_with("sweep_deg\n"));
+    CHECK(regression::parse_golden(empty, "g").path.size() == 0);
+}

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "regression/left_aside.h"
 #include "tests/regression/programs.h"
 
 using namespace trunnion;
@@ -97,4 +98,19 @@ TEST_CASE("what was not compared is said in one line, and only what there was", 
         compare_texts(a, replaced(a, "X9. F300.", "X9. F300.\n#3000=7(OFF)"), setup);
     CHECK(left_aside_of(stopped).ends_with("what follows an alarm"));
     CHECK(compare_texts(a, a, setup).notes.empty());
+}
+
+TEST_CASE("ways that a text leaves open, up to its last character", "[compare]") {
+    using regression::open_ways;
+    for (const char* text : {"IF[#1EQ2]GOTO3", "goto 5", "X1.\nWHILE[#1LT2]DO1", "GO"}) {
+        INFO(text);
+        CHECK(open_ways(text).branches);
+    }
+    for (const char* text : {"", "X1. I", "G", "W", "(IF)", "(A)(GOTO", "I F"}) {
+        INFO(text);
+        CHECK_FALSE(open_ways(text).branches);
+    }
+    CHECK(open_ways("X1.\n/2 X2.").skips);
+    CHECK(open_ways("N5 / X2.").skips);
+    CHECK_FALSE(open_ways("X[1/2]\n(/)\nG1 /X2.").skips);
 }

@@ -70,4 +70,38 @@ TEST_CASE("an alarm of one control and another way through the program are told"
     CHECK(way[1].text == "from here new goes on at line 5, old at line 4");
 }
 
+TEST_CASE("the same alarm at the same place is told by nobody, any other by its control") {
+    CHECK(fanuc_and_hurco("G90 G21\nG0 X10.\n#3000=1(STOP)\n").empty());
+    const auto alarms = [](const char* a, const char* b) {
+        auto with = reading("a"), without = reading("b");
+        with.stores.variables[500] = 1.0;
+        without.stores.variables[500] = 2.0;
+        return compared(
+            std::string("G90 G21\nIF[#500EQ2.]GOTO5\n") + a + "\nM30\nN5" + b + "\nM30\n", with,
+            without);
+    };
+    const auto other_alarms = alarms("#3000=1", "#3000=2");
+    REQUIRE(other_alarms.size() == 2);
+    CHECK(other_alarms[0].text.find("a stops here: ") == 0);
+    CHECK(other_alarms[0].line == 3);
+    CHECK(other_alarms[1].text.find("b stops here: ") == 0);
+    CHECK(other_alarms[1].line == 5);
+    auto small = reading("small"), large = reading("large");
+    small.stores.tools.tool.resize(5);
+    const auto one = compared("G90 G21\nG43 H20 Z0.\nM30\n", small, large);
+    REQUIRE_FALSE(one.empty());
+    CHECK(one.back().text.find("small stops here: ") == 0);
+    const auto other = compared("G90 G21\nG43 H20 Z0.\nM30\n", large, small);
+    REQUIRE_FALSE(other.empty());
+    CHECK(other.back().text.find("small stops here: ") == 0);
+}
+
+TEST_CASE("a rotary axis that differs most is told in degrees") {
+    auto old = reading("old");
+    old.stores.work.external[Axis::B] = 30.0;
+    const auto found = compared("G90 G21\nG0 X10. B40.\nM30\n", reading("new"), old);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].text == "ends at B40.0000 on new, B70.0000 on old: 30.0000 deg apart");
+}
+
 }  // namespace trunnion
