@@ -190,9 +190,7 @@ double& number_of(setup::Setup& setup, const SetUpQuantity& q) {
         case Kind::long_cup:
             return ball_of(setup.ballbar->extension_errors, q.extension_mm)(q.component);
         case Kind::instrument: return number_of(setup.instruments[k], q.component);
-        case Kind::zero:
-            if (setup.zeros.size() <= k) setup.zeros.resize(k + 1, 0.0);
-            return setup.zeros[k];
+        case Kind::zero: return setup.zeros.at(k);
         case Kind::artefact:
         case Kind::target_on_tool: return place_of(setup.artefacts[k])(q.component);
         default: return setup.ballbar->length_mm;

@@ -23,7 +23,10 @@ struct Found {
 
 std::string words(const setup::Instrument& instrument, const Found& found) {
     std::string text = found.session.empty() ? "" : found.session + ": ";
-    text += instrument.sees_table ? "the part was" : instrument.name + " sees the machine";
+    if (instrument.sees_table)
+        text += "the part was";
+    else
+        text += instrument.name + " sees the machine";
     const bool turned = found.seen[3] || found.seen[4] || found.seen[5];
     const bool shifted = found.seen[0] || found.seen[1] || found.seen[2];
     if (turned)

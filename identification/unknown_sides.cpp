@@ -16,7 +16,8 @@ std::string name_of(const emulator::Replay& replay, const records::ReadingTable&
                     std::size_t open) {
     const emulator::UnknownSide& side = replay.unknown_sides()[open];
     const std::string& session = table.rows[replay.table_row(side.rows.front())].session;
-    return table.names[side.axis] + (session.empty() ? "" : " of " + session);
+    if (session.empty()) return table.names[side.axis];
+    return table.names[side.axis] + " of " + session;
 }
 
 /// Unknown sides that influence one of the models, with the present assumption of the replay.

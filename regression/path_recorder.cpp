@@ -136,7 +136,6 @@ motion::MoveResult PathRecorder::move(const motion::AxisMove& move) {
 
 motion::MoveResult PathRecorder::record(const motion::AxisMove& move) {
     Segment segment = plain_segment(move);
-    if (move.from == move.to && !move.arc && move.curve == nullptr) return {};
     const PathPoint start = point(move, move.from);
     if (!begun_) {
         begun_ = true;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "identification/identify.h"
+#include "identification/sensitivity.h"
 #include "identification/simulated.h"
 #include "tests/support/campaign.h"
 #include "tests/support/laser_machine.h"
@@ -131,6 +132,62 @@ TEST_CASE("each day has its own zeros, of a length and of an angle", "[identific
     }
     CHECK(zeros == std::vector<std::string>{"zero.EXX_mm.monday", "zero.EBX_rad.monday",
                                             "zero.EXX_mm.tuesday", "zero.EBX_rad.tuesday"});
+}
+
+TEST_CASE("more readings than derivatives are kept of are fitted to the same values",
+          "[identification]") {
+    setup::Setup setup = laser_machine();
+    records::ReadingTable one = two_days(setup);
+    std::erase_if(one.rows, [](const auto& row) {
+        return row.device != records::Device::linear || row.session != "monday";
+    });
+    for (records::Reading& row : one.rows) *row.value_mm = 20e-6 * row.commanded[Axis::X] + 0.1;
+    records::ReadingTable many = one;
+    for (int k = 0; k < 100001; ++k) {
+        records::Reading row = one.rows[static_cast<std::size_t>(k % 9)];
+        row.index = static_cast<int>(many.rows.size());
+        row.time_s = 60.0 * row.index;
+        many.rows.push_back(row);
+    }
+    const auto few = identification::identify(setup, one, {"X.scale"}),
+               all = identification::identify(setup, many, {"X.scale"});
+    const auto value = [](const identification::Identification& found, const std::string& name) {
+        for (const identification::FitParameter& p : found.parameters)
+            if (p.name == name) return p.value.value();
+        throw std::logic_error("no " + name);
+    };
+    for (const char* name : {"scale_ppm", "zero.EXX_mm.monday"})
+        CHECK(value(all, name) == Approx(value(few, name)).epsilon(1e-6));
+    // A stated scatter of zeros asks for the derivatives all the same.
+    setup.model.noise_um["zero"] = 1.0;
+    CHECK(value(identification::identify(setup, many, {"X.scale"}), "scale_ppm") ==
+          Approx(20.0).epsilon(1e-3));
+}
+
+TEST_CASE("without effects the derivatives are those of what the setup models",
+          "[identification]") {
+    setup::Setup setup = campaign::bc_setup();
+    setup.ballbar->free_length = false;
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 12, 5);
+    campaign::add_ballbar(table, setup, 12);
+    const auto own = identification::sensitivity(setup, table, {}),
+               asked = identification::sensitivity(setup, table, setup.model.modelled);
+    CHECK(own.jacobian == asked.jacobian);
+    REQUIRE(own.parameters.size() == asked.parameters.size());
+    for (std::size_t j = 0; j < own.parameters.size(); ++j) {
+        CHECK(full_name(own.parameters[j]) == full_name(asked.parameters[j]));
+        CHECK(own.parameters[j].name != "length_mm");  // not free
+    }
+    // Zeros scatter where something is probed; the circles of the ballbar take no part.
+    setup.model.noise_um["zero"] = 5.0;
+    const auto scattered = identification::identify(setup, campaign::measured(setup, table, 3), {});
+    setup.model.noise_um.erase("zero");
+    const auto plain = identification::identify(setup, campaign::measured(setup, table, 3), {});
+    REQUIRE(scattered.parameters.size() == plain.parameters.size());
+    for (std::size_t j = 0; j < plain.parameters.size(); ++j)
+        CHECK((!std::isfinite(plain.parameters[j].sigma) ||
+               scattered.parameters[j].sigma >= 0.99 * plain.parameters[j].sigma));
 }
 
 TEST_CASE("readings without any error do not say that a scale bends", "[identification]") {

@@ -98,6 +98,33 @@ TEST_CASE("each day has its own pose and scale, the machine's error is common",
     CHECK_THAT(words[1], Catch::Contains("tuesday: the part was turned by 0.01107 deg"));
 }
 
+TEST_CASE(
+    "a laser beside an instrument knows none of its poses, a day without a name is the setup's",
+    "[identification][sessions]") {
+    const setup::Setup setup = machine();
+    records::ReadingTable both = two_days(setup, 2);
+    for (records::Reading& row : both.rows)
+        if (row.session == "monday") row.session.clear();
+    // A laser beside it: its readings know no pose of the CMM.
+    for (int k = 0; k < 9; ++k) {
+        records::Reading row = both.rows.back();
+        row.index = static_cast<int>(both.rows.size());
+        row.time_s += 60.0;
+        row.device = records::Device::linear;
+        row.test = "EXX";
+        row.commanded[Axis::X] = 50.0 * k - 200.0;
+        row.direction_M = Vector3::UnitX();
+        row.value_mm = 0.3;
+        both.rows.push_back(row);
+    }
+    const auto result = identification::identify(setup, both, {"XY.squareness"});
+    CHECK(result.rms_after_um < 1e-3);
+    CHECK(value_of(result, "CMM.x_mm.") == Approx(-0.044).margin(1e-5));
+    CHECK(value_of(result, "CMM.z_mm.tuesday") == Approx(-0.03).margin(1e-5));
+    REQUIRE(result.setup.sessions.size() == 1);  // a day without a name is the setup itself
+    CHECK(result.setup.sessions[0].name == "tuesday");
+}
+
 TEST_CASE("a written setup reads each session with its own values, alone and together",
           "[identification][sessions]") {
     const setup::Setup setup = machine();

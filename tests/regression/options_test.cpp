@@ -47,6 +47,14 @@ TEST_CASE("with devices the probe answers: another target behind the same surfac
     INFO(touched.verdict);
     CHECK(touched.equal);
     CHECK(left_aside_of(touched).empty());
+    // With the devices a program may dwell and print as well.
+    const auto prints = [](std::string text) {
+        return replaced(std::move(text), "#100=#5063",
+                        "G4 X1.\n#100=#5063\nPOPEN\nDPRNT[#100[34]]\nPCLOS");
+    };
+    CHECK(compare_texts(prints(a), prints(b), setup, devices).equal);
+    CHECK_FALSE(
+        compare_texts(prints(a), replaced(prints(b), "DPRNT[", "DPRNT[Z"), setup, devices).equal);
     // And a difference of the machining behind the touch is found.
     const regression::Comparison moved = compare_texts(a, probing(70.0, 0.5), setup, devices);
     INFO(moved.verdict);
@@ -78,6 +86,14 @@ TEST_CASE(
     CHECK_FALSE(other.equal);
     CHECK(other.position_mm == Approx(24.0));
     CHECK(other.differences.front().a.line == line_with(a, "Z[200.-#7]"));
+}
+
+TEST_CASE("both sides begin with the variables of the setup", "[compare]") {
+    setup::Setup setup = bc_table();
+    setup.stores.variables[500] = 9.0;
+    const std::string a = "O1\nG90 G21 G94 G54\nS500 M3\nG0 X0. Y0. Z200.\nG1 X#500 F300.\nM30\n";
+    CHECK(compare_texts(a, replaced(a, "X#500", "X9."), setup).equal);
+    CHECK_FALSE(compare_texts(a, replaced(a, "X#500", "X8."), setup).equal);
 }
 
 TEST_CASE("what was not compared is said in one line, and only what there was", "[compare]") {

@@ -125,9 +125,19 @@ TEST_CASE("stores of two days of one machine: seen through the first, every tool
     // With the longer tool the control goes higher; the tip of that tool is where it was.
     CHECK(compared(a, before));
     CHECK_FALSE(compared(a, after));
-    setup::Setup turned = before;
-    turned.machine.chain = setup::Setup{}.machine.chain;
-    CHECK_FALSE(regression::same_machine(before, turned));
+    // Another axis, direction or place is another machine.
+    const auto with = [&](auto change) {
+        setup::Setup other = before;
+        change(other.machine.chain.work.front());
+        return regression::same_machine(before, other);
+    };
+    CHECK(with([](kinematics::AxisGeometry&) {}));
+    CHECK_FALSE(with([](kinematics::AxisGeometry& axis) { axis.axis = Axis::A; }));
+    CHECK_FALSE(with([](kinematics::AxisGeometry& axis) { axis.direction *= -1.0; }));
+    CHECK_FALSE(with([](kinematics::AxisGeometry& axis) { axis.point_mm.x() += 1e-3; }));
+    setup::Setup less = before;
+    less.machine.chain.work.pop_back();
+    CHECK_FALSE(regression::same_machine(before, less));
 }
 
 TEST_CASE("states that a control writes into its words explain a path", "[compare]") {

@@ -104,6 +104,20 @@ TEST_CASE("patterns of a suite match names of one folder", "[suite]") {
                    Catch::Contains("no program matches"));
 }
 
+TEST_CASE("a suite in the working folder finds programs beside it", "[suite]") {
+    const Folder folder;
+    std::ofstream(folder.at("suite.toml"))
+        << "schema = \"trunnion.suite/1\"\n[[case]]\nprogram = [\"*.txt\", \"a/p1.nc\"]\n";
+    std::ofstream(folder.at("beside.txt")) << "M30\n";
+    std::ofstream(folder.at("[x].txt")) << "M30\n";
+    const fs::path before = fs::current_path();
+    fs::current_path(folder.path);
+    const regression::Suite suite = regression::read_suite("suite.toml", {});
+    fs::current_path(before);
+    CHECK(names_of(suite) == Names{"[x]", "beside", "a/p1"});
+    CHECK(suite.cases[1].b == "beside.txt");
+}
+
 TEST_CASE("options stand at the top for all cases and in a case for it alone", "[suite]") {
     const Folder folder;
     const regression::Suite suite = folder.read(
