@@ -80,6 +80,7 @@ class MeasurementPlan {
     void call_sphere(const setup::Artefact& sphere, const AxisPositions& center);
     void keep_home(bool dpp);
     void lead_by_g54(const AxisPositions& rotary);
+    bool can_lead_by_tcp(const AxisPositions& before, const Vector3& center_W) const;
     void lead_by_tcp(const AxisPositions& before, const AxisPositions& rotary);
     void begin_pass(const std::string& words, const AxisPositions& start);
     void bar_row(const AxisPositions& at, double feed_mm_min, double step_s);

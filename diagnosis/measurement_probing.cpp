@@ -156,6 +156,21 @@ void MeasurementPlan::lead_by_tcp(const AxisPositions& before, const AxisPositio
     pass_through(aim(rotary, center_W + over_W, tip_S()).at);
 }
 
+/// Under G43.4 the linear axes follow the turn from home, and go further than at both ends.
+bool MeasurementPlan::can_lead_by_tcp(const AxisPositions& before, const Vector3& center_W) const {
+    constexpr int looks = 40;
+    const Vector3 from = (above_mm + 60.0) * Vector3::UnitZ();
+    const Vector3 to =
+        setup_.machine.poses(before).pose_MW.rotation.transpose() * (above_mm * Vector3::UnitZ());
+    for (int k = 0; k <= looks; ++k) {
+        const double part = static_cast<double>(k) / looks;
+        AxisPositions at = before;
+        for (double& q : at.value) q *= part;
+        if (!aim(at, center_W + from + part * (to - from), tip_S()).reachable) return false;
+    }
+    return true;
+}
+
 void MeasurementPlan::sphere_by_store(PositioningMode mode,
                                       const std::vector<std::vector<double>>& angles_deg,
                                       double approach_deg) {
@@ -170,7 +185,9 @@ void MeasurementPlan::sphere_by_store(PositioningMode mode,
     for (const auto& angles : angles_deg) {
         const AxisPositions at = rotary_at(angles, 0.0), before = rotary_at(angles, approach_deg);
         const Target target = aim(at, sphere.center_W_mm, tip_S());
-        if (!target.reachable || !aim(before, sphere.center_W_mm, tip_S()).reachable) continue;
+        if (!target.reachable || !aim(before, sphere.center_W_mm, tip_S()).reachable ||
+            !can_lead_by_tcp(before, sphere.center_W_mm))  // the same poses in both modes
+            continue;
         go_clear();
         state_.mode = mode;
         if (dpp) {
