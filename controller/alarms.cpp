@@ -47,4 +47,8 @@ void raise_alarm(int number, const std::string& detail, int column) {
                 SourceRef{{}, 0, column});
 }
 
+void refuse_option(std::string_view option, int column) {
+    raise_alarm(10, fmt::format("({}: an option that is not emulated)", option), column);
+}
+
 }  // namespace trunnion::controller

@@ -21,5 +21,7 @@ std::string alarm_title(int number, std::string_view text);
 [[noreturn]] void raise_alarm(int number, int column = 0);
 /// The same with additional text: "+ OVERTRAVEL (SOFT 1) X".
 [[noreturn]] void raise_alarm(int number, const std::string& detail, int column = 0);
+/// PS0010 with the name of an option that this control does not have.
+[[noreturn]] void refuse_option(std::string_view option, int column);
 
 }  // namespace trunnion::controller

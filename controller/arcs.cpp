@@ -41,8 +41,11 @@ PlanePoint centre_from_radius(PlanePoint start, PlanePoint end, double radius,
     return {start.x + 0.5 * dx - side * dy, start.y + 0.5 * dy + side * dx};
 }
 
-void check_plane_of_centre(const SortedWords& words, const motion::PlaneAxes& plane) {
-    if (has_arc_words(words, plane)) return;
+void check_arc_words(const SortedWords& words, const Modal& modal) {
+    const int spiral = words.column_of_first(SortedWords::bit('Q') | SortedWords::bit('L'));
+    if (spiral != 0 && !modal.settings.is_hurco())
+        refuse_option("spiral interpolation, G2 or G3 with Q or L", spiral);
+    if (has_arc_words(words, modal.plane())) return;
     for (const char letter : {'I', 'J', 'K'})
         if (words.has(letter)) raise_alarm(21, words.column_of(letter));
 }
@@ -74,7 +77,7 @@ void bend_to_arc(const SortedWords& words, const motion::PlaneAxes& plane, const
 
 void move_arc_block(const SortedWords& words, Modal& modal, const Frames& frames, Mover& mover) {
     const motion::PlaneAxes& plane = modal.plane();
-    check_plane_of_centre(words, plane);
+    check_arc_words(words, modal);
     const offsets::ControlPosition target = commanded_position(words, modal, frames);
     const ArcRule rule = arc_rule(modal);
     PlaneElement figure;

@@ -19,8 +19,9 @@ ArcRule arc_rule(const Modal& modal);
 /// 0: the arc of more than half a turn. Throws PS0020 when the points are too far apart.
 PlanePoint centre_from_radius(PlanePoint start, PlanePoint end, double radius, const ArcRule& rule);
 
-/// PS0021 when the only centre word does not belong to the plane.
-void check_plane_of_centre(const SortedWords& words, const motion::PlaneAxes& plane);
+/// PS0021 when the only centre word does not belong to the plane; on a Fanuc PS0010 for Q or L,
+/// which turn the arc into a spiral (B-63944EN/02 p. 65).
+void check_arc_words(const SortedWords& words, const Modal& modal);
 /// True when the block has R or a centre word of the plane.
 bool has_arc_words(const SortedWords& words, const motion::PlaneAxes& plane);
 /// Converts `figure`, a line of the plane, into the arc commanded by R or by the centre words. R

@@ -49,6 +49,15 @@ cutter::PathMove shift_back(const SortedWords& words, const Modal& modal, const 
     return back;
 }
 
+/// G41 with I, J and K shifts the tool along that vector; without one of them the cutter is
+/// compensated in the plane (B-62764EN/01, three-dimensional tool compensation).
+void refuse_vector_in_space(const SortedWords& words, const Modal& modal) {
+    const bool all = words.has('I') && words.has('J') && words.has('K');
+    if (!all || modal.settings.is_hurco() || is_round(modal)) return;
+    refuse_option("three-dimensional tool compensation, G41 or G42 with I J K",
+                  words.column_of('I'));
+}
+
 /// True for one-shot codes that neither move nor change frames.
 bool keeps_path(const SortedWords& words, Action action) {
     if (action == Action::data_setting) {
@@ -66,6 +75,7 @@ void set_cutter(const SortedWords& words, Modal& modal, const Frames& frames, Mo
     if (words.has('D')) modal.number.radius = words.whole('D');
     const int offsets = static_cast<int>(frames.stores().tools.tool.size());
     if (modal.number.radius >= offsets) raise_alarm(30, words.column_of('D'));
+    refuse_vector_in_space(words, modal);
     const bool on = code10 != 400, alone = !words.has_axis();
     const bool changes = modal.cutter_is_off() == on;
     if (is_round(modal) && changes && !alone) raise_alarm(34);
@@ -96,7 +106,7 @@ bool uses_cutter_path(const SortedWords& words, const Mover& mover) {
 void queue_motion(const SortedWords& words, Modal& modal, const Frames& frames, Mover& mover) {
     const motion::PlaneAxes& plane = modal.plane();
     const bool arc = is_round(modal);
-    if (arc) check_plane_of_centre(words, plane);
+    if (arc) check_arc_words(words, modal);
     if (arc && !has_arc_words(words, plane) && modal.settings.arc_needs_centre) raise_alarm(22);
     cutter::PathMove move =
         straight_move(words, modal, frames, commanded_position(words, modal, frames));

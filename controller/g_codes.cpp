@@ -105,6 +105,8 @@ constexpr GCode table[] = {
     {820, ModalGroup::cycle, Phase::cycle, Action::cycle, "drilling with dwell"},
     {830, ModalGroup::cycle, Phase::cycle, Action::cycle, "pecking"},
     {840, ModalGroup::cycle, Phase::cycle, Action::cycle, "tapping"},
+    {842, ModalGroup::cycle, Phase::cycle, Action::cycle, "rigid tapping, format FS10/11"},
+    {843, ModalGroup::cycle, Phase::cycle, Action::cycle, "the same, left-hand"},
     {850, ModalGroup::cycle, Phase::cycle, Action::cycle, "boring, feed out"},
     {860, ModalGroup::cycle, Phase::cycle, Action::cycle, "boring, rapid out"},
     {870, ModalGroup::cycle, Phase::cycle, Action::cycle, "back boring"},

@@ -21,6 +21,8 @@ constexpr CycleRow rows[] = {
     {820, Cut::straight, Leave::rapid, true, "drilling with dwell"},
     {830, Cut::full_retreat, Leave::rapid, false, "pecking"},
     {840, Cut::straight, Leave::tap, true, "tapping", 1},
+    {842, Cut::straight, Leave::tap, true, "rigid tapping", 1},
+    {843, Cut::straight, Leave::tap, true, "left-hand rigid tapping", -1},
     {850, Cut::straight, Leave::feed, false, "boring, feed out"},
     {860, Cut::straight, Leave::stopped_rapid, false, "boring, spindle stop, rapid out"},
     {870, Cut::back_boring, Leave::rapid, false, "back boring"},

@@ -37,8 +37,9 @@ constexpr HurcoCode rows[] = {
 };
 
 /// Fanuc codes that no source documents for a Hurco.
-constexpr int fanuc_alone[] = {41,  50,  51,  71,  80,  121, 131, 370, 413, 414, 415, 416, 424,
-                               425, 426, 435, 450, 460, 470, 480, 531, 536, 542, 600, 684, 911};
+constexpr int fanuc_alone[] = {41,  50,  51,  71,  80,  121, 131, 370, 413, 414,
+                               415, 416, 424, 425, 426, 435, 450, 460, 470, 480,
+                               531, 536, 542, 600, 684, 842, 843, 911};
 /// ISNC only: BNC has other codes for units and tapping, and no G87.
 constexpr int isnc_alone[] = {200, 210, 740, 870};
 

@@ -61,8 +61,6 @@ constexpr MissingCode options[] = {
     {811, "chopping"},
     {814, "electronic gear box"},
     {815, "electronic gear box"},
-    {842, "rigid tapping of the tape format FS10/11"},
-    {843, "left-hand rigid tapping of the tape format FS10/11"},
     {961, "spindle indexing"},
     {962, "spindle indexing"},
     {963, "spindle indexing"},

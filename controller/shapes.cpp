@@ -78,7 +78,16 @@ void end_mirror(const SortedWords& words, Modal& modal, Frames& frames, Mover& m
     mover.frames_changed();
 }
 
+/// G68 X Y Z I J K R turns space about any direction and shifts the origin to its centre
+/// (B-62764EN/01 p. 243). A Hurco has no such words.
+void refuse_turn_of_space(const SortedWords& words, const Modal& modal) {
+    if (modal.settings.is_hurco()) return;
+    if (const int column = words.column_of_first(SortedWords::centre_letters))
+        refuse_option("three-dimensional coordinate conversion, G68 with I J K", column);
+}
+
 void set_rotation(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover) {
+    refuse_turn_of_space(words, modal);
     if (frames.plane) raise_alarm(5457, "(G68 inside G68.2)");
     const motion::PlaneAxes& plane = modal.plane();
     const offsets::Parameters& parameters = frames.stores().parameters;

@@ -49,7 +49,7 @@ bool set_signal_variable(int number, double value, Signals& signals) {
 
 std::optional<double> ClockVariables::get(int number, double run_time_s) const {
     if (number == 3001) return std::floor(run_time_s * 1000.0 - offset_ms_);
-    if (number == 3002) return (static_cast<double>(clock_s_) + run_time_s) / 3600.0;
+    if (number == 3002) return (static_cast<double>(clock_s_) + run_time_s) / 3600.0 - offset_h_;
     if (number == 3003 || number == 3004 || number == 3007)
         return controls_[static_cast<std::size_t>(number - 3000)];
     if (number == 3901 || number == 3902) return parts_[static_cast<std::size_t>(number - 3901)];
@@ -66,6 +66,9 @@ bool ClockVariables::set(int number, double value, std::string_view comment, Mov
             if (!interpreter::is_vacant(value)) raise_program_alarm(value, comment);
             return true;
         case 3001: offset_ms_ = mover.record().time_s * 1000.0 - not_vacant(value); return true;
+        case 3002:
+            offset_h_ += get(3002, mover.record().time_s).value() - not_vacant(value);
+            return true;
         case 3003:
         case 3004:
             controls_[static_cast<std::size_t>(number - 3000)] = not_vacant(value);

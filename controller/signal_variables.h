@@ -31,9 +31,9 @@ class ClockVariables {
 
   private:
     std::int64_t clock_s_;
-    double offset_ms_ = 0.0;            ///< #3001 = value
-    std::array<double, 8> controls_{};  ///< [n] = #3000+n
-    std::array<double, 2> parts_{};     ///< #3901, #3902
+    double offset_ms_ = 0.0, offset_h_ = 0.0;  ///< #3001 = value, #3002 = value
+    std::array<double, 8> controls_{};         ///< [n] = #3000+n
+    std::array<double, 2> parts_{};            ///< #3901, #3902
 };
 
 }  // namespace trunnion::controller

@@ -23,6 +23,7 @@ struct SortedWords {
     static constexpr std::uint32_t bit(char letter) { return 1U << (letter - 'A'); }
     /// The letters of axes, in the order of `Axis`.
     static constexpr std::uint32_t axis_letters = 0x7U | (0x3FU << 20);  // A B C, U V W X Y Z
+    static constexpr std::uint32_t centre_letters = 0x7U << 8;           // I J K
 
     std::uint32_t present = 0;
     std::uint32_t bare = 0;  ///< integers without decimal point
@@ -35,15 +36,16 @@ struct SortedWords {
     std::array<double, 2> more_depths{};
     std::size_t more_depth_count = 0;
 
-    static constexpr std::size_t max_codes = 12;
+    static constexpr std::size_t max_codes = 16;
     std::array<const GCode*, max_codes> code{};  ///< all codes except group 01
     std::array<std::uint16_t, max_codes> code_column{};
     std::size_t code_count = 0;
     std::uint32_t phases = 0;         ///< one bit for each phase with a code
     const GCode* motion = nullptr;    ///< the last code of group 01 in this block
     std::uint16_t motion_column = 0;  ///< 0: not in this block
-    std::array<int, max_codes> m{};
-    std::array<std::uint16_t, max_codes> m_column{};
+    static constexpr std::size_t max_m_codes = 12;
+    std::array<int, max_m_codes> m{};
+    std::array<std::uint16_t, max_m_codes> m_column{};
     std::size_t m_count = 0;
     std::uint16_t running_column = 0;  ///< column of the code being executed; 0: the axis words
     WordUnits units;

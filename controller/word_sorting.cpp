@@ -1,7 +1,5 @@
 #include "controller/word_sorting.h"
 
-#include <fmt/format.h>
-
 #include <bit>
 #include <cmath>
 
@@ -65,7 +63,7 @@ void drop_cycle(SortedWords& w) {
                              ? nullptr
                              : missing_option(static_cast<int>(std::lround(tenfold)));
     if (!option) raise_alarm(10, word.column);
-    raise_alarm(10, fmt::format("({}: an option that is not emulated)", option), word.column);
+    refuse_option(option, word.column);
 }
 
 void add_g(SortedWords& w, const ControlSettings& settings, const interpreter::WordValue& word) {
@@ -79,7 +77,7 @@ void add_g(SortedWords& w, const ControlSettings& settings, const interpreter::W
 }
 
 void add_m(SortedWords& w, const interpreter::WordValue& word) {
-    if (w.m_count == SortedWords::max_codes) raise_alarm(9, word.column);
+    if (w.m_count == SortedWords::max_m_codes) raise_alarm(9, word.column);
     if (const auto fault = interpreter::find_m_fault(word))
         raise_alarm(fault->alarm, fault->column);
     w.m_column[w.m_count] = word.column;
