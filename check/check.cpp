@@ -16,6 +16,7 @@ const std::vector<CheckRule>& check_rules() {
         {"merge-marker", "A version control conflict was left in the file"},
         {"jump-target", "GOTO to a sequence number that the program does not have"},
         {"duplicate-target", "GOTO to a sequence number that stands more than once"},
+        {"branch", "IF .. THEN, ELSE and ENDIF do not belong together"},
         {"loop", "DO and END do not belong together"},
         {"unknown-code", "A G code the control does not have"},
         {"subprogram-missing", "A called program is nowhere"},

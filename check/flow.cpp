@@ -77,6 +77,26 @@ void check_entries(const CheckSection& section,
         }
 }
 
+/// IF .. THEN, ELSE and ENDIF in blocks of their own.
+void check_branches(const CheckSection& section, Findings& findings) {
+    std::vector<BlockPlace> open;
+    const char* const remedy = "Every IF .. THEN without an assignment needs its ENDIF.";
+    for (const interpreter::Block* block : section.blocks)
+        for (const interpreter::Item& item : section.program->items(*block)) {
+            const BlockPlace place{*block, item.column};
+            const bool ends = item.kind == interpreter::ItemKind::end_if;
+            if (item.kind == interpreter::ItemKind::if_block) open.push_back(place);
+            if (!ends && item.kind != interpreter::ItemKind::else_) continue;
+            if (open.empty())
+                findings.add("branch", Severity::error, place,
+                             ends ? "ENDIF without IF .. THEN" : "ELSE without IF .. THEN", remedy);
+            else if (ends)
+                open.pop_back();
+        }
+    for (const BlockPlace& place : open)
+        findings.add("branch", Severity::error, place, "IF .. THEN without ENDIF", remedy);
+}
+
 void check_statements(const CheckSection& section, Findings& findings) {
     std::vector<OpenLoop> loops;
     std::map<const interpreter::Block*, Nest> nests;  // of blocks that jump or are jump targets
@@ -120,7 +140,9 @@ bool is_entered(const CheckSection& section, const interpreter::Block& block) {
         (section.computed_jump || section.targets.contains(block.sequence_number)))
         return true;
     for (const interpreter::Item& item : section.program->items(block))
-        if (item.kind == interpreter::ItemKind::end) return true;
+        if (item.kind == interpreter::ItemKind::end || item.kind == interpreter::ItemKind::else_ ||
+            item.kind == interpreter::ItemKind::end_if)
+            return true;
     return false;
 }
 
@@ -178,6 +200,7 @@ void check_named_call(const interpreter::ParsedProgram& program, const interpret
 
 void check_flow(const CheckSection& section, Findings& findings) {
     check_statements(section, findings);
+    check_branches(section, findings);
     check_reach(section, findings);
 }
 

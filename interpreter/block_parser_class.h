@@ -40,9 +40,11 @@ class BlockParser {
     void word(char letter);
     void word_value(Item& item);
     void assignment();
+    void refuse_comparison();
     void statement(Keyword keyword, std::uint16_t column);
     void if_statement(std::uint16_t column);
     void after_then();
+    bool end_if(std::uint16_t column);
     void while_statement(std::uint16_t column);
     std::uint8_t loop_number();
     void jump(std::uint16_t column);

@@ -76,6 +76,9 @@ enum class ItemKind : std::uint8_t {
     assign,    ///< #value = a, or #[b] = a
     if_goto,   ///< condition a; the next item is the go_to
     if_then,   ///< condition a; the next item is the assignment
+    if_block,  ///< condition a; the blocks up to ELSE or ENDIF
+    else_,     ///< the blocks up to ENDIF, if the condition of the if_block was false
+    end_if,
     while_do,  ///< condition a, loop number
     do_only,   ///< DO n
     end,       ///< END n

@@ -10,7 +10,7 @@ Dialect fanuc_dialect(ControlGeneration generation) {
         d.subprogram_levels = 4;
         d.total_levels = 8;
     }
-    d.has_98000 = generation != ControlGeneration::fanuc_16i;
+    d.has_98000 = d.has_if_blocks = generation != ControlGeneration::fanuc_16i;
     return d;
 }
 

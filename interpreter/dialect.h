@@ -15,6 +15,7 @@ struct Dialect {
     int total_levels = 15;         ///< both together (assumed)
     bool comment_nesting = false;  ///< Fanuc: a comment ends at the first ')'
     bool has_98000 = false;        ///< #98000-#98499
+    bool has_if_blocks = false;    ///< IF [..] THEN, ELSE and ENDIF in blocks of their own
 };
 
 Dialect fanuc_dialect(ControlGeneration generation = ControlGeneration::fanuc_30i);

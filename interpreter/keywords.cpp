@@ -15,7 +15,7 @@ constexpr StatementRow statements[] = {
     {"IF", Keyword::if_},      {"WHILE", Keyword::while_}, {"DO", Keyword::do_},
     {"END", Keyword::end},     {"GOTO", Keyword::go_to},   {"THEN", Keyword::then},
     {"POPEN", Keyword::popen}, {"PCLOS", Keyword::pclos},  {"DPRNT", Keyword::dprnt},
-    {"BPRNT", Keyword::bprnt}, {"SETVN", Keyword::setvn},
+    {"BPRNT", Keyword::bprnt}, {"SETVN", Keyword::setvn},  {"ELSE", Keyword::else_},
 };
 
 struct FunctionRow {

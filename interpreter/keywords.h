@@ -15,6 +15,7 @@ enum class Keyword : std::uint8_t {
     end,
     go_to,
     then,
+    else_,
     popen,
     pclos,
     dprnt,

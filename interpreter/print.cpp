@@ -248,6 +248,9 @@ void BlockPrinter::item(const Item& item) {
         case ItemKind::assign: return assignment(item);
         case ItemKind::if_goto: out_ += "IF" + condition(item); return;
         case ItemKind::if_then: out_ += "IF" + condition(item) + " THEN"; return;
+        case ItemKind::if_block: out_ += "IF" + condition(item) + " THEN"; return;
+        case ItemKind::else_: out_ += "ELSE"; return;
+        case ItemKind::end_if: out_ += "ENDIF"; return;
         case ItemKind::while_do:
             out_ += fmt::format("WHILE{} DO{}", condition(item), item.number);
             return;

@@ -40,6 +40,31 @@ int loop_step(const LineHead& head, const char* end) {
     return keyword == Keyword::end ? -number : number;
 }
 
+/// True when the last word of a line, before comments, is THEN.
+bool ends_with_then(const char* p, const char* end) {
+    char last[4] = {};
+    bool comment = false;
+    for (const char* const stop = find_line_end(p, end); p != stop && *p != ';'; ++p) {
+        if (*p == '(' || *p == ')') comment = *p == '(';
+        if (comment || *p == ')' || *p == ' ' || *p == '\t') continue;
+        std::copy(last + 1, last + 4, last);
+        last[3] = upper(*p);
+    }
+    return std::string_view(last, 4) == "THEN";
+}
+
+/// The branch statement at the beginning of a line: IF .. THEN alone 1, ELSE 0, ENDIF -1.
+std::optional<int> branch_step(const LineHead& head, const char* end) {
+    const char* p = head.content;
+    if (p == end || !is_letter(*p)) return std::nullopt;
+    const Keyword keyword = read_keyword(p, end);
+    if (keyword == Keyword::else_) return 0;
+    if (keyword == Keyword::if_ && ends_with_then(p, end)) return 1;
+    p = skip_blanks(p, end);
+    if (keyword == Keyword::end && p != end && upper(*p) == 'I') return -1;
+    return std::nullopt;
+}
+
 }  // namespace
 
 ProgramFile& ProgramFiles::add(const ProgramText& text) {
@@ -211,6 +236,22 @@ std::optional<TextPlace> ProgramFiles::find_loop_end(const Section& section, Tex
         if (open.back() != -step) return std::nullopt;
         open.pop_back();
         if (open.empty()) return scan.behind();
+    }
+    return std::nullopt;
+}
+
+std::optional<TextPlace> ProgramFiles::find_branch_end(const Section& section, TextPlace from,
+                                                       bool to_else) {
+    const std::string_view text = section.file->text.text;
+    int depth = 0;
+    for (LineScan scan(text, from); scan.next();) {
+        ++lines_searched_;
+        if (begins_other(scan.head(), section)) return std::nullopt;
+        const auto step = branch_step(scan.head(), text.data() + text.size());
+        if (!step) continue;
+        const bool here = *step < 0 || (*step == 0 && to_else);
+        if (depth == 0 && here) return scan.behind();
+        depth += *step;
     }
     return std::nullopt;
 }

@@ -63,6 +63,9 @@ class ProgramFiles {
     /// Position after the END `number` that closes the DO whose block ends at `from`; empty if
     /// none.
     std::optional<TextPlace> find_loop_end(const Section& section, TextPlace from, int number);
+    /// Position after the ENDIF (or ELSE, if wanted) of the branch whose block ends at `from`;
+    /// empty if none.
+    std::optional<TextPlace> find_branch_end(const Section& section, TextPlace from, bool to_else);
 
     void forget_first_blocks();
     /// Number of lines passed by all searches so far.

@@ -79,6 +79,7 @@ struct Interpreter::State {
     void statements(const Block& block, Code& code, int index);
     void assign(const Block& block, const Code& code, const Item& item);
     void go_to(const Block& block, Code& code, Item& item, bool cached);
+    void leave_branch(const Block& block, Item& item, bool cached);
     void while_do(const Block& block, Item& item, int index);
     void end_loop(const Item& item);
     void jump(const TextPlace& place);

@@ -24,6 +24,10 @@ void Interpreter::State::statements(const Block& block, Code& code, int index) {
             case ItemKind::if_then:
                 if (!holds(value(code, *item))) return;
                 break;
+            case ItemKind::if_block:
+                if (!holds(value(code, *item))) leave_branch(block, *item, index >= 0);
+                return;
+            case ItemKind::else_: return leave_branch(block, *item, index >= 0);
             case ItemKind::while_do:
             case ItemKind::do_only: return while_do(block, *item, index);
             case ItemKind::end: return end_loop(*item);
@@ -31,7 +35,7 @@ void Interpreter::State::statements(const Block& block, Code& code, int index) {
             case ItemKind::dprnt:
             case ItemKind::bprnt: return print_line(code, item, last);
             case ItemKind::setvn: set_names(code, *item); break;
-            default: break;  // POPEN and PCLOS: the port is always open
+            default: break;  // ENDIF; POPEN and PCLOS: the port is always open
         }
     }
 }
@@ -90,6 +94,18 @@ void Interpreter::State::go_to(const Block& block, Code& code, Item& item, bool 
         raise_language_alarm(128, item.column, number > 0 ? "N" + std::to_string(number) : "");
     if (!cached || item.a.count != 0) return jump(*place);
     item.link = new_link(*place);
+    follow(item.link);
+}
+
+/// From an IF to behind its ELSE or ENDIF, from an ELSE to behind its ENDIF.
+void Interpreter::State::leave_branch(const Block& block, Item& item, bool cached) {
+    if (item.link >= 0) return follow(item.link);
+    const bool to_else = item.kind == ItemKind::if_block;
+    const auto behind =
+        files.find_branch_end(*frame().section, {block.end, block.line + 1}, to_else);
+    if (!behind) raise_language_alarm(1137, item.column, "ENDIF is missing");
+    if (!cached) return jump(*behind);
+    item.link = new_link(*behind);
     follow(item.link);
 }
 

@@ -13,10 +13,20 @@ void BlockParser::assignment() {
     ++in_.p;
     in_.leading = false;
     const Span value = expressions_.expression(Precedence::sum);
+    refuse_comparison();
     Item& item = add(ItemKind::assign, column);
     item.value = number;
     item.a = value;
     item.b = target;
+}
+
+/// #1=#2LE#3: in brackets the comparison is 1 or 0 (docs/control.md).
+void BlockParser::refuse_comparison() {
+    if (!is_letter(in_.peek())) return;
+    const char* p = in_.p;
+    OpCode code;
+    if (read_operator(p, in_.end, code) == Precedence::comparison)
+        raise_language_alarm(114, in_.column(), "a comparison outside of IF and WHILE");
 }
 
 void BlockParser::statement(Keyword keyword, std::uint16_t column) {
@@ -31,10 +41,16 @@ void BlockParser::statement(Keyword keyword, std::uint16_t column) {
         case Keyword::bprnt: return print_statement(ItemKind::bprnt, column);
         case Keyword::setvn: return setvn(column);
         case Keyword::then: raise_language_alarm(1137, column, "THEN without IF in the same block");
+        case Keyword::else_:
+            if (!options_.dialect.has_if_blocks) raise_language_alarm(125, column);
+            add(ItemKind::else_, column);
+            closed_ = true;
+            return;
         case Keyword::do_:
         case Keyword::end: {
+            if (keyword == Keyword::end && end_if(column)) return;
             if (is_letter(in_.peek()))
-                raise_language_alarm(125, column, "ENDIF, ENDWHILE and the like are not Fanuc's");
+                raise_language_alarm(125, column, "ENDWHILE and the like are not Fanuc's");
             const std::uint8_t number = loop_number();
             add(keyword == Keyword::do_ ? ItemKind::do_only : ItemKind::end, column).number =
                 number;
@@ -43,6 +59,16 @@ void BlockParser::statement(Keyword keyword, std::uint16_t column) {
         }
         case Keyword::none: break;
     }
+}
+
+/// ENDIF, behind its END; false when it is another word.
+bool BlockParser::end_if(std::uint16_t column) {
+    if (!options_.dialect.has_if_blocks || upper(in_.peek()) != 'I') return false;
+    if (in_.p + 1 == in_.end || upper(in_.p[1]) != 'F') return false;
+    in_.p += 2;
+    add(ItemKind::end_if, column);
+    closed_ = true;
+    return true;
 }
 
 void BlockParser::if_statement(std::uint16_t column) {
@@ -54,6 +80,11 @@ void BlockParser::if_statement(std::uint16_t column) {
     if (keyword != Keyword::go_to && keyword != Keyword::then)
         raise_language_alarm(1137, at, "GOTO or THEN expected");
     const bool then = keyword == Keyword::then;
+    if (then && in_.peek() == BlockReader::at_end && options_.dialect.has_if_blocks) {
+        add(ItemKind::if_block, column).a = condition;
+        closed_ = true;
+        return;
+    }
     add(then ? ItemKind::if_then : ItemKind::if_goto, column).a = condition;
     then ? after_then() : jump(at);
 }
@@ -63,7 +94,7 @@ void BlockParser::after_then() {
     const std::uint16_t at = in_.column();
     if (c == '#') return assignment();
     if (c == BlockReader::at_end)
-        raise_language_alarm(1137, at, "THEN over several blocks (.. ENDIF) is not Fanuc's");
+        raise_language_alarm(1137, at, "this control has no THEN over several blocks (.. ENDIF)");
     raise_language_alarm(
         1137, at, "only an assignment may follow THEN on a Fanuc (GOTO stands without THEN)");
 }
