@@ -59,7 +59,7 @@ struct FactoredMembers {
 
     double nu = 1.0;
     Eigen::VectorXd tau;                 ///< of each column: the diagonal of D
-    Eigen::LLT<Eigen::MatrixXd> factor;  ///< L
+    Eigen::LLT<Eigen::MatrixXd> factor{Eigen::MatrixXd(0, 0)};  ///< L
     Eigen::VectorXd z;                   ///< L^-1 D h
     double log_determinant = 0.0;        ///< of I + D G D / nu^2
 };

@@ -165,4 +165,13 @@ TEST_CASE("a group that is not there gets next to nothing", "[estimation]") {
     CHECK(gain.tau < 0.3);
 }
 
+TEST_CASE("without members there is a factor too, and it may be copied", "[estimation]") {
+    const estimation::GroupEquations none{Eigen::MatrixXd(0, 0), Eigen::VectorXd(0), 4.0, 9.0, {}};
+    const estimation::FactoredMembers members(none, {{}, 2.0});
+    const estimation::FactoredMembers copied = members;  // a sanitizer reads what it holds
+    CHECK(copied.factor.info() == Eigen::Success);
+    CHECK(copied.factor.rows() == 0);
+    CHECK(copied.log_determinant == 0.0);
+}
+
 }  // namespace trunnion
