@@ -1,10 +1,10 @@
-#include "diagnosis/claims.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "diagnosis/claims.h"
 #include "diagnosis/contenders.h"
+#include "diagnosis/offers.h"
 #include "diagnosis/rules.h"
 #include "estimation/distributions.h"
 
@@ -181,10 +181,10 @@ void name_axis(const Design& design, const Challenged& found, double seen, Claim
 }  // namespace
 
 Instead instead_of(Design& design, const Model& model, std::size_t position) {
-    const Model rest = without(model, position);
     const Offer held = worth_of_members(design, model)[position];
-    std::vector<Offer> others = offers(design, rest, is_cause);
-    for (Offer& o : only_rivals(design, rest)) others.push_back(std::move(o));
+    OffersBeside beside(design, model);
+    std::vector<Offer> others = beside.without(position, is_cause);
+    for (Offer& o : beside.only_rivals(position)) others.push_back(std::move(o));
     Claim claim;
     name_rivals(design, held, others, claim);
     std::vector<double> scores{0.0};
@@ -225,6 +225,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
                              const HeldOutEvidence& heldout) {
     Design& design = search.design;
     const std::vector<Offer> worth = worth_of_members(design, model);
+    OffersBeside beside(design, model);
     std::vector<Claim> claims;
     double own = 0.0;
     for (std::size_t k = 0; k < model.members.size(); ++k) {
@@ -238,7 +239,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         claim.rms = std::sqrt(sizes.square[k] / std::max(1.0, design.rows()));
         own += claim.own;
         if (claim.share < rules::least_share && claim.rms < rules::least_rms) continue;
-        const std::vector<Offer> others = offers(design, without(model, k));
+        const std::vector<Offer> others = beside.without(k);
         const double blocks = heldout.support[k].saving.blocks;
         const Contender& contender = heldout.found.contenders[k];
         const double seen =
@@ -250,7 +251,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         // It works against the other causes: the correction of a form that is not theirs.
         if (sizes.along[k] <= 0.0) claim.probability = std::min(claim.probability, doubtful);
         std::vector<Offer> instead = others;
-        for (Offer& o : only_rivals(design, without(model, k))) instead.push_back(std::move(o));
+        for (Offer& o : beside.only_rivals(k)) instead.push_back(std::move(o));
         name_rivals(design, worth[k], instead, claim);
         name_contender(design, model, contender, sizes.parts.col(static_cast<Eigen::Index>(k)),
                        claim);

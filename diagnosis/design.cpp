@@ -292,10 +292,18 @@ estimation::GroupEquations Design::equations(const std::vector<std::size_t>& mem
     return e;
 }
 
+/// Marks the blocks that hold features of these groups.
+std::vector<bool> Design::blocks_with(const std::vector<std::size_t>& groups) const {
+    std::vector<bool> marked(blocks_.size(), false);
+    for (const std::size_t k : groups)
+        for (const Run& run : groups_[k].runs) marked[run.block] = true;
+    return marked;
+}
+
 Eigen::VectorXd Design::left(const std::vector<std::size_t>& members,
-                             const Eigen::VectorXd& coefficients) {
+                             const Eigen::VectorXd& coefficients,
+                             const std::vector<std::size_t>& groups) {
     Eigen::VectorXd fitted = Eigen::VectorXd::Zero(features_), left = products_;
-    std::vector<bool> moved(blocks_.size(), false);
     Eigen::Index at = 0;
     for (const std::size_t m : members) {
         const ColumnGroup& group = groups_[m].group;
@@ -304,13 +312,14 @@ Eigen::VectorXd Design::left(const std::vector<std::size_t>& members,
             fitted(group.features) += group.shape * own;
         else
             fitted(group.features) += own;
-        for (const Run& run : groups_[m].runs) moved[run.block] = true;
         at += group.columns();
     }
+    const std::vector<bool> moved = blocks_with(members), asked = blocks_with(groups);
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
         if (!moved[k]) continue;
         const auto own = fitted.segment(blocks_[k].first, blocks_[k].white.cols());
         for (std::size_t b = 0; b < blocks_.size(); ++b) {
+            if (!asked[b]) continue;
             auto part = left.segment(blocks_[b].first, blocks_[b].white.cols());
             if (b <= k)
                 part.noalias() -= between(b, k) * own;

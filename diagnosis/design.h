@@ -73,10 +73,11 @@ class Design {
     /// Products of the members' columns with those of other groups, side by side in their order.
     Eigen::MatrixXd cross(const std::vector<std::size_t>& members,
                           const std::vector<std::size_t>& groups);
-    /// Products of all features with the residual of the data after members with these
-    /// coefficients.
+    /// Products of the features of some groups with the residual of the data after members with
+    /// these coefficients; those of other features are not complete.
     Eigen::VectorXd left(const std::vector<std::size_t>& members,
-                         const Eigen::VectorXd& coefficients);
+                         const Eigen::VectorXd& coefficients,
+                         const std::vector<std::size_t>& groups);
     /// Of these, the products of the columns of one group.
     Eigen::VectorXd of_group(std::size_t group, const Eigen::VectorXd& left) const;
     /// Products of set-up (first) and members, without projection, with each other and with the
@@ -109,6 +110,7 @@ class Design {
                                              ///< of a table move few readings), else empty
     };
     std::vector<Run> runs_of(const std::vector<Eigen::Index>& features) const;
+    std::vector<bool> blocks_with(const std::vector<std::size_t>& groups) const;
     std::size_t block_index(Eigen::Index feature) const;
     const Block& block_of(Eigen::Index feature) const { return blocks_[block_index(feature)]; }
     const Eigen::MatrixXd& between(std::size_t first, std::size_t second) const;

@@ -8,6 +8,7 @@
 #include "diagnosis/causes.h"
 #include "diagnosis/changes.h"
 #include "diagnosis/next_measurement.h"
+#include "diagnosis/offers.h"
 #include "diagnosis/rules.h"
 #include "diagnosis/shrink_interval.h"
 #include "diagnosis/solution.h"
@@ -71,12 +72,13 @@ HeldOut held_out(const Outcome& f, const Eigen::VectorXd& before, const Eigen::V
 std::vector<PossibleTruth> possible_truths(const Outcome& f) {
     std::vector<PossibleTruth> truths{{f.model, 1.0}};
     const std::vector<Offer> worth = worth_of_members(f.design, f.model);
+    OffersBeside beside(f.design, f.model);
     for (std::size_t k = 0; k < f.model.members.size(); ++k) {
         const Model rest = without(f.model, k);
         const double own = worth[k].gain.best + f.design.group(worth[k].group).log_prior;
         if (const double weight = std::exp(-own); weight > least_weight)
             truths.push_back({rest, weight});
-        for (const Offer& o : offers(f.design, rest)) {
+        for (const Offer& o : beside.without(k)) {
             const double weight = std::exp(o.gain.best + f.design.group(o.group).log_prior - own);
             if (weight < least_weight || truths.size() > most_truths) break;
             if (o.group == worth[k].group || !is_cause(f.design.group(o.group).kind)) continue;

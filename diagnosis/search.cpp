@@ -3,66 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/offers.h"
 #include "diagnosis/stand_ins.h"
 
 namespace trunnion::diagnosis {
 namespace {
 
 constexpr std::size_t tried = 4;       ///< number of best offers tuned at each step
-constexpr std::size_t looked_at = 20;  ///< number of offers whose exact gain is computed
 constexpr double certain = 30.0;       ///< worth of a member that is not questioned, nats
 constexpr std::size_t swap_tried = 3;  ///< offers tried in place of a member
-constexpr int rounds = 2;
-constexpr double tuning_gain = 10.0;  ///< maximum gain by tuning the variances of a changed model,
-                                      ///< nats
+constexpr double tuning_gain = 10.0;   ///< maximum gain by tuning the variances of a changed model,
+                                       ///< nats
 
 bool in(const Model& model, std::size_t group) {
     return std::find(model.members.begin(), model.members.end(), group) != model.members.end();
-}
-
-Offer offer_of(const Design& design, std::size_t k, const estimation::GroupInformation& left) {
-    Offer offer{k, estimation::group_gain(left), 0.0, left};
-    offer.value = offer.gain.mean + design.group(k).log_prior;
-    return offer;
-}
-
-/// Of many groups, keeps the few with the largest lower bound of their gain, because the exact gain
-/// costs the square of the model size.
-void keep_best(std::vector<std::size_t>& offered, Design& design, const Model& model,
-               const estimation::GivenMembers& given) {
-    if (offered.size() <= looked_at || model.members.empty()) return;
-    const double factor = 1.0 / (model.variances.nu * model.variances.nu);
-    const Eigen::VectorXd left = factor * design.left(model.members, given.mean());
-    std::vector<std::pair<double, std::size_t>> least;
-    for (const std::size_t k : offered) {
-        const auto& entry = design.groups()[k];
-        const estimation::GroupGain gain =
-            estimation::group_gain(*entry.reduced, design.of_group(k, left), factor);
-        least.emplace_back(-gain.mean - entry.group.log_prior, k);
-    }
-    std::nth_element(least.begin(), least.begin() + static_cast<long>(looked_at), least.end());
-    offered.clear();
-    for (std::size_t k = 0; k < looked_at; ++k) offered.push_back(least[k].second);
-    std::sort(offered.begin(), offered.end());
-}
-
-/// Offers of given groups, best first.
-std::vector<Offer> offers_among(Design& design, const Model& model,
-                                const std::vector<std::size_t>& offered,
-                                const estimation::GivenMembers& given) {
-    const Eigen::MatrixXd taken = given.taken(design.cross(model.members, offered));
-    std::vector<Offer> list;
-    Eigen::Index at = 0;
-    for (const std::size_t k : offered) {
-        const auto& entry = design.groups()[k];
-        const Eigen::Index count = entry.group.columns();
-        list.push_back(offer_of(
-            design, k, given.leave_beside(taken.middleCols(at, count), entry.gram, entry.product)));
-        at += count;
-    }
-    std::stable_sort(list.begin(), list.end(),
-                     [](const Offer& a, const Offer& b) { return a.value > b.value; });
-    return list;
 }
 
 /// The zeros of tests, which are always offered.
@@ -136,17 +90,24 @@ bool grow(Design& design, const SearchSetting& setting, Model& model, bool with_
 }
 
 Model swapped(Design& design, const SearchSetting& setting, Model model) {
+    std::optional<OffersBeside> beside;
+    std::vector<Offer> worth;
     for (std::size_t position = 0; position < model.members.size() && !setting.stopped();
          ++position) {
-        const Offer held = worth_of_members(design, model)[position];
+        if (!beside) {
+            beside.emplace(design, model);
+            worth = worth_of_members(design, model);
+        }
+        const Offer& held = worth[position];
         const Model rest = without(model, position);
         std::size_t count = 0;
-        for (const Offer& offer : offers(design, rest)) {
+        for (const Offer& offer : beside->without(position)) {
             if (offer.group == held.group) continue;
             if (++count > swap_tried || offer.value < held.value + better) break;
             Model trial = tuned(design, setting, with(rest, offer), 2);
             if (!(trial.score >= model.score + better)) continue;
             model = std::move(trial);
+            beside.reset();
             break;
         }
     }
@@ -178,27 +139,37 @@ Model joined(Design& design, const SearchSetting& setting, Model model) {
     return model;
 }
 
+/// Forms in which a free form may stand beside another effect: none, or another length.
+std::vector<std::optional<std::size_t>> other_forms(const Design& design, std::size_t held) {
+    std::vector<std::optional<std::size_t>> forms{std::nullopt};
+    for (std::size_t k = 0; k < design.groups().size(); ++k)
+        if (k != held && same_cause(design.group(k), design.group(held))) forms.emplace_back(k);
+    return forms;
+}
+
 /// Replaces a free form by a named effect: the free form is removed or gets another length, and the
 /// best named effect is added.
 Model paired(Design& design, const SearchSetting& setting, Model model) {
+    std::optional<OffersBeside> beside;
     for (std::size_t position = 0; position < model.members.size() && !setting.stopped();
          ++position) {
         const std::size_t held = model.members[position];
         if (design.group(held).kind != GroupKind::table) continue;
-        std::vector<Model> starts{without(model, position)};
-        for (std::size_t k = 0; k < design.groups().size(); ++k)
-            if (k != held && same_cause(design.group(k), design.group(held))) {
-                starts.push_back(model);
-                starts.back().members[position] = k;
-            }
-        for (const Model& start : starts) {
-            const std::vector<Offer> best = offers(design, start, named);
+        if (!beside) beside.emplace(design, model);
+        for (const std::optional<std::size_t> form : other_forms(design, held)) {
+            const std::vector<Offer> best = beside->without(position, named, form);
             if (best.empty()) break;
-            if (rough_score(design, setting, with(start, best.front())) < model.score - tuning_gain)
-                continue;
-            Model trial = tuned(design, setting, with(start, best.front()), 2);
+            const double changed = beside->gained(position, form) - design.group(held).log_prior +
+                                   (form ? design.group(*form).log_prior : 0.0) +
+                                   best.front().gain.best +
+                                   design.group(best.front().group).log_prior;
+            if (changed < -tuning_gain) continue;
+            Model start = form ? model : without(model, position);
+            if (form) start.members[position] = *form;
+            Model trial = tuned(design, setting, with(std::move(start), best.front()), 2);
             if (!(trial.score >= model.score + better)) continue;
             model = std::move(trial);
+            beside.reset();
             break;
         }
     }
@@ -238,26 +209,15 @@ bool same_cause(const ColumnGroup& a, const ColumnGroup& b) {
     return a.kind == b.kind && a.name == b.name && a.component == b.component;
 }
 
-std::vector<Offer> only_rivals(Design& design, const Model& model) {
-    std::vector<std::size_t> kept;
-    for (std::size_t k = 0; k < design.groups().size(); ++k)
-        if (design.groups()[k].only_rival) kept.push_back(k);
-    return offers_among(design, model, kept, {design.equations(model.members), model.variances});
+Offer offer_of(const Design& design, std::size_t group, const estimation::GroupInformation& left) {
+    Offer offer{group, estimation::group_gain(left), 0.0, left};
+    offer.value = offer.gain.mean + design.group(group).log_prior;
+    return offer;
 }
 
 std::vector<Offer> offers(Design& design, const Model& model,
                           const std::function<bool(GroupKind)>& takes) {
-    const estimation::GivenMembers given(design.equations(model.members), model.variances);
-    std::vector<std::size_t> offered;
-    for (std::size_t k = 0; k < design.groups().size(); ++k) {
-        const auto& entry = design.groups()[k];
-        if (!entry.visible() || in(model, k) || (takes && !takes(entry.group.kind))) continue;
-        if (std::none_of(model.members.begin(), model.members.end(),
-                         [&](std::size_t m) { return same_cause(design.group(m), entry.group); }))
-            offered.push_back(k);
-    }
-    keep_best(offered, design, model, given);
-    return offers_among(design, model, offered, given);
+    return OffersBeside(design, model).all(takes);
 }
 
 Model without(const Model& model, std::size_t position) {
@@ -282,11 +242,14 @@ std::vector<Offer> worth_of_members(Design& design, const Model& model) {
     return worth;
 }
 
-double evidence(Design& design, const Model& model) {
+double evidence_by(const Model& model, const std::vector<Offer>& worth) {
     double sum = model.score;
-    for (const Offer& member : worth_of_members(design, model))
-        sum -= member.gain.best - member.gain.mean;
+    for (const Offer& member : worth) sum -= member.gain.best - member.gain.mean;
     return sum;
+}
+
+double evidence(Design& design, const Model& model) {
+    return evidence_by(model, worth_of_members(design, model));
 }
 
 Model pruned(Design& design, const SearchSetting& setting, Model model) {
@@ -300,7 +263,7 @@ Model pruned(Design& design, const SearchSetting& setting, Model model) {
         if (least->value >= certain || (zero && least->gain.best > 0.1)) break;
         Model rest = tuned(design, setting, without(model, position), 2);
         // With few readings the noise is larger without the member, and the loss smaller.
-        if (least->value >= 0.0 && evidence(design, rest) < evidence(design, model)) break;
+        if (least->value >= 0.0 && evidence(design, rest) < evidence_by(model, worth)) break;
         model = std::move(rest);
     }
     return model;
@@ -314,17 +277,17 @@ Model grown(Design& design, const SearchSetting& setting, Model model) {
 }
 
 Model settled(Design& design, const SearchSetting& setting, Model model) {
-    for (int round = 0; round < rounds; ++round) {
-        const double before = model.score;
-        model = pruned(design, setting, std::move(model));
-        if (round == 0) model = swapped(design, setting, std::move(model));
-        if (round == 0) model = paired(design, setting, std::move(model));
-        if (round == 0) model = joined(design, setting, std::move(model));
-        if (round == 0) model = without_stand_ins(design, setting, std::move(model));
-        model = grown(design, setting, std::move(model));
-        if (model.score < before + 0.1) break;
-    }
-    return pruned(design, setting, std::move(model));
+    const Model before = model;
+    model = pruned(design, setting, std::move(model));
+    model = swapped(design, setting, std::move(model));
+    model = paired(design, setting, std::move(model));
+    model = joined(design, setting, std::move(model));
+    model = without_stand_ins(design, setting, std::move(model));
+    if (model.members != before.members) model = grown(design, setting, std::move(model));
+    Model rest = pruned(design, setting, model);
+    // What nothing was taken from does not grow again.
+    if (model.score < before.score + 0.1 || rest.members == model.members) return rest;
+    return pruned(design, setting, grown(design, setting, std::move(rest)));
 }
 
 Model searched(Design& design, const SearchSetting& setting) {

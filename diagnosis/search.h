@@ -44,8 +44,8 @@ struct Offer {
     estimation::GroupInformation left;  ///< of the group beside the model
     double explained() const;           ///< chi-squared explained at its best size
 };
-/// All visible groups that the model does not contain in another form, best first; only kinds
-/// accepted by `takes`, if given.
+Offer offer_of(const Design& design, std::size_t group, const estimation::GroupInformation& left);
+/// Offers beside a model; OffersBeside (diagnosis/offers.h) has those beside parts of it, too.
 std::vector<Offer> offers(Design& design, const Model& model,
                           const std::function<bool(GroupKind)>& takes = {});
 /// Minimum gain of an exchange, nats.
@@ -53,8 +53,6 @@ inline constexpr double better = 0.5;
 /// Members up to which pairs of them are tried against one effect in their place.
 inline constexpr std::size_t pairs_up_to = 6;
 
-/// Gain of the groups that are kept as rivals only (Design::keep_as_rival), best first.
-std::vector<Offer> only_rivals(Design& design, const Model& model);
 /// True for the same member, or the same cause in another form.
 bool same_cause(const ColumnGroup& a, const ColumnGroup& b);
 /// Gain of each member beside the others, in their order.
@@ -69,8 +67,8 @@ double evidence(Design& design, const Model& model);
 Model pruned(Design& design, const SearchSetting& setting, Model model);
 /// Adds members one by one as long as the score increases.
 Model grown(Design& design, const SearchSetting& setting, Model model);
-/// Removes weak members, swaps members for better ones, and changes lengths of free forms together
-/// with a named effect, until the score no longer increases.
+/// Removes weak members of a grown model, swaps members for better ones, and changes lengths of
+/// free forms together with a named effect, until the score no longer increases.
 Model settled(Design& design, const SearchSetting& setting, Model model);
 /// The better result of a search with and one without the zeros of tests.
 Model searched(Design& design, const SearchSetting& setting);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "estimation/lower_triangle.h"
+
 namespace trunnion::estimation {
 namespace {
 
@@ -52,9 +54,12 @@ Eigen::VectorXd by_column(const GroupEquations& equations, const Variances& vari
     return tau;
 }
 
+/// I + D G D / nu^2, padded by a unit matrix.
 Eigen::MatrixXd scaled_gram(const GroupEquations& equations, const Eigen::VectorXd& tau,
                             double nu) {
-    Eigen::MatrixXd m = tau.asDiagonal() * equations.gram * tau.asDiagonal() / (nu * nu);
+    const Eigen::Index own = tau.size(), rows = padded_rows(own);
+    Eigen::MatrixXd m = Eigen::MatrixXd::Zero(rows, rows);
+    m.topLeftCorner(own, own) = tau.asDiagonal() * equations.gram * tau.asDiagonal() / (nu * nu);
     m.diagonal().array() += 1.0;
     return m;
 }
@@ -132,22 +137,6 @@ Variances one_sweep(const GroupEquations& equations, const Step& from, const Noi
     return next;
 }
 
-/// Inverts L in place by recursive halving, so that most products are products of whole matrices.
-void invert_lower(Eigen::Ref<Eigen::MatrixXd> l) {
-    constexpr Eigen::Index small = 24;
-    const Eigen::Index n = l.rows(), top = n / 2, rest = n - top;
-    if (n <= small) {
-        const Eigen::MatrixXd inverse =
-            l.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(n, n));
-        l = inverse;
-        return;
-    }
-    invert_lower(l.topLeftCorner(top, top));
-    invert_lower(l.bottomRightCorner(rest, rest));
-    const Eigen::MatrixXd corner = l.bottomLeftCorner(rest, top) * l.topLeftCorner(top, top);
-    l.bottomLeftCorner(rest, top).noalias() = -l.bottomRightCorner(rest, rest) * corner;
-}
-
 Variances not_absent(Variances variances) {
     for (double& tau : variances.tau) tau = std::max(tau, least_size);
     return variances;
@@ -174,16 +163,17 @@ double restricted_likelihood(const GroupEquations& equations, const Variances& v
 FactoredMembers::FactoredMembers(const GroupEquations& equations, const Variances& variances)
     : nu(variances.nu), tau(by_column(equations, variances)) {
     if (tau.size() == 0) return;
-    factor.compute(scaled_gram(equations, tau, nu));
-    log_determinant = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-    z = factor.matrixL().solve(tau.cwiseProduct(equations.product));
+    factor = scaled_gram(equations, tau, nu);
+    factor_in_place(factor);
+    log_determinant = 2.0 * factor.diagonal().array().log().sum();
+    z = tau.cwiseProduct(equations.product);
+    factor.topLeftCorner(z.size(), z.size()).triangularView<Eigen::Lower>().solveInPlace(z);
 }
 
 GivenMembers::GivenMembers(FactoredMembers factored) : nu_(factored.nu), z_(std::move(factored.z)) {
     const Eigen::VectorXd& tau = factored.tau;
     if (tau.size() == 0) return;
-    half_ = factored.factor.matrixL();
-    invert_lower(half_);
+    half_ = inverse_of_lower(factored.factor).topLeftCorner(tau.size(), tau.size());
     used_ = static_cast<double>(tau.size()) - half_.squaredNorm();
     for (Eigen::Index k = 0; k < tau.size(); ++k) half_.col(k) *= tau(k);
 }

@@ -58,10 +58,10 @@ struct FactoredMembers {
     FactoredMembers(const GroupEquations& equations, const Variances& variances);
 
     double nu = 1.0;
-    Eigen::VectorXd tau;                 ///< of each column: the diagonal of D
-    Eigen::LLT<Eigen::MatrixXd> factor{Eigen::MatrixXd(0, 0)};  ///< L
-    Eigen::VectorXd z;                   ///< L^-1 D h
-    double log_determinant = 0.0;        ///< of I + D G D / nu^2
+    Eigen::VectorXd tau;           ///< of each column: the diagonal of D
+    Eigen::MatrixXd factor;        ///< L, padded (estimation/lower_triangle.h)
+    Eigen::VectorXd z;             ///< L^-1 D h
+    double log_determinant = 0.0;  ///< of I + D G D / nu^2
 };
 
 /// The same with the inverse of L, for evaluating what the members leave to another group.
@@ -85,6 +85,7 @@ class GivenMembers {
     Eigen::MatrixXd covariance() const;                    ///< of b: D (L L')^-1 D
     const Eigen::MatrixXd& half() const { return half_; }  ///< R = L^-1 D: R'R = covariance
     double freedom_used() const { return used_; }          ///< m - trace (L L')^-1
+    double nu() const { return nu_; }
 
   private:
     double nu_;

@@ -72,10 +72,12 @@ TEST_CASE("what members leave is the product with the residual", "[diagnosis]") 
     const Eigen::VectorXd size = Eigen::VectorXd::LinSpaced(9, -1.0, 2.0);
     const Eigen::VectorXd residual = b.data - b.design.columns(members[0]) * size.head(3) -
                                      b.design.columns(members[1]) * size.tail(6);
-    const Eigen::VectorXd left = b.design.left(members, size);
+    const Eigen::VectorXd left = b.design.left(members, size, b.groups);
     for (const std::size_t g : b.groups) {
         const Eigen::VectorXd expected = b.beside(g).transpose() * residual;
         CHECK((b.design.of_group(g, left) - expected).norm() < 1e-9 * (1.0 + expected.norm()));
+        const Eigen::VectorXd asked = b.design.left(members, size, {g});
+        CHECK((b.design.of_group(g, asked) - expected).norm() < 1e-9 * (1.0 + expected.norm()));
     }
 }
 

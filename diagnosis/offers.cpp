@@ -1,0 +1,146 @@
+#include "diagnosis/offers.h"
+
+#include <algorithm>
+
+namespace trunnion::diagnosis {
+namespace {
+
+constexpr std::size_t looked_at = 20;  ///< number of offers whose exact gain is computed
+
+/// Visible groups that no member contains in another form.
+std::vector<std::size_t> possible(const Design& design, const std::vector<std::size_t>& members,
+                                  const OffersBeside::Takes& takes) {
+    std::vector<std::size_t> list;
+    for (std::size_t k = 0; k < design.groups().size(); ++k) {
+        const auto& entry = design.groups()[k];
+        if (!entry.visible() || (takes && !takes(entry.group.kind))) continue;
+        const auto is_it = [&](std::size_t m) {
+            return m == k || same_cause(design.group(m), entry.group);
+        };
+        if (std::none_of(members.begin(), members.end(), is_it)) list.push_back(k);
+    }
+    return list;
+}
+
+}  // namespace
+
+OffersBeside::OffersBeside(Design& design, const Model& model)
+    : design_(design), model_(model), given_(design.equations(model.members), model.variances) {
+    Eigen::Index first = 0;
+    for (const std::size_t m : model.members) {
+        first_.push_back(first);
+        first += design.group(m).columns();
+    }
+}
+
+/// What the members take and leave of groups, as far as it is not known.
+void OffersBeside::see(const std::vector<std::size_t>& groups) {
+    std::vector<std::size_t> missing;
+    for (const std::size_t k : groups)
+        if (!seen_.contains(k)) missing.push_back(k);
+    if (missing.empty()) return;
+    const Eigen::MatrixXd taken = given_.taken(design_.cross(model_.members, missing));
+    Eigen::Index at = 0;
+    for (const std::size_t k : missing) {
+        const auto& entry = design_.groups()[k];
+        const auto own = taken.middleCols(at, entry.group.columns());
+        seen_.emplace(k, Seen{own, given_.leave_beside(own, entry.gram, entry.product)});
+        at += own.cols();
+    }
+}
+
+estimation::GivenOthers OffersBeside::others(std::size_t position,
+                                             std::optional<std::size_t> instead) {
+    const double tau = model_.variances.tau[position];
+    estimation::GivenOthers rest(given_, first_[position],
+                                 design_.group(model_.members[position]).columns(), tau);
+    if (!instead) return rest;
+    see({*instead});
+    const Seen& own = seen_.at(*instead);
+    rest.replace(own.taken, own.left, tau);
+    return rest;
+}
+
+OffersBeside::Beside OffersBeside::changed(std::size_t position,
+                                           std::optional<std::size_t> instead) {
+    Beside beside{model_.members, {}, others(position, instead), instead};
+    const Eigen::VectorXd mean = beside.others->mean(), own = beside.others->mean_in_place();
+    const Eigen::Index first = first_[position],
+                       after = first + design_.group(model_.members[position]).columns();
+    beside.mean.resize(mean.size() - (after - first) + own.size());
+    beside.mean << mean.head(first), own, mean.tail(mean.size() - after);
+    const auto at = beside.members.begin() + static_cast<std::ptrdiff_t>(position);
+    if (instead)
+        *at = *instead;
+    else
+        beside.members.erase(at);
+    return beside;
+}
+
+/// Of many groups, keeps the few with the largest lower bound of their gain, because the exact gain
+/// costs the square of the model size.
+void OffersBeside::keep_best(std::vector<std::size_t>& groups, const Beside& beside) const {
+    if (groups.size() <= looked_at || beside.members.empty()) return;
+    const double factor = 1.0 / (model_.variances.nu * model_.variances.nu);
+    const Eigen::VectorXd left = factor * design_.left(beside.members, beside.mean, groups);
+    std::vector<std::pair<double, std::size_t>> least;
+    for (const std::size_t k : groups) {
+        const auto& entry = design_.groups()[k];
+        const estimation::GroupGain gain =
+            estimation::group_gain(*entry.reduced, design_.of_group(k, left), factor);
+        least.emplace_back(-gain.mean - entry.group.log_prior, k);
+    }
+    std::nth_element(least.begin(), least.begin() + static_cast<long>(looked_at), least.end());
+    groups.clear();
+    for (std::size_t k = 0; k < looked_at; ++k) groups.push_back(least[k].second);
+    std::sort(groups.begin(), groups.end());
+}
+
+/// Exact offers of given groups, best first.
+std::vector<Offer> OffersBeside::exact(const Beside& beside,
+                                       const std::vector<std::size_t>& groups) {
+    see(groups);
+    std::vector<Offer> list;
+    for (const std::size_t k : groups) {
+        const Seen& own = seen_.at(k);
+        if (!beside.others)
+            list.push_back(offer_of(design_, k, own.left));
+        else if (!beside.instead)
+            list.push_back(offer_of(design_, k, beside.others->leave(own.taken, own.left)));
+        else
+            list.push_back(offer_of(
+                design_, k,
+                beside.others->leave(own.taken, own.left, design_.cross({*beside.instead}, {k}))));
+    }
+    std::stable_sort(list.begin(), list.end(),
+                     [](const Offer& a, const Offer& b) { return a.value > b.value; });
+    return list;
+}
+
+std::vector<Offer> OffersBeside::offered(const Beside& beside, const Takes& takes) {
+    std::vector<std::size_t> groups = possible(design_, beside.members, takes);
+    keep_best(groups, beside);
+    return exact(beside, groups);
+}
+
+std::vector<Offer> OffersBeside::all(const Takes& takes) {
+    return offered({model_.members, given_.mean(), std::nullopt, std::nullopt}, takes);
+}
+
+std::vector<Offer> OffersBeside::without(std::size_t position, const Takes& takes,
+                                         std::optional<std::size_t> instead) {
+    return offered(changed(position, instead), takes);
+}
+
+double OffersBeside::gained(std::size_t position, std::optional<std::size_t> instead) {
+    return others(position, instead).gained();
+}
+
+std::vector<Offer> OffersBeside::only_rivals(std::size_t position) {
+    std::vector<std::size_t> kept;
+    for (std::size_t k = 0; k < design_.groups().size(); ++k)
+        if (design_.groups()[k].only_rival) kept.push_back(k);
+    return exact(changed(position, std::nullopt), kept);
+}
+
+}  // namespace trunnion::diagnosis

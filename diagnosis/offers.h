@@ -1,0 +1,57 @@
+// Offers of groups beside a model, and beside the same model without one member or with another
+// group in its place: one factorisation for all of them.
+#pragma once
+
+#include <map>
+#include <optional>
+
+#include "diagnosis/search.h"
+#include "estimation/given_others.h"
+
+namespace trunnion::diagnosis {
+
+class OffersBeside {
+  public:
+    using Takes = std::function<bool(GroupKind)>;
+    OffersBeside(Design& design, const Model& model);
+
+    /// All visible groups that the model does not contain in another form, best first; only kinds
+    /// accepted by `takes`, if given.
+    std::vector<Offer> all(const Takes& takes = {});
+    /// The same beside the model without a member; `instead`: with this group of the member's size
+    /// in its place.
+    std::vector<Offer> without(std::size_t position, const Takes& takes = {},
+                               std::optional<std::size_t> instead = std::nullopt);
+    /// Log likelihood with this change, minus that of the model.
+    double gained(std::size_t position, std::optional<std::size_t> instead = std::nullopt);
+    /// Groups that are kept as rivals only, beside the model without a member.
+    std::vector<Offer> only_rivals(std::size_t position);
+
+  private:
+    /// What the groups stand beside.
+    struct Beside {
+        std::vector<std::size_t> members;
+        Eigen::VectorXd mean;  ///< of their coefficients
+        std::optional<estimation::GivenOthers> others;
+        std::optional<std::size_t> instead;
+    };
+    Beside changed(std::size_t position, std::optional<std::size_t> instead);
+    estimation::GivenOthers others(std::size_t position, std::optional<std::size_t> instead);
+    std::vector<Offer> offered(const Beside& beside, const Takes& takes);
+    std::vector<Offer> exact(const Beside& beside, const std::vector<std::size_t>& groups);
+    void keep_best(std::vector<std::size_t>& groups, const Beside& beside) const;
+    void see(const std::vector<std::size_t>& groups);
+
+    Design& design_;
+    Model model_;
+    estimation::GivenMembers given_;
+    std::vector<Eigen::Index> first_;
+    /// What the whole model takes and leaves of a group.
+    struct Seen {
+        Eigen::MatrixXd taken;
+        estimation::GroupInformation left;
+    };
+    std::map<std::size_t, Seen> seen_;  ///< of groups that were offered
+};
+
+}  // namespace trunnion::diagnosis
