@@ -1,9 +1,11 @@
+#include "diagnosis/claims.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "diagnosis/claims.h"
 #include "diagnosis/contenders.h"
+#include "diagnosis/machine_jump.h"
 #include "diagnosis/offers.h"
 #include "diagnosis/rules.h"
 #include "estimation/distributions.h"
@@ -122,6 +124,13 @@ double evidence_probability(const Searching& search, const Model& model, const O
     return std::isfinite(probability) ? probability : 0.0;
 }
 
+/// A jump of the machine stands against a move of an artefact only: beside any other effect it is
+/// one more time that was picked to fit.
+bool may_be_instead(const ColumnGroup& own, const ColumnGroup& other) {
+    return !is_machine_jump(other.effect) ||
+           (own.effect && own.effect->kind == effects::EffectKind::artefact_moved);
+}
+
 /// Other causes that explain nearly as much in place of the member.
 void name_rivals(const Design& design, const Offer& held, const std::vector<Offer>& others,
                  Claim& claim) {
@@ -132,7 +141,9 @@ void name_rivals(const Design& design, const Offer& held, const std::vector<Offe
         const ColumnGroup& group = design.group(o.group);
         const bool alike =
             group.kind == GroupKind::table ? own.kind == GroupKind::table : is_cause(group.kind);
-        if (!alike || group.name == own.name || held.explained() - o.explained() > most) continue;
+        if (!alike || group.name == own.name || !may_be_instead(own, group) ||
+            held.explained() - o.explained() > most)
+            continue;
         found.emplace_back(held.gain.best + own.log_prior - o.gain.best - group.log_prior, o.group);
     }
     std::sort(found.begin(), found.end());
@@ -221,6 +232,28 @@ Sizes sizes_of(Design& design, const Model& model, double floor, const std::vect
     return sizes;
 }
 
+namespace {
+
+/// Offers that share the probability of a claim: those that a model may contain, and for each of
+/// them that moves an artefact the jump at the same time.
+std::vector<Offer> with_jumps(const Design& design, const ColumnGroup& own,
+                              const std::vector<Offer>& instead, std::vector<Offer> others) {
+    std::vector<Offer> jumps;
+    for (const Offer& o : instead) {
+        const ColumnGroup& jump = design.group(o.group);
+        if (!is_machine_jump(jump.effect) || !may_be_instead(own, jump)) continue;
+        const auto is_its_move = [&](const Offer& other) {
+            const ColumnGroup& group = design.group(other.group);
+            return group.name == own.name && group.keys == jump.keys;
+        };
+        if (std::any_of(others.begin(), others.end(), is_its_move)) jumps.push_back(o);
+    }
+    others.insert(others.begin(), jumps.begin(), jumps.end());
+    return others;
+}
+
+}  // namespace
+
 std::vector<Claim> claims_of(const Searching& search, const Model& model, const Sizes& sizes,
                              const HeldOutEvidence& heldout) {
     Design& design = search.design;
@@ -240,18 +273,20 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         own += claim.own;
         if (claim.share < rules::least_share && claim.rms < rules::least_rms) continue;
         const std::vector<Offer> others = beside.without(k);
+        std::vector<Offer> instead = others;
+        for (Offer& o : beside.only_rivals(k)) instead.push_back(std::move(o));
         const double blocks = heldout.support[k].saving.blocks;
         const Contender& contender = heldout.found.contenders[k];
         const double seen =
             std::min({estimation::student_probability(heldout.support[k].saving.t, blocks - 1.0),
                       (blocks + 1.0) / (blocks + 2.0), std::clamp(heldout.explained, 0.0, 1.0)});
-        claim.probability = std::min(
-            {evidence_probability(search, model, worth[k], others, temper(sizes, k, heldout.folds)),
-             probability_against(contender), seen});
+        claim.probability =
+            std::min({evidence_probability(search, model, worth[k],
+                                           with_jumps(design, group, instead, others),
+                                           temper(sizes, k, heldout.folds)),
+                      probability_against(contender), seen});
         // It works against the other causes: the correction of a form that is not theirs.
         if (sizes.along[k] <= 0.0) claim.probability = std::min(claim.probability, doubtful);
-        std::vector<Offer> instead = others;
-        for (Offer& o : beside.only_rivals(k)) instead.push_back(std::move(o));
         name_rivals(design, worth[k], instead, claim);
         name_contender(design, model, contender, sizes.parts.col(static_cast<Eigen::Index>(k)),
                        claim);

@@ -8,6 +8,7 @@
 
 #include "base/alarm.h"
 #include "base/rounded.h"
+#include "diagnosis/machine_jump.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -48,7 +49,8 @@ Folds make_folds(const std::vector<NoiseBlock>& blocks, std::size_t rows) {
 Prepared::Prepared(const setup::Setup& setup, const records::ReadingTable& readings)
     : table(readings),
       replay(setup, readings),
-      catalogue(effects::make_catalogue(setup, effects::extent_of(setup, readings))) {
+      catalogue(effects::make_catalogue(setup, effects::extent_of(setup, readings))),
+      only_rivals(jumps_like_moves(catalogue)) {
     if (replay.size() < least_readings)
         throw InputError(fmt::format("{} readings allow no diagnosis", replay.size()),
                          {table.path, 0, 0});

@@ -23,6 +23,7 @@ struct Prepared {
     const records::ReadingTable& table;
     emulator::Replay replay;
     effects::Catalogue catalogue;
+    effects::Catalogue only_rivals;  ///< what no setup contains; it may stand in a claim's place
     std::vector<identification::FoundSide> base_sides;  ///< sides that influence the base model
     std::vector<std::size_t> open_sides;  ///< indices in Replay::unknown_sides: those without
                                           ///< influence on it

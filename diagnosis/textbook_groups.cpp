@@ -6,6 +6,7 @@
 #include <set>
 
 #include "diagnosis/candidate_groups.h"
+#include "diagnosis/machine_jump.h"
 #include "diagnosis/rules.h"
 
 namespace trunnion::diagnosis {
@@ -176,11 +177,25 @@ Eigen::Index add_change_groups(Design& design, const Prepared& prepared, const W
     return added;
 }
 
+namespace {
+
+/// Adds jumps of the machine at the time of an artefact's move, as its rivals.
+void add_jumps(Design& design, const Prepared& prepared, const Whitener& whitener,
+               const effects::Effect& effect, const std::vector<double>& keys) {
+    if (effect.kind != effects::EffectKind::artefact_moved || is_machine_jump(&effect)) return;
+    for (const effects::Effect& jump : prepared.only_rivals)
+        if (const auto added = add_keyed_group(design, prepared, whitener, jump, keys))
+            design.keep_as_rival(*added);
+}
+
+}  // namespace
+
 std::optional<std::size_t> add_keyed_group(Design& design, const Prepared& prepared,
                                            const Whitener& whitener, const effects::Effect& effect,
                                            std::vector<double> keys) {
     Material material = material_of(prepared, effect, keys);
     if (material.parameters.empty()) return std::nullopt;
+    add_jumps(design, prepared, whitener, effect, keys);
     whitener.apply(material.columns);
     const double prior = rules::effect_prior + log_prior_of_keys(effect, keys);
     ColumnGroup group =

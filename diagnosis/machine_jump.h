@@ -1,0 +1,20 @@
+// A jump of the machine: a rival of an artefact's move, of which no setup knows.
+#pragma once
+
+#include "effects/catalogue.h"
+
+namespace trunnion::diagnosis {
+
+/// Name of the rival in reports.
+inline constexpr const char* machine_jump = "machine.jump";
+
+/// The spindle side, and everything that is read with it, displaced in M from the time of a move of
+/// an artefact on (a collision, a lost count, a cup that slipped). It has the parameters of that
+/// move, so that both are as probable beforehand. Only readings of another artefact after that
+/// time, or with the table turned, see them differently. Empty without such a move.
+effects::Catalogue jumps_like_moves(const effects::Catalogue& catalogue);
+
+/// True for a jump.
+bool is_machine_jump(const effects::Effect* effect);
+
+}  // namespace trunnion::diagnosis
