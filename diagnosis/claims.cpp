@@ -124,11 +124,12 @@ double evidence_probability(const Searching& search, const Model& model, const O
     return std::isfinite(probability) ? probability : 0.0;
 }
 
-/// A jump of the machine stands against a move of an artefact only: beside any other effect it is
-/// one more time that was picked to fit.
+/// A jump of the machine stands against a move of an artefact and against a drift, which are
+/// courses of time, too: beside any other effect it is one more time that was picked to fit.
 bool may_be_instead(const ColumnGroup& own, const ColumnGroup& other) {
     return !is_machine_jump(other.effect) ||
-           (own.effect && own.effect->kind == effects::EffectKind::artefact_moved);
+           (own.effect && (own.effect->kind == effects::EffectKind::artefact_moved ||
+                           own.effect->kind == effects::EffectKind::thermal_drift));
 }
 
 /// Other causes that explain nearly as much in place of the member.
@@ -235,9 +236,10 @@ Sizes sizes_of(Design& design, const Model& model, double floor, const std::vect
 namespace {
 
 /// Offers that share the probability of a claim: those that a model may contain, and for each of
-/// them that moves an artefact the jump at the same time.
+/// them that moves an artefact the jump at the same time; for a drift the best jump.
 std::vector<Offer> with_jumps(const Design& design, const ColumnGroup& own,
                               const std::vector<Offer>& instead, std::vector<Offer> others) {
+    const bool of_moves = own.effect && own.effect->kind == effects::EffectKind::artefact_moved;
     std::vector<Offer> jumps;
     for (const Offer& o : instead) {
         const ColumnGroup& jump = design.group(o.group);
@@ -246,8 +248,12 @@ std::vector<Offer> with_jumps(const Design& design, const ColumnGroup& own,
             const ColumnGroup& group = design.group(other.group);
             return group.name == own.name && group.keys == jump.keys;
         };
-        if (std::any_of(others.begin(), others.end(), is_its_move)) jumps.push_back(o);
+        if (!of_moves || std::any_of(others.begin(), others.end(), is_its_move)) jumps.push_back(o);
     }
+    if (!of_moves && jumps.size() > 1)
+        jumps = {*std::max_element(jumps.begin(), jumps.end(), [](const Offer& x, const Offer& y) {
+            return x.value < y.value;
+        })};
     others.insert(others.begin(), jumps.begin(), jumps.end());
     return others;
 }

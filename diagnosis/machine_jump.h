@@ -1,4 +1,4 @@
-// A jump of the machine: a rival of an artefact's move, of which no setup knows.
+// A jump of the machine: a rival of an artefact's move and of a drift, of which no setup knows.
 #pragma once
 
 #include "effects/catalogue.h"

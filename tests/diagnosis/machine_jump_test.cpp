@@ -74,4 +74,31 @@ TEST_CASE("an artefact that moved between turns of the table has no jump as a ri
     CHECK(first.probability.value() > 0.9);
 }
 
+TEST_CASE("a jump that all artefacts see is no sure drift, and a drift is no jump",
+          "[diagnosis][jump]") {
+    const setup::Setup setup = campaign::bc_setup();
+    const setup::Setup before = campaign::real_machine(setup);
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 50, 5);
+    for (std::size_t i = table.rows.size() / 2; i < table.rows.size(); ++i)
+        table.rows[i].test = "second";
+    setup::Setup after = before;
+    after.probe->tip_S_mm += Vector3(0.006, -0.004, 0.003);
+    const diagnosis::Diagnosis jump =
+        diagnosis::diagnose(setup, changed_at("second", table, before, after));
+    const diagnosis::Cause& taken_for_it = first_of(jump);
+    CHECK(taken_for_it.effect == "thermal.drift");
+    CHECK(has_jump_as_rival(taken_for_it));
+    CHECK(taken_for_it.probability.value() < 0.5);
+
+    const setup::Setup warming =
+        campaign::with_effect(before, "thermal.drift: d_mm=[0.01, 0, 0.02], tau_s=300");
+    const diagnosis::Diagnosis drift =
+        diagnosis::diagnose(setup, campaign::measured(warming, table, 5));
+    const diagnosis::Cause& first = first_of(drift);
+    CHECK(first.effect == "thermal.drift");
+    CHECK(!has_jump_as_rival(first));
+    CHECK(first.probability.value() > 0.9);
+}
+
 }  // namespace trunnion
