@@ -5,7 +5,6 @@
 #include <map>
 
 #include "diagnosis/contenders.h"
-#include "diagnosis/machine_jump.h"
 #include "diagnosis/offers.h"
 #include "diagnosis/rules.h"
 #include "estimation/distributions.h"
@@ -127,7 +126,7 @@ double evidence_probability(const Searching& search, const Model& model, const O
 /// A jump of the machine stands against a move of an artefact and against a drift, which are
 /// courses of time, too: beside any other effect it is one more time that was picked to fit.
 bool may_be_instead(const ColumnGroup& own, const ColumnGroup& other) {
-    return !is_machine_jump(other.effect) ||
+    return !other.machine_jump ||
            (own.effect && (own.effect->kind == effects::EffectKind::artefact_moved ||
                            own.effect->kind == effects::EffectKind::thermal_drift));
 }
@@ -243,7 +242,7 @@ std::vector<Offer> with_jumps(const Design& design, const ColumnGroup& own,
     std::vector<Offer> jumps;
     for (const Offer& o : instead) {
         const ColumnGroup& jump = design.group(o.group);
-        if (!is_machine_jump(jump.effect) || !may_be_instead(own, jump)) continue;
+        if (!jump.machine_jump || !may_be_instead(own, jump)) continue;
         const auto is_its_move = [&](const Offer& other) {
             const ColumnGroup& group = design.group(other.group);
             return group.name == own.name && group.keys == jump.keys;

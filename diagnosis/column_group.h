@@ -43,6 +43,7 @@ struct ColumnGroup {
     std::string name;                         ///< the cause or driver: "X.backlash", "time"
     std::string component, text;              ///< of a driver
     bool of_time = false;                     ///< a driver: a course of time
+    bool machine_jump = false;                ///< of diagnosis/machine_jump.h
     const effects::Effect* effect = nullptr;  ///< textbook, periodic
     std::vector<double> keys;                 ///< of the effect; linear parameters 0
     std::vector<std::size_t> parameters;      ///< of the effect, one for each column

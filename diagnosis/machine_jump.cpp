@@ -20,8 +20,4 @@ effects::Catalogue jumps_like_moves(const effects::Catalogue& catalogue) {
     return jumps;
 }
 
-bool is_machine_jump(const effects::Effect* effect) {
-    return effect && effect->name == machine_jump;
-}
-
 }  // namespace trunnion::diagnosis

@@ -14,7 +14,4 @@ inline constexpr const char* machine_jump = "machine.jump";
 /// time, or with the table turned, see them differently. Empty without such a move.
 effects::Catalogue jumps_like_moves(const effects::Catalogue& catalogue);
 
-/// True for a jump.
-bool is_machine_jump(const effects::Effect* effect);
-
 }  // namespace trunnion::diagnosis

@@ -26,8 +26,8 @@ struct Family {
 /// Where both explain all, that name comes first.
 constexpr double by_an_arm = -0.7;  // ln 0.5
 
-/// The bow of a straightness stays in its table, as in that of the angles: seen through one arm they
-/// are the same curve, and one of them must not need a second cause for its bow.
+/// The bow of a straightness stays in its table, as in that of the angles: seen through one arm
+/// they are the same curve, and one of them must not need a second cause for its bow.
 constexpr Family families[] = {{EffectKind::positioning, false, true, false, false, 40, 24, 2},
                                {EffectKind::straightness, false, false, false, false, 24, 12, 2},
                                {EffectKind::angular, false, false, true, true, 16, 8, 2, by_an_arm},

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "diagnosis/candidate_groups.h"
-#include "diagnosis/machine_jump.h"
 #include "diagnosis/rules.h"
 
 namespace trunnion::diagnosis {
@@ -179,13 +178,18 @@ Eigen::Index add_change_groups(Design& design, const Prepared& prepared, const W
 
 namespace {
 
-/// Adds jumps of the machine at the time of an artefact's move, as its rivals.
-void add_jumps(Design& design, const Prepared& prepared, const Whitener& whitener,
-               const effects::Effect& effect, const std::vector<double>& keys) {
-    if (effect.kind != effects::EffectKind::artefact_moved || is_machine_jump(&effect)) return;
-    for (const effects::Effect& jump : prepared.only_rivals)
-        if (const auto added = add_keyed_group(design, prepared, whitener, jump, keys))
-            design.keep_as_rival(*added);
+/// An effect at given keys, its features added to the design; empty where it moves nothing.
+std::optional<ColumnGroup> keyed_group(Design& design, const Prepared& prepared,
+                                       const Whitener& whitener, const effects::Effect& effect,
+                                       std::vector<double> keys) {
+    Material material = material_of(prepared, effect, keys);
+    if (material.parameters.empty()) return std::nullopt;
+    whitener.apply(material.columns);
+    const double prior = rules::effect_prior + log_prior_of_keys(effect, keys);
+    ColumnGroup group =
+        group_of(effect, std::move(keys), material, design.add_features(material.columns), {});
+    group.log_prior = prior;
+    return group;
 }
 
 }  // namespace
@@ -193,15 +197,15 @@ void add_jumps(Design& design, const Prepared& prepared, const Whitener& whitene
 std::optional<std::size_t> add_keyed_group(Design& design, const Prepared& prepared,
                                            const Whitener& whitener, const effects::Effect& effect,
                                            std::vector<double> keys) {
-    Material material = material_of(prepared, effect, keys);
-    if (material.parameters.empty()) return std::nullopt;
-    add_jumps(design, prepared, whitener, effect, keys);
-    whitener.apply(material.columns);
-    const double prior = rules::effect_prior + log_prior_of_keys(effect, keys);
-    ColumnGroup group =
-        group_of(effect, std::move(keys), material, design.add_features(material.columns), {});
-    group.log_prior = prior;
-    return design.add(std::move(group));
+    if (effect.kind == effects::EffectKind::artefact_moved)
+        for (const effects::Effect& jump : prepared.only_rivals)
+            if (auto group = keyed_group(design, prepared, whitener, jump, keys)) {
+                group->machine_jump = true;
+                design.keep_as_rival(design.add(std::move(*group)));
+            }
+    auto group = keyed_group(design, prepared, whitener, effect, std::move(keys));
+    if (!group) return std::nullopt;
+    return design.add(std::move(*group));
 }
 
 }  // namespace trunnion::diagnosis

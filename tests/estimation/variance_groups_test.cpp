@@ -169,7 +169,6 @@ TEST_CASE("without members there is a factor too, and it may be copied", "[estim
     const estimation::GroupEquations none{Eigen::MatrixXd(0, 0), Eigen::VectorXd(0), 4.0, 9.0, {}};
     const estimation::FactoredMembers members(none, {{}, 2.0});
     const estimation::FactoredMembers copied = members;  // a sanitizer reads what it holds
-    CHECK(copied.factor.info() == Eigen::Success);
     CHECK(copied.factor.rows() == 0);
     CHECK(copied.log_determinant == 0.0);
 }
