@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "interpreter/arguments.h"
@@ -110,6 +111,7 @@ struct Interpreter::State {
     void repeat();
     Section& called(int number, bool outside, int column);
     double take(char letter, double otherwise);
+    std::pair<double, double> take_program_and_repeats();
     void remove(std::size_t at);
     bool give_or(Pending call);
     ArgumentRules argument_rules() const;

@@ -113,6 +113,26 @@ double Interpreter::State::take(char letter, double otherwise) {
     return otherwise;
 }
 
+/// Removes the code in front and the first P and L, whose values it returns (-1 and 1 where they
+/// are not there or vacant): in one walk, because programs call macros in their inner loops.
+std::pair<double, double> Interpreter::State::take_program_and_repeats() {
+    bool has_p = false, has_l = false;
+    std::pair<double, double> values{-1.0, 1.0};
+    std::size_t kept = 0;
+    for (std::size_t i = 1; i < words.count; ++i) {
+        const WordValue& word = words.words[i];
+        const bool is_p = word.letter == 'P' && !has_p, is_l = word.letter == 'L' && !has_l;
+        if (is_p || is_l) {
+            (is_p ? has_p : has_l) = true;
+            if (!word.vacant) (is_p ? values.first : values.second) = word.value;
+            continue;
+        }
+        words.words[kept++] = word;
+    }
+    words.count = kept;
+    return values;
+}
+
 ArgumentRules Interpreter::State::argument_rules() const {
     ArgumentRules r;
     r.whole_numbers_as_written = options.whole_arguments_as_written;
@@ -133,10 +153,9 @@ void Interpreter::State::macro_call(std::size_t at_word, Section* named, bool mo
         raise_language_alarm(127, words.words[0].column, "G65 and G66 stand first in their block");
     check_words(words, options.dialect.family);
     const int column = words.words[0].column;
-    remove(0);
-    const double p = take('P', -1.0);
+    const auto [p, l] = take_program_and_repeats();
     if (p < 0.0 && !named) raise_language_alarm(76, column, "P is missing");
-    const int repeats = whole_number(take('L', 1.0), column);
+    const int repeats = whole_number(l, column);
     Section& section = named ? *named : called(whole_number(p, column), false, column);
     if (modal) {
         if (modal_count == modals.size()) raise_language_alarm(122, column);
