@@ -81,7 +81,7 @@ class LeftOut {
         Eigen::VectorXd data, product;
         /// With all members fitted: factor of the information, mean and covariance (divided by the
         /// noise variance), from which any smaller fit follows. Empty until needed.
-        mutable Eigen::LLT<Eigen::MatrixXd> factor;
+        mutable Eigen::LLT<Eigen::MatrixXd> factor{Eigen::MatrixXd(0, 0)};
         mutable Eigen::MatrixXd covariance;
         mutable Eigen::VectorXd mean;
     };

@@ -144,8 +144,9 @@ Eigen::VectorXd KeySearch::fine_gains(const std::vector<Setting*>& finalists,
         all.middleCols(at, s->fine.cols()) = s->fine;
         at += s->fine.cols();
     }
-    const Eigen::MatrixXd cross = remainder.fitted.transpose() * all;
-    const Eigen::MatrixXd taken = remainder.factor.matrixL().solve(cross);
+    Eigen::MatrixXd taken = remainder.fitted.transpose() * all;
+    // Without columns Eigen would solve by way of a null pointer.
+    if (taken.size() > 0) remainder.factor.matrixL().solveInPlace(taken);
     Eigen::VectorXd gain(static_cast<Eigen::Index>(finalists.size()));
     at = 0;
     for (std::size_t k = 0; k < finalists.size(); ++k) {

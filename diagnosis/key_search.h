@@ -20,10 +20,10 @@ class KeySearch {
 
     /// A residual (mm) with the columns (mm, base first) that are fitted again beside an effect.
     struct Remainder {
-        Eigen::VectorXd rough, fine;         ///< of the selected rows, in sigma
-        Eigen::MatrixXd fitted;              ///< these columns on the fine rows, of length 1
-        Eigen::LLT<Eigen::MatrixXd> factor;  ///< L, of their products L L'
-        Eigen::VectorXd along;               ///< L^-1 fitted' fine
+        Eigen::VectorXd rough, fine;  ///< of the selected rows, in sigma
+        Eigen::MatrixXd fitted;       ///< these columns on the fine rows, of length 1
+        Eigen::LLT<Eigen::MatrixXd> factor{Eigen::MatrixXd(0, 0)};  ///< L, of their products L L'
+        Eigen::VectorXd along;                                      ///< L^-1 fitted' fine
     };
     Remainder remainder(const Eigen::VectorXd& left_mm, const Eigen::MatrixXd& fitted) const;
 
@@ -36,8 +36,9 @@ class KeySearch {
     struct Setting {
         std::vector<double> values;
         Eigen::MatrixXd rough;  ///< weighted columns on the rough rows, beside the base
-        Eigen::LLT<Eigen::MatrixXd> factor;  ///< of their information and prior
-        Eigen::MatrixXd fine;                ///< on the fine rows, empty until needed
+        /// Of their information and prior.
+        Eigen::LLT<Eigen::MatrixXd> factor{Eigen::MatrixXd(0, 0)};
+        Eigen::MatrixXd fine;  ///< on the fine rows, empty until needed
     };
     Eigen::VectorXd fine_gains(const std::vector<Setting*>& finalists,
                                const Remainder& remainder) const;

@@ -40,8 +40,8 @@ class GivenOthers {
     Eigen::MatrixXd own_;       ///< L, where C_gg = L L'
     Eigen::VectorXd own_mean_;  ///< L^-1 times the mean of the absent group
     double gained_ = 0.0;
-    Eigen::MatrixXd taken_, shown_;         ///< of the group in place
-    Eigen::LLT<Eigen::MatrixXd> in_place_;  ///< P
+    Eigen::MatrixXd taken_, shown_;                                ///< of the group in place
+    Eigen::LLT<Eigen::MatrixXd> in_place_{Eigen::MatrixXd(0, 0)};  ///< P
     Eigen::VectorXd in_place_mean_, in_place_z_;
 };
 
