@@ -15,6 +15,9 @@ constexpr double least_turns = 2.0, most_hole = 0.4, least_spacings = 2.0, least
 /// as many frequencies as positions, and one of them resembles an error of any shape.
 constexpr std::size_t many_places = 3 * least_places;
 constexpr double same_frequency = 1e-3;  ///< cycles in one step of a grid
+/// Keys with the same values that are listed. A step of 20 m reaches it; a wild coordinate of
+/// 1e9 mm would have some 1e9 of them.
+constexpr std::size_t most_aliases = 10'000;
 
 /// Step of a grid that contains all positions, possibly with empty nodes; 0 if there is none. On
 /// it, periods below two steps are aliases of longer ones.
@@ -89,7 +92,8 @@ std::vector<double> aliases_on(double step, const Ripple& ripple) {
             if (std::abs(frequency_on_grid(step, 2.0 * pi / count) - own) < same_frequency)
                 list.push_back(count);
     } else {
-        for (double cycles = 0.0; step / (cycles + 0.5) >= *least; ++cycles)
+        for (double cycles = 0.0; step / (cycles + 0.5) >= *least && list.size() < most_aliases;
+             ++cycles)
             for (const double f : {cycles - own, cycles + own})
                 if (f > 0.0 && step / f >= *least && step / f <= *most) list.push_back(step / f);
     }
