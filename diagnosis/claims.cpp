@@ -43,6 +43,20 @@ double temper(const Sizes& sizes, std::size_t k, const Folds& folds) {
     return 1.0 / std::max(1.0, expected > 0.0 ? square / expected : 1.0);
 }
 
+bool are_forms_of_one_axis(const ColumnGroup& a, const ColumnGroup& b) {
+    return a.kind == GroupKind::table && b.kind == GroupKind::table &&
+           are_kindred(a.table, b.table);
+}
+
+/// True when another free form of the axis leaves open what a free form is. What an angular error
+/// does on the only line that was measured is positioning and straightness by their definition (ISO
+/// 230-1), so it leaves those open to no doubt.
+bool leaves_open(const ColumnGroup& own, const ColumnGroup& other) {
+    return are_forms_of_one_axis(own, other) &&
+           (own.table.motion == effects::EffectKind::angular ||
+            other.table.motion != effects::EffectKind::angular);
+}
+
 double nats_of(const Design& design, const Offer& o) {
     return o.gain.best + design.group(o.group).log_prior;
 }
@@ -95,32 +109,45 @@ void weigh_one_for_two(const Searching& search, const Model& model, const Offer&
     }
 }
 
+/// What the evidence gives a cause, and the cause or a free form of its axis that leaves it open.
+struct EvidenceOf {
+    double cause, axis;
+};
+
 /// Posterior weight of the models that contain member k, relative to: the chosen model, the model
 /// without it, those with it replaced, and those with another one in place of two.
-double evidence_probability(const Searching& search, const Model& model, const Offer& held,
-                            const std::vector<Offer>& others, double zeta) {
+EvidenceOf evidence_of(const Searching& search, const Model& model, const Offer& held,
+                       const std::vector<Offer>& others, double zeta) {
     const Design& design = search.design;
+    const ColumnGroup& cause = design.group(held.group);
     const Weights weights(search, model);
     const auto k = std::find(model.members.begin(), model.members.end(), held.group);
     const Model rest = without(model, static_cast<std::size_t>(k - model.members.begin()));
     const double own = nats_of(design, held);
-    std::vector<double> same{0.0}, other;
+    std::vector<double> same{0.0}, kindred, other;
     weights.add(rest, own, other);
     std::size_t count = 0;
     for (const Offer& o : others) {
         if (o.group == held.group) continue;
         if (count++ == rivals_tried) break;
-        const bool again = design.group(o.group).name == design.group(held.group).name;
-        weights.add(with(rest, o), own - nats_of(design, o), again ? same : other);
+        const ColumnGroup& group = design.group(o.group);
+        const bool again = group.name == cause.name;
+        weights.add(with(rest, o), own - nats_of(design, o),
+                    again                       ? same
+                    : leaves_open(cause, group) ? kindred
+                                                : other);
     }
     weigh_one_for_two(search, model, held, weights, other);
-    for (double& w : same) w *= zeta;
-    for (double& w : other) w *= zeta;
+    for (auto* list : {&same, &kindred, &other})
+        for (double& w : *list) w *= zeta;
     const double of_same = log_sum(same);
-    other.push_back(of_same);
-    const double probability = std::exp(of_same - log_sum(other));
+    kindred.push_back(of_same);
+    const double of_axis = log_sum(kindred);
+    other.push_back(of_axis);
+    const double all = log_sum(other);
     // A search that was ended early may leave variances at which no likelihood can be computed.
-    return std::isfinite(probability) ? probability : 0.0;
+    if (!std::isfinite(all)) return {0.0, 0.0};
+    return {std::exp(of_same - all), std::exp(of_axis - all)};
 }
 
 /// A jump of the machine stands against a move of an artefact and against a drift, which are
@@ -171,18 +198,20 @@ void name_contender(Design& design, const Model& model, const Contender& contend
 }
 
 /// A free form of which the readings do not tell the family (seen through one tool length, an
-/// angular error is a straightness) has the name of what its rivals have in common.
-void name_axis(const Design& design, const Challenged& found, double seen, Claim& claim) {
+/// angular error is a straightness) has the name of what its rivals have in common. `axis`:
+/// probability of any free form of its axis by the evidence and by left-out readings.
+void name_axis(const Design& design, const Challenged& found, double axis, Claim& claim) {
     const ColumnGroup& own = design.group(found.model.members[claim.position]);
-    const auto is_family = [&](std::size_t k) {
-        const ColumnGroup& group = design.group(k);
-        return group.kind == GroupKind::table && are_kindred(group.table, own.table);
-    };
-    const double any = std::min(seen, probability_against(found.of_axis[claim.position]));
-    if (own.kind != GroupKind::table || found.of_axis[claim.position].model.members.empty() ||
-        claim.probability >= any ||
-        std::none_of(claim.rival_groups.begin(), claim.rival_groups.end(), is_family))
+    if (std::none_of(claim.rival_groups.begin(), claim.rival_groups.end(),
+                     [&](std::size_t k) { return are_forms_of_one_axis(design.group(k), own); }))
         return;
+    // Where no model without the axis was looked for, the best one without the family is sure to be
+    // no better.
+    const Contender& without_axis = found.of_axis[claim.position];
+    const double any = std::min(axis, probability_against(without_axis.model.members.empty()
+                                                              ? found.contenders[claim.position]
+                                                              : without_axis));
+    if (claim.probability >= sure * any) return;
     claim.rivals.insert(claim.rivals.begin(), claim.name);
     claim.rival_groups.insert(claim.rival_groups.begin(), found.model.members[claim.position]);
     claim.name = "free form of " + own.table.axis.name;
@@ -285,17 +314,19 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         const double seen =
             std::min({estimation::student_probability(heldout.support[k].saving.t, blocks - 1.0),
                       (blocks + 1.0) / (blocks + 2.0), std::clamp(heldout.explained, 0.0, 1.0)});
-        claim.probability =
-            std::min({evidence_probability(search, model, worth[k],
-                                           with_jumps(design, group, instead, others),
-                                           temper(sizes, k, heldout.folds)),
-                      probability_against(contender), seen});
+        const EvidenceOf told =
+            evidence_of(search, model, worth[k], with_jumps(design, group, instead, others),
+                        temper(sizes, k, heldout.folds));
+        // What the evidence leaves open between forms of one axis is open in all that is seen, too.
+        const double seen_axis = std::min(seen, told.axis);
+        claim.probability = std::min(probability_against(contender),
+                                     told.axis > 0.0 ? seen_axis * told.cause / told.axis : 0.0);
         // It works against the other causes: the correction of a form that is not theirs.
         if (sizes.along[k] <= 0.0) claim.probability = std::min(claim.probability, doubtful);
         name_rivals(design, worth[k], instead, claim);
         name_contender(design, model, contender, sizes.parts.col(static_cast<Eigen::Index>(k)),
                        claim);
-        name_axis(design, heldout.found, seen, claim);
+        name_axis(design, heldout.found, seen_axis, claim);
         claims.push_back(std::move(claim));
     }
     if (own > rules::most_own)  // contributions cancel, so none of them is reliable

@@ -129,6 +129,39 @@ TEST_CASE("a free form that two other causes imitate together is named by what t
     }
 }
 
+// On one line an angular error does what positioning or straightness does there, which are defined
+// by what the line shows: only the angular error is left open.
+TEST_CASE("an angular form that straightness does as well is a free form of its axis",
+          "[diagnosis]") {
+    using diagnosis::GroupKind;
+    SeededNoise random(23);
+    const Eigen::MatrixXd base = random_matrix(random, 2), shapes = random_matrix(random, 8);
+    const Eigen::MatrixXd others = random_matrix(random, 8);
+    for (const double apart : {0.0, 1.0}) {
+        const Eigen::MatrixXd turned = (1.0 - apart) * shapes + apart * others;
+        for (const char* held : {"Z.angular", "Z.straightness"}) {
+            const bool angular = held == std::string("Z.angular");
+            const Eigen::VectorXd data =
+                2.0 * (angular ? turned : shapes).rowwise().sum() + random_matrix(random, 1).col(0);
+            diagnosis::Design design(base, data, rows);
+            diagnosis::ColumnGroup form = group_of(design, "Z.angular", GroupKind::table, turned);
+            form.table.motion = effects::EffectKind::angular;
+            design.add(form);
+            design.add(group_of(design, "Z.straightness", GroupKind::table, shapes));
+            const diagnosis::SearchSetting setting = diagnosis::search_setting(design, {0.0, 0.1});
+            const diagnosis::Model model =
+                diagnosis::tuned(design, setting, {{angular ? 0u : 1u}, {{2.0}, 1.0}, 0.0}, 3);
+            const auto claims = claims_of({design, setting}, diagnosis::unchallenged(model));
+            const bool open = angular && apart == 0.0;
+            INFO(held << ", apart by " << apart << ": " << claims.front().name << " "
+                      << claims.front().probability);
+            CHECK(claims.front().name == (open ? "free form of Z" : held));
+            CHECK((claims.front().probability > 0.9) == (open || apart > 0.0));
+            CHECK(claims.front().rivals.empty() == (apart > 0.0));
+        }
+    }
+}
+
 TEST_CASE("a model that a contender beats gives way to it", "[diagnosis]") {
     SeededNoise random(12);
     const std::vector<bool> used(rows, true);
