@@ -80,4 +80,12 @@ Eigen::MatrixXd columns_on(const emulator::Replay& replay,
     return columns;
 }
 
+Eigen::VectorXd contribution_on(const emulator::Replay& replay,
+                                const std::vector<kinematics::Perturbation>& gradient,
+                                const ColumnGroup& group, const Eigen::VectorXd& coefficients) {
+    if (group.kind == GroupKind::table)
+        return table_features(replay, gradient, group.table) * (group.shape * coefficients);
+    return columns_on(replay, gradient, group) * coefficients;
+}
+
 }  // namespace trunnion::diagnosis

@@ -77,5 +77,9 @@ Eigen::MatrixXd table_features(const emulator::Replay& replay,
 Eigen::MatrixXd columns_on(const emulator::Replay& replay,
                            const std::vector<kinematics::Perturbation>& gradient,
                            const ColumnGroup& group);
+/// These columns times coefficients, mm.
+Eigen::VectorXd contribution_on(const emulator::Replay& replay,
+                                const std::vector<kinematics::Perturbation>& gradient,
+                                const ColumnGroup& group, const Eigen::VectorXd& coefficients);
 
 }  // namespace trunnion::diagnosis

@@ -79,6 +79,8 @@ std::vector<Design::Run> Design::runs_of(const std::vector<Eigen::Index>& featur
 }
 
 Eigen::MatrixXd Design::products_of(const Block& a, const Block& b) {
+    if (a.sparse.size() > 0 && b.sparse.size() > 0)
+        return Eigen::MatrixXd(a.sparse.transpose() * b.sparse);
     if (a.sparse.size() > 0) return a.sparse.transpose() * b.white;
     if (b.sparse.size() > 0) return (b.sparse.transpose() * a.white).transpose();
     return a.white.transpose() * b.white;

@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <deque>
 #include <map>
 #include <optional>
 #include <utility>
@@ -133,7 +134,8 @@ class Design {
     Eigen::MatrixXd known_coordinates_;
     Eigen::Index features_ = 0;
     Eigen::VectorXd products_, squares_;  ///< of all features: with the data; squared length
-    std::vector<Block> blocks_;
+    std::deque<Block> blocks_;  ///< a vector would copy them when it grows: a sparse matrix of
+                                ///< Eigen cannot be moved
     std::vector<Entry> groups_;
     using Pair = std::pair<std::size_t, std::size_t>;
     mutable std::map<Pair, Eigen::MatrixXd>

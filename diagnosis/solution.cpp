@@ -117,8 +117,8 @@ Eigen::VectorXd left_mm(const Prepared& prepared, const Design& design, const Mo
         prepared.base.residual_mm - prepared.base.columns * solution.mean.head(solution.known);
     for (std::size_t k = 0; k < model.members.size(); ++k)
         if (const ColumnGroup& group = design.group(model.members[k]); is_cause(group.kind))
-            left -= columns_on(prepared.replay, prepared.base.gradient, group) *
-                    solution.mean.segment(solution.first[k], solution.size[k]);
+            left -= contribution_on(prepared.replay, prepared.base.gradient, group,
+                                    solution.mean.segment(solution.first[k], solution.size[k]));
     return left;
 }
 
