@@ -316,7 +316,9 @@ Judgement as_written(const Outcome& f, const Written& written,
                      const records::ReadingTable* holdout) {
     Judgement judgement = f.judgement;
     if (!judgement.gap) return judgement;
-    judgement.between_places &= !written.only_here;
+    // Causes of which nothing is written, because none of them helps elsewhere, hold here only.
+    const bool nothing_written = judgement.part > 0.0 && written.part <= 0.0;
+    judgement.between_places &= !written.only_here && !nothing_written;
     if (judgement.between_places && written.part > 0.0)
         judgement.part = std::min(judgement.part, written.part);
     if (holdout)
