@@ -2,20 +2,25 @@
 """Mutation score of rooms: changes one thing in one line, builds the room's tests, runs them (with
 those of tests/nc where these hold what the room does).
 
-    mutate.py BUILD ROOM... [--mutants 20] [--seed 1] [--named FILE] [--minutes N] [--out FILE]
+    mutate.py BUILD ROOM... [--mutants 20] [--seed 1] [--named FILE] [--minutes N] [--longest S] [--out FILE]
 
-A mutant is killed when its tests do not compile, fail, or take ten times as long. Survivors are printed with
-file, line and change. FILE holds mutants to be tried besides those drawn (JSON: file, text, instead). After N
-minutes a room is left with the mutants judged by then. The source is changed in place and always put back; run it in a clone of its own.
+A mutant is killed when its tests fail or take four times as long; one that does not compile counts as
+nothing. Survivors are printed with file, line and change. FILE holds mutants to be tried besides those drawn
+(JSON: file, text, instead). After N minutes a room is left with the mutants judged by then. Cases that take
+longer than S seconds are not run; those below half a second are run first. The source is changed in place
+and always put back; run it in a clone of its own.
 """
 import argparse
 import json
 import pathlib
 import random
 import re
+import resource
 import subprocess
 import sys
+import tempfile
 import time
+import xml.etree.ElementTree
 
 # What is looked for, and what stands in its place. Each is one plausible slip of a programmer.
 CHANGES = [(r" < ", " <= "), (r" <= ", " < "), (r" > ", " >= "), (r" >= ", " > "), (r" == ", " != "),
@@ -26,6 +31,8 @@ CHANGES = [(r" < ", " <= "), (r" <= ", " < "), (r" > ", " >= "), (r" >= ", " > "
            (r"\breturn false;", "return true;"), (r"\bcontinue;", "break;")]
 # Rooms whose behaviour the NC programs of tests/nc hold, besides their own tests.
 WITH_NC = {"interpreter", "offsets", "positioning", "controller"}
+QUICK_S = 0.5
+MEMORY_BYTES = 8 << 30  # a mutant that takes more ends
 PASSED_OVER = re.compile(r"^\s*(//|#|template|using|static_assert|raise_|throw|case )|fmt::|\"")
 
 
@@ -64,7 +71,40 @@ def tests_of(room):
     return [f"test_{room}"] + (["test_nc"] if room in WITH_NC else [])
 
 
-def judge(build, room, mutant, plain_s):
+def builds(build, room):
+    return run(["cmake", "--build", str(build), "--target", *tests_of(room)], 3600) == 0
+
+
+def plain_run(build, room, longest_s, folder):
+    """What is run for each mutant: (command, seconds it takes), the quick cases first."""
+    runs, left_out = [], []
+    for test in tests_of(room):
+        program = str(build / "bin" / test)
+        report = folder / f"{test}.xml"
+        if run([program, "-r", "xml", "-d", "yes", "-o", str(report)], 3600) != 0:
+            sys.exit(f"mutate: {test} fails before anything is changed")
+        cases = [(float(case.find("OverallResult").get("durationInSeconds")), case.get("name"))
+                 for case in xml.etree.ElementTree.parse(report).iter("TestCase")]
+        left_out += [case for case in cases if case[0] > longest_s]
+        for name, low_s, high_s in (("quick", 0, QUICK_S), ("slow", QUICK_S, longest_s)):
+            group = [case for case in cases if low_s <= case[0] < high_s]
+            names = folder / f"{test}.{name}"
+            # In a list of names Catch reads a comma as the end of one, and # as a remark.
+            escaped = [case.replace(",", "\\,") for _, case in group]
+            names.write_text("".join(f'"{case}"\n' for case in escaped))
+            if not group:
+                continue
+            found = subprocess.run([program, "--list-test-names-only", "-f", str(names)],
+                                   capture_output=True, text=True).stdout.splitlines()
+            if len(found) != len(group):
+                sys.exit(f"mutate: {test} finds {len(found)} of {len(group)} cases by their names")
+            runs.append((name, [program, "--abort", "-f", str(names)], sum(s for s, _ in group)))
+    runs.sort(key=lambda each: each[0] != "quick")
+    print(f"{room}: {sum(s for _, _, s in runs):.1f} s, not run: {left_out}", flush=True)
+    return [(command, seconds) for _, command, seconds in runs]
+
+
+def judge(build, room, mutant, runs):
     path, number, (begin, end), instead = mutant
     before = path.read_text()
     lines = before.splitlines(keepends=True)
@@ -72,10 +112,9 @@ def judge(build, room, mutant, plain_s):
     lines[number] = line[:begin] + instead + line[end:]
     try:
         path.write_text("".join(lines))
-        if run(["cmake", "--build", str(build), "--target", *tests_of(room)], 1800) != 0:
-            return "killed", lines[number].strip()
-        lives = all(run([str(build / "bin" / test), "--abort"], 10 * plain_s + 10) == 0
-                    for test in tests_of(room))
+        if not builds(build, room):
+            return "no build", lines[number].strip()
+        lives = all(run(command, 4 * seconds + 10) == 0 for command, seconds in runs)
         return ("survived" if lives else "killed"), lines[number].strip()
     finally:
         path.write_text(before)
@@ -89,33 +128,33 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--named", type=pathlib.Path)
     parser.add_argument("--minutes", type=float, default=600)
+    parser.add_argument("--longest", type=float, default=3600)
     parser.add_argument("--out", type=pathlib.Path)
     options = parser.parse_args()
     root = pathlib.Path(__file__).resolve().parents[2]
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
     result = []
     for room in options.rooms:
         random.seed(f"{options.seed} {room}")
         every = list(candidates(root, room))
         chosen = list(named(root, room, options.named))
         chosen += random.sample(every, min(options.mutants, len(every)))
-        if run(["cmake", "--build", str(options.build), "--target", *tests_of(room)], 3600) != 0:
+        if not builds(options.build, room):
             sys.exit(f"mutate: the tests of {room} do not build")
         start = time.monotonic()
-        for test in tests_of(room):
-            if run([str(options.build / "bin" / test)], 3600) != 0:
-                sys.exit(f"mutate: {test} fails before anything is changed")
-        plain_s = time.monotonic() - start
         survivors, judged = [], 0
-        for mutant in chosen:
-            if time.monotonic() - start > 60 * options.minutes:
-                break
-            judged += 1
-            verdict, text = judge(options.build, room, mutant, plain_s)
-            place = f"{mutant[0].relative_to(root)}:{mutant[1] + 1}"
-            print(f"{verdict:8} {place}: {text}", flush=True)
-            if verdict == "survived":
-                survivors.append(f"{place}: {text}")
-        run(["cmake", "--build", str(options.build), "--target", *tests_of(room)], 3600)
+        with tempfile.TemporaryDirectory() as folder:
+            runs = plain_run(options.build, room, options.longest, pathlib.Path(folder))
+            for mutant in chosen:
+                if time.monotonic() - start > 60 * options.minutes:
+                    break
+                verdict, text = judge(options.build, room, mutant, runs)
+                judged += verdict != "no build"
+                place = f"{mutant[0].relative_to(root)}:{mutant[1] + 1}"
+                print(f"{verdict:8} {place}: {text}", flush=True)
+                if verdict == "survived":
+                    survivors.append(f"{place}: {text}")
+        builds(options.build, room)
         result.append({"room": room, "candidates": len(every), "mutants": judged,
                        "killed": judged - len(survivors), "survivors": survivors})
     if options.out:

@@ -193,3 +193,16 @@ TEST_CASE("plane and circle in space") {
     CHECK(std::abs(circle->radius_mm - 130.0) < 1e-10);
     CHECK_FALSE(fit_plane(std::vector<Vector3>{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}));
 }
+
+TEST_CASE("three points that are not in a line are enough for a plane and its circle") {
+    const std::vector<Vector3> points = {{3, 0, 2}, {0, 4, 2}, {0, 0, 2}};
+    const auto plane = fit_plane(points);
+    REQUIRE(plane);
+    CHECK((plane->normal - Vector3::UnitZ()).norm() < 1e-12);
+    CHECK(plane->rms_mm < 1e-12);
+    const auto circle = fit_circle_3d(points);
+    REQUIRE(circle);
+    CHECK((circle->center_mm - Vector3(1.5, 2, 2)).norm() < 1e-12);
+    CHECK(circle->radius_mm == Approx(2.5));
+    CHECK_FALSE(fit_plane(std::vector<Vector3>(4, Vector3(1, 2, 3))));
+}

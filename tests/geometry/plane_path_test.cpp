@@ -52,3 +52,56 @@ TEST_CASE("offset elements meet where their offset curves do") {
     CHECK(on_arc->x == Approx(10.0 + std::sqrt(12.0)));
     CHECK_FALSE(offset_meeting(along_x, 5.0, arc, 1.0, {15, 0}));
 }
+
+TEST_CASE("tangents of an arc stand square to its radius, wherever its centre is") {
+    const PlaneElement arc{{13, 4}, {10, 9}, true, {10, 4}, pi / 2};
+    CHECK(tangent_at_start(arc).x == Approx(0.0).margin(1e-12));
+    CHECK(tangent_at_start(arc).y == Approx(1.0));
+    CHECK(tangent_at_end(arc).x == Approx(-1.0));
+    CHECK(tangent_at_end(arc).y == Approx(0.0).margin(1e-12));
+}
+
+TEST_CASE("an offset line that only touches the offset circle meets it there") {
+    // The line 5 above the centre touches the circle of radius 6 - 1.
+    const PlaneElement line{{0, 0}, {16, 0}, false, {}, 0.0};
+    const PlaneElement arc{{16, 0}, {10, 6}, true, {10, 0}, pi / 2};
+    const auto touched = offset_meeting(line, 5.0, arc, 1.0, {16, 0});
+    REQUIRE(touched);
+    CHECK(touched->x == Approx(10.0));
+    CHECK(touched->y == Approx(5.0));
+}
+
+TEST_CASE("offset arcs meet in that of two points which is nearer to the corner") {
+    // Half circles of radius 5 about (0, 0) and (8, 0), from the corner (4, 3) or (4, -3).
+    for (const double side : {1.0, -1.0}) {
+        const PlanePoint corner{4, 3 * side};
+        const PlaneElement first{{-5, 0}, corner, true, {0, 0}, -1.0};
+        const PlaneElement second{corner, {13, 0}, true, {8, 0}, -1.0};
+        for (const double offset : {0.0, 1.0, -0.5}) {
+            const auto at = offset_meeting(first, offset, second, offset, corner);
+            REQUIRE(at);
+            CHECK(at->x == Approx(4.0));
+            CHECK(at->y == Approx(side * std::sqrt((5 + offset) * (5 + offset) - 16)));
+        }
+        CHECK_FALSE(offset_meeting(first, -1.5, second, -1.5, corner));  // apart
+    }
+    const PlaneElement outer{{0, -5}, {5, 0}, true, {0, 0}, 1.5};
+    const PlaneElement inner{{5, 0}, {1, 0}, true, {3, 0}, 3.1};  // touches from inside
+    const auto at = offset_meeting(outer, 1.0, inner, 1.0, {5, 0});
+    REQUIRE(at);
+    CHECK(at->x == Approx(4.0));
+    CHECK(std::abs(at->y) < 1e-6);
+    CHECK_FALSE(offset_meeting(outer, 0.0, inner, 1.0, {5, 0}));  // one inside the other
+    CHECK_FALSE(offset_meeting(outer, 1.0, outer, 1.0, {5, 0}));  // the same circle
+}
+
+TEST_CASE("a part of an arc keeps its centre and turns by its own angle") {
+    const PlaneElement arc{{5, 0}, {0, 5}, true, {0, 0}, pi / 2};
+    const double c = 5 * std::sqrt(0.5);
+    CHECK(between(arc, {5, 0}, {c, c}).sweep_rad == Approx(pi / 4));
+    CHECK(between(arc, {c, c}, {0, 5}).sweep_rad == Approx(pi / 4));
+    CHECK(between(arc, {5, 0}, {-c, c}).sweep_rad == Approx(3 * pi / 4));
+    const PlaneElement clockwise{{0, 5}, {5, 0}, true, {0, 0}, -pi / 2};
+    CHECK(between(clockwise, {c, c}, {5, 0}).sweep_rad == Approx(-pi / 4));
+    CHECK(between({{0, 0}, {9, 0}, false, {}, 0.0}, {1, 0}, {2, 0}).sweep_rad == 0.0);
+}
