@@ -84,6 +84,29 @@ TEST_CASE("the gain of a group is the likelihood with it less that without", "[e
         CHECK(gain.best >= estimation::gain_at(left, tau) - 1e-6);
 }
 
+TEST_CASE("the best size of a group stands between those of the grid", "[estimation]") {
+    const Bench bench;
+    const estimation::GroupEquations all = bench.equations();
+    const estimation::GroupEquations two{
+        all.gram.topLeftCorner(3, 3), all.product.head(3), all.square, all.rows, {2, 1}};
+    estimation::GroupInformation left =
+        estimation::GivenMembers(two, {{0.7, 1.3}, 0.9})
+            .leave(all.gram.topRightCorner(3, 5), all.gram.bottomRightCorner(5, 5),
+                   all.product.tail(5));
+    left.product *= 4.0;  // large enough for the group to be seen
+    for (int k = 0; k < 12; ++k) {
+        const estimation::GroupGain gain = estimation::group_gain(left);
+        double most = 0.0;
+        for (double tau = 0.02; tau < 100.0; tau *= 1.01)
+            most = std::max(most, estimation::gain_at(left, tau));
+        INFO(k);
+        CHECK(most > 0.5);
+        CHECK(gain.best == Approx(most).epsilon(1e-4));
+        CHECK(gain.best == Approx(estimation::gain_at(left, gain.tau)).epsilon(1e-9));
+        left.product *= 1.1;  // another size is the best one
+    }
+}
+
 TEST_CASE("one factorisation says what each group is beside the others", "[estimation]") {
     const Bench bench;
     const estimation::GroupEquations all = bench.equations();
