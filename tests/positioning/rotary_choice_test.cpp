@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "base/units.h"
 #include "tests/support/tables.h"
 
 namespace trunnion {
@@ -55,6 +56,31 @@ TEST_CASE("a rotary that already stands right is not stirred, at any number of t
     REQUIRE(choice.chosen);
     CHECK(choice.chosen->first_rad == Approx(stands.first_rad).margin(1e-12));
     CHECK(std::abs(deg_from_rad(choice.chosen->second_rad) + 145318.181) < 1e-9);
+}
+
+TEST_CASE("an axis takes the turn nearest to where it stands that its travel allows") {
+    const auto turn = [](double angle_deg, double present_deg, std::optional<double> min_deg,
+                         std::optional<double> max_deg) -> std::optional<double> {
+        positioning::RotaryTravel::Range range;
+        if (min_deg) range.min_rad = rad_from_deg(*min_deg);
+        if (max_deg) range.max_rad = rad_from_deg(*max_deg);
+        const auto found_rad =
+            positioning::nearest_turn(rad_from_deg(angle_deg), rad_from_deg(present_deg), range);
+        if (!found_rad) return std::nullopt;
+        return deg_from_rad(*found_rad);
+    };
+    const std::optional<double> none;
+    CHECK(*turn(30, 400, none, none) == Approx(390));
+    CHECK(*turn(30, -400, none, none) == Approx(-330));
+    CHECK(*turn(30, 400, none, 360) == Approx(30));
+    CHECK(*turn(30, 1000, none, 800) == Approx(750));
+    CHECK(*turn(30, 1000, none, 740) == Approx(390));
+    CHECK(*turn(-30, -400, -360, none) == Approx(-30));
+    CHECK(*turn(-30, -1000, -740, none) == Approx(-390));
+    CHECK(*turn(30, 400, none, 390) == Approx(390));  // at the limit
+    CHECK(*turn(-30, -400, -390, none) == Approx(-390));
+    CHECK_FALSE(turn(30, 0, 40, 380));  // no turn is inside
+    CHECK_FALSE(turn(-30, 0, -20, 320));
 }
 
 }  // namespace trunnion
