@@ -140,3 +140,14 @@ TEST_CASE("an alarm inside a called program shows that program's place") {
     CHECK(r.alarm->where.column == 7);
     CHECK(r.alarm->block == "  #1=1/0");
 }
+
+TEST_CASE(
+    "a sign that stands alone is alarm 6, a variable without a value source shows its column") {
+    CHECK(alarm_of("X1. +5.\n") == 6);
+    CHECK(alarm_of("-5.\n") == 6);
+    const Run r = run("X0.\n#100=1+#5999\n");
+    REQUIRE(r.alarm);
+    CHECK(r.alarm->number == 115);
+    CHECK(r.alarm->where.line == 2);
+    CHECK(r.alarm->where.column == 8);
+}

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "interpreter/arguments.h"
 #include "support.h"
 
 using namespace trunnion;
@@ -177,4 +178,18 @@ TEST_CASE("MACRO.TXT lines set variables and names") {
     CHECK(r.blocks == Blocks{"M2"});
     CHECK(alarm_of("G10L85P500(12)\n") == 1144);
     CHECK(run("G10L2P1X5.\n").blocks == Blocks{"G10 L2 P1 X5"});
+}
+
+TEST_CASE("from five digits on, P of M98 holds the repeats in front of four digits of the number") {
+    const auto is = [](int p, int l, bool packed, int number, int repeats) {
+        const interpreter::SubprogramCall call = interpreter::unpack_subprogram(p, l, packed);
+        const auto& [found, times] = call;
+        return found == number && times == repeats;
+    };
+    CHECK(is(9999, -1, true, 9999, 1));
+    CHECK(is(10000, -1, true, 0, 1));
+    CHECK(is(30012, -1, true, 12, 3));
+    CHECK(is(30012, 2, true, 30012, 2));
+    CHECK(is(30012, -1, false, 30012, 1));
+    CHECK(is(12, 0, true, 12, 0));
 }

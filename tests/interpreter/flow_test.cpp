@@ -164,3 +164,18 @@ TEST_CASE("a loop larger than the block cache runs right") {
     CHECK(r[100] == 30.0);
     CHECK(r.blocks.size() == 3u * (40000u - 10u));
 }
+
+TEST_CASE("a sequence number behind a comment is a target, too") {
+    CHECK(run("GOTO20\nX1.\n(here)(now)N20X2.\n").blocks == Blocks{"X2"});
+    CHECK(run("GOTO20\nX1.\n/2 N20X2.\n").blocks == Blocks{"X2"});
+    CHECK(alarm_of("GOTO20\nX1.\n(N20)X2.\n") == 128);
+}
+
+TEST_CASE("a skipped branch is left at its own ENDIF, whatever its comments say") {
+    interpreter::InterpreterOptions options;
+    options.dialect = interpreter::fanuc_dialect(interpreter::ControlGeneration::fanuc_0i_f);
+    const char* nested = "IF[0EQ1]THEN\nIF[1EQ1]THEN (a remark)\nX1.\nENDIF\nX2.\nENDIF\nX3.\n";
+    CHECK(run(nested, options).blocks == Blocks{"X3"});
+    const char* jump = "IF[0EQ1]THEN\nIF[1EQ0]GOTO9(SO THEN)\nENDIF\nX3.\nN9X4.\n";
+    CHECK(run(jump, options).blocks == Blocks{"X3", "X4"});
+}
