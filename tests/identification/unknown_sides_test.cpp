@@ -1,5 +1,7 @@
 // Sides that no row tells, a model without anything free, and gaps that are large but meant.
 
+#include "identification/unknown_sides.h"
+
 #include <catch2/catch.hpp>
 
 #include "base/alarm.h"
@@ -49,6 +51,52 @@ TEST_CASE("the side of a day is told with its day", "[identification]") {
     const auto result = identification::identify(campaign::bc_setup(), read, {"C.backlash"});
     REQUIRE_FALSE(result.notes.empty());
     CHECK_THAT(result.notes[0], Catch::Contains("C of monday came travelling -"));
+}
+
+TEST_CASE("a side is found for an effect that is fitted beside the base", "[identification]") {
+    const setup::Setup setup = campaign::bc_setup();
+    const setup::Setup truth = campaign::with_effect(setup, "C.backlash=60urad");
+    for (const int side : {-1, 1}) {
+        const records::ReadingTable read = circles(truth, static_cast<signed char>(side));
+        const effects::Catalogue catalogue =
+            effects::make_catalogue(setup, effects::extent_of(setup, read));
+        const effects::Effect& backlash = *effects::find_effect(catalogue, "C.backlash");
+        for (const signed char start : {-1, 1}) {
+            emulator::Replay replay(setup, read);
+            std::vector<std::size_t> open;
+            for (std::size_t k = 0; k < replay.unknown_sides().size(); ++k) {
+                open.push_back(k);
+                replay.assume_side(k, start);
+            }
+            const identification::BaseModel base =
+                identification::fit_base(setup, read, replay, catalogue, {});
+            const std::vector<identification::FoundSide> found =
+                identification::choose_sides_beside(base, read, {{&backlash, backlash.zeros(), {}}},
+                                                    open, replay);
+            REQUIRE(found.size() == 1);  // B has no gap, nothing asks for its side
+            INFO(side << " from " << int(start));
+            CHECK(found[0].side == side);
+            CHECK(found[0].told());
+        }
+    }
+}
+
+TEST_CASE("the noise counts as given only where it is given for every reading",
+          "[identification]") {
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable read = circles(setup, 1);
+    setup::Setup silent = setup;
+    silent.model.noise_um.clear();
+    silent.model.noise_urad.clear();
+    const auto given = [&] {
+        return identification::row_noise(silent, read, emulator::Replay(silent, read)).given;
+    };
+    for (records::Reading& row : read.rows) row.sigma_mm = 1e-3;
+    CHECK(given());
+    read.rows.front().sigma_mm.reset();
+    CHECK_FALSE(given());
+    for (records::Reading& row : read.rows) row.sigma_mm.reset();
+    CHECK_FALSE(given());
 }
 
 TEST_CASE("nothing free is a model too", "[identification]") {
