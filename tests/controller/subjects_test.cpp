@@ -8,6 +8,7 @@
 #include "controller/cycles.h"
 #include "controller/reference_points.h"
 #include "controller/shapes.h"
+#include "controller/signal_variables.h"
 #include "controller/skip.h"
 #include "controller/tool_length.h"
 #include "controller/work_frames.h"
@@ -144,6 +145,16 @@ TEST_CASE("an arc in space bends by more than 1e-9 of its chords") {
     REQUIRE(long_way);
     CHECK(long_way->sweep_rad == Approx(1.5 * pi));
     CHECK(long_way->normal.z() == Approx(1.0));
+}
+
+TEST_CASE("#3011 and #3012 are the date and the time of day, with the run") {
+    const controller::ClockVariables clock(951868740);  // 2000-02-29 23:59:00
+    CHECK(clock.get(3011, 0.0) == 20000229.0);
+    CHECK(clock.get(3012, 0.0) == 235900.0);
+    CHECK(clock.get(3012, 37.9) == 235937.0);
+    CHECK(clock.get(3011, 60.0) == 20000301.0);
+    CHECK(clock.get(3012, 3723.0) == 10103.0);
+    CHECK_FALSE(clock.get(3013, 0.0));
 }
 
 }  // namespace trunnion

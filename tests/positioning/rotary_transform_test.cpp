@@ -155,6 +155,18 @@ TEST_CASE("a nutating table reaches its limit of travel and nothing beyond") {
     CHECK(at(most) >= 1);
 }
 
+TEST_CASE("an angle of zero has no sign, so that nothing shows -0") {
+    for (const Axis tilt : {Axis::A, Axis::B})
+        for (const double sign : {1.0, -1.0})
+            for (const offsets::PivotParameters& pivot : {table(tilt, sign), head(tilt)})
+                for (const Vector3& n : {Vector3(0, 0, 1), Vector3(1, 0, 0), Vector3(0, 1, 0)})
+                    for (const positioning::RotarySolution& s :
+                         positioning::RotaryTransform(pivot).orient(n, {})) {
+                        if (s.first_rad == 0.0) CHECK_FALSE(std::signbit(s.first_rad));
+                        if (s.second_rad == 0.0) CHECK_FALSE(std::signbit(s.second_rad));
+                    }
+}
+
 TEST_CASE("a tool from straight below tilts by +180 degrees, never by -180") {
     for (const Axis tilt : {Axis::A, Axis::B})
         for (const double sign : {1.0, -1.0})

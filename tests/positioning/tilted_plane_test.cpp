@@ -205,6 +205,18 @@ TEST_CASE("G68.3: Z along the tool, X square to the vertical") {
     CHECK((turned - rotation_about(Vector3::UnitZ(), 30 * deg)).norm() < 1e-15);
 }
 
+TEST_CASE("G68.3 along a vertical that is inclined itself gives a square frame") {
+    for (const Vector3& along : {Vector3(0.5, 0, std::sqrt(0.75)), Vector3(0.95, 0.2, 0.3)}) {
+        positioning::VerticalAxis vertical;
+        vertical.direction_P = along.normalized();
+        const Matrix3 frame =
+            positioning::plane_of_tool(vertical.direction_P, {}, 0, vertical).rotation;
+        CHECK((frame.col(2) - vertical.direction_P).norm() < 1e-15);
+        CHECK((frame * frame.transpose()).isIdentity(1e-14));
+        CHECK(frame.determinant() == Approx(1.0));
+    }
+}
+
 TEST_CASE("words of a plane that say no plane") {
     const auto letter_of_error = [](const positioning::PlaneWords& w) {
         try {
