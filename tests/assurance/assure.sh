@@ -20,7 +20,7 @@ done
 work=out/assurance
 mkdir -p "$work"
 text=$work/page.md
-rooms="base geometry interpreter offsets kinematics positioning controller identification diagnosis regression"
+rooms="base geometry interpreter offsets kinematics positioning controller estimation identification diagnosis regression"
 
 wanted() { case ",$only," in *",$1,"*) ;; *) return 1 ;; esac; }
 

@@ -44,3 +44,10 @@ TEST_CASE("a long line is shown around its column") {
     const std::size_t first = shown.find('\n'), second = shown.find('\n', first + 1);
     CHECK(shown.find('X') - first == shown.find('^') - second);
 }
+
+TEST_CASE("a line without a known column is shown from its beginning, however long it is") {
+    const std::string line = "begin " + std::string(500, 'x');
+    CHECK(format_diagnostic({"a.nc", 3, 0}, "bad", line).find("\n    begin xxx") !=
+          std::string::npos);
+    CHECK(format_diagnostic({"a.nc", 3, 0}, "bad", "short").ends_with("\n    short"));
+}

@@ -30,3 +30,16 @@ TEST_CASE("numbers are finite, at most 1e12, and positive where that is asked") 
     CHECK(double(file.positive(value("a"))) == 1e12);
     for (const char* key : {"d", "e"}) CHECK_THROWS_AS(file.positive(value(key)), InputError);
 }
+
+TEST_CASE("a text stands for a list of one, and every item of a list is one") {
+    const TomlFile file("a = \"x\"\nb = [\"x\", \"y\"]\nc = [\"x\", 1]\nd = 2.5\ne = [1, 2]\n",
+                        "s.toml");
+    const auto value = [&](const char* key) { return *file.root().find(key); };
+    CHECK(file.texts(value("a")) == std::vector<std::string>{"x"});
+    CHECK(file.texts(value("b")) == std::vector<std::string>{"x", "y"});
+    CHECK_THROWS_AS(file.texts(value("c")), InputError);
+    CHECK_THROWS_AS(file.texts(value("d")), InputError);
+    CHECK(file.numbers(value("d")) == std::vector<double>{2.5});
+    CHECK(file.numbers(value("e")) == std::vector<double>{1.0, 2.0});
+    CHECK_THROWS_AS(file.numbers(value("b")), InputError);
+}

@@ -21,6 +21,8 @@ TEST_CASE("distribution tails", "[estimation]") {
     CHECK(estimation::student_probability(2.131846786326649, 4) == Approx(0.95));
     CHECK(estimation::student_probability(-2.131846786326649, 4) == Approx(0.05));
     CHECK(estimation::chi_squared_tail(1e6, 0) == 1.0);
+    CHECK(estimation::student_probability(2.0, 0) == 1.0);
+    CHECK(estimation::student_probability(-2.0, 0) == 1.0);
     CHECK(estimation::chi_squared_tail(1e9, 3) == 0.0);
     CHECK(estimation::quantile({4, 1, 3, 2}, 0.5) == Approx(2.5));
     CHECK(estimation::robust_deviation({}) == 0.0);

@@ -141,6 +141,20 @@ TEST_CASE("the likelihood is at its maximum", "[estimation]") {
     }
 }
 
+TEST_CASE("the maximum of the likelihood is the same from far away", "[estimation]") {
+    const Bench bench;
+    const estimation::GroupEquations all = bench.equations();
+    const estimation::NoisePrior prior{0.0, 0.5};
+    const double most =
+        estimation::maximise_likelihood(all, {{1, 1, 1}, 1.0}, prior, 60).likelihood;
+    for (const double tau : {0.02, 30.0})
+        for (const double nu : {0.1, 20.0}) {
+            INFO(tau << " " << nu);
+            CHECK(estimation::maximise_likelihood(all, {{tau, 1 / tau, tau}, nu}, prior, 60)
+                      .likelihood == Approx(most).margin(0.05));
+        }
+}
+
 TEST_CASE("mean and covariance are those of the ridge fit", "[estimation]") {
     const Bench bench;
     const estimation::GroupEquations equations = bench.equations();

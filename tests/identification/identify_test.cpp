@@ -152,6 +152,28 @@ TEST_CASE("keys are searched: time constant of a drift", "[identification]") {
     REQUIRE(result.rms_after_um == Approx(0.8).epsilon(0.1));
 }
 
+TEST_CASE("the sigma of a key is how far it scatters", "[identification]") {
+    const setup::Setup setup = campaign::bc_setup();
+    const setup::Setup truth =
+        campaign::with_effect(setup, "thermal.drift: d_mm=[0.01, 0, 0.03], tau_s=700");
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 60, 3);
+    double square = 0.0;
+    constexpr int runs = 12;
+    for (int seed = 1; seed <= runs; ++seed) {
+        const identification::Identification result = identification::identify(
+            setup, campaign::measured(truth, table, static_cast<unsigned>(seed)),
+            {"thermal.drift"});
+        for (const identification::FitParameter& p : result.parameters) {
+            if (p.name != "tau_s") continue;
+            REQUIRE(p.sigma > 0.0);
+            square += std::pow((p.value - 700.0) / p.sigma, 2) / runs;
+        }
+    }
+    CHECK(square > 0.3);
+    CHECK(square < 2.5);
+}
+
 TEST_CASE("readings of another machine or in other units are refused", "[identification]") {
     const setup::Setup setup = campaign::bc_setup();
     records::ReadingTable table = campaign::empty_table(setup);

@@ -30,6 +30,18 @@ TEST_CASE("axes without an ISO letter take the last free slots, in the order of 
     CHECK(kinematics::parse_chain("w X Y Z A B b C U V W t").axes().size() == 9);
 }
 
+TEST_CASE("a name of an axis is a letter, then letters and digits") {
+    for (const std::string name : {"J0", "J9", "j10", "Az", "aZ9"}) {
+        const kinematics::Chain chain = kinematics::parse_chain("w X b " + name + " t");
+        CHECK(chain.tool.front().name == name);
+    }
+    for (const std::string name :
+         {"1J", "J_1", "J-1", "J:", "J/", "J@", "J[", "J`", "J{", "\xc3\xa4"}) {
+        INFO(name);
+        CHECK_THROWS_AS(kinematics::parse_chain("w X b " + name + " t"), InputError);
+    }
+}
+
 TEST_CASE("A, B and C turn, the side of the work against the tool") {
     const kinematics::Chain chain = kinematics::parse_chain("w C b A X t");
     CHECK(chain.work[0].rotary);

@@ -110,6 +110,11 @@ TEST_CASE("what was not compared is said in one line, and only what there was", 
           "not compared: blocks behind '/' with other switches");
     CHECK(left(replaced(a, "S500", "IF[#1EQ2]GOTO9\nN9 S500")) ==
           "not compared: branches that were not taken");
+    // In one of the programs alone, whichever it is.
+    const std::string branch = replaced(a, "S500", "IF[#1EQ2]GOTO9\nN9 S500");
+    for (const auto& [first, second] : {std::pair{a, branch}, {branch, a}})
+        CHECK(left_aside_of(compare_texts(first, second, setup)) ==
+              "not compared: branches that were not taken");
     const regression::Comparison stopped =
         compare_texts(a, replaced(a, "X9. F300.", "X9. F300.\n#3000=7(OFF)"), setup);
     CHECK(left_aside_of(stopped).ends_with("what follows an alarm"));
