@@ -61,12 +61,12 @@ TEST_CASE("a side is found for an effect that is fitted beside the base", "[iden
         const effects::Catalogue catalogue =
             effects::make_catalogue(setup, effects::extent_of(setup, read));
         const effects::Effect& backlash = *effects::find_effect(catalogue, "C.backlash");
-        for (const signed char start : {-1, 1}) {
+        for (const int start : {-1, 1}) {
             emulator::Replay replay(setup, read);
             std::vector<std::size_t> open;
             for (std::size_t k = 0; k < replay.unknown_sides().size(); ++k) {
                 open.push_back(k);
-                replay.assume_side(k, start);
+                replay.assume_side(k, static_cast<signed char>(start));
             }
             const identification::BaseModel base =
                 identification::fit_base(setup, read, replay, catalogue, {});
@@ -74,7 +74,7 @@ TEST_CASE("a side is found for an effect that is fitted beside the base", "[iden
                 identification::choose_sides_beside(base, read, {{&backlash, backlash.zeros(), {}}},
                                                     open, replay);
             REQUIRE(found.size() == 1);  // B has no gap, nothing asks for its side
-            INFO(side << " from " << int(start));
+            INFO(side << " from " << start);
             CHECK(found[0].side == side);
             CHECK(found[0].told());
         }
