@@ -74,3 +74,10 @@ TEST_CASE("sizes and units in words") {
     CHECK(shown_unit("umbra") == "umbra");
     CHECK(shown_unit("ms") == "ms");
 }
+
+TEST_CASE("a number may have one sign and blanks around it") {
+    CHECK(parse_number("+5") == 5.0);
+    CHECK(parse_number(" -5.5\t") == -5.5);
+    for (const char* text : {"", "+", "+-5", "-+5", "++5", "5 5", "5x"})
+        CHECK_FALSE(parse_number(text));
+}

@@ -191,6 +191,9 @@ TEST_CASE("a format error tells the address and what is wrong") {
     CHECK(fault({point(1, 0, 0, 0), angles(0, 0, 0)}) == "P P is not that of the block before");
     CHECK(fault({point(1, 1, 1, 1), point(2, 2, 2, 2), point(3, 3, 3, 3)}) ==
           "- the three points are on one line");
+    for (const auto& [second, third] : {std::pair{1.0, 3.0}, {3.0, 1.0}})
+        CHECK(fault({point(1, 1, 1, 1), point(2, second, 1, 1), point(3, 1, 1, third)}) ==
+              "- two of the three points are one");
 }
 
 TEST_CASE("G68.3: Z along the tool, X square to the vertical") {
