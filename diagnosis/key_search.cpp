@@ -126,6 +126,8 @@ KeySearch::Remainder KeySearch::remainder(const Eigen::VectorXd& left_mm,
     for (auto column : r.fitted.colwise())
         if (const double length = column.norm(); length > 0.0) column /= length;
     const Eigen::Index count = r.fitted.cols();
+    // Without columns Eigen would multiply by way of a null pointer.
+    if (count == 0) return r;
     Eigen::MatrixXd square = rounding * Eigen::MatrixXd::Identity(count, count);
     square.selfadjointView<Eigen::Lower>().rankUpdate(r.fitted.transpose());
     r.factor.compute(square);

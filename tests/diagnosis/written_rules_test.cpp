@@ -40,8 +40,11 @@ struct Rows {
 };
 
 std::size_t add(diagnosis::Design& design, diagnosis::ColumnGroup group,
-                const Eigen::MatrixXd& column) {
-    group.features = {design.add_features(column)};
+                const Eigen::MatrixXd& columns) {
+    const Eigen::Index first = design.add_features(columns);
+    for (Eigen::Index k = 0; k < columns.cols(); ++k) group.features.push_back(first + k);
+    if (group.kind == GroupKind::table)
+        group.shape = Eigen::MatrixXd::Identity(columns.cols(), columns.cols());
     if (group.effect) {
         group.name = group.effect->name;
         group.parameters = {0};
