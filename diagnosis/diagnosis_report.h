@@ -20,7 +20,7 @@ struct Outcome {
 Diagnosis report_of(const Outcome& found, const DiagnosisOptions& options);
 
 /// H of a separate table: the fraction of its excess that `after` removes, weighted by sigma. 1
-/// when the table shows no gap that could be reduced.
+/// when the table shows no gap that could be reduced, 0 when `after` would make one there.
 double measured_part(const Outcome& found, const setup::Setup& after,
                      const records::ReadingTable& holdout);
 

@@ -65,7 +65,8 @@ double measured_part(const Outcome& f, const setup::Setup& setup,
     const SquaredSums sums = sums_of(f, setup, holdout);
     const double rows = total(sums.rows), excess = sums.whitened_before - rows;
     const double chance = 3.0 * std::sqrt(2.0 * rows);  // three sigma of the squared noise itself
-    if (excess < chance) return 1.0;
+    // Readings without a gap say nothing of the causes, unless these would make one.
+    if (excess < chance) return sums.whitened_after - sums.whitened_before < chance ? 1.0 : 0.0;
     return (sums.whitened_before - sums.whitened_after) / excess;
 }
 

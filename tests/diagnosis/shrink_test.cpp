@@ -135,6 +135,28 @@ TEST_CASE("held-out readings: the interval knows that their noise is a sample", 
     CHECK(inside >= 17);
 }
 
+TEST_CASE("held-out readings without the gap refute its cause", "[diagnosis]") {
+    const setup::Setup setup = campaign::bc_setup(), real = campaign::real_machine(setup);
+    const setup::Setup truth = campaign::with_effect(real, "C.backlash: gap_rad=4e-5");
+    records::ReadingTable table = campaign::empty_table(setup),
+                          fresh = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 60, 5);
+    campaign::add_sphere_map(fresh, setup, 20, 6);
+    for (const std::uint64_t seed : {1u, 2u, 3u})
+        for (const bool repaired : {true, false}) {
+            const records::ReadingTable held =
+                campaign::measured(repaired ? real : truth, fresh, seed + 50);
+            diagnosis::DiagnosisOptions options;
+            options.plan_next = false;
+            options.holdout = &held;
+            const diagnosis::Diagnosis d =
+                diagnosis::diagnose(setup, campaign::measured(truth, table, seed), options);
+            INFO(seed << ", repaired " << repaired << ": H " << d.explained);
+            CHECK((d.verdict == diagnosis::Verdict::unexplained) == repaired);
+            if (repaired) CHECK(d.after.shrink < 0.1);
+        }
+}
+
 TEST_CASE("a slip between two readings is said to lie in the middle between them", "[diagnosis]") {
     const setup::Setup setup = campaign::bc_setup();
     records::ReadingTable table = campaign::empty_table(setup);
