@@ -274,7 +274,10 @@ Folds place_folds(const emulator::Replay& replay, const TableForm& table) {
         const auto place = static_cast<int>(before) + (weight > 0.5 ? 1 : 0);
         const bool end =
             !table.knots.empty() && (place == 0 || place + 1 == static_cast<int>(places.size()));
-        folds.group.push_back(end ? -1 : place);
+        // -180 and 180 degrees are one place.
+        folds.group.push_back(end                   ? -1
+                              : table.knots.empty() ? place % static_cast<int>(sectors)
+                                                    : place);
     }
     return folds;
 }

@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "diagnosis/heldout.h"
+#include "tests/support/campaign.h"
 
 namespace trunnion {
 namespace {
@@ -35,9 +36,10 @@ TEST_CASE("left-out residuals are those of fits without the rows, in few blocks 
     constexpr int rows = 120, columns = 60;
     const Eigen::MatrixXd known = random_matrix(random, rows, columns);
     const Eigen::VectorXd data = random_matrix(random, rows, 1);
-    for (const int blocks : {2, 4, 5, 24}) {
-        INFO(blocks << " blocks");
-        const diagnosis::Folds folds = folds_of(rows, blocks);
+    for (const auto& [blocks, empty] : {std::pair(2, 0), {2, 2}, {4, 0}, {5, 0}, {24, 0}}) {
+        INFO(blocks << " blocks, " << empty << " folds between them without any");
+        diagnosis::Folds folds = folds_of(rows, blocks);
+        if (empty > 0) folds.fold = {0, 1 + empty};
         diagnosis::Design design(known, data, rows);
         const diagnosis::LeftOut left(design, {}, folds, std::vector<bool>(rows, true));
         const Eigen::VectorXd residual = left.residual({}, {});
@@ -110,6 +112,59 @@ TEST_CASE("a driver that the set-up nearly imitates leaves no hole when it does 
     const double with = left.loss({true, true}, {true, false}).mean();
     CHECK(with < 1.2 * left.loss({true, false}, {true, false}).mean());
     CHECK(with < 0.1 * left.loss({false, false}, {false, false}).mean());
+}
+
+TEST_CASE("with nothing to fit the readings themselves are left", "[diagnosis]") {
+    SeededNoise random(9);
+    constexpr int rows = 40;
+    const Eigen::VectorXd data = random_matrix(random, rows, 1);
+    diagnosis::Design design(Eigen::MatrixXd(rows, 0), data, rows);
+    const diagnosis::LeftOut left(design, {}, folds_of(rows, 8), std::vector<bool>(rows, true));
+    CHECK(left.residual({}, {}) == data);
+    CHECK(left.surprise() == Approx(data.squaredNorm()));
+    CHECK(left.loss({}, {}).mean() == Approx(data.squaredNorm() / rows));
+}
+
+TEST_CASE("what all blocks save alike has no t, and one block says nothing", "[diagnosis]") {
+    CHECK(diagnosis::BlockLoss{}.mean() == 0.0);
+    const std::vector<double> rows{2.0, 2.0, 2.0};
+    const diagnosis::BlockLoss without{{5.0, 6.0, 7.0}, rows};
+    CHECK(without.mean() == Approx(3.0));
+    const diagnosis::Saving alike = saving_of(without, {{4.0, 5.0, 6.0}, rows});
+    CHECK(alike.sum == Approx(3.0));
+    CHECK(alike.blocks == 3.0);
+    CHECK(alike.t == 0.0);
+    const diagnosis::Saving single = saving_of(without, {{2.0, 6.0, 7.0}, rows});
+    CHECK(single.sum == Approx(3.0));
+    CHECK(single.blocks == 1.0);
+    CHECK(single.t == 0.0);
+    CHECK(single.spread == Approx(3.0));  // it may as well be nothing
+    const diagnosis::Saving uneven = saving_of(without, {{4.0, 4.0, 4.0}, rows});
+    CHECK(uneven.t == Approx(2.0 * std::sqrt(3.0)));  // 1, 2, 3: mean 2, error 1 / sqrt(3)
+}
+
+TEST_CASE("of a whole turn sectors of 15 degrees are left out, half a turn once", "[diagnosis]") {
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 60, 4);
+    for (std::size_t i = 0; i < table.rows.size(); ++i)
+        table.rows[i].commanded[Axis::C] = rad_from_deg(6.37 * static_cast<double>(i) - 400.0);
+    const emulator::Replay replay(setup, table);
+    diagnosis::TableForm turn{};
+    turn.axis.axis = Axis::C;
+    const diagnosis::Folds folds = diagnosis::place_folds(replay, turn);
+    REQUIRE(folds.group.size() == replay.size());
+    for (std::size_t a = 0; a < replay.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b) {
+            const auto place = [&](std::size_t i) {
+                return std::lround(deg_from_rad(replay.sample(i).position[Axis::C]) / 15.0) % 24;
+            };
+            const bool same = (place(a) - place(b)) % 24 == 0;
+            INFO(place(a) << " " << place(b));
+            REQUIRE((folds.group[a] == folds.group[b]) == same);
+        }
+    for (const int group : folds.group)
+        CHECK(folds.fold[static_cast<std::size_t>(group)] == group % diagnosis::Folds::count);
 }
 
 }  // namespace trunnion
