@@ -162,14 +162,13 @@ Eigen::VectorXd set_up_left_mm(const Prepared& prepared, Design& design) {
 }
 
 Model computable(Design& design, const SearchSetting& setting, Model model) {
-    if (!std::isfinite(model.variances.nu)) return empty_model(design, setting);
     const auto sound = [&] {
         const Solution solution = solved(design, model);
         return solution.mean.allFinite() && solution.covariance().allFinite() &&
                std::isfinite(evidence(design, model));
     };
     while (!model.members.empty() && !sound()) model = without(model, model.members.size() - 1);
-    return model;
+    return model.members.empty() ? empty_model(design, setting) : model;
 }
 
 }  // namespace trunnion::diagnosis
