@@ -84,7 +84,6 @@ std::string other_periods(const std::vector<double>& keys) {
 std::vector<identification::Inseparable> unseen_of(const Design::Entry& entry) {
     std::vector<identification::Inseparable> groups;
     const ColumnGroup& group = entry.group;
-    if (!group.effect) return groups;
     const auto& list = group.effect->parameters;
     const auto name = [&](std::size_t j) {
         return identification::full_name(

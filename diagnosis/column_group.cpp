@@ -72,7 +72,6 @@ Eigen::MatrixXd columns_on(const emulator::Replay& replay,
         return table_features(replay, gradient, group.table) * group.shape;
     Eigen::MatrixXd columns =
         Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(replay.size()), group.columns());
-    if (!group.effect) return columns;
     for (std::size_t k = 0; k < group.parameters.size(); ++k)
         columns.col(static_cast<Eigen::Index>(k)) = identification::effect_column(
             replay, gradient, {*group.effect, group.keys, group.parameters[k]});

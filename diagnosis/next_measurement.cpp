@@ -63,7 +63,7 @@ Eigen::MatrixXd effect_block(const Worked& w, const ColumnGroup& group) {
 /// The rival with all its linear parameters, those beside its textbook form too: a prediction that
 /// gave it fewer would promise more than the measurement holds.
 ColumnGroup with_all_parameters(ColumnGroup rival) {
-    if (!rival.effect || rival.kind == GroupKind::table) return rival;
+    if (!rival.effect) return rival;  // a table
     rival.parameters.clear();
     for (std::size_t j = 0; j < rival.effect->parameters.size(); ++j)
         if (!rival.effect->parameters[j].is_key()) rival.parameters.push_back(j);

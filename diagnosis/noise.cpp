@@ -77,7 +77,7 @@ bool touches_again(const emulator::Replay& replay, const records::ReadingTable& 
                 std::min(shortest_s, time_s(at) - time_s(static_cast<std::size_t>(visit[k - 1])));
     }
     const double pause_s = time_s(i) - time_s(static_cast<std::size_t>(visit.back()));
-    return again && visit.size() > 1 && pause_s > long_pause * shortest_s;
+    return again && pause_s > long_pause * shortest_s;
 }
 
 /// True when reading i continues a visit, that is the readings of one pose of a probe or target, or

@@ -199,36 +199,30 @@ std::vector<std::pair<std::size_t, std::size_t>> repeated_blocks(
 /// each ballbar pass (within the likelihood), and one that grows with time over all probe rows.
 void remove_shift(const emulator::Replay& replay, records::Device device,
                   std::vector<Stretch>& stretches) {
-    const auto detrend = [&](const std::vector<Stretch*>& group) {
-        Eigen::Index n = 0;
-        for (const Stretch* s : group) n += s->value.size();
-        constexpr int p = 6;  // a shift, and one that grows with time
-        if (n < 2 * p) return;
-        Eigen::MatrixXd a(n, p);
-        Eigen::VectorXd y(n);
-        Eigen::Index at = 0;
-        for (const Stretch* s : group)
-            for (Eigen::Index k = 0; k < s->value.size(); ++k, ++at) {
-                const auto i = static_cast<std::size_t>(s->rows[static_cast<std::size_t>(k)]);
-                a.row(at).head<3>() = replay.contact(i).direction_M.transpose();
-                a.row(at).tail<3>() = a.row(at).head<3>() * (replay.sample(i).time_s * 1e-4);
-                y(at) = s->value(k);
-            }
-        const estimation::Projection shifts(std::move(a));
-        const Eigen::VectorXd left =
-            shifts.beside(y) *
-            std::sqrt(static_cast<double>(n) / static_cast<double>(n - shifts.rank()));
-        at = 0;
-        for (Stretch* s : group)
-            for (Eigen::Index k = 0; k < s->value.size(); ++k) s->value(k) = left(at++);
-    };
     if (device == records::Device::ballbar) {
         for (Stretch& s : stretches) s.free_shift = true;
         return;
     }
-    std::vector<Stretch*> all;
-    for (Stretch& s : stretches) all.push_back(&s);
-    detrend(all);
+    Eigen::Index n = 0;
+    for (const Stretch& s : stretches) n += s.value.size();
+    constexpr int p = 6;  // a shift, and one that grows with time
+    Eigen::MatrixXd a(n, p);
+    Eigen::VectorXd y(n);
+    Eigen::Index at = 0;
+    for (const Stretch& s : stretches)
+        for (Eigen::Index k = 0; k < s.value.size(); ++k, ++at) {
+            const auto i = static_cast<std::size_t>(s.rows[static_cast<std::size_t>(k)]);
+            a.row(at).head<3>() = replay.contact(i).direction_M.transpose();
+            a.row(at).tail<3>() = a.row(at).head<3>() * (replay.sample(i).time_s * 1e-4);
+            y(at) = s.value(k);
+        }
+    const estimation::Projection shifts(std::move(a));
+    const Eigen::VectorXd left =
+        shifts.beside(y) *
+        std::sqrt(static_cast<double>(n) / static_cast<double>(n - shifts.rank()));
+    at = 0;
+    for (Stretch& s : stretches)
+        for (double& value : s.value) value = left(at++);
 }
 
 }  // namespace

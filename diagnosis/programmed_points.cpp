@@ -37,12 +37,12 @@ Eigen::VectorXd meant_mm(const setup::Setup& setup, const records::ReadingTable&
 }
 
 double repeats_of(const records::ReadingTable& table, const PointRows& rows) {
-    std::size_t places = rows.row.empty() ? 0 : 1;
+    std::size_t places = 1;
     for (std::size_t k = 1; k < rows.row.size(); ++k) {
         const records::Reading &a = table.rows[rows.row[k - 1]], &b = table.rows[rows.row[k]];
         places += a.commanded.value != b.commanded.value || a.point_W_mm != b.point_W_mm;
     }
-    return places == 0 ? 1.0 : static_cast<double>(rows.row.size()) / static_cast<double>(places);
+    return static_cast<double>(rows.row.size()) / static_cast<double>(places);
 }
 
 }  // namespace

@@ -108,10 +108,10 @@ Eigen::VectorXd take_changes(const PointEquations& e, const NumberSet& set, Stor
 
 /// Differences of the points that the change makes.
 Eigen::VectorXd column_of(const PointEquations& e, const StoreChange& change) {
-    for (std::size_t k = 0; k < e.numbers.size(); ++k)
-        if (e.numbers[k].name == change.store.name)
-            return e.columns.col(static_cast<Eigen::Index>(k)) * change.change_mm;
-    return {};
+    const auto at = std::find_if(
+        e.numbers.begin(), e.numbers.end(),
+        [&](const setup::StoreNumber& number) { return number.name == change.store.name; });
+    return e.columns.col(at - e.numbers.begin()) * change.change_mm;
 }
 
 }  // namespace

@@ -181,6 +181,31 @@ TEST_CASE("a model that a contender beats gives way to it", "[diagnosis]") {
     CHECK(diagnosis::probability_against(found.contenders.front()) > 0.95);
 }
 
+TEST_CASE("table and textbook form of one cause are questioned together", "[diagnosis]") {
+    using diagnosis::GroupKind;
+    SeededNoise random(14);
+    const std::vector<bool> used(rows, true);
+    const diagnosis::Folds folds = folds_of_blocks();
+    const Eigen::MatrixXd shapes = random_matrix(random, 4), bow = random_matrix(random, 1);
+    const Eigen::VectorXd data = shapes * Eigen::VectorXd::Constant(4, 2.0) + 3.0 * bow.col(0) +
+                                 random_matrix(random, 1).col(0);
+    diagnosis::Design design(random_matrix(random, 2), data, rows);
+    design.add(group_of(design, "Z.straightness", GroupKind::table, shapes));
+    design.add(group_of(design, "Z.straightness", GroupKind::textbook, bow));
+    const diagnosis::SearchSetting setting = diagnosis::search_setting(design, {0.0, 0.1});
+    const diagnosis::Model model =
+        diagnosis::tuned(design, setting, {{0, 1}, {{2.0, 3.0}, 1.0}, 0.0}, 3);
+    const diagnosis::Challenged found =
+        diagnosis::challenged({design, setting}, {folds, used}, model);
+    REQUIRE(found.model.members == model.members);
+    REQUIRE(found.contenders.size() == 2);
+    for (const diagnosis::Contender& contender : found.contenders) {
+        CHECK(contender.model.members.empty());  // without either form
+        CHECK(contender.ahead == found.contenders.front().ahead);
+        CHECK(diagnosis::probability_against(contender) > 0.99);
+    }
+}
+
 TEST_CASE("a search that is ended questions no cause, rather than by half a contender",
           "[diagnosis]") {
     SeededNoise random(13);

@@ -82,6 +82,30 @@ TEST_CASE("an error of any shape is a cause of its own, with its curve", "[diagn
     CHECK(1e3 * std::sqrt(left / rows) < 1.2);
 }
 
+TEST_CASE("free forms of one axis of which none is most of it have no textbook name",
+          "[diagnosis]") {
+    const setup::Setup setup = campaign::bc_setup();
+    setup::Setup truth = campaign::real_machine(setup);
+    for (const int d : {0, 1}) {  // along X and across it
+        kinematics::ErrorCurve& curve =
+            truth.machine.errors.axis[index_of(Axis::X)].motion[static_cast<std::size_t>(d)];
+        for (double q = -400.0; q <= 400.0; q += 10.0) {
+            curve.at.push_back(q);
+            curve.value.push_back((d == 0 ? 0.006 : 0.0045) * std::sin(q / 30.0 + d) *
+                                  std::exp(-std::pow(q / 150.0, 2)));
+        }
+    }
+    const diagnosis::Diagnosis d =
+        diagnosis::diagnose(setup, campaign::measured(truth, campaign_of(setup), 5));
+    std::size_t forms = 0;
+    for (const diagnosis::Cause& cause : d.causes) {
+        INFO(cause.effect << " " << cause.share);
+        CHECK(cause.effect == "free form of X");
+        forms += cause.points.empty() ? 0 : 1;
+    }
+    CHECK(forms == 2);
+}
+
 TEST_CASE("a named effect stands beside an error of any shape", "[diagnosis]") {
     const setup::Setup setup = campaign::bc_setup();
     const setup::Setup truth =

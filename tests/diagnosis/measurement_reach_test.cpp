@@ -105,6 +105,8 @@ TEST_CASE("without room, a device, an artefact or a second rotary axis nothing i
     SECTION("no probe") {
         setup.probe.reset();
         CHECK(names() == bar);
+        for (const diagnosis::Measurement& m : diagnosis::ready_measurements(setup, 0.0))
+            CHECK(alarm_of(setup, m) == "");
     }
     SECTION("no sphere") {
         std::erase_if(setup.artefacts, [](const auto& a) { return a.name != "P1"; });
@@ -128,6 +130,17 @@ TEST_CASE("without room, a device, an artefact or a second rotary axis nothing i
         std::erase_if(setup.machine.chain.work, [](const auto& a) { return a.axis == Axis::C; });
         CHECK(names().empty());
     }
+    SECTION("a tilt without limits is turned by 80 degrees at most") {
+        axis_of(setup, Axis::B).min.reset();
+        axis_of(setup, Axis::B).max.reset();
+        double most = 0.0;
+        for (const diagnosis::Measurement& m : diagnosis::ready_measurements(setup, 0.0))
+            for (const records::Reading& row : m.table.rows)
+                if (row.device != records::Device::none)
+                    most = std::max(most, std::abs(deg_from_rad(row.commanded[Axis::B])));
+        CHECK(most <= 80.0 + 1e-9);
+        CHECK(most > 70.0);
+    }
     SECTION("no Z, or an axis without a letter") {
         for (const Axis axis : {Axis::X, Axis::Y, Axis::Z}) {
             setup = true_setup();
@@ -138,6 +151,17 @@ TEST_CASE("without room, a device, an artefact or a second rotary axis nothing i
         axis_of(setup, Axis::X).name = "Q1";
         CHECK(names().empty());
     }
+}
+
+TEST_CASE("with a rotary axis in the head nothing is asked of G54, the rest runs",
+          "[diagnosis][next]") {
+    std::vector<std::string> notes;
+    const setup::Setup setup =
+        setup::load_setup(std::string(TRUNNION_SOURCE_DIR) + "/machines/head_head.toml", notes);
+    const Measurements list = diagnosis::ready_measurements(setup, 0.0);
+    CHECK_FALSE(names_of(list).contains("two_modes"));
+    CHECK(names_of(list).contains("both_ways"));
+    require_within_travel(setup, list);
 }
 
 TEST_CASE("clamps are closed by the machine's own codes, else by the operator",

@@ -33,4 +33,20 @@ TEST_CASE("straightness has the form without its slope, which is squareness", "[
     CHECK(diagnosis::simpler_forms(*effects::find_effect(catalogue, "X.backlash")).empty());
 }
 
+TEST_CASE("of a location each axis is a form, where there are several", "[diagnosis]") {
+    setup::Setup setup = campaign::bc_setup();
+    const auto forms_of = [&] {
+        const effects::Catalogue catalogue = effects::make_catalogue(setup);
+        const effects::Effect& effect = *effects::find_effect(catalogue, "location");
+        std::vector<std::size_t> taken;
+        for (const auto& takes : diagnosis::simpler_forms(effect))
+            taken.push_back(static_cast<std::size_t>(
+                std::count_if(effect.parameters.begin(), effect.parameters.end(), takes)));
+        return taken;
+    };
+    CHECK(forms_of() == std::vector<std::size_t>{4, 4});  // EX0B, EZ0B, EA0B, EC0B and of C
+    std::erase_if(setup.machine.chain.work, [](const auto& a) { return a.axis == Axis::C; });
+    CHECK(forms_of().empty());
+}
+
 }  // namespace trunnion

@@ -106,6 +106,39 @@ TEST_CASE("a backlash that has grown since Monday is what changed", "[diagnosis]
     }
 }
 
+TEST_CASE("a change of a modelled effect starts from what it was the session before",
+          "[diagnosis][over]") {
+    setup::Setup setup = campaign::bc_setup();
+    setup.model.modelled = {"location", "C.backlash", "X.backlash"};
+    const setup::Setup real =
+        campaign::with_effect(campaign::real_machine(setup), "X.backlash: gap_mm=0.004");
+    std::vector<setup::Setup> machines;
+    for (const char* gap : {"4e-5", "1e-4", "1.6e-4"})
+        machines.push_back(campaign::with_effect(real, std::string("C.backlash: gap_rad=") + gap));
+    records::ReadingTable read = measured_over(machines, map_and_passes(setup), 6);
+    const auto wild = std::find_if(read.rows.begin(), read.rows.end(), [](const auto& row) {
+        return row.session == "Friday" && row.device == records::Device::sphere;
+    });
+    *wild->value_mm += 0.1;
+    const diagnosis::Diagnosis d = diagnosed(setup, read);
+    INFO(said(d));
+    for (const auto& [since, before] : {std::pair("Friday", 4e-5), {"Sunday", 1e-4}}) {
+        const diagnosis::SessionChange* change = change_of(d, "C.backlash.gap_rad", since);
+        REQUIRE(change);
+        CHECK(change->claimed);
+        CHECK(change->parameter.value == Approx(6e-5).margin(1e-5));
+        CHECK(change->before == Approx(before).margin(1e-5));
+        const diagnosis::SessionChange* other = change_of(d, "X.backlash.gap_mm", since);
+        REQUIRE(other);
+        CHECK_FALSE(other->claimed);
+        CHECK(other->parameter.value == Approx(0.0).margin(5e-4));
+        CHECK(other->before == Approx(0.004).margin(5e-4));
+    }
+    REQUIRE(d.sessions.size() == 3);
+    CHECK(d.sessions[0].readings == d.sessions[2].readings);
+    CHECK(d.sessions[1].readings + 1 == d.sessions[0].readings);  // without the wild one
+}
+
 TEST_CASE("a crash that moved the axis C is told as its new location", "[diagnosis][over]") {
     const setup::Setup setup = campaign::bc_setup(), monday = campaign::real_machine(setup);
     setup::Setup friday = monday;

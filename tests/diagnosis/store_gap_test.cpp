@@ -246,6 +246,50 @@ TEST_CASE("programmed points that no store explains are unknown", "[diagnosis][s
     CHECK(d.verdict == diagnosis::Verdict::unexplained);
 }
 
+// 19701 and 19704 of a BC table do the same: of five wrong numbers only the sum of these is told.
+TEST_CASE("of many wrong stores what no point tells apart is said", "[diagnosis][stores]") {
+    const setup::Setup setup = declared(campaign::bc_setup());
+    Stores stores;
+    stores.dg = {0.03, 0.02, -0.04};
+    stores.dp = {0.05, 0.02, 0.0};
+    stores.length = 0.03;
+    const records::ReadingTable table = logged(setup, stores);
+    const auto gap = diagnosis::store_gap(setup, table);
+    REQUIRE(gap);
+    CHECK(gap->changes.size() > 4);
+    CHECK(std::sqrt(diagnosis::mean_square_of(gap->before_um)) > 10.0);
+    CHECK(std::sqrt(diagnosis::mean_square_of(gap->after_um)) < 1e-3);
+    REQUIRE(gap->unseen.size() == 1);
+    CHECK(gap->unseen.front().names ==
+          std::vector<std::string>{"pivot.p1970x.dp_mm[y]", "pivot.p1970x.dd_mm[y]"});
+    for (const diagnosis::StoreChange& change : gap->changes) {
+        const bool told = change.store.name != "19701" && change.store.name != "19704";
+        CHECK(std::isnan(change.sigma_mm) != told);
+    }
+    CHECK_FALSE(diagnosis::store_gap(with_stores(setup, *gap), table));
+}
+
+TEST_CASE("without a probe or points nothing is said of stores", "[diagnosis][stores]") {
+    setup::Setup setup = declared(campaign::bc_setup());
+    Stores stores;
+    stores.dg = {0.03, 0.0, 0.0};
+    records::ReadingTable table = logged(setup, stores);
+    REQUIRE(diagnosis::store_gap(setup, table));
+    CHECK_FALSE(diagnosis::points_um(setup, table).empty());
+    setup.probe.reset();
+    CHECK_FALSE(diagnosis::store_gap(setup, table));
+    CHECK(diagnosis::points_um(setup, table).empty());
+    setup = declared(campaign::bc_setup());
+    SECTION("no point") {
+        for (records::Reading& row : table.rows) row.point_W_mm.reset();
+    }
+    SECTION("a point under no function") {
+        for (records::Reading& row : table.rows) row.mode = PositioningMode::none;
+    }
+    CHECK_FALSE(diagnosis::store_gap(setup, table));
+    CHECK(diagnosis::points_um(setup, table).empty());
+}
+
 TEST_CASE("programmed points of rows held out", "[diagnosis][stores]") {
     const setup::Setup setup = declared(campaign::bc_setup());
     Stores stores;

@@ -47,6 +47,34 @@ TEST_CASE("of a long table an even choice of readings stays", "[diagnosis]") {
     }
 }
 
+// Each sphere is found at the same angles in two tests, one after the other: four poses.
+TEST_CASE("the readings of a pose are kept together or left out together", "[diagnosis]") {
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
+    for (int k = 0; k < 80; ++k)
+        for (int d = 0; d < 3; ++d) {
+            records::Reading row;
+            row.test = k / 2 % 2 ? "second" : "first";
+            row.feature = k % 2 ? "S1" : "S2";
+            row.device = records::Device::sphere;
+            row.commanded[Axis::C] = 0.1 * (k / 4);
+            row.commanded[Axis::X] = d;  // a linear axis may move within a pose
+            row.value_mm = 0.0;
+            row.time_s = 10.0 * k;
+            table.rows.push_back(row);
+        }
+    const auto fewer = diagnosis::thinned(table, 120);
+    REQUIRE(fewer);
+    std::map<double, int> readings;
+    for (const records::Reading& row : fewer->rows)
+        if (row.device != records::Device::none) ++readings[row.time_s];
+    CHECK(readings.size() == 40);
+    for (const auto& [time_s, count] : readings) {
+        INFO(time_s);
+        CHECK(count == 3);
+    }
+}
+
 TEST_CASE("a device row without a value is not thinned away", "[diagnosis]") {
     const setup::Setup setup = campaign::bc_setup();
     records::ReadingTable table = campaign::empty_table(setup);

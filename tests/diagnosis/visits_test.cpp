@@ -1,6 +1,7 @@
 // Which readings share the error of a pose: one visit, not the same place taken again.
 #include <catch2/catch.hpp>
 
+#include "base/random.h"
 #include "diagnosis/noise.h"
 #include "tests/support/campaign.h"
 
@@ -53,6 +54,12 @@ TEST_CASE("a pose that is left and taken again is another visit", "[diagnosis]")
     CHECK(v.sizes() == std::vector<std::size_t>{9, 9});
 }
 
+TEST_CASE("a visit of very many touches is divided: its noise is computed at once", "[diagnosis]") {
+    Visits v;
+    for (int k = 0; k < 8; ++k) v.nine_touches(0.0, 18.0 * k);
+    CHECK(v.sizes() == std::vector<std::size_t>{64, 8});
+}
+
 TEST_CASE("a sphere measured again after a pause is another visit", "[diagnosis]") {
     Visits v;
     for (int k = 0; k < 7; ++k) v.nine_touches(0.0, 600.0 * k);
@@ -68,6 +75,80 @@ TEST_CASE("touches of one visit stay together", "[diagnosis]") {
     rounded.nine_touches(1.0, 0.0);
     for (std::size_t k = 1; k < 9; ++k) rounded.table.rows[k].commanded[Axis::C] += 1e-12;
     CHECK(rounded.sizes() == std::vector<std::size_t>{9});
+}
+
+namespace {
+
+constexpr double touch_sigma_mm = 8e-4;
+
+/// Repeated visits whose touches share the error of a found centre.
+struct NoisyTouches : Visits {
+    NoisyTouches() {
+        for (int pass = 0; pass < 2; ++pass)
+            for (int k = 0; k < 60; ++k) {
+                const double begin_s = 4000.0 * pass + 60.0 * k;
+                turn_to(0.05 * k - 0.02, begin_s);  // always from the same side
+                nine_touches(0.05 * k, begin_s + 5.0);
+            }
+    }
+    /// Residuals of this noise, mm.
+    Eigen::VectorXd noise(const emulator::Replay& replay,
+                          const std::vector<diagnosis::NoiseBlock>& blocks,
+                          const diagnosis::DeviceNoise& of) const {
+        SeededNoise random(31);
+        Eigen::VectorXd v(static_cast<Eigen::Index>(replay.size()));
+        for (const diagnosis::NoiseBlock& block : blocks) {
+            const Vector3 centre(random.normal(), random.normal(), random.normal());
+            for (const Eigen::Index i : block.rows)
+                v(i) = touch_sigma_mm * of.scale *
+                       (std::sqrt(of.shared) * centre.dot(direction(replay, i)) +
+                        std::sqrt(1.0 - of.shared) * random.normal());
+        }
+        return v;
+    }
+    static Vector3 direction(const emulator::Replay& replay, Eigen::Index i) {
+        return replay.contact(static_cast<std::size_t>(i)).direction_M;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("repeated visits tell what touches share, and whitening takes it out", "[diagnosis]") {
+    const NoisyTouches t;
+    const emulator::Replay replay(t.setup, t.table);
+    const auto blocks = diagnosis::noise_blocks(replay, t.table);
+    REQUIRE(blocks.size() == 120);
+    const auto rows = static_cast<Eigen::Index>(replay.size());
+    const Eigen::VectorXd sigma_mm = Eigen::VectorXd::Constant(rows, touch_sigma_mm);
+    for (const double shared : {0.0, 0.6}) {
+        INFO(shared);
+        const Eigen::VectorXd residual_mm = t.noise(replay, blocks, {1.3, shared, 0.0});
+        const diagnosis::NoiseModel model =
+            diagnosis::noise_from_repeats({replay, t.table, blocks}, residual_mm, sigma_mm, {});
+        CHECK(model.source == diagnosis::NoiseSource::repeats);
+        CHECK(model.touch.scale == Approx(1.3).epsilon(0.1));
+        CHECK(model.touch.shared == Approx(shared).margin(0.12));
+        CHECK(model.sphere.scale == 1.0);  // there is none
+        const Eigen::VectorXd white =
+            diagnosis::Whitener(replay, blocks, model, sigma_mm).apply(residual_mm);
+        CHECK(white.squaredNorm() / static_cast<double>(rows) == Approx(1.0).margin(0.12));
+        // What a centre would do to the touches of a visit, mean square over the visits.
+        double square = 0.0, expected = 0.0;
+        for (const diagnosis::NoiseBlock& block : blocks) {
+            Vector3 sum = Vector3::Zero();
+            for (const Eigen::Index i : block.rows)
+                sum += residual_mm(i) / (1.3 * touch_sigma_mm) * t.direction(replay, i);
+            square += sum.squaredNorm();
+            expected += 9.0;
+        }
+        CHECK((square > 2.0 * expected) == (shared > 0.0));  // the raw ones: 1 + 3.5 shared
+        Eigen::Index k = 0;
+        double neighbours = 0.0;
+        for (const diagnosis::NoiseBlock& block : blocks)
+            for (std::size_t j = 1; j < block.rows.size(); ++j, ++k)
+                neighbours += white(block.rows[j]) * white(block.rows[j - 1]);
+        CHECK(std::abs(neighbours / static_cast<double>(k)) < 4.0 / std::sqrt(k));
+    }
 }
 
 }  // namespace trunnion

@@ -100,6 +100,27 @@ TEST_CASE("each driver is found where an effect follows it, with its share", "[d
     }
 }
 
+TEST_CASE("what turns with the spindle is found where the spindle was turned", "[diagnosis]") {
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 60, 5);
+    for (records::Reading& row : table.rows)
+        row.spindle_rad = std::fmod(row.time_s, 40.0) < 15.0 ? 0.0 : pi;
+    for (const double size_mm : {0.0, 0.006}) {
+        records::ReadingTable readings =
+            campaign::measured(campaign::real_machine(setup), table, 4);
+        for (records::Reading& row : readings.rows)
+            if (row.value_mm)
+                *row.value_mm += size_mm * std::cos(row.spindle_rad) * row.direction_M.x();
+        const diagnosis::Diagnosis d = diagnosis::diagnose(setup, readings);
+        const diagnosis::DriverShare* found = entry(d, "spindle");
+        CHECK((found != nullptr) == (size_mm > 0.0));
+        if (!found) continue;
+        CHECK(found->share > 0.5);
+        CHECK_THAT(found->text, Catch::Contains("turns with the spindle"));
+    }
+}
+
 TEST_CASE("labels given to the wrong poses say nothing", "[diagnosis]") {
     const setup::Setup setup = campaign::bc_setup(), real = campaign::real_machine(setup);
     struct Case {

@@ -1,0 +1,92 @@
+// The verdict and its words, and readings that are left out as wild.
+#include "diagnosis/verdict.h"
+
+#include <catch2/catch.hpp>
+
+#include "base/random.h"
+#include "diagnosis/outliers.h"
+
+namespace trunnion {
+
+using diagnosis::Verdict;
+
+TEST_CASE("the part of the gap and the rivals decide the verdict", "[diagnosis]") {
+    diagnosis::Claim sure, rivalled;
+    rivalled.rivals = {"C.backlash"};
+    diagnosis::Judgement j;
+    j.part = 0.9;
+    CHECK(verdict_of(j, {rivalled}) == Verdict::no_gap);
+    j.gap = true;
+    CHECK(verdict_of(j, {sure}) == Verdict::explained);
+    CHECK(verdict_of(j, {sure, rivalled}) == Verdict::ambiguous);
+    j.part = 0.79;
+    CHECK(verdict_of(j, {sure}) == Verdict::partly_explained);
+    CHECK(verdict_of(j, {rivalled}) == Verdict::partly_explained);
+    j.part = 0.49;
+    CHECK(verdict_of(j, {sure}) == Verdict::unexplained);
+}
+
+TEST_CASE("verdicts and sources of the noise have the words of the report", "[diagnosis]") {
+    const auto word = [](auto value) { return std::string(diagnosis::to_string(value)); };
+    CHECK(word(Verdict::no_gap) == "no-gap");
+    CHECK(word(Verdict::explained) == "explained");
+    CHECK(word(Verdict::partly_explained) == "partly-explained");
+    CHECK(word(Verdict::ambiguous) == "ambiguous");
+    CHECK(word(Verdict::unexplained) == "unexplained");
+    CHECK(word(diagnosis::NoiseSource::repeats) == "repeats");
+    CHECK(word(diagnosis::NoiseSource::given) == "given");
+    CHECK(word(diagnosis::NoiseSource::assumed) == "assumed");
+}
+
+TEST_CASE("few and scattered readings are wild, many or neighbours are an effect", "[diagnosis]") {
+    constexpr int rows = 400;
+    SeededNoise random(6);
+    Eigen::VectorXd quiet(rows);
+    for (double& v : quiet) v = std::clamp(random.normal(), -3.0, 3.0);
+    std::vector<bool> used(rows, true);
+    const auto wild = [&](int first, int step, int count) {
+        Eigen::VectorXd left = quiet;
+        for (int k = 0; k < count; ++k) left(first + k * step) = k % 2 ? 12.0 : -12.0;
+        return diagnosis::wild_readings(left, used);
+    };
+    CHECK(wild(0, 1, 0).empty());
+    CHECK(wild(20, 100, 3) == std::vector<std::size_t>{20, 120, 220});
+    CHECK(wild(10, 24, 16).size() == 16);  // 4 %
+    CHECK(wild(10, 22, 17).empty());       // more
+    CHECK(wild(100, 1, 12).empty());       // side by side
+    CHECK(wild(100, 1, 8).size() == 8);    // too few to be told from chance
+    used[120] = false;
+    CHECK(wild(20, 100, 3) == std::vector<std::size_t>{20, 220});
+}
+
+// With ten readings a driver of six columns would explain nearly anything.
+TEST_CASE("where the gap is needs five readings more than a driver has columns", "[diagnosis]") {
+    for (const Eigen::Index rows : {12, 200}) {
+        SeededNoise random(7);
+        const auto noise = [&](Eigen::Index columns) {
+            Eigen::MatrixXd m(rows, columns);
+            for (double& v : m.reshaped()) v = random.normal();
+            return m;
+        };
+        const Eigen::MatrixXd known = noise(2), driver = noise(6);
+        const Eigen::VectorXd data = driver * Eigen::VectorXd::Constant(6, 30.0) + noise(1).col(0);
+        diagnosis::Design design(known, data, static_cast<double>(rows));
+        design.add_features(noise(1));
+        diagnosis::ColumnGroup group;
+        group.kind = diagnosis::GroupKind::driver;
+        group.name = "time";
+        group.text = "drifts with time";
+        group.component = "machine frame";
+        const Eigen::Index first = design.add_features(driver);
+        for (Eigen::Index k = 0; k < 6; ++k) group.features.push_back(first + k);
+        design.add_beside(std::move(group), 1);
+        const auto where = diagnosis::where_of(design, 1.0);
+        REQUIRE(where.size() == (rows > 100 ? 1 : 0));
+        if (rows < 100) continue;
+        CHECK(where.front().by == "time");
+        CHECK(where.front().share > 0.99);
+        CHECK(where.front().text == "100 % of the gap drifts with time (machine frame)");
+    }
+}
+
+}  // namespace trunnion
