@@ -157,6 +157,29 @@ TEST_CASE("held-out readings without the gap refute its cause", "[diagnosis]") {
         }
 }
 
+TEST_CASE("held-out readings that cannot show a cause say nothing of it", "[diagnosis]") {
+    const setup::Setup setup = campaign::bc_setup();
+    const setup::Setup truth = campaign::with_effect(campaign::real_machine(setup),
+                                                     "clamp.shift: shift_b_mm=[0.006, 0, 0.006]");
+    records::ReadingTable table = campaign::empty_table(setup),
+                          fresh = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 60, 5);
+    campaign::add_sphere_map(fresh, setup, 5, 6);
+    for (records::Reading& row : table.rows) row.clamped = std::fmod(row.time_s, 200.0) < 25.0;
+    for (const std::uint64_t seed : {1u, 2u, 3u}) {
+        const records::ReadingTable held = campaign::measured(truth, fresh, seed + 50);
+        diagnosis::DiagnosisOptions options;
+        options.plan_next = false;
+        options.holdout = &held;
+        const diagnosis::Diagnosis d =
+            diagnosis::diagnose(setup, campaign::measured(truth, table, seed), options);
+        INFO(seed << ": H " << d.explained);
+        CHECK(d.explained > 0.5);
+        REQUIRE_FALSE(d.causes.empty());
+        CHECK(d.causes.front().effect == "clamp.shift");
+    }
+}
+
 TEST_CASE("a slip between two readings is said to lie in the middle between them", "[diagnosis]") {
     const setup::Setup setup = campaign::bc_setup();
     records::ReadingTable table = campaign::empty_table(setup);

@@ -72,6 +72,7 @@ TEST_CASE("the readings of a pose are kept together or left out together", "[dia
     for (const auto& [time_s, count] : readings) {
         INFO(time_s);
         CHECK(count == 3);
+        CHECK(std::lround(time_s / 10.0) % 2 == 0);  // every second one
     }
 }
 
