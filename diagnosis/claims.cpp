@@ -16,6 +16,8 @@ constexpr std::size_t rivals_tried = 20;
 constexpr std::size_t replacements_tried = 3;  ///< of each other cause
 constexpr double sure = 0.95;     ///< against the best model without it: nothing is named
 constexpr double doubtful = 0.4;  ///< probability at most of causes that cancel each other
+/// Probability at most where the search was ended before a contender was looked for.
+constexpr double unchallenged_most = 0.8;
 
 double log_sum(const std::vector<double>& values) {
     const double most = *std::max_element(values.begin(), values.end());
@@ -327,6 +329,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         name_contender(design, model, contender, sizes.parts.col(static_cast<Eigen::Index>(k)),
                        claim);
         name_axis(design, heldout.found, seen_axis, claim);
+        if (heldout.found.ended) claim.probability = std::min(claim.probability, unchallenged_most);
         claims.push_back(std::move(claim));
     }
     if (own > rules::most_own)  // contributions cancel, so none of them is reliable

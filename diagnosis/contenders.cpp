@@ -244,7 +244,7 @@ Contender contender_of_axis(const Searching& search, const Standing& chosen, Fol
 
 Challenged unchallenged(Model model) {
     const std::vector<Contender> none(model.members.size());
-    return {std::move(model), none, none};
+    return {std::move(model), none, none, true};
 }
 
 Challenged challenged(const Searching& search, const LeftOutRows& rows, Model model) {

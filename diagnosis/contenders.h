@@ -34,6 +34,7 @@ struct Challenged {
     std::vector<Contender> contenders;  ///< of each member; without a model for what is no cause
     /// Of a free form that is not sure: the best model without any free form of its axis.
     std::vector<Contender> of_axis;
+    bool ended = false;  ///< the search was ended before the contenders were found
 };
 /// A model of which no cause is questioned: its search was ended.
 Challenged unchallenged(Model model);

@@ -58,6 +58,13 @@ std::vector<diagnosis::Claim> claims_of(const diagnosis::Searching& search,
                                 {support, found, folds_of_blocks(), 1.0});
 }
 
+/// A model of which the best contenders are far behind.
+diagnosis::Challenged unrivalled(const diagnosis::Model& model) {
+    diagnosis::Challenged found = diagnosis::unchallenged(model);
+    found.ended = false;
+    return found;
+}
+
 const diagnosis::Claim& claim_named(const std::vector<diagnosis::Claim>& claims,
                                     const std::string& name) {
     const auto at = std::find_if(claims.begin(), claims.end(),
@@ -81,7 +88,7 @@ TEST_CASE("a cause that works against the others is doubtful, however much evide
     const diagnosis::SearchSetting setting = diagnosis::search_setting(design, {0.0, 0.1});
     const diagnosis::Model model =
         diagnosis::tuned(design, setting, {{0, 1}, {{10.0, 4.0}, 1.0}, 0.0}, 3);
-    const auto claims = claims_of({design, setting}, diagnosis::unchallenged(model));
+    const auto claims = claims_of({design, setting}, unrivalled(model));
     CHECK(claim_named(claims, "large").probability > 0.95);
     CHECK(claim_named(claims, "against").probability <= 0.4);
 }
@@ -151,7 +158,7 @@ TEST_CASE("an angular form that straightness does as well is a free form of its 
             const diagnosis::SearchSetting setting = diagnosis::search_setting(design, {0.0, 0.1});
             const diagnosis::Model model =
                 diagnosis::tuned(design, setting, {{angular ? 0u : 1u}, {{2.0}, 1.0}, 0.0}, 3);
-            const auto claims = claims_of({design, setting}, diagnosis::unchallenged(model));
+            const auto claims = claims_of({design, setting}, unrivalled(model));
             const bool open = angular && apart == 0.0;
             INFO(held << ", apart by " << apart << ": " << claims.front().name << " "
                       << claims.front().probability);
@@ -226,7 +233,10 @@ TEST_CASE("a search that is ended questions no cause, rather than by half a cont
         REQUIRE(found.contenders.size() == 1);
         CHECK(found.contenders.front().model.members.empty());
         CHECK(diagnosis::probability_against(found.contenders.front()) == 1.0);
+        // Nothing was searched in its place: never sure.
+        CHECK(claim_named(claims_of({design, setting}, found), "truth").probability <= 0.8);
     }
+    CHECK(claim_named(claims_of({design, setting}, unrivalled(model)), "truth").probability > 0.95);
 }
 
 TEST_CASE(
