@@ -91,6 +91,9 @@ inventions() {
          print "| " m " | " programs[m] " | " tried[m] " | " first[m] " | " other[m] " | " own[m] " |" } }' "$work/inventions.log"
   echo
   sed -nE 's/^(NOT FIRST|INVENTED|GAP): (.*)/- \1: \2/p' "$work/inventions.log"
+  build/release/bin/test_diagnosis "[.assure][written]" > "$work/written.log" 2>&1 && state="predicts no worse" || state="PREDICTS WORSE"
+  echo
+  echo "What is written by a diagnosis **$state** than the set-up alone on fresh readings of 120 machines (five kinds)."
 }
 
 tidy() {

@@ -9,8 +9,8 @@
 namespace trunnion {
 namespace {
 
-constexpr int seeds = 12;              ///< of each kind
-constexpr double tolerance_um = 0.03;  ///< a tenth of the ballbar's noise
+constexpr std::uint64_t short_seeds = 6, long_seeds = 30;  ///< of each kind
+constexpr double tolerance_um = 0.03;                      ///< a tenth of the ballbar's noise
 
 /// Noise-free readings of a setup, mm.
 std::vector<double> read_by(const setup::Setup& s, const records::ReadingTable& table) {
@@ -96,15 +96,13 @@ Machine machine_of(const std::string& kind, const setup::Setup& setup, std::uint
     return m;
 }
 
-}  // namespace
-
-TEST_CASE("what is written predicts no worse than what it came from, on many machines",
-          "[diagnosis][written]") {
+/// Machines of every kind with the seeds first .. last.
+void check_written(std::uint64_t first, std::uint64_t last) {
     const setup::Setup setup = campaign::bc_setup();
     int worse = 0, all = 0, stated = 0, held = 0;
     for (const std::string kind :
          {"nothing", "one effect", "forms", "one beside forms", "outsider"})
-        for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        for (std::uint64_t seed = first; seed <= last; ++seed) {
             const Machine m = machine_of(kind, setup, seed);
             records::ReadingTable table = campaign::empty_table(setup), fresh = table;
             if (seed % 3 != 0) campaign::add_sphere_map(table, setup, 36, seed);
@@ -135,8 +133,10 @@ TEST_CASE("what is written predicts no worse than what it came from, on many mac
             const bool harms = after > before + std::max(tolerance_um, 0.02 * before);
             if (kind != "outsider") CHECK_FALSE(harms);
             CHECK(after <= 1.5 * before + tolerance_um);
-            // What is said to hold elsewhere is written, and does.
-            if (d.explained >= 0.5 && d.between_places && before > 2.0 * d.noise_um)
+            // What is said to hold elsewhere is written, and does; an outsider may be a course of
+            // time, which the fresh readings begin anew.
+            if (kind != "outsider" && d.explained >= 0.5 && d.between_places &&
+                before > 2.0 * d.noise_um)
                 CHECK(after < 0.8 * before);
             if (d.verdict != diagnosis::Verdict::no_gap && kind != "outsider" && before > 1.0) {
                 const double shrink = 1.0 - after / before;
@@ -152,6 +152,17 @@ TEST_CASE("what is written predicts no worse than what it came from, on many mac
     CHECK(held >= stated * 9 / 10);
     INFO(worse << " of " << all << " machines are predicted worse");
     CHECK(worse <= all / 20);  // what no catalogue holds may stay where it was measured
+}
+
+}  // namespace
+
+TEST_CASE("what is written predicts no worse than what it came from, on many machines",
+          "[diagnosis][written]") {
+    check_written(1, short_seeds);
+}
+
+TEST_CASE("what is written predicts no worse on many more machines", "[.assure][written]") {
+    check_written(short_seeds + 1, long_seeds);
 }
 
 }  // namespace trunnion
