@@ -31,6 +31,10 @@ std::optional<std::size_t> add_keyed_group(Design& design, const Prepared& prepa
                                            const Whitener& whitener, const effects::Effect& effect,
                                            std::vector<double> keys);
 
+/// Adds a jump of the machine with given keys, which may be named as a rival only.
+void add_machine_jump(Design& design, const Prepared& prepared, const Whitener& whitener,
+                      const effects::Effect& jump, std::vector<double> keys);
+
 /// Adds error motions of every axis in free form, one group for each correlation length.
 void add_table_groups(Design& design, const Prepared& prepared, const Whitener& whitener);
 

@@ -9,6 +9,7 @@
 #include "diagnosis/changes.h"
 #include "diagnosis/diagnosis_report.h"
 #include "diagnosis/key_search.h"
+#include "diagnosis/machine_jump.h"
 #include "diagnosis/open_sides.h"
 #include "diagnosis/outliers.h"
 #include "diagnosis/ripples.h"
@@ -88,11 +89,14 @@ Design empty_design(const Prepared& p, const Whitener& whitener, const std::vect
     return {std::move(known), std::move(data), rows};
 }
 
+Eigen::VectorXd rest_of(const Prepared& p, Design& design, const Model& model) {
+    return left_mm(p, design, model, solved(design, model));
+}
+
 /// What a model leaves of the readings, and what may hide in it.
 KeySearch::Remainder left_by(const Prepared& p, KeySearch& keys, Design& design,
                              const Model& model) {
-    return keys.remainder(left_mm(p, design, model, solved(design, model)),
-                          fitted_mm(p, design, model));
+    return keys.remainder(rest_of(p, design, model), fitted_mm(p, design, model));
 }
 
 struct KeyedEffect {
@@ -126,20 +130,15 @@ void add_keyed(Design& design, const Prepared& p, const Whitener& whitener,
     }
 }
 
-Eigen::VectorXd rest_of(const Prepared& p, Design& design, const Model& model) {
-    return left_mm(p, design, model, solved(design, model));
-}
-
 /// A group with the keys of one member refined on the residual of the other causes.
 std::optional<std::size_t> refined_group(Design& design, const Prepared& p,
                                          const Whitener& whitener, const Model& model,
                                          std::size_t position) {
     const ColumnGroup group = design.group(model.members[position]);
     const Model rest = without(model, position);
-    return add_ripple_or_other(
-        design, p, whitener, *group.effect,
-        identification::refine_keys(p.replay, p.base, *group.effect, group.keys,
-                                    left_mm(p, design, rest, solved(design, rest))));
+    return add_ripple_or_other(design, p, whitener, *group.effect,
+                               identification::refine_keys(p.replay, p.base, *group.effect,
+                                                           group.keys, rest_of(p, design, rest)));
 }
 
 Model without_drivers(const Design& design, Model model) {
@@ -266,6 +265,7 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const
         if (model.score < before + 1.0) break;
     }
     model = without_idle_members(design, setting, {p.folds, round.used}, std::move(model));
+    add_jumps_instead(design, p, whitener, keys, model);
     setting.refine = {};  // what it refers to ends here
     setting.go_on = {};
     return {std::move(design), std::move(setting), std::move(model)};
@@ -309,7 +309,7 @@ bool same_noise(const NoiseModel& a, const NoiseModel& b) {
 /// Applies what the first model reveals about the round: outliers, other noise, nonlinear readings.
 /// False: no further search is needed.
 bool corrected(Prepared& p, Searched& s, Round& round) {
-    const Eigen::VectorXd left = left_mm(p, s.design, s.model, solved(s.design, s.model));
+    const Eigen::VectorXd left = rest_of(p, s.design, s.model);
     bool changed = false;
     const Sizes sizes =
         sizes_of(s.design, s.model, 1.0, std::vector<bool>(s.model.members.size(), false));

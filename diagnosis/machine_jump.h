@@ -1,6 +1,8 @@
 // A jump of the machine: a rival of an artefact's move and of a drift, of which no setup knows.
 #pragma once
 
+#include "diagnosis/key_search.h"
+#include "diagnosis/search.h"
 #include "effects/catalogue.h"
 
 namespace trunnion::diagnosis {
@@ -13,5 +15,10 @@ inline constexpr const char* machine_jump = "machine.jump";
 /// move, so that both are as probable beforehand. Only readings of another artefact after that
 /// time, or with the table turned, see them differently. Empty without such a move.
 effects::Catalogue jumps_like_moves(const effects::Catalogue& catalogue);
+
+/// Adds, as a rival, the jump that does most in place of a drift in the model, its time refined:
+/// both are courses of time.
+void add_jumps_instead(Design& design, const Prepared& prepared, const Whitener& whitener,
+                       KeySearch& search, const Model& model);
 
 }  // namespace trunnion::diagnosis

@@ -194,15 +194,20 @@ std::optional<ColumnGroup> keyed_group(Design& design, const Prepared& prepared,
 
 }  // namespace
 
+void add_machine_jump(Design& design, const Prepared& prepared, const Whitener& whitener,
+                      const effects::Effect& jump, std::vector<double> keys) {
+    auto group = keyed_group(design, prepared, whitener, jump, std::move(keys));
+    if (!group) return;
+    group->machine_jump = true;
+    design.keep_as_rival(design.add(std::move(*group)));
+}
+
 std::optional<std::size_t> add_keyed_group(Design& design, const Prepared& prepared,
                                            const Whitener& whitener, const effects::Effect& effect,
                                            std::vector<double> keys) {
     if (effect.kind == effects::EffectKind::artefact_moved)
         for (const effects::Effect& jump : prepared.only_rivals)
-            if (auto group = keyed_group(design, prepared, whitener, jump, keys)) {
-                group->machine_jump = true;
-                design.keep_as_rival(design.add(std::move(*group)));
-            }
+            add_machine_jump(design, prepared, whitener, jump, keys);
     auto group = keyed_group(design, prepared, whitener, effect, std::move(keys));
     if (!group) return std::nullopt;
     return design.add(std::move(*group));
