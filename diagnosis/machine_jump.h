@@ -2,6 +2,8 @@
 #pragma once
 
 #include "diagnosis/key_search.h"
+#include "diagnosis/noise.h"
+#include "diagnosis/prepare.h"
 #include "diagnosis/search.h"
 #include "effects/catalogue.h"
 
