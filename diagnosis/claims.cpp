@@ -50,10 +50,10 @@ bool are_forms_of_one_axis(const ColumnGroup& a, const ColumnGroup& b) {
            are_kindred(a.table, b.table);
 }
 
-/// True when another free form of the axis leaves open what a free form is. What an angular error
-/// does on the only line that was measured is positioning and straightness by their definition (ISO
-/// 230-1), so it leaves those open to no doubt.
-bool leaves_open(const ColumnGroup& own, const ColumnGroup& other) {
+/// True when another free form of the same axis makes the family of a free form doubtful. What an
+/// angular error does on the only line that was measured is positioning and straightness by their
+/// definition (ISO 230-1), so an angular form makes only angular forms doubtful.
+bool makes_doubtful(const ColumnGroup& own, const ColumnGroup& other) {
     return are_forms_of_one_axis(own, other) &&
            (own.table.motion == effects::EffectKind::angular ||
             other.table.motion != effects::EffectKind::angular);
@@ -111,7 +111,7 @@ void weigh_one_for_two(const Searching& search, const Model& model, const Offer&
     }
 }
 
-/// What the evidence gives a cause, and the cause or a free form of its axis that leaves it open.
+/// Probability by the evidence: of a cause, and of the cause or a free form that makes it doubtful.
 struct EvidenceOf {
     double cause, axis;
 };
@@ -135,9 +135,9 @@ EvidenceOf evidence_of(const Searching& search, const Model& model, const Offer&
         const ColumnGroup& group = design.group(o.group);
         const bool again = group.name == cause.name;
         weights.add(with(rest, o), own - nats_of(design, o),
-                    again                       ? same
-                    : leaves_open(cause, group) ? kindred
-                                                : other);
+                    again                          ? same
+                    : makes_doubtful(cause, group) ? kindred
+                                                   : other);
     }
     weigh_one_for_two(search, model, held, weights, other);
     for (auto* list : {&same, &kindred, &other})

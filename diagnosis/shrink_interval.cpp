@@ -44,7 +44,7 @@ double chance_of_remainder(const std::vector<Missed>& missed) {
         sum += m.square;
         square += m.square * m.square;
     }
-    if (sum <= 0.0) return 0.0;
+    if (sum <= 0.0 || square <= 0.0) return 0.0;  // tiny squares underflow
     const double n = static_cast<double>(missed.size());
     const double factor = std::exp(0.5 * sum * sum / square * n / (n + 1.0)) / std::sqrt(n + 1.0);
     return factor / (1.0 + factor);
@@ -58,7 +58,7 @@ double remainder_per_row(const std::vector<Missed>& missed, double noise_factor,
         sum += weight * (m.square - (noise_factor - 1.0) * m.noise);
         rows += weight * m.rows;
     }
-    return sum / rows;
+    return rows > 0.0 ? sum / rows : 0.0;
 }
 
 /// Fraction of the squares that stays on left-out paths, in a draw of the paths.
