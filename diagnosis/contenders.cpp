@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 #include "base/units.h"
 #include "diagnosis/verdict.h"
@@ -74,14 +76,6 @@ BlockLoss loss_of(FoldColumns& columns, const Model& model) {
 std::string cause_of_member(const Design& design, const Model& model, std::size_t position) {
     const ColumnGroup& group = design.group(model.members[position]);
     return is_cause(group.kind) ? group.name : "";
-}
-
-/// An earlier member that is part of the same cause, whose contender is known.
-std::optional<std::size_t> earlier_member(const Design& design, const Challenged& so_far,
-                                          const std::string& cause) {
-    for (std::size_t k = 0; k < so_far.contenders.size(); ++k)
-        if (cause_of_member(design, so_far.model, k) == cause) return k;
-    return std::nullopt;
 }
 
 /// The chosen model with what every contender is compared with.
@@ -190,6 +184,7 @@ Contender best_without(const Searching& search, const Standing& chosen, FoldColu
         if (excluded(design.group(model.members[k]))) model = without(model, k);
     SearchSetting setting = search.setting;
     setting.most_members = std::max(setting.most_members, chosen.model.members.size() + more);
+    setting.worth_growing = chosen.model.score - hopeless;
     model = grown(design, setting, tuned(design, setting, std::move(model), 2));
     if (weight_of(design, model) > chosen.weight - hopeless)
         model = settled(design, setting, std::move(model));
@@ -240,6 +235,40 @@ Contender contender_of_axis(const Searching& search, const Standing& chosen, Fol
     });
 }
 
+/// Positions of the members, the least certain first: a contender that becomes the model ends the
+/// round, and the searches against certain members are the longest ones.
+std::vector<std::size_t> least_certain_first(Design& design, const Model& model) {
+    const std::vector<Offer> worth = worth_of_members(design, model);
+    std::vector<std::size_t> order(worth.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return worth[a].value < worth[b].value; });
+    return order;
+}
+
+/// Finds the contender of each member that is a cause; parts of one cause have one. If one is
+/// better than the chosen model and may replace it, returns it, and there are no contenders.
+std::optional<Model> challenge_each(const Searching& search, const Standing& chosen,
+                                    FoldColumns& rows, Challenged& result, bool may_replace) {
+    std::vector<Contender> contenders(result.model.members.size());
+    std::map<std::string, std::size_t> challenged;
+    for (const std::size_t k : least_certain_first(search.design, result.model)) {
+        if (search.setting.stopped()) break;
+        const std::string cause = cause_of_member(search.design, result.model, k);
+        if (cause.empty()) continue;
+        if (const auto [at, first] = challenged.try_emplace(cause, k); !first) {
+            contenders[k] = contenders[at->second];
+            continue;
+        }
+        Contender contender = contender_of(search, chosen, rows, result.model.members[k]);
+        const bool is_better = contender.ahead >= better && contender.predicted < contender.spread;
+        if (may_replace && is_better) return std::move(contender.model);
+        contenders[k] = std::move(contender);
+    }
+    result.contenders = std::move(contenders);
+    return std::nullopt;
+}
+
 }  // namespace
 
 Challenged unchallenged(Model model) {
@@ -247,41 +276,25 @@ Challenged unchallenged(Model model) {
     return {std::move(model), none, none, true};
 }
 
-Challenged challenged(const Searching& search, const LeftOutRows& rows, Model model) {
-    Design& design = search.design;
-    FoldColumns columns(design, rows);
+Challenged challenged(FoldColumns& rows, const SearchSetting& setting, Model model) {
+    const Searching search{rows.design(), setting};
     // Members without benefit for left-out readings come back on both sides, or on none.
     const auto whole = [&](const Model& m) {
-        return Standing(columns, grown(design, search.setting, m));
+        return Standing(rows, grown(search.design, setting, m));
     };
     Challenged result{std::move(model), {}, {}};
     Standing chosen = whole(result.model);
-    for (int replaced = 0; result.contenders.size() < result.model.members.size();) {
-        if (search.setting.stopped()) return unchallenged(std::move(result.model));
-        const std::string cause = cause_of_member(design, result.model, result.contenders.size());
-        if (cause.empty()) {
-            result.contenders.emplace_back();
-            continue;
-        }
-        if (const auto same = earlier_member(design, result, cause)) {
-            result.contenders.push_back(Contender(result.contenders[*same]));
-            continue;
-        }
-        Contender contender =
-            contender_of(search, chosen, columns, result.model.members[result.contenders.size()]);
-        const bool is_better = contender.ahead >= better && contender.predicted < contender.spread;
-        if (is_better && replaced < most_replaced) {
-            result = {without_idle_members(design, search.setting, rows, contender.model), {}, {}};
-            chosen = whole(result.model);
-            ++replaced;
-        } else {
-            result.contenders.push_back(std::move(contender));
-        }
+    for (int replaced = 0; replaced < most_replaced; ++replaced) {
+        std::optional<Model> better = challenge_each(search, chosen, rows, result, true);
+        if (!better) break;
+        result = {without_idle_members(rows, setting, std::move(*better)), {}, {}};
+        chosen = whole(result.model);
     }
+    if (result.contenders.empty()) challenge_each(search, chosen, rows, result, false);
     for (std::size_t k = 0; k < result.contenders.size(); ++k)
-        result.of_axis.push_back(contender_of_axis(search, chosen, columns, result, k));
+        result.of_axis.push_back(contender_of_axis(search, chosen, rows, result, k));
     // A search that is ended leaves half a contender.
-    if (search.setting.stopped()) return unchallenged(std::move(result.model));
+    if (setting.stopped()) return unchallenged(std::move(result.model));
     return result;
 }
 

@@ -40,7 +40,7 @@ struct Challenged {
 Challenged unchallenged(Model model);
 /// Contenders of all causes of a model. One that is better by its evidence, and not worse on
 /// left-out readings, becomes the model.
-Challenged challenged(const Searching& search, const LeftOutRows& rows, Model model);
+Challenged challenged(FoldColumns& rows, const SearchSetting& setting, Model model);
 
 /// Causes that the contender has and the chosen model has not, and that do in it what `part` (a
 /// contribution to the whitened readings) does; the largest first.

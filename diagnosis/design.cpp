@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "estimation/inner_products.h"
 #include "estimation/ranked_least_squares.h"
 
 namespace trunnion::diagnosis {
@@ -83,7 +84,8 @@ Eigen::MatrixXd Design::products_of(const Block& a, const Block& b) {
         return Eigen::MatrixXd(a.sparse.transpose() * b.sparse);
     if (a.sparse.size() > 0) return a.sparse.transpose() * b.white;
     if (b.sparse.size() > 0) return (b.sparse.transpose() * a.white).transpose();
-    return a.white.transpose() * b.white;
+    return &a == &b ? estimation::inner_products(a.white)
+                    : estimation::inner_products(a.white, b.white);
 }
 
 /// Products of the features of two blocks, set-up projected out.

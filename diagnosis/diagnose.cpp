@@ -264,7 +264,8 @@ Searched search_of(const Prepared& p, const Round& round, KeySearch& keys, const
         model = settled(design, setting, grown(design, setting, std::move(model)));
         if (model.score < before + 1.0) break;
     }
-    model = without_idle_members(design, setting, {p.folds, round.used}, std::move(model));
+    FoldColumns rows(design, {p.folds, round.used});
+    model = without_idle_members(rows, setting, std::move(model));
     add_jumps_instead(design, p, whitener, keys, model);
     setting.refine = {};  // what it refers to ends here
     setting.go_on = {};
@@ -384,15 +385,14 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
     if (unfinished) s.model = computable(s.design, s.setting, std::move(s.model));
     watch("held-out readings");
     s.setting.go_on = options.go_on;
-    const Challenged found =
-        unfinished ? unchallenged(std::move(s.model))
-                   : challenged({s.design, s.setting}, {p.folds, round.used}, std::move(s.model));
+    FoldColumns rows(s.design, {p.folds, round.used});
+    const Challenged found = unfinished ? unchallenged(std::move(s.model))
+                                        : challenged(rows, s.setting, std::move(s.model));
     s.setting.go_on = {};
-    unfinished = unfinished || stopped();
-    const Judgement judgement = judged(s.design, p, found.model, round.noise, round.used);
+    const Judgement judgement = judged(rows, p, found.model, round.noise);
     Diagnosis d = report_of(
         {p, s.design, s.setting, found.model, judgement, round.noise, round.used, found}, options);
-    d.unfinished = unfinished;
+    d.unfinished = unfinished || stopped();
     if (const auto gap = store_gap(setup, table)) add_store_gap(setup, *gap, options.holdout, d);
     return d;
 }

@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "diagnosis/rules.h"
 #include "estimation/free_form.h"
+#include "estimation/inner_products.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -79,7 +80,9 @@ const FoldColumns::ByFold& FoldColumns::products(std::size_t first, std::size_t 
     ByFold& own = products_[{first, second}];
     if (!own.empty()) return own;
     const ByFold &a = of(first), &b = of(second);
-    for (std::size_t f = 0; f < rows_.size(); ++f) own.push_back(a[f].transpose() * b[f]);
+    for (std::size_t f = 0; f < rows_.size(); ++f)
+        own.push_back(first == second ? estimation::inner_products(a[f])
+                                      : estimation::inner_products(a[f], b[f]));
     return own;
 }
 

@@ -270,8 +270,11 @@ Model pruned(Design& design, const SearchSetting& setting, Model model) {
 }
 
 Model grown(Design& design, const SearchSetting& setting, Model model) {
-    while (model.members.size() < setting.most_members && !setting.stopped() &&
-           grow(design, setting, model, true)) {
+    while (model.members.size() < setting.most_members && !setting.stopped()) {
+        const double before = model.score;
+        if (!grow(design, setting, model, true)) break;
+        const auto steps = static_cast<double>(setting.most_members - model.members.size());
+        if (model.score + steps * (model.score - before) < setting.worth_growing) break;
     }
     return model;
 }

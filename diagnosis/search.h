@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct SearchSetting {
     /// Asked at each step: false ends the search with the best model so far. Empty: never.
     std::function<bool()> go_on = {};
     std::size_t most_members = 12;
+    /// A model does not grow further if even as many steps as are left, each with the gain of the
+    /// last one, would not reach this score.
+    double worth_growing = -std::numeric_limits<double>::infinity();
 
     bool stopped() const { return go_on && !go_on(); }
 };

@@ -81,13 +81,15 @@ bool is_gap(Design& design, const Model& model, const Judgement& j, const Sizes&
 
 }  // namespace
 
-Judgement judged(Design& design, const Prepared& prepared, const Model& model,
-                 const NoiseBelief& noise, const std::vector<bool>& used) {
+Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model,
+                 const NoiseBelief& noise) {
+    Design& design = rows.design();
+    const std::vector<bool>& used = rows.left_out().used;
     Judgement j;
     const double nu2 = model.variances.nu * model.variances.nu;
     j.floor = noise.model.source == NoiseSource::repeats ? 1.0 : std::min(nu2, noise.most);
     j.large = large_zeros(design, model);
-    const LeftOut left(design, model, prepared.folds, used);
+    const LeftOut left(rows, model);
     const std::vector<bool> all(model.members.size(), true);
     const auto zeros = marked(design, model, [&](GroupKind kind, std::size_t k) {
         return kind == GroupKind::offset && !j.large[k];
@@ -131,11 +133,11 @@ Verdict verdict_of(const Judgement& j, const std::vector<Claim>& claims) {
     return rivalled ? Verdict::ambiguous : Verdict::explained;
 }
 
-Model without_idle_members(Design& design, const SearchSetting& setting, const LeftOutRows& rows,
-                           Model model) {
+Model without_idle_members(FoldColumns& rows, const SearchSetting& setting, Model model) {
     constexpr double least_t = 1.0;
     if (model.members.empty()) return model;
-    LeftOut left(design, model, rows.folds, rows.used);
+    Design& design = rows.design();
+    LeftOut left(rows, model);
     const std::vector<std::size_t> first = model.members;
     std::vector<bool> fitted(first.size(), true);
     auto predicting = marked(design, model,

@@ -31,14 +31,14 @@ struct Judgement {
     Eigen::VectorXd left;         ///< whitened left-out residuals, with the causes
     Eigen::VectorXd left_before;  ///< ... with the set-up alone
 };
-Judgement judged(Design& design, const Prepared& prepared, const Model& model,
-                 const NoiseBelief& noise, const std::vector<bool>& used);
+/// `rows`: the blocks of the readings, left out in turn.
+Judgement judged(FoldColumns& rows, const Prepared& prepared, const Model& model,
+                 const NoiseBelief& noise);
 
 Verdict verdict_of(const Judgement& judgement, const std::vector<Claim>& claims);
 
 /// Removes members without benefit for left-out readings, the weakest first.
-Model without_idle_members(Design& design, const SearchSetting& setting, const LeftOutRows& rows,
-                           Model model);
+Model without_idle_members(FoldColumns& rows, const SearchSetting& setting, Model model);
 
 /// Drivers that the readings depend on when only the set-up is fitted, strongest first.
 std::vector<DriverShare> where_of(const Design& design, double floor);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "estimation/inner_products.h"
+
 namespace trunnion::estimation {
 
 GivenOthers::GivenOthers(const GivenMembers& all, Eigen::Index first, Eigen::Index count,
@@ -9,7 +11,7 @@ GivenOthers::GivenOthers(const GivenMembers& all, Eigen::Index first, Eigen::Ind
     : all_(all), first_(first), count_(count) {
     // R is lower triangular: the rows above the first row of the group are zero in its columns.
     const auto own = all.half().block(first, first, all.half().rows() - first, count);
-    own_ = Eigen::LLT<Eigen::MatrixXd>(own.transpose() * own).matrixL();
+    own_ = Eigen::LLT<Eigen::MatrixXd>(inner_products(own)).matrixL();
     own_mean_ = own_.triangularView<Eigen::Lower>().solve(all.mean().segment(first, count));
     gained_ = -0.5 * own_mean_.squaredNorm() - (own_.diagonal().array() / tau).log().sum();
 }
@@ -18,7 +20,7 @@ GivenOthers::GivenOthers(const GivenMembers& all, Eigen::Index first, Eigen::Ind
 Eigen::MatrixXd GivenOthers::shown(const Eigen::MatrixXd& taken) const {
     const Eigen::Index rows = taken.rows() - first_;
     Eigen::MatrixXd shown =
-        all_.half().block(first_, first_, rows, count_).transpose() * taken.bottomRows(rows);
+        inner_products(all_.half().block(first_, first_, rows, count_), taken.bottomRows(rows));
     own_.triangularView<Eigen::Lower>().solveInPlace(shown);
     return shown;
 }
@@ -38,14 +40,14 @@ void GivenOthers::replace(const Eigen::MatrixXd& taken, const GroupInformation& 
 GroupInformation GivenOthers::leave(const Eigen::MatrixXd& taken, GroupInformation left,
                                     const Eigen::MatrixXd& cross) const {
     const Eigen::MatrixXd back = shown(taken);
-    left.information.noalias() += back.transpose() * back;
+    left.information += inner_products(back);
     left.product.noalias() += back.transpose() * own_mean_;
     if (in_place_mean_.size() == 0) return left;
     Eigen::MatrixXd joint = cross / (all_.nu() * all_.nu());
-    joint.noalias() -= taken_.transpose() * taken;
-    joint.noalias() += shown_.transpose() * back;
+    joint -= inner_products(taken_, taken);
+    joint += inner_products(shown_, back);
     in_place_.matrixL().solveInPlace(joint);
-    left.information.noalias() -= joint.transpose() * joint;
+    left.information -= inner_products(joint);
     left.product.noalias() -= joint.transpose() * in_place_z_;
     return left;
 }

@@ -3,29 +3,13 @@
 #include <cmath>
 #include <cstring>
 
-// Sanitizers would look into the choice, which is made before they are ready.
-#if defined(__x86_64__) && defined(__linux__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define TRUNNION_WIDE_VECTORS __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define TRUNNION_WIDE_VECTORS
-#endif
+#include "estimation/wide_vectors.h"
 
 namespace trunnion::estimation {
 namespace {
 
 using Index = Eigen::Index;
-constexpr Index height = 8, width = 4;  ///< of a panel
-
-using Rows [[gnu::vector_size(height * sizeof(double))]] = double;
-
-inline __attribute__((always_inline)) void load(const double* from, Rows& rows) {
-    std::memcpy(&rows, from, sizeof rows);
-}
-
-inline __attribute__((always_inline)) void store(const Rows& rows, double* to) {
-    std::memcpy(to, &rows, sizeof rows);
-}
+constexpr Index height = lanes, width = 4;  ///< of a panel
 
 /// Where the factors of a sum of products are: of the first, eight rows of one column; of the
 /// second, four numbers at `across` from each other. Both go on by a step for each product.
@@ -36,8 +20,8 @@ struct Operands {
 
 /// sums(8 x 4) = sum over `count` products.
 inline __attribute__((always_inline)) void sum_products(Operands from, Index count,
-                                                        Rows (&sums)[width]) {
-    Rows a{}, b{}, c{}, d{}, rows{};
+                                                        Lanes (&sums)[width]) {
+    Lanes a{}, b{}, c{}, d{}, rows{};
     for (Index k = 0; k < count; ++k) {
         load(from.rows, rows);
         a += rows * from.numbers[0];
@@ -54,7 +38,7 @@ inline __attribute__((always_inline)) void sum_products(Operands from, Index cou
 inline __attribute__((always_inline)) void factor_panel(double* m, Index n, Index first) {
     const Index top = first / height * height;
     for (Index q = first; q < first + width; ++q) {
-        Rows own, other;
+        Lanes own, other;
         for (Index k = first; k < q; ++k) {
             const double times = m[q + k * n];
             for (Index i = top; i < n; i += height) {
@@ -76,7 +60,7 @@ inline __attribute__((always_inline)) void factor_panel(double* m, Index n, Inde
 TRUNNION_WIDE_VECTORS void factor(double* m, Index n) {
     for (Index j = 0; j < n; j += width) {
         for (Index i = j / height * height; i < n; i += height) {
-            Rows sums[width], own;
+            Lanes sums[width], own;
             sum_products({m + i, m + j, n, n, 1}, j, sums);
             for (Index q = 0; q < width; ++q) {
                 load(m + i + (j + q) * n, own);
@@ -105,10 +89,10 @@ TRUNNION_WIDE_VECTORS void invert(const double* l, double* x, Index n) {
     for (Index i = 0; i < n; i += height) {
         invert_corner(l, n, i, corner);
         for (Index j = 0; j < i; j += width) {
-            Rows sums[width], own;
+            Lanes sums[width], own;
             sum_products({l + i + j * n, x + j + j * n, n, 1, n}, i - j, sums);
             for (Index q = 0; q < width; ++q) {
-                Rows result{};
+                Lanes result{};
                 for (Index k = 0; k < height; ++k) {
                     load(corner + k * height, own);
                     result -= own * sums[q][k];

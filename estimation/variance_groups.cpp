@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "estimation/inner_products.h"
 #include "estimation/lower_triangle.h"
+#include "estimation/wide_vectors.h"
 
 namespace trunnion::estimation {
 namespace {
@@ -18,30 +20,48 @@ double size_at(double step) {
     return smallest * std::pow(largest / smallest, step / (sizes - 1));
 }
 
+/// Sizes at steps of the grid from `first` on, `apart` from each other.
+ReducedGroup::Eight eight_sizes(double first, double apart) {
+    const double ratio = std::pow(largest / smallest, apart / (sizes - 1));
+    ReducedGroup::Eight tau{size_at(first)};
+    for (std::size_t k = 1; k < tau.size(); ++k) tau[k] = tau[k - 1] * ratio;
+    return tau;
+}
+
 /// A reduced group with one product: gain as a function of the size.
 struct Chain {
     const ReducedGroup& group;
     Eigen::VectorXd turned;
     double factor;
-    double gain(double tau) const { return group.gain(turned, factor, tau); }
+    ReducedGroup::Eight gains(const ReducedGroup::Eight& tau) const {
+        return group.gains(turned, factor, tau);
+    }
 };
 
 struct Peak {
     double step, gain;
 };
 
-/// Refines the best size of the grid by two parabolas in the logarithm of the size.
-Peak refined(const Chain& chain, Peak at) {
-    for (const double h : {1.0, 0.25}) {
-        const double left = chain.gain(size_at(at.step - h)),
-                     right = chain.gain(size_at(at.step + h));
-        const double bend = left - 2.0 * at.gain + right;
-        if (bend >= 0.0) break;
-        const double step = at.step + std::clamp(0.5 * h * (left - right) / bend, -h, h);
-        const double gain = chain.gain(size_at(step));
-        if (gain > at.gain) at = {step, gain};
+/// Top of the parabola through a gain and those `h` steps before and after it.
+double top_of_parabola(Peak at, double before, double after, double h) {
+    const double bend = before - 2.0 * at.gain + after;
+    if (bend >= 0.0) return at.step;
+    return at.step + std::clamp(0.5 * h * (before - after) / bend, -h, h);
+}
+
+/// Refines the best size of the grid, given the gains one step before and after it.
+Peak refined(const Chain& chain, const Peak& on_grid, double before, double after) {
+    constexpr double apart = 0.1, middle = 3.0;
+    const double first = top_of_parabola(on_grid, before, after, 1.0) - middle * apart;
+    const ReducedGroup::Eight gain = chain.gains(eight_sizes(first, apart));
+    const auto best =
+        static_cast<std::size_t>(std::max_element(gain.begin(), gain.end()) - gain.begin());
+    Peak at{first + apart * static_cast<double>(best), gain[best]};
+    if (best > 0 && best + 1 < gain.size()) {
+        const double top = top_of_parabola(at, gain[best - 1], gain[best + 1], apart);
+        at = {top, chain.gains(eight_sizes(top, 0.0)).front()};
     }
-    return at;
+    return at.gain > on_grid.gain ? at : on_grid;
 }
 
 Eigen::VectorXd by_column(const GroupEquations& equations, const Variances& variances) {
@@ -81,16 +101,6 @@ double best_noise(double square, double freedom, const NoisePrior& prior) {
     return std::exp(log_nu);
 }
 
-/// Noise estimated from the remainder with the variances of the groups fixed.
-double remaining_noise(const GroupEquations& equations, const GivenMembers& given,
-                       const NoisePrior& prior) {
-    if (equations.product.size() == 0) return best_noise(equations.square, equations.rows, prior);
-    const Eigen::VectorXd mean = given.mean();
-    const double left =
-        equations.square - 2.0 * mean.dot(equations.product) + mean.dot(equations.gram * mean);
-    return best_noise(std::max(0.0, left), equations.rows - given.freedom_used(), prior);
-}
-
 double likelihood_of(const GroupEquations& equations, const FactoredMembers& members,
                      const NoisePrior& prior) {
     const double nu2 = members.nu * members.nu,
@@ -105,11 +115,29 @@ struct Step {
     Variances variances;
     FactoredMembers members;
     double likelihood;
-    Step(const GroupEquations& equations, Variances v, const NoisePrior& prior)
+    Step(const GroupEquations& equations, Variances v, FactoredMembers factored,
+         const NoisePrior& prior)
         : variances(std::move(v)),
-          members(equations, variances),
+          members(std::move(factored)),
           likelihood(likelihood_of(equations, members, prior)) {}
+    Step(const GroupEquations& equations, const Variances& v, const NoisePrior& prior)
+        : Step(equations, v, FactoredMembers(equations, v), prior) {}
 };
+
+/// The same sizes relative to the noise, with the noise that maximises the likelihood for them: the
+/// factorisation depends on these ratios alone.
+Step with_best_noise(const GroupEquations& equations, Variances variances,
+                     const NoisePrior& prior) {
+    FactoredMembers members(equations, variances);
+    const double left = equations.square - members.z.squaredNorm() / (members.nu * members.nu);
+    const double nu = best_noise(std::max(0.0, left), equations.rows, prior);
+    const double times = nu / members.nu;
+    variances.nu = members.nu = nu;
+    for (double& tau : variances.tau) tau *= times;
+    members.tau *= times;
+    members.z *= times;
+    return {equations, std::move(variances), std::move(members), prior};
+}
 
 std::vector<GroupInformation> each_beside(const GroupEquations& equations,
                                           const std::vector<double>& tau, const GivenMembers& all) {
@@ -119,7 +147,7 @@ std::vector<GroupInformation> each_beside(const GroupEquations& equations,
         const Eigen::Index first = equations.first(g), count = equations.size[g];
         // R is lower triangular: the rows above the group's first row are zero in its columns.
         const auto own = all.half().block(first, first, all.half().rows() - first, count);
-        const Eigen::LLT<Eigen::MatrixXd> covariance(own.transpose() * own);
+        const Eigen::LLT<Eigen::MatrixXd> covariance(inner_products(own));
         GroupInformation alone;
         alone.information = covariance.solve(Eigen::MatrixXd::Identity(count, count));
         alone.product = covariance.solve(mean.segment(first, count));
@@ -129,17 +157,17 @@ std::vector<GroupInformation> each_beside(const GroupEquations& equations,
     return list;
 }
 
-Variances one_sweep(const GroupEquations& equations, const Step& from, const NoisePrior& prior) {
-    Variances next = from.variances;
-    const auto groups = each_beside(equations, from.variances.tau, GivenMembers(from.members));
-    for (std::size_t g = 0; g < groups.size(); ++g) next.tau[g] = group_gain(groups[g]).tau;
-    next.nu = remaining_noise(equations, GivenMembers(equations, next), prior);
-    return next;
-}
-
 Variances not_absent(Variances variances) {
     for (double& tau : variances.tau) tau = std::max(tau, least_size);
     return variances;
+}
+
+/// Each group at its best size beside the others, then the noise.
+Step one_sweep(const GroupEquations& equations, const Step& from, const NoisePrior& prior) {
+    Variances next = from.variances;
+    const auto groups = each_beside(equations, from.variances.tau, GivenMembers(from.members));
+    for (std::size_t g = 0; g < groups.size(); ++g) next.tau[g] = group_gain(groups[g]).tau;
+    return with_best_noise(equations, std::move(next), prior);
 }
 
 Variances between(const Variances& a, Variances b) {
@@ -181,8 +209,7 @@ GivenMembers::GivenMembers(FactoredMembers factored) : nu_(factored.nu), z_(std:
 Eigen::MatrixXd GivenMembers::taken(const Eigen::MatrixXd& cross) const {
     // Without rows or columns Eigen would multiply by way of a null pointer.
     if (half_.size() == 0 || cross.cols() == 0) return Eigen::MatrixXd(half_.rows(), cross.cols());
-    Eigen::MatrixXd t = half_.triangularView<Eigen::Lower>() * cross;
-    return t / (nu_ * nu_);
+    return upper_inner_products(half_.transpose(), cross) / (nu_ * nu_);
 }
 
 GroupInformation GivenMembers::leave_beside(const Eigen::Ref<const Eigen::MatrixXd>& taken,
@@ -191,7 +218,7 @@ GroupInformation GivenMembers::leave_beside(const Eigen::Ref<const Eigen::Matrix
     const double nu2 = nu_ * nu_;
     GroupInformation left{gram / nu2, product / nu2};
     if (half_.size() == 0) return left;
-    left.information.noalias() -= taken.transpose() * taken;
+    left.information -= inner_products(taken);
     left.product.noalias() -= taken.transpose() * z_ / nu2;
     return left;
 }
@@ -223,26 +250,56 @@ Eigen::VectorXd ReducedGroup::turned(Eigen::VectorXd product) const {
     return basis_.transpose() * product;
 }
 
-double ReducedGroup::gain(const Eigen::VectorXd& turned, double factor, double tau) const {
-    const double t2 = tau * tau, own = t2 * factor;
-    double quadratic = 0.0, log_det = 0.0, product = 1.0, pivot = 1.0, forward = 0.0;
-    for (Eigen::Index i = 0; i < diagonal_.size(); ++i) {
-        const double side = i > 0 ? own * beside_(i - 1) : 0.0, part = side / pivot;
-        forward = turned(i) - part * forward;
+namespace {
+
+/// Where the tridiagonal information and a product are: `beside` from the second row on.
+struct Rows {
+    const double *diagonal, *beside, *turned;
+    Eigen::Index count;
+};
+
+/// Gains at eight sizes, the largest last: its pivots are the largest, too.
+TRUNNION_WIDE_VECTORS void gains_along(const Rows& rows, double factor, const double* tau,
+                                       double* gain) {
+    Lanes size{}, one{};
+    load(tau, size);
+    one += 1.0;
+    const Lanes t2 = size * size, own = t2 * factor;
+    Lanes quadratic{}, log_det{}, product = one, inverse = one, forward{};
+    const auto take_logarithms = [&] {
+        for (int k = 0; k < lanes; ++k) log_det[k] += std::log(product[k]);
+        product = one;
+    };
+    for (Eigen::Index i = 0; i < rows.count; ++i) {
+        const Lanes side = own * (i > 0 ? rows.beside[i - 1] : 0.0), part = side * inverse;
+        forward = rows.turned[i] - part * forward;
+        Lanes pivot = one + own * rows.diagonal[i] - part * side;
         // The exact pivots of I + a positive semidefinite matrix are never below 1.
-        pivot = std::max(1.0, 1.0 + own * diagonal_(i) - part * side);
-        quadratic += forward * forward / pivot;
+        pivot = pivot > one ? pivot : one;
+        inverse = one / pivot;
+        quadratic += forward * forward * inverse;
         product *= pivot;
-        if (product < 1e150) continue;
-        log_det += std::log(product);
-        product = 1.0;
+        if (product[lanes - 1] >= 1e150) take_logarithms();
     }
-    return 0.5 * (t2 * quadratic - log_det - std::log(product));
+    take_logarithms();
+    store(0.5 * (t2 * quadratic - log_det), gain);
+}
+
+}  // namespace
+
+ReducedGroup::Eight ReducedGroup::gains(const Eigen::VectorXd& turned, double factor,
+                                        const Eight& tau) const {
+    Eight gain{};
+    gains_along({diagonal_.data(), beside_.data(), turned.data(), diagonal_.size()}, factor,
+                tau.data(), gain.data());
+    return gain;
 }
 
 double gain_at(const GroupInformation& group, double tau) {
     const ReducedGroup reduced(group.information);
-    return reduced.gain(reduced.turned(group.product), 1.0, tau);
+    ReducedGroup::Eight same{};
+    same.fill(tau);
+    return reduced.gains(reduced.turned(group.product), 1.0, same).front();
 }
 
 GroupGain group_gain(const GroupInformation& group) {
@@ -250,13 +307,20 @@ GroupGain group_gain(const GroupInformation& group) {
 }
 
 GroupGain group_gain(const ReducedGroup& group, const Eigen::VectorXd& product, double factor) {
+    // From one size before the first to more than one after the last.
+    static const std::array<ReducedGroup::Eight, 4> grid{eight_sizes(-1, 1), eight_sizes(7, 1),
+                                                         eight_sizes(15, 1), eight_sizes(23, 1)};
     const Chain chain{group, group.turned(product), factor};
-    std::array<double, sizes> gain{};
-    for (int k = 0; k < sizes; ++k) gain[static_cast<std::size_t>(k)] = chain.gain(size_at(k));
-    const auto best = std::max_element(gain.begin(), gain.end());
+    std::array<double, 8 * grid.size()> gain{};
+    for (std::size_t k = 0; k < grid.size(); ++k) {
+        const ReducedGroup::Eight eight = chain.gains(grid[k]);
+        std::copy(eight.begin(), eight.end(), gain.begin() + 8 * k);
+    }
+    const auto first = gain.begin() + 1, last = first + sizes, best = std::max_element(first, last);
     double sum = 0.0;
-    for (const double g : gain) sum += std::exp(g - *best);
-    const Peak peak = refined(chain, {static_cast<double>(best - gain.begin()), *best});
+    for (auto g = first; g != last; ++g) sum += std::exp(*g - *best);
+    const Peak on_grid{static_cast<double>(best - first), *best};
+    const Peak peak = refined(chain, on_grid, *std::prev(best), *std::next(best));
     return {*best + std::log(sum / sizes), peak.gain, size_at(peak.step)};
 }
 
@@ -270,7 +334,7 @@ BestVariances maximise_likelihood(const GroupEquations& equations, Variances sta
                                   const NoisePrior& prior, int sweeps) {
     Step now(equations, not_absent(std::move(start)), prior);
     for (int k = 0; k < sweeps; ++k) {
-        Step next(equations, one_sweep(equations, now, prior), prior);
+        Step next = one_sweep(equations, now, prior);
         // Written so that a likelihood that cannot be computed (NaN) is a worse one.
         const auto worse = [&] { return !(next.likelihood >= now.likelihood); };
         for (int halved = 0; worse() && halved < 4; ++halved)

@@ -16,6 +16,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 namespace trunnion::estimation {
@@ -101,8 +102,9 @@ class ReducedGroup {
     explicit ReducedGroup(const Eigen::MatrixXd& information);
     /// A product in that basis.
     Eigen::VectorXd turned(Eigen::VectorXd product) const;
-    /// The same as gain_at, for `factor` times the information.
-    double gain(const Eigen::VectorXd& turned, double factor, double tau) const;
+    using Eight = std::array<double, 8>;
+    /// The same as gain_at for eight sizes in ascending order, for `factor` times the information.
+    Eight gains(const Eigen::VectorXd& turned, double factor, const Eight& tau) const;
 
   private:
     Eigen::VectorXd diagonal_, beside_;

@@ -119,7 +119,8 @@ TEST_CASE("a free form that two other causes imitate together is named by what t
         const diagnosis::Model model =
             diagnosis::tuned(design, setting, {{held}, {{2.0}, 1.0}, 0.0}, 3);
         const diagnosis::Searching search{design, setting};
-        const diagnosis::Challenged found = diagnosis::challenged(search, {folds, used}, model);
+        diagnosis::FoldColumns columns(design, {folds, used});
+        const diagnosis::Challenged found = diagnosis::challenged(columns, setting, model);
         REQUIRE(found.model.members == model.members);
         const diagnosis::Claim claim =
             claim_named(claims_of(search, found), imitated ? "free form of Z" : "Z.angular");
@@ -181,8 +182,8 @@ TEST_CASE("a model that a contender beats gives way to it", "[diagnosis]") {
     design.add(group_of(design, "truth", diagnosis::GroupKind::textbook, truth));
     const diagnosis::SearchSetting setting = diagnosis::search_setting(design, {0.0, 0.1});
     const diagnosis::Model model = diagnosis::tuned(design, setting, {{0}, {{4.0}, 1.0}, 0.0}, 3);
-    const diagnosis::Challenged found =
-        diagnosis::challenged({design, setting}, {folds, used}, model);
+    diagnosis::FoldColumns columns(design, {folds, used});
+    const diagnosis::Challenged found = diagnosis::challenged(columns, setting, model);
     CHECK(found.model.members == std::vector<std::size_t>{1});
     REQUIRE(found.contenders.size() == 1);
     CHECK(diagnosis::probability_against(found.contenders.front()) > 0.95);
@@ -202,8 +203,8 @@ TEST_CASE("table and textbook form of one cause are questioned together", "[diag
     const diagnosis::SearchSetting setting = diagnosis::search_setting(design, {0.0, 0.1});
     const diagnosis::Model model =
         diagnosis::tuned(design, setting, {{0, 1}, {{2.0, 3.0}, 1.0}, 0.0}, 3);
-    const diagnosis::Challenged found =
-        diagnosis::challenged({design, setting}, {folds, used}, model);
+    diagnosis::FoldColumns columns(design, {folds, used});
+    const diagnosis::Challenged found = diagnosis::challenged(columns, setting, model);
     REQUIRE(found.model.members == model.members);
     REQUIRE(found.contenders.size() == 2);
     for (const diagnosis::Contender& contender : found.contenders) {
@@ -227,8 +228,8 @@ TEST_CASE("a search that is ended questions no cause, rather than by half a cont
     for (const int steps : {0, 1, 2, 3}) {
         int asked = 0;
         setting.go_on = [&] { return asked++ < steps; };
-        const diagnosis::Challenged found =
-            diagnosis::challenged({design, setting}, {folds, used}, model);
+        diagnosis::FoldColumns columns(design, {folds, used});
+        const diagnosis::Challenged found = diagnosis::challenged(columns, setting, model);
         CHECK(found.model.members == model.members);
         REQUIRE(found.contenders.size() == 1);
         CHECK(found.contenders.front().model.members.empty());

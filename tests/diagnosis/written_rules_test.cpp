@@ -68,6 +68,13 @@ diagnosis::Model fitted(diagnosis::Design& design, std::vector<std::size_t> memb
     return diagnosis::tuned(design, setting, {std::move(members), {start, 1.0}, 0.0}, 5);
 }
 
+diagnosis::Judgement judged(const Rows& rows, diagnosis::Design& design,
+                            const diagnosis::Model& model,
+                            const diagnosis::NoiseBelief& noise = plain_noise) {
+    diagnosis::FoldColumns columns(design, {rows.prepared.folds, rows.used});
+    return diagnosis::judged(columns, rows.prepared, model, noise);
+}
+
 std::vector<std::size_t> written(const Rows& rows, diagnosis::Design& design,
                                  const diagnosis::Model& model,
                                  const diagnosis::Judgement& judgement) {
@@ -96,8 +103,7 @@ TEST_CASE("a drift beside another course of time is not written", "[diagnosis][w
         diagnosis::ColumnGroup group = of_kind(GroupKind::driver, nullptr);
         group.of_time = of_time;
         const diagnosis::Model model = fitted(design, {cause, add(design, group, course)});
-        const diagnosis::Judgement judgement =
-            diagnosis::judged(design, rows.prepared, model, plain_noise, rows.used);
+        const diagnosis::Judgement judgement = judged(rows, design, model);
         INFO(of_time);
         CHECK(judgement.interpolates[0] != of_time);
         CHECK(writes(rows, design, model, judgement) != of_time);
@@ -113,8 +119,7 @@ TEST_CASE("a cause that removes less than half of the gap is not written", "[dia
         const diagnosis::Model model = fitted(
             design,
             {add(design, of_kind(GroupKind::textbook, &rows.effect("C.backlash")), backlash)});
-        const diagnosis::Judgement judgement =
-            diagnosis::judged(design, rows.prepared, model, noise, rows.used);
+        const diagnosis::Judgement judgement = judged(rows, design, model, noise);
         INFO(size);
         REQUIRE(judgement.gap);
         CHECK((judgement.part < 0.5) == (size < 2.0));
@@ -143,8 +148,7 @@ TEST_CASE("a free form is not written where other paths know nothing of it",
         const std::size_t cause =
             add(design, of_kind(GroupKind::textbook, &rows.effect("C.backlash")), everywhere);
         const diagnosis::Model alone = fitted(design, {cause});
-        diagnosis::Judgement judgement =
-            diagnosis::judged(design, rows.prepared, alone, plain_noise, rows.used);
+        diagnosis::Judgement judgement = judged(rows, design, alone);
         judgement.interpolates.push_back(true);
         judgement.large.push_back(false);
         const std::size_t table = add(design, of_kind(GroupKind::table, nullptr), form);
@@ -173,8 +177,7 @@ TEST_CASE("beside free forms a cause is not written where paths are missed by mo
                                  static_cast<double>(rows.count)};
         const std::size_t cause =
             add(design, of_kind(GroupKind::textbook, &rows.effect("C.backlash")), shown);
-        diagnosis::Judgement judgement = diagnosis::judged(
-            design, rows.prepared, fitted(design, {cause}), plain_noise, rows.used);
+        diagnosis::Judgement judgement = judged(rows, design, fitted(design, {cause}));
         judgement.interpolates.push_back(false);
         judgement.large.push_back(false);
         const std::size_t table = add(design, of_kind(GroupKind::table, nullptr), form);
@@ -206,8 +209,7 @@ TEST_CASE("an effect that a single path shows is written where known forms expla
         add(design, of_kind(GroupKind::textbook, &rows.effect("C.backlash")), shown);
     const std::size_t table = add(design, of_kind(GroupKind::table, nullptr), rows.noise(1));
     diagnosis::Model model = fitted(design, {cause});
-    diagnosis::Judgement judgement =
-        diagnosis::judged(design, rows.prepared, model, plain_noise, rows.used);
+    diagnosis::Judgement judgement = judged(rows, design, model);
     REQUIRE(judgement.part > 0.9);
     CHECK(writes(rows, design, model, judgement));
     model = fitted(design, {cause, table});  // a table, which itself is not written

@@ -1,0 +1,146 @@
+#include "estimation/inner_products.h"
+
+#include <algorithm>
+
+#include "estimation/wide_vectors.h"
+
+namespace trunnion::estimation {
+namespace {
+
+using Index = Eigen::Index;
+constexpr Index tall = 4, broad = 2;  ///< columns of A and of B at a time
+constexpr Index in_cache = 512;       ///< rows at a time
+
+/// Columns at a distance of `stride`.
+struct Columns {
+    const double* first;
+    Index stride;
+    const double* at(Index k) const { return first + k * stride; }
+};
+
+inline __attribute__((always_inline)) double sum_of(const Lanes& v) {
+    return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+}
+
+/// Adds the products of one column with another over `count` rows.
+inline __attribute__((always_inline)) void add_one(const double* a, const double* b, Index count,
+                                                   double& out) {
+    Lanes sum{}, x{}, y{};
+    Index k = 0;
+    for (; k + lanes <= count; k += lanes) {
+        load(a + k, x);
+        load(b + k, y);
+        sum += x * y;
+    }
+    double rest = 0.0;
+    for (; k < count; ++k) rest += a[k] * b[k];
+    out += sum_of(sum) + rest;
+}
+
+/// The same for four columns with two.
+inline __attribute__((always_inline)) void add_eight(Columns a, Columns b, Index count, double* out,
+                                                     Index out_stride) {
+    Lanes s00{}, s10{}, s20{}, s30{}, s01{}, s11{}, s21{}, s31{}, x{}, y0{}, y1{};
+    const double *a0 = a.at(0), *a1 = a.at(1), *a2 = a.at(2), *a3 = a.at(3);
+    const double *b0 = b.at(0), *b1 = b.at(1);
+    Index k = 0;
+    for (; k + lanes <= count; k += lanes) {
+        load(b0 + k, y0);
+        load(b1 + k, y1);
+        load(a0 + k, x);
+        s00 += x * y0;
+        s01 += x * y1;
+        load(a1 + k, x);
+        s10 += x * y0;
+        s11 += x * y1;
+        load(a2 + k, x);
+        s20 += x * y0;
+        s21 += x * y1;
+        load(a3 + k, x);
+        s30 += x * y0;
+        s31 += x * y1;
+    }
+    double rest[tall * broad] = {};
+    for (; k < count; ++k)
+        for (Index i = 0; i < tall; ++i) {
+            rest[i] += a.at(i)[k] * b0[k];
+            rest[tall + i] += a.at(i)[k] * b1[k];
+        }
+    double* second = out + out_stride;
+    out[0] += sum_of(s00) + rest[0];
+    out[1] += sum_of(s10) + rest[1];
+    out[2] += sum_of(s20) + rest[2];
+    out[3] += sum_of(s30) + rest[3];
+    second[0] += sum_of(s01) + rest[4];
+    second[1] += sum_of(s11) + rest[5];
+    second[2] += sum_of(s21) + rest[6];
+    second[3] += sum_of(s31) + rest[7];
+}
+
+/// What is known of the factors.
+enum class Known { nothing, upper, same };  ///< A is upper triangular; B is A
+
+struct Shape {
+    Index rows, a_columns, b_columns;
+    Known known;
+};
+
+/// out(i, j) += sum over `count` rows from `first` on.
+inline __attribute__((always_inline)) void add_rows(Columns a, Columns b, const Shape& shape,
+                                                    Index first, Index count, double* out) {
+    const auto rows_of = [&](Index last_column) {
+        return shape.known == Known::upper ? std::clamp<Index>(last_column + 1 - first, 0, count)
+                                           : count;
+    };
+    for (Index j = 0; j < shape.b_columns; j += broad) {
+        const Index end =
+            shape.known == Known::same ? std::min(shape.a_columns, j + broad) : shape.a_columns;
+        for (Index i = 0; i < end; i += tall) {
+            const Index high = std::min(tall, shape.a_columns - i),
+                        wide = std::min(broad, shape.b_columns - j);
+            const Columns own{a.at(i) + first, a.stride}, other{b.at(j) + first, b.stride};
+            double* to = out + i + j * shape.a_columns;
+            const Index used = rows_of(i + high - 1);
+            if (high == tall && wide == broad) {
+                add_eight(own, other, used, to, shape.a_columns);
+                continue;
+            }
+            for (Index q = 0; q < wide; ++q)
+                for (Index p = 0; p < high; ++p)
+                    add_one(own.at(p), other.at(q), used, to[p + q * shape.a_columns]);
+        }
+    }
+}
+
+TRUNNION_WIDE_VECTORS void multiply(Columns a, Columns b, const Shape& shape, double* out) {
+    for (Index k = 0; k < shape.rows; k += in_cache)
+        add_rows(a, b, shape, k, std::min(in_cache, shape.rows - k), out);
+}
+
+Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a,
+                        const Eigen::Ref<const Eigen::MatrixXd>& b, Known known) {
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(a.cols(), b.cols());
+    multiply({a.data(), a.outerStride()}, {b.data(), b.outerStride()},
+             {a.rows(), a.cols(), b.cols(), known}, out.data());
+    return out;
+}
+
+}  // namespace
+
+Eigen::MatrixXd inner_products(const Eigen::Ref<const Eigen::MatrixXd>& a,
+                               const Eigen::Ref<const Eigen::MatrixXd>& b) {
+    return product(a, b, Known::nothing);
+}
+
+Eigen::MatrixXd inner_products(const Eigen::Ref<const Eigen::MatrixXd>& a) {
+    Eigen::MatrixXd out = product(a, a, Known::same);
+    out.triangularView<Eigen::StrictlyLower>() = out.transpose();
+    return out;
+}
+
+Eigen::MatrixXd upper_inner_products(const Eigen::Ref<const Eigen::MatrixXd>& upper,
+                                     const Eigen::Ref<const Eigen::MatrixXd>& b) {
+    return product(upper, b, Known::upper);
+}
+
+}  // namespace trunnion::estimation
