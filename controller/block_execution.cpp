@@ -123,6 +123,10 @@ void set_motion_code(const SortedWords& w, Modal& modal) {
     modal.codes.set(ModalGroup::cycle, 800);
 }
 
+void take_numbers(Control& c) {
+    if (!words_of_builder(c.words)) take_radius_number(c.words, c.modal, c.frames);
+}
+
 /// Everything that acts before the motion of the block.
 void prepare(Control& c) {
     SortedWords& w = c.words;
@@ -133,6 +137,7 @@ void prepare(Control& c) {
     if (w.bare) note_bare_words(w, c.modal, c.mover);
     feed_speed_tool(w, c.modal, c.frames.program);
     if (w.m_count) c.m_codes.run(false, w, c.modal, c.frames, c.mover);
+    take_numbers(c);
     set_motion_code(w, c.modal);
 }
 
@@ -191,6 +196,11 @@ void execute(Control& c, const interpreter::BlockWords& block) {
 }
 
 }  // namespace
+
+void read_block(Control& c, const interpreter::BlockWords& block) {
+    sort_words(block, c.modal, c.words);
+    take_numbers(c);
+}
 
 void execute_block(Control& c, const interpreter::BlockWords& block) try {
     execute(c, block);

@@ -12,4 +12,7 @@ namespace trunnion::controller {
 /// An alarm without a column gets that of the code or word at fault.
 void execute_block(Control& c, const interpreter::BlockWords& block);
 
+/// Raises the alarms that the words alone cause, in whatever state the block is reached.
+void read_block(Control& c, const interpreter::BlockWords& block);
+
 }  // namespace trunnion::controller

@@ -2,7 +2,6 @@
 
 #include "controller/block_execution.h"
 #include "controller/system_variables.h"
-#include "controller/word_sorting.h"
 
 namespace trunnion::controller {
 
@@ -42,7 +41,7 @@ std::optional<Alarm> BlockTrial::run(const interpreter::BlockWords& block) {
 }
 
 std::optional<Alarm> BlockTrial::read(const interpreter::BlockWords& block) {
-    return alarm_of([&] { sort_words(block, state_->control.modal, state_->control.words); });
+    return alarm_of([&] { read_block(state_->control, block); });
 }
 
 std::optional<Alarm> BlockTrial::end() {

@@ -70,11 +70,16 @@ bool keeps_path(const SortedWords& words, Action action) {
 
 }  // namespace
 
+void take_radius_number(const SortedWords& words, Modal& modal, const Frames& frames) {
+    if (!words.has('D')) return;
+    const int number = words.whole('D');
+    const int offsets = static_cast<int>(frames.stores().tools.tool.size());
+    if (number >= offsets) raise_alarm(30, words.column_of('D'));
+    modal.number.radius = number;
+}
+
 void set_cutter(const SortedWords& words, Modal& modal, const Frames& frames, Mover& mover,
                 int code10) {
-    if (words.has('D')) modal.number.radius = words.whole('D');
-    const int offsets = static_cast<int>(frames.stores().tools.tool.size());
-    if (modal.number.radius >= offsets) raise_alarm(30, words.column_of('D'));
     refuse_vector_in_space(words, modal);
     const bool on = code10 != 400, alone = !words.has_axis();
     const bool changes = modal.cutter_is_off() == on;

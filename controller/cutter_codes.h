@@ -7,7 +7,10 @@
 
 namespace trunnion::controller {
 
-/// G40, G41, G42. PS0030 for an offset number that does not exist, PS0034 in an arc block.
+/// D is modal and needs no code in its block; its radius counts from the next side on. PS0030 for
+/// an offset number that does not exist.
+void take_radius_number(const SortedWords& words, Modal& modal, const Frames& frames);
+/// G40, G41, G42. PS0034 in an arc block.
 void set_cutter(const SortedWords& words, Modal& modal, const Frames& frames, Mover& mover,
                 int code10);
 /// G39: an arc round the end of the previous move. PS0010 without G41, G42 or with an axis word.

@@ -99,7 +99,7 @@ constexpr ActionRow rows[] = {
      [](Control& c, const GCode& g) { c.wrapped.set_polar(c.modal, c.frames, g.code10); }},
     {Action::polar_words, polar_words},
     {Action::position_offset,
-     [](Control& c, const GCode&) { take_position_offset(c.words, c.modal, c.frames); }},
+     [](Control& c, const GCode&) { check_position_offset(c.words, c.modal); }},
     {Action::preset,
      [](Control& c, const GCode&) { preset_position(c.words, c.modal, c.frames, c.mover); }},
     {Action::preset_cancel,

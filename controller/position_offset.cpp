@@ -28,11 +28,8 @@ double growth_mm(const SortedWords& words, const Modal& modal, const Frames& fra
 
 }  // namespace
 
-void take_position_offset(const SortedWords& words, Modal& modal, const Frames& frames) {
+void check_position_offset(const SortedWords& words, const Modal& modal) {
     if (!modal.cutter_is_off()) raise_alarm(42);
-    if (words.has('D')) modal.number.radius = words.whole('D');
-    const int offsets = static_cast<int>(frames.stores().tools.tool.size());
-    if (modal.number.radius >= offsets) raise_alarm(30, words.column_of('D'));
     const bool straight = modal.is(ModalGroup::motion, 0) || modal.is(ModalGroup::motion, 10);
     if (!straight && words.has_axis() && !modal.in_cycle()) raise_alarm(9005);
 }

@@ -5,9 +5,8 @@
 
 namespace trunnion::controller {
 
-/// G45 to G48: takes D, which stays selected. PS0030 for an unknown number, PS0042 under cutter
-/// compensation, 9005 with an arc or a thread.
-void take_position_offset(const SortedWords& words, Modal& modal, const Frames& frames);
+/// G45 to G48: PS0042 under cutter compensation, 9005 with an arc or a thread.
+void check_position_offset(const SortedWords& words, const Modal& modal);
 
 /// End of the straight move of this block. With G45 to G48 the way of each linear axis named grows
 /// by the offset (G45), shrinks by it (G46), grows or shrinks by twice the offset (G47, G48), in

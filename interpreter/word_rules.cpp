@@ -40,6 +40,7 @@ constexpr WordRule rows[] = {
     {'G', 100, 'L'},
     {'G', 100, 'P'},
     {'G', 300, 'P', true, 4, 2, 46},
+    {'G', 310, 'P'},
     {'G', 531, 'P', true, 2, 0, 5458},
     {'G', 536, 'P', true, 2, 0, 5458},
     {'G', 541, 'P', true, 300, 1, 31, 31},
@@ -90,7 +91,8 @@ constexpr RowSet of_every_block = rows_where([](const WordRule& r) { return r.co
 constexpr RowSet of_cycles = rows_where([](const WordRule& r) { return r.code10 == canned_cycle; });
 constexpr RowSet with_required_word = rows_where([](const WordRule& r) { return r.missing != 0; });
 constexpr RowSet of_fanuc_alone = rows_where([](const WordRule& r) {
-    return r.letter == 'P' && (r.code10 == 40 || r.code10 == 682 || r.code10 == canned_cycle);
+    return r.letter == 'P' &&
+           (r.code10 == 40 || r.code10 == 310 || r.code10 == 682 || r.code10 == canned_cycle);
 });
 
 /// The rows of each letter of a word, from A.
