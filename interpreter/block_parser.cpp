@@ -61,7 +61,7 @@ bool BlockParser::item(char c) {
     if (c == '#') return assignment(), true;
     if (c == ',') return comma_word(), true;
     if (c == 'N' && first && block_.sequence_number < 0) return number_word(), true;
-    if (is_digit(c) || c == '.') raise_language_alarm(4, column);
+    if (is_digit(c) || c == '.') raise_language_alarm(4, column, in_.blank_inside_number());
     if (c == '+' || c == '-') raise_language_alarm(6, column);
     if (c == '[' || c == ']' || c == '*') raise_language_alarm(114, column);
     if (!is_letter(c))
@@ -216,7 +216,7 @@ void BlockParser::word_value(Item& item) {
     item.value = item.negative ? -n.value : n.value;
     item.negative = false;
     item.decimal_point = n.point;
-    if (in_.peek() == '.') raise_language_alarm(7, in_.column());
+    if (in_.peek() == '.') raise_language_alarm(7, in_.column(), in_.blank_inside_number());
 }
 
 /// Listings show the end of block as ';': accepted at the end of a line.

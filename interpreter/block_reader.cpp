@@ -10,6 +10,18 @@ std::uint16_t BlockReader::column() const {
     return static_cast<std::uint16_t>(std::min<std::ptrdiff_t>(p - begin + 1, 65535));
 }
 
+std::string BlockReader::blank_inside_number() const {
+    const auto of_number = [](char c) { return is_digit(c) || c == '.'; };
+    const char* before = p;
+    while (before != begin && is_blank(before[-1])) --before;
+    if (before == p) return {};
+    const char *first = before, *past = p;
+    while (first != begin && of_number(first[-1])) --first;
+    while (past != end && of_number(*past)) ++past;
+    const bool both = first != before && past != p;
+    return both && std::count(first, past, '.') < 2 ? "a blank inside a number?" : "";
+}
+
 char BlockReader::peek_raw() {
     p = skip_blanks(p, end);
     if (p == end || is_line_end(*p) || *p == control_z) return at_end;
@@ -45,7 +57,7 @@ void BlockReader::read_comment() {
 }
 
 void BlockReader::expect(char c, int alarm) {
-    if (peek() != c) raise_language_alarm(alarm, column());
+    if (peek() != c) raise_language_alarm(alarm, column(), blank_inside_number());
     ++p;
 }
 

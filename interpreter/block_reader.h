@@ -1,6 +1,7 @@
 // Characters of one block: skips blanks and comments, counts positions. Internal to the parser.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "interpreter/code.h"
@@ -28,6 +29,9 @@ class BlockReader {
     /// Skips blanks only and returns the next character as written.
     char peek_raw();
     std::uint16_t column() const;
+    /// Detail of an alarm when just blanks part the digits at `p` from those before, and both
+    /// together would be one number.
+    std::string blank_inside_number() const;
     /// Consumes `c`, or raises `alarm`.
     void expect(char c, int alarm);
 

@@ -99,7 +99,7 @@ void ExpressionParser::number() {
     const Number n = read_number(in_.p, in_.end);
     if (n.digits == 0) raise_language_alarm(7, column);
     if (n.digits > 15) raise_language_alarm(3, column);
-    if (in_.peek() == '.') raise_language_alarm(7, in_.column());
+    if (in_.peek() == '.') raise_language_alarm(7, in_.column(), in_.blank_inside_number());
     emit(OpCode::constant, column, 0);
     out_.ops.back().value = n.value;
 }

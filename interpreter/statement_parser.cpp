@@ -9,8 +9,7 @@ void BlockParser::assignment() {
     expressions_.round_to_increment = false;
     int number = 0;
     const Span target = expressions_.variable_number(number);
-    if (in_.peek() != '=') raise_language_alarm(1133, in_.column());
-    ++in_.p;
+    in_.expect('=', 1133);
     in_.leading = false;
     const Span value = expressions_.expression(Precedence::sum);
     refuse_comparison();

@@ -1,0 +1,7 @@
+%
+O0001 (BLANK BEHIND A POINT)
+(EXPECT ALARM 4)
+(EXPECT TEXT a blank inside a number?)
+G0 X1. 5
+M30
+%

@@ -1,0 +1,7 @@
+%
+O0001 (BLANK INSIDE A BRACKET)
+(EXPECT ALARM 1132)
+(EXPECT TEXT a blank inside a number?)
+#1=[2+1 5]
+M30
+%

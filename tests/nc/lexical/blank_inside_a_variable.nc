@@ -1,0 +1,7 @@
+%
+O0001 (BLANK INSIDE A VARIABLE NUMBER)
+(EXPECT ALARM 1133)
+(EXPECT TEXT a blank inside a number?)
+#10 1=3
+M30
+%

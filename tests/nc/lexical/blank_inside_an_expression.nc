@@ -1,0 +1,7 @@
+%
+O0001 (BLANK INSIDE AN EXPRESSION)
+(EXPECT ALARM 7)
+(EXPECT TEXT a blank inside a number?)
+#1=[2+1 .5]
+M30
+%
