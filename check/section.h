@@ -78,8 +78,8 @@ void check_trial(const CheckSection& section, const CheckOptions& options, Findi
 bool check_family(const std::vector<CheckSection>& sections, const CheckOptions& options,
                   Findings& findings);
 
-/// The constant words of a block; `all`: no word is computed. Never throws; a block with more words
-/// than a control reads gives none.
+/// The words of a block, those that are computed as vacant; `all`: none is computed. Never throws;
+/// a block with more words than a control reads gives none.
 struct ConstantWords {
     interpreter::BlockWords words;
     bool all = true;

@@ -49,7 +49,7 @@ void check_block_words(const interpreter::ParsedProgram& program, const interpre
     bool mapped = false;
     if (options.calls_program)
         for (const interpreter::WordValue& w : constants->words)
-            mapped = mapped || ((w.letter == 'G' || w.letter == 'M') &&
+            mapped = mapped || (!w.vacant && (w.letter == 'G' || w.letter == 'M') &&
                                 options.calls_program(w.letter, code10_of(w.value)));
     if (mapped) return;  // the words are arguments
     auto fault =
@@ -141,11 +141,11 @@ std::optional<ConstantWords> constant_words(const interpreter::ParsedProgram& pr
                                                 ? std::optional<double>(0.0)
                                                 : interpreter::constant_value(program, item);
         out.all = out.all && value;
-        if (!value) continue;
         if (out.words.count == interpreter::BlockWords::capacity) return std::nullopt;
         interpreter::WordValue& word = out.words.words[out.words.count++];
         word.letter = item.letter;
-        word.value = *value;
+        word.value = value.value_or(0.0);
+        word.vacant = !value;
         word.decimal_point = item.decimal_point;
         word.column = item.column;
     }

@@ -30,7 +30,7 @@ bool read_hex_double(std::string_view digits, double& value) {
 void check_words(const BlockWords& words, DialectFamily family) {
     if (words.count == 1) return;  // M99 alone
     if (const auto fault = find_word_fault(words, family, false))
-        raise_language_alarm(fault->alarm, fault->column);
+        raise_language_alarm(fault->alarm, fault->column, fault->detail);
 }
 
 bool is_modal_cancel(const WordValue& word) {

@@ -228,6 +228,17 @@ Violation violation_in_call(const BlockWords& block, bool all_known) {
     return in_repeats;
 }
 
+/// Column of H in `G65 H80 P100` or `G65 H01 P#101`, else 0: custom macro A, whose H names an
+/// operation and whose P is no program (assumed). H behind P or with a point is an argument.
+int column_of_macro_a(const BlockWords& block) {
+    const WordValue* const h = block.begin() + 1;
+    if (block.count < 3 || h->letter != 'H' || h->decimal_point || h->value <= 0.0) return 0;
+    if (!is_macro_call(block.words[0]) || code10_of(block.words[0]) != 650) return 0;
+    return std::any_of(h, block.end(), [](const WordValue& w) { return w.letter == 'P'; })
+               ? h->column
+               : 0;
+}
+
 WordFault fault_of(const WordRule& rule, const Violation& v) {
     const bool of_any_word = v.alarm == 6 || v.alarm == 7;
     return {v.alarm, v.column, of_any_word ? std::string{} : range_text(rule)};
@@ -251,6 +262,10 @@ std::optional<WordFault> find_m_fault(const WordValue& m_word) {
 std::optional<WordFault> find_word_fault(const BlockWords& block, DialectFamily family,
                                          bool all_known) {
     if (std::any_of(block.begin(), block.end(), is_macro_call)) {
+        if (const int column = column_of_macro_a(block))
+            return WordFault{1090, column,
+                             "(custom macro A is not emulated; in a call P stands "
+                             "before H, or H has a point)"};
         const Violation v = violation_in_call(block, all_known);
         return v.alarm == 0 ? std::nullopt : std::optional(fault_of(program_of_call, v));
     }

@@ -16,10 +16,11 @@ struct WordFault {
 };
 
 /// The first word of a block, in written order, that violates a rule. In blocks with G65, G66 or
-/// G66.1 only P and L of the call have rules, because the other words are arguments. Vacant words
-/// count as absent; `<` of a called name replaces P. `all_known`: false when `block` lacks some
-/// words of the written block, so that none counts as missing. `family`: on a Hurco P of G4 and of
-/// cycles is in seconds, and G68.2 has no P and Q.
+/// G66.1 only P and L of the call have rules, because the other words are arguments; G65 of custom
+/// macro A is refused. Vacant words count as absent; `<` of a called name replaces P. `all_known`:
+/// false when `block` lacks some words of the written block, or has them vacant because their value
+/// is unknown, so that none counts as missing. `family`: on a Hurco P of G4 and of cycles is in
+/// seconds, and G68.2 has no P and Q.
 std::optional<WordFault> find_word_fault(const BlockWords& block, DialectFamily family,
                                          bool all_known = true);
 

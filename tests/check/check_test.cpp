@@ -52,6 +52,8 @@ TEST_CASE("each rule finds its fault at its line, once, and not in the mended pr
         {"subprogram-missing", "O1\nM198P7\nM30\nO7\nM99\n", "O1\nM198P5\nM30\n", 2},
         {"word", "O1\nG65P5A1.P2\nM30\n", "O1\nG65P5A1.\nM30\n", 2},
         {"word", "O1\nG66P5G4X1.\nM30\n", "O1\nG66P5L2X1.\nG67\nM30\n", 2},
+        {"word", "O1\nG65H01P#101Q#102\nM30\n", "O1\nG65P#1H2\nM30\n", 2},
+        {"word", "O1\nG65H80P5\nM30\n", "O1\nG65H8.P5\nM30\n", 2},
         {"skip-compensation", "O1\nG42D1\nG31X5.F9.\nG40\nM30\n",
          "O1\nG42D1\nX1.\nG40\nG31X5.F9.\nM30\n", 3},
         {"arc-radius", "O1\nG19G91G3Y10.Z0.J4.K0.F9.\nM30\n", "O1\nG19G91G3Y10.Z0.J5.K0.F9.\nM30\n",
