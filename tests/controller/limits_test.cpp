@@ -57,6 +57,8 @@ TEST_CASE("codes and variables of the machine builder are known and move nothing
     CHECK(b.alarm("G334") == 10);
     b("G333 G1 X10. F100.");
     CHECK(b.sink.moves.size() == 1);
+    b("D3;G333 D5000");  // its own D
+    CHECK(b.control.modal.number.radius == 3);
     controller::ControlVariables variables(b.control);
     for (const int number : {70000, 70009, 900000, 999999}) {
         variables.set(number, number, "");
