@@ -138,39 +138,50 @@ bool is_squareness(const ColumnGroup& group) {
 double alone(const Design& design, std::size_t group, const Eigen::VectorXd& part) {
     const Eigen::VectorXd column = design.projection().beside(design.columns(group)).col(0);
     const double along = column.dot(part);
-    return along * along / (column.squaredNorm() * part.squaredNorm());
+    return along * along / std::max(1e-300, column.squaredNorm() * part.squaredNorm());
+}
+
+/// What a group of one column leaves of a contribution.
+Eigen::VectorXd beside(const Design& design, std::size_t group, const Eigen::VectorXd& part) {
+    const Eigen::VectorXd column = design.projection().beside(design.columns(group)).col(0);
+    return part - column * (column.dot(part) / column.squaredNorm());
 }
 
 /// The chosen model with a squareness, and what that leaves of the cause without its slope, in
-/// place of a member that is mostly slope. An axis with a bow has such a squareness as often as
-/// not: it is no second improbable cause.
+/// place of a member that is mostly slope; a slope in its other direction is another squareness. An
+/// axis with a bow has such a squareness as often as not: it is no second improbable cause.
 std::optional<Contender> with_slope_apart(const Searching& search, const Standing& chosen,
                                           FoldColumns& rows, std::size_t position) {
     Design& design = search.design;
-    const std::string cause = design.group(chosen.model.members[position]).name;
+    const ColumnGroup held = design.group(chosen.model.members[position]);
     const Eigen::VectorXd part = contributions(design, chosen.model, fit_of(design, chosen.model))
                                      .col(static_cast<Eigen::Index>(position));
     Model model = without(chosen.model, position);
     const auto added = [&](const std::function<bool(std::size_t)>& takes) -> std::optional<double> {
         for (const Offer& offer : offers(design, model, is_cause)) {
-            if (!takes(offer.group)) continue;
+            if (!takes(offer.group) || offer.gain.mean < 0.0) continue;
             model = tuned(design, search.setting, with(model, offer), 2);
             return design.group(offer.group).log_prior;
         }
         return std::nullopt;
     };
-    const auto prior = added([&](std::size_t k) {
-        return is_squareness(design.group(k)) && alone(design, k, part) > main_part;
-    });
+    const auto squareness = [&](const Eigen::VectorXd& of, double least) {
+        return added([&](std::size_t k) {
+            return is_squareness(design.group(k)) && alone(design, k, of) > least;
+        });
+    };
+    const auto prior = squareness(part, main_part);
     if (!prior) return std::nullopt;
+    const auto other = squareness(beside(design, model.members.back(), part), least_overlap);
     added([&](std::size_t k) {
         const ColumnGroup& group = design.group(k);
-        return group.name == cause &&
+        return group.name == held.name &&
                std::none_of(group.parameters.begin(), group.parameters.end(),
                             [&](std::size_t j) { return group.effect->parameters[j].mean_line; });
     });
     Contender contender = against(rows, chosen, std::move(model));
     contender.ahead += std::log(0.5) - *prior;
+    if (other) contender.ahead += std::log(0.5) - *other;
     return contender;
 }
 
@@ -210,15 +221,16 @@ namespace {
 /// is squareness, if that is more likely. ISO 230-1 takes straightness from the mean line: its
 /// slope is squareness, and what is left of it may be there as well.
 Contender contender_of(const Searching& search, const Standing& chosen, FoldColumns& rows,
-                       std::size_t held) {
+                       const std::string& cause) {
     Design& design = search.design;
-    const std::string cause = design.group(held).name;
     Contender without_cause = best_without(search, chosen, rows, [&](const ColumnGroup& group) {
         return is_cause(group.kind) && group.name == cause;
     });
     const std::vector<std::size_t>& members = chosen.model.members;
-    const auto at = std::find(members.begin(), members.end(), held);
-    if (!has_slope(design.group(held)) || at == members.end()) return without_cause;
+    const auto at = std::find_if(members.begin(), members.end(), [&](std::size_t k) {
+        return design.group(k).name == cause && has_slope(design.group(k));
+    });
+    if (at == members.end()) return without_cause;
     std::optional<Contender> apart =
         with_slope_apart(search, chosen, rows, static_cast<std::size_t>(at - members.begin()));
     return apart && apart->ahead > without_cause.ahead ? *apart : without_cause;
@@ -260,7 +272,7 @@ std::optional<Model> challenge_each(const Searching& search, const Standing& cho
             contenders[k] = contenders[at->second];
             continue;
         }
-        Contender contender = contender_of(search, chosen, rows, result.model.members[k]);
+        Contender contender = contender_of(search, chosen, rows, cause);
         const bool is_better = contender.ahead >= better && contender.predicted < contender.spread;
         if (may_replace && is_better) return std::move(contender.model);
         contenders[k] = std::move(contender);

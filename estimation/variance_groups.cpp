@@ -202,7 +202,6 @@ GivenMembers::GivenMembers(FactoredMembers factored) : nu_(factored.nu), z_(std:
     const Eigen::VectorXd& tau = factored.tau;
     if (tau.size() == 0) return;
     half_ = inverse_of_lower(factored.factor).topLeftCorner(tau.size(), tau.size());
-    used_ = static_cast<double>(tau.size()) - half_.squaredNorm();
     for (Eigen::Index k = 0; k < tau.size(); ++k) half_.col(k) *= tau(k);
 }
 

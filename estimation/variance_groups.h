@@ -85,12 +85,10 @@ class GivenMembers {
     Eigen::VectorXd mean() const;                          ///< of b, m entries
     Eigen::MatrixXd covariance() const;                    ///< of b: D (L L')^-1 D
     const Eigen::MatrixXd& half() const { return half_; }  ///< R = L^-1 D: R'R = covariance
-    double freedom_used() const { return used_; }          ///< m - trace (L L')^-1
     double nu() const { return nu_; }
 
   private:
     double nu_;
-    double used_ = 0.0;
     Eigen::MatrixXd half_;
     Eigen::VectorXd z_;
 };

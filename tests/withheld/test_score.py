@@ -100,6 +100,12 @@ class Scorer(unittest.TestCase):
                             ("Y.positioning", False), ("C.positioning", True), ("free form of C", True)):
             self.assertFalse(is_right(claim, free, truth, forms), claim)
 
+    def test_true_errors_may_be_named_before_the_effect(self):
+        record = {"truth": ["C.backlash"], "forms": {"X.scale": 3.0, "Y.scale": 0.2}, "free": [False, False]}
+        for before, right in (("X.scale", True), ("Y.scale", False), ("Z.angular", False)):
+            self.assertEqual(score.first_but_true({**record, "claimed": [before, "C.backlash"]}), right, before)
+        self.assertFalse(score.first_but_true({**record, "claimed": ["X.scale", "Z.angular"]}))
+
     def test_every_false_claim_counts(self):
         def give(truth):
             said = answer("explained", ["Q.angular", *truth["effects"]], 1.0)
