@@ -265,10 +265,16 @@ Sizes sizes_of(Design& design, const Model& model, double floor, const std::vect
 
 namespace {
 
-/// Offers that share the probability of a claim: those that a model may contain, and for each of
-/// them that moves an artefact the jump at the same time; for a drift the best jump.
-std::vector<Offer> with_jumps(const Design& design, const ColumnGroup& own,
-                              const std::vector<Offer>& instead, std::vector<Offer> others) {
+const Offer& best_of(const std::vector<Offer>& offers) {
+    return *std::max_element(offers.begin(), offers.end(),
+                             [](const Offer& x, const Offer& y) { return x.value < y.value; });
+}
+
+/// The jumps that share the probability of a claim: for each offer that moves an artefact the one
+/// at the same time; for a drift the best one.
+std::vector<Offer> jumps_among(const Design& design, const ColumnGroup& own,
+                               const std::vector<Offer>& instead,
+                               const std::vector<Offer>& others) {
     const bool of_moves = own.effect && own.effect->kind == effects::EffectKind::artefact_moved;
     std::vector<Offer> jumps;
     for (const Offer& o : instead) {
@@ -280,12 +286,32 @@ std::vector<Offer> with_jumps(const Design& design, const ColumnGroup& own,
         };
         if (!of_moves || std::any_of(others.begin(), others.end(), is_its_move)) jumps.push_back(o);
     }
-    if (!of_moves && jumps.size() > 1)
-        jumps = {*std::max_element(jumps.begin(), jumps.end(), [](const Offer& x, const Offer& y) {
-            return x.value < y.value;
-        })};
-    others.insert(others.begin(), jumps.begin(), jumps.end());
-    return others;
+    if (!of_moves && jumps.size() > 1) jumps = {best_of(jumps)};
+    return jumps;
+}
+
+/// The best ripple that the positions do not resolve. It is not claimed, but it may be the truth.
+std::vector<Offer> unresolved_ripple(const Design& design, const ColumnGroup& own,
+                                     const std::vector<Offer>& instead) {
+    std::vector<Offer> ripples;
+    for (const Offer& o : instead) {
+        const ColumnGroup& group = design.group(o.group);
+        if (design.groups()[o.group].only_rival && !group.machine_jump && group.name != own.name)
+            ripples.push_back(o);
+    }
+    if (ripples.empty()) return {};
+    return {best_of(ripples)};
+}
+
+/// Offers that share the probability of a claim: those that a model may contain, and some that can
+/// only be named as rivals. `instead`: all.
+std::vector<Offer> sharing(const Design& design, const ColumnGroup& own,
+                           const std::vector<Offer>& instead, const std::vector<Offer>& others) {
+    std::vector<Offer> all = jumps_among(design, own, instead, others);
+    const std::vector<Offer> ripple = unresolved_ripple(design, own, instead);
+    all.insert(all.end(), ripple.begin(), ripple.end());
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
 }
 
 }  // namespace
@@ -317,7 +343,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
             std::min({estimation::student_probability(heldout.support[k].saving.t, blocks - 1.0),
                       (blocks + 1.0) / (blocks + 2.0), std::clamp(heldout.explained, 0.0, 1.0)});
         const EvidenceOf told =
-            evidence_of(search, model, worth[k], with_jumps(design, group, instead, others),
+            evidence_of(search, model, worth[k], sharing(design, group, instead, others),
                         temper(sizes, k, heldout.folds));
         // What the evidence leaves open between forms of one axis is open in all that is seen, too.
         const double seen_axis = std::min(seen, told.axis);

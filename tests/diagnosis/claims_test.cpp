@@ -95,6 +95,37 @@ TEST_CASE("a cause that works against the others is doubtful, however much evide
 
 // An angular error seen through one tool length is a straightness with its bow: two causes in place
 // of one, and neither of them alone.
+// On 13 positions 15 degrees apart, a ripple of 8 degrees is a wave of 17 degrees, and the
+// harmonics of the axis fit both.
+TEST_CASE("a ripple that the positions do not resolve shares the probability", "[diagnosis]") {
+    SeededNoise random(31);
+    const std::vector<bool> used(rows, true);
+    const Eigen::MatrixXd shapes = random_matrix(random, 6);
+    for (const bool is_ripple : {true, false}) {
+        const Eigen::MatrixXd ripple = shapes.leftCols(2) - shapes.middleCols(2, 2);
+        Eigen::VectorXd data = random_matrix(random, 1).col(0);
+        if (is_ripple)
+            data += ripple * Eigen::Vector2d(1.5, -1.0);
+        else
+            data += shapes * Eigen::VectorXd::LinSpaced(6, -1.5, 1.5);
+        diagnosis::Design design(random_matrix(random, 2), data, rows);
+        design.add(group_of(design, "Z.straightness", diagnosis::GroupKind::textbook, shapes));
+        diagnosis::ColumnGroup wave =
+            group_of(design, "Z.cyclic", diagnosis::GroupKind::periodic, ripple);
+        wave.effect = &straightness_of_Z();
+        design.keep_as_rival(design.add(std::move(wave)));
+        const diagnosis::SearchSetting setting = diagnosis::search_setting(design, {0.0, 0.1});
+        const diagnosis::Model model =
+            diagnosis::tuned(design, setting, {{0}, {{1.0}, 1.0}, 0.0}, 3);
+        const auto claims = claims_of({design, setting}, unrivalled(model));
+        const diagnosis::Claim& claim = claim_named(claims, "Z.straightness");
+        INFO(is_ripple);
+        CHECK((claim.probability < 0.4) == is_ripple);
+        CHECK((claim.probability > 0.9) == !is_ripple);
+        CHECK(claim.rivals.empty() == !is_ripple);
+    }
+}
+
 TEST_CASE("a free form that two other causes imitate together is named by what they have in common",
           "[diagnosis]") {
     using diagnosis::GroupKind;
