@@ -85,12 +85,17 @@ struct Shape {
     Known known;
 };
 
-/// out(i, j) += sum over `count` rows from `first` on.
+struct Rows {
+    Index first, count;
+};
+
+/// out(i, j) += sum over some rows.
 inline __attribute__((always_inline)) void add_rows(Columns a, Columns b, const Shape& shape,
-                                                    Index first, Index count, double* out) {
+                                                    Rows rows, double* out) {
     const auto rows_of = [&](Index last_column) {
-        return shape.known == Known::upper ? std::clamp<Index>(last_column + 1 - first, 0, count)
-                                           : count;
+        return shape.known == Known::upper
+                   ? std::clamp<Index>(last_column + 1 - rows.first, 0, rows.count)
+                   : rows.count;
     };
     for (Index j = 0; j < shape.b_columns; j += broad) {
         const Index end =
@@ -98,7 +103,8 @@ inline __attribute__((always_inline)) void add_rows(Columns a, Columns b, const 
         for (Index i = 0; i < end; i += tall) {
             const Index high = std::min(tall, shape.a_columns - i),
                         wide = std::min(broad, shape.b_columns - j);
-            const Columns own{a.at(i) + first, a.stride}, other{b.at(j) + first, b.stride};
+            const Columns own{a.at(i) + rows.first, a.stride},
+                other{b.at(j) + rows.first, b.stride};
             double* to = out + i + j * shape.a_columns;
             const Index used = rows_of(i + high - 1);
             if (high == tall && wide == broad) {
@@ -114,7 +120,7 @@ inline __attribute__((always_inline)) void add_rows(Columns a, Columns b, const 
 
 TRUNNION_WIDE_VECTORS void multiply(Columns a, Columns b, const Shape& shape, double* out) {
     for (Index k = 0; k < shape.rows; k += in_cache)
-        add_rows(a, b, shape, k, std::min(in_cache, shape.rows - k), out);
+        add_rows(a, b, shape, {k, std::min(in_cache, shape.rows - k)}, out);
 }
 
 Eigen::MatrixXd product(const Eigen::Ref<const Eigen::MatrixXd>& a,
