@@ -67,11 +67,11 @@ struct BaseModel {
     std::vector<std::string> notes;  ///< large residuals declared as intended
 };
 
-/// Fits the base by Gauss-Newton with Huber weights, at most 8 iterations, ranked least squares in
-/// each (estimation/ranked_least_squares.h). Inseparable parameters keep the combination with the
-/// smallest change. Throws InputError when a device row has no value, and for implausible residuals
-/// (wrong units, frames or setup) unless they are declared as intended by `allow_large` of the
-/// setup's model or by a `sigma_mm` of the row; then they are noted.
+/// Fits the base by Levenberg-Marquardt with Huber weights, at most 20 steps, ranked least squares
+/// in each (estimation/ranked_least_squares.h). Inseparable parameters keep the combination with
+/// the smallest change. Throws InputError when a device row has no value, and for implausible
+/// residuals (wrong units, frames or setup) unless they are declared as intended by `allow_large`
+/// of the setup's model or by a `sigma_mm` of the row; then they are noted.
 BaseModel fit_base(const setup::Setup& setup, const records::ReadingTable& table,
                    const emulator::Replay& replay, const effects::Catalogue& catalogue,
                    const std::vector<std::string>& effects);

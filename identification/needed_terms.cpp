@@ -18,12 +18,9 @@ bool bends(const effects::EffectParameter& p) {
     return !p.is_key() && !p.usual;
 }
 
-/// True for an effect with both its textbook form and further terms.
+/// True for an effect with terms beside its textbook form.
 bool may_bend(const effects::Effect& effect) {
-    const auto& list = effect.parameters;
-    return std::any_of(list.begin(), list.end(), bends) &&
-           std::any_of(list.begin(), list.end(),
-                       [](const auto& p) { return !p.is_key() && p.usual; });
+    return std::any_of(effect.parameters.begin(), effect.parameters.end(), bends);
 }
 
 void hold_straight(effects::Effect& effect) {

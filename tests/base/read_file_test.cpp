@@ -48,6 +48,23 @@ TEST_CASE("what cannot be read is refused with the reason") {
     CHECK(message_of("/proc/self/mem") == "cannot be read: Input/output error");
 }
 
+TEST_CASE("files are noted while a record lives, and not before or after") {
+    const std::string path = fs::temp_directory_path() / ("r" + std::to_string(::getpid()));
+    std::ofstream(path) << "abc";
+    read_file(path);
+    {
+        const ReadRecord record;
+        CHECK(ReadRecord::files().empty());
+        read_file(path);
+        read_file(path);
+        REQUIRE(ReadRecord::files().size() == 1);
+        CHECK(ReadRecord::files()[0].path == path);
+        CHECK(ReadRecord::files()[0].sha256 == sha256("abc"));
+    }
+    CHECK(ReadRecord::files().empty());
+    fs::remove(path);
+}
+
 TEST_CASE("SHA-256 of the examples of FIPS 180-4") {
     CHECK(sha256("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
     CHECK(sha256("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");

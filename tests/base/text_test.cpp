@@ -19,6 +19,9 @@ TEST_CASE("printable text holds nothing that a terminal obeys") {
     CHECK(printable("\xED\xA0\x80") == "???");
     CHECK(printable("\xE0\x9F\xBF") == "???");
     CHECK(printable("\xE0\xA4\x84") == "\xE0\xA4\x84");  // the shortest lead of three bytes
+    // A byte that continues a character, or begins none, does not swallow what stands behind it.
+    CHECK(printable("\x80\x80\x80\x80") == "????");
+    CHECK(printable("\xF5\x80\x80\x80") == "????");
     CHECK(printable("\xF0\x8F\xBF\xBF") == "????");
     CHECK(printable("\xF4\x90\x80\x80") == "????");
     CHECK(screen_width("a\xC2\xB5m") == 3);

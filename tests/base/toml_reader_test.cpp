@@ -21,6 +21,15 @@ TEST_CASE("a message shows the line as it stands in the file, whatever ends it")
     CHECK_THROWS_AS(last.number(*last.root().find("x")), InputError);
 }
 
+TEST_CASE("a key that nobody asked for is told, one that was asked for is not") {
+    const TomlFile file("known = 1\nunknwon = 2\n[a]\nknown = 3\nother = 4\n", "s.toml");
+    file.root().find("known");
+    file.root().find("a")->find("known");
+    CHECK(file.unknown_keys() ==
+          std::vector<std::string>{"s.toml:2:11: key 'unknwon' is not known and ignored",
+                                   "s.toml:5:9: key 'a.other' is not known and ignored"});
+}
+
 TEST_CASE("numbers are finite, at most 1e12, and positive where that is asked") {
     const TomlFile file("a = 1e12\nb = 1.0000001e12\nc = nan\nd = -1\ne = 0\nf = inf\n", "s.toml");
     const auto value = [&](const char* key) { return *file.root().find(key); };

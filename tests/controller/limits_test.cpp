@@ -176,6 +176,13 @@ TEST_CASE("surface speed: the turns in force between the limits, through the cen
     CHECK(b.last().duration_s == Approx(60.0 * 10.0 / 0.1 * 50.0 * 0.001 / at_limit));
 }
 
+TEST_CASE("surface speed: a turn of B alone shows F times the turns of its radius") {
+    Bench b;
+    b("G0 X50.;G96 P1 S100 M3;G95 G1 X20. F0.1;G1 B30.");
+    CHECK(b.last().length_mm == 0.0);
+    CHECK(b.last().feed_mm_min == Approx(0.1 * 100e3 / (2.0 * pi * 20.0)));
+}
+
 TEST_CASE("a whole number of more than nine digits is alarm 3") {
     controller::SortedWords words;
     words.present = controller::SortedWords::bit('Q');

@@ -107,6 +107,18 @@ TEST_CASE("the best size of a group stands between those of the grid", "[estimat
     }
 }
 
+TEST_CASE("the mean gain is that of 26 sizes from 0.01 to 1000, evenly in their logarithm",
+          "[estimation]") {
+    for (const double product : {0.0, 3.0, 8.0}) {
+        const estimation::GroupInformation group{Eigen::MatrixXd::Constant(1, 1, 2.0),
+                                                 Eigen::VectorXd::Constant(1, product)};
+        double sum = 0.0;
+        for (int k = 0; k <= 25; ++k)
+            sum += std::exp(estimation::gain_at(group, 0.01 * std::pow(1e5, k / 25.0)));
+        CHECK(estimation::group_gain(group).mean == Approx(std::log(sum / 26.0)).margin(1e-9));
+    }
+}
+
 TEST_CASE("one factorisation says what each group is beside the others", "[estimation]") {
     const Bench bench;
     const estimation::GroupEquations all = bench.equations();

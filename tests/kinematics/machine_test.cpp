@@ -213,6 +213,19 @@ TEST_CASE("the prepared model is the machine, with and without perturbation") {
     }
 }
 
+TEST_CASE("a ripple comes back after its period, on a rotary axis after a turn") {
+    kinematics::ErrorCurve curve;
+    curve.harmonics = {{1.0, 0.003, 0.004}, {3.0, 0.0, 0.001}};
+    for (const double period_mm : {10.0, 0.0}) {
+        curve.period_mm = period_mm;
+        const double period = period_mm > 0.0 ? period_mm : 2.0 * pi;
+        CHECK(curve(0.0) == Approx(0.003));
+        CHECK(curve(0.5 * period) == Approx(-0.003));
+        CHECK(curve(0.25 * period) == Approx(0.003));  // 0.004 of the first, -0.001 of the third
+        CHECK(curve(7.3 * period) == Approx(curve(0.3 * period)));
+    }
+}
+
 TEST_CASE("error curves: tables hit their points, stay flat beyond, and derivatives are true") {
     kinematics::ErrorCurve curve;
     curve.constant = 0.001;

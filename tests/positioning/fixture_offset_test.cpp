@@ -63,6 +63,11 @@ TEST_CASE("G54.2 groups and FAX as typed") {
     CHECK(f[Axis::X] == Approx(5));
     CHECK(f[Axis::Y] == 0.0);  // 7575#0 of Y is off
     CHECK(f[Axis::Z] == 0.0);
+    for (const int number : {7580, 7584, 7588}) {  // any one of them, typed as 0: no group turns
+        offsets::Parameters one;
+        one.set(number, 0);
+        CHECK_FALSE(positioning::decode_fixture_settings(one, bc_order).assumed);
+    }
     p.set(7581, 4);
     CHECK(alarm_of([&] { positioning::decode_fixture_settings(p, bc_order); }) == 5459);
     p.set(7581, 2);

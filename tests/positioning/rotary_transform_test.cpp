@@ -104,6 +104,28 @@ TEST_CASE("closed orientation inverse of BC and AC tables, both branches") {
     }
 }
 
+TEST_CASE("head-head tip: the second axis stands at P - D, P of the first, D of 19712-19714") {
+    SeededNoise noise(2);
+    for (const Axis tilt : {Axis::A, Axis::B})
+        for (int i = 0; i < 100; ++i) {
+            offsets::PivotParameters pivot = head(tilt);
+            pivot.tool_offset_mm = random_vector(noise, 200);
+            pivot.tool_second_offset_mm = random_vector(noise, 200);
+            pivot.holder_offset_mm = 100.0 * noise.uniform();
+            AxisPositions q;
+            q[Axis::X] = 10.0, q[Axis::Y] = -20.0, q[Axis::Z] = 30.0;
+            q[Axis::C] = 6.0 * (noise.uniform() - 0.5);
+            q[tilt] = 3.0 * (noise.uniform() - 0.5);
+            const Vector3 tool(0.0, 0.0, 150.0);
+            const Vector3 p = pivot.tool_offset_mm + pivot.holder_offset_mm * pivot.tool_direction;
+            const Vector3& d = pivot.tool_second_offset_mm;
+            const Matrix3 swing = tilt == Axis::A ? rx(q[tilt]) : ry(q[tilt]);
+            const Vector3 expected =
+                Vector3(10.0, -20.0, 30.0) + p + rz(q[Axis::C]) * (-d + swing * (d - p - tool));
+            CHECK((positioning::RotaryTransform(pivot).tip_W(q, tool) - expected).norm() < 1e-10);
+        }
+}
+
 TEST_CASE("the tool along an axis leaves that axis where it is") {
     const positioning::RotarySolution keep{0.3, 1.25};
     for (const Axis tilt : {Axis::A, Axis::B}) {
