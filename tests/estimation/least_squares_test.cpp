@@ -81,6 +81,22 @@ TEST_CASE("pure error is the scatter inside settings", "[estimation]") {
     CHECK(estimation::pure_error(v, std::vector<int>(900, -1)).freedom == 0.0);
 }
 
+TEST_CASE("places of a free form go together as Matern 3/2 of their distance says",
+          "[estimation]") {
+    const std::vector<double> knots{0.0, 10.0, 25.0, 70.0};
+    const double length = 20.0;
+    const Eigen::MatrixXd shape =
+        estimation::smooth_shapes(knots, length, Eigen::MatrixXd(4, 0), 4);
+    for (Eigen::Index i = 0; i < 4; ++i)
+        for (Eigen::Index j = 0; j < 4; ++j) {
+            const double s =
+                std::sqrt(3.0) / length *
+                std::abs(knots[static_cast<std::size_t>(i)] - knots[static_cast<std::size_t>(j)]);
+            CHECK((shape * shape.transpose())(i, j) ==
+                  Approx((1.0 + s) * std::exp(-s)).margin(1e-9));
+        }
+}
+
 TEST_CASE("free forms leave out what the textbook owns and follow any smooth curve",
           "[estimation]") {
     std::vector<double> places;
@@ -96,6 +112,9 @@ TEST_CASE("free forms leave out what the textbook owns and follow any smooth cur
     const Eigen::MatrixXd line = estimation::polynomials_at(knots, 2);
     const auto lengths = estimation::correlation_lengths(knots);
     REQUIRE(lengths.size() == 4);
+    // No length shorter than most distances of the knots.
+    CHECK(estimation::correlation_lengths({0.0, 10.0, 20.0, 30.0}) ==
+          std::vector<double>{15.0, 7.5});
     const Eigen::MatrixXd shape = estimation::smooth_shapes(knots, lengths[2], line, 24);
     CHECK((line.transpose() * shape).cwiseAbs().maxCoeff() < 1e-9);
     Eigen::VectorXd curve(31);

@@ -35,6 +35,13 @@ TEST_CASE("GOTO does the same through the cache as at the first reading") {
     CHECK(r.blocks == Blocks{"M30"});
 }
 
+TEST_CASE("GOTO with a variable goes where it points each time, through the cache too") {
+    const Run r =
+        run("#1=1\nN1#9=#9+1\nIF[#9GT9]GOTO99\nGOTO[10*#1]\nN10X1.\n#1=2\nGOTO1\nN20X2.\n#1=3\n"
+            "GOTO1\nN30X3.\n#1=4\nGOTO1\nN40X4.\nN99M30\n");
+    CHECK(r.blocks == Blocks{"X1", "X2", "X3", "X4", "M30"});
+}
+
 TEST_CASE("WHILE loops nest three deep and run the right number of times") {
     const Run r =
         run("#1=0\n#100=0\nWHILE[#1LT3]DO1\n#2=0\nWHILE[#2LT4]DO2\n#3=0\n"

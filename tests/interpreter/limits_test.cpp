@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "interpreter/parse.h"
+#include "interpreter/word_rules.h"
 #include "support.h"
 
 using namespace trunnion;
@@ -348,4 +349,16 @@ TEST_CASE("the value of a word that is written as a number") {
     CHECK(value("X-[5.]\n") == -5.0);
     CHECK_FALSE(value("X[5.+5.]\n"));
     CHECK_FALSE(value("X#5\n"));
+}
+
+TEST_CASE("a call needs the program that it calls, and nothing else") {
+    const auto alarm_of_words = [](const std::vector<interpreter::WordValue>& words) {
+        interpreter::BlockWords block;
+        for (const interpreter::WordValue& word : words) block.words[block.count++] = word;
+        const auto fault = interpreter::find_word_fault(block, interpreter::DialectFamily::fanuc);
+        return fault ? fault->alarm : 0;
+    };
+    CHECK(alarm_of_words({{65.0, 'G'}, {1.0, 'A'}}) == 76);
+    CHECK(alarm_of_words({{65.0, 'G'}, {100.0, 'P'}}) == 0);
+    CHECK(alarm_of_words({{65.0, 'G'}, {0.0, '<'}, {1.0, 'A'}}) == 0);
 }

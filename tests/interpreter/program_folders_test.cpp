@@ -56,6 +56,14 @@ TEST_CASE("programs of a file that a control punched: LF CR CR ends its lines") 
     CHECK_FALSE(programs.find(9811));
 }
 
+TEST_CASE("a file with the number 0 is found by its name") {
+    const Folder folder;
+    folder.write("O0000.nc", "M99\n");
+    interpreter::ProgramFolders programs({folder.path.string()});
+    REQUIRE(programs.find(0));
+    CHECK_THAT(programs.find(0)->name, Catch::EndsWith("O0000.nc"));
+}
+
 TEST_CASE("a file with zero bytes is no program, whatever its lines begin with") {
     const Folder folder;
     folder.write("tool", std::string("\x7f"

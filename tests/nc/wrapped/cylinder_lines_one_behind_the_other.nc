@@ -1,0 +1,11 @@
+%
+O0001 (CYLINDER LINES ONE BEHIND THE OTHER)
+(Each turns by 40 deg on radius 57.2957795 and goes 30 mm: 50 mm at 60 mm/min)
+(EXPECT TIME 100.)
+(EXPECT LAST G1 Z0. C80.)
+G7.1 C57.295779513
+G1 Z30. C40. F60.
+Z0. C80.
+G7.1 C0.
+M30
+%
