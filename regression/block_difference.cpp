@@ -32,7 +32,6 @@ std::vector<WrittenWord> words_of(const std::string& block) {
         if (c == '(' || c == ')') comment = c == '(';
         if (comment || c == ')' || interpreter::is_blank(c) || (c == '/' && words.empty()))
             continue;
-        if (c == '=' || (c == '#' && words.empty())) return {};
         depth += c == '[' ? 1 : c == ']' ? -1 : 0;
         const bool begins_word = interpreter::is_letter(c) && depth == 0;
         if (begins_word && !words.empty() && words.back().number.empty()) return {};  // IF, GOTO

@@ -103,5 +103,7 @@ TEST_CASE("a part of an arc keeps its centre and turns by its own angle") {
     CHECK(between(arc, {5, 0}, {-c, c}).sweep_rad == Approx(3 * pi / 4));
     const PlaneElement clockwise{{0, 5}, {5, 0}, true, {0, 0}, -pi / 2};
     CHECK(between(clockwise, {c, c}, {5, 0}).sweep_rad == Approx(-pi / 4));
+    const PlaneElement elsewhere{{25, 7}, {20, 12}, true, {20, 7}, pi / 2};
+    CHECK(between(elsewhere, {20 + c, 7 + c}, {20, 12}).sweep_rad == Approx(pi / 4));
     CHECK(between({{0, 0}, {9, 0}, false, {}, 0.0}, {1, 0}, {2, 0}).sweep_rad == 0.0);
 }

@@ -48,11 +48,11 @@ TEST_CASE("1022: U, V and W beside X, Y or Z, and nothing else") {
     const std::vector<Axis> xyzuvw{Axis::X, Axis::Y, Axis::Z, Axis::U, Axis::V, Axis::W};
     offsets::Parameters p;
     const auto none = offsets::parallel_axes(p, xyzuvw);
-    p.entry[1022].by_axis = {{4, 5.0}, {5, 7.0}, {6, 4.0}, {1, 6.0}, {9, 5.0}};
+    p.entry[1022].by_axis = {{4, 5.0}, {5, 7.0}, {6, 3.0}, {1, 6.0}, {9, 5.0}};
     auto some = offsets::parallel_axes(p, xyzuvw);
     CHECK(some.beside[0] == 0);               // U beside X
     CHECK(some.beside[1] == 2);               // V beside Z
-    CHECK(some.beside[2] == none.beside[2]);  // 4 is no parallel axis
+    CHECK(some.beside[2] == none.beside[2]);  // 3 is no parallel axis
     p.entry[1022].by_axis = {{6, 8.0}};
     some = offsets::parallel_axes(p, xyzuvw);
     CHECK(some.beside == none.beside);

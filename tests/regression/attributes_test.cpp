@@ -65,6 +65,25 @@ TEST_CASE("feeds by time are compared over a stretch, not piece by piece", "[com
     CHECK_FALSE(compared(60, 60, timed(0.0)).clusters.empty());
 }
 
+TEST_CASE("feeds by time changed by one ratio, but for rounding, are one difference", "[compare]") {
+    const auto cut = [](double first_mm_min, double second_mm_min) {
+        Pen pen;
+        pen.at(0, 0, 0);
+        for (int k = 1; k <= 60; ++k) {
+            regression::Segment s = pen.segment(regression::SegmentKind::feed, k, 0, 0);
+            s.timed = k != 30;  // what is no feed by time ends a stretch
+            if (s.timed) s.feed_mm_min = static_cast<float>(k < 30 ? first_mm_min : second_mm_min);
+            pen.add(s);
+        }
+        return pen;
+    };
+    Pen a = cut(500.0, 300.0), b = cut(550.0, 331.5), c = cut(500.0, 300.0), d = cut(550.0, 300.0),
+        e = cut(500.0, 300.0), f = cut(550.0, 390.0);
+    CHECK(compare(a, b).clusters.size() == 1);
+    CHECK(compare(c, d).clusters.size() == 1);
+    CHECK(compare(e, f).clusters.size() == 2);
+}
+
 TEST_CASE("a tool that turns in place takes no time that could be compared", "[compare]") {
     const auto turning = [](double feed_mm_min) {
         Pen pen;

@@ -182,6 +182,7 @@ TEST_CASE("the environment of arrays, indexed jobs and MPI names the shard", "[s
          3,
          4},
         {{{"JOB_COMPLETION_INDEX", "0"}}, "/8", 1, 8},
+        {{{"JOB_COMPLETION_INDEX", "0"}}, "/1", 1, 1},
         {{{"OMPI_COMM_WORLD_RANK", "5"}, {"OMPI_COMM_WORLD_SIZE", "6"}}, "env", 6, 6},
         {{{"PMI_RANK", "1"}, {"PMI_SIZE", "2"}}, "env", 2, 2},
         {{}, "2/5", 2, 5},

@@ -1,0 +1,64 @@
+// Where a difference is said to be: pictures behind a jump, tails behind long insertions, blocks
+// that only one side has.
+#include <catch2/catch.hpp>
+
+#include "base/random.h"
+#include "regression/closeup.h"
+#include "tests/regression/paths.h"
+#include "tests/regression/programs.h"
+
+using namespace trunnion;
+using namespace trunnion::testing;
+
+TEST_CASE("a state that a subprogram sets has its place there, and beside the same move in B",
+          "[compare]") {
+    const std::string with =
+        "O1\nG90 G21 G94 G54\nT1 M6\nS5000 M3\nG0 X0. Y0. Z50.\nG1 Z-1. F200.\nX10.\nG0 Z50.\n"
+        "M98 P2\nG0 X20.\nY5.\nZ5.\nG1 Z-1.\nX30.\nX31.\nX32.\nG0 Z50.\nM30\nO2\nS6000\nM99\n";
+    const std::string without = replaced(with, "S6000\n", "#1=1\n");
+    const regression::Comparison lost = compare_texts(with, without, bc_table());
+    REQUIRE(lost.differences.size() == 1);
+    CHECK(lost.differences[0].cause == "S6000 is missing in B, S5000 stays in force");
+    CHECK(lost.differences[0].a.line == line_with(with, "S6000"));
+    CHECK(lost.differences[0].b.line == line_with(without, "G0 X20."));
+    const regression::Comparison added = compare_texts(without, with, bc_table());
+    REQUIRE(added.differences.size() == 1);
+    CHECK(added.differences[0].a.line == line_with(without, "G0 X20."));
+    CHECK(added.differences[0].b.line == line_with(with, "S6000"));
+}
+
+TEST_CASE("a short tail is equal behind thousands of inserted segments", "[compare]") {
+    SeededNoise noise(11);
+    Pen a, b;
+    a.at(0, 0, 0);
+    b.at(0, 0, 0);
+    for (int k = 0; k < 300; ++k) {
+        const double x = 0.3 * k, y = noise.uniform();
+        a.cut(x, y, 0);
+        if (k == 200)
+            for (int n = 0; n < 3000; ++n) b.cut(x + noise.uniform(), 5 + noise.uniform(), 3);
+        b.cut(x, y, 0);
+    }
+    for (const bool swapped : {false, true}) {
+        const regression::PathComparison r = swapped ? compare(b, a) : compare(a, b);
+        REQUIRE(r.clusters.size() == 1);
+        const regression::PathRegion& first = r.clusters[0].first;
+        CHECK(std::min(first.a.last - first.a.first, first.b.last - first.b.first) <= 1);
+    }
+}
+
+TEST_CASE("a picture shows what is cut behind a jump of the tip", "[compare]") {
+    Pen a, b;
+    for (Pen* pen : {&a, &b}) {
+        pen->at(0, 0, 0).cut(10, 0, 0);
+        pen->add(pen->segment(regression::SegmentKind::jump, 10, 0, -50));
+        pen->cut(20, pen == &b ? 1 : 0, -50).cut(30, 0, -50);
+    }
+    const auto closeup =
+        regression::closeup_of(a.done(), {1, 5}, b.done(), {1, 5}, regression::Tolerances{});
+    REQUIRE(closeup);
+    CHECK(closeup->apart_mm() == Approx(1.0).margin(0.01));
+    CHECK(closeup->place_mm[0] == Approx(20.0));
+    CHECK(closeup->place_mm[2] == Approx(-50.0));
+    CHECK(closeup->a.back()[0] == Approx(30.0));
+}
