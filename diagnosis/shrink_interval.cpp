@@ -46,8 +46,9 @@ double chance_of_remainder(const std::vector<Missed>& missed) {
     }
     if (sum <= 0.0 || square <= 0.0) return 0.0;  // tiny squares underflow
     const double n = static_cast<double>(missed.size());
-    const double factor = std::exp(0.5 * sum * sum / square * n / (n + 1.0)) / std::sqrt(n + 1.0);
-    return factor / (1.0 + factor);
+    // Of the evidence against it, which underflows for many stretches where the other overflows.
+    const double against = std::exp(-0.5 * sum * sum / square * n / (n + 1.0)) * std::sqrt(n + 1.0);
+    return 1.0 / (1.0 + against);
 }
 
 double remainder_per_row(const std::vector<Missed>& missed, double noise_factor,
