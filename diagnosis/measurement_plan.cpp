@@ -100,7 +100,7 @@ void MeasurementPlan::wait(double seconds) {
 AxisPositions MeasurementPlan::rotary_at(const std::vector<double>& angles_deg,
                                          double back_deg) const {
     AxisPositions at;
-    for (std::size_t k = 0; k < rotary_.size() && k < angles_deg.size(); ++k)
+    for (std::size_t k = 0; k < rotary_.size(); ++k)
         at[rotary_[k].axis] = rad_from_deg(plan_rounded(angles_deg[k] - back_deg, 1e-4));
     return at;
 }

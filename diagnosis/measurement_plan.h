@@ -62,6 +62,7 @@ class MeasurementPlan {
         bool reachable = true;
     };
     Target aim(const AxisPositions& rotary, const Vector3& target_W, const Vector3& tip_S) const;
+    /// One angle for each rotary axis.
     AxisPositions rotary_at(const std::vector<double>& angles_deg, double back_deg) const;
     void pass_through(const AxisPositions& at);
     void go(const AxisPositions& at, bool linear);

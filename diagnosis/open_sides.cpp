@@ -34,7 +34,7 @@ bool may_join(const Prepared& p, const effects::Effect& effect,
 void take_promising_sides(Prepared& p) {
     std::vector<identification::KeyedEffect> taken;
     double most = 0.0;
-    for (bool grown = !p.open_sides.empty(); std::exchange(grown, false);) {
+    while (!p.open_sides.empty()) {
         const effects::Effect* best = nullptr;
         double promised = most + promising_squares;
         for (const effects::Effect& effect : p.catalogue) {
@@ -50,7 +50,6 @@ void take_promising_sides(Prepared& p) {
         if (!best) break;
         taken.push_back({best, best->zeros(), {}});
         most = promised;
-        grown = true;
     }
     take_plus(p);
     sides_for(p, taken);

@@ -93,6 +93,21 @@ TEST_CASE("a cause that works against the others is doubtful, however much evide
     CHECK(claim_named(claims, "against").probability <= 0.4);
 }
 
+TEST_CASE("a sure cause stays sure beside one that may be none", "[diagnosis]") {
+    SeededNoise random(31);
+    const Eigen::MatrixXd columns = random_matrix(random, 2);
+    const Eigen::VectorXd data =
+        8.0 * columns.col(0) + 0.17 * columns.col(1) + random_matrix(random, 1).col(0);
+    diagnosis::Design design(random_matrix(random, 2), data, rows);
+    for (const auto& [name, k] : {std::pair("sure", 0), std::pair("Zweak", 1)})
+        design.add(group_of(design, name, diagnosis::GroupKind::textbook, columns.col(k)));
+    const diagnosis::SearchSetting setting = diagnosis::search_setting(design, {0.0, 0.1});
+    const diagnosis::Model model =
+        diagnosis::tuned(design, setting, {{0, 1}, {{8.0, 0.2}, 1.0}, 0.0}, 3);
+    const auto claims = claims_of({design, setting}, unrivalled(model));
+    CHECK(claim_named(claims, "sure").probability > 0.99);
+}
+
 // An angular error seen through one tool length is a straightness with its bow: two causes in place
 // of one, and neither of them alone.
 // On 13 positions 15 degrees apart, a ripple of 8 degrees is a wave of 17 degrees, and the
