@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "base/numbers.h"
+#include "base/random.h"
+#include "base/units.h"
 
 using namespace trunnion;
 
@@ -68,6 +70,9 @@ TEST_CASE("sizes and units in words") {
     CHECK(length_words(0.00004) == "0 µm");
     CHECK(length_words(421.72) == "422 µm");
     CHECK(length_words(32715.725) == "32.7 mm");
+    CHECK(length_words(1000.0) == "1.00 mm");
+    CHECK(angle_words(421.72) == "422 µrad");
+    CHECK(angle_words(1000.0) == "1.00 mrad");
     CHECK(shown_unit("um") == "µm");
     CHECK(shown_unit("um/m") == "µm/m");
     CHECK(shown_unit("urad") == "µrad");
@@ -80,4 +85,16 @@ TEST_CASE("a number may have one sign and blanks around it") {
     CHECK(parse_number(" -5.5\t") == -5.5);
     for (const char* text : {"", "+", "+-5", "-+5", "++5", "5 5", "5x"})
         CHECK_FALSE(parse_number(text));
+}
+
+TEST_CASE("an angle in degrees reads back as the same angle, in the fewest digits") {
+    CHECK(shortest_degrees(rad_from_deg(12.5)) == "12.5");
+    CHECK(shortest_degrees(rad_from_deg(-0.25)) == "-0.25");
+    SeededNoise random(3);
+    for (int k = 0; k < 200; ++k) {
+        const double angle_rad = random.uniform();
+        const auto read = parse_number(shortest_degrees(angle_rad));
+        REQUIRE(read);
+        CHECK(rad_from_deg(*read) == Approx(angle_rad).epsilon(1e-15));
+    }
 }

@@ -105,6 +105,7 @@ TEST_CASE("free forms leave out what the textbook owns and follow any smooth cur
     REQUIRE(knots.size() == 31);
     CHECK(estimation::knots_of(places, 12).size() == 12);
     CHECK(estimation::knots_of({3.0, 3.0}, 12).empty());
+    CHECK(estimation::knots_of({-10.0, -10.0 + 1e-9, 10.0}, 12).size() == 2);
     const auto [before, weight] = estimation::place_between(knots, 104.0);
     CHECK(before == 10);
     CHECK(weight == Approx(0.4));

@@ -153,6 +153,19 @@ TEST_CASE("the likelihood is at its maximum", "[estimation]") {
     }
 }
 
+TEST_CASE("the noise of few readings stands between its prior and their scatter", "[estimation]") {
+    const estimation::GroupEquations none{
+        Eigen::MatrixXd(0, 0), Eigen::VectorXd(0), 9.0 * 20.0, 20.0, {}};
+    for (const double spread : {0.05, 0.2, 1.0}) {
+        const estimation::NoisePrior prior{0.0, spread};
+        const auto [best, most] = estimation::maximise_likelihood(none, {{}, 1.0}, prior, 20);
+        CHECK(best.nu > 1.0);
+        CHECK(best.nu < 3.0);
+        for (const double factor : {0.98, 1.02})
+            CHECK(estimation::restricted_likelihood(none, {{}, factor * best.nu}, prior) < most);
+    }
+}
+
 TEST_CASE("the maximum of the likelihood is the same from far away", "[estimation]") {
     const Bench bench;
     const estimation::GroupEquations all = bench.equations();

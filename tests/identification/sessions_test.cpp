@@ -163,6 +163,16 @@ TEST_CASE("a written setup reads each session with its own values, alone and tog
     const auto again = identification::identify(written, both, {"XY.squareness"});
     CHECK(again.rms_before_um < 1e-3);
     CHECK(value_of(again, "CMM.z_mm.tuesday") == Approx(-0.03).margin(1e-5));
+    // On another Monday the part lies elsewhere.
+    records::ReadingTable monday = points(real, "monday", 2);
+    measure(real, {0.05, -0.02, 0.03}, {0, 0, rad_from_deg(-0.02)}, 10e-6, monday);
+    records::ReadingTable moved = both;
+    std::copy(monday.rows.begin(), monday.rows.end(), moved.rows.begin());
+    const auto anew = identification::identify(written, moved, {"XY.squareness"});
+    CHECK(anew.rms_before_um > 20.0);
+    CHECK(anew.rms_after_um < 1e-3);
+    CHECK(value_of(anew, "CMM.x_mm.monday") == Approx(0.05).margin(1e-5));
+    CHECK(value_of(anew, "CMM.z_mm.tuesday") == Approx(-0.03).margin(1e-5));
 }
 
 TEST_CASE("a session of a setup names places that the setup has", "[identification][sessions]") {

@@ -36,6 +36,13 @@ TEST_CASE("G53.1 takes the least move of the master, then of the slave, then nea
     CHECK(is(chosen({0, 0}, {}, positioning::Branch::negative), -30, -130));
     CHECK(is(chosen({-20 * deg, 0}, {}, positioning::Branch::positive), 30, 50));
     CHECK(is(chosen({0, 5000 * deg}), 30, 5090));  // nearest turn of C
+    // Of two that are equal in everything the first one.
+    q[Axis::C] = 90 * deg;
+    const auto level = positioning::choose_rotaries(belief, belief.tool_direction_W(q), {0, 0}, {},
+                                                    positioning::Branch::nearest);
+    REQUIRE(level.all.size() == 2);
+    REQUIRE(level.chosen);
+    CHECK(*level.chosen == level.all.front());
     positioning::RotaryTravel narrow;
     narrow.first = {-5 * deg, 110 * deg};
     CHECK(is(chosen({-4 * deg, -130 * deg}, narrow), 30, 50));
