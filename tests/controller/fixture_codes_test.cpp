@@ -42,6 +42,21 @@ TEST_CASE("G54.2: motion of both rotaries, cancel, change of set, with G43") {
     CHECK(xyz(b.last().to) == with_77);
 }
 
+TEST_CASE("G54.2 says that it assumes a table, and only then") {
+    const auto notes = [](const char* program, bool typed) {
+        TableBench b;
+        if (typed)
+            for (const auto& [number, axis] : {std::pair(7580, 5), {7581, 1}, {7582, 2}})
+                b.stores.parameters.set(number, axis);
+        b.control.parameters_changed();
+        b.run(program);
+        return b.control.mover.record().notes.size();
+    };
+    CHECK(notes("G90 G54 G0 X0;G54.2 P1", false) == 1);
+    CHECK(notes("G90 G54 G0 X0;G54.2 P1", true) == 0);
+    CHECK(notes("G90 G54 G0 X0;G54.2 P0", false) == 0);
+}
+
 TEST_CASE("G54.2 as a shift: 7570#0 = 1 leaves the axes in a block that only turns") {
     TableBench b;
     b.stores.parameters.set(7570, 1);

@@ -13,6 +13,7 @@ using bench::Bench;
 TEST_CASE("the title of an alarm: its own prefix, MC for #3000, else PS") {
     CHECK(controller::alarm_title(3001, "DOOR") == "MC3001 DOOR");
     CHECK(controller::alarm_title(4999, "DOOR") == "MC4999 DOOR");
+    CHECK(controller::alarm_title(5000, "DOOR") == "PS5000 DOOR");
     CHECK(controller::alarm_title(2999, "DOOR") == "PS2999 DOOR");
     CHECK(controller::alarm_title(999999, "DOOR") == "PS999999 DOOR");
     CHECK(controller::alarm_title(10, "TEXT") == "PS0010 TEXT");
@@ -174,6 +175,12 @@ TEST_CASE("surface speed: the turns in force between the limits, through the cen
     CHECK(b.last().duration_s == Approx(out_s));
     b("G1 Z-10.");
     CHECK(b.last().duration_s == Approx(60.0 * 10.0 / 0.1 * 50.0 * 0.001 / at_limit));
+}
+
+TEST_CASE("surface speed: G96 without a speed leaves the spindle as it turns") {
+    Bench b;
+    b("S500 M3;G0 X50.;G96 P1;G0 X10.");
+    CHECK(b.control.modal.spindle.rpm == 500.0);
 }
 
 TEST_CASE("surface speed: a turn of B alone shows F times the turns of its radius") {

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "diagnosis/candidate_groups.h"
 #include "diagnosis/diagnosis.h"
 #include "effects/settings.h"
 #include "emulator/replay.h"
@@ -45,6 +46,28 @@ records::ReadingTable grid() {
 }
 
 }  // namespace
+
+TEST_CASE("a dependence on a product of two positions has its usual size at the corners",
+          "[diagnosis]") {
+    const setup::Setup setup = bench();
+    const records::ReadingTable read = emulator::predicted(setup, grid(), {});
+    const diagnosis::Prepared prepared = diagnosis::prepare(setup, read);
+    const diagnosis::Whitener whitener(prepared.replay, prepared.blocks, {},
+                                       prepared.base.sigma_mm);
+    const auto rows = static_cast<Eigen::Index>(prepared.replay.size());
+    diagnosis::Design design(Eigen::MatrixXd(rows, 0), Eigen::VectorXd::Zero(rows),
+                             static_cast<double>(rows));
+    diagnosis::add_driver_groups(design, prepared, whitener, 0);
+    int found = 0;
+    for (std::size_t k = 0; k < design.groups().size(); ++k) {
+        if (design.group(k).name != "X and Y") continue;
+        ++found;
+        const Eigen::MatrixXd columns = design.columns(k) * 1.5e-3;  // sigma
+        for (Eigen::Index c = 0; c < columns.cols(); ++c)
+            CHECK(columns.col(c).cwiseAbs().maxCoeff() == Approx(5e-3));
+    }
+    CHECK(found == 1);
+}
 
 // The slope of a line is squareness by definition (ISO 230-1); a bow of the scatter beside it must
 // not turn all of it into straightness.

@@ -152,6 +152,23 @@ TEST_CASE("keys are searched: time constant of a drift", "[identification]") {
     REQUIRE(result.rms_after_um == Approx(0.8).epsilon(0.1));
 }
 
+TEST_CASE("a key beyond the last one of its grid is found", "[identification]") {
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 120, 3);
+    for (records::Reading& row : table.rows) row.time_s *= 20.0;
+    const effects::Catalogue catalogue =
+        effects::make_catalogue(setup, effects::extent_of(setup, table));
+    const std::vector<double>& grid =
+        effects::find_effect(catalogue, "thermal.drift")->parameters.back().grid;
+    const double tau_s = 1.3 * grid.back();
+    const setup::Setup truth = campaign::with_effect(
+        setup, "thermal.drift: d_mm=[0.05, 0, 0.1], tau_s=" + std::to_string(tau_s));
+    const identification::Identification result = identification::identify(
+        setup, campaign::measured(truth, table, 1, 0.0), {"thermal.drift"});
+    CHECK(found(result, "tau_s") == Approx(tau_s).epsilon(1e-3));
+}
+
 TEST_CASE("the sigma of a key is how far it scatters", "[identification]") {
     const setup::Setup setup = campaign::bc_setup();
     const setup::Setup truth =

@@ -37,6 +37,7 @@ TEST_CASE("canonical text") {
     CHECK(printed("WH[#1NE0]DO1") == "WHILE[#1 NE 0] DO1");
     CHECK(printed("#1=AT[#2]/[#3]") == "#1=ATAN[#2]/[#3]");
     CHECK(printed("#1=[ATAN[#2]]/[#3+1]") == "#1=[ATAN[#2]]/[#3+1]");
+    CHECK(printed("#1=PRM[1,2]/[3]/[#4+1]") == "#1=PRM[1,2]/[3]/[#4+1]");
     CHECK(printed("X-#1Y-[#2]Z[5.]") == "X-#1 Y-#2 Z[5]");
     CHECK(printed("IF[#1EQ1]TH#[3006-#2]=1(T)") == "IF[#1 EQ 1] THEN #[3006-#2]=1 (T)");
     CHECK(printed("DP[ A#1[44] B ]") == "DPRNT[A#1[44]B]");

@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "base/random.h"
+#include "base/units.h"
+#include "regression/chords.h"
 #include "regression/closeup.h"
 #include "tests/regression/paths.h"
 #include "tests/regression/programs.h"
@@ -61,4 +63,28 @@ TEST_CASE("a picture shows what is cut behind a jump of the tip", "[compare]") {
     CHECK(closeup->place_mm[0] == Approx(20.0));
     CHECK(closeup->place_mm[2] == Approx(-50.0));
     CHECK(closeup->a.back()[0] == Approx(30.0));
+}
+
+TEST_CASE("a block that only one side has is the cause of the path without it", "[compare]") {
+    const std::string with =
+        "O1\nG90 G21 G94 G54\nT1 M6\nS5000 M3\nG0 X0. Y0. Z50.\nG1 Z-1. F200.\nX10.\nG0 Z50.\n"
+        "M30\n";
+    const std::string without = replaced(with, "G0 X0. Y0. Z50.\n", "");
+    const regression::Comparison lost = compare_texts(with, without, bc_table());
+    REQUIRE_FALSE(lost.differences.empty());
+    CHECK(lost.differences[0].cause == "block 'G0 X0. Y0. Z50.' is missing in B");
+    const regression::Comparison added = compare_texts(without, with, bc_table());
+    REQUIRE_FALSE(added.differences.empty());
+    CHECK(added.differences[0].cause == "block 'G0 X0. Y0. Z50.' is only in B");
+}
+
+TEST_CASE("the middle of a helix is half way up and inside of its arc", "[compare]") {
+    Pen pen;
+    pen.at(10, 0, 20).arc(0, 10, 26, Vector3(0, 0, 20), 0.5 * pi);
+    const auto& record = pen.done();
+    regression::SegmentWindow path(record.segments());
+    const Vector3 middle = regression::centroid(path[0].end(), path[1]);
+    CHECK(middle.x() == Approx(20.0 / pi));
+    CHECK(middle.y() == Approx(20.0 / pi));
+    CHECK(middle.z() == Approx(23.0));
 }
