@@ -16,6 +16,10 @@ TEST_CASE("a mistyped word leads to the one that was meant, a strange one to non
     CHECK(nearest("x", commands).empty());
     CHECK(nearest("", commands).empty());
     CHECK(nearest(std::string(1000, 'r'), commands).empty());
+    CHECK(nearest("", {"x"}).empty());
+    const std::string long_word(60, 'r');
+    CHECK(nearest(long_word, {long_word + "s"}) == long_word + "s");
+    CHECK(nearest(long_word + "r", {long_word}).empty());  // longer words are not searched
     CHECK(nearest("run", {}).empty());
     CHECK(did_you_mean("rum", commands) == ", did you mean 'run'?");
     CHECK(did_you_mean("simulate", commands).empty());

@@ -93,8 +93,12 @@ TEST_CASE("an angle in degrees reads back as the same angle, in the fewest digit
     SeededNoise random(3);
     for (int k = 0; k < 200; ++k) {
         const double angle_rad = random.uniform();
-        const auto read = parse_number(shortest_degrees(angle_rad));
+        const std::string shown = shortest_degrees(angle_rad);
+        const auto read = parse_number(shown);
         REQUIRE(read);
         CHECK(rad_from_deg(*read) == Approx(angle_rad).epsilon(1e-15));
+        double other = deg_from_rad(angle_rad) * (1.0 - 1e-15);
+        for (int ulp = 0; ulp < 20; ++ulp, other = std::nextafter(other, 1e3))
+            if (rad_from_deg(other) == angle_rad) CHECK(shown.size() <= shortest(other).size());
     }
 }

@@ -80,6 +80,18 @@ TEST_CASE("every circle method returns an exact arc far from the origin") {
     }
 }
 
+TEST_CASE("points of a line have no plane, however far they reach") {
+    for (const double size : {1e-2, 1.0, 1e3}) {
+        std::vector<Vector3> points;
+        for (int k = 0; k < 20; ++k)
+            points.push_back(size *
+                             (Vector3(0.3, -0.2, 0.7) + 0.1 * k * Vector3(1.0, 0.37, -0.61)));
+        CHECK_FALSE(fit_plane(points));
+        points.push_back(points[3] + size * Vector3(0.01, 0.0, 0.02));
+        CHECK(fit_plane(points));
+    }
+}
+
 TEST_CASE("on a noisy short arc the hyper fit is less biased than Kasa's") {
     SeededNoise noise(7);
     double kasa = 0, hyper = 0;

@@ -95,6 +95,12 @@ TEST_CASE("offset arcs meet in that of two points which is nearer to the corner"
     CHECK_FALSE(offset_meeting(outer, 1.0, outer, 1.0, {5, 0}));  // the same circle
 }
 
+TEST_CASE("a line moves unless it ends where it starts, wherever that is") {
+    CHECK_FALSE(PlaneElement{{5, 2}, {5, 2}, false, {}, 0.0}.moves());
+    CHECK(PlaneElement{{5, 2}, {-5, -2}, false, {}, 0.0}.moves());
+    CHECK(PlaneElement{{5, 2}, {5, 2}, true, {0, 2}, 2.0 * pi}.moves());
+}
+
 TEST_CASE("a part of an arc keeps its centre and turns by its own angle") {
     const PlaneElement arc{{5, 0}, {0, 5}, true, {0, 0}, pi / 2};
     const double c = 5 * std::sqrt(0.5);
