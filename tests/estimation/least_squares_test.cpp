@@ -21,6 +21,12 @@ TEST_CASE("distribution tails", "[estimation]") {
     CHECK(estimation::student_probability(2.131846786326649, 4) == Approx(0.95));
     CHECK(estimation::student_probability(-2.131846786326649, 4) == Approx(0.05));
     CHECK(estimation::chi_squared_tail(1e6, 0) == 1.0);
+    // What cannot be computed is no evidence.
+    for (const double none : {0.0, -2.0, std::nan("")}) {
+        CHECK(estimation::f_tail(3.0, none, 10) == 1.0);
+        CHECK(estimation::f_tail(3.0, 2, none) == 1.0);
+        CHECK(estimation::f_tail(none, 2, 10) == 1.0);
+    }
     CHECK(estimation::student_probability(2.0, 0) == 1.0);
     CHECK(estimation::student_probability(-2.0, 0) == 1.0);
     CHECK(estimation::chi_squared_tail(1e9, 3) == 0.0);
@@ -111,6 +117,8 @@ TEST_CASE("free forms leave out what the textbook owns and follow any smooth cur
     CHECK(weight == Approx(0.4));
     CHECK(estimation::place_between(knots, 900.0).second == 1.0);
     const Eigen::MatrixXd line = estimation::polynomials_at(knots, 2);
+    CHECK(line(0, 1) == -1.0);
+    CHECK(line(30, 1) == 1.0);
     const auto lengths = estimation::correlation_lengths(knots);
     REQUIRE(lengths.size() == 4);
     // No length shorter than most distances of the knots.
