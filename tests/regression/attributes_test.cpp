@@ -48,6 +48,18 @@ TEST_CASE("a changed attribute is one difference with both values, in whatever p
     CHECK(one(DifferenceKind::coolant, [](auto& s) { s.coolant = true; }) == Values{0, 1});
 }
 
+TEST_CASE("two attributes that change at one place are two differences", "[compare]") {
+    const regression::PathComparison r = compared(6, 6, [](auto& s) {
+        s.spindle_rpm = 0.0F;
+        s.coolant = true;
+        s.feed_mm_min = 600.0F;
+    });
+    REQUIRE(r.clusters.size() == 3);
+    CHECK(r.clusters[0].kind == DifferenceKind::spindle);
+    CHECK(r.clusters[1].kind == DifferenceKind::coolant);
+    CHECK(r.clusters[2].kind == DifferenceKind::feed);
+}
+
 TEST_CASE("feeds by time are compared over a stretch, not piece by piece", "[compare]") {
     const auto timed = [](double feed_mm_min) {
         return [feed_mm_min](regression::Segment& s) {

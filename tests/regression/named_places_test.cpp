@@ -88,3 +88,30 @@ TEST_CASE("the middle of a helix is half way up and inside of its arc", "[compar
     CHECK(middle.y() == Approx(20.0 / pi));
     CHECK(middle.z() == Approx(23.0));
 }
+
+TEST_CASE("a block with too many changes to be said is not named by a later one", "[compare]") {
+    const std::string a =
+        "O1\nG90 G21 G94 G54\nT1 M6\nS5000 M3\nG0 X0. Y0. Z50.\nG1 Z-1. F200.\n"
+        "X10. Y2. Z-3. F300.\nY10.\nM8\nX0.\nG0 Z50.\nM30\n";
+    const std::string b =
+        replaced(replaced(a, "X10. Y2. Z-3. F300.", "X11. Y3. Z-4. F310."), "M8", "M7");
+    const regression::Comparison r = compare_texts(a, b, bc_table());
+    REQUIRE_FALSE(r.differences.empty());
+    CHECK(r.differences[0].kind == regression::DifferenceKind::path);
+    CHECK(r.differences[0].cause == "");
+}
+
+TEST_CASE("a pass that one side has more often is named by its own block", "[compare]") {
+    const std::string two =
+        "O1\nG90 G21 G94 G54\nT1 M6\nS5000 M3\nG0 X0. Y0. Z50.\nG1 Z-1. F200.\nX10.\nG0 Z50.\n"
+        "G0 X0. Y30.\nG91 G81 X10. Z-12. R-40. F100. K2\nG80\nG90 G0 X0. Y0.\nM30\n";
+    const std::string three =
+        replaced(replaced(replaced(two, "F200.", "F210."), "G0 X0. Y30.", "M8\nM9\nG0 X0. Y30."),
+                 "K2", "K3");
+    const auto said = [](const regression::Comparison& r, const std::string& cause) {
+        return std::any_of(r.differences.begin(), r.differences.end(),
+                           [&](const regression::Difference& d) { return d.cause == cause; });
+    };
+    CHECK(said(compare_texts(two, three, bc_table()), "K3 instead of K2"));
+    CHECK(said(compare_texts(three, two, bc_table()), "K2 instead of K3"));
+}
