@@ -268,3 +268,25 @@ TEST_CASE("two sequences with nothing alike, or only far behind, keep every item
         }));
     }
 }
+
+TEST_CASE("passes that lie near each other are alike across every border of the grid",
+          "[compare]") {
+    const regression::Tolerances tolerances;
+    const double border_mm = 64.0 * tolerances.position_mm, off_mm = 0.5 * tolerances.position_mm;
+    for (int side = 0; side < 8; ++side) {
+        regression::Pass low, high;
+        for (regression::Pass* pass : {&low, &high}) {
+            pass->last = 2;
+            pass->cut_mm = 10.0;
+            for (std::size_t d = 0; d < 3; ++d) {
+                const bool up = (((side >> d) & 1) == 1) == (pass == &high);
+                pass->centroid_mm[d] = border_mm + (up ? off_mm : -off_mm);
+            }
+        }
+        INFO(side);
+        regression::PassIds ids(tolerances);
+        CHECK(ids.id_of(low) == ids.id_of(high));
+        high.centroid_mm[0] += 10.0 * tolerances.position_mm;
+        CHECK(ids.id_of(low) != ids.id_of(high));
+    }
+}

@@ -169,6 +169,23 @@ TEST_CASE("passes removed, inserted, reordered are named as such and the rest is
     }
 }
 
+TEST_CASE("two passes in place of two others of other lengths are one difference", "[compare]") {
+    const auto pass = [](Pen& pen, double x, double y) {
+        pen.rapid(x, 0, 10).cut(x, 0, -1).cut(x, y, -1).rapid(x, y, 10);
+    };
+    Pen a, b;
+    for (Pen* pen : {&a, &b}) {
+        pen->at(0, 0, 100);
+        pass(*pen, -10, 30);
+        pass(*pen, 0, pen == &a ? 100 : 50);
+        pen == &a ? pass(a, 5, 20) : pass(b, 0, 100.5);
+        pass(*pen, 40, 30);
+    }
+    const regression::PathComparison r = compare(a, b);
+    REQUIRE(r.clusters.size() == 1);
+    CHECK(r.clusters[0].kind == regression::DifferenceKind::path);
+}
+
 TEST_CASE("behind a moved cut the rapids are compared, and only what the move does not explain",
           "[compare]") {
     // Two cuts; the first one ends at x_mm, the travel between them is at over_mm, and behind the
