@@ -14,6 +14,7 @@ TEST_CASE("a mistyped word leads to the one that was meant, a strange one to non
     CHECK(nearest("balbar", commands) == "ballbar");
     CHECK(nearest("simulate", commands).empty());
     CHECK(nearest("x", commands).empty());
+    CHECK(nearest("p", commands).empty());  // one letter begins too much
     CHECK(nearest("", commands).empty());
     CHECK(nearest(std::string(1000, 'r'), commands).empty());
     CHECK(nearest("", {"x"}).empty());

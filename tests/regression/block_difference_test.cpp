@@ -37,6 +37,7 @@ TEST_CASE("a change of values that has a name is called by it") {
         {"X0", "X0.", ""},      // and so does nothing
         {"X1.", "X1. Y2.", "Y2. is only in B"},
         {"X1. Y2.", "X1.", "Y2. is missing in B"},
+        {"X1. Y2. Z3.", "X5. Y7. Z9.", "X5. Y7. Z9. instead of X1. Y2. Z3."},
         {"X1. Y2. Z3. A4.", "X5. Y6. Z7. A8.", ""},  // too much to be said
         {"X1.", "Y2.", "Y2. instead of X1."},
         {"/G1 X1.", "/G1 X2.", "X2. instead of X1."},

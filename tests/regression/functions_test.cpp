@@ -172,3 +172,11 @@ TEST_CASE("a full circle and a block that stands still", "[compare]") {
     CHECK_FALSE(compare_texts(circle, replaced(circle, "I-5.", "I-5.1"), setup).equal);
     CHECK(compare_texts(part, replaced(part, "X60.\n", "G91 X0.\nG90 X50.\nX60.\n"), setup).equal);
 }
+
+TEST_CASE("functions that change one behind the other are told in pairs, each at its place",
+          "[compare]") {
+    const std::string a = "O1\nG90 G54\nM10\nM11\nG0 X1.\nM98 P2\nM30\nO2\nM12\nM99\n";
+    const std::string b = replaced(replaced(a, "M10", "M20"), "M11", "M21");
+    CHECK(functions(a, b) == "M20 instead of M10 x1 @3,3\nM21 instead of M11 x1 @4,4\n");
+    CHECK(functions(a, replaced(a, "M12", "M22")) == "M22 instead of M12 x1 @9,9\n");
+}
