@@ -164,3 +164,18 @@ TEST_CASE("a program that calls itself, and one that nobody finds", "[calls]") {
     REQUIRE(stopped.differences.size() == 1);
     CHECK(stopped.differences[0].what == "1 block changed: X6. instead of X5.");
 }
+
+TEST_CASE("a function of a called program has its place there", "[calls]") {
+    const TwoSides sides;
+    sides.write("a/main.nc", main_program);
+    sides.write("b/main.nc", main_program);
+    const std::string with = replaced(called, "G0 X10.\n", "M8\nG10 L2 P3 X1.\nG0 X10.\n");
+    for (const char* function : {"M8", "G10 L2 P3 X1."}) {
+        sides.write("a/O2.nc", with);
+        sides.write("b/O2.nc", replaced(with, function, "M20"));
+        const regression::Comparison r = sides.compare(regression::Layer::functions);
+        INFO(function);
+        REQUIRE_FALSE(r.differences.empty());
+        CHECK(r.differences[0].a.program == (sides.path / "a/O2.nc").string());
+    }
+}
