@@ -85,13 +85,13 @@ struct Shape {
     Known known;
 };
 
-struct Rows {
+struct Range {
     Index first, count;
 };
 
 /// out(i, j) += sum over some rows.
 inline __attribute__((always_inline)) void add_rows(Columns a, Columns b, const Shape& shape,
-                                                    Rows rows, double* out) {
+                                                    Range rows, double* out) {
     const auto rows_of = [&](Index last_column) {
         return shape.known == Known::upper
                    ? std::clamp<Index>(last_column + 1 - rows.first, 0, rows.count)

@@ -45,6 +45,17 @@ std::vector<WrittenWord> words_of(const std::string& block) {
     return words;
 }
 
+/// `#1 = 5.` without blanks and N; empty for other blocks and for long ones.
+std::string assignment_of(const std::string& block) {
+    constexpr std::size_t longest = 40;
+    std::string text;
+    for (const char c : block)
+        if (!interpreter::is_blank(c) && c != '\r') text += c;
+    if (!text.empty() && (text[0] == 'N' || text[0] == 'n'))
+        text.erase(0, std::min(text.size(), text.find_first_not_of("0123456789", 1)));
+    return !text.empty() && text[0] == '#' && text.size() <= longest ? text : "";
+}
+
 /// Removes words with equal letter and value from both sides.
 void cancel(std::vector<WrittenWord>& a, std::vector<WrittenWord>& b) {
     for (std::size_t i = 0; i < a.size();) {
@@ -129,6 +140,10 @@ std::string value_cause(const std::vector<WrittenWord>& a, const std::vector<Wri
 
 BlockDifference block_difference(const std::string& block_a, const std::string& block_b,
                                  const std::array<std::optional<double>, 3>& start) {
+    const std::string set_a = assignment_of(block_a), set_b = assignment_of(block_b);
+    if (!set_a.empty() && !set_b.empty())
+        return set_a == set_b ? BlockDifference{}
+                              : BlockDifference{"", set_b + " instead of " + set_a};
     std::vector<WrittenWord> a = words_of(block_a), b = words_of(block_b);
     if (a.empty() && b.empty()) return {};
     cancel(a, b);

@@ -243,7 +243,7 @@ class Explainer {
         constexpr int ahead = 3;
         auto behind = in_.gaps.before(line_a, line_b);
         const bool here = behind && behind->line_a == line_a && behind->line_b == line_b;
-        if (here || (behind && !behind->what.empty() && !read_ahead)) return behind;
+        if (here || (behind && !read_ahead)) return behind;
         auto next = in_.gaps.before(line_a + ahead, line_b + ahead);
         const bool follows = next && (next->line_a > line_a || next->line_b > line_b);
         return follows && !next->what.empty() ? next : behind;

@@ -53,10 +53,19 @@ TEST_CASE("computed values are compared as written, and get no name") {
     CHECK(words("X#101", "X1.") == "X1. instead of X#101");
     CHECK(words("X[#1+Y]", "X[#1+Y]").empty());
     CHECK(words("X[-[#1]]", "X[[#1]]") == "X[[#1]] instead of X[-[#1]]");
-    // A statement has no words.
-    CHECK(words("#1=2.", "#1=3.").empty());
+    // Other statements have no words.
     CHECK(words("IF[#1EQ2]GOTO3", "IF[#1EQ2]GOTO4").empty());
     CHECK(words("G65 P1 A2.", "#1=3.") == "G65 P1 A2. is missing in B");
+}
+
+TEST_CASE("an assignment is said as a whole") {
+    CHECK(words("#1=2.", "#1=3.") == "#1=3. instead of #1=2.");
+    CHECK(words("N10 #1 = 2.\r", "N20 #1=3.") == "#1=3. instead of #1=2.");
+    CHECK(words("N10 #1=2.", "N20 # 1 = 2.").empty());
+    CHECK(words("N10", "N20").empty());
+    const std::string longest(37, '9');
+    CHECK(words("#1=2.", "#1=" + longest) == "#1=" + longest + " instead of #1=2.");
+    CHECK(words("#1=2.", "#1=" + longest + "9").empty());
 }
 
 TEST_CASE("centres of arcs that are absolute on one side are called so where the start is known") {

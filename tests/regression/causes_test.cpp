@@ -97,6 +97,21 @@ TEST_CASE("a side that indexes before G43.4 gets the hint of the frame, the othe
     CHECK(hints(compare_texts(straight, replaced(straight, "X20.", "X21."), setup)).empty());
 }
 
+// The later change stands three lines behind the block that moves.
+TEST_CASE("a changed variable moves the path, not a coolant code behind it", "[compare]") {
+    const std::string a =
+        "O1\nG21 G90 G54\n#1=5.\nG0 X0 Y0 Z10.\nG1 X#1 Y10. F500.\nM8\n"
+        "G1 X20. Y30.\nM30\n";
+    const std::string b = replaced(replaced(a, "#1=5.", "#1=6."), "M8", "M7");
+    const regression::Comparison r = compare_texts(a, b, bc_table(), only(regression::Layer::path));
+    INFO(r.verdict);
+    REQUIRE_FALSE(r.differences.empty());
+    CHECK(r.differences.front().what.starts_with("#1=6. instead of #1=5.: moved by X+1.0000 mm"));
+    for (const regression::Difference& d : r.differences)
+        if (d.what.find("M7") != std::string::npos)
+            CHECK(d.what.find("moved") == std::string::npos);
+}
+
 TEST_CASE("operations in another order are one difference with both places", "[compare]") {
     const setup::Setup setup = bc_table();
     // 400 pockets; the last twenty move to the front.
