@@ -274,7 +274,10 @@ std::optional<Model> challenge_each(const Searching& search, const Standing& cho
         }
         Contender contender = contender_of(search, chosen, rows, cause);
         const bool is_better = contender.ahead >= better && contender.predicted < contender.spread;
-        if (may_replace && is_better) return std::move(contender.model);
+        // With more members than a search may take it is a sum that imitates what is not there.
+        const bool is_small = contender.model.members.size() <=
+                              std::max(search.setting.most_members, chosen.model.members.size());
+        if (may_replace && is_better && is_small) return std::move(contender.model);
         contenders[k] = std::move(contender);
     }
     result.contenders = std::move(contenders);
