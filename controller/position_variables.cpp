@@ -40,6 +40,7 @@ std::optional<double> position_variable(int number, const Modal& modal, const Fr
     if (number > 5500 && number <= 5520)
         return in_units(frames.stages.fixture, number - 5501, modal);
     if (number < 5001 || number > 5140) return std::nullopt;
+    if (number > 5120) return 0.0;  // interruption by the handle
     const int n = number - 5001;
     return in_units(shown_position(n / 20, modal, frames, skip), n % 20, modal);
 }

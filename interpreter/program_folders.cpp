@@ -15,8 +15,9 @@ namespace trunnion::interpreter {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array<std::string_view, 11> endings{"",     ".nc",  ".txt", ".tap", ".min", ".mpf",
-                                                   ".cnc", ".ngc", ".eia", ".iso", ".prg"};
+constexpr std::array<std::string_view, 19> endings{
+    "",     ".nc",  ".txt", ".tap", ".min", ".mpf", ".cnc", ".ngc", ".eia",  ".iso",
+    ".prg", ".hnc", ".fnc", ".dnc", ".spf", ".sub", ".mac", ".arc", ".gcode"};
 
 std::string lower(std::string text) {
     for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

@@ -54,8 +54,10 @@ void take_strokes(Setup& setup) {
         for (kinematics::AxisGeometry& geometry : *group)
             for (const controller::ControlAxis& axis : axes) {
                 if (axis.axis != geometry.axis) continue;
-                geometry.min = axis.min;
-                geometry.max = axis.max;
+                if (axis.min < axis.max) {  // else 1320 and 1321 alone stop it
+                    geometry.min = axis.min;
+                    geometry.max = axis.max;
+                }
                 if (axis.rapid_speed) geometry.max_speed = axis.rapid_speed;
             }
 }

@@ -92,8 +92,9 @@ double parameter_value(const TomlFile& file, const TomlValue& value) {
     return byte;
 }
 
+/// Backups number spindles from 101 and paths from 201 in the place of axes.
 int axis_number(const std::string& key, const Setup& setup) {
-    if (const auto n = parse_number(key)) return *n >= 1 && *n <= 99 ? static_cast<int>(*n) : 0;
+    if (const auto n = parse_number(key)) return *n >= 1 && *n <= 999 ? static_cast<int>(*n) : 0;
     int number = 0;
     for (const kinematics::AxisGeometry& axis : control_axes(setup)) {
         ++number;

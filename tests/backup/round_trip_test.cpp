@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
+#include <fstream>
+#include <regex>
 
 #include "backup/control_files.h"
 #include "backup/differences.h"
@@ -180,6 +182,27 @@ TEST_CASE("the table of parameters rises and says what becomes of each") {
     CHECK(backup::standing_of_parameter(2020) == backup::Standing::ignored);
     CHECK(backup::standing_of_file("TOOLOFST.TXT") == backup::Standing::obeyed);
     CHECK(backup::standing_of_file("SRAM.BIN") == backup::Standing::ignored);
+}
+
+TEST_CASE("what the page on the control calls obeyed is not called ignored") {
+    std::ifstream page(std::string(TRUNNION_SOURCE_DIR) + "/docs/control.md");
+    std::string line;
+    while (std::getline(page, line) && !line.starts_with("1001#0")) {
+    }
+    REQUIRE(line.starts_with("1001#0"));
+    const std::regex number(R"((#\d+)|(\d{4,5})(?:-(\d{4,5}))?)");
+    int found = 0;
+    for (std::sregex_iterator at(line.begin(), line.end(), number), end; at != end; ++at) {
+        if (!(*at)[2].matched) continue;
+        for (const auto& part : {(*at)[2], (*at)[3]})
+            if (part.matched) {
+                INFO(part.str());
+                CHECK(backup::standing_of_parameter(std::stoi(part.str())) ==
+                      backup::Standing::obeyed);
+                ++found;
+            }
+    }
+    CHECK(found > 40);
 }
 
 TEST_CASE("10,000 records load") {

@@ -46,6 +46,18 @@ TEST_CASE("the user's folders are searched whole before the shipped ones") {
     CHECK_THAT(programs.announcements()[0], Catch::StartsWith("O777 is a shipped program ("));
 }
 
+TEST_CASE("files with the endings of other controls and systems are read, too") {
+    const Folder folder;
+    const char* const endings[] = {"hnc", "FNC", "dnc", "spf", "sub", "mac", "arc", "gcode"};
+    int number = 7100;
+    for (const char* const ending : endings)
+        folder.write(std::string("part.") + ending, "O" + std::to_string(number++) + "\nM99\n");
+    folder.write("part.pdf", "O7200\nM99\n");
+    interpreter::ProgramFolders programs({folder.path.string()}, {});
+    for (int n = 7100; n < number; ++n) CHECK(programs.find(n));
+    CHECK_FALSE(programs.find(7200));
+}
+
 TEST_CASE("programs of a file that a control punched: LF CR CR ends its lines") {
     const Folder folder;
     folder.write("ALL-FLDR.TXT",

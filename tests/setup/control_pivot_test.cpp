@@ -128,4 +128,18 @@ TEST_CASE("1022 places W beside Z, and pitch data become an error of the machine
     CHECK(again.machine.errors.axis[index_of(Axis::Y)].motion[1](100.0) == Approx(-0.003));
 }
 
+TEST_CASE("a setup of a backup with spindles, paths and no stroke can be read again", "[setup]") {
+    offsets::Stores stores = table_stores();
+    stores.parameters.entry[982].by_axis = {{101, 0.0}, {201, 3.0}};
+    stores.parameters.entry[1320].by_axis = {{1, 0.0}, {2, 300.0}};
+    stores.parameters.entry[1321].by_axis = {{1, 0.0}, {2, -300.0}};
+    std::vector<std::string> notes;
+    const setup::Setup again = setup::parse_setup(
+        setup::format_setup(setup::setup_of_control(stores, "stick")), "again.toml", notes);
+    CHECK(again.stores.parameters.entry.at(982).by_axis ==
+          std::map<int, double>{{101, 0.0}, {201, 3.0}});
+    CHECK(again.stores.parameters.entry.at(1320).by_axis.at(1) == 0.0);
+    CHECK(again.machine.chain.find(Axis::Y)->max == 300.0);
+}
+
 }  // namespace trunnion
