@@ -49,6 +49,15 @@ void write_setup(const BackupCommand& c, const offsets::Stores& stores) {
     out.write();
 }
 
+/// Without G54 its zeros would be compared.
+void require_g54(const backup::ControlBackup& backup, const std::string& path) {
+    for (const backup::BackupValue& v : backup::list_values(backup))
+        if (v.kind == backup::BackupValue::Kind::work_offset && v.name.starts_with("G54") &&
+            !v.name.starts_with("G54.1"))
+            return;
+    throw InputError("this backup has no G54 (EXT_WKZ.TXT) to compare 19700-19705 with", {path});
+}
+
 int load(const BackupCommand& c) {
     const backup::ControlBackup backup = backup::read_backup(c.a);
     offsets::Stores stores;
@@ -58,6 +67,7 @@ int load(const BackupCommand& c) {
         print_values(backup);
         return exit_done;
     }
+    require_g54(backup, c.a);
     std::optional<Vector3> measured_mm;
     if (!c.measured_mm.empty())
         measured_mm = Vector3(c.measured_mm[0], c.measured_mm[1], c.measured_mm[2]);

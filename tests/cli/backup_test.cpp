@@ -73,6 +73,20 @@ TEST_CASE("the setup of a three-axis mill's backup loads, and its control compen
     CHECK_THAT(bench.read("err.txt"), Catch::Contains("compensates backlash or pitch of X, Z"));
 }
 
+TEST_CASE("a pivot is not compared with a G54 that the backup does not hold") {
+    const Bench bench;
+    bench.write("bk/CNC-PARA.TXT",
+                punched("%\nN01020Q1A1P88A2P89A3P90A4P66A5P67 \nN19680Q1L1P12 \n"
+                        "N19681Q1L1P4 \nN19682Q1L1P2 \nN19686Q1L1P5 \nN19687Q1L1P3 \n"
+                        "N19700Q1L1P0.0 \nN19701Q1L1P0.0 \nN19702Q1L1P-300.0 \n%"));
+    const std::string offsets = "%\nG90\nG10L2P0X0.0Y0.0Z0.0B0.0C0.0\n";
+    bench.write("bk/EXT_WKZ.TXT", punched(offsets + "M02\n%"));
+    CHECK(bench.trunnion("backup load " + bench.file("bk") + " --pivot") == 2);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("this backup has no G54"));
+    bench.write("bk/EXT_WKZ.TXT", punched(offsets + "G10L2P1X0.0Y0.0Z-300.0B0.0C0.0\nM02\n%"));
+    CHECK(bench.trunnion("backup load " + bench.file("bk") + " --pivot") == 0);
+}
+
 TEST_CASE("run --control finds the programs in the control's memory") {
     const Bench bench;
     bench.write("plain.toml", "[machine]\nchain = \"w b X Y Z t\"\nauxiliary = [\"W\"]\n");
