@@ -107,6 +107,8 @@ constexpr AlarmRow alarm_rows[] = {
      "G31 P98 ends at a torque limit, not at the skip signal, and something is in its way; G31 "
      "P90 latches positions without a stop.",
      "Use G31 or G31 P99, which end at the skip signal."},
+    {9007, "EX", "TOO MANY PECKS", "A block asks for more than a million pecks.",
+     "Increase Q or write fewer repeats."},
 };
 
 }  // namespace

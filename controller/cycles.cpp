@@ -115,6 +115,7 @@ void run_cycle(CycleData& data, SortedWords& words, Modal& modal, const Frames& 
     const int times = words.has(times_word) ? words.whole(times_word) : 1;
     HoleOrder hole = order_of(data, modal);
     hole.row = row;
+    hole.times = times;
     for (int i = 0; i < times; ++i) {
         offsets::ControlPosition place = commanded_position(words, modal, frames);
         place[normal] = frames.program[normal];

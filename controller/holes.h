@@ -32,6 +32,7 @@ struct HoleOrder {
     double peck = 0.0;       ///< the first peck
     double next_peck = 0.0;  ///< the following pecks
     double dwell_s = 0.0;
+    int times = 1;                ///< holes of the block
     std::optional<Vector3> foot;  ///< program coordinates, mm
     Vector3 axis = Vector3::UnitZ();
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "controller/alarms.h"
@@ -15,28 +16,43 @@ namespace {
 constexpr double end_tolerance = 1e-4;  // mm, deg
 constexpr double way_tolerance = 1e-3;
 
+/// Where moves are compared: half way, and at fractions at which no turn or half turn of an axis
+/// brings them together again.
+constexpr std::array<double, 3> looked_at{0.5, 0.29, 0.83};
+
+/// One move of a block; a cycle has many.
+struct Way {
+    bool rapid = false;
+    std::array<offsets::ControlPosition, looked_at.size()> at;
+};
+
 /// One executed block.
 struct Step {
     const std::string* program = nullptr;
     int line = 0;
-    offsets::ControlPosition end, half_way;
-    bool moved = false;
+    offsets::ControlPosition end;
+    std::size_t first = 0, moves = 0;  ///< in Steps::ways
 };
 
-class LastMove : public motion::MotionSink {
+class Ways : public motion::MotionSink {
   public:
+    explicit Ways(std::vector<Way>& list) : list_(list) {}
     motion::MoveResult move(const motion::AxisMove& m) override {
-        half_way = offsets::control_position_of(m.at(0.5));
-        moved = true;
+        Way way{m.kind == motion::MotionKind::rapid, {}};
+        for (std::size_t k = 0; k < looked_at.size(); ++k)
+            way.at[k] = offsets::control_position_of(m.at(looked_at[k]));
+        list_.push_back(way);
         return {};
     }
-    offsets::ControlPosition half_way;
-    bool moved = false;
+
+  private:
+    std::vector<Way>& list_;
 };
 
 /// The blocks of a run and its end; program names are stored in `names`.
 struct Steps {
     std::vector<Step> step;
+    std::vector<Way> ways;
     controller::RunResult result;
     std::map<std::string, std::unique_ptr<const std::string>> names;
 
@@ -50,14 +66,16 @@ struct Steps {
 void run(const ControlReading& reading, const interpreter::ProgramText& program,
          interpreter::ProgramSource& programs, Steps& out) {
     offsets::Stores stores = reading.stores;
-    LastMove sink;
+    Ways sink(out.ways);
+    std::size_t told = 0;
     controller::Controller control(reading.config, stores, programs, sink, [](std::string_view) {});
     for (const auto& [number, value] : reading.stores.variables)
         control.set_variable(number, value);
     control.watch([&](const controller::Control& c) {
         if (!c.modal.block.program) return;
+        const std::size_t first = std::exchange(told, out.ways.size());
         out.step.push_back({out.name(*c.modal.block.program), c.modal.block.line, c.frames.machine,
-                            sink.half_way, std::exchange(sink.moved, false)});
+                            first, told - first});
     });
     out.result = control.run(program);
 }
@@ -128,12 +146,30 @@ class SideBySide {
                  same ? fmt::format("both stand alike again behind this block")
                       : text_of("ends at", x.end, y.end, end_tolerance),
                  largest(x.end, y.end));
-        } else if (x.moved && y.moved && largest(now, {}) <= end_tolerance &&
-                   largest(x.half_way, y.half_way) > way_tolerance) {
-            tell(x, text_of("is half way at", x.half_way, y.half_way, way_tolerance),
-                 largest(x.half_way, y.half_way));
+        } else if (x.moves > 0 && y.moves > 0 && largest(now, {}) <= end_tolerance) {
+            compare_ways(x, y);
         }
         apart_ = now;
+    }
+    /// Of blocks that one control divides into more moves only the last ones are compared.
+    void compare_ways(const Step& x, const Step& y) {
+        const std::size_t count = x.moves == y.moves ? x.moves : 1;
+        for (std::size_t k = 0; k < count; ++k) {
+            const Way &of_x = of_a_.ways[x.first + x.moves - count + k],
+                      &of_y = of_b_.ways[y.first + y.moves - count + k];
+            for (std::size_t at = 0; at < (x.moves == y.moves ? looked_at.size() : 1); ++at) {
+                const double far = largest(of_x.at[at], of_y.at[at]);
+                if (far <= way_tolerance) continue;
+                const char* const what = at == 0 && count == 1 ? "is half way at" : "passes";
+                tell(x, text_of(what, of_x.at[at], of_y.at[at], way_tolerance), far);
+                return;
+            }
+            if (x.moves == y.moves && of_x.rapid != of_y.rapid) {
+                tell(x, fmt::format("moves at rapid speed on {}, at feed on {}",
+                                    (of_x.rapid ? a_ : b_).name, (of_x.rapid ? b_ : a_).name));
+                return;
+            }
+        }
     }
     std::string text_of(const char* what, const offsets::ControlPosition& x,
                         const offsets::ControlPosition& y, double tolerance) const {

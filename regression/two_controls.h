@@ -29,7 +29,8 @@ using OpenPrograms = std::function<std::unique_ptr<interpreter::ProgramSource>()
 
 /// Runs the program on both controls without devices and compares block by block. Reported are: a
 /// block that changes the difference of the axis positions by more than 0.0001 mm or deg; a block
-/// with equal ends whose path differs half way by more than 0.001; an alarm of one control only; a
+/// with equal ends whose moves (all those of a cycle) differ by more than 0.001 at three places of
+/// their way, or are rapid on one control only; an alarm of one control only; a
 /// block after which they execute different blocks, where the comparison ends. A permanent
 /// difference (e.g. of a tool length) is reported where it starts.
 std::vector<ReadingDifference> compare_controls(const ControlReading& a, const ControlReading& b,

@@ -58,6 +58,26 @@ TEST_CASE("a dogleg and a dwell of the same end: the way is told") {
     CHECK(found[0].text == "is half way at Y10.0000 on fanuc, Y20.0000 on hurco: 10.0000 mm apart");
 }
 
+TEST_CASE("every move of a cycle is compared") {
+    const std::string program =
+        "G90 G21 G17\nG0 Z50.\nG73 X10. Z-8. R2. Q3. F100.\nX20.\nG80\nM30\n";
+    regression::ControlReading other = reading("5114=3");
+    other.stores.parameters.set(5114, 3.0);
+    const auto found = compared(program, reading("fanuc"), other);
+    REQUIRE(found.size() == 2);
+    CHECK(found[0].line == 3);
+    CHECK(found[0].text.starts_with("passes Z"));
+    CHECK(found[1].line == 4);
+    CHECK(compared(program, reading("fanuc"), reading("same")).empty());
+}
+
+TEST_CASE("turns that bring both together half way do not hide the way between") {
+    const std::string program = "G90 G21\nG0 C0\nG1 X40. C720. F500.\nM30\n";
+    const std::string arc = "G90 G21 G17\nG0 X0 Y0\nG2 X20. R10. F100.\nM30\n";
+    CHECK(compared(program, reading("fanuc"), reading("same")).empty());
+    CHECK(compared(arc, reading("fanuc"), reading("same")).empty());
+}
+
 TEST_CASE("an alarm of one control and another way through the program are told") {
     const auto alarm = fanuc_and_hurco("G90 G21\nG53.1\nM30\n");
     REQUIRE(alarm.size() == 2);
