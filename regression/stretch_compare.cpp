@@ -110,8 +110,12 @@ bool StretchComparer::retry_exact(Corner& at, Stretch a, Stretch b) {
     const double reach = (a_[at.i - 1].end().position_mm - a_[back.i - 1].end().position_mm).norm();
     commits_.clear();
     if (reach > 40.0 * options_.tolerances.position_mm) return false;
-    const FrechetResult walk = next_common_corner(
-        {a_, {back.i, a.last}, at.i + 1}, {b_, {back.j, b.last}, at.j + 1}, options_.tolerances);
+    const auto beyond = [](std::uint64_t next, std::uint64_t last) {
+        return std::min(next + 1, last - 1);  // the end of a stretch is a common corner too
+    };
+    const FrechetResult walk =
+        next_common_corner({a_, {back.i, a.last}, beyond(at.i, a.last)},
+                           {b_, {back.j, b.last}, beyond(at.j, b.last)}, options_.tolerances);
     if (!walk.reached) return false;
     totals_->worst(walk.position_mm, walk.direction_rad, at.i, at.j);
     attributes_between(at, {walk.a, walk.b});

@@ -99,6 +99,32 @@ TEST_CASE("0.9 of the tolerance is equal and 1.1 differs, at corners, flanks, re
     CHECK(compare(a, b, options).clusters.empty() == equal);
 }
 
+TEST_CASE("a corner matched too early is left again for one that both paths can go on from",
+          "[compare]") {
+    // Tolerance 0.005: the first ends lie near each other, but B goes back behind them, which is
+    // near the start of A only.
+    const double back_mm = GENERATE(-0.004, -0.006);
+    const bool goes_on = GENERATE(true, false);
+    INFO(back_mm << (goes_on ? ", goes on" : ", ends there"));
+    Pen a, b, other_a, other_b;
+    for (Pen* pen : {&a, &other_a}) pen->at(0, 0, 0).cut(0.004, 0, 0).cut(10, 0, 0);
+    for (Pen* pen : {&b, &other_b})
+        pen->at(0, 0, 0).cut(0.002, 0, 0).cut(back_mm, 0, 0).cut(10, 0, 0);
+    for (Pen* pen : {&a, &b, &other_a, &other_b})
+        if (goes_on) pen->cut(20, 0, 0).cut(30, 0, 0);
+    CHECK(compare(a, b).clusters.empty() == (back_mm > -0.005));
+    CHECK(compare(other_b, other_a).clusters.empty() == (back_mm > -0.005));
+}
+
+TEST_CASE("where one path has ended, short segments of another kind belong to its end",
+          "[compare]") {
+    const double end_mm = GENERATE(20.003, 20.006);
+    Pen a, b;
+    for (Pen* pen : {&a, &b}) pen->at(0, 0, 0).cut(10, 0, 0).rapid(20, 0, 0);
+    a.cut(20.001, 0, 0).cut(20.002, 0, 0).cut(end_mm, 0, 0);
+    CHECK(compare(a, b).clusters.empty() == (end_mm < 20.005));
+}
+
 TEST_CASE("0.9 of the direction tolerance is equal and 1.1 differs", "[compare]") {
     const double part_of = GENERATE(0.9, 1.1);
     const double turn = part_of * regression::Tolerances{}.direction_rad;
