@@ -137,11 +137,15 @@ TEST_CASE("an insertion longer than a window leaves the rest paired one by one",
         b.insert(b.begin() + 50, more.begin(), more.end());
         regression::AlignLimits limits;
         limits.window = 16;
+        INFO(inserted);
         const auto pairs = aligned(a, b, limits);
         check_complete(a, b, pairs);
-        INFO(inserted);
         CHECK(count_of(pairs, regression::Pairing::same) == 100);
         CHECK(count_of(pairs, regression::Pairing::only_b) == inserted);
+        const auto taken_out = aligned(b, a, limits);
+        check_complete(b, a, taken_out);
+        CHECK(count_of(taken_out, regression::Pairing::same) == 100);
+        CHECK(count_of(taken_out, regression::Pairing::only_a) == inserted);
     }
 }
 

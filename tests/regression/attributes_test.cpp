@@ -48,6 +48,29 @@ TEST_CASE("a changed attribute is one difference with both values, in whatever p
     CHECK(one(DifferenceKind::coolant, [](auto& s) { s.coolant = true; }) == Values{0, 1});
 }
 
+TEST_CASE("a second change to another value is a difference of its own", "[compare]") {
+    // One side keeps its value, the other goes to two others, one behind the other.
+    const auto cut = [](double first, double second, bool is_feed) {
+        Pen pen;
+        pen.at(0, 0, 0);
+        for (int k = 1; k <= 6; ++k) {
+            (is_feed ? pen.feed : pen.spindle) = k <= 3 ? first : second;
+            pen.cut(10.0 * k, 0, 0);
+        }
+        return pen;
+    };
+    const bool is_feed = GENERATE(true, false), b_changes = GENERATE(true, false);
+    INFO((is_feed ? "feed" : "spindle") << ", changed in " << (b_changes ? "B" : "A"));
+    Pen keeps = cut(500, 500, is_feed), changes = cut(600, 800, is_feed);
+    const regression::PathComparison r =
+        b_changes ? compare(keeps, changes) : compare(changes, keeps);
+    REQUIRE(r.clusters.size() == 2);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const auto& first = r.clusters[k].first;
+        CHECK((b_changes ? first.value_b : first.value_a) == (k == 0 ? 600.0 : 800.0));
+    }
+}
+
 TEST_CASE("two attributes that change at one place are two differences", "[compare]") {
     const regression::PathComparison r = compared(6, 6, [](auto& s) {
         s.spindle_rpm = 0.0F;

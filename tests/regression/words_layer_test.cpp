@@ -55,6 +55,7 @@ TEST_CASE("N numbers count where the program jumps, and between G10 and G11", "[
         {"N1\nGOTO 1\n", "N2\nGOTO 1\n", false},
         {"N1 G1 X1.\nWHILE[#1LT2]DO1\nEND1\n", "N2 G1 X1.\nWHILE[#1LT2]DO1\nEND1\n", false},
         {"G10 L50\nN1320 P1 R5.\nG11\n", "G10 L50\nN1321 P1 R5.\nG11\n", false},
+        {"G10 L50\nN0 R5.\nG11\n", "G10 L50\nR5.\nG11\n", false},  // parameter 0
         {"G10 L3\nN1 R5.\nG11\n", "G10 L3\nN2 R5.\nG11\n", false},
         {"G10 L50\nG11\nN5 X1.\n", "G10 L50\nG11\nN6 X1.\n", true},
         {"G10 L2 P1 X1.\nN5 X1.\n", "G10 L2 P1 X1.\nN6 X1.\n", true},
