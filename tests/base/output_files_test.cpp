@@ -1,14 +1,17 @@
 #include "base/output_files.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "base/alarm.h"
+#include "base/file_handle.h"
 #include "base/read_file.h"
 
 using namespace trunnion;
@@ -87,6 +90,21 @@ TEST_CASE("when one output cannot be written, none appears") {
     full.add(folder.file("a.txt"), "a");
     full.add("/dev/full", "b");
     CHECK_THROWS_AS(full.write(), InputError);
+    CHECK(folder.count() == 1);
+}
+
+TEST_CASE("a pipe is written to, and stays a pipe") {
+    const Folder folder;
+    const std::string pipe = folder.file("pipe");
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    const FileHandle reader(::open(pipe.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
+    OutputFiles files;
+    files.add(pipe, "text");
+    files.write();
+    std::array<char, 8> read{};
+    CHECK(::read(reader.descriptor(), read.data(), read.size()) == 4);
+    CHECK(std::string(read.data()) == "text");
+    CHECK(fs::is_fifo(pipe));
     CHECK(folder.count() == 1);
 }
 

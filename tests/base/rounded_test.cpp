@@ -31,6 +31,7 @@ TEST_CASE("a value has the digits that its sigma allows") {
     CHECK(with_sigma(-0.0001, 0.5) == "0.00 ± 0.50");
     CHECK(with_sigma(1.0, 0.0996) == "1.00 ± 0.10");
     CHECK(with_sigma(1.0, 9.96) == "1 ± 10");
+    CHECK(with_sigma(1.0, 0.0) == "1.000 ± 0.000");
     CHECK(with_sigma(0.0123456, none) == "0.0123");
     CHECK(rounded(none, none).value == "–");
     CHECK(rounded(1.0, none).sigma == "–");

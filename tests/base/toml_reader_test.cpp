@@ -30,6 +30,13 @@ TEST_CASE("a key that nobody asked for is told, one that was asked for is not") 
                                    "s.toml:5:9: key 'a.other' is not known and ignored"});
 }
 
+TEST_CASE("a key has at most 65 parts") {
+    std::string key = "a";
+    for (int dots = 0; dots < 64; ++dots) key += ".a";
+    CHECK_NOTHROW(TomlFile(key + " = 1\n", "s.toml"));
+    CHECK_THROWS_AS(TomlFile(key + ".a = 1\n", "s.toml"), InputError);
+}
+
 TEST_CASE("numbers are finite, at most 1e12, and positive where that is asked") {
     const TomlFile file("a = 1e12\nb = 1.0000001e12\nc = nan\nd = -1\ne = 0\nf = inf\n", "s.toml");
     const auto value = [&](const char* key) { return *file.root().find(key); };
