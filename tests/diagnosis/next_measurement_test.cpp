@@ -107,6 +107,20 @@ TEST_CASE("every program of the list reads the rows that were predicted", "[diag
     }
 }
 
+TEST_CASE("the clock of a planned measurement only goes on, from the time that was given",
+          "[diagnosis][next]") {
+    for (const diagnosis::Measurement& m :
+         diagnosis::ready_measurements(campaign::bc_setup(), 100.0)) {
+        double now_s = 100.0;
+        for (const records::Reading& row : m.table.rows) {
+            INFO(m.name << " " << row.test << " " << row.feature);
+            REQUIRE(row.time_s >= now_s);
+            now_s = row.time_s;
+        }
+        CHECK(now_s > 100.0);
+    }
+}
+
 namespace {
 
 struct Bench {

@@ -77,6 +77,31 @@ TEST_CASE("touches of one visit stay together", "[diagnosis]") {
     CHECK(rounded.sizes() == std::vector<std::size_t>{9});
 }
 
+TEST_CASE("the samples of a pass are whitened by the covariance that is stated for them",
+          "[diagnosis]") {
+    constexpr Eigen::Index samples = 12;
+    constexpr double sigma_mm = 3e-4;
+    diagnosis::NoiseModel noise;
+    noise.ballbar = {1.5, 0.6, 0.8};
+    diagnosis::NoiseBlock pass{records::Device::ballbar, {}};
+    Eigen::MatrixXd covariance(samples, samples);
+    for (Eigen::Index i = 0; i < samples; ++i) {
+        pass.rows.push_back(i);
+        for (Eigen::Index j = 0; j < samples; ++j)
+            covariance(i, j) = std::pow(1.5 * sigma_mm, 2) *
+                               (0.6 * std::pow(0.8, std::abs(i - j)) + (i == j ? 0.4 : 0.0));
+    }
+    Visits v;
+    v.nine_touches(0.0, 0.0);
+    const emulator::Replay replay(v.setup, v.table);
+    const diagnosis::Whitener whitener(replay, {pass}, noise,
+                                       Eigen::VectorXd::Constant(samples, sigma_mm));
+    Eigen::MatrixXd whitening = Eigen::MatrixXd::Identity(samples, samples);
+    whitener.apply(whitening);
+    const Eigen::MatrixXd left = whitening * covariance * whitening.transpose();
+    CHECK((left - Eigen::MatrixXd::Identity(samples, samples)).cwiseAbs().maxCoeff() < 1e-9);
+}
+
 namespace {
 
 constexpr double touch_sigma_mm = 8e-4;
