@@ -91,12 +91,12 @@ void Hole::turn_spindle(int direction) {
 /// G73: down by Q, retract by 5114. G83: down by Q, out to R, in again to 5115 above the last
 /// depth. Tapping: out to R by feed with reversed spindle, and in again (assumed).
 void Hole::peck() {
-    // A smaller word is none for the control (least increment of IS-C, assumed).
+    // The control rounds Q to its least increment (that of IS-C, assumed): a smaller one is none.
     constexpr double least_mm = 0.5e-4, most_pecks = 1e6;
     const double way = at_.bottom < at_.r ? -1.0 : 1.0;
     const double total = std::abs(at_.bottom - at_.r);
     if (!(std::min(at_.peck, at_.next_peck) >= least_mm)) raise_alarm(45);
-    // Between two blocks alone a run can be ended.
+    // A run can be ended between two blocks only.
     if (total / at_.next_peck * at_.times > most_pecks) raise_alarm(9007);
     for (double done = 0.0, next = at_.peck;; next = at_.next_peck) {
         done = std::min(done + next, total);

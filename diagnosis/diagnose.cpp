@@ -381,7 +381,7 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
         if (!corrected(p, s, round) && !turned) break;
         s = search_of(p, round, *keys, &s, options.go_on);
     }
-    bool unfinished = stopped();
+    const bool unfinished = stopped();
     if (unfinished) s.model = computable(s.design, s.setting, std::move(s.model));
     watch("held-out readings");
     s.setting.go_on = options.go_on;
@@ -392,7 +392,7 @@ Diagnosis diagnose(const setup::Setup& setup, const records::ReadingTable& table
     const Judgement judgement = judged(rows, p, found.model, round.noise);
     Diagnosis d = report_of(
         {p, s.design, s.setting, found.model, judgement, round.noise, round.used, found}, options);
-    d.unfinished = unfinished || stopped();
+    d.unfinished = found.ended;  // ended later, only the next measurement is missing
     if (const auto gap = store_gap(setup, table)) add_store_gap(setup, *gap, options.holdout, d);
     return d;
 }
