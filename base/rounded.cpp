@@ -53,6 +53,12 @@ std::string percent(double fraction) {
     return decimal(100.0 * fraction, 0);
 }
 
+std::string probability_words(double probability) {
+    if (probability >= 0.995) return "> 0.99";
+    if (probability < 0.005) return "< 0.01";
+    return decimal(probability, 2);
+}
+
 Rounded rounded(double value, double sigma) {
     if (!std::isfinite(sigma)) return {three_digits(value), nothing};
     const int decimals = decimals_of_sigma(sigma);

@@ -18,6 +18,10 @@ std::string three_digits(double value, int most_decimals = 9);
 
 /// A fraction in whole percent, without the sign of percent: "97". Never "-0".
 std::string percent(double fraction);
+/// A probability to two decimals. What is not certain is never shown as 1 or as 0: "0.83", ">
+/// 0.99",
+/// "< 0.01".
+std::string probability_words(double probability);
 
 /// A value and its sigma, both to two digits of sigma: {"-8.356", "0.057"}. Without a finite sigma
 /// the value has three significant digits and sigma is "–".

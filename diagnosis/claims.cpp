@@ -19,6 +19,11 @@ constexpr double doubtful = 0.4;  ///< probability at most of causes that cancel
 /// Probability at most where the search was ended before a contender was looked for.
 constexpr double unchallenged_most = 0.8;
 
+/// Probability at most of what that many blocks of readings saw (Laplace's rule of succession).
+double seen_by(double blocks) {
+    return (blocks + 1.0) / (blocks + 2.0);
+}
+
 double log_sum(const std::vector<double>& values) {
     const double most = *std::max_element(values.begin(), values.end());
     double sum = 0.0;
@@ -222,21 +227,21 @@ void name_axis(const Design& design, const Challenged& found, double axis, Claim
 
 }  // namespace
 
-Instead instead_of(Design& design, const Model& model, std::size_t position) {
+Instead instead_of(Design& design, const Model& model, std::size_t position, double blocks) {
     const Offer held = worth_of_members(design, model)[position];
     OffersBeside beside(design, model);
     std::vector<Offer> others = beside.without(position, is_cause);
     for (Offer& o : beside.only_rivals(position)) others.push_back(std::move(o));
     Claim claim;
     name_rivals(design, held, others, claim);
-    std::vector<double> scores{0.0};
+    std::vector<double> scores{0.0, -held.value};
     for (const std::size_t group : claim.rival_groups) {
         const auto is_it = [&](const Offer& o) { return o.group == group; };
         const Offer& o = *std::find_if(others.begin(), others.end(), is_it);
         scores.push_back(o.gain.best + design.group(group).log_prior - held.gain.best -
                          design.group(held.group).log_prior);
     }
-    return {std::move(claim.rivals), std::exp(-log_sum(scores))};
+    return {std::move(claim.rivals), std::min(seen_by(blocks), std::exp(-log_sum(scores)))};
 }
 
 Sizes sizes_of(Design& design, const Model& model, double floor, const std::vector<bool>& large) {
@@ -341,7 +346,7 @@ std::vector<Claim> claims_of(const Searching& search, const Model& model, const 
         const Contender& contender = heldout.found.contenders[k];
         const double seen =
             std::min({estimation::student_probability(heldout.support[k].saving.t, blocks - 1.0),
-                      (blocks + 1.0) / (blocks + 2.0), std::clamp(heldout.explained, 0.0, 1.0)});
+                      seen_by(blocks), std::clamp(heldout.explained, 0.0, 1.0)});
         const EvidenceOf told =
             evidence_of(search, model, worth[k], sharing(design, group, instead, others),
                         temper(sizes, k, heldout.folds));

@@ -43,12 +43,12 @@ struct HeldOutEvidence {
 };
 
 /// Causes that explain nearly as much as a driver or a large zero in its place, most likely first,
-/// and the probability of none of them.
+/// and the probability of none of them, nor of nothing, as far as the number of blocks allows it.
 struct Instead {
     std::vector<std::string> rivals;
     double probability = 1.0;
 };
-Instead instead_of(Design& design, const Model& model, std::size_t position);
+Instead instead_of(Design& design, const Model& model, std::size_t position, double blocks);
 
 /// Causes above the background, largest share first.
 std::vector<Claim> claims_of(const Searching& search, const Model& model, const Sizes& sizes,

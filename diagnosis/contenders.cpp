@@ -258,10 +258,35 @@ std::vector<std::size_t> least_certain_first(Design& design, const Model& model)
     return order;
 }
 
-/// Finds the contender of each member that is a cause; parts of one cause have one. If one is
-/// better than the chosen model and may replace it, returns it, and there are no contenders.
-std::optional<Model> challenge_each(const Searching& search, const Standing& chosen,
-                                    FoldColumns& rows, Challenged& result, bool may_replace) {
+/// Members without benefit for left-out readings come back on both sides, or on none.
+Standing whole(const Searching& search, FoldColumns& rows, const Model& model) {
+    return {rows, grown(search.design, search.setting, model)};
+}
+
+/// A model that takes the place of the chosen one, and how it stands.
+struct Successor {
+    Model model;
+    Standing chosen;
+};
+
+/// The contender as the model, if it is the better one also without its idle members. With more
+/// members than a search may take it is a sum that imitates what is not there.
+std::optional<Successor> successor(const Searching& search, const Standing& chosen,
+                                   FoldColumns& rows, const Contender& contender) {
+    const std::size_t most = std::max(search.setting.most_members, chosen.model.members.size());
+    if (contender.ahead < better || contender.predicted >= contender.spread ||
+        contender.model.members.size() > most)
+        return std::nullopt;
+    Model model = without_idle_members(rows, search.setting, contender.model);
+    Standing standing = whole(search, rows, model);
+    if (standing.weight < chosen.weight + better) return std::nullopt;
+    return Successor{std::move(model), std::move(standing)};
+}
+
+/// Finds the contender of each member that is a cause; parts of one cause have one. If one may
+/// replace the chosen model, returns what it becomes, and there are no contenders.
+std::optional<Successor> challenge_each(const Searching& search, const Standing& chosen,
+                                        FoldColumns& rows, Challenged& result, bool may_replace) {
     std::vector<Contender> contenders(result.model.members.size());
     std::map<std::string, std::size_t> challenged;
     for (const std::size_t k : least_certain_first(search.design, result.model)) {
@@ -272,13 +297,9 @@ std::optional<Model> challenge_each(const Searching& search, const Standing& cho
             contenders[k] = contenders[at->second];
             continue;
         }
-        Contender contender = contender_of(search, chosen, rows, cause);
-        const bool is_better = contender.ahead >= better && contender.predicted < contender.spread;
-        // With more members than a search may take it is a sum that imitates what is not there.
-        const bool is_small = contender.model.members.size() <=
-                              std::max(search.setting.most_members, chosen.model.members.size());
-        if (may_replace && is_better && is_small) return std::move(contender.model);
-        contenders[k] = std::move(contender);
+        contenders[k] = contender_of(search, chosen, rows, cause);
+        if (!may_replace) continue;
+        if (auto next = successor(search, chosen, rows, contenders[k])) return next;
     }
     result.contenders = std::move(contenders);
     return std::nullopt;
@@ -293,17 +314,13 @@ Challenged unchallenged(Model model) {
 
 Challenged challenged(FoldColumns& rows, const SearchSetting& setting, Model model) {
     const Searching search{rows.design(), setting};
-    // Members without benefit for left-out readings come back on both sides, or on none.
-    const auto whole = [&](const Model& m) {
-        return Standing(rows, grown(search.design, setting, m));
-    };
     Challenged result{std::move(model), {}, {}};
-    Standing chosen = whole(result.model);
+    Standing chosen = whole(search, rows, result.model);
     for (int replaced = 0; replaced < most_replaced; ++replaced) {
-        std::optional<Model> better = challenge_each(search, chosen, rows, result, true);
-        if (!better) break;
-        result = {without_idle_members(rows, setting, std::move(*better)), {}, {}};
-        chosen = whole(result.model);
+        std::optional<Successor> next = challenge_each(search, chosen, rows, result, true);
+        if (!next) break;
+        result = {std::move(next->model), {}, {}};
+        chosen = std::move(next->chosen);
     }
     if (result.contenders.empty()) challenge_each(search, chosen, rows, result, false);
     for (std::size_t k = 0; k < result.contenders.size(); ++k)

@@ -243,7 +243,8 @@ Cause unknown_cause(const Outcome& f, const Diagnosis& d) {
     for (std::size_t k = 0; k < f.model.members.size(); ++k) {
         const ColumnGroup& group = f.design.group(f.model.members[k]);
         if (group.kind != GroupKind::driver && !f.judgement.large[k]) continue;
-        const Instead instead = instead_of(f.design, f.model, k);
+        const double blocks = f.judgement.support[k].saving.blocks;
+        const Instead instead = instead_of(f.design, f.model, k, blocks);
         cause.probability = std::max(cause.probability.value(), instead.probability);
         for (const std::string& rival : instead.rivals)
             if (std::find(cause.rivals.begin(), cause.rivals.end(), rival) == cause.rivals.end())

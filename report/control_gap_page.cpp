@@ -24,7 +24,7 @@ PageTable cause_table(const choices::ControlGap& gap) {
         std::string what = c.what;
         for (const choices::FittedNumber& n : c.numbers) what += "; " + number_words(n);
         const std::string rivals = fmt::format("{}", fmt::join(c.rivals, ", "));
-        table.rows.push_back({c.name, what, percent(c.share), fmt::format("{:.2f}", c.probability),
+        table.rows.push_back({c.name, what, percent(c.share), probability_words(c.probability),
                               rivals.empty() ? "none" : rivals,
                               fmt::format("{} to {}", length_words(c.heldout.before_um),
                                           length_words(c.heldout.after_um)),

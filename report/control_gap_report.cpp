@@ -71,8 +71,9 @@ Json cause_json(const choices::GapCause& cause, double noise_um) {
 }
 
 std::string cause_text(const choices::GapCause& cause) {
-    std::string out = fmt::format("\n{}  {} % of the gap, probability {:.2f}\n  {}\n", cause.name,
-                                  percent(cause.share), cause.probability, cause.what);
+    std::string out =
+        fmt::format("\n{}  {} % of the gap, probability {}\n  {}\n", cause.name,
+                    percent(cause.share), probability_words(cause.probability), cause.what);
     for (const choices::FittedNumber& n : cause.numbers) out += "  " + number_words(n) + '\n';
     out += paragraph(
         fmt::format("{} block{}; first at {}: {}; worst at {}: {} mm or deg", cause.blocks,

@@ -171,8 +171,8 @@ std::string cause_section(const diagnosis::Cause& cause) {
         escape_xml(cause_name(cause)), escape_xml(cause.what), escape_xml(cause.usual_cause),
         escape_xml(cause.remedy));
     if (!cause.rivals.empty())
-        text += "<p class=\"bad-text\">These readings cannot tell it from: " + rivals_text(cause) +
-                ".</p>\n";
+        text += fmt::format("<p class=\"bad-text\">{}: {}.</p>\n", upper_first(rivals_words(cause)),
+                            rivals_text(cause));
     text += "<div class=\"scroll\" tabindex=\"0\"><table>" +
             row({"Parameter", "Value", "&plusmn; 1 sigma", "Unit"}, "th");
     for (const identification::FitParameter& p : cause.parameters) {

@@ -36,8 +36,8 @@ std::string parameters_text(const std::vector<identification::FitParameter>& par
 }
 
 std::string cause_text(const diagnosis::Diagnosis& d, const diagnosis::Cause& cause) {
-    std::string text = fmt::format("\n{}  {} % of the gap, probability {:.2f}\n", cause_name(cause),
-                                   percent(cause.share), cause.probability);
+    std::string text = fmt::format("\n{}  {} % of the gap, probability {}\n", cause_name(cause),
+                                   percent(cause.share), probability_words(cause.probability));
     text += paragraph(cause.what + ".", 2);
     if (!cause.usual_cause.empty())
         text += paragraph("Usual cause: " + cause.usual_cause + ".", 2) +
@@ -50,8 +50,8 @@ std::string cause_text(const diagnosis::Diagnosis& d, const diagnosis::Cause& ca
                             cause.holds_between ? "" : ": at the measured places only",
                             error_table(cause));
     if (!cause.rivals.empty())
-        text += paragraph(
-            fmt::format("cannot be told apart here from: {}", fmt::join(cause.rivals, ", ")), 2);
+        text +=
+            paragraph(fmt::format("{}: {}", rivals_words(cause), fmt::join(cause.rivals, ", ")), 2);
     text += fmt::format("  held out: {} -> {} (noise {}): shrinks by {} % ({} to {})\n",
                         size_words(d, cause.heldout.rms_before_um),
                         size_words(d, cause.heldout.rms_after_um),

@@ -33,6 +33,7 @@ std::string plain_name(const identification::FitParameter& p) {
 }
 
 constexpr double claimed_from = 0.5;  ///< probability of a cause
+constexpr double improbable = 0.1;    ///< ... below which its rivals are rather the cause
 
 bool is_sure(const diagnosis::Diagnosis& d) {
     return !d.causes.empty() && d.causes.front().probability >= claimed_from;
@@ -82,6 +83,11 @@ std::string size_words(const diagnosis::Diagnosis& d, double size) {
 
 std::string cause_name(const diagnosis::Cause& cause) {
     return cause.since.empty() ? cause.effect : cause.effect + " since " + cause.since;
+}
+
+const char* rivals_words(const diagnosis::Cause& cause) {
+    return cause.probability < improbable ? "rather one of its rivals, or nothing"
+                                          : "cannot be told apart here from";
 }
 
 std::string upper_first(std::string text) {

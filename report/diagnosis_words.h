@@ -19,6 +19,9 @@ std::string main_size(const diagnosis::Cause& cause);
 /// A size that is named _um: "12.3 µm", or in µrad where all readings are angles.
 std::string size_words(const diagnosis::Diagnosis& d, double size);
 std::string cause_name(const diagnosis::Cause& cause);
+/// How a cause stands to its rivals: "cannot be told apart here from", or what an improbable one
+/// is.
+const char* rivals_words(const diagnosis::Cause& cause);
 /// The verdict with its size, in one sentence.
 std::string verdict_sentence(const diagnosis::Diagnosis& diagnosis);
 /// The answer in two or three sentences: size, causes, and reduction of the gap.

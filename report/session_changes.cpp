@@ -58,8 +58,8 @@ std::string sentence(const diagnosis::Diagnosis& d) {
     std::string names;
     for (const diagnosis::Cause& cause : d.causes)
         if (!cause.since.empty())
-            names += fmt::format("{}{} (probability {:.2f})", names.empty() ? "" : ", ",
-                                 cause_name(cause), cause.probability);
+            names += fmt::format("{}{} (probability {})", names.empty() ? "" : ", ",
+                                 cause_name(cause), probability_words(cause.probability));
     if (!names.empty()) return "Between the sessions the machine changed: " + names + ".";
     if (d.verdict == diagnosis::Verdict::unexplained)
         return "No change of the catalogue's effects between the sessions is found; part of the "

@@ -43,6 +43,13 @@ TEST_CASE("without a sigma: three significant digits, no exponent") {
     CHECK(percent(-0.003) == "0");
     CHECK(percent(0.966) == "97");
     CHECK(percent(-0.75) == "-75");
+    // What is not certain is not shown as certain.
+    CHECK(probability_words(0.833) == "0.83");
+    CHECK(probability_words(0.9949) == "0.99");
+    CHECK(probability_words(0.9951) == "> 0.99");
+    CHECK(probability_words(1.0) == "> 0.99");
+    CHECK(probability_words(0.0051) == "0.01");
+    CHECK(probability_words(0.0049) == "< 0.01");
     CHECK(three_digits(-12.345) == "-12.3");
     CHECK(three_digits(9.996) == "10.0");
     CHECK(three_digits(999.6) == "1000");

@@ -150,6 +150,11 @@ def admitted(r):
     return r["verdict"] in ADMITTED or "unknown" in r["claimed"] or any(r["free"])
 
 
+def not_fooled(r):
+    """The same, or the verdict is at least not `explained`, or a jump of the machine is among the rivals of the first."""
+    return admitted(r) or r["verdict"] == "ambiguous" or any("machine.jump" in x for x in r["rivals"][:1])
+
+
 def shrink_ratio(r):
     """Measured shrink over the oracle's."""
     return None if r["measured_shrink"] is None or r["oracle_shrink"] <= 0.02 else \
@@ -253,6 +258,7 @@ def score_others(table, records):
     outsiders = [r for r in records if r["kind"] == "outsider"]
     table.head("outside any catalogue")
     table.rate("outsider.admitted", "admitted (unexplained, partly, unknown)", outsiders, admitted, "reach 95 %")
+    table.rate("outsider.not_fooled", "  the same, or not `explained`, or a jump named", outsiders, not_fooled, "reach 92 %")
     table.rate("outsider.missed", "missed (no-gap)", outsiders, lambda r: r["verdict"] == "no-gap")
     for low, high in SIZES:
         table.rate(f"outsider.admitted.{low:g}", f"  admitted from {low:g} sigma",
@@ -283,9 +289,10 @@ def first_named(r):
 
 
 def first_but_true(r):
-    """The same, but what is part of the smooth forms (X.scale, Y.straightness) may be named before it."""
+    """The same, but what is part of the smooth forms (X.scale, Y.straightness) may be named before it, and a table
+    of the effect's own name, which contains it, is the effect."""
     named = [c for c, free in zip(r["claimed"], r["free"])
-             if not free and (c in r["truth"] or not is_right(c, free, r["truth"], r["forms"]))]
+             if c in r["truth"] or not (free or is_right(c, free, r["truth"], r["forms"]))]
     return named[:1] == r["truth"]
 
 
