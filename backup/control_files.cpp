@@ -92,8 +92,8 @@ ControlBackup read_backup(const std::string& folder) {
 }
 
 void write_backup(const ControlBackup& backup, const std::string& folder) {
-    make_folder(folder);
     OutputFiles files;
+    files.add_folder(folder);
     for (const auto& [name, bytes] : backup.files)
         files.add((fs::path(folder) / name).string(), bytes);
     files.write();

@@ -1,7 +1,6 @@
-// A file descriptor that closes itself, and complete reads and writes.
+// A file descriptor that closes itself, and complete writes.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,8 +33,6 @@ class FileHandle {
 /// Writes all of `text`, also when interrupted by signals. False on failure; the reason is in
 /// errno.
 bool write_all(int descriptor, std::string_view text);
-/// Reads `size` bytes, fewer only at the end of the file. -1 on failure, see errno.
-std::ptrdiff_t read_some(int descriptor, char* data, std::size_t size);
 /// The system's message for a value of errno.
 std::string system_reason(int error);
 

@@ -12,6 +12,7 @@
 #include "base/alarm.h"
 #include "base/console.h"
 #include "base/file_handle.h"
+#include "base/waiting.h"
 
 namespace trunnion::inline base {
 namespace fs = std::filesystem;
@@ -86,12 +87,15 @@ struct OutputFile::State {
     std::string target;  ///< with links resolved
     std::string name;    ///< of the unpublished file; empty: it has no name
     FileHandle file;
-    bool direct = false;  ///< a device or a pipe
-    mode_t mode = 0;      ///< of the file to be replaced; 0: none
+    bool direct = false;    ///< a device or a pipe
+    bool replaces = false;  ///< there is a file already
+    struct stat replaced {};
 
     void open_direct(const struct stat& existing);
+    void open_pipe();
     void open_unnamed();
     void open_named();
+    void keep_owner_and_mode();
     void sync();
     void give_name();
 };
@@ -101,9 +105,25 @@ void OutputFile::State::open_direct(const struct stat& existing) {
     struct stat out {};
     const bool is_out = ::fstat(STDOUT_FILENO, &out) == 0 && out.st_dev == existing.st_dev &&
                         out.st_ino == existing.st_ino && !S_ISREG(existing.st_mode);
+    if (!is_out && S_ISFIFO(existing.st_mode)) return open_pipe();
     file = FileHandle(is_out ? ::dup(STDOUT_FILENO)
                              : ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
     if (!file.is_open()) refuse(path, errno);
+}
+
+/// Waits for a reader, but not for ever.
+void OutputFile::State::open_pipe() {
+    for (Wait wait;;) {
+        file = FileHandle(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK));
+        if (file.is_open()) break;
+        if (errno != ENXIO) refuse(path, errno);
+        if (!wait.step(-1, 0, true))
+            throw InputError("cannot be written: nobody reads this pipe (" + wait.reason() + ")",
+                             {path, 0, 0});
+    }
+    const int flags = ::fcntl(file.descriptor(), F_GETFL);
+    if (flags < 0 || ::fcntl(file.descriptor(), F_SETFL, flags & ~O_NONBLOCK) != 0)
+        refuse(path, errno);
 }
 
 void OutputFile::State::open_unnamed() {
@@ -123,8 +143,22 @@ void OutputFile::State::open_named() {
     refuse(path, errno);
 }
 
+/// Gives the new file the owner, the group and the mode of the one that it replaces. An owner that
+/// the system does not let the user give stays the user; the file then runs as nobody else.
+void OutputFile::State::keep_owner_and_mode() {
+    const int f = file.descriptor();
+    struct stat own {};
+    if (::fstat(f, &own) != 0) refuse(path, errno);
+    const bool kept = (own.st_uid == replaced.st_uid && own.st_gid == replaced.st_gid) ||
+                      ::fchown(f, replaced.st_uid, replaced.st_gid) == 0 ||
+                      (::fchown(f, static_cast<uid_t>(-1), replaced.st_gid) == 0 &&
+                       own.st_uid == replaced.st_uid);
+    const mode_t mode = replaced.st_mode & (kept ? 07777U : 0777U);
+    if (::fchmod(f, mode) != 0) refuse(path, errno);
+}
+
 void OutputFile::State::sync() {
-    if (mode != 0 && ::fchmod(file.descriptor(), mode) != 0) refuse(path, errno);
+    if (replaces) keep_owner_and_mode();
     // Some file systems do not support synchronisation and report that.
     if (::fsync(file.descriptor()) != 0 && errno != EINVAL && errno != ENOTSUP) refuse(path, errno);
 }
@@ -150,7 +184,8 @@ OutputFile::OutputFile(std::string path) : state_(std::make_unique<State>()) {
             return;
         }
         if (::access(state_->path.c_str(), W_OK) != 0) refuse(state_->path, errno);
-        state_->mode = existing.st_mode & 07777;
+        state_->replaces = true;
+        state_->replaced = existing;
     } else if (errno != ENOENT) {
         refuse(state_->path, errno);
     }
@@ -187,6 +222,23 @@ void OutputFile::publish() {
     state_->name.clear();
 }
 
+OutputFiles::~OutputFiles() {
+    files_.clear();
+    for (auto path = made_.rbegin(); path != made_.rend(); ++path) ::rmdir(path->c_str());
+}
+
+void OutputFiles::add_folder(const std::string& path) {
+    if (path.empty()) return;  // our own object
+    fs::path folder;
+    for (const fs::path& name : fs::path(path)) {
+        folder /= name;
+        std::error_code error;
+        if (name.empty()) continue;  // of a slash at the end
+        if (fs::create_directory(folder, error)) made_.push_back(folder.string());
+        if (error) throw InputError("this folder cannot be made: " + error.message(), {path, 0, 0});
+    }
+}
+
 void OutputFiles::add(const std::string& path, std::string text) {
     texts_.emplace_back(path, std::move(text));
 }
@@ -209,13 +261,7 @@ void OutputFiles::write() {
     for (const auto& file : files_) file->publish();
     files_.clear();
     texts_.clear();
-}
-
-void make_folder(const std::string& path) {
-    if (path.empty()) return;  // our own object
-    std::error_code error;
-    fs::create_directories(path, error);
-    if (error) throw InputError("this folder cannot be made: " + error.message(), {path, 0, 0});
+    made_.clear();
 }
 
 void write_output(const std::string& path, std::string text) {

@@ -8,7 +8,8 @@ namespace trunnion::inline base {
 
 /// The bytes of a file, a pipe or a device. Throws InputError with the path and the system's reason
 /// when it is missing, is a folder, cannot be read, or changes while being read. At most 1 GiB from
-/// a pipe or a device.
+/// a pipe or a device. A named pipe without a writer and a silent device are errors after a few
+/// seconds (base/waiting.h).
 std::string read_file(const std::string& path);
 /// The same; "-" is standard input.
 std::string read_file_or_input(const std::string& path);

@@ -127,7 +127,7 @@ int run_command(const BallbarOptions& o) {
     if (!o.readings_after.empty())
         files.add(o.readings_after, records::format_readings(result.after.readings));
     if (!o.svg_folder.empty()) {
-        make_folder(o.svg_folder);
+        files.add_folder(o.svg_folder);
         for (const auto& [name, text] : report::ballbar_pictures(result))
             files.add((std::filesystem::path(o.svg_folder) / name).string(), text);
     }

@@ -109,7 +109,7 @@ int update(const CompareCommand& c, const regression::Suite& suite) {
     OutputFiles files;
     const auto goldens = regression::updated_goldens(suite, c.reason, open_setup);
     for (const auto& [path, text] : goldens) {
-        make_folder(std::filesystem::path(path).parent_path().string());
+        files.add_folder(std::filesystem::path(path).parent_path().string());
         files.add(path, text);
     }
     files.write();

@@ -70,7 +70,7 @@ void add_pictures(const std::string& folder, const std::string& readings, const 
     for (const auto& [test, rotary] : tests)
         out.add(folder + '/' + file_name(test),
                 report::iso230_2_picture(test, records::deviation_points(table, test), rotary));
-    make_folder(folder);
+    out.add_folder(folder);
 }
 
 int import_command(const ImportOptions& options) {

@@ -20,9 +20,11 @@
 #include "base/nearest.h"
 #include "base/read_file.h"
 #include "base/text.h"
+#include "base/waiting.h"
 #include "cli/budget_options.h"
 #include "cli/command.h"
 #include "cli/help_text.h"
+#include "cli/long_work.h"
 #include "cli/notes.h"
 #include "cli/options.h"
 #include "cli/page_options.h"
@@ -174,11 +176,20 @@ bool tells_inputs(const CLI::App& app) {
     });
 }
 
+/// --max-seconds of the command, or 0.
+double time_limit_s(const CLI::App& app) {
+    for (const CLI::App* command : app.get_subcommands())
+        if (const CLI::Option* given = command->get_option_no_throw("--max-seconds"))
+            return given->count() > 0 ? given->as<double>() : 0.0;
+    return 0.0;
+}
+
 int run_guarded(const CLI::App& app, const Run& run) {
     std::optional<ReadRecord> record;
     if (tells_inputs(app) || talk() == Talk::verbose) record.emplace();
     try {
         refuse_clashing_files(app);
+        const WaitLimits waits(time_limit_s(app), Interruption::asked);
         const auto begin = std::chrono::steady_clock::now();
         const int code = run();
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;

@@ -211,8 +211,8 @@ report::PivotResult simulate(const PivotOptions& o, const setup::Setup& setup, O
 }
 
 int write_programs(const PivotOptions& o, const setup::Setup& setup) {
-    make_folder(o.programs_folder);
     OutputFiles files;
+    files.add_folder(o.programs_folder);
     for (const auto& [name, text] : pivot::pivot_programs(pivot::plan_pivot_test(setup)))
         files.add((fs::path(o.programs_folder) / name).string(), text);
     files.add((fs::path(o.programs_folder) / "sphere9.nc").string(),
@@ -241,7 +241,7 @@ int run_pivot(const PivotOptions& o) {
                           : report::pivot_table(result));
     if (!o.page.html.empty()) files.add(o.page.html, page_of(o, result));
     if (!o.svg_folder.empty()) {
-        make_folder(o.svg_folder);
+        files.add_folder(o.svg_folder);
         for (const auto& [name, text] : report::pivot_pictures(result))
             files.add((fs::path(o.svg_folder) / name).string(), text);
     }

@@ -68,7 +68,7 @@ int run_command(const VolumetricCommandOptions& o) {
     OutputFiles files;
     if (!o.csv.empty()) files.add(o.csv, report::volumetric_csv(map));
     if (!o.svg.empty() && whole) {
-        make_folder(o.svg);
+        files.add_folder(o.svg);
         for (auto& [name, text] : report::volumetric_pictures(map))
             files.add(o.svg + '/' + name, text);
     }

@@ -1,7 +1,9 @@
 #include "base/output_files.h"
 
 #include <fcntl.h>
+#include <grp.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -13,6 +15,7 @@
 #include "base/alarm.h"
 #include "base/file_handle.h"
 #include "base/read_file.h"
+#include "base/waiting.h"
 
 using namespace trunnion;
 namespace fs = std::filesystem;
@@ -63,6 +66,77 @@ TEST_CASE("a new file has the mode that the user's mask leaves") {
     struct stat state {};
     REQUIRE(::stat(folder.file("new.txt").c_str(), &state) == 0);
     CHECK((state.st_mode & 0777) == 0640);
+}
+
+TEST_CASE("a replaced file keeps owner and group, another link the old text") {
+    const Folder folder;
+    folder.write("a.txt", "old");
+    REQUIRE(::link(folder.file("a.txt").c_str(), folder.file("b.txt").c_str()) == 0);
+    const bool permitted = ::chown(folder.file("a.txt").c_str(), 12345, 23456) == 0;
+    CHECK(::chmod(folder.file("a.txt").c_str(), 04755) == 0);
+    put(folder.file("a.txt"), "new");
+    CHECK(read_file(folder.file("a.txt")) == "new");
+    CHECK(read_file(folder.file("b.txt")) == "old");
+    struct stat state {};
+    REQUIRE(::stat(folder.file("a.txt").c_str(), &state) == 0);
+    CHECK(state.st_uid == (permitted ? 12345 : ::getuid()));
+    if (permitted) CHECK(state.st_gid == 23456);
+    CHECK((state.st_mode & 07777) == 04755);
+}
+
+TEST_CASE("an owner that cannot be kept takes the right to run as that owner with it") {
+    if (::getuid() != 0) return;  // nobody else can have a file of another owner
+    const Folder folder;
+    folder.write("a.txt", "old");
+    CHECK(::chown(folder.path.c_str(), 12345, 23456) == 0);
+    CHECK(::chown(folder.file("a.txt").c_str(), 12346, 23457) == 0);
+    CHECK(::chmod(folder.file("a.txt").c_str(), 06777) == 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        if (::setgroups(0, nullptr) != 0 || ::setgid(23456) != 0 || ::setuid(12345) != 0)
+            ::_exit(2);
+        try {
+            put(folder.file("a.txt"), "new");
+        } catch (const InputError&) {
+            ::_exit(1);
+        }
+        ::_exit(0);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    REQUIRE((WIFEXITED(status) && WEXITSTATUS(status) == 0));
+    struct stat state {};
+    REQUIRE(::stat(folder.file("a.txt").c_str(), &state) == 0);
+    CHECK(state.st_uid == 12345);
+    CHECK((state.st_mode & 07777) == 0777);
+}
+
+TEST_CASE("folders made for outputs go again when the outputs fail") {
+    const Folder folder;
+    fs::create_directories(folder.path / "mine");
+    const auto write = [&](const std::string& last) {
+        OutputFiles files;
+        files.add_folder(folder.file("mine/a/b/"));
+        files.add(folder.file("mine/a/b/x.txt"), "x");
+        files.add(folder.file("mine/a/../c.txt"), "c");
+        files.add(last, "y");
+        files.write();
+    };
+    CHECK_THROWS_AS(write("/dev/full"), InputError);
+    CHECK(fs::is_empty(folder.path / "mine"));
+    write(folder.file("mine/a/b/y.txt"));
+    CHECK(read_file(folder.file("mine/a/b/y.txt")) == "y");
+    OutputFiles never;
+    never.add_folder(folder.file("mine/a"));
+    CHECK_THROWS_AS(never.add_folder("/proc/none"), InputError);
+}
+
+TEST_CASE("a pipe that nobody reads ends after a time") {
+    const Folder folder;
+    REQUIRE(::mkfifo(folder.file("pipe").c_str(), 0600) == 0);
+    const WaitLimits limits(0.2, {});
+    CHECK_THROWS_WITH(put(folder.file("pipe"), "x"), Catch::Contains("nobody reads this pipe"));
+    CHECK(folder.count() == 1);
 }
 
 TEST_CASE("what is not published leaves the old file and nothing else") {

@@ -132,3 +132,36 @@ TEST_CASE("a program that is copied alone says where it looked for the machines"
     CHECK(bench.shell("cp " TRUNNION_SOURCE_DIR "/machines/bc_table.toml home/machines/; "
                       "TRUNNION_HOME=home ./alone run part.nc 2> err.txt") == 0);
 }
+
+TEST_CASE("a pipe that nobody writes to or reads ends every command with a message") {
+    const Bench bench;
+    REQUIRE(bench.shell("mkfifo pipe") == 0);
+    for (const char* words :
+         {"run pipe", "check pipe --max-seconds 0.3", "compare pipe part.nc --max-seconds 0.3",
+          "run part.nc --setup pipe --max-seconds 0.3",
+          "run part.nc --trace pipe --max-seconds 0.3",
+          "diagnose pipe --setup pipe --max-seconds 0.3"}) {
+        INFO(words);
+        CHECK(bench.shell(std::string("timeout 20 $T ") + words + " > out.txt 2> err.txt") == 2);
+        CHECK_THAT(bench.read("err.txt"), Catch::Contains("this pipe (after "));
+    }
+    CHECK(bench.shell("$T run pipe --max-seconds 30 2> err.txt & job=$!; sleep 0.3; kill -TERM "
+                      "$job; wait $job") != 0);
+}
+
+TEST_CASE("a program is read from a named pipe with a late writer") {
+    const Bench bench;
+    CHECK(bench.shell("$T run part.nc --print a.txt 2> err.txt; mkfifo pipe; (sleep 0.3; cat "
+                      "part.nc > pipe) & $T run pipe --print b.txt 2> err.txt; code=$?; wait; exit "
+                      "$code") == 0);
+    CHECK(bench.read("b.txt") == bench.read("a.txt"));
+    CHECK(bench.shell("sleep 3 | $T run - --max-seconds 0.3 2> err.txt") == 2);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("neither data nor an end (after 0.3"));
+}
+
+TEST_CASE("a folder that a command made goes again when the disk is full") {
+    const Bench bench;
+    CHECK(bench.shell("(ulimit -f 0; trap '' XFSZ; $T pivot --write-programs new/deep 2> "
+                      "/dev/null)") == 2);
+    CHECK_FALSE(fs::exists(bench.file("new")));
+}
