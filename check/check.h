@@ -10,6 +10,7 @@
 #include "base/alarm.h"
 #include "interpreter/block_words.h"
 #include "interpreter/dialect.h"
+#include "interpreter/evaluate.h"
 #include "interpreter/program_source.h"
 
 namespace trunnion::check {
@@ -41,9 +42,13 @@ class Trial {
     virtual std::optional<Alarm> read(const interpreter::BlockWords& block) = 0;
     /// End of the program: executes what is still pending.
     virtual std::optional<Alarm> end() = 0;
+    /// Sets a system variable like a run.
+    virtual std::optional<Alarm> assign(int number, double value, const std::string& comment) = 0;
+    /// How expressions are evaluated in the present state.
+    virtual interpreter::EvaluationRules rules() const = 0;
 };
 
-/// A trial by a class with the same three functions that does not know this room: the control's
+/// A trial by a class with the same functions that does not know this room: the control's
 /// BlockTrial.
 template <class Blocks>
 class TrialBy final : public Trial {
@@ -57,6 +62,10 @@ class TrialBy final : public Trial {
         return blocks_.read(block);
     }
     std::optional<Alarm> end() override { return blocks_.end(); }
+    std::optional<Alarm> assign(int number, double value, const std::string& comment) override {
+        return blocks_.assign(number, value, comment);
+    }
+    interpreter::EvaluationRules rules() const override { return blocks_.rules(); }
 
   private:
     Blocks blocks_;
@@ -83,6 +92,8 @@ struct CheckOptions {
     /// Alarm number for reading or writing variable #number from #1000 on; 0: none. Empty: not
     /// checked.
     std::function<int(int number, bool writes)> variable_alarm;
+    /// Block skip: [1] is also the switch of '/'.
+    std::vector<bool> skip_switches;
     /// A control that executes blocks one after another. Empty: not checked.
     std::function<std::unique_ptr<Trial>()> start_trial;
     bool arc_centres_are_places = false;  ///< BNC: I J K are positions, not distances from the
@@ -90,8 +101,8 @@ struct CheckOptions {
     double arc_tolerance_mm = 0.02;  ///< difference of the radii at start and end (parameter 3410)
 };
 
-/// All findings on one file, by line. Reports only what is certain: computed values, positions
-/// after jumps and machine data are left to a run.
+/// All findings on one file, by line. Reports only what is certain: values that the program does
+/// not set, positions after jumps and machine data are left to a run.
 std::vector<Finding> check_program(const interpreter::ProgramText& program,
                                    const CheckOptions& options);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "check/section.h"
+#include "interpreter/word_rules.h"
 
 namespace trunnion::check {
 
@@ -176,9 +177,9 @@ std::optional<int> called_program(const interpreter::ParsedProgram& program,
     for (const interpreter::Item& item : program.items(block)) {
         if (item.kind != interpreter::ItemKind::word || item.letter != 'P') continue;
         const auto value = interpreter::constant_value(program, item);
-        if (!value || *value != std::floor(*value)) return std::nullopt;
+        if (!value || !interpreter::is_whole(*value)) return std::nullopt;
         column = item.column;
-        return whole_of(*value);
+        return whole_of(std::round(*value));
     }
     return std::nullopt;
 }

@@ -71,7 +71,7 @@ void check_codes(const CheckSection& section, const CheckOptions& options, Findi
 /// Checks values of words against the table of interpreter/word_rules.h, and reports variables that
 /// do not exist or are not writable.
 void check_words(const CheckSection& section, const CheckOptions& options, Findings& findings);
-/// Executes a main program as far as it is sequential with constant words.
+/// Executes a main program as far as it is sequential and its values are known.
 void check_trial(const CheckSection& section, const CheckOptions& options, Findings& findings);
 /// One finding when the program is for a lathe or a Haas; its own codes are then not reported as
 /// errors. Returns true in this case.

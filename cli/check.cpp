@@ -124,6 +124,7 @@ class SetupRules {
                     number, writes, emulator::control_config(setup_), setup_.stores);
             return known->second;
         };
+        out.skip_switches = emulator::control_config(setup_).skip_switches;
         out.start_trial = [this] {
             return std::make_unique<check::TrialBy<controller::BlockTrial>>(
                 emulator::control_config(setup_), setup_.stores);

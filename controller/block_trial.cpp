@@ -26,10 +26,13 @@ std::optional<Alarm> alarm_of(Work work) {
 
 struct BlockTrial::State {
     State(ControlConfig config, offsets::Stores stores_)
-        : stores(std::move(stores_)), control(std::move(config), stores, sink) {}
+        : stores(std::move(stores_)),
+          control(std::move(config), stores, sink),
+          variables(control) {}
     offsets::Stores stores;
     NoAxes sink;
     Control control;
+    ControlVariables variables;
 };
 
 BlockTrial::BlockTrial(ControlConfig config, offsets::Stores stores)
@@ -46,6 +49,17 @@ std::optional<Alarm> BlockTrial::read(const interpreter::BlockWords& block) {
 
 std::optional<Alarm> BlockTrial::end() {
     return alarm_of([&] { state_->control.mover.cutter.flush(); });
+}
+
+std::optional<Alarm> BlockTrial::assign(int number, double value, const std::string& comment) {
+    return alarm_of([&] { state_->variables.set(number, value, comment.c_str()); });
+}
+
+interpreter::EvaluationRules BlockTrial::rules() const {
+    interpreter::EvaluationRules rules;
+    rules.signed_angles = state_->control.stores.parameters.bit(6004, 0);
+    rules.increments_per_unit = state_->control.modal.units.inch() ? 1e4 : 1e3;
+    return rules;
 }
 
 int variable_alarm(int number, bool writes, const ControlConfig& config,

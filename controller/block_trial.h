@@ -7,12 +7,13 @@
 #include "base/alarm.h"
 #include "controller/control_config.h"
 #include "interpreter/block_words.h"
+#include "interpreter/evaluate.h"
 #include "offsets/stores.h"
 
 namespace trunnion::controller {
 
-/// Processes the words like a run, for a program without jumps and variables, on its own copy of
-/// the stores. Not for blocks whose result depends on devices (G31).
+/// Processes the words like a run, for a program without jumps, on its own copy of the stores. Not
+/// for blocks whose result depends on devices (G31).
 class BlockTrial {
   public:
     BlockTrial(ControlConfig config, offsets::Stores stores);
@@ -24,6 +25,10 @@ class BlockTrial {
     std::optional<Alarm> read(const interpreter::BlockWords& block);
     /// Executes what waits for a later block, as at M30.
     std::optional<Alarm> end();
+    /// Sets a system variable.
+    std::optional<Alarm> assign(int number, double value, const std::string& comment);
+    /// How expressions are evaluated in the present state.
+    interpreter::EvaluationRules rules() const;
 
   private:
     struct State;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "interpreter/known_values.h"
 #include "interpreter/lexical.h"
 #include "interpreter/line_scan.h"
 
@@ -42,6 +43,11 @@ bool same_op(const Op& a, const Op& b) {
 bool same_expression(const ParsedProgram& a, Span span_a, const ParsedProgram& b, Span span_b) {
     const auto x = a.expression(span_a), y = b.expression(span_b);
     return std::equal(x.begin(), x.end(), y.begin(), y.end(), same_op);
+}
+
+/// Variables and parameters.
+bool needs_a_run(const Op& op) {
+    return (op.code >= OpCode::local && op.code <= OpCode::indirect) || op.code >= OpCode::prm;
 }
 
 bool has_text(const Item& item) {
@@ -101,9 +107,15 @@ ParsedProgram parse_program(const ProgramText& source, const Dialect& dialect) {
 
 std::optional<double> constant_value(const ParsedProgram& program, const Item& item) {
     if (item.a.count == 0) return item.value;
-    const auto ops = program.expression(item.a);
-    if (ops.size() != 1 || ops[0].code != OpCode::constant) return std::nullopt;
-    return item.negative ? -ops[0].value : ops[0].value;
+    const auto code = program.expression(item.a);
+    if (std::any_of(code.begin(), code.end(), needs_a_run)) return std::nullopt;
+    try {
+        const auto value = KnownValues(false).value(code);
+        if (!value || is_vacant(*value)) return std::nullopt;
+        return item.negative ? -*value : *value;
+    } catch (const Alarm&) {
+        return std::nullopt;  // it has no value
+    }
 }
 
 bool same_block(const ParsedProgram& a, const Block& block_a, const ParsedProgram& b,

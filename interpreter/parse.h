@@ -49,8 +49,8 @@ struct ParsedProgram {
 
 ParsedProgram parse_program(const ProgramText& source, const Dialect& dialect);
 
-/// The value of a word or jump target written as a number: `X10.`; empty for expressions such as
-/// `X[5+5]`.
+/// The value of a word or jump target without variables: `X10.`, `X[5+5]`; empty where variables or
+/// parameters are needed, and for an expression with an alarm.
 std::optional<double> constant_value(const ParsedProgram& program, const Item& item);
 
 /// True when N, O, name, items, expressions and comments are equal; positions are ignored.

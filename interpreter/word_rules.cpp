@@ -182,11 +182,6 @@ std::string range_text(const WordRule& rule) {
            std::to_string(std::lround(rule.most)) + ")";
 }
 
-bool is_whole(double value) {
-    if (std::abs(value) < 1e9 && value == static_cast<int>(value)) return true;
-    return std::abs(value - std::round(value)) <= 1e-6;
-}
-
 /// Alarm 0: the rule is kept. Column 0: the word is missing.
 struct Violation {
     int alarm = 0, column = 0;
@@ -245,6 +240,11 @@ WordFault fault_of(const WordRule& rule, const Violation& v) {
 }
 
 }  // namespace
+
+bool is_whole(double value) {
+    if (std::abs(value) < 1e9 && value == static_cast<int>(value)) return true;
+    return std::abs(value - std::round(value)) <= 1e-6;
+}
 
 bool is_macro_call(const WordValue& word) {
     if (word.letter != 'G' || word.vacant) return false;

@@ -27,6 +27,9 @@ std::optional<WordFault> find_word_fault(const BlockWords& block, DialectFamily 
 /// G65, G66 or G66.1: the words behind it are arguments.
 bool is_macro_call(const WordValue& word);
 
+/// True for what the rules take as an integer: P2.0000001 is 2.
+bool is_whole(double value);
+
 /// A code number must be an integer >= 0: else PS0007, PS0006.
 std::optional<WordFault> find_m_fault(const WordValue& m_word);
 

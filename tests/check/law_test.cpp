@@ -1,5 +1,7 @@
 // The law: what run refuses when it reaches a block, check refuses. Without TRUNNION_LAW_SEED and
 // TRUNNION_LAW_BLOCKS always the same 6000 blocks; ./dev assure gives both.
+#include "tests/check/law.h"
+
 #include <fmt/format.h>
 
 #include <array>
@@ -7,50 +9,10 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "base/random.h"
-#include "check/check.h"
-#include "controller/alarms.h"
-#include "controller/block_trial.h"
-#include "controller/controller.h"
-#include "controller/g_codes.h"
-
 using namespace trunnion;
-using OneTrial = check::TrialBy<controller::BlockTrial>;
+using law::pick;
 
 namespace {
-
-class NoAxes : public motion::MotionSink {
-  public:
-    motion::MoveResult move(const motion::AxisMove&) override { return {}; }
-};
-
-controller::ControlConfig five_axes() {
-    controller::ControlConfig config;
-    config.dialect = interpreter::fanuc_dialect();
-    for (const Axis axis : {Axis::X, Axis::Y, Axis::Z, Axis::B, Axis::C})
-        config.axes.push_back({axis, is_rotary(axis), {}, {}, {}, {}});
-    return config;
-}
-
-check::CheckOptions options_for(const controller::ControlConfig& config,
-                                const offsets::Stores& stores) {
-    check::CheckOptions options;
-    options.dialect = config.dialect;
-    options.knows_g = [](int code10) {
-        return controller::find_g_code(code10 / 10.0) || (code10 >= 650 && code10 <= 670);
-    };
-    options.finds_program = [](int) { return false; };
-    options.alarm_text = [](int number) { return controller::alarm_title(number, ""); };
-    options.variable_alarm = [&config, &stores](int number, bool writes) {
-        return controller::variable_alarm(number, writes, config, stores);
-    };
-    options.start_trial = [&config, &stores] { return std::make_unique<OneTrial>(config, stores); };
-    return options;
-}
-
-std::string pick(SeededNoise& noise, const std::vector<std::string>& from) {
-    return from[static_cast<std::size_t>(noise.uniform() * static_cast<double>(from.size()))];
-}
 
 std::string random_block(SeededNoise& noise) {
     static const std::vector<std::string> values = {
@@ -93,12 +55,6 @@ std::uint64_t wish(const char* name, std::uint64_t otherwise) {
     return text ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-bool refuses(const std::vector<check::Finding>& findings, int line) {
-    for (const check::Finding& f : findings)
-        if (f.severity == check::Severity::error && f.line == line) return true;
-    return false;
-}
-
 /// The alarm of a run through the block, and whether check refuses it.
 struct Verdict {
     std::optional<Alarm> alarm;
@@ -106,18 +62,8 @@ struct Verdict {
 };
 
 Verdict judge(const std::string& block) {
-    const controller::ControlConfig config = five_axes();
-    offsets::Stores stores;
-    stores.parameters.set(3401, 1);
-    const auto text =
-        std::make_shared<const std::string>("O1\nG21G90G17G94G54F200.S500M3\n" + block + "\nM30\n");
-    const interpreter::ProgramText program{"p.nc", *text, text};
-    offsets::Stores own = stores;
-    NoAxes sink;
-    interpreter::ProgramsInMemory none;
-    controller::Controller control(config, own, none, sink, [](std::string_view) {});
-    const controller::RunResult result = control.run(program);
-    return {result.alarm, refuses(check::check_program(program, options_for(config, stores)), 3)};
+    const law::Outcome out = law::judge("O1\nG21G90G17G94G54F200.S500M3\n" + block + "\nM30\n");
+    return {out.run.alarm, out.refused_by_check(3)};
 }
 
 /// An alarm of the block itself. Nesting and the caller's numbers (77, 78, 122) are known to a run

@@ -339,7 +339,7 @@ TEST_CASE("two blocks are the same when nothing that they say differs") {
         }
 }
 
-TEST_CASE("the value of a word that is written as a number") {
+TEST_CASE("the value of a word without variables") {
     const auto value = [](std::string_view text) {
         const interpreter::ParsedProgram p = parsed(text);
         return interpreter::constant_value(p, p.items(p.blocks.at(0))[0]);
@@ -347,8 +347,14 @@ TEST_CASE("the value of a word that is written as a number") {
     CHECK(value("X5.\n") == 5.0);
     CHECK(value("X[5.]\n") == 5.0);
     CHECK(value("X-[5.]\n") == -5.0);
-    CHECK_FALSE(value("X[5.+5.]\n"));
-    CHECK_FALSE(value("X#5\n"));
+    CHECK(value("X[5.+5.]\n") == 10.0);
+    CHECK(value("X-[5.+5.]\n") == -10.0);
+    CHECK(value("P[-1 OR 2]\n") == -1.0);
+    for (const char* text : {"X#5\n", "X[5.+#5]\n", "X#0\n", "X[1/0]\n", "X[PRM[20]]\n", "X#[5]\n",
+                             "X[ROUND[2.4]]\n", "X[ASIN[-1]]\n"}) {
+        INFO(text);
+        CHECK_FALSE(value(text));
+    }
 }
 
 TEST_CASE("a call needs the program that it calls, and nothing else") {
