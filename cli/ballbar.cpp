@@ -38,7 +38,7 @@ int write_programs(const setup::Setup& setup, const BallbarOptions& o) {
     kinematics::Machine nominal = setup.machine;
     nominal.errors = {};
     ballbar::test::BallbarProgramData data = ballbar::test::stated_program_data(setup, o.inside);
-    data.hurco = data.hurco || o.hurco;
+    if (o.hurco && !setup::is_hurco(data.language)) data.language = setup::ProgramLanguage::isnc;
     OutputFiles files;
     if (!o.program.empty()) files.add(o.program, ballbar::test::ballbar_program(nominal, data));
     if (!o.kinematic_program.empty())

@@ -24,6 +24,7 @@
 #include "report/pivot_page.h"
 #include "report/pivot_pictures.h"
 #include "setup/control_machine.h"
+#include "setup/program_language.h"
 
 namespace trunnion::cli {
 
@@ -115,7 +116,7 @@ std::vector<std::pair<std::string, std::vector<std::string>>> shop_programs(
 }
 
 bool is_hurco(const setup::Setup& setup) {
-    return setup.dialect.family == interpreter::DialectFamily::hurco;
+    return setup::is_hurco(setup::language_of(setup));
 }
 
 report::PivotResult result_of(const PivotOptions& o, const setup::Setup& setup,

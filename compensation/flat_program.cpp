@@ -19,8 +19,8 @@ std::string trimmed(std::string text) {
 }  // namespace
 
 FlatProgram::FlatProgram(const setup::Setup& setup, int decimals)
-    : setup_(setup), decimals_(decimals) {
-    text_ = "G21 G17 G90 G94 G40 G49 G69 G80\nG54\n";
+    : setup_(setup), language_(setup::language_of(setup)), decimals_(decimals) {
+    text_ = std::string(setup::start_codes(language_)) + " G17 G90 G94 G40 G49 G69 G80\nG54\n";
 }
 
 double FlatProgram::offset(Axis axis) const {
@@ -141,10 +141,14 @@ void FlatProgram::arc(const motion::AxisMove& move, const AxisPositions& to, int
     std::string words = plane_ == plane ? "" : plane + ' ';
     plane_ = plane;
     motion_ += motion_.empty() ? "" : " ";
-    motion_ += words + (counter_clockwise ? "G3" : "G2");
+    const bool bnc = language_ == setup::ProgramLanguage::bnc;
+    const bool exchanged = bnc && normal == 1;
+    motion_ += words + (counter_clockwise != exchanged ? "G3" : "G2");
     words = axis_words(to, true);
-    for (int i = 0; i < 3; ++i)
-        if (i != normal) words += word("IJK"[i], centre_mm[i] - start[i]);
+    for (int i = 0; i < 3; ++i) {
+        const double from = bnc ? offset(all_axes[static_cast<std::size_t>(i)]) : start[i];
+        if (i != normal) words += word("IJK"[i], centre_mm[i] - from);
+    }
     block(move, words + feed_words(move, false, 0.0));
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "motion/motion.h"
-#include "setup/setup.h"
+#include "setup/program_language.h"
 
 namespace trunnion::compensation {
 
@@ -41,6 +41,7 @@ class FlatProgram {
     double offset(Axis axis) const;
 
     const setup::Setup& setup_;
+    const setup::ProgramLanguage language_;
     int decimals_;
     AxisPositions at_;
     bool first_ = true;

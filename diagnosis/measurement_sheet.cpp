@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "diagnosis/measurement_plan.h"
+#include "setup/program_language.h"
 #include "setup/programmed_point.h"
 #include "setup/store_prints.h"
 
@@ -68,16 +69,17 @@ std::string MeasurementPlan::head_text() const {
     }
     const std::string name = with_stars(result_.name);
     const auto stores = setup::rotary_stores(setup_.machine.chain, setup_.stores);
-    const bool hurco = setup_.dialect.family == interpreter::DialectFamily::hurco;
+    const setup::ProgramLanguage language = setup::language_of(setup_);
     const std::string probe =
         setup_.probe ? std::to_string(setup::probe_offset(*setup_.probe)) : std::string();
     return "%\nO8900 " + comment(result_.name) + comment(result_.text) + sheet() +
            "(POSITIONS ARE MACHINE COORDINATES: G59 IS SET TO MACHINE ZERO.)\n"
            "(NEEDS O8100 TO O8102, SPHERE9.NC. NO TOOL LENGTH IN FORCE.)\n"
-           "G90 G17 G21 G40 G49 G80 G94\nG10 L2 P6" +
-           zeros + "\nG59\nPOPEN\nDPRNT[MEASUREMENT*" + name + "*AXES" + letters + "]\n" +
-           (stores ? setup::store_prints(*stores, hurco, probe) : "") + "#149=1\n" +
-           "DPRNT[POSITIONS*DIRECT]\nDPRNT[TEST*" + name + "]\nM98P8102\n";
+           "G90 G17 " +
+           setup::start_codes(language) + " G40 G49 G80 G94\nG10 L2 P6" + zeros +
+           "\nG59\nPOPEN\nDPRNT[MEASUREMENT*" + name + "*AXES" + letters + "]\n" +
+           (stores ? setup::store_prints(*stores, setup::is_hurco(language), probe) : "") +
+           "#149=1\n" + "DPRNT[POSITIONS*DIRECT]\nDPRNT[TEST*" + name + "]\nM98P8102\n";
 }
 
 }  // namespace trunnion::diagnosis

@@ -61,13 +61,14 @@ bool square(const offsets::PivotAxis& axis) {
 /// tilted planes are programmed differently.
 std::vector<PivotFunction> functions_of(const PivotPlan& plan) {
     const offsets::PivotParameters& pivot = plan.stores.pivot;
+    const bool hurco = setup::is_hurco(plan.language);
     std::vector<PivotFunction> functions;
     for (const PivotFunction& f : pivot_functions()) {
         const bool table = pivot.unit != offsets::MechanicalUnit::tool_tool;
         const bool inclined = !square(pivot.first) || !square(pivot.second);
         if (f.group == PivotGroup::g54 && !table) continue;
-        if (f.name == "RTDFO" && (inclined || plan.hurco)) continue;
-        if (f.name == "TW" && plan.hurco) continue;
+        if (f.name == "RTDFO" && (inclined || hurco)) continue;
+        if (f.name == "TW" && hurco) continue;
         functions.push_back(f);
     }
     return functions;
@@ -165,7 +166,7 @@ PivotPlan plan_pivot_test(const setup::Setup& setup) {
     if (!setup.probe) throw InputError("no [probe] to measure with", {setup.path});
     PivotPlan plan;
     plan.stores = stores_of(setup);
-    plan.hurco = setup.dialect.family == interpreter::DialectFamily::hurco;
+    plan.language = setup::language_of(setup);
     const setup::Artefact& sphere = sphere_of(setup);
     plan.sphere_mm = sphere.center_W_mm;
     plan.sphere_diameter_mm = sphere.diameter_mm;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "setup/program_language.h"
 #include "setup/right_stores.h"
 #include "setup/setup.h"
 
@@ -40,7 +41,7 @@ struct PivotPlan {
     setup::RotaryStores stores;  ///< active
     std::vector<PivotFunction> functions;
     std::vector<PlannedMap> maps;  ///< those of the G54 functions last
-    bool hurco = false;
+    setup::ProgramLanguage language = setup::ProgramLanguage::fanuc;
     Vector3 sphere_mm = Vector3::Zero();  ///< approximate, rotary axes at zero, machine coordinates
                                           ///< of the stylus ball
     double sphere_diameter_mm = 25.4, ball_diameter_mm = 6.0;

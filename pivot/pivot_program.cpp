@@ -156,7 +156,7 @@ FunctionText text_of(const std::string& name, bool hurco) {
 }
 
 std::string main_program(const PivotPlan& plan, const PivotFunction& function) {
-    const FunctionText text = text_of(function.name, plan.hurco);
+    const FunctionText text = text_of(function.name, setup::is_hurco(plan.language));
     const bool head = plan.stores.pivot.unit != offsets::MechanicalUnit::table_table;
     std::string program = filled(main_text, {{"BEGIN", text.begin},
                                              {"LEAD", text.lead},
@@ -196,7 +196,7 @@ IF[#506EQ#0]THEN#506={H}
 #540=0
 #541=0
 #542=1.
-G21G17G40G49G80G90G94
+{START}G17G40G49G80G90G94
 M99
 
 O8115 (PIVOT TESTS: PRINT THE STORES IN FORCE)
@@ -267,17 +267,20 @@ std::string maps_text(const PivotPlan& plan) {
 }
 
 std::string common_program(const PivotPlan& plan) {
-    return filled(common_text, {{"X", number(plan.sphere_mm.x())},
-                                {"Y", number(plan.sphere_mm.y())},
-                                {"Z", number(plan.sphere_mm.z())},
-                                {"D", number(plan.sphere_diameter_mm)},
-                                {"S", number(plan.ball_diameter_mm)},
-                                {"SAFE", number(plan.safe_z_mm)},
-                                {"H", fmt::format("{}", plan.tool_offset)},
-                                {"1", std::string(1, letter_of(plan.first()))},
-                                {"2", std::string(1, letter_of(plan.second()))},
-                                {"STORES", setup::store_prints(plan.stores, plan.hurco, "#506")},
-                                {"MAPS", maps_text(plan)}});
+    return filled(
+        common_text,
+        {{"X", number(plan.sphere_mm.x())},
+         {"Y", number(plan.sphere_mm.y())},
+         {"Z", number(plan.sphere_mm.z())},
+         {"D", number(plan.sphere_diameter_mm)},
+         {"S", number(plan.ball_diameter_mm)},
+         {"SAFE", number(plan.safe_z_mm)},
+         {"H", fmt::format("{}", plan.tool_offset)},
+         {"1", std::string(1, letter_of(plan.first()))},
+         {"2", std::string(1, letter_of(plan.second()))},
+         {"STORES", setup::store_prints(plan.stores, setup::is_hurco(plan.language), "#506")},
+         {"START", setup::start_codes(plan.language)},
+         {"MAPS", maps_text(plan)}});
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ PivotDemonstration demonstrate_pivot(const setup::Setup& setup,
                                  setup.probe->tip_S_mm,
                                  setup::least_increment_mm(setup.stores.parameters),
                                  3.0,
-                                 demo.plan.hurco};
+                                 setup::is_hurco(demo.plan.language)};
     demo.verdict = judge_pivot(evidence, demo.maps);
     demo.true_right = setup::right_stores(setup.machine, demo.plan.stores);
     add_expected({setup.machine, demo.plan.stores, evidence.sphere_mm, evidence.tip_S_mm},

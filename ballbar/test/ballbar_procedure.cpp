@@ -157,7 +157,7 @@ BallbarProgramData stated_program_data(const setup::Setup& setup, bool inside) {
     layout.inside = inside;
     BallbarProgramData data = ballbar_program_data(nominal_of(setup), layout);
     data.tool_offset = tool_offset;
-    data.hurco = setup.dialect.family == interpreter::DialectFamily::hurco;
+    data.language = setup::language_of(setup);
     return data;
 }
 

@@ -55,6 +55,18 @@ void add_stations(Words& words, bool along_x) {
     words["RADIAL1POINT"] = along_x ? "X0Y" + c + "Z" + s : "X" + s + "Y0Z" + c;
 }
 
+/// Codes that the controls have different words for. The arcs are about the origin of G59.
+void add_language(Words& words, setup::ProgramLanguage language) {
+    const bool hurco = setup::is_hurco(language), bnc = language == setup::ProgramLanguage::bnc;
+    words["START"] = setup::start_codes(language);
+    words["ON"] = hurco ? "M128\nG43.4" : "G43.4H#557X#24Y#25Z#26";
+    words["OFF"] = hurco ? "M129" : "G0G49Z[#26+#5083]\nG43H#557Z#26";
+    words["GZX"] = bnc ? "[5-#24]" : "#24";  // G18 of BNC exchanges G2 and G3
+    words["IJ"] = bnc ? "I0J0" : "I-#20J-#21";
+    words["KI"] = bnc ? "K0I0" : "K-#20I-#21";
+    words["JK"] = bnc ? "J0K0" : "J-#20K-#21";
+}
+
 Words words_of(const kinematics::Machine& nominal, const BallbarProgramData& data) {
     const auto [first, second] = table_axes(nominal.chain);
     const Vector3 meet = nominal_intersection(first, second).first;
@@ -83,8 +95,7 @@ Words words_of(const kinematics::Machine& nominal, const BallbarProgramData& dat
                    {"ARC", deg(data.layout.partial_rad)},
                    {"SIDE", data.layout.inside ? "-1." : "1."}};
     add_stations(words, u == 'X');
-    words["ON"] = data.hurco ? "M128\nG43.4" : "G43.4H#557X#24Y#25Z#26";
-    words["OFF"] = data.hurco ? "M129" : "G0G49Z[#26+#5083]\nG43H#557Z#26";
+    add_language(words, data.language);
     return words;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "ballbar/test/ballbar_tests.h"
+#include "setup/program_language.h"
 
 namespace trunnion::ballbar::test {
 
@@ -18,7 +19,8 @@ struct BallbarProgramData {
     double feed_mm_min = 2000.0;  ///< planar tests
     double turn_deg_min = 720.0;  ///< rotary tests
     double overshoot_deg = 5.0;   ///< before and after each measured arc
-    bool hurco = false;           ///< M128 with its linearisation, and M129
+    /// A Hurco: M128 with its linearisation, and M129. BNC: G71, arcs with absolute centres.
+    setup::ProgramLanguage language = setup::ProgramLanguage::fanuc;
 };
 
 /// Defaults from a machine, its bar and the position of the centre pivot: ranges within travel, A

@@ -167,24 +167,28 @@ TEST_CASE("the Hurco program with M128 gives the readings of the Fanuc program")
     setup.ballbar->sample_hz = 5.0;
     const emulator::RunLog fanuc = run(setup, test_program(setup));
     setup.dialect = interpreter::hurco_dialect();
-    const std::string program = test_program(setup);
-    CHECK(program.find("M128\nG43.4\n") != std::string::npos);
-    CHECK(program.find("G43.4H") == std::string::npos);
-    const emulator::RunLog hurco = run(setup, program);
-    require_no_alarm(hurco);
-    REQUIRE(hurco.readings.rows.size() == fanuc.readings.rows.size());
-    double worst_mm = 0.0;
-    int tests = 0;
-    for (std::size_t i = 0; i < hurco.readings.rows.size(); ++i) {
-        const records::Reading &a = fanuc.readings.rows[i], &b = hurco.readings.rows[i];
-        REQUIRE(a.test == b.test);
-        REQUIRE(a.value_mm.has_value() == b.value_mm.has_value());
-        tests += i > 0 && a.test != fanuc.readings.rows[i - 1].test;
-        if (a.value_mm) worst_mm = std::max(worst_mm, std::abs(*a.value_mm - *b.value_mm));
+    for (const bool bnc : {false, true}) {
+        CAPTURE(bnc);
+        setup.hurco.bnc = bnc;
+        const std::string program = test_program(setup);
+        CHECK(program.find("M128\nG43.4\n") != std::string::npos);
+        CHECK(program.find("G43.4H") == std::string::npos);
+        const emulator::RunLog hurco = run(setup, program);
+        require_no_alarm(hurco);
+        REQUIRE(hurco.readings.rows.size() == fanuc.readings.rows.size());
+        double worst_mm = 0.0;
+        int tests = 0;
+        for (std::size_t i = 0; i < hurco.readings.rows.size(); ++i) {
+            const records::Reading &a = fanuc.readings.rows[i], &b = hurco.readings.rows[i];
+            REQUIRE(a.test == b.test);
+            REQUIRE(a.value_mm.has_value() == b.value_mm.has_value());
+            tests += i > 0 && a.test != fanuc.readings.rows[i - 1].test;
+            if (a.value_mm) worst_mm = std::max(worst_mm, std::abs(*a.value_mm - *b.value_mm));
+        }
+        CHECK(tests >= 13);
+        CHECK(worst_mm < 1e-9);
+        check_single_run(setup);
     }
-    CHECK(tests >= 13);
-    CHECK(worst_mm < 1e-9);
-    check_single_run(setup);
 }
 
 TEST_CASE("the bar keeps its length from the first test to the last - every machine and side") {
@@ -202,15 +206,15 @@ TEST_CASE("the bar keeps its length from the first test to the last - every mach
 TEST_CASE("the programs that ship are what the generator writes") {
     struct Shipped {
         const char *setup, *folder;
-        bool hurco;
+        setup::ProgramLanguage language;
     };
-    for (const Shipped& s :
-         {Shipped{"ac_trunnion.toml", "", false}, Shipped{"bc_table.toml", "bc/", false},
-          Shipped{"ac_trunnion.toml", "hurco/", true}}) {
+    for (const Shipped& s : {Shipped{"ac_trunnion.toml", "", setup::ProgramLanguage::fanuc},
+                             Shipped{"bc_table.toml", "bc/", setup::ProgramLanguage::fanuc},
+                             Shipped{"ac_trunnion.toml", "hurco/", setup::ProgramLanguage::isnc}}) {
         const setup::Setup setup = load(s.setup);
         const kinematics::Machine nominal = without_errors(setup.machine);
         auto data = ballbar::test::stated_program_data(setup, false);
-        data.hurco = s.hurco;
+        data.language = s.language;
         const std::string folder =
             std::string(TRUNNION_SOURCE_DIR) + "/programs/ballbar/" + s.folder;
         CAPTURE(folder);

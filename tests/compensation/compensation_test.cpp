@@ -121,6 +121,31 @@ TEST_CASE("a three-axis program lands where it meant, with 41 errors") {
         CHECK_THAT(c.program, Catch::Contains(word));
 }
 
+TEST_CASE("on a Hurco a program lands where it meant, in the units and arcs of ISNC and BNC") {
+    setup::Setup setup = setup_with_errors();
+    setup.dialect = interpreter::hurco_dialect();
+    for (const bool bnc : {false, true}) {
+        CAPTURE(bnc);
+        setup.hurco.bnc = bnc;
+        const std::string arcs =
+            bnc ? "G3 X-80. Y60. I0. J60.\nG1 Y-60.\nG18 G3 X20. Z60. I-30. K60.\nG19 G3 Y-20. "
+                  "Z60. J-40. K60.\n"
+                : "G3 X-80. Y60. I-80. J0.\nG1 Y-60.\nG18 G2 X20. Z60. I50. K0.\nG19 G3 Y-20. "
+                  "Z60. J20. K0.\n";
+        const compensation::CompensatedProgram c =
+            compensate(setup, std::string("O1\n") + (bnc ? "G71 G75" : "G21") +
+                                  " G17 G90 G54\nT1 M06\nS3000 M03\nG0 X-80. Y-60. Z250.\nG43 H1 "
+                                  "Z120.\nG1 Z60. F800.\nX80. Y60.\n" +
+                                  arcs + "G4 P.5\nG0 Z200.\nM05\nM30\n");
+        REQUIRE(c.original.status == controller::RunStatus::ok);
+        CAPTURE(c.program);
+        REQUIRE(c.executed.status == controller::RunStatus::ok);
+        CHECK(c.before.tip_mm > 0.01);
+        CHECK(c.after.tip_mm < 1e-4);
+        CHECK(c.executed.time_s == Approx(c.original.time_s).epsilon(0.01));
+    }
+}
+
 TEST_CASE("the whole path lands where it meant, not only the ends of blocks") {
     const setup::Setup setup = setup_with_errors();
     // a circle of 60 mm about (0, 0) at Z 50: every sample of the physical path lies on it

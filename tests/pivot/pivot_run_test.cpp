@@ -121,12 +121,16 @@ TEST_CASE("a Hurco is measured with M128 and DPP") {
     setup::Setup setup = load("ac_trunnion.toml");
     setup.dialect.family = interpreter::DialectFamily::hurco;
     setup.stores.parameters.set(19701, 0.05);
-    const pivot::PivotDemonstration demo = demonstrate(setup);
-    CHECK(demo.plan.functions.size() == 2);
-    CHECK(worst_miss_mm(demo) < 2e-6);
-    REQUIRE(demo.verdict.find(pivot::PivotGroup::p1970x));
-    CHECK(demo.verdict.find(pivot::PivotGroup::p1970x)->stale);
-    CHECK_FALSE(demo.verdict.find(pivot::PivotGroup::g54)->stale);
+    for (const bool bnc : {false, true}) {
+        CAPTURE(bnc);
+        setup.hurco.bnc = bnc;
+        const pivot::PivotDemonstration demo = demonstrate(setup);
+        CHECK(demo.plan.functions.size() == 2);
+        CHECK(worst_miss_mm(demo) < 2e-6);
+        REQUIRE(demo.verdict.find(pivot::PivotGroup::p1970x));
+        CHECK(demo.verdict.find(pivot::PivotGroup::p1970x)->stale);
+        CHECK_FALSE(demo.verdict.find(pivot::PivotGroup::g54)->stale);
+    }
 }
 
 TEST_CASE("the programs that ship are those of the BC table") {
