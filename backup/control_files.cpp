@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "backup/folder_files.h"
 #include "backup/value_lines.h"
+#include "backup/value_text.h"
 #include "base/alarm.h"
 #include "base/output_files.h"
 #include "base/read_file.h"
@@ -16,19 +18,6 @@ const std::vector<std::string> backup_file_names{"CNC-PARA.TXT", "EXT_WKZ.TXT", 
 namespace {
 
 namespace fs = std::filesystem;
-
-struct FileRow {
-    const char* name;
-    Standing standing;
-};
-constexpr FileRow file_rows[] = {
-    {"CNC-PARA.TXT", Standing::obeyed}, {"EXT_WKZ.TXT", Standing::obeyed},
-    {"TOOLOFST.TXT", Standing::obeyed}, {"MACRO.TXT", Standing::obeyed},
-    {"PITCH.TXT", Standing::obeyed},    {"ALL-FLDR.TXT", Standing::known},
-    {"ALL-PROG.TXT", Standing::known},  {"TOOLLIFE.TXT", Standing::known},
-    {"TOOLSIZE.TXT", Standing::known},  {"SYS-CONF.TXT", Standing::known},
-    {"OPRT_HIS.TXT", Standing::known},
-};
 
 bool has_values(const std::string& name) {
     return std::find(backup_file_names.begin(), backup_file_names.end(), name) !=
@@ -66,24 +55,19 @@ const char* text_of(Standing standing) {
     return texts[static_cast<std::size_t>(standing)];
 }
 
-Standing standing_of_file(const std::string& name) {
-    for (const FileRow& row : file_rows)
-        if (name == row.name) return row.standing;
-    return Standing::ignored;
-}
-
 ControlBackup read_backup(const std::string& folder) {
     ControlBackup backup;
     backup.folder = folder;
     if (!fs::is_directory(folder)) throw InputError("no such folder", {folder});
     for (const auto& entry : fs::directory_iterator(folder)) {
-        const std::string name = upper(entry.path().filename().string());
-        if (standing_of_file(name) == Standing::ignored)
-            backup.ignored.push_back(entry.path().filename().string());
-        else if (entry.is_regular_file())
-            backup.files[name] = read_file(entry.path().string());
+        const std::string on_disk = entry.path().filename().string(), name = upper(on_disk);
+        if (standing_of_file(name) == Standing::ignored || !entry.is_regular_file()) continue;
+        if (backup.names.contains(name))
+            throw InputError("this folder holds both " + backup.names[name] + " and " + on_disk,
+                             {folder});
+        backup.names[name] = on_disk;
+        backup.files[name] = read_file(entry.path().string());
     }
-    std::sort(backup.ignored.begin(), backup.ignored.end());
     if (std::none_of(backup.files.begin(), backup.files.end(),
                      [](const auto& file) { return has_values(file.first); }))
         throw InputError("none of CNC-PARA.TXT, EXT_WKZ.TXT, TOOLOFST.TXT, MACRO.TXT is here",
@@ -92,19 +76,35 @@ ControlBackup read_backup(const std::string& folder) {
 }
 
 void write_backup(const ControlBackup& backup, const std::string& folder) {
+    const std::vector<std::string> others = other_files(backup);
+    const fs::path from = fs::weakly_canonical(backup.folder), to = fs::weakly_canonical(folder);
+    const std::string inside = to.lexically_relative(from).string();
+    if (fs::is_directory(from) && !inside.starts_with(".."))
+        throw InputError("this folder is inside the backup, which is copied whole", {folder});
     OutputFiles files;
     files.add_folder(folder);
-    for (const auto& [name, bytes] : backup.files)
-        files.add((fs::path(folder) / name).string(), bytes);
+    for (const auto& [name, bytes] : backup.files) {
+        const auto on_disk = backup.names.find(name);
+        files.add((to / (on_disk == backup.names.end() ? name : on_disk->second)).string(), bytes);
+    }
+    for (const std::string& path : others) {
+        files.add_folder((to / path).parent_path().string());
+        files.open((to / path).string()).append(read_file((from / path).string()));
+    }
     files.write();
 }
 
 std::vector<BackupValue> list_values(const ControlBackup& backup) {
     std::vector<BackupValue> values;
-    for (const auto& [name, bytes] : backup.files) {
-        if (!has_values(name)) continue;
+    bool inch = false;  // 0000#2; CNC-PARA.TXT comes first
+    for (const std::string& name : backup_file_names) {
+        const auto file = backup.files.find(name);
+        if (file == backup.files.end()) continue;
         const std::string path = (fs::path(backup.folder) / name).string();
-        for (BackupValue& v : scan_values(name, bytes, path)) values.push_back(std::move(v));
+        for (BackupValue& v : scan_values({name, path, inch}, file->second))
+            values.push_back(std::move(v));
+        if (const BackupValue* units = find_parameter(values, 0))
+            inch = (static_cast<int>(stored_value(*units)) & 4) != 0;
     }
     return values;
 }
@@ -115,15 +115,23 @@ void apply_backup(const ControlBackup& backup, offsets::Stores& stores) {
     for (const BackupValue& v : values) store_value(v, stores);
 }
 
-void update_backup(ControlBackup& backup, const offsets::Stores& stores) {
+std::map<std::string, int> update_backup(ControlBackup& backup, const offsets::Stores& stores) {
     std::vector<BackupValue> values = list_values(backup);
+    // A value stands for a change only where the store holds another one than the whole backup
+    // gives: of a number that is written twice, the first text differs from the store by itself.
+    offsets::Stores loaded = stores;
+    for (const BackupValue& v : values) store_value(v, loaded);
+    std::map<std::string, int> changed;
     // From the end of each file, so that the positions of earlier values remain valid.
     std::reverse(values.begin(), values.end());
     for (const BackupValue& v : values) {
         const double wanted = value_in(v, stores);
-        if (same_value(wanted, stored_value(v))) continue;
+        if (same_value(wanted, value_in(v, loaded)) || same_value(wanted, stored_value(v)))
+            continue;
         backup.files.at(v.file).replace(v.begin, v.size, format_value(v, wanted));
+        ++changed[v.file];
     }
+    return changed;
 }
 
 }  // namespace trunnion::backup

@@ -15,21 +15,20 @@ namespace trunnion::backup {
 struct ControlBackup {
     std::string folder;
     std::map<std::string, std::string> files = {};
-    std::vector<std::string> ignored = {};  ///< names of the other files of the folder
+    std::map<std::string, std::string> names = {};  ///< upper case -> as on disk
 };
 
 /// How the emulator treats a file or a parameter of a backup.
 enum class Standing : unsigned char { obeyed, known, ignored };
 const char* text_of(Standing standing);
-/// Files with values are obeyed; programs and lists of the control are known.
-Standing standing_of_file(const std::string& name);
 
-/// Names of the files with values.
+/// Names of the files with values, parameters first.
 extern const std::vector<std::string> backup_file_names;
 
 /// Reads the files of a folder written by a control, values and programs. Throws InputError when
 /// none of them has values.
 ControlBackup read_backup(const std::string& folder);
+/// Writes these files, and copies every other file of the folder that they come from.
 void write_backup(const ControlBackup& backup, const std::string& folder);
 
 /// One value of a backup with its usual name: "19700", "1320 axis 1", "G54 X", "H1 geometry",
@@ -46,7 +45,8 @@ struct BackupValue {
     int number =
         0;        ///< parameter, variable or tool number; work offset: 0 EXT, 1-6, 100 + P of G54.1
     int sub = 0;  ///< axis number, letter of the axis, or 10..13 of G10 L
-    bool inch = false;      ///< an 'I' value: inch in the file, mm in the stores
+    bool inch = false;      ///< inch in the file, mm in the stores
+    bool assigned = false;  ///< "#500=1.5", where a vacant variable is "#0"
     bool for_axis = false;  ///< item A of a parameter: `sub` is an axis number
 };
 
@@ -57,7 +57,8 @@ std::vector<BackupValue> list_values(const ControlBackup& backup);
 /// Writes the values to the stores. Throws InputError when 19680 names a mechanical type without a
 /// pivot (19700-19702 absent for tables).
 void apply_backup(const ControlBackup& backup, offsets::Stores& stores);
-/// Rewrites, in the form of the file, those values that differ from the stores.
-void update_backup(ControlBackup& backup, const offsets::Stores& stores);
+/// Rewrites, in the form of the file, those values that differ from the stores. Returns how many of
+/// each file.
+std::map<std::string, int> update_backup(ControlBackup& backup, const offsets::Stores& stores);
 
 }  // namespace trunnion::backup

@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
+#include "backup/folder_files.h"
 #include "backup/parameter_names.h"
-#include "backup/value_lines.h"
+#include "backup/program_differences.h"
+#include "backup/value_text.h"
+#include "base/read_file.h"
 
 namespace trunnion::backup {
 
@@ -21,51 +25,13 @@ std::map<Key, BackupValue> named_values(const ControlBackup& backup) {
     return out;
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> out;
-    std::string line;
-    for (const char c : text + '\n') {
-        if (c != '\n' && c != '\r') {
-            line += c;
-            continue;
-        }
-        line.erase(
-            std::remove_if(line.begin(), line.end(), [](char b) { return b == ' ' || b == '\t'; }),
-            line.end());
-        if (!line.empty() && line != "%") out.push_back(line);
-        line.clear();
-    }
-    return out;
-}
-
-/// "O9810", "<NAME>", preceded by the folder; empty for a line that starts no program.
-std::string program_name(const std::string& line) {
-    if (line[0] == 'O') return line.substr(0, line.find_first_not_of("0123456789", 1));
-    return line[0] == '<' ? line.substr(0, line.find('>') + 1) : "";
-}
-
-/// Lines of each program of ALL-PROG.TXT and ALL-FLDR.TXT.
-std::map<Key, std::vector<std::string>> programs_of(const ControlBackup& backup) {
-    std::map<Key, std::vector<std::string>> out;
-    for (const char* const file : {"ALL-PROG.TXT", "ALL-FLDR.TXT"}) {
-        const auto found = backup.files.find(file);
-        if (found == backup.files.end()) continue;
-        std::string folder, name;
-        for (const std::string& line : lines_of(found->second)) {
-            if (line.starts_with("&F=")) folder = line.substr(3);
-            if (const std::string start = program_name(line); !start.empty()) name = folder + start;
-            if (!name.empty() && line[0] != '&') out[{file, name}].push_back(line);
-        }
-    }
-    return out;
-}
-
 /// Names assigned by SETVN: `SETVN500[PIVOT,,TOP]`.
 std::map<int, std::string> variable_names(const ControlBackup& backup) {
     std::map<int, std::string> out;
     const auto found = backup.files.find("MACRO.TXT");
     if (found == backup.files.end()) return out;
-    for (const std::string& line : lines_of(found->second)) {
+    for (const ProgramLine& each : lines_of(found->second)) {
+        const std::string& line = each.key;
         if (!line.starts_with("SETVN")) continue;
         int number = std::atoi(line.c_str() + 5);
         std::string name;
@@ -96,21 +62,8 @@ void walk(const Map& a, const Map& b, const Differ& differ, const Add& add) {
         if (!a.contains(key)) add(key, nullptr, &value);
 }
 
-}  // namespace
-
-void name_axes(std::vector<BackupValue>& values) {
-    std::map<int, char> letters;
-    for (const BackupValue& v : values)
-        if (v.for_axis && v.number == 1020)
-            if (const double code = stored_value(v); code >= 'A' && code <= 'Z')
-                letters[v.sub] = static_cast<char>(code);
-    for (BackupValue& v : values)
-        if (const auto letter = letters.find(v.sub); v.for_axis && letter != letters.end())
-            v.name = fmt::format("{} {}", v.number, letter->second);
-}
-
-std::vector<BackupDifference> diff_backups(const ControlBackup& a, const ControlBackup& b) {
-    std::vector<BackupDifference> out;
+void add_values(const ControlBackup& a, const ControlBackup& b,
+                std::vector<BackupDifference>& out) {
     std::map<int, std::string> names = variable_names(b);
     names.merge(variable_names(a));
     walk(
@@ -127,15 +80,78 @@ std::vector<BackupDifference> diff_backups(const ControlBackup& a, const Control
             out.push_back(
                 {key.first, key.second, x ? x->text : "", y ? y->text : "", std::move(meaning)});
         });
-    walk(
-        programs_of(a), programs_of(b),
-        [](const std::vector<std::string>& x, const std::vector<std::string>& y) { return x != y; },
-        [&](const Key& key, const std::vector<std::string>* x, const std::vector<std::string>* y) {
-            const auto lines = [](const std::vector<std::string>* program) {
-                return program ? fmt::format("{} lines", program->size()) : std::string();
-            };
-            out.push_back({key.first, key.second, lines(x), lines(y), "program"});
-        });
+}
+
+void add_names(const ControlBackup& a, const ControlBackup& b, std::vector<BackupDifference>& out) {
+    walk(variable_names(a), variable_names(b), std::not_equal_to<std::string>(),
+         [&](int number, const std::string* x, const std::string* y) {
+             out.push_back({"MACRO.TXT", fmt::format("#{} name", number), x ? *x : "", y ? *y : "",
+                            "name by SETVN"});
+         });
+}
+
+void add_programs(const ControlBackup& a, const ControlBackup& b,
+                  std::vector<BackupDifference>& out) {
+    using Lines = std::vector<ProgramLine>;
+    walk(programs_of(a), programs_of(b), std::not_equal_to<Lines>(),
+         [&](const ProgramKey& key, const Lines* x, const Lines* y) {
+             const auto size = [](const Lines* lines) {
+                 return lines ? fmt::format("{} lines", lines->size()) : std::string();
+             };
+             out.push_back({key.first, key.second, size(x), size(y),
+                            x && y ? "program: " + line_difference(*x, *y) : "program"});
+         });
+}
+
+/// Lists of the control and files that are only copied: nothing in them has a name.
+std::map<std::string, std::string> nameless_files(const ControlBackup& backup) {
+    std::map<std::string, std::string> out;
+    for (const auto& [name, bytes] : backup.files)
+        if (standing_of_file(name) == Standing::known && !name.starts_with("ALL-"))
+            out[name] = bytes;
+    for (const std::string& path : other_files(backup))
+        out[path] = read_file(backup.folder + "/" + path);
+    return out;
+}
+
+void add_other_files(const ControlBackup& a, const ControlBackup& b,
+                     std::vector<BackupDifference>& out) {
+    walk(nameless_files(a), nameless_files(b), std::not_equal_to<std::string>(),
+         [&](const std::string& name, const std::string* x, const std::string* y) {
+             const auto size = [](const std::string* bytes) {
+                 return bytes ? fmt::format("{} bytes", bytes->size()) : std::string();
+             };
+             std::string meaning = kind_of_file(name, x ? *x : *y);
+             if (x && y && meaning != "binary")
+                 meaning += ": " + line_difference(lines_of(*x), lines_of(*y));
+             else if (x && y)
+                 meaning +=
+                     fmt::format(": first at byte {}",
+                                 std::mismatch(x->begin(), x->end(), y->begin(), y->end()).first -
+                                     x->begin() + 1);
+             out.push_back({name, "", size(x), size(y), std::move(meaning)});
+         });
+}
+
+}  // namespace
+
+void name_axes(std::vector<BackupValue>& values) {
+    std::map<int, char> letters;
+    for (const BackupValue& v : values)
+        if (v.for_axis && v.number == 1020)
+            if (const double code = stored_value(v); code >= 'A' && code <= 'Z')
+                letters[v.sub] = static_cast<char>(code);
+    for (BackupValue& v : values)
+        if (const auto letter = letters.find(v.sub); v.for_axis && letter != letters.end())
+            v.name = fmt::format("{} {}", v.number, letter->second);
+}
+
+std::vector<BackupDifference> diff_backups(const ControlBackup& a, const ControlBackup& b) {
+    std::vector<BackupDifference> out;
+    add_values(a, b, out);
+    add_names(a, b, out);
+    add_programs(a, b, out);
+    add_other_files(a, b, out);
     return out;
 }
 

@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 
+#include "backup/value_text.h"
 #include "base/alarm.h"
 #include "base/numbers.h"
-#include "base/units.h"
 
 namespace trunnion::backup {
 
@@ -23,23 +20,12 @@ bool is_number_char(char c) {
     return is_digit(c) || c == '.' || c == '-' || c == '+';
 }
 
-bool is_hex(std::string_view text) {
-    return text.find_first_not_of("0123456789ABCDEFabcdef") == std::string_view::npos;
-}
-
-double from_hex(std::string_view digits) {
-    std::uint64_t bits = 0;
-    std::from_chars(digits.data(), digits.data() + digits.size(), bits, 16);
-    return std::bit_cast<double>(bits);
-}
-
 /// Scans one line from left to right; `fail` reports the position of an error.
 struct LineScanner {
     std::string_view line;
     std::size_t offset;  ///< of the line in the file
     int number;
-    const std::string& file;
-    const std::string& path;
+    ValueFile& file;
     std::size_t at = 0;
 
     void skip_blanks() {
@@ -51,7 +37,7 @@ struct LineScanner {
     }
     char peek() const { return at < line.size() ? line[at] : '\0'; }
     [[noreturn]] void fail(const std::string& message) const {
-        throw InputError(message, {path, number, static_cast<int>(at) + 1}, std::string(line));
+        throw InputError(message, {file.path, number, static_cast<int>(at) + 1}, std::string(line));
     }
     std::string_view number_text() {
         skip_blanks();
@@ -75,7 +61,7 @@ struct LineScanner {
     BackupValue value(std::string name, std::string_view text, BackupValue::Kind kind, int n,
                       int sub) const {
         BackupValue v;
-        v.file = file;
+        v.file = file.name;
         v.name = std::move(name);
         v.text = std::string(text);
         v.line = number;
@@ -129,9 +115,34 @@ void scan_parameter(LineScanner& s, std::vector<BackupValue>& out) {
     }
 }
 
+struct G10Target {
+    int number = 0, sub = 0;  ///< as in BackupValue
+};
+
+bool is_rotary_letter(int sub) {
+    const auto axis = sub >= 'A' ? axis_of(static_cast<char>(sub)) : std::nullopt;
+    return axis && is_rotary(*axis);
+}
+
 std::string offset_name(int l, int p) {
     if (l == 20) return fmt::format("G54.1 P{}", p);
     return p == 0 ? "EXT" : fmt::format("G{}", 53 + p);
+}
+
+/// A length or an angle of G10, as the control would read it in a program.
+void add_offset(LineScanner& s, BackupValue::Kind kind, const std::string& name, G10Target to,
+                std::vector<BackupValue>& out) {
+    const std::string_view text = s.number_text();
+    if (text.find('.') == std::string_view::npos && parse_number(text) != 0.0)
+        s.fail(fmt::format("{} has no decimal point: its unit would depend on 3401#0", text));
+    out.push_back(s.value(name, text, kind, to.number, to.sub));
+    out.back().inch = s.file.inch && !is_rotary_letter(to.sub);
+}
+
+void scan_g(LineScanner& s) {
+    const std::string_view code = s.number_text();
+    if (code == "20" || code == "21") s.file.inch = code == "20";
+    if (code == "91") s.fail("offsets added by G91 have no value of their own");
 }
 
 /// G10L2P1X..Y.. | G10L20P1X.. | G10G90L10P1R.. | G10P1R.. (memory A) | G10L85P500(hex) or R1.5
@@ -144,7 +155,7 @@ void scan_g10(LineScanner& s, std::vector<BackupValue>& out) {
             if (close == std::string_view::npos || close - s.at != 17)
                 s.fail("sixteen hexadecimal digits in brackets are expected");
             const std::string_view digits = s.line.substr(s.at + 1, 16);
-            if (!is_hex(digits) || std::isinf(from_hex(digits)))
+            if (!is_hex(digits) || std::isinf(number_from_hex(digits)))
                 s.fail("these are not sixteen hexadecimal digits of a finite number");
             out.push_back(
                 s.value(fmt::format("#{}", p), digits, BackupValue::Kind::variable, p, 0));
@@ -152,26 +163,28 @@ void scan_g10(LineScanner& s, std::vector<BackupValue>& out) {
             continue;
         }
         ++s.at;
-        if (letter == 'G' || letter == 'N') {
+        if (letter == 'G') {
+            scan_g(s);
+        } else if (letter == 'N') {
             s.number_text();
         } else if (letter == 'L') {
             l = s.integer();
         } else if (letter == 'P') {
             p = s.integer();
         } else if ((l == 2 || l == 20) && p >= 0 && axis_of(letter)) {
-            out.push_back(s.value(fmt::format("{} {}", offset_name(l, p), letter), s.number_text(),
-                                  BackupValue::Kind::work_offset, l == 20 ? 100 + p : p, letter));
+            add_offset(s, BackupValue::Kind::work_offset,
+                       fmt::format("{} {}", offset_name(l, p), letter),
+                       {l == 20 ? 100 + p : p, letter}, out);
         } else if (l == 85 && p >= 0 && letter == 'R') {
             out.push_back(
                 s.value(fmt::format("#{}", p), s.number_text(), BackupValue::Kind::variable, p, 0));
         } else if (l < 0 && p >= 0 && letter == 'R') {
-            out.push_back(s.value(fmt::format("H{}", p), s.number_text(),
-                                  BackupValue::Kind::tool_offset, p, 10));
+            add_offset(s, BackupValue::Kind::tool_offset, fmt::format("H{}", p), {p, 10}, out);
         } else if (l >= 10 && l <= 13 && p >= 0 && letter == 'R') {
             static const char* const kinds[] = {"H{} geometry", "H{} wear", "D{} geometry",
                                                 "D{} wear"};
-            out.push_back(s.value(fmt::format(fmt::runtime(kinds[l - 10]), p), s.number_text(),
-                                  BackupValue::Kind::tool_offset, p, l));
+            add_offset(s, BackupValue::Kind::tool_offset,
+                       fmt::format(fmt::runtime(kinds[l - 10]), p), {p, l}, out);
         } else {
             --s.at;
             s.fail("this word does not belong into a backup's G10 block");
@@ -179,62 +192,40 @@ void scan_g10(LineScanner& s, std::vector<BackupValue>& out) {
     }
 }
 
-/// #500=1.5 of older controls
+/// #500=1.5 of older controls, #500=#0 vacant
 void scan_assignment(LineScanner& s, std::vector<BackupValue>& out) {
     ++s.at;
     const int n = s.integer();
     s.skip_blanks();
     if (s.peek() != '=') s.fail("= is expected");
     ++s.at;
-    out.push_back(
-        s.value(fmt::format("#{}", n), s.number_text(), BackupValue::Kind::variable, n, 0));
+    const std::string name = fmt::format("#{}", n);
+    s.skip_blanks();
+    if (s.line.substr(s.at) == vacant_text) {
+        out.push_back(s.value(name, s.line.substr(s.at), BackupValue::Kind::variable, n, 0));
+    } else {
+        out.push_back(s.value(name, s.number_text(), BackupValue::Kind::variable, n, 0));
+    }
+    out.back().assigned = true;
 }
 
 void scan_line(LineScanner& s, std::vector<BackupValue>& out) {
     if (s.done()) return;
     const std::string_view rest = s.line.substr(s.at);
     if (rest[0] == '%' || rest[0] == '(' || rest[0] == '/') return;
-    if (rest[0] == 'N' && (s.file == "CNC-PARA.TXT" || s.file == "PITCH.TXT"))
+    if (rest[0] == 'N' && (s.file.name == "CNC-PARA.TXT" || s.file.name == "PITCH.TXT"))
         return scan_parameter(s, out);
-    if (rest.substr(0, 3) == "G10") return scan_g10(s, out);
+    for (const char* const code : {"G10", "G20", "G21", "G90"})
+        if (rest.starts_with(code)) return scan_g10(s, out);
     if (rest[0] == '#') return scan_assignment(s, out);
-    if (rest.substr(0, 5) == "SETVN" || rest.substr(0, 3) == "G90" || rest.substr(0, 2) == "M0" ||
-        rest.substr(0, 3) == "G20" || rest.substr(0, 3) == "G21" || rest[0] == 'O')
-        return;
+    if (rest.starts_with("SETVN") || rest.starts_with("M0") || rest[0] == 'O') return;
     s.fail("this line is not of a form that a control writes");
-}
-
-bool is_bits(const std::string& text) {
-    return text.size() == 8 && text.find_first_not_of("01") == std::string::npos;
-}
-bool is_hex_double(const BackupValue& v) {
-    return v.kind == BackupValue::Kind::variable && v.text.size() == 16 && is_hex(v.text);
-}
-
-/// The offset vector of a BackupValue's number; const if the stores are.
-template <class S>
-auto work_offset(S& stores, int number) -> decltype(&stores.work.external) {
-    if (number == 0) return &stores.work.external;
-    if (number >= 1 && number <= 6)
-        return &stores.work.standard[static_cast<std::size_t>(number - 1)];
-    if (number > 100 && number <= 400)
-        return &stores.work.additional[static_cast<std::size_t>(number - 101)];
-    return nullptr;
-}
-
-double offsets::ToolOffset::*tool_field(int l) {
-    switch (l) {
-        case 10: return &offsets::ToolOffset::length_geometry_mm;
-        case 11: return &offsets::ToolOffset::length_wear_mm;
-        case 12: return &offsets::ToolOffset::radius_geometry_mm;
-        default: return &offsets::ToolOffset::radius_wear_mm;
-    }
 }
 
 }  // namespace
 
-std::vector<BackupValue> scan_values(const std::string& file, std::string_view bytes,
-                                     const std::string& path) {
+std::vector<BackupValue> scan_values(const ValueFile& whole, std::string_view bytes) {
+    ValueFile file = whole;
     std::vector<BackupValue> out;
     int number = 1;
     for (std::size_t at = 0; at < bytes.size(); ++number) {
@@ -246,105 +237,11 @@ std::vector<BackupValue> scan_values(const std::string& file, std::string_view b
             line.remove_suffix(1);
         std::size_t lead = 0;  // LF CR CR: the two CR are at the start of the next line
         while (lead < line.size() && line[lead] == '\r') ++lead;
-        LineScanner s{line.substr(lead), at + lead, number, file, path};
+        LineScanner s{line.substr(lead), at + lead, number, file};
         scan_line(s, out);
         at = end + 1;
     }
     return out;
-}
-
-double stored_value(const BackupValue& v) {
-    if (is_hex_double(v)) {
-        const double number = from_hex(v.text);
-        // All F is taken as vacant (assumed; docs/backup_files.md), and so is any other NaN.
-        return std::isnan(number) ? std::numeric_limits<double>::quiet_NaN() : number;
-    }
-    if (v.kind == BackupValue::Kind::parameter && is_bits(v.text)) {
-        unsigned byte = 0;
-        std::from_chars(v.text.data(), v.text.data() + 8, byte, 2);
-        return byte;
-    }
-    const char* begin = v.text.data() + (v.text[0] == '+' ? 1 : 0);
-    double number = 0.0;
-    std::from_chars(begin, v.text.data() + v.text.size(), number);
-    return v.inch ? mm_from_inch(number) : number;
-}
-
-void store_value(const BackupValue& v, offsets::Stores& stores) {
-    const double number = stored_value(v);
-    switch (v.kind) {
-        case BackupValue::Kind::parameter: {
-            offsets::Parameter& p = stores.parameters.entry[v.number];
-            if (v.sub == 0)
-                p.value = number;
-            else
-                p.by_axis[v.sub] = number;
-            if (v.sub == 1) p.value = number;
-            break;
-        }
-        case BackupValue::Kind::work_offset:
-            if (offsets::OffsetVector* offset = work_offset(stores, v.number))
-                (*offset)[*axis_of(static_cast<char>(v.sub))] = number;
-            break;
-        case BackupValue::Kind::tool_offset:
-            if (v.number > 0 && static_cast<std::size_t>(v.number) < stores.tools.tool.size())
-                stores.tools.tool[static_cast<std::size_t>(v.number)].*tool_field(v.sub) = number;
-            break;
-        case BackupValue::Kind::variable:
-            if (std::isnan(number))
-                stores.variables.erase(v.number);
-            else
-                stores.variables[v.number] = number;
-            break;
-    }
-}
-
-double value_in(const BackupValue& v, const offsets::Stores& stores) {
-    switch (v.kind) {
-        case BackupValue::Kind::parameter: {
-            const auto entry = stores.parameters.entry.find(v.number);
-            if (entry == stores.parameters.entry.end()) return stored_value(v);
-            if (v.sub == 0) return entry->second.value;
-            const auto by_axis = entry->second.by_axis.find(v.sub);
-            return by_axis == entry->second.by_axis.end() ? stored_value(v) : by_axis->second;
-        }
-        case BackupValue::Kind::work_offset: {
-            const offsets::OffsetVector* offset = work_offset(stores, v.number);
-            return offset ? (*offset)[*axis_of(static_cast<char>(v.sub))] : stored_value(v);
-        }
-        case BackupValue::Kind::tool_offset:
-            if (v.number <= 0 || static_cast<std::size_t>(v.number) >= stores.tools.tool.size())
-                return stored_value(v);
-            return stores.tools.tool[static_cast<std::size_t>(v.number)].*tool_field(v.sub);
-        case BackupValue::Kind::variable: {
-            const auto it = stores.variables.find(v.number);
-            return it == stores.variables.end() ? std::numeric_limits<double>::quiet_NaN()
-                                                : it->second;
-        }
-    }
-    return 0.0;
-}
-
-bool same_value(double a, double b) {
-    return a == b || (std::isnan(a) && std::isnan(b));
-}
-
-std::string format_value(const BackupValue& like, double number) {
-    if (is_hex_double(like))
-        return std::isnan(number) ? std::string(16, 'F')
-                                  : fmt::format("{:016X}", std::bit_cast<std::uint64_t>(number));
-    const bool byte = number >= 0.0 && number <= 255.0 && number == std::floor(number);
-    if (byte && like.kind == BackupValue::Kind::parameter && is_bits(like.text))
-        return fmt::format("{:08b}", static_cast<unsigned>(number));
-    const double in_file = like.inch ? inch_from_mm(number) : number;
-    std::string text = fmt::format("{}", in_file);
-    const std::size_t point = like.text.find('.');
-    if (point == std::string::npos || text.find('e') != std::string::npos) return text;
-    if (text.find('.') == std::string::npos) text += '.';
-    const std::size_t decimals = like.text.size() - point - 1;
-    const std::size_t written = text.size() - text.find('.') - 1;
-    if (written < decimals) text.append(decimals - written, '0');
-    return text;
 }
 
 }  // namespace trunnion::backup

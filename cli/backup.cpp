@@ -2,14 +2,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <set>
 
 #include "backup/control_files.h"
 #include "backup/differences.h"
+#include "backup/folder_files.h"
 #include "backup/parameter_names.h"
 #include "base/alarm.h"
 #include "base/console.h"
 #include "base/output_files.h"
+#include "base/read_file.h"
 #include "cli/command.h"
 #include "cli/options.h"
 #include "cli/setups.h"
@@ -26,6 +27,11 @@ struct BackupCommand {
     std::vector<double> measured_mm;
 };
 
+void print_file(const std::string& name, const std::string& bytes) {
+    print_out("{}\t\t{} bytes\t{}\t{}\n", name, bytes.size(),
+              backup::text_of(backup::standing_of_file(name)), backup::kind_of_file(name, bytes));
+}
+
 void print_values(const backup::ControlBackup& backup) {
     std::vector<backup::BackupValue> values = backup::list_values(backup);
     backup::name_axes(values);
@@ -36,11 +42,9 @@ void print_values(const backup::ControlBackup& backup) {
         print_out("{}\t{}\t{}\t{}\t{}\n", v.file, v.name, v.text, backup::text_of(standing),
                   parameter ? backup::name_of_parameter(v.number) : "");
     }
-    for (const auto& [name, bytes] : backup.files)
-        if (const auto standing = backup::standing_of_file(name);
-            standing != backup::Standing::obeyed)
-            print_out("{}\t\t{} bytes\t{}\t\n", name, bytes.size(), backup::text_of(standing));
-    for (const std::string& name : backup.ignored) print_out("{}\t\t\tignored\t\n", name);
+    for (const auto& [name, bytes] : backup.files) print_file(name, bytes);
+    for (const std::string& name : backup::other_files(backup))
+        print_file(name, read_file(backup.folder + "/" + name));
 }
 
 void write_setup(const BackupCommand& c, const offsets::Stores& stores) {
@@ -78,8 +82,23 @@ int load(const BackupCommand& c) {
 
 int save(const std::string& from, const std::string& to, const std::string& setup_path) {
     backup::ControlBackup backup = backup::read_backup(from);
-    backup::update_backup(backup, open_setup(setup_path).stores);
+    const auto changed = backup::update_backup(backup, open_setup(setup_path).stores);
     backup::write_backup(backup, to);
+    for (const auto& [name, bytes] : backup.files) {
+        const auto count = changed.find(name);
+        print_out(
+            "{}\t{}\t{}\n", name, backup::kind_of_file(name, bytes),
+            count == changed.end() ? "unchanged" : fmt::format("{} values changed", count->second));
+    }
+    for (const std::string& name : backup::other_files(backup)) {
+        const std::string kind = backup::kind_of_file(name, read_file(backup.folder + "/" + name));
+        print_out("{}\t{}\tcopied\n", name, kind);
+        if (kind == "binary" && !changed.empty())
+            print_error(
+                "note: {} is copied as it is: an image of a memory in it still holds the "
+                "old values\n",
+                name);
+    }
     return exit_done;
 }
 

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fstream>
 
 #include "backup/differences.h"
 #include "base/alarm.h"
@@ -73,11 +74,115 @@ TEST_CASE("an untouched backup keeps its bytes and a change touches only its val
 
 TEST_CASE("eight bits become a number when the store holds one that no byte can") {
     backup::ControlBackup b{"f", {}, {}};
-    b.files["CNC-PARA.TXT"] = "%\nN80Q1P11111110P1234567890123\n%\n";
+    b.files["CNC-PARA.TXT"] = "%\nN80Q1P11111110\n%\n";
+    offsets::Stores stores;
+    stores.parameters.set(80, 1234567890123.0);
+    backup::update_backup(b, stores);
+    CHECK(b.files["CNC-PARA.TXT"] == "%\nN80Q1P1234567890123\n%\n");
+}
+
+TEST_CASE("of a value that is written twice the last counts, and neither text changes by itself") {
+    backup::ControlBackup b{"f", {}, {}};
+    b.files["CNC-PARA.TXT"] = "%\nN80Q1P11111110P5\nN19700Q1L1P1.0\nN19700Q1L1P2.0\n%\n";
+    b.files["MACRO.TXT"] = "%\n#500=1.0\n#500=2.0\n%\n";
+    b.files["EXT_WKZ.TXT"] = "%\nG10L2P1X1.0\nG10L2P1X3.0\n%\n";
+    const auto before = b.files;
     offsets::Stores stores;
     backup::apply_backup(b, stores);
+    CHECK(stores.parameters.get(19700) == 2.0);
+    CHECK(backup::update_backup(b, stores).empty());
+    CHECK(b.files == before);
+    CHECK(backup::update_backup(b, offsets::Stores()).at("EXT_WKZ.TXT") == 2);
+    b.files = before;
+    stores.variables[500] = 7.0;
     backup::update_backup(b, stores);
-    CHECK(b.files["CNC-PARA.TXT"] == "%\nN80Q1P1234567890123P1234567890123\n%\n");
+    CHECK(b.files["MACRO.TXT"] == "%\n#500=7.0\n#500=7.0\n%\n");
+}
+
+TEST_CASE("a variable that became vacant is written so, or the form that cannot is named") {
+    backup::ControlBackup b{"f", {}, {}};
+    b.files["MACRO.TXT"] = "%\n#500=1.0\nG10L85P501(400C000000000000)\n%\n";
+    backup::update_backup(b, offsets::Stores());
+    CHECK(b.files["MACRO.TXT"] == "%\n#500=#0\nG10L85P501(FFFFFFFFFFFFFFFF)\n%\n");
+    offsets::Stores stores;
+    stores.variables[500] = 4.0;
+    backup::ControlBackup again = b;
+    backup::apply_backup(again, stores);
+    CHECK(stores.variables.empty());
+    stores.variables[500] = 4.5;
+    backup::update_backup(again, stores);
+    CHECK(again.files["MACRO.TXT"] == "%\n#500=4.5\nG10L85P501(FFFFFFFFFFFFFFFF)\n%\n");
+    b.files["MACRO.TXT"] = "%\nG10L85P500R1.0\n%\n";
+    CHECK_THROWS_AS(backup::update_backup(b, offsets::Stores()), InputError);
+}
+
+TEST_CASE("a changed value is written in the digits of a control, whatever its size") {
+    struct Row {
+        const char* before;
+        double value;
+        const char* after;
+    };
+    for (const Row& row :
+         {Row{"P1.000", 0.00001, "P0.00001"}, Row{"P5", 1e17, "P100000000000000000"},
+          Row{"P-.5", -0.25, "P-0.25"}, Row{"P+1.", 3.0, "P3."},
+          Row{"P1.0", 1e-7 / 3.0, "P0.000000033333333333333334"},
+          Row{"I1.000", 25.4 * 1.234, "I1.234"}, Row{"I1.0", 0.254e-5, "I0.0000001"}}) {
+        CAPTURE(row.before, row.value);
+        backup::ControlBackup b{"f", {}, {}};
+        b.files["CNC-PARA.TXT"] = std::string("%\nN19700Q1L1") + row.before + "\n%\n";
+        offsets::Stores stores;
+        stores.parameters.set(19700, row.value);
+        backup::update_backup(b, stores);
+        CHECK(b.files["CNC-PARA.TXT"] == std::string("%\nN19700Q1L1") + row.after + "\n%\n");
+        offsets::Stores again;
+        backup::apply_backup(b, again);
+        CHECK(again.parameters.get(19700) == Approx(row.value).epsilon(1e-15));
+    }
+}
+
+TEST_CASE("offsets of a backup have the unit in which the control would read them") {
+    backup::ControlBackup b{"f", {}, {}};
+    b.files["EXT_WKZ.TXT"] = "%\nG90\nG10L2P1X1.0C30.0\nM02\n%\n";
+    b.files["TOOLOFST.TXT"] = "%\nG10G90L10P1R2.0\n%\n";
+    b.files["MACRO.TXT"] = "%\nG10L85P500R3.0\n%\n";
+    const auto loaded = [&] {
+        offsets::Stores stores;
+        backup::apply_backup(b, stores);
+        CHECK(stores.work.standard[0][Axis::C] == 30.0);
+        CHECK(stores.variables.at(500) == 3.0);
+        return std::pair(stores.work.standard[0][Axis::X], stores.tools.tool[1].length_mm());
+    };
+    CHECK(loaded() == std::pair(1.0, 2.0));
+    b.files["CNC-PARA.TXT"] = "%\nN00000Q1L1P00000100L2P00000000\n%\n";  // 0000#2: input in inch
+    CHECK(loaded() == std::pair(25.4, 50.8));
+    offsets::Stores stores;
+    backup::apply_backup(b, stores);
+    CHECK(backup::update_backup(b, stores).empty());
+    stores.work.standard[0][Axis::X] = 25.4 * 1.5;
+    backup::update_backup(b, stores);
+    CHECK(b.files["EXT_WKZ.TXT"] == "%\nG90\nG10L2P1X1.5C30.0\nM02\n%\n");
+    b.files["EXT_WKZ.TXT"] = "%\nG21\nG90G10L2P1X1.0C30.0\nM02\n%\n";
+    CHECK(loaded() == std::pair(1.0, 50.8));
+    b.files.erase("CNC-PARA.TXT");
+    b.files["EXT_WKZ.TXT"] = "%\nG20\nG10L2P1X1.0C30.0\nM02\n%\n";
+    CHECK(loaded() == std::pair(25.4, 2.0));
+    for (const char* line :
+         {"G10L2P1X1000", "G90G10L2P1X1000", "G91G10L2P1X1.", "G10G91L2P1X1.", "G10L10P1R1000"}) {
+        CAPTURE(line);
+        b.files["EXT_WKZ.TXT"] = std::string("%\n") + line + "\n%\n";
+        CHECK_THROWS_AS(backup::list_values(b), InputError);
+    }
+    b.files["EXT_WKZ.TXT"] = "%\nG10L2P1X0Y0\n%\n";
+    CHECK(backup::list_values(b).size() == 4);
+}
+
+TEST_CASE("two files whose names differ only in case are refused, for one would be lost") {
+    const auto folder = std::filesystem::temp_directory_path() / "trunnion_backup_case";
+    std::filesystem::create_directories(folder);
+    for (const char* name : {"MACRO.TXT", "macro.txt"})
+        std::ofstream(folder / name) << "%\n#500=1.0\n%\n";
+    CHECK_THROWS_AS(backup::read_backup(folder.string()), InputError);
+    std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("files on disk round-trip byte for byte") {

@@ -7,6 +7,7 @@
 
 #include "backup/control_files.h"
 #include "backup/differences.h"
+#include "backup/folder_files.h"
 #include "backup/parameter_names.h"
 #include "base/random.h"
 
@@ -159,6 +160,7 @@ TEST_CASE("a diff names axes, offsets, variables and programs") {
         "%\r\n&F=/MTB1/\r\nO9810( MOVE )\r\nG1 X#24 F9\r\nM99\r\nO9812\r\nM99\r\n%";
     const auto found = backup::diff_backups(a, b);
     REQUIRE(found.size() == 5);
+    CHECK(found[2].meaning == "program: 1 line out, 1 in; first at line 2: G1X#24 | G1 X#24 F9");
     CHECK(found[0].name == "1320 B");
     CHECK(found[0].meaning == "stored stroke 1, positive end");
     CHECK(found[1].name == "#500");
@@ -181,7 +183,7 @@ TEST_CASE("the table of parameters rises and says what becomes of each") {
     CHECK(backup::standing_of_parameter(1852) == backup::Standing::known);
     CHECK(backup::standing_of_parameter(2020) == backup::Standing::ignored);
     CHECK(backup::standing_of_file("TOOLOFST.TXT") == backup::Standing::obeyed);
-    CHECK(backup::standing_of_file("SRAM.BIN") == backup::Standing::ignored);
+    CHECK(backup::standing_of_file("SRAM.FDB") == backup::Standing::ignored);
 }
 
 TEST_CASE("what the page on the control calls obeyed is not called ignored") {

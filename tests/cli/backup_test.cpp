@@ -27,7 +27,9 @@ struct Bench : CommandBench {
         write("bk/ALL-FLDR.TXT",
               punched("%\n&F=/MTB1/\nO9001(TOOL*CHANGE)\n#1=#4001\nG91G30P2Z0\nG31\nG#1\n"
                       "#100=#100+1\nM99\n%"));
-        write("bk/SRAM.BIN", "x");
+        write("bk/SRAM.FDB", std::string("\0\xff\r\n\x1a", 5));
+        std::filesystem::create_directories(path / "bk/sub");
+        write("bk/sub/NOTE.TXT", "a\r\nb\n\n");
         write("main.nc", "%\nO1\nG90G54\nT3M6\nG0X10.W800.\nM30\n");
     }
 };
@@ -41,7 +43,64 @@ TEST_CASE("backup load says what becomes of each value and file") {
     CHECK_THAT(out, Catch::Contains("1851 X\t12\tobeyed"));
     CHECK_THAT(out, Catch::Contains("10011\t-3\tobeyed"));
     CHECK_THAT(out, Catch::Contains("1420 W\t6000.0\tobeyed"));
-    CHECK_THAT(out, Catch::Contains("SRAM.BIN\t\t\tignored"));
+    CHECK_THAT(out, Catch::Contains("CNC-PARA.TXT\t\t") && Catch::Contains("obeyed\tparameters\n"));
+    CHECK_THAT(out, Catch::Contains("SRAM.FDB\t\t5 bytes\tignored\tbinary\n"));
+    CHECK_THAT(out, Catch::Contains("sub/NOTE.TXT\t\t6 bytes\tignored\ttext\n"));
+}
+
+TEST_CASE("backup save brings every file of the folder back, and says what each is") {
+    const Bench bench;
+    bench.write("same.toml",
+                "[machine]\nchain = \"w b X Y Z t\"\nauxiliary = [\"W\"]\n[control]\n"
+                "backup = \"bk\"\n");
+    bench.write("bk/macro.txt", punched("%\nG10L85P500R1.5\n%"));
+    const auto save = [&](const std::string& from, const std::string& to, const std::string& with) {
+        return bench.trunnion("backup save " + bench.file(from) + " " + bench.file(to) +
+                              " --setup " + bench.file(with));
+    };
+    REQUIRE(save("bk", "out", "same.toml") == 0);
+    for (const char* name :
+         {"CNC-PARA.TXT", "PITCH.TXT", "ALL-FLDR.TXT", "SRAM.FDB", "sub/NOTE.TXT", "macro.txt"}) {
+        CAPTURE(name);
+        REQUIRE_FALSE(bench.read(std::string("bk/") + name).empty());
+        CHECK(bench.read(std::string("out/") + name) == bench.read(std::string("bk/") + name));
+    }
+    CHECK_THAT(bench.read("out.txt"), Catch::Contains("SRAM.FDB\tbinary\tcopied") &&
+                                          Catch::Contains("MACRO.TXT\tmacro variables\tunchanged"));
+    CHECK(bench.read("err.txt").find("SRAM") == std::string::npos);
+
+    bench.write("other.toml", bench.read("same.toml") + "[control.variables]\n500 = 2.5\n");
+    REQUIRE(save("bk", "out", "other.toml") == 0);
+    CHECK_THAT(bench.read("out/macro.txt"), Catch::Contains("P500R2.5"));
+    CHECK_THAT(bench.read("out.txt"), Catch::Contains("1 values changed"));
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("SRAM.FDB is copied as it is"));
+    CHECK(save("bk", "bk/inside", "same.toml") == 2);
+    CHECK_FALSE(std::filesystem::exists(bench.path / "bk/inside"));
+}
+
+TEST_CASE("backup diff tells names, the first line of a program and every other file") {
+    const Bench bench;
+    std::filesystem::copy(bench.path / "bk", bench.path / "new",
+                          std::filesystem::copy_options::recursive);
+    REQUIRE(bench.trunnion("backup diff " + bench.file("bk") + " " + bench.file("new")) == 0);
+    bench.write("bk/MACRO.TXT", "%\nG10L85P500R1.5\nSETVN500[PIVOT,TOP]\n%\n");
+    bench.write("new/MACRO.TXT", "%\nG10L85P500R1.5\nSETVN500[PIVOT,BASE]\n%\n");
+    bench.write("new/ALL-FLDR.TXT",
+                "%\n&F=/MTB1/\nO9001(TOOL*CHANGE)\n#1=#4001\nG91G30P2Z5.\nG31\nG#1\nM5\n"
+                "#100=#100+1\nM99\n%");
+    bench.write("new/SRAM.FDB", std::string("\0\xff\r\n", 4));
+    bench.write("new/sub/NOTE.TXT", "a\nc\n");
+    REQUIRE(bench.trunnion("backup diff " + bench.file("bk") + " " + bench.file("new")) == 1);
+    const std::string out = bench.read("out.txt");
+    for (const char* row :
+         {"MACRO.TXT\t#501 name\tTOP\tBASE\tname by SETVN\n",
+          "ALL-FLDR.TXT\t/MTB1/O9001\t7 lines\t8 lines\tprogram: 1 line out, 2 in; first at line "
+          "3: "
+          "G91G30P2Z0 | G91G30P2Z5.\n",
+          "SRAM.FDB\t\t5 bytes\t4 bytes\tbinary: first at byte 5\n",
+          "sub/NOTE.TXT\t\t6 bytes\t4 bytes\ttext: 1 line out, 1 in; first at line 2: b | c\n"})
+        CHECK_THAT(out, Catch::Contains(row));
+    CHECK(std::count(out.begin(), out.end(), '\n') == 4);
 }
 
 TEST_CASE("the setup of a three-axis mill's backup loads, and its control compensates to nothing") {

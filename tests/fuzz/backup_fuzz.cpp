@@ -20,6 +20,8 @@ void check_backup(std::string_view text) {
     backup::apply_backup(files, stores);
     backup::ControlBackup again = files;
     backup::update_backup(again, stores);
+    fuzz::law(again.files == files.files, "an unchanged value keeps its bytes");
+    backup::update_backup(again, offsets::Stores());
     fuzz::law(backup::list_values(again).size() == count, "no value comes or goes");
 }
 
