@@ -269,8 +269,11 @@ std::string control_text(const Setup& setup) {
         for (const int n : setup.block_skip) out += std::to_string(n) + ", ";
         out.replace(out.size() - 2, 2, "]\n");
     }
-    if (setup.tcp_frame == positioning::TcpFrame::rotary_zero)
-        out += "tcp_frame = \"rotary_zero\"\n";
+    out +=
+        "# frame of X Y Z under G43.4: \"start\", as the table stands when it starts (the "
+        "manual's),\n# or \"rotary_zero\", with all rotary axes at zero\n";
+    out += setup.tcp_frame == positioning::TcpFrame::rotary_zero ? "tcp_frame = \"rotary_zero\"\n"
+                                                                 : "tcp_frame = \"start\"\n";
     out += clamps_text(setup.clamps) + builder_text(setup.builder) + hurco_text(setup);
     out += work_text(setup.stores.work) + fixture_text(setup.stores.fixture);
     if (!setup.stores.parameters.entry.empty()) out += "\n[control.parameters]\n";

@@ -107,6 +107,7 @@ TEST_CASE("the setup of a three-axis mill's backup loads, and its control compen
     const Bench bench;
     const std::string setup = bench.file("mill.toml");
     REQUIRE(bench.trunnion("backup load " + bench.file("bk") + " --setup-out " + setup) == 0);
+    CHECK_THAT(bench.read("mill.toml"), Catch::Contains("\ntcp_frame = \"start\"\n"));
     REQUIRE(bench.trunnion("run " + bench.file("main.nc") + " --setup " + setup + " --programs " +
                            bench.file("bk") + " --truth --trace " + bench.file("t.csv") +
                            " --json --vars 100") == 0);

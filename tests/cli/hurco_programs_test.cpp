@@ -21,7 +21,8 @@ struct Bench : CommandBench {
             REQUIRE(end != std::string::npos);
             text.replace(begin, end - begin, by);
         };
-        cut("dialect = ", "\n", "dialect = \"hurco\"\n[control.hurco]\nnc = \"" + nc + "\"");
+        cut("dialect = ", "\n", "dialect = \"hurco\"");
+        cut("[control.work", "_", "[control.hurco]\nnc = \"" + nc + "\"\n\n[control.work");
         cut("free      = [\"cup\"", "]", "free = [\"length\"");  // else three errors pair with it
         const std::string errors =
             "[machine.errors]\nEY0A_mm = 0.05\nEZ0A_mm = -0.03\nEB0A_rad = 2e-5\nEC0A_rad = -4e-5\n"

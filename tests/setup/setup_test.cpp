@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
 
 #include "base/alarm.h"
 #include "base/units.h"
@@ -245,6 +248,30 @@ TEST_CASE("the machines that ship load, and format to themselves") {
         ++count;
     }
     CHECK(count >= 7);
+}
+
+TEST_CASE("every setup that ships, and every one that is written, states tcp_frame") {
+    const std::regex stated("\n\\[control\\]\n([^\\[]*\n)?tcp_frame = \"(start|rotary_zero)\"\n");
+    int machines = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(TRUNNION_SOURCE_DIR "/machines")) {
+        CAPTURE(entry.path().string());
+        std::ostringstream text;
+        text << std::ifstream(entry.path()).rdbuf();
+        CHECK(std::regex_search(text.str(), stated));
+        std::vector<std::string> notes;
+        setup::Setup setup = setup::load_setup(entry.path().string(), notes);
+        CHECK(setup.tcp_frame == positioning::TcpFrame::start);
+        std::smatch found;
+        const std::string start = setup::format_setup(setup);
+        REQUIRE(std::regex_search(start, found, stated));
+        CHECK(found[2] == "start");
+        setup.tcp_frame = positioning::TcpFrame::rotary_zero;
+        const std::string zero = setup::format_setup(setup);
+        REQUIRE(std::regex_search(zero, found, stated));
+        CHECK(found[2] == "rotary_zero");
+        ++machines;
+    }
+    CHECK(machines >= 10);
 }
 
 TEST_CASE("a bad setup names its place") {
