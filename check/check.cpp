@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "check/section.h"
 #include "interpreter/alarms.h"
+#include "interpreter/line_scan.h"
 
 namespace trunnion::check {
 
@@ -93,16 +95,30 @@ std::optional<double> word_value(const interpreter::ParsedProgram& program,
 namespace {
 
 /// M30 and M99 in a block with G65 or G66 are arguments.
-bool passes_arguments(const interpreter::ParsedProgram& program, const interpreter::Block& block) {
+bool is_macro_call(const interpreter::ParsedProgram& program, const interpreter::Block& block) {
     return has_code(program, block, 'G', 650) || has_code(program, block, 'G', 660) ||
            has_code(program, block, 'G', 661);
 }
 
 }  // namespace
 
+bool passes_arguments(const interpreter::ParsedProgram& program, const interpreter::Block& block,
+                      const CheckOptions& options) {
+    if (is_macro_call(program, block)) return true;
+    if (!options.calls_program) return false;
+    const auto items = program.items(block);
+    return std::any_of(items.begin(), items.end(), [&](const interpreter::Item& item) {
+        if (item.kind != interpreter::ItemKind::word) return false;
+        const auto value = interpreter::constant_value(program, item);
+        if (item.letter == 'T') return options.calls_program('T', 0);
+        return value && (item.letter == 'G' || item.letter == 'M') &&
+               options.calls_program(item.letter, code10_of(*value));
+    });
+}
+
 bool has_code(const interpreter::ParsedProgram& program, const interpreter::Block& block,
               char letter, int code10) {
-    if (letter == 'M' && passes_arguments(program, block)) return false;
+    if (letter == 'M' && is_macro_call(program, block)) return false;
     for (const interpreter::Item& item : program.items(block)) {
         if (item.kind != interpreter::ItemKind::word || item.letter != letter) continue;
         const auto value = interpreter::constant_value(program, item);
@@ -130,8 +146,14 @@ bool is_marker(std::string_view text) {
            text.starts_with(">>>>>>>");
 }
 
-void add_faults(const interpreter::ParsedProgram& program, Findings& findings) {
+void add_faults(const interpreter::ParsedProgram& program,
+                const std::vector<CheckSection>& sections, Findings& findings) {
     for (const Alarm& fault : program.faults) {
+        if (std::any_of(sections.begin(), sections.end(), [&](const CheckSection& section) {
+                return section.foreign && fault.where.line >= section.blocks.front()->line &&
+                       fault.where.line <= section.last_line;
+            }))
+            continue;
         Finding f;
         f.path = program.source.name;
         f.line = fault.where.line;
@@ -160,8 +182,10 @@ std::vector<CheckSection> sections_of(const interpreter::ParsedProgram& program)
         if (block.items.count == 0 && block.sequence_number < 0 &&
             block.kind != interpreter::BlockKind::program)
             continue;
-        if (!open || block.kind == interpreter::BlockKind::program)
+        if (!open || block.kind == interpreter::BlockKind::program) {
+            if (!sections.empty()) sections.back().last_line = block.line - 1;
             sections.emplace_back().program = &program;
+        }
         open = true;
         CheckSection& section = sections.back();
         section.blocks.push_back(&block);
@@ -169,6 +193,7 @@ std::vector<CheckSection> sections_of(const interpreter::ParsedProgram& program)
         note_jumps(program, block, section);
         if (has_code(program, block, 'M', 990)) section.subprogram = true;
     }
+    if (!sections.empty()) sections.back().last_line = std::numeric_limits<int>::max();
     return sections;
 }
 
@@ -176,10 +201,12 @@ std::vector<Finding> check_program(const interpreter::ProgramText& text,
                                    const CheckOptions& options) {
     const interpreter::ParsedProgram program = interpreter::parse_program(text, options.dialect);
     Findings findings(program);
-    add_faults(program, findings);
-    const std::vector<CheckSection> sections = sections_of(program);
-    if (check_family(sections, options, findings)) return findings.take();
+    std::vector<CheckSection> sections = sections_of(program);
+    for (CheckSection& section : sections)
+        section.foreign = check_family(section, options, findings);
+    add_faults(program, sections, findings);
     for (const CheckSection& section : sections) {
+        if (section.foreign) continue;
         check_flow(section, findings);
         check_codes(section, options, findings);
         check_arcs(section, options, findings);
@@ -188,6 +215,23 @@ std::vector<Finding> check_program(const interpreter::ProgramText& text,
     }
     check_calls(program, sections, options, findings);
     return findings.take();
+}
+
+bool begins_foreign(std::string_view text, const std::vector<Finding>& findings) {
+    int end = std::numeric_limits<int>::max();  // line of the second program
+    bool open = false;
+    for (interpreter::LineScan scan(text, interpreter::start_of_text(text)); scan.next();) {
+        const interpreter::LineHead& head = scan.head();
+        if (head.kind == interpreter::LineKind::blank) continue;
+        const bool begins = head.kind != interpreter::LineKind::block;
+        if (open && begins) {
+            end = head.place.line;
+            break;
+        }
+        open = head.kind != interpreter::LineKind::over;
+    }
+    return std::any_of(findings.begin(), findings.end(),
+                       [end](const Finding& f) { return f.rule == "family" && f.line < end; });
 }
 
 }  // namespace trunnion::check

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/alarm.h"
@@ -79,8 +80,9 @@ struct CheckOptions {
     bool work_offset_is_group_12 = false;
     /// Name of an option with this code that other controls have; empty: none.
     std::function<std::string(int code10)> missing_option;
-    /// True for an M code of the builder's profile. Empty: none is.
-    std::function<bool(int code)> builders_m;
+    /// True for a G or M code (434 is G43.4) of the builder's profile. Empty: none is.
+    std::function<bool(char letter, int code10)> builders_code;
+    bool has_u_axis = true;  ///< false: U is no axis word of this machine
     /// True when program O`number` exists outside the file. Empty: not checked.
     std::function<bool(int o_number)> finds_program;
     /// True when the program `<name>` exists outside the file. Empty: unknown.
@@ -105,5 +107,8 @@ struct CheckOptions {
 /// not set, positions after jumps and machine data are left to a run.
 std::vector<Finding> check_program(const interpreter::ProgramText& program,
                                    const CheckOptions& options);
+
+/// True when the first program of the text is for a lathe or a Haas by these findings.
+bool begins_foreign(std::string_view text, const std::vector<Finding>& findings);
 
 }  // namespace trunnion::check

@@ -59,8 +59,11 @@ void at_end(const Followed& state, const interpreter::Block& block, Findings& fi
 void refuse_code(const CheckOptions& options, int code10, BlockPlace place, Findings& findings) {
     const std::string option = options.missing_option ? options.missing_option(code10) : "";
     const std::string name = name_of_code(code10);
+    const char* const haas = haas_meaning(code10);
     if (option.empty())
-        findings.add("unknown-code", Severity::error, place, "this control has no " + name,
+        findings.add("unknown-code", Severity::error, place,
+                     "this control has no " + name +
+                         (haas ? fmt::format(" (on a Haas: {})", haas) : std::string()),
                      "Use a code of this control, or map it to a program (parameters 6050-6059).");
     else
         findings.add("unknown-code", Severity::error, place,

@@ -221,7 +221,8 @@ void check_calls(const interpreter::ParsedProgram& program,
     const auto known = [&](int number) {
         return own.contains(number) || options.finds_program(number);
     };
-    for (const CheckSection& section : sections)
+    for (const CheckSection& section : sections) {
+        if (section.foreign) continue;
         for (const interpreter::Block* block : section.blocks) {
             check_named_call(program, *block, own_names, options, findings);
             int column = 1;
@@ -237,6 +238,7 @@ void check_calls(const interpreter::ParsedProgram& program,
                 fmt::format("program O{:04} is called and nowhere to be found", *number),
                 "Put it into the folder of this program, or name its folder with --programs.");
         }
+    }
 }
 
 }  // namespace trunnion::check

@@ -26,6 +26,8 @@ struct CheckSection {
     std::set<int> targets;       ///< N numbers that are constant GOTO targets
     bool computed_jump = false;  ///< a GOTO computes its target
     bool subprogram = false;     ///< ends with M99
+    bool foreign = false;        ///< for a lathe or a Haas
+    int last_line = 0;           ///< before the next program
 };
 
 /// Splits a file at its O numbers and `%`.
@@ -73,10 +75,11 @@ void check_codes(const CheckSection& section, const CheckOptions& options, Findi
 void check_words(const CheckSection& section, const CheckOptions& options, Findings& findings);
 /// Executes a main program as far as it is sequential and its values are known.
 void check_trial(const CheckSection& section, const CheckOptions& options, Findings& findings);
-/// One finding when the program is for a lathe or a Haas; its own codes are then not reported as
-/// errors. Returns true in this case.
-bool check_family(const std::vector<CheckSection>& sections, const CheckOptions& options,
-                  Findings& findings);
+/// One finding when the program is for a lathe or a Haas. Returns true in this case: nothing else
+/// is reported of it.
+bool check_family(const CheckSection& section, const CheckOptions& options, Findings& findings);
+/// What a G code without a meaning here does on a Haas; nullptr: unknown.
+const char* haas_meaning(int code10);
 
 /// The words of a block, those that are computed as vacant; `all`: none is computed. Never throws;
 /// a block with more words than a control reads gives none.
@@ -86,9 +89,9 @@ struct ConstantWords {
 };
 std::optional<ConstantWords> constant_words(const interpreter::ParsedProgram& program,
                                             const interpreter::Block& block);
-/// True when the block calls a program, directly or by a code mapped by a parameter.
-bool calls_program(const interpreter::ParsedProgram& program, const interpreter::Block& block,
-                   const CheckOptions& options);
+/// True when the words of the block are arguments: G65, G66, or a code mapped by a parameter.
+bool passes_arguments(const interpreter::ParsedProgram& program, const interpreter::Block& block,
+                      const CheckOptions& options);
 
 void check_arcs(const CheckSection& section, const CheckOptions& options, Findings& findings);
 

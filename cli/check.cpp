@@ -20,13 +20,10 @@
 #include "cli/notes.h"
 #include "cli/options.h"
 #include "cli/page_options.h"
+#include "cli/setup_rules.h"
 #include "cli/setups.h"
 #include "controller/alarms.h"
-#include "controller/block_trial.h"
-#include "controller/code_calls.h"
-#include "controller/g_codes.h"
-#include "controller/hurco_codes.h"
-#include "controller/missing_codes.h"
+#include "controller/controller.h"
 #include "emulator/run.h"
 #include "inputs/program_choice.h"
 #include "inputs/shipped.h"
@@ -63,80 +60,6 @@ std::vector<std::string> files_of(const std::vector<std::string>& paths) {
     }
     return files;
 }
-
-/// True for codes that call programs by parameters 6050-6089 and 6001#5.
-bool calls_program(const interpreter::CodeCalls& calls, char letter, int code10) {
-    if (letter == 'T') return calls.t_calls_9000;
-    return letter == 'G' ? calls.g.contains(code10)
-                         : code10 % 10 == 0 && calls.m.contains(code10 / 10);
-}
-
-bool knows_g(const setup::Setup& setup, int code10) {
-    const bool hurco = setup.dialect.family == interpreter::DialectFamily::hurco;
-    const controller::GCode* code =
-        hurco ? controller::find_hurco_g_code(code10 / 10.0, setup.hurco.bnc)
-              : controller::find_g_code(code10 / 10.0);
-    if (code) return code->action != controller::Action::thread || setup.threading;
-    for (const controller::GCode& own : setup.builder.g_codes)
-        if (own.code10 == code10) return true;
-    return code10 == 650 || code10 == 660 || code10 == 661 || code10 == 670;  // of the language
-}
-
-bool has_m(const trunnion::controller::BuilderProfile& builder, int code) {
-    const auto in = [code](const std::vector<int>& codes) {
-        return std::find(codes.begin(), codes.end(), code) != codes.end();
-    };
-    return in(builder.m_codes) || in(builder.m_codes_after);
-}
-
-/// The rules of one setup's control for programs; each variable is looked up once.
-class SetupRules {
-  public:
-    explicit SetupRules(const setup::Setup& setup)
-        : setup_(setup), calls_(controller::decode_code_calls(setup.stores.parameters)) {}
-
-    check::CheckOptions options() {
-        check::CheckOptions out;
-        out.dialect = setup_.dialect;
-        out.arc_centres_are_places =
-            setup_.hurco.bnc && setup_.dialect.family == interpreter::DialectFamily::hurco;
-        out.work_offset_is_group_12 = setup_.work_offset_is_group_12;
-        out.missing_option = [this](int code10) {
-            const bool fanuc = setup_.dialect.family == interpreter::DialectFamily::fanuc;
-            const char* option = fanuc ? controller::missing_option(code10) : nullptr;
-            return std::string(option ? option : "");
-        };
-        out.knows_g = [this](int code10) {
-            return knows_g(setup_, code10) || cli::calls_program(calls_, 'G', code10);
-        };
-        out.builders_m = [this](int code) { return has_m(setup_.builder, code); };
-        out.calls_program = [this](char letter, int code10) {
-            return cli::calls_program(calls_, letter, code10);
-        };
-        out.alarm_text = [](int number) {
-            const controller::AlarmRow* row = controller::find_alarm(number);
-            return controller::alarm_title(number, row ? row->text : "");
-        };
-        out.variable_alarm = [this](int number, bool writes) {
-            const auto [known, fresh] = variables_.try_emplace({number, writes}, 0);
-            if (fresh)
-                known->second = trunnion::controller::variable_alarm(
-                    number, writes, emulator::control_config(setup_), setup_.stores);
-            return known->second;
-        };
-        out.skip_switches = emulator::control_config(setup_).skip_switches;
-        out.start_trial = [this] {
-            return std::make_unique<check::TrialBy<controller::BlockTrial>>(
-                emulator::control_config(setup_), setup_.stores);
-        };
-        return out;
-    }
-
-  private:
-    const setup::Setup& setup_;
-    interpreter::CodeCalls calls_;
-    std::map<std::pair<int, bool>, int> variables_;
-};
 
 class NoDevices : public motion::MotionSink {
   public:
@@ -257,8 +180,9 @@ void check_one(const CheckCommand& c, const std::string& file, CheckedMachines& 
     std::vector<check::Finding> found;
     const CheckedMachine& machine = machines.for_program(program, programs, found);
     findings.insert(findings.end(), found.begin(), found.end());
-    if (c.run) run_without_devices(machine.setup, program, c, findings);
-    if (machine.other) {
+    const bool foreign = check::begins_foreign(program.text, found);
+    if (c.run && !foreign) run_without_devices(machine.setup, program, c, findings);
+    if (machine.other && !foreign) {
         const auto apart = differences_against(machine.setup, {*machine.other, c.against}, program,
                                                c.folders, c.limits);
         findings.insert(findings.end(), apart.begin(), apart.end());

@@ -119,7 +119,9 @@ TEST_CASE("a code of this control, or of its builder, is no sign of a Haas", "[c
     CHECK(findings[0].rule == "family");
     const auto lamp = std::make_shared<const std::string>("O1\nM130\nM97P10\nM30\n");
     CHECK(check::check_program({"p.nc", *lamp, lamp}, options).size() == 1);
-    options.builders_m = [](int code) { return code == 130 || code == 97; };
+    options.builders_code = [](char letter, int code10) {
+        return letter == 'M' && (code10 == 1300 || code10 == 970);
+    };
     CHECK(check::check_program({"p.nc", *lamp, lamp}, options).empty());
 }
 

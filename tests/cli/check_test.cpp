@@ -148,3 +148,21 @@ TEST_CASE("check: without --setup the machine is the one that a program names or
     bench.write("both.nc", "O4\nG0 A1. B1.\nM30\n");  // a machine that does not ship
     CHECK(bench.check("both.nc") == 1);
 }
+
+TEST_CASE(
+    "check: a lathe's program is named and neither run nor compared, the mill's beside it is") {
+    const Bench bench;
+    const std::string lathe = "O2(TURN)\nT0101\nG96S100M3\nG0X50.Z1.\nGOTO9\nM30\n",
+                      mill = "O1\nG17G90G0X9000.\nM30\n";
+    bench.write("lathe.nc", lathe);
+    CHECK(bench.check("lathe.nc --run --against hurco") == 1);
+    CHECK_THAT(bench.out(), Catch::Contains("O0002 is a program for a lathe") &&
+                                Catch::EndsWith("1 finding in 1 file\n"));
+    bench.write("both.nc", mill + lathe);
+    CHECK(bench.check("both.nc --run") == 1);
+    CHECK_THAT(bench.out(), Catch::Contains("OVERTRAVEL") && Catch::Contains("for a lathe") &&
+                                Catch::EndsWith("2 findings in 1 file\n"));
+    bench.write("turned.nc", lathe + mill);
+    CHECK(bench.check("turned.nc --run") == 1);
+    CHECK_THAT(bench.out(), Catch::Contains("OVERTRAVEL") && Catch::Contains("for a lathe"));
+}
