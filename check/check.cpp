@@ -21,6 +21,7 @@ const std::vector<CheckRule>& check_rules() {
         {"branch", "IF .. THEN, ELSE and ENDIF do not belong together"},
         {"loop", "DO and END do not belong together"},
         {"unknown-code", "A G code the control does not have"},
+        {"unknown-m", "An M code that passes without effect"},
         {"subprogram-missing", "A called program is nowhere"},
         {"arc-radius", "The arc's end is not on its circle"},
         {"arc-plane", "Arcs in a program that names no plane"},
@@ -36,6 +37,16 @@ const std::vector<CheckRule>& check_rules() {
         {"reading", "Another control would move differently"},
         {"alarm", "Running the program stops with an alarm"}};
     return table;
+}
+
+const char* name_of(Severity severity) {
+    return severity == Severity::error ? "error" : severity == Severity::note ? "note" : "warning";
+}
+
+std::size_t count_faults(const std::vector<Finding>& findings) {
+    return static_cast<std::size_t>(
+        std::count_if(findings.begin(), findings.end(),
+                      [](const Finding& finding) { return finding.severity != Severity::note; }));
 }
 
 int code10_of(double value) {
@@ -56,7 +67,8 @@ bool Findings::has_error(int line) const {
 
 namespace {
 
-/// If there are more than a few equal findings, only the first is kept, with their number.
+/// If there are more than a few equal findings (notes: more than one), only the first is kept, with
+/// their number.
 std::vector<Finding> one_for_each_cause(std::vector<Finding> found) {
     constexpr std::size_t few = 3;
     std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> same;
@@ -64,7 +76,8 @@ std::vector<Finding> one_for_each_cause(std::vector<Finding> found) {
         same[{found[i].rule, found[i].text}].push_back(i);
     std::set<std::size_t> dropped;
     for (const auto& [cause, places] : same) {
-        if (places.size() <= few) continue;
+        const bool note = found[places.front()].severity == Severity::note;
+        if (places.size() <= (note ? 1 : few)) continue;
         found[places.front()].text +=
             fmt::format(" ({} times, last in line {})", places.size(), found[places.back()].line);
         dropped.insert(places.begin() + 1, places.end());

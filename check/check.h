@@ -16,7 +16,9 @@
 
 namespace trunnion::check {
 
-enum class Severity : unsigned char { error, warning };
+/// A note is no fault of the program.
+enum class Severity : unsigned char { error, warning, note };
+const char* name_of(Severity severity);
 
 struct Finding {
     std::string rule;  ///< one of check_rules()
@@ -26,6 +28,9 @@ struct Finding {
     std::string text;          ///< one line
     std::string remedy;
 };
+
+/// Errors and warnings.
+std::size_t count_faults(const std::vector<Finding>& findings);
 
 struct CheckRule {
     const char* name;
@@ -76,6 +81,8 @@ struct CheckOptions {
     interpreter::Dialect dialect;
     /// True when the control has this G code (434 is G43.4). Empty: not checked.
     std::function<bool(int code10)> knows_g;
+    /// True when the control has this M code. Empty: not checked.
+    std::function<bool(int code)> knows_m;
     /// #4012 reads the work offset, not G66 and G67.
     bool work_offset_is_group_12 = false;
     /// Name of an option with this code that other controls have; empty: none.

@@ -71,6 +71,24 @@ void refuse_code(const CheckOptions& options, int code10, BlockPlace place, Find
                      "Leave it out, or map it to a program (parameters 6050-6059).");
 }
 
+/// An M code that passes without effect: builders have their own, so it is only said.
+void note_unknown_m(const interpreter::ParsedProgram& program, const interpreter::Block& block,
+                    const CheckOptions& options, Findings& findings) {
+    if (!options.knows_m || passes_arguments(program, block, options)) return;
+    for (const interpreter::Item& item : program.items(block)) {
+        if (item.kind != interpreter::ItemKind::word || item.letter != 'M') continue;
+        const auto value = interpreter::constant_value(program, item);
+        if (!value || *value < 0.0 || *value != std::floor(*value)) continue;
+        const int code = whole_of(*value);
+        if (options.knows_m(code)) continue;
+        findings.add(
+            "unknown-m", Severity::note, {block, item.column},
+            fmt::format("M{:02} is not known to this control: it passes without effect", code),
+            "Declare it in [control.builder] of the setup, or map it to a program (parameters "
+            "6071-6089).");
+    }
+}
+
 }  // namespace
 
 void check_codes(const CheckSection& section, const CheckOptions& options, Findings& findings) {
@@ -79,6 +97,7 @@ void check_codes(const CheckSection& section, const CheckOptions& options, Findi
     const bool hurco = options.dialect.family == interpreter::DialectFamily::hurco;
     Followed state;
     for (const interpreter::Block* block : section.blocks) {
+        note_unknown_m(program, *block, options, findings);
         for (const interpreter::Item& item : program.items(*block)) {
             if (item.kind != interpreter::ItemKind::word || item.letter != 'G') continue;
             const auto value = interpreter::constant_value(program, item);

@@ -8,6 +8,7 @@
 #include "controller/code_calls.h"
 #include "controller/g_codes.h"
 #include "controller/hurco_codes.h"
+#include "controller/m_codes.h"
 #include "controller/missing_codes.h"
 #include "emulator/run.h"
 
@@ -65,6 +66,9 @@ check::CheckOptions SetupRules::options() {
     };
     out.knows_g = [this](int code10) {
         return knows_g(setup_, code10) || cli::calls_program(calls_, 'G', code10);
+    };
+    out.knows_m = [config = emulator::control_config(setup_)](int code) {
+        return controller::knows_m(code, config);
     };
     out.builders_code = [this](char letter, int code10) {
         return has_code(setup_.builder, letter, code10);

@@ -38,6 +38,16 @@ bool holds(const std::vector<int>& codes, int code) {
     return std::find(codes.begin(), codes.end(), code) != codes.end();
 }
 
+const ClampCode* find_clamp(const std::vector<ClampCode>& clamps, int code) {
+    for (const ClampCode& clamp : clamps)
+        if (code == clamp.m_clamp || code == clamp.m_release) return &clamp;
+    return nullptr;
+}
+
+bool has_own(const BuilderProfile& builder, int code) {
+    return holds(builder.m_codes, code) || holds(builder.m_codes_after, code);
+}
+
 /// True for codes that stop look-ahead: a compensated path ends perpendicular before them.
 bool stops_reading(int code) {
     return code == 0 || code == 1 || code == 2 || code == 30;
@@ -50,13 +60,17 @@ void set_spindle(Modal& modal, int direction) {
 
 }  // namespace
 
+bool knows_m(int code, const ControlConfig& config) {
+    return code == 98 || code == 99 || code == 198 || find_row(code) ||
+           find_clamp(config.clamps, code) || has_own(config.builder, code) ||
+           find_dialect_code(config.dialect.family, code);
+}
+
 MCodes::MCodes(const ControlConfig& config)
     : clamps_(config.clamps), builder_(config.builder), optional_stop_(config.optional_stop) {}
 
 const ClampCode* MCodes::clamp_of(int code) const {
-    for (const ClampCode& clamp : clamps_)
-        if (code == clamp.m_clamp || code == clamp.m_release) return &clamp;
-    return nullptr;
+    return find_clamp(clamps_, code);
 }
 
 bool MCodes::acts_after(int code, interpreter::DialectFamily family) const {
@@ -70,10 +84,11 @@ void MCodes::change_state(int code, Modal& modal, Mover& mover) {
     const ClampCode* clamp = clamp_of(code);
     if (clamp)
         mover.axes.clamp(clamp->axis, code == clamp->m_clamp);
-    else if (!find_row(code) && !holds(builder_.m_codes, code) &&
-             !holds(builder_.m_codes_after, code))
+    else if (!find_row(code) && !has_own(builder_, code))
         mover.note(
-            fmt::format("M{:02} is not known to the control: passed on without effect", code));
+            fmt::format("M{:02} is not known to this control: it passed without effect; "
+                        "declare it in [control.builder] of the setup",
+                        code));
     if (code == 2 || code == 30) ended_ = true;
     if (code == 3 || code == 4) set_spindle(modal, code == 3 ? 1 : -1);
     if (code == 5 || code == 19) set_spindle(modal, 0);

@@ -13,6 +13,10 @@ struct MCode {
     const char* text;
 };
 
+/// True when the control, its dialect, a clamp or the builder's profile has this M code; M98, M99
+/// and M198 belong to the language.
+bool knows_m(int code, const ControlConfig& config);
+
 class MCodes {
   public:
     explicit MCodes(const ControlConfig& config);

@@ -18,8 +18,8 @@ PageTable findings_table(const std::vector<check::Finding>& findings) {
     PageTable table{"", {"place", "what", "remedy", "severity", "rule"}, "lllll", {}};
     for (const check::Finding& f : findings)
         table.rows.push_back({valid_utf8(fmt::format("{}:{}:{}", f.path, f.line, f.column)),
-                              valid_utf8(f.text), valid_utf8(f.remedy),
-                              f.severity == check::Severity::error ? "error" : "warning", f.rule});
+                              valid_utf8(f.text), valid_utf8(f.remedy), name_of(f.severity),
+                              f.rule});
     return table;
 }
 
@@ -42,17 +42,19 @@ Page findings_page(const std::vector<check::Finding>& findings,
     Page page;
     page.title = "Findings in NC programs";
     page.subject = counted(files.size(), "program") + " looked at";
-    page.verdict = findings.empty() ? std::string("Nothing found.")
-                                    : fmt::format("{} and {} found.", counted(errors, "error"),
-                                                  counted(findings.size() - errors, "warning"));
-    page.tone = errors > 0 ? Tone::bad : findings.empty() ? Tone::good : Tone::neutral;
+    const std::size_t faults = check::count_faults(findings);
+    page.verdict = faults == 0 ? std::string("Nothing found.")
+                               : fmt::format("{} and {} found.", counted(errors, "error"),
+                                             counted(faults - errors, "warning"));
+    page.tone = errors > 0 ? Tone::bad : faults == 0 ? Tone::good : Tone::neutral;
     if (!findings.empty())
         page.body_html = section_html("Findings", table_html(findings_table(findings))) +
                          section_html("Rules", table_html(rules_table(findings)));
-    page.body_html +=
-        section_html("How to read this",
-                     paragraph_html("An error stops the control or cannot be intended. A warning "
-                                    "should be checked. The place is file, line and column."));
+    page.body_html += section_html(
+        "How to read this",
+        paragraph_html(
+            "An error stops the control or cannot be intended. A warning "
+            "should be checked. A note is no fault. The place is file, line and column."));
     return page;
 }
 

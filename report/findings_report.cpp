@@ -14,10 +14,6 @@ namespace trunnion::report {
 
 namespace {
 
-const char* name_of(check::Severity severity) {
-    return severity == check::Severity::error ? "error" : "warning";
-}
-
 std::string line_of(const check::Finding& f) {
     return fmt::format("{}:{}:{}: {}: {} [{}]{}\n", printable(f.path), f.line, f.column,
                        name_of(f.severity), printable(f.text), f.rule,
@@ -34,8 +30,11 @@ std::string place_and_remedy(const check::Finding& f) {
 std::string text_of(const std::vector<check::Finding>& findings, std::size_t files) {
     std::string out;
     for (const check::Finding& f : findings) out += place_and_remedy(f);
-    return out + fmt::format("{} finding{} in {} file{}\n", findings.size(),
-                             findings.size() == 1 ? "" : "s", files, files == 1 ? "" : "s");
+    const std::size_t faults = check::count_faults(findings), notes = findings.size() - faults;
+    out += fmt::format("{} finding{} in {} file{}", faults, faults == 1 ? "" : "s", files,
+                       files == 1 ? "" : "s");
+    if (notes > 0) out += fmt::format(", {} note{}", notes, notes == 1 ? "" : "s");
+    return out + "\n";
 }
 
 std::string json_of(const std::vector<check::Finding>& findings,
@@ -77,7 +76,7 @@ std::string junit_of(const std::vector<check::Finding>& findings,
         JUnitCase c{file, file, "", ""};
         int count = 0;
         for (const check::Finding& f : findings)
-            if (f.path == file) {
+            if (f.path == file && f.severity != check::Severity::note) {
                 if (++count == 1) c.failure = f.text;
                 c.details += line_of(f);
             }

@@ -224,3 +224,33 @@ TEST_CASE("one cause is one finding, with how often", "[check]") {
     CHECK(findings[0].line == 2);
     CHECK(findings[0].text.find("(50 times, last in line 51)") != std::string::npos);
 }
+
+TEST_CASE("an M code that the control lacks is one note for each code, no fault", "[check]") {
+    const std::string text =
+        "O1\nM141\nM8\nM141M3S1\nM5\nG65P9001M142.A1.\nM98P9001\nM143\nM144\nM30\nO9001\nM141\n"
+        "M145\nM99\n";
+    const auto owner = std::make_shared<const std::string>(text);
+    check::CheckOptions options;
+    options.knows_m = [](int code) { return code < 100 || code == 144; };
+    options.calls_program = [](char letter, int code10) { return letter == 'M' && code10 == 1430; };
+    const auto found = check::check_program({"p.nc", *owner, owner}, options);
+    REQUIRE(found.size() == 2);
+    CHECK(found[0].rule == "unknown-m");
+    CHECK(found[0].severity == check::Severity::note);
+    CHECK(found[0].line == 2);
+    CHECK(found[0].column == 1);
+    CHECK(found[0].text ==
+          "M141 is not known to this control: it passes without effect (3 times, last in line 12)");
+    CHECK_THAT(found[0].remedy, Catch::Contains("[control.builder]"));
+    CHECK_THAT(found[1].text, Catch::StartsWith("M145 "));
+    CHECK(check::count_faults(found) == 0);
+    const auto report = [&](const char* format) {
+        return report::format_findings(found, {"p.nc"}, format);
+    };
+    CHECK_THAT(report("text"), Catch::StartsWith("p.nc:2:1: note: M141") &&
+                                   Catch::EndsWith("0 findings in 1 file, 2 notes\n"));
+    CHECK_THAT(report("junit"), Catch::Contains("failures=\"0\""));
+    CHECK_THAT(report("sarif"), Catch::Contains("\"level\": \"note\""));
+    CHECK_THAT(report("github"), Catch::StartsWith("::notice "));
+    CHECK_THAT(report("json"), Catch::Contains("\"severity\": \"note\""));
+}

@@ -166,3 +166,22 @@ TEST_CASE(
     CHECK(bench.check("turned.nc --run") == 1);
     CHECK_THAT(bench.out(), Catch::Contains("OVERTRAVEL") && Catch::Contains("for a lathe"));
 }
+
+TEST_CASE("check and run say once that an M code passes without effect, unless it is declared") {
+    const Bench bench;
+    bench.write("p.nc", "O1\nM141\nM8\nM141\nM30\n");
+    CHECK(bench.check("p.nc") == 0);
+    CHECK_THAT(bench.out(), Catch::Contains("p.nc:2:1: note: M141 is not known to this control") &&
+                                Catch::Contains("(2 times, last in line 4)") &&
+                                Catch::EndsWith("0 findings in 1 file, 1 note\n"));
+    CHECK(bench.trunnion("run " + bench.file("p.nc")) == 0);
+    const std::string notes = bench.read("err.txt") + bench.out();
+    const std::string said = "M141 is not known to this control: it passed without effect";
+    REQUIRE(notes.find(said) != notes.npos);
+    CHECK(notes.find(said, notes.find(said) + 1) == notes.npos);
+    bench.write("s.toml",
+                "[machine]\nname = \"m\"\nchain = \"w b X Y Z t\"\n[control.builder]\n"
+                "m_codes = [141]\n");
+    CHECK(bench.check("p.nc --setup s.toml") == 0);
+    CHECK(bench.out() == "0 findings in 1 file\n");
+}
