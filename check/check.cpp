@@ -53,50 +53,6 @@ int code10_of(double value) {
     return whole_of(std::round(value * 10.0));
 }
 
-void Findings::add(const char* rule, Severity severity, BlockPlace place, std::string text,
-                   std::string remedy) {
-    found_.push_back({rule, severity, program_.source.name, place.block.line,
-                      std::max(1, place.column), std::move(text), std::move(remedy)});
-}
-
-bool Findings::has_error(int line) const {
-    return std::any_of(found_.begin(), found_.end(), [&](const Finding& f) {
-        return f.line == line && f.severity == Severity::error;
-    });
-}
-
-namespace {
-
-/// If there are more than a few equal findings (notes: more than one), only the first is kept, with
-/// their number.
-std::vector<Finding> one_for_each_cause(std::vector<Finding> found) {
-    constexpr std::size_t few = 3;
-    std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> same;
-    for (std::size_t i = 0; i < found.size(); ++i)
-        same[{found[i].rule, found[i].text}].push_back(i);
-    std::set<std::size_t> dropped;
-    for (const auto& [cause, places] : same) {
-        const bool note = found[places.front()].severity == Severity::note;
-        if (places.size() <= (note ? 1 : few)) continue;
-        found[places.front()].text +=
-            fmt::format(" ({} times, last in line {})", places.size(), found[places.back()].line);
-        dropped.insert(places.begin() + 1, places.end());
-    }
-    std::vector<Finding> kept;
-    for (std::size_t i = 0; i < found.size(); ++i)
-        if (!dropped.contains(i)) kept.push_back(std::move(found[i]));
-    return kept;
-}
-
-}  // namespace
-
-std::vector<Finding> Findings::take() {
-    std::stable_sort(found_.begin(), found_.end(), [](const Finding& a, const Finding& b) {
-        return a.line != b.line ? a.line < b.line : a.column < b.column;
-    });
-    return one_for_each_cause(std::move(found_));
-}
-
 std::optional<double> word_value(const interpreter::ParsedProgram& program,
                                  const interpreter::Block& block, char letter) {
     for (const interpreter::Item& item : program.items(block))

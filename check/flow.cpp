@@ -234,8 +234,9 @@ void check_calls(const interpreter::ParsedProgram& program,
             const bool m98 = has_code(program, *block, 'M', 980);
             if (m98 && *number > 9999 && known(*number % 10000)) continue;
             findings.add(
-                "subprogram-missing", Severity::error, {*block, column},
-                fmt::format("program O{:04} is called and nowhere to be found", *number),
+                "subprogram-missing", {*block, column},
+                {"program * is called and nowhere to be found",
+                 "programs * are called and nowhere to be found", "O", *number},
                 "Put it into the folder of this program, or name its folder with --programs.");
         }
     }

@@ -48,21 +48,36 @@ struct BlockPlace {
     int column = 1;
 };
 
+/// A number whose findings are one cause together with its neighbours: variables of an undeclared
+/// range, programs of a missing folder.
+struct Numbered {
+    std::string one, many;  ///< texts; * is the number, or the numbers
+    const char* letter;     ///< "#", "O"
+    int number = 0;
+};
+
 class Findings {
   public:
     explicit Findings(const interpreter::ParsedProgram& program) : program_(program) {}
     void add(const char* rule, Severity severity, BlockPlace place, std::string text,
              std::string remedy);
-    void add(Finding finding) { found_.push_back(std::move(finding)); }
+    void add(Finding finding) { found_.push_back({std::move(finding), {}}); }
+    /// Near numbers become one finding at the first place.
+    void add(const char* rule, BlockPlace place, Numbered what, std::string remedy);
     /// True when there is already an error on this line.
     bool has_error(int line) const;
     /// Sorted by position; a finding repeated more than a few times is reported once with its
     /// number.
     std::vector<Finding> take();
 
+    struct Found {
+        Finding finding;
+        std::optional<Numbered> what;
+    };
+
   private:
     const interpreter::ParsedProgram& program_;
-    std::vector<Finding> found_;
+    std::vector<Found> found_;
 };
 
 void check_flow(const CheckSection& section, Findings& findings);

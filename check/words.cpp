@@ -103,9 +103,12 @@ void check_variable(int number, bool writes, BlockPlace place, const CheckOption
                     Findings& findings) {
     const int alarm = variable_alarm(number, writes, options);
     if (alarm == 0) return;
-    findings.add("variable", Severity::error, place,
-                 fmt::format("{}: #{}", alarm_text(options, alarm), number),
-                 alarm == 116 ? "Write to another variable." : "Use a variable of this control.");
+    const std::string text = alarm_text(options, alarm) + ": *";
+    findings.add("variable", place, {text, text, "#", number},
+                 alarm == 116    ? "Write to another variable."
+                 : number < 1000 ? "Use a variable of this control."
+                                 : "Use a variable of this control, or declare the range in "
+                                   "[control.builder] of the setup.");
 }
 
 void check_variables(const interpreter::ParsedProgram& program, const interpreter::Block& block,

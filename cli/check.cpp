@@ -218,8 +218,7 @@ int check(CheckCommand c) {
         findings.insert(findings.end(), found.begin(), found.end());
     }
     write_findings(c, findings, {files.begin(), files.begin() + static_cast<std::ptrdiff_t>(done)});
-    if (done == files.size())
-        return check::count_faults(findings) == 0 ? exit_done : exit_differs;
+    if (done == files.size()) return check::count_faults(findings) == 0 ? exit_done : exit_differs;
     print_error("trunnion: stopped after {} of {} programs ({})\n", done, files.size(),
                 reason_of(meter.reached()));
     return exit_limit;

@@ -254,3 +254,31 @@ TEST_CASE("an M code that the control lacks is one note for each code, no fault"
     CHECK_THAT(report("github"), Catch::StartsWith("::notice "));
     CHECK_THAT(report("json"), Catch::Contains("\"severity\": \"note\""));
 }
+
+TEST_CASE("variables of one range, and programs of a missing folder, are one finding", "[check]") {
+    std::string range = "O1\n", two = "O1\n", calls = "O1\n";
+    for (int i = 0; i < 60; ++i) range += "#" + std::to_string(300 + i) + "=0\n";
+    for (int i = 0; i < 100; ++i)
+        two += "#" + std::to_string(990600 + i % 5) + "=#" + std::to_string(200 + 2 * i) + "\n";
+    for (int i = 0; i < 7; ++i) calls += "M98P98" + std::to_string(10 + i * (i - 1)) + "\n";
+    const auto one = check_text(range + "M30\n");
+    REQUIRE(one.size() == 1);
+    CHECK(one[0].line == 2);
+    CHECK(one[0].column == 1);
+    CHECK(one[0].text == "alarm 115: #300 to #359 (all 60 of them), in 60 places, last in line 61");
+    const auto reads = check_text(two + "M30\n");
+    REQUIRE(reads.size() == 1);
+    CHECK(reads[0].text ==
+          "alarm 115: #200 to #398 (100 of them), in 100 places, last in line 101");
+    const auto missing = check_text(calls + "M30\n");
+    REQUIRE(missing.size() == 1);
+    CHECK(missing[0].text ==
+          "programs O9810 to O9840 (6 of them) are called and nowhere to be found, in 7 places, "
+          "last in line 8");
+    CHECK(missing[0].line == 2);
+    CHECK(missing[0].column == 4);
+    CHECK(check_text("O1\n#300=1\n#301=1\n#302=1\nM30\n").size() == 3);  // few: each its own
+    CHECK(check_text("O1\n#300=1\n#300=2\n#450=1\n#301=1\n#302=1\nM30\n").size() == 2);
+    // Reading and writing, and far ranges, are causes of their own.
+    CHECK(check_text("O1\n#0=1\n#0=2\n#300=1\n#301=1\nM98P300\nM98P301\nM30\n").size() == 6);
+}
