@@ -32,7 +32,7 @@ const std::vector<CheckRule>& check_rules() {
         {"modal-group", "#4012 is read: some controls have G54-G59 there"},
         {"dwell-point", "A dwell in P with a decimal point"},
         {"variable", "A variable that does not exist or cannot be written"},
-        {"tcp-frame", "G43.4 behind an indexing: its frame depends on tcp_frame"},
+        {"tcp-frame", "G43.4 starts with the table off zero: its frame depends on tcp_frame"},
         {"family", "The program is written for another kind of control"},
         {"reading", "Another control would move differently"},
         {"alarm", "Running the program stops with an alarm"}};

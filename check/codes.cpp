@@ -12,7 +12,6 @@ struct Followed {
     bool compensation = false;  ///< G41, G42
     bool tool_centre = false;   ///< G43.4, G43.5
     bool tilted_plane = false;  ///< G68.2 to G68.4
-    bool indexed = false;       ///< G53.1 or G53.6 positioned the rotary axes
 };
 
 struct Effect {
@@ -26,23 +25,11 @@ constexpr Effect effects[] = {
     {435, &Followed::tool_centre, true},   {490, &Followed::tool_centre, false},
     {430, &Followed::tool_centre, false},  {682, &Followed::tilted_plane, true},
     {683, &Followed::tilted_plane, true},  {684, &Followed::tilted_plane, true},
-    {690, &Followed::tilted_plane, false}, {531, &Followed::indexed, true},
-    {536, &Followed::indexed, true}};
+    {690, &Followed::tilted_plane, false}};
 
 std::string name_of_code(int code10) {
     return code10 % 10 == 0 ? fmt::format("G{}", code10 / 10)
                             : fmt::format("G{}.{}", code10 / 10, code10 % 10);
-}
-
-/// True when the block has rotary words and all of them are 0.
-bool turns_to_zero(const interpreter::ParsedProgram& program, const interpreter::Block& block) {
-    bool any = false;
-    for (const char letter : {'A', 'B', 'C'}) {
-        const auto value = word_value(program, block, letter);
-        if (value && *value != 0.0) return false;
-        any = any || value;
-    }
-    return any;
 }
 
 void at_end(const Followed& state, const interpreter::Block& block, Findings& findings) {
@@ -113,16 +100,6 @@ void check_codes(const CheckSection& section, const CheckOptions& options, Findi
             findings.add("skip-compensation", Severity::error, {*block, 1},
                          "G31 while cutter compensation (G41, G42) is on",
                          "Cancel it with G40 before the skip.");
-        if (turns_to_zero(program, *block)) state.indexed = false;
-        if (state.indexed && !state.tilted_plane &&
-            (has_code(program, *block, 'G', 434) || has_code(program, *block, 'G', 435))) {
-            findings.add("tcp-frame", Severity::warning, {*block, 1},
-                         "G43.4 behind an indexing (G53.1, G69): where the programmed points lie "
-                         "on the table depends on tcp_frame",
-                         "Set [control] tcp_frame to what the machine does (\"start\" or "
-                         "\"rotary_zero\"), and compare with run's note.");
-            state.indexed = false;
-        }
         if (has_code(program, *block, 'M', 300) || has_code(program, *block, 'M', 20))
             at_end(state, *block, findings);
     }

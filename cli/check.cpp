@@ -61,22 +61,30 @@ std::vector<std::string> files_of(const std::vector<std::string>& paths) {
     return files;
 }
 
+constexpr std::uint64_t trial_blocks = 1'000'000;  ///< limit of a run without --run
+
 class NoDevices : public motion::MotionSink {
   public:
     motion::MoveResult move(const motion::AxisMove&) override { return {}; }
 };
 
-void run_without_devices(const setup::Setup& setup, const interpreter::ProgramText& program,
-                         const CheckCommand& c, std::vector<check::Finding>& findings) {
+controller::RunResult run_without_devices(const setup::Setup& setup,
+                                          const interpreter::ProgramText& program,
+                                          const CheckCommand& c) {
     offsets::Stores stores = setup.stores;
     NoDevices sink;
     interpreter::ProgramFolders programs = inputs::folders_of_file(program, c.folders);
     controller::ControlConfig config = emulator::control_config(setup);
-    config.max_blocks = c.limits.max_blocks;
+    config.max_blocks = c.run ? c.limits.max_blocks : std::min(c.limits.max_blocks, trial_blocks);
     config.go_on = c.limits.go_on;
     controller::Controller controller(std::move(config), stores, programs, sink,
                                       [](std::string_view) {});
-    const controller::RunResult result = controller.run(program);
+    return controller.run(program);
+}
+
+/// The alarm that ends a run, as a finding.
+void add_end(const controller::RunResult& result, const interpreter::ProgramText& program,
+             const CheckCommand& c, std::vector<check::Finding>& findings) {
     if (result.status == controller::RunStatus::limit && c.limits.go_on(0))
         findings.push_back({"alarm", check::Severity::error, program.name, 1, 1,
                             fmt::format("does not end within {} blocks", c.limits.max_blocks),
@@ -94,6 +102,27 @@ void run_without_devices(const setup::Setup& setup, const interpreter::ProgramTe
          std::max(1, alarm.where.column),
          fmt::format("running it: {}", controller::alarm_title(alarm.number, alarm.text)),
          row != nullptr ? row->remedy : ""});
+}
+
+/// True when one of the programs starts tool centre point control.
+bool names_tool_centre(const std::vector<interpreter::ProgramText>& programs) {
+    return std::any_of(programs.begin(), programs.end(), [](const interpreter::ProgramText& p) {
+        return p.text.find("43.4") != p.text.npos || p.text.find("43.5") != p.text.npos;
+    });
+}
+
+/// What shows only in a run: where the table stands at G43.4; with --run the alarm that ends it.
+void check_by_run(const CheckCommand& c, const setup::Setup& setup,
+                  const interpreter::ProgramText& program, bool tool_centre,
+                  std::vector<check::Finding>& findings) {
+    if (!c.run && !tool_centre) return;
+    const controller::RunResult result = run_without_devices(setup, program, c);
+    for (const controller::TurnedStart& start : result.turned_starts)
+        findings.push_back({"tcp-frame", check::Severity::warning, start.program, start.line, 1,
+                            start.text,
+                            "Set [control] tcp_frame to what the machine does: \"start\" or "
+                            "\"rotary_zero\"."});
+    if (c.run) add_end(result, program, c, findings);
 }
 
 /// A machine on which programs are checked, with the data common to all of them.
@@ -181,7 +210,8 @@ void check_one(const CheckCommand& c, const std::string& file, CheckedMachines& 
     const CheckedMachine& machine = machines.for_program(program, programs, found);
     findings.insert(findings.end(), found.begin(), found.end());
     const bool foreign = check::begins_foreign(program.text, found);
-    if (c.run && !foreign) run_without_devices(machine.setup, program, c, findings);
+    if (!foreign)
+        check_by_run(c, machine.setup, program, names_tool_centre(programs.used()), findings);
     if (machine.other && !foreign) {
         const auto apart = differences_against(machine.setup, {*machine.other, c.against}, program,
                                                c.folders, c.limits);

@@ -139,6 +139,7 @@ void Controller::State::finish(RunResult& result) {
     result.time_s = record.time_s;
     result.path_mm = record.path_mm;
     result.notes = record.notes;
+    result.turned_starts = record.turned_starts;
     result.reads_skip = variables.reads_skip();
     result.blocks = language.blocks_executed();
     result.machine = offsets::axis_positions_of(frames.machine);

@@ -30,12 +30,16 @@ double note_frames(const Modal& modal, const Frames& frames, Mover& mover) {
     const Vector3 rotary_zero = tip_M - origin;
     const double apart_mm = (start - rotary_zero).norm();
     if (apart_mm < 1e-6) return 0.0;
+    const char* const code = frames.tip.by_vector ? "G43.5" : "G43.4";
+    const std::string text = fmt::format(
+        "starts with the table off zero: on the table the programmed point is {} with tcp_frame = "
+        "\"start\" and {} with \"rotary_zero\"; in force is \"{}\"",
+        point_text(start), point_text(rotary_zero),
+        modal.settings.tcp_frame == positioning::TcpFrame::start ? "start" : "rotary_zero");
     if (mover.record().notes.size() < 200)
-        mover.note(fmt::format(
-            "G43.4 line {} starts with the table off zero: on the table the programmed point is {} "
-            "with tcp_frame = \"start\" and {} with \"rotary_zero\"; in force is \"{}\"",
-            modal.block.line, point_text(start), point_text(rotary_zero),
-            modal.settings.tcp_frame == positioning::TcpFrame::start ? "start" : "rotary_zero"));
+        mover.note(fmt::format("{} line {} {}", code, modal.block.line, text));
+    if (modal.block.program && mover.record().turned_starts.size() < 200)
+        mover.record().add({*modal.block.program, modal.block.line, code + (' ' + text)});
     return apart_mm;
 }
 

@@ -81,8 +81,6 @@ TEST_CASE("each rule finds its fault at its line, once, and not in the mended pr
         {"modal-group", "O1\nG#4012\nM30\n", "O1\nG#4014\nM30\n", 2},
         {"dwell-point", "O1\nG4P10.\nM30\n", "O1\nG4P10\nG4X1.5\nG4P#1\nG4P[10.]\nM30\n", 2},
         {"variable", "O1\n#99=1\nM30\n", "O1\n#100=1\nM30\n", 2},
-        {"tcp-frame", "O1\nG68.2X0Y0Z0I0J0K0\nG53.1\nG69\nG43.4H1\nG49\nM30\n",
-         "O1\nG68.2X0Y0Z0I0J0K0\nG53.1\nG69\nB0C0\nG43.4H1\nG49\nM30\n", 5},
         {"family", "O1\nG71P10Q20U.4W.1F.2\nG777\nM30\n", "O1\nG73Z-1.\nM30\n", 2},
         {"family", "O1\nM97P100\nM30\nN100M99\n", "O1\nM98P5\nM30\n", 2},
         {"merge-marker", "O1\n<<<<<<< HEAD\nM30\n", "O1\n(<<<<<<< HEAD)\nM30\n", 2},

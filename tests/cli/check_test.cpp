@@ -185,3 +185,42 @@ TEST_CASE("check and run say once that an M code passes without effect, unless i
     CHECK(bench.check("p.nc --setup s.toml") == 0);
     CHECK(bench.out() == "0 findings in 1 file\n");
 }
+
+TEST_CASE("check: G43.4 with the table off zero, as a run finds it") {
+    const Bench bench;
+    const std::string head = "O1\nG21G90G54G17\nT1M6\nG43H1G0X0Y0Z200.\n",
+                      start = "G43.4H1\nX10.Y20.Z100.\nG49\nM30\n",
+                      index = "G68.2X0Y0Z0I0J30.K0\nG53.1\nG69\n";
+    const auto starts = [&](const std::string& body) {
+        bench.write("p.nc", head + body);
+        const int code = bench.check("p.nc --json --setup " + std::string(TRUNNION_SOURCE_DIR) +
+                                     "/machines/bc_table.toml");
+        const Json json = Json::parse(bench.out());
+        std::vector<std::string> places;
+        for (const Json& f : json["findings"]) {
+            CHECK(f["rule"] == "tcp-frame");
+            CHECK_THAT(f["text"].get<std::string>(),
+                       Catch::Contains("\"start\" and X") && Catch::Contains("\"rotary_zero\""));
+            places.push_back(f["path"].get<std::string>() + ':' +
+                             std::to_string(f["line"].get<int>()));
+        }
+        CHECK(code == (places.empty() ? 0 : 1));
+        return places;
+    };
+    using Places = std::vector<std::string>;
+    CHECK(starts(index + start) == Places{"p.nc:8"});
+    CHECK(starts("G0B-30.C90.\n" + start) == Places{"p.nc:6"});
+    CHECK(starts("G68.2X0Y0Z0I0J30.K0\nG0B-30.C90.\nG69\n" + start) == Places{"p.nc:8"});
+    CHECK(starts("M98P1004\n" + start + "O1004\n" + index + "M99\n") == Places{"p.nc:6"});
+    CHECK(starts("#1=30.\nG0B-#1\n" + start) == Places{"p.nc:7"});
+    CHECK(starts("IF[1EQ1]GOTO5\nN5" + index + start) == Places{"p.nc:9"});
+    CHECK(starts("G0B30.\nM98P1005\nM98P1005\nG49\nM30\nO1005\nG43.4H1\nX10.Z100.\nG49\nM99\n") ==
+          Places{"p.nc:11"});
+    bench.write("O1006.nc", "O1006\nG43.4H1\nX10.Y20.Z100.\nG49\nM99\n");
+    CHECK(starts("G0B30.\nM98P1006\nM30\n") == Places{"./O1006.nc:2"});
+    // The table stands at zero, or at a turn of it.
+    CHECK(starts("G68.2X0Y0Z0I0J0K0\nG53.1\nG69\n" + start).empty());
+    CHECK(starts(index + "G0B0C0\n" + start).empty());
+    CHECK(starts("G0C360.\n" + start).empty());
+    CHECK(starts(index + "G1X1.F100\nM30\n").empty());
+}
