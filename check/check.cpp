@@ -34,6 +34,7 @@ const std::vector<CheckRule>& check_rules() {
         {"variable", "A variable that does not exist or cannot be written"},
         {"tcp-frame", "G43.4 starts with the table off zero: its frame depends on tcp_frame"},
         {"family", "The program is written for another kind of control"},
+        {"backup-file", "A file of a backup that is not a program"},
         {"reading", "Another control would move differently"},
         {"alarm", "Running the program stops with an alarm"}};
     return table;

@@ -25,6 +25,7 @@
 #include "controller/alarms.h"
 #include "controller/controller.h"
 #include "emulator/run.h"
+#include "inputs/backup_part.h"
 #include "inputs/program_choice.h"
 #include "inputs/shipped.h"
 #include "interpreter/program_folders.h"
@@ -204,7 +205,14 @@ class CheckedMachines {
 
 void check_one(const CheckCommand& c, const std::string& file, CheckedMachines& machines,
                std::vector<check::Finding>& findings) {
-    const interpreter::ProgramText program = interpreter::read_main_program(file);
+    const interpreter::ProgramText program = interpreter::read_program(file);
+    if (const std::string part = inputs::backup_part(program); !part.empty()) {
+        findings.push_back({"backup-file", check::Severity::note, file, 1, 1,
+                            "this is a backup's " + part + ", not a program",
+                            "trunnion backup load reads the folder."});
+        return;
+    }
+    interpreter::refuse_empty(program);
     interpreter::ProgramFolders programs = inputs::folders_of_file(program, c.folders);
     std::vector<check::Finding> found;
     const CheckedMachine& machine = machines.for_program(program, programs, found);

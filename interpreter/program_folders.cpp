@@ -62,9 +62,13 @@ ProgramText read_program(const std::string& path) {
 
 ProgramText read_main_program(const std::string& path) {
     ProgramText program = read_program(path);
-    if (program.text.find_first_not_of(" \t\r\n%") == std::string_view::npos)
-        throw InputError("the program is empty", {path, 0, 0});
+    refuse_empty(program);
     return program;
+}
+
+void refuse_empty(const ProgramText& program) {
+    if (program.text.find_first_not_of(" \t\r\n%") == std::string_view::npos)
+        throw InputError("the program is empty", {program.name, 0, 0});
 }
 
 ProgramFolders::ProgramFolders(std::vector<std::string> folders, std::vector<std::string> shipped) {

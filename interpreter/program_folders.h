@@ -16,6 +16,8 @@ ProgramText read_program(const std::string& path);
 /// The same for a program to be run or checked. A program without any block is refused, so that an
 /// empty file from a post processor or a failed copy does not pass.
 ProgramText read_main_program(const std::string& path);
+/// Throws InputError when there is no block.
+void refuse_empty(const ProgramText& program);
 
 /// Searches O1234 in the folders: first files named O1234, O1234.nc (or .txt .tap .min .mpf .cnc
 /// .ngc .eia .iso .prg), 1234, 1234.nc, with any number of leading zeros, in upper or lower case;

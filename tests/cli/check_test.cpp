@@ -224,3 +224,34 @@ TEST_CASE("check: G43.4 with the table off zero, as a run finds it") {
     CHECK(starts("G0C360.\n" + start).empty());
     CHECK(starts(index + "G1X1.F100\nM30\n").empty());
 }
+
+TEST_CASE("check of a folder names a backup's own files in one line each and checks its programs") {
+    const Bench bench;
+    std::filesystem::create_directories(bench.path / "bk");
+    bench.write("bk/CNC-PARA.TXT",
+                "%\nN00000Q1L1P00000010\nN01020Q1A1P88A2P89A3P90\n"
+                "N01320Q1A1M400.0A2M-5.0\n%\n");
+    bench.write("bk/old.txt", "%\r\nN01825 A1 P 3000 A2 P 3000\r\nN10000Q0P-1\r\n%\r\n");
+    bench.write("bk/Ext_wkz.txt", "%\nG90\nG10L2P0X0.0Y0.0Z0.0B0.0\nM02\n%\n");
+    bench.write("bk/TOOLOFST.TXT", "%\nG10G90L10P1R185.676\nM02\n%\n");
+    bench.write("bk/MACRO.TXT", "%\nG10L85P500(400777CED9168730)\nSETVN500[A]\nM02\n%\n");
+    bench.write("bk/TOOLLIFE.TXT", "%\n%\n");
+    bench.write("bk/ALL-PROG.TXT", "%\n&F=/USER/PATH1/\nO1\nGOTO5\nM30\n%\n");
+    CHECK(bench.check("bk") == 1);
+    for (const char* line :
+         {"CNC-PARA.TXT:1:1: note: this is a backup's parameter file, not a program",
+          "old.txt:1:1: note: this is a backup's parameter file",
+          "Ext_wkz.txt:1:1: note: this is a backup's work offset file",
+          "TOOLOFST.TXT:1:1: note: this is a backup's tool offset file",
+          "MACRO.TXT:1:1: note: this is a backup's variable file",
+          "ALL-PROG.TXT:4:1: error: GOTO 5"})
+        CHECK_THAT(bench.out(), Catch::Contains(line));
+    // Programs that look like it.
+    std::filesystem::create_directories(bench.path / "own");
+    bench.write("own/MACRO.TXT", "O9001\n#500=1\nGOTO5\nM99\n");
+    bench.write("own/TOOLOFST.TXT", "G10L10P1R5.\nG0X1.\nGOTO5\nM30\n");
+    bench.write("own/numbered.nc", "N10000M3S100\nN10010P5\nN10020GOTO5\nM30\n");
+    CHECK(bench.check("own") == 1);
+    CHECK(bench.trunnion("check " + bench.write("empty.nc", "%\n")) == 2);
+    CHECK(bench.out().find("backup") == std::string::npos);
+}
