@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "check/section.h"
+#include "interpreter/line_scan.h"
 #include "interpreter/word_rules.h"
 
 namespace trunnion::check {
@@ -184,13 +185,27 @@ std::optional<int> called_program(const interpreter::ParsedProgram& program,
     return std::nullopt;
 }
 
+/// The programs of the file.
+struct OwnPrograms {
+    const std::set<int>& numbers;
+    const std::set<std::string, std::less<>>& names;
+};
+
+/// `<O8001>` is O8001 as well.
+bool is_found(const std::string& name, const OwnPrograms& own, const CheckOptions& options) {
+    const auto number = interpreter::number_of_name(name);
+    if (number && (own.numbers.contains(*number) ||
+                   (options.finds_program && options.finds_program(*number))))
+        return true;
+    return own.names.contains(name) || (options.finds_named && options.finds_named(name));
+}
+
 void check_named_call(const interpreter::ParsedProgram& program, const interpreter::Block& block,
-                      const std::set<std::string, std::less<>>& own, const CheckOptions& options,
-                      Findings& findings) {
+                      const OwnPrograms& own, const CheckOptions& options, Findings& findings) {
     for (const interpreter::Item& item : program.items(block)) {
         if (item.kind != interpreter::ItemKind::word || item.letter != '<') continue;
         const std::string name = program.code.text.substr(item.b.first, item.b.count);
-        if (own.contains(name) || (options.finds_named && options.finds_named(name))) continue;
+        if (is_found(name, own, options)) continue;
         findings.add("subprogram-missing", Severity::error, {block, item.column},
                      fmt::format("program <{}> is called and nowhere to be found", name),
                      "Put it into the folder of this program, or name its folder with --programs.");
@@ -215,8 +230,9 @@ void check_calls(const interpreter::ParsedProgram& program,
         for (const interpreter::Block* block : section.blocks) {
             if (block->kind != interpreter::BlockKind::program) continue;
             own.insert(block->o_number);
-            own_names.emplace(
-                program.source.text.substr(block->byte + block->name.first, block->name.count));
+            own_names.emplace(program.name(*block));
+            if (const auto number = interpreter::number_of_name(program.name(*block)))
+                own.insert(*number);
         }
     const auto known = [&](int number) {
         return own.contains(number) || options.finds_program(number);
@@ -224,7 +240,7 @@ void check_calls(const interpreter::ParsedProgram& program,
     for (const CheckSection& section : sections) {
         if (section.foreign) continue;
         for (const interpreter::Block* block : section.blocks) {
-            check_named_call(program, *block, own_names, options, findings);
+            check_named_call(program, *block, {own, own_names}, options, findings);
             int column = 1;
             const auto number = called_program(program, *block, column);
             if (!number) continue;

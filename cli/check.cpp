@@ -71,10 +71,10 @@ class NoDevices : public motion::MotionSink {
 
 controller::RunResult run_without_devices(const setup::Setup& setup,
                                           const interpreter::ProgramText& program,
+                                          interpreter::ProgramFolders& programs,
                                           const CheckCommand& c) {
     offsets::Stores stores = setup.stores;
     NoDevices sink;
-    interpreter::ProgramFolders programs = inputs::folders_of_file(program, c.folders);
     controller::ControlConfig config = emulator::control_config(setup);
     config.max_blocks = c.run ? c.limits.max_blocks : std::min(c.limits.max_blocks, trial_blocks);
     config.go_on = c.limits.go_on;
@@ -114,10 +114,10 @@ bool names_tool_centre(const std::vector<interpreter::ProgramText>& programs) {
 
 /// What shows only in a run: where the table stands at G43.4; with --run the alarm that ends it.
 void check_by_run(const CheckCommand& c, const setup::Setup& setup,
-                  const interpreter::ProgramText& program, bool tool_centre,
+                  const interpreter::ProgramText& program, interpreter::ProgramFolders& programs,
                   std::vector<check::Finding>& findings) {
-    if (!c.run && !tool_centre) return;
-    const controller::RunResult result = run_without_devices(setup, program, c);
+    if (!c.run && !names_tool_centre(programs.used())) return;
+    const controller::RunResult result = run_without_devices(setup, program, programs, c);
     for (const controller::TurnedStart& start : result.turned_starts)
         findings.push_back({"tcp-frame", check::Severity::warning, start.program, start.line, 1,
                             start.text,
@@ -191,6 +191,14 @@ class CheckedMachines {
     }
     CheckedMachine& first() { return machine(c_.setup); }
 
+    /// The folders of subprograms of a file, shared by the files of one folder.
+    interpreter::ProgramFolders& folders_beside(const std::string& file) {
+        const std::string folder = std::filesystem::path(file).parent_path().string();
+        const auto known = folders_.find(folder);
+        if (known != folders_.end()) return known->second;
+        return folders_.emplace(folder, inputs::folders_beside(file, c_.folders)).first->second;
+    }
+
   private:
     CheckedMachine& machine(const std::string& path) {
         auto& known = machines_[path];
@@ -201,6 +209,7 @@ class CheckedMachines {
 
     const CheckCommand& c_;
     std::map<std::string, std::unique_ptr<CheckedMachine>> machines_;
+    std::map<std::string, interpreter::ProgramFolders> folders_;
 };
 
 void check_one(const CheckCommand& c, const std::string& file, CheckedMachines& machines,
@@ -213,18 +222,20 @@ void check_one(const CheckCommand& c, const std::string& file, CheckedMachines& 
         return;
     }
     interpreter::refuse_empty(program);
-    interpreter::ProgramFolders programs = inputs::folders_of_file(program, c.folders);
+    interpreter::ProgramFolders& beside = machines.folders_beside(file);
+    interpreter::ProgramFolders programs = beside;
+    programs.add_file(program);
     std::vector<check::Finding> found;
     const CheckedMachine& machine = machines.for_program(program, programs, found);
     findings.insert(findings.end(), found.begin(), found.end());
     const bool foreign = check::begins_foreign(program.text, found);
-    if (!foreign)
-        check_by_run(c, machine.setup, program, names_tool_centre(programs.used()), findings);
+    if (!foreign) check_by_run(c, machine.setup, program, programs, findings);
     if (machine.other && !foreign) {
         const auto apart = differences_against(machine.setup, {*machine.other, c.against}, program,
                                                c.folders, c.limits);
         findings.insert(findings.end(), apart.begin(), apart.end());
     }
+    beside.learn_from(programs);
     print_notes(programs.announcements());
 }
 

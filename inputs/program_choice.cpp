@@ -41,16 +41,21 @@ std::optional<int> o_number(const std::string& name) {
 
 }  // namespace
 
-interpreter::ProgramFolders folders_of_file(const interpreter::ProgramText& program,
-                                            std::vector<std::string> folders) {
-    const std::string own = fs::path(program.name).parent_path().string();
+interpreter::ProgramFolders folders_beside(const std::string& path,
+                                           std::vector<std::string> folders) {
+    const std::string own = fs::path(path).parent_path().string();
     folders.push_back(own.empty() ? "." : own);
     std::vector<std::string> ours = shipped_folders();
     if (is_one_of(folders.back(), ours)) {  // a shipped program may call other shipped programs
         folders.insert(folders.end(), ours.begin(), ours.end());
         ours.clear();
     }
-    interpreter::ProgramFolders source(std::move(folders), std::move(ours));
+    return interpreter::ProgramFolders(std::move(folders), std::move(ours));
+}
+
+interpreter::ProgramFolders folders_of_file(const interpreter::ProgramText& program,
+                                            std::vector<std::string> folders) {
+    interpreter::ProgramFolders source = folders_beside(program.name, std::move(folders));
     source.add_file(program);
     return source;
 }

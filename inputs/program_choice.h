@@ -16,6 +16,9 @@ struct ProgramAndFolders {
     interpreter::ProgramFolders folders;
 };
 
+/// `folders`, then the folder of the file `path`, then the shipped ones.
+interpreter::ProgramFolders folders_beside(const std::string& path,
+                                           std::vector<std::string> folders);
 /// `folders`, then the file's own folder, then the shipped ones; the file itself has priority over
 /// all of them.
 interpreter::ProgramFolders folders_of_file(const interpreter::ProgramText& program,

@@ -1,5 +1,7 @@
 #include "interpreter/line_scan.h"
 
+#include <algorithm>
+
 #include "interpreter/lexical.h"
 
 namespace trunnion::interpreter {
@@ -35,6 +37,15 @@ int read_count(const char*& p, const char* end) {
 
 }  // namespace
 
+std::optional<int> number_of_name(std::string_view name) {
+    if (name.empty() || upper(name[0]) != 'O') return std::nullopt;
+    const char* p = name.data() + 1;
+    const char* const end = name.data() + name.size();
+    if (p == end || !is_digit(*p)) return std::nullopt;
+    const int number = read_count(p, end);
+    return p == end && number > 0 ? std::optional(number) : std::nullopt;
+}
+
 TextPlace start_of_text(std::string_view text) {
     return {text.substr(0, 3) == "\xEF\xBB\xBF" ? 3u : 0u, 1};
 }
@@ -66,7 +77,13 @@ void LineScan::read_head(const char* p, const char* end) {
     }
     const char c = upper(*p);
     if (c == '%' || c == '&' || c == control_z) head_.kind = LineKind::over;
-    if (c == '<') head_.kind = LineKind::program;
+    if (c == '<') {
+        head_.kind = LineKind::program;
+        const char* const stop = find_line_end(p, end);
+        const std::string_view name(p + 1,
+                                    static_cast<std::size_t>(std::find(p, stop, '>') - p - 1));
+        head_.number = number_of_name(name).value_or(0);
+    }
     if (c != 'O' && c != ':') return;
     ++p;
     const int number = read_count(p, end);

@@ -1,6 +1,7 @@
 // A fast scan over the lines of a text that only reads the beginning of each line.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "interpreter/program_files.h"
@@ -17,10 +18,13 @@ enum class LineKind : unsigned char {
 struct LineHead {
     LineKind kind = LineKind::blank;
     TextPlace place;
-    int number = 0;  ///< of a program
+    int number = 0;  ///< of a program; of `<NAME>` 0
     int sequence_number = -1;
     const char* content = nullptr;  ///< after blanks, comments, skips and N
 };
+
+/// 8001 for the name "O8001", as of a program `<O8001>`; empty for other names.
+std::optional<int> number_of_name(std::string_view name);
 
 /// Skips a byte order mark.
 TextPlace start_of_text(std::string_view text);

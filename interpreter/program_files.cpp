@@ -1,6 +1,7 @@
 #include "interpreter/program_files.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "interpreter/keywords.h"
 #include "interpreter/lexical.h"
@@ -65,6 +66,41 @@ std::optional<int> branch_step(const LineHead& head, const char* end) {
     return std::nullopt;
 }
 
+/// "/USER/PATH1/" of a line `&F=/USER/PATH1/`.
+std::string folder_name(const char* p, const char* end) {
+    std::string name;
+    for (p = std::find(p, end, '/'); p != end && !is_line_end(*p) && !is_blank(*p); ++p)
+        name += upper(*p);
+    return name;
+}
+
+/// The folder that a place of the file lies in, -1: none.
+int folder_at(const ProgramFile& file, std::uint64_t byte) {
+    int folder = -1;
+    for (const FolderStart& start : file.folders)
+        if (start.byte <= byte) ++folder;
+    return folder;
+}
+
+/// Which of several programs of one number is called; the lowest rank is.
+int rank_of(const ProgramFile& file, std::uint64_t byte, const Section* near) {
+    if (file.folders.empty()) return 0;
+    const int folder = folder_at(file, byte);
+    if (folder < 0) return 1;
+    const std::string& name = file.folders[static_cast<std::size_t>(folder)].name;
+    if (near && near->file == &file) {
+        const int own = folder_at(file, near->begin.byte);
+        if (own >= 0 && file.folders[static_cast<std::size_t>(own)].name == name) return 0;
+    }
+    int rank = 1;
+    for (const std::string_view known :
+         {"/USER/PATH", "/USER/LIBRARY/", "/MTB2/", "/MTB1/", "/SYSTEM/"}) {
+        if (name.find(known) != name.npos) return rank;
+        ++rank;
+    }
+    return rank;
+}
+
 }  // namespace
 
 ProgramFile& ProgramFiles::add(const ProgramText& text) {
@@ -107,64 +143,88 @@ Section& ProgramFiles::open(const ProgramText& text) {
     return section_at(file, first->place, first->kind == LineKind::program ? first->number : 0);
 }
 
-Section* ProgramFiles::find_in(ProgramFile& file, int number) {
-    if (!file.listed) {
-        file.listed = true;
-        for (LineScan scan(file.text.text, start_of_text(file.text.text)); scan.next();)
-            if (scan.head().kind == LineKind::program && scan.head().number > 0)
-                file.programs.push_back(
-                    {scan.head().number, scan.head().place.line, scan.head().place.byte});
-        std::stable_sort(file.programs.begin(), file.programs.end(), by_number);
+void ProgramFiles::list(ProgramFile& file) {
+    if (std::exchange(file.listed, true)) return;
+    const std::string_view text = file.text.text;
+    const char* const end = text.data() + text.size();
+    for (LineScan scan(text, start_of_text(text)); scan.next();) {
+        const LineHead& head = scan.head();
+        if (head.kind == LineKind::program && head.number > 0)
+            file.programs.push_back({head.number, head.place.line, head.place.byte});
+        if (head.kind == LineKind::over && *head.content == '&')
+            file.folders.push_back({head.place.byte, folder_name(head.content, end)});
     }
-    const auto it = std::lower_bound(file.programs.begin(), file.programs.end(),
-                                     Numbered{number, 0, 0}, by_number);
-    if (it == file.programs.end() || it->number != number) return nullptr;
-    return &section_at(file, {it->byte, it->line}, number);
+    std::stable_sort(file.programs.begin(), file.programs.end(), by_number);
+}
+
+ProgramFiles::Caller ProgramFiles::caller_of(const Section* near) {
+    if (!near) return {-1, -1};
+    list(*near->file);
+    return {near->file->id, folder_at(*near->file, near->begin.byte)};
+}
+
+Section* ProgramFiles::find_in(ProgramFile& file, int number, const Section* near) {
+    list(file);
+    const auto [first, last] =
+        std::equal_range(file.programs.begin(), file.programs.end(), Numbered{number, 0, 0},
+                         [](const Numbered& a, const Numbered& b) { return a.number < b.number; });
+    if (first == last) return nullptr;
+    const auto rank = [&](const Numbered& program) { return rank_of(file, program.byte, near); };
+    const auto best = std::min_element(
+        first, last, [&](const Numbered& a, const Numbered& b) { return rank(a) < rank(b); });
+    return &section_at(file, {best->byte, best->line}, number);
 }
 
 Section* ProgramFiles::find(int number, const Section* near) {
-    const auto key = std::make_pair(near ? near->file->id : -1, number);
+    const auto key = std::make_pair(caller_of(near), number);
     const auto known = found_.find(key);
     if (known != found_.end()) return known->second;
-    Section* section = near ? find_in(*near->file, number) : nullptr;
-    if (!section && !files_.empty()) section = find_in(*files_.front(), number);
+    Section* section = near ? find_in(*near->file, number, near) : nullptr;
+    if (!section && !files_.empty()) section = find_in(*files_.front(), number, near);
     if (!section) section = find_outside(number);
     return found_[key] = section;
 }
 
-Section* ProgramFiles::find_in(ProgramFile& file, std::string_view name) {
+Section* ProgramFiles::find_in(ProgramFile& file, std::string_view name, const Section* near) {
+    list(file);
     const std::string_view text = file.text.text;
     const std::string wanted = "<" + std::string(name) + ">";
+    std::optional<std::pair<int, TextPlace>> best;
     for (LineScan scan(text, start_of_text(text)); scan.next();) {
         const LineHead& head = scan.head();
         if (head.kind != LineKind::program || *head.content != '<') continue;
         const auto at = static_cast<std::size_t>(head.content - text.data());
-        if (text.compare(at, wanted.size(), wanted) == 0) return &section_at(file, head.place, 0);
+        if (text.compare(at, wanted.size(), wanted) != 0) continue;
+        const int rank = rank_of(file, head.place.byte, near);
+        if (!best || rank < best->first) best = {rank, head.place};
     }
-    return nullptr;
+    return best ? &section_at(file, best->second, 0) : nullptr;
 }
 
 Section* ProgramFiles::find(std::string_view name, const Section& near) {
-    const auto known = named_.find(name);
+    const auto key = std::make_pair(caller_of(&near), std::string(name));
+    const auto known = named_.find(key);
     if (known != named_.end()) return known->second;
-    Section* section = find_in(*near.file, name);
+    Section* section = find_in(*near.file, name, &near);
+    if (!section) {
+        if (const auto number = number_of_name(name)) section = find(*number, &near);
+    }
     if (!section) {
         const std::optional<ProgramText> text = source_.find(name);
-        if (text) section = find_in(add(*text), name);
+        if (text) section = find_in(add(*text), name, nullptr);
         if (text && !section) section = &open(*text);
     }
-    named_.emplace(name, section);
-    return section;
+    return named_[key] = section;
 }
 
 Section* ProgramFiles::find_outside(int number) {
-    const auto key = std::make_pair(outside, number);
+    const auto key = std::make_pair(Caller{outside, -1}, number);
     const auto known = found_.find(key);
     if (known != found_.end()) return known->second;
     Section*& section = found_[key];
     const std::optional<ProgramText> text = source_.find(number);
     if (!text) return section = nullptr;
-    section = find_in(add(*text), number);
+    section = find_in(add(*text), number, nullptr);
     if (section) return section;
     section = &open(*text);
     if (section->o_number == 0) section->o_number = number;

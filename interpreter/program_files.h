@@ -24,12 +24,19 @@ struct Numbered {
     std::uint64_t byte = 0;
 };
 
-/// One file; its list of programs is built at the first call that needs it.
+/// Where a folder of the control begins in a file with all its programs: `&F=/USER/PATH1/`.
+struct FolderStart {
+    std::uint64_t byte = 0;
+    std::string name;  ///< "/USER/PATH1/", in upper case
+};
+
+/// One file; its lists are built at the first call that needs them.
 struct ProgramFile {
     int id = 0;
     ProgramText text;
     bool listed = false;
-    std::vector<Numbered> programs;  ///< by O number; of equal numbers the first in the text
+    std::vector<Numbered> programs;    ///< by O number; equal numbers as in the text
+    std::vector<FolderStart> folders;  ///< as in the text; empty: no folders
 };
 
 /// One program: from its O number (or its first block) to the next program or the end of record.
@@ -51,7 +58,8 @@ class ProgramFiles {
     /// The first program of a text.
     Section& open(const ProgramText& text);
     /// Program O`number`: searched in the file of `near`, in the first opened file, then in the
-    /// source.
+    /// source. Where a file has the number in several folders: the folder of `near`, then the
+    /// order of docs/control.md.
     Section* find(int number, const Section* near);
     /// Searched in the source only (M198).
     Section* find_outside(int number);
@@ -74,8 +82,9 @@ class ProgramFiles {
   private:
     ProgramFile& add(const ProgramText& text);
     Section& section_at(ProgramFile& file, TextPlace place, int o_number);
-    Section* find_in(ProgramFile& file, int number);
-    Section* find_in(ProgramFile& file, std::string_view name);
+    void list(ProgramFile& file);
+    Section* find_in(ProgramFile& file, int number, const Section* near);
+    Section* find_in(ProgramFile& file, std::string_view name, const Section* near);
     void build_index(Section& section);
     std::optional<TextPlace> search_text(const Section& section, int number, std::uint64_t after);
 
@@ -83,9 +92,12 @@ class ProgramFiles {
     std::vector<std::unique_ptr<ProgramFile>> files_;
     std::vector<std::unique_ptr<Section>> sections_;
     std::uint64_t lines_searched_ = 0;
-    std::map<std::string, Section*, std::less<>> named_;
-    std::map<std::pair<int, int>, Section*> found_;  ///< by file id (-1: none) and number; includes
-                                                     ///< numbers that were not found
+    /// The file and folder from which a program is called; -1: none.
+    using Caller = std::pair<int, int>;
+    Caller caller_of(const Section* near);
+    /// Numbers and names that were looked for, found or not.
+    std::map<std::pair<Caller, std::string>, Section*> named_;
+    std::map<std::pair<Caller, int>, Section*> found_;
 };
 
 }  // namespace trunnion::interpreter

@@ -27,8 +27,13 @@ TEST_CASE("check: exit codes, folders, subprograms beside the file, --run") {
     bench.write("sub/bad.nc", "O2\nGOTO 50\nM30\n");
     bench.write("far.nc", "O3\nG0 X9000.\nM30\n");
     CHECK(bench.check("good.nc --programs sub") == 0);
-    CHECK(bench.check("good.nc") == 1);
-    CHECK_THAT(bench.out(), Catch::Contains("O9001 is called"));
+    CHECK(bench.read("err.txt").empty());
+    CHECK(bench.check("good.nc") == 0);
+    CHECK_THAT(bench.read("err.txt"),
+               Catch::Contains("O9001 is taken from a subfolder (./sub/O9001.nc)"));
+    bench.write("lost.nc", "O1\nG17 G90 G0 X1.\nM98 P9011\nM30\n");
+    CHECK(bench.check("lost.nc") == 1);
+    CHECK_THAT(bench.out(), Catch::Contains("O9011 is called"));
     CHECK(bench.check("sub") == 1);
     CHECK_THAT(bench.out(), Catch::Contains("bad.nc:2:1") && Catch::Contains("in 2 files"));
     CHECK(bench.check("far.nc") == 1);  // beyond the stroke of the default machine
@@ -252,6 +257,33 @@ TEST_CASE("check of a folder names a backup's own files in one line each and che
     bench.write("own/TOOLOFST.TXT", "G10L10P1R5.\nG0X1.\nGOTO5\nM30\n");
     bench.write("own/numbered.nc", "N10000M3S100\nN10010P5\nN10020GOTO5\nM30\n");
     CHECK(bench.check("own") == 1);
-    CHECK(bench.trunnion("check " + bench.write("empty.nc", "%\n")) == 2);
     CHECK(bench.out().find("backup") == std::string::npos);
+    CHECK(bench.trunnion("check " + bench.write("empty.nc", "%\n")) == 2);
+}
+
+TEST_CASE(
+    "check and run find the same programs: subfolders, brackets, tape, folders of a control") {
+    const Bench bench;
+    std::filesystem::create_directories(bench.path / "sub/deep");
+    bench.write("main.nc", "O1\nM98P8001\nM98P8002\nM98P8003\nM98<BORE>\nM98P8005\nM30\n");
+    bench.write("sub/stuff.txt", "%\nO8001\n#501=1\nM99\n<O8002>\n#502=2\nM99\n%\n");
+    bench.write("tape.nc", std::string(99, '\0') + "%\nO8003\n#503=3\nM99\n%\n");
+    bench.write("sub/deep/named.nc", "%\n<BORE>\n#504=4\nM99\n%\n");
+    bench.write("<O8005>.TXT", "#505=5\nM99\n");
+    CHECK(bench.check("main.nc") == 0);
+    const std::string said = bench.read("err.txt");
+    CHECK(bench.trunnion("run " + bench.file("main.nc") + " --json --vars 501-505") == 0);
+    const Json variables = Json::parse(bench.out())["variables"];
+    for (int i = 1; i <= 5; ++i) CHECK(variables[std::to_string(500 + i)] == double(i));
+    for (const char* program : {"O8001", "O8002", "<BORE>"}) {
+        CHECK_THAT(said, Catch::Contains(program + std::string(" is taken from a subfolder")));
+        CHECK_THAT(bench.read("err.txt"),
+                   Catch::Contains(program + std::string(" is taken from a subfolder")));
+    }
+    std::filesystem::create_directories(bench.path / "card");
+    bench.write("card/ALL-PROG.TXT",
+                "%\n&F=/MTB1/\nO0002\n#500=2.\nM99\n&F=/USER/PATH1/\nO0001\n"
+                "M98P2\nM30\nO0002\n#500=3.\nM99\n%\n");
+    CHECK(bench.trunnion("run 1 --programs " + bench.file("card") + " --json --vars 500") == 0);
+    CHECK(Json::parse(bench.out())["variables"]["500"] == 3.0);
 }

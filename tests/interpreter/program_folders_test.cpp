@@ -134,3 +134,89 @@ TEST_CASE("a main program with nothing in it is refused") {
                     InputError);
     CHECK(interpreter::read_main_program((folder.path / "34.NC").string()).text == "M30\n");
 }
+
+TEST_CASE("subfolders are searched behind the user's folders, three deep, with a line") {
+    const Folder folder;
+    for (const char* sub : {"b/c/d/e", "b/.git", "ours"}) fs::create_directories(folder.path / sub);
+    folder.write("b/stuff.txt", "%\nO8001(MINE)\nM99\nO100\n%\n");
+    folder.write("b/c/o8002.NC", "M99\n");
+    folder.write("b/c/two.txt", "O8001\nM99\n<BORE>\nM99\n");
+    folder.write("b/c/d/three.txt", "O8003\nM99\n");
+    folder.write("b/c/d/e/four.txt", "O8004\nM99\n");
+    folder.write("b/.git/five.txt", "O8005\nM99\n");
+    folder.write("ours/O8006.nc", "O8006\nM99\n");
+    fs::create_directory_symlink(folder.path / "b/c", folder.path / "a_link");
+    interpreter::ProgramFolders programs({folder.path.string()}, {(folder.path / "ours").string()});
+    CHECK_THAT(programs.find(100)->name, Catch::EndsWith("many.txt"));
+    CHECK(programs.announcements().empty());
+    CHECK_THAT(programs.find(8001)->name, Catch::EndsWith("/b/stuff.txt"));
+    REQUIRE(programs.announcements().size() == 1);
+    CHECK_THAT(programs.announcements()[0],
+               Catch::StartsWith("O8001 is taken from a subfolder (") &&
+                   Catch::Contains("b/stuff.txt); it is also in ") &&
+                   Catch::EndsWith("b/c/two.txt"));
+    CHECK_THAT(programs.find(8002)->name, Catch::EndsWith("/b/c/o8002.NC"));
+    CHECK_THAT(programs.find(8003)->name, Catch::EndsWith("three.txt"));
+    CHECK_THAT(programs.find("BORE")->name, Catch::EndsWith("two.txt"));
+    for (const int n : {8004, 8005}) CHECK_FALSE(programs.find(n));
+    programs.find(8006);
+    CHECK_THAT(programs.announcements().back(), Catch::StartsWith("O8006 is a shipped program"));
+}
+
+TEST_CASE("too many files in subfolders are left out, which is said") {
+    const Folder folder;
+    fs::create_directories(folder.path / "full");
+    fs::create_directories(folder.path / "late");
+    for (int i = 0; i < 5001; ++i) folder.write("full/f" + std::to_string(i) + ".nc", "M99\n");
+    folder.write("late/O8009.nc", "O8009\nM99\n");
+    interpreter::ProgramFolders programs({folder.path.string()});
+    CHECK_FALSE(programs.find(8009));
+    REQUIRE(programs.announcements().size() == 1);
+    CHECK_THAT(programs.announcements()[0],
+               Catch::StartsWith("the subfolders hold too many files: from ") &&
+                   Catch::Contains("full/f"));
+    CHECK(programs.find(100));
+}
+
+TEST_CASE("names in every spelling, and names in angle brackets") {
+    const Folder folder;
+    const char* const names[] = {"O7001",      "o7002.nc", "7003.NC",    "O7004.TXT",
+                                 "o07005.Tap", "<O7006>",  "<o7007>.txt"};
+    for (const char* name : names) folder.write(name, "G0X1.\nM99\n");
+    folder.write("card.txt", "%\n<O7008>(PART)\nM99\n<7009>\nM99\n<DRILL>\nM99\n%\n");
+    interpreter::ProgramFolders programs({folder.path.string()});
+    for (int n = 7001; n <= 7008; ++n) {
+        INFO(n);
+        CHECK(programs.find(n));
+    }
+    CHECK_FALSE(programs.find(7009));  // a name, no number
+    CHECK_FALSE(programs.find(0));
+    for (const char* name : {"DRILL", "7009", "O7008"}) {
+        REQUIRE(programs.find(name));
+        CHECK_THAT(programs.find(name)->name, Catch::EndsWith("card.txt"));
+    }
+    CHECK(programs.announcements().empty());
+}
+
+TEST_CASE("a file that is named O8001 and holds another number is said to") {
+    const Folder folder;
+    folder.write("O7011.nc", "%\nO7012\nM99\n%\n");
+    interpreter::ProgramFolders programs({folder.path.string()});
+    CHECK_THAT(programs.find(7011)->name, Catch::EndsWith("O7011.nc"));
+    REQUIRE(programs.announcements().size() == 1);
+    CHECK_THAT(programs.announcements()[0],
+               Catch::EndsWith("O7011.nc by the file's name: it holds O7012"));
+    CHECK(programs.find(7012));
+    CHECK(programs.announcements().size() == 1);
+}
+
+TEST_CASE("the zero bytes before and behind a text punched on tape are no part of it") {
+    const Folder folder;
+    folder.write("tape.nc", std::string(200, '\0') + "%\nO7020\nM99\n%\n" + std::string(90, '\0'));
+    folder.write("blank.nc", std::string(50, '\0') + "%\n%\n");
+    interpreter::ProgramFolders programs({folder.path.string()});
+    REQUIRE(programs.find(7020));
+    CHECK(programs.find(7020)->text == "%\nO7020\nM99\n%\n");
+    CHECK_THROWS_AS(interpreter::read_main_program((folder.path / "blank.nc").string()),
+                    InputError);
+}
