@@ -46,6 +46,9 @@ regression::ControlReading reading_of(const setup::Setup& setup, const std::stri
 
 setup::Setup other_reading(const setup::Setup& setup, const std::string& what) {
     setup::Setup other = setup;
+    if (what.starts_with("hurco.") && setup.dialect.family != interpreter::DialectFamily::hurco)
+        throw InputError("--against " + what +
+                         " concerns a Hurco, and the setup is none (dialect)");
     if (take_choice(what, other)) return other;
     if (std::filesystem::is_regular_file(what)) return open_setup(what);
     throw InputError(

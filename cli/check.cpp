@@ -154,6 +154,13 @@ bool names_strange_axis(const std::vector<check::Finding>& findings) {
     });
 }
 
+/// M128 is a Hurco's tool centre point control.
+bool names_m128(const std::vector<check::Finding>& findings) {
+    return std::any_of(findings.begin(), findings.end(), [](const check::Finding& f) {
+        return f.rule == "unknown-m" && f.text.starts_with("M128 ");
+    });
+}
+
 /// "(.. SETUP NAME)" in a program's head: the shipped machine of that name, else empty.
 std::string machine_named_in(std::string_view text) {
     constexpr std::string_view key = "SETUP ";
@@ -170,26 +177,45 @@ std::string machine_named_in(std::string_view text) {
 }
 
 /// The machine of --setup; without it that which the program names, else the B-C table, and the A-C
-/// table for a program that commands A.
+/// table for a program that commands A; with the language of a Hurco for a program with M128.
 class CheckedMachines {
   public:
-    explicit CheckedMachines(const CheckCommand& c) : c_(c) { first(); }
+    explicit CheckedMachines(const CheckCommand& c) : c_(c) {
+        first();
+        if (concerns_hurco())
+            print_notes({"--against " + c.against + ": the programs are read as a Hurco's"});
+    }
 
     CheckedMachine& for_program(const interpreter::ProgramText& program,
                                 interpreter::ProgramFolders& programs,
                                 std::vector<check::Finding>& found) {
-        CheckedMachine& use = machine(c_.setup.empty() ? machine_named_in(program.text) : c_.setup);
-        found = use.read(program, programs);
-        if (!c_.setup.empty() || !names_strange_axis(found)) return use;
-        CheckedMachine& other = machine(inputs::shipped("machines/ac_trunnion.toml"));
-        auto again = other.read(program, programs);
-        if (names_strange_axis(again)) return use;
-        print_notes(
-            {program.name + ": contains words of an A axis; checked on " + other.setup.path});
-        found = std::move(again);
-        return other;
+        const bool hurco = concerns_hurco();
+        std::string path = c_.setup.empty() ? machine_named_in(program.text) : c_.setup;
+        CheckedMachine* use = &machine(path, hurco);
+        found = use->read(program, programs);
+        if (!c_.setup.empty()) return *use;
+        const auto try_on = [&](const std::string& other, bool as_hurco, auto is_better) {
+            CheckedMachine& candidate = machine(other, as_hurco);
+            auto again = candidate.read(program, programs);
+            if (!is_better(again)) return false;
+            found = std::move(again);
+            use = &candidate;
+            path = other;
+            return true;
+        };
+        const std::string ac_table = inputs::shipped("machines/ac_trunnion.toml");
+        if (names_strange_axis(found) &&
+            try_on(ac_table, hurco, [](const auto& again) { return !names_strange_axis(again); }))
+            print_notes(
+                {program.name + ": contains words of an A axis; checked on " + use->setup.path});
+        const std::size_t faults = check::count_faults(found);
+        if (c_.against.empty() && names_m128(found) && try_on(path, true, [&](const auto& again) {
+                return check::count_faults(again) <= faults;
+            }))
+            print_notes({program.name + ": contains M128; read as a program of a Hurco"});
+        return *use;
     }
-    CheckedMachine& first() { return machine(c_.setup); }
+    CheckedMachine& first() { return machine(c_.setup, concerns_hurco()); }
 
     /// The folders of subprograms of a file, shared by the files of one folder.
     interpreter::ProgramFolders& folders_beside(const std::string& file) {
@@ -200,15 +226,20 @@ class CheckedMachines {
     }
 
   private:
-    CheckedMachine& machine(const std::string& path) {
-        auto& known = machines_[path];
+    /// --against a choice of a Hurco, without a setup: the programs are a Hurco's.
+    bool concerns_hurco() const { return c_.setup.empty() && c_.against.starts_with("hurco."); }
+
+    CheckedMachine& machine(const std::string& path, bool hurco) {
+        auto& known = machines_[{path, hurco}];
         if (known) return *known;
-        known = std::make_unique<CheckedMachine>(open_setup(path), c_.against);
+        setup::Setup setup = open_setup(path);
+        if (hurco) setup.dialect = interpreter::hurco_dialect();
+        known = std::make_unique<CheckedMachine>(std::move(setup), c_.against);
         return *known;
     }
 
     const CheckCommand& c_;
-    std::map<std::string, std::unique_ptr<CheckedMachine>> machines_;
+    std::map<std::pair<std::string, bool>, std::unique_ptr<CheckedMachine>> machines_;
     std::map<std::string, interpreter::ProgramFolders> folders_;
 };
 

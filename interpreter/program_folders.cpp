@@ -17,9 +17,10 @@ namespace trunnion::interpreter {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array<std::string_view, 19> endings{
-    "",     ".nc",  ".txt", ".tap", ".min", ".mpf", ".cnc", ".ngc", ".eia",  ".iso",
-    ".prg", ".hnc", ".fnc", ".dnc", ".spf", ".sub", ".mac", ".arc", ".gcode"};
+constexpr std::array<std::string_view, 23> endings{"",       ".nc",  ".txt", ".tap", ".min", ".mpf",
+                                                   ".cnc",   ".ngc", ".eia", ".iso", ".prg", ".hnc",
+                                                   ".fnc",   ".dnc", ".spf", ".sub", ".mac", ".arc",
+                                                   ".gcode", ".pim", ".pgm", ".fan", ".din"};
 
 std::string lower(std::string text) {
     for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -28,7 +29,9 @@ std::string lower(std::string text) {
 
 bool has_program_ending(const fs::path& path) {
     const std::string ending = lower(path.extension().string());
-    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+    const bool number =
+        ending.size() > 1 && ending.find_first_not_of("0123456789", 1) == ending.npos;
+    return number || std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
 /// 1234 for O1234.nc, 1234, o01234.TXT; nothing for other names.

@@ -135,7 +135,7 @@ TEST_CASE("parameters of a setup change what a program does") {
 TEST_CASE("check: the programs that ship have no findings") {
     const Bench bench;
     CHECK(bench.check(std::string(TRUNNION_SOURCE_DIR) + "/programs") == 0);
-    CHECK_THAT(bench.out(), Catch::Contains("0 findings in"));
+    CHECK_THAT(bench.out(), Catch::Contains("0 findings in") && Catch::EndsWith(" files\n"));
 }
 
 TEST_CASE("check: without --setup the machine is the one that a program names or has the axes of") {
@@ -286,4 +286,26 @@ TEST_CASE(
                 "M98P2\nM30\nO0002\n#500=3.\nM99\n%\n");
     CHECK(bench.trunnion("run 1 --programs " + bench.file("card") + " --json --vars 500") == 0);
     CHECK(Json::parse(bench.out())["variables"]["500"] == 3.0);
+}
+
+TEST_CASE("check: M128 is read as a Hurco's, and --against a Hurco's choice compares two Hurcos") {
+    const Bench bench;
+    bench.write("h.nc",
+                "O1(H)\nG90G17G40G80\nG21\nT1M6\nM127\nG54\nG0X0.Y0.Z50.\nM128\n"
+                "G1X0.Y0.Z0.A0.C0.F1000.\nG1X40.C720.\nM129\nM2\n");
+    const std::string against = "h.nc --against hurco.m128_keeps_tip_between_ends=true";
+    CHECK(bench.check(against) == 1);
+    CHECK_THAT(bench.out(), Catch::Contains("h.nc:10:1: warning: passes ") &&
+                                Catch::Contains("mm apart [reading]"));
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("read as a Hurco's"));
+    CHECK(bench.check(against + " --setup " + TRUNNION_SOURCE_DIR + "/machines/ac_trunnion.toml") ==
+          2);
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("concerns a Hurco"));
+    CHECK(bench.check("h.nc") == 0);
+    CHECK(bench.out() == "0 findings in 1 file\n");
+    CHECK_THAT(bench.read("err.txt"), Catch::Contains("h.nc: contains M128; read as a program of"));
+    // One that a Hurco would refuse stays a Fanuc's.
+    bench.write("f.nc", "O1\nG90G17G54\nM128\nG68.2X0Y0Z0I0J10.K0\nG53.1\nG69\nM129\nM30\n");
+    CHECK(bench.check("f.nc") == 0);
+    CHECK_THAT(bench.out(), Catch::Contains("note: M128") && Catch::Contains("2 notes"));
 }

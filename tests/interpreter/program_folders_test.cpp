@@ -48,7 +48,8 @@ TEST_CASE("the user's folders are searched whole before the shipped ones") {
 
 TEST_CASE("files with the endings of other controls and systems are read, too") {
     const Folder folder;
-    const char* const endings[] = {"hnc", "FNC", "dnc", "spf", "sub", "mac", "arc", "gcode"};
+    const char* const endings[] = {"hnc", "FNC", "dnc",   "spf", "sub",
+                                   "mac", "arc", "gcode", "001", "PIM"};
     int number = 7100;
     for (const char* const ending : endings)
         folder.write(std::string("part.") + ending, "O" + std::to_string(number++) + "\nM99\n");
