@@ -194,7 +194,9 @@ void name_rivals(const Design& design, const Offer& held, const std::vector<Offe
 void name_contender(Design& design, const Model& model, const Contender& contender,
                     const Eigen::VectorXd& part, Claim& claim) {
     if (probability_against(contender) >= sure) return;
-    for (const std::size_t k : in_place_of(design, model, contender.model, part)) {
+    std::vector<std::size_t> instead = in_place_of(design, model, contender.model, part);
+    instead.insert(instead.end(), contender.slopes.begin(), contender.slopes.end());
+    for (const std::size_t k : instead) {
         const std::string& name = design.group(k).name;
         if (name == claim.name ||
             std::find(claim.rivals.begin(), claim.rivals.end(), name) != claim.rivals.end())

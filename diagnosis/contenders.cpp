@@ -13,6 +13,7 @@ namespace {
 
 constexpr double least_overlap = 0.1;  ///< part of a contribution that a rival must do
 constexpr double hopeless = 60.0;      ///< evidence behind, nats, that no exchange makes up for
+constexpr double surely = 0.95;        ///< probability from which nothing else is named
 constexpr double family = 0.8;         ///< probability below which a free form's family is open
 constexpr double main_part = 0.5;      ///< of a contribution: the cause is rather what does it
 constexpr std::size_t more = 2;        ///< members that it may have beyond the chosen model
@@ -233,7 +234,17 @@ Contender contender_of(const Searching& search, const Standing& chosen, FoldColu
     if (at == members.end()) return without_cause;
     std::optional<Contender> apart =
         with_slope_apart(search, chosen, rows, static_cast<std::size_t>(at - members.begin()));
-    return apart && apart->ahead > without_cause.ahead ? *apart : without_cause;
+    if (!apart) return without_cause;
+    std::vector<std::size_t> slopes;
+    if (probability_against(*apart) < surely)
+        for (const std::size_t k : apart->model.members)
+            if (is_squareness(design.group(k)) &&
+                std::find(members.begin(), members.end(), k) == members.end())
+                slopes.push_back(k);
+    Contender best =
+        apart->ahead > without_cause.ahead ? std::move(*apart) : std::move(without_cause);
+    best.slopes = std::move(slopes);
+    return best;
 }
 
 /// The best model without free forms of the member's axis, where the member is one and not sure.

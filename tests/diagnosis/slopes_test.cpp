@@ -62,8 +62,9 @@ struct Bench {
         return group;
     }
     /// Of straightness: 0 with slopes, 1 as a table, 2 without slopes; 3 and 4: squareness.
-    diagnosis::Design design(const Eigen::Vector4d& size) {
-        const Eigen::VectorXd data = shape * size + 0.4 * table.rowwise().sum() + normals(1).col(0);
+    diagnosis::Design design(const Eigen::Vector4d& size, double of_table = 0.4) {
+        const Eigen::VectorXd data =
+            shape * size + of_table * table.rowwise().sum() + normals(1).col(0);
         diagnosis::Design all(normals(2), data, rows);
         all.add(textbook(all, straightness, {0, 1, 2, 3}, shape));
         diagnosis::ColumnGroup free = textbook(all, straightness, {}, table);
@@ -102,6 +103,26 @@ TEST_CASE("a straightness of slopes alone gives way to squareness in both planes
 TEST_CASE("a straightness with bows stays one", "[diagnosis]") {
     Bench bench;
     CHECK(challenged_members(bench, {5.0, 5.0, 4.0, 6.0}) == std::vector<std::size_t>{0, 1});
+}
+
+TEST_CASE("a slope is named as squareness also where another effect is the better rival",
+          "[diagnosis]") {
+    Bench bench;
+    const Eigen::Vector4d size(0.6, 0.4, 0.1, 0.1);
+    diagnosis::Design design = bench.design(size, 0.0);
+    effects::Effect angular = bench.xy;
+    angular.name = "Y.angular";
+    angular.kind = effects::EffectKind::angular;
+    const std::size_t imitator = design.add(
+        bench.textbook(design, angular, {0}, bench.shape * size + 0.18 * bench.normals(1)));
+    const diagnosis::SearchSetting setting = diagnosis::search_setting(design, {0.0, 0.1});
+    const diagnosis::Model model = diagnosis::tuned(design, setting, {{0}, {{0.5}, 1.0}, 0.0}, 3);
+    diagnosis::FoldColumns columns(design, {bench.folds, bench.used});
+    const diagnosis::Challenged found = diagnosis::challenged(columns, setting, model);
+    REQUIRE(found.model.members == std::vector<std::size_t>{0});
+    const diagnosis::Contender& contender = found.contenders.front();
+    CHECK(contender.model.members == std::vector<std::size_t>{imitator});
+    CHECK(contender.slopes == std::vector<std::size_t>{3, 4});
 }
 
 }  // namespace trunnion
