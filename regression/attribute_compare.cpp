@@ -29,9 +29,10 @@ void AttributeComparer::begin(std::vector<PathRegion>& regions) {
 void AttributeComparer::pair(std::uint64_t i, std::uint64_t j, double length_a_mm,
                              double length_b_mm) {
     const Segment &sa = a_[i], &sb = b_[j];
-    if (sa.kind != SegmentKind::feed) close_window();
+    const bool cuts_a = sa.kind == SegmentKind::feed, cuts_b = sb.kind == SegmentKind::feed;
+    if (!cuts_a || !cuts_b) close_window();
     gone_mm_ += length_a_mm;
-    if (sa.kind != SegmentKind::feed) return;
+    if (!cuts_a && !cuts_b) return;  // a rapid beside a cut is a cut without feed
     const Stretch at_a{i, i + 1}, at_b{j, j + 1};
     if (sa.tool != sb.tool)
         add(RegionKind::tool, at_a, at_b, {double(sa.tool), double(sb.tool)}, length_a_mm);
@@ -41,6 +42,14 @@ void AttributeComparer::pair(std::uint64_t i, std::uint64_t j, double length_a_m
         add(RegionKind::coolant, at_a, at_b, {sa.coolant ? 1.0 : 0.0, sb.coolant ? 1.0 : 0.0},
             length_a_mm);
     feeds(i, j, length_a_mm, length_b_mm);
+}
+
+void AttributeComparer::alone(std::uint64_t i, std::uint64_t j, double length_mm) {
+    const Values feeds{a_[i].feed_mm_min, b_[j].feed_mm_min};
+    close_window();
+    gone_mm_ += length_mm;
+    if (apart(feeds.a, feeds.b) > tolerances_.feed_ratio)
+        add(RegionKind::feed, {i, i + 1}, {j, j + 1}, feeds, length_mm);
 }
 
 void AttributeComparer::feeds(std::uint64_t i, std::uint64_t j, double length_a_mm,

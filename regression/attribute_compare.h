@@ -24,6 +24,9 @@ class AttributeComparer {
     void begin(std::vector<PathRegion>& regions);
     /// The parts have the lengths `length_a_mm` and `length_b_mm`.
     void pair(std::uint64_t i, std::uint64_t j, double length_a_mm, double length_b_mm);
+    /// One of the segments is of a kind (rapid, feed) that the other path has not there, and moves
+    /// alone, within the tolerance.
+    void alone(std::uint64_t i, std::uint64_t j, double length_mm);
     /// Ends a stretch. Removes differences shorter than four position tolerances, because the
     /// corners of both paths may be at different places.
     void end();

@@ -139,10 +139,12 @@ class FreeSpaceWalk {
     void walk_column(std::size_t column) {
         next_rows_.clear();
         Interval bottom;  // reachable part of the lower edge of the current cell
+        const bool last = !a_.has(column + 2);
+        bool at_end = false;  // A may be at its end while B is at its node j
         std::size_t at = 0;
         std::size_t j = rows_.front().j;
-        while (at < rows_.size() || !bottom.empty()) {
-            if (bottom.empty()) j = rows_[at].j;
+        while (at < rows_.size() || !bottom.empty() || at_end) {
+            if (bottom.empty() && !at_end) j = rows_[at].j;
             Interval left;
             if (at < rows_.size() && rows_[at].j == j) left = rows_[at++].reach;
             if (!b_.has(j + 1)) {  // B is at its end while A continues along the top edge
@@ -150,9 +152,12 @@ class FreeSpaceWalk {
                 break;
             }
             if (!left.empty() && left.low <= 0.0 && bottom.empty()) bottom = lower_edge(column, j);
-            bottom = walk_cell(column, j, left, bottom);
+            if (last) at_end = goes_on_alone(column + 1, j, at_end || bottom.high >= 1.0);
+            const bool reached = !left.empty() || !bottom.empty();
+            bottom = reached ? walk_cell(column, j, left, bottom) : Interval{};
+            if (!found_ && at_end) try_corner(column + 1, j + 1);
             if (found_) return;
-            if (!bottom.empty()) result_.b = std::max(result_.b, next_segment(b_[j + 1]));
+            if (!bottom.empty() || at_end) result_.b = std::max(result_.b, next_segment(b_[j + 1]));
             ++j;
         }
         rows_.swap(next_rows_);
@@ -207,6 +212,14 @@ class FreeSpaceWalk {
         result_.position_mm = std::max(result_.position_mm, corner_mm);
         result_.direction_rad =
             std::max(result_.direction_rad, (a.point.orientation - b.point.orientation).norm());
+    }
+
+    /// True when A, at its end, may wait for B to get from node j to the next one: the counterpart
+    /// of finish_on_top, with segments of any kind there, too.
+    bool goes_on_alone(std::size_t end, std::size_t j, bool reached) {
+        if (!reached) return false;
+        const Interval edge = free_part(a_[end].point, b_[j].point, b_[j + 1].point, tolerances_);
+        return edge.low <= 0.0 && edge.high >= 1.0;
     }
 
     void finish_on_top(std::size_t column, std::size_t j, Interval left, Interval bottom) {

@@ -36,6 +36,8 @@ void StretchComparer::compare(Stretch a, Stretch b, std::vector<PathRegion>& reg
                               WalkTotals& totals) {
     regions_ = &regions;
     totals_ = &totals;
+    stretch_a_ = a;
+    stretch_b_ = b;
     first_region_ = regions.size();
     attributes_.begin(regions);
     commits_.clear();
@@ -159,6 +161,24 @@ void StretchComparer::attributes(Corner at) {
     attributes_.pair(at.i, at.j, length_a, length_mm(b_[at.j - 1].end(), b_[at.j]));
 }
 
+/// One path waits at a corner while the other moves within the tolerance. One such move is
+/// rounding; many of a kind (rapid, feed) that the waiting path has not at this corner are a
+/// difference.
+void StretchComparer::other_kind_alone(Corner from, Corner to) {
+    const auto has_at = [](SegmentWindow& path, std::uint64_t next, std::uint64_t last,
+                           SegmentKind kind) {
+        return path[next - 1].kind == kind || (next < last && path[next].kind == kind);
+    };
+    const std::uint64_t beside_a = from.i < stretch_a_.last ? from.i : from.i - 1;
+    const std::uint64_t beside_b = from.j < stretch_b_.last ? from.j : from.j - 1;
+    for (std::uint64_t i = from.i; i < to.i; ++i)
+        if (!has_at(b_, from.j, stretch_b_.last, a_[i].kind))
+            attributes_.alone(i, beside_b, length_mm(a_[i - 1].end(), a_[i]));
+    for (std::uint64_t j = from.j; j < to.j; ++j)
+        if (!has_at(a_, from.i, stretch_a_.last, b_[j].kind))
+            attributes_.alone(beside_a, j, length_mm(b_[j - 1].end(), b_[j]));
+}
+
 /// Stretches with equal paths but different segmentation: pairs by fraction of length.
 void StretchComparer::attributes_between(Corner from, Corner to) {
     const auto length_of = [](SegmentWindow& path, std::uint64_t first, std::uint64_t last) {
@@ -169,7 +189,8 @@ void StretchComparer::attributes_between(Corner from, Corner to) {
         return ends;
     };
     const auto ends_a = length_of(a_, from.i, to.i), ends_b = length_of(b_, from.j, to.j);
-    if (ends_a.empty() || ends_b.empty() || ends_a.back() <= 0.0 || ends_b.back() <= 0.0) return;
+    if (ends_a.empty() || ends_b.empty() || ends_a.back() <= 0.0 || ends_b.back() <= 0.0)
+        return other_kind_alone(from, to);
     const double scale = ends_a.back() / ends_b.back();
     std::size_t i = 0, j = 0;
     double done = 0.0;

@@ -46,6 +46,7 @@ class StretchComparer {
     bool same_arc(Corner at);
     void attributes(Corner at);
     void attributes_between(Corner from, Corner to);
+    void other_kind_alone(Corner from, Corner to);
     Corner first_failing(const FrechetResult& failed, Corner from, Stretch a, Stretch b);
     Corner meet_again(Corner at, Stretch a, Stretch b);
     bool meet_near(Corner& at, Stretch a, Stretch b);
@@ -62,6 +63,7 @@ class StretchComparer {
     SegmentWindow a_, b_;
     WalkOptions options_;
     AttributeComparer attributes_;
+    Stretch stretch_a_, stretch_b_;
     std::vector<PathRegion>* regions_ = nullptr;
     WalkTotals* totals_ = nullptr;
     std::size_t first_region_ = 0;

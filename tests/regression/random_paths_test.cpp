@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
 
 #include "base/random.h"
 #include "base/units.h"
@@ -19,6 +20,7 @@ constexpr double tolerance_mm = 0.25, step_mm = 0.02;
 struct Stroke {
     Vector3 to_mm;
     int half_circle = 0;
+    bool rapid = false;
 };
 using Strokes = std::vector<Stroke>;
 
@@ -45,6 +47,8 @@ Pen drawn(const Strokes& strokes) {
         const Vector3 centre = 0.5 * (from + s.to_mm);
         if (s.half_circle != 0 && from != s.to_mm)
             pen.arc(s.to_mm.x(), s.to_mm.y(), 0, centre, -s.half_circle * pi);
+        else if (s.rapid)
+            pen.rapid(s.to_mm.x(), s.to_mm.y(), 0);
         else
             pen.cut(s.to_mm.x(), s.to_mm.y(), 0);
         from = s.to_mm;
@@ -147,6 +151,123 @@ TEST_CASE("random paths are equal where the ways walked together stay within the
     }
     CHECK(equal > 300);
     CHECK(other > 300);
+}
+
+namespace {
+
+/// Some strokes as rapids, and one to three short ones of either kind somewhere, often at the end.
+Strokes with_rapids(Strokes strokes, SeededNoise& noise) {
+    for (Stroke& s : strokes) s.rapid = draw(noise, 3) == 0;
+    return strokes;
+}
+
+Strokes with_short_strokes(Strokes strokes, SeededNoise& noise) {
+    const std::size_t at = draw(noise, 2) == 0 ? strokes.size() : 1 + draw(noise, strokes.size());
+    const Vector3 from = strokes[at - 1].to_mm;
+    Strokes more(1 + draw(noise, 3));
+    for (Stroke& s : more) {
+        const double reach_mm = tolerance_mm * (draw(noise, 8) == 0 ? 1.6 : 0.6);
+        s.to_mm = from + reach_mm * Vector3(noise.uniform() - 0.5, noise.uniform() - 0.5, 0.0);
+        s.rapid = draw(noise, 2) == 0;
+    }
+    if (draw(noise, 2) == 0) more.back().to_mm = from;
+    strokes.insert(strokes.begin() + static_cast<long>(at), more.begin(), more.end());
+    return strokes;
+}
+
+}  // namespace
+
+TEST_CASE("A against B says equal just where B against A does, rapids and short moves included",
+          "[compare]") {
+    const char* const seed = std::getenv("TRUNNION_PATH_SEED");
+    SeededNoise noise(seed ? std::strtoull(seed, nullptr, 10) : 72);
+    regression::WalkOptions options;
+    options.tolerances.position_mm = tolerance_mm;
+    int equal = 0, different = 0;
+    for (int n = 0; n < 4000; ++n) {
+        const bool arcs = draw(noise, 3) == 0;
+        const Strokes a = with_rapids(random_strokes(noise, arcs), noise),
+                      b = with_short_strokes(a, noise);
+        Pen pen_a = drawn(a), pen_b = drawn(b), again_a = drawn(a), again_b = drawn(b);
+        const bool found = compare(pen_a, pen_b, options).clusters.empty();
+        const double apart_mm = oracle_mm(a, b);
+        INFO("path " << n << ", " << apart_mm << " mm apart");
+        CHECK(compare(again_b, again_a, options).clusters.empty() == found);
+        if (apart_mm > 1.1 * tolerance_mm) CHECK_FALSE(found);
+        Strokes other = b;  // a long way by the other kind of motion is told, beside short ones too
+        Stroke& changed = other[draw(noise, other.size())];
+        changed.rapid = !changed.rapid;
+        const std::size_t k = static_cast<std::size_t>(&changed - other.data());
+        const Vector3 from = k == 0 ? Vector3(Vector3::Zero()) : other[k - 1].to_mm;
+        if (changed.half_circle == 0 && (changed.to_mm - from).norm() > 4.0 * tolerance_mm) {
+            Pen flat_a = drawn(a), flat_b = drawn(other), flat_c = drawn(a), flat_d = drawn(other);
+            CHECK_FALSE(compare(flat_a, flat_b, options).clusters.empty());
+            CHECK_FALSE(compare(flat_d, flat_c, options).clusters.empty());
+        }
+        ++(found ? equal : different);
+    }
+    CHECK(equal > 300);
+    CHECK(different > 100);
+}
+
+namespace {
+
+/// The same way in pieces shorter than the tolerance, some of them by the other kind of motion.
+Strokes chopped(const Strokes& strokes, SeededNoise& noise, double share_of_other) {
+    Strokes pieces;
+    Vector3 from = Vector3::Zero();
+    for (const Stroke& s : strokes) {
+        const Vector3 way = s.to_mm - from;
+        const int count =
+            1 + static_cast<int>(way.norm() / ((0.3 + 0.5 * noise.uniform()) * tolerance_mm));
+        for (int k = 1; k <= count; ++k)
+            pieces.push_back({from + static_cast<double>(k) / count * way, 0,
+                              (noise.uniform() < share_of_other) != s.rapid});
+        from = s.to_mm;
+    }
+    return pieces;
+}
+
+}  // namespace
+
+TEST_CASE("a cut with short rapids in it is told from both sides or from none", "[compare]") {
+    const double share = GENERATE(0.0, 0.05, 0.5);
+    SeededNoise noise(73);
+    regression::WalkOptions options;
+    options.tolerances.position_mm = tolerance_mm;
+    int equal = 0;
+    for (int n = 0; n < 500; ++n) {
+        const Strokes a = random_strokes(noise, false), b = chopped(a, noise, share);
+        Pen pen_a = drawn(a), pen_b = drawn(b), again_a = drawn(a), again_b = drawn(b);
+        const bool found = compare(pen_a, pen_b, options).clusters.empty();
+        INFO("path " << n << ", share " << share);
+        CHECK(compare(again_b, again_a, options).clusters.empty() == found);
+        equal += found ? 1 : 0;
+    }
+    if (share == 0.0) CHECK(equal == 500);
+    if (share == 0.5) CHECK(equal < 5);
+    if (share == 0.05) CHECK(equal < 150);
+}
+
+TEST_CASE("a cut in which short rapids alternate with short cuts is told from both sides",
+          "[compare]") {
+    regression::WalkOptions options;
+    options.tolerances.position_mm = tolerance_mm;
+    for (const double piece_mm : {0.05, 0.1, 0.2}) {
+        Pen cut, mixed, cut2, mixed2;
+        for (Pen* pen : {&cut, &cut2}) {
+            pen->at(0, 0, 0);
+            for (int k = 2; k <= 80; k += 2) pen->cut(k * piece_mm, 0, 0);
+        }
+        for (Pen* pen : {&mixed, &mixed2}) {
+            pen->at(0, 0, 0);
+            for (int k = 1; k <= 80; ++k)
+                k % 2 == 1 ? pen->cut(k * piece_mm, 0, 0) : pen->rapid(k * piece_mm, 0, 0);
+        }
+        INFO(piece_mm);
+        CHECK_FALSE(compare(cut, mixed, options).clusters.empty());
+        CHECK_FALSE(compare(mixed2, cut2, options).clusters.empty());
+    }
 }
 
 TEST_CASE("paths without a single move", "[compare]") {
