@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 
+#include <cerrno>
 #include <mutex>
 #include <utility>
 
@@ -65,7 +66,9 @@ bool Wait::step(int descriptor, short events, bool limited) {
 
 short events_now(int descriptor, short events) {
     pollfd one{descriptor, events, 0};
-    return ::poll(&one, 1, 0) > 0 ? one.revents : short{0};
+    const int count = ::poll(&one, 1, 0);
+    if (count < 0 && errno != EINTR) return events;  // what is done next tells
+    return count > 0 ? one.revents : short{0};
 }
 
 }  // namespace trunnion::inline base

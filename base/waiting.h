@@ -35,7 +35,7 @@ class Wait {
     std::string reason_;
 };
 
-/// The events of poll that the descriptor has now.
+/// The events of poll that the descriptor has now; all of them where the system cannot say.
 short events_now(int descriptor, short events);
 
 }  // namespace trunnion::inline base

@@ -25,6 +25,7 @@ const std::string source = TRUNNION_SOURCE_DIR;
 const std::vector<std::string> commands{
     "run in/part.nc --trace out/t.csv --readings out/r.csv --print out/p.txt --json",
     "run O77 --programs in --vars 100",
+    "run - --programs in --json",
     "check in --run --out out/c.txt",
     "compare in/part.nc in/other.nc --json --out out/c.json",
     "compare --suite in/suite.toml --shard 1/1 --out out/part.json",
@@ -56,7 +57,7 @@ const std::vector<std::string> commands{
 };
 const std::vector<std::string> functions{"open",   "read",    "write",   "close",  "fsync",
                                          "rename", "linkat",  "pread",   "pwrite", "fchmod",
-                                         "mmap",   "unnamed", "readdir", "malloc"};
+                                         "mmap",   "unnamed", "readdir", "malloc", "poll"};
 
 struct Outcome {
     int code = 0;  ///< above 128: a signal
@@ -120,9 +121,9 @@ class FaultBench : public CommandBench {
         fs::create_directories(path / "out");
         const std::string line =
             "cd " + path.string() +
-            " && LD_PRELOAD=" TRUNNION_FAULT_LIBRARY " TRUNNION_FAULT=" + fault +
+            " && cat in/part.nc | LD_PRELOAD=" TRUNNION_FAULT_LIBRARY " TRUNNION_FAULT=" + fault +
             " TRUNNION_FAULT_COUNT=count.txt " TRUNNION_BINARY_DIR "/bin/trunnion " + words +
-            " > out.txt 2> err.txt < /dev/null";
+            " > out.txt 2> err.txt";
         const int status = std::system(line.c_str());
         Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : 128, read("out.txt"), {}};
         for (const auto& entry : fs::recursive_directory_iterator(path / "out"))

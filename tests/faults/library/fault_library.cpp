@@ -5,6 +5,7 @@
 #include <dirent.h>
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -103,6 +104,7 @@ FAULT(readdir, nullptr, EIO, struct dirent*, (DIR * folder), (folder))
 FAULT(mmap, MAP_FAILED, ENOMEM, void*,
       (void* at, size_t size, int protection, int flags, int file, off_t offset),
       (at, size, protection, flags, file, offset))
+FAULT(poll, -1, ENOMEM, int, (pollfd * files, nfds_t count, int wait_ms), (files, count, wait_ms))
 #undef FAULT
 
 int open(const char* path, int flags, ...) {
