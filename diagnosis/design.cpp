@@ -147,8 +147,8 @@ std::size_t Design::add(ColumnGroup group) {
     const Eigen::VectorXd whole = squares_(group.features);
     entry.whole = whole.sum();
     if (is_shaped(group)) {
-        entry.gram = (group.shape.transpose() * entry.gram * group.shape).eval();
-        entry.product = (group.shape.transpose() * entry.product).eval();
+        entry.gram = Eigen::MatrixXd(group.shape.transpose() * entry.gram * group.shape);
+        entry.product = Eigen::VectorXd(group.shape.transpose() * entry.product);
         entry.whole = whole.dot(group.shape.array().square().matrix().rowwise().sum());
     }
     entry.group = std::move(group);
@@ -208,7 +208,7 @@ double Design::outside(std::size_t k, const std::vector<Eigen::Index>& features)
     const ColumnGroup& group = groups_[k].group;
     const std::vector<Run> runs = runs_of(features);
     Eigen::MatrixXd cross = gram_of(runs, groups_[k].runs);
-    if (is_shaped(group)) cross = (cross * group.shape).eval();
+    if (is_shaped(group)) cross = Eigen::MatrixXd(cross * group.shape);
     const estimation::LinearFit all =
         estimation::solve_ranked(gram_of(runs, runs), Eigen::VectorXd::Zero(cross.rows()));
     const double inside = (all.covariance * cross).cwiseProduct(cross).sum();
@@ -242,8 +242,10 @@ const Eigen::MatrixXd& Design::products(std::size_t first, std::size_t second) {
     if (own.size() > 0) return own;
     const Entry &a = groups_[first], &b = groups_[second];
     own = gram_of(a.runs, b.runs);
-    if (is_shaped(b.group)) own = (own * b.group.shape).eval();
-    if (is_shaped(a.group)) own = (a.group.shape.transpose() * own).eval();
+    // By moves: Eigen frees a matrix before it has the memory for another size, and a failure then
+    // leaves the freed one behind.
+    if (is_shaped(b.group)) own = Eigen::MatrixXd(own * b.group.shape);
+    if (is_shaped(a.group)) own = Eigen::MatrixXd(a.group.shape.transpose() * own);
     return own;
 }
 

@@ -183,6 +183,19 @@ TEST_CASE("no memory for any part of a search for programs ends no command in an
     }
 }
 
+// Eigen frees a matrix before it has the memory for another size.
+TEST_CASE("no memory for any matrix of a diagnosis ends it in an abort") {
+    const FaultBench bench;
+    const std::string words = "diagnose in/readings.csv --setup in/machine.toml --json";
+    bench.run(words, "malloc:0");
+    const long count = bench.calls();
+    for (long call = count / 2; call < count; call += 103) {
+        const Outcome faulted = bench.run(words, "malloc:" + std::to_string(call));
+        INFO("malloc " << call << "\n" << bench.read("err.txt"));
+        CHECK((faulted.code == 4 || faulted.code == 2 || faulted.code == 0));
+    }
+}
+
 TEST_CASE("no command crashes, lies or leaves halves when a call of the system fails") {
     const FaultBench bench;
     for (const std::string& words : commands) {
