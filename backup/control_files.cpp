@@ -48,6 +48,19 @@ void require_pivot(const ControlBackup& backup, const std::vector<BackupValue>& 
                              {(fs::path(backup.folder) / type->file).string(), type->line, 1});
 }
 
+/// 0000#2: the unit of the offsets in the files.
+bool is_inch(double bits_of_0) {
+    return (static_cast<int>(bits_of_0) & 4) != 0;
+}
+
+void require_same_units(const std::vector<BackupValue>& values, const offsets::Stores& stores) {
+    const BackupValue* units = find_parameter(values, 0);
+    if (units != nullptr && is_inch(stored_value(*units)) != is_inch(value_in(*units, stores)))
+        throw InputError(
+            "0000#2 (inch) differs from the setup: the offsets would change their unit",
+            {units->file, units->line, 1});
+}
+
 }  // namespace
 
 const char* text_of(Standing standing) {
@@ -104,7 +117,7 @@ std::vector<BackupValue> list_values(const ControlBackup& backup) {
         for (BackupValue& v : scan_values({name, path, inch}, file->second))
             values.push_back(std::move(v));
         if (const BackupValue* units = find_parameter(values, 0))
-            inch = (static_cast<int>(stored_value(*units)) & 4) != 0;
+            inch = is_inch(stored_value(*units));
     }
     return values;
 }
@@ -121,6 +134,7 @@ std::map<std::string, int> update_backup(ControlBackup& backup, const offsets::S
     // gives: of a number that is written twice, the first text differs from the store by itself.
     offsets::Stores loaded = stores;
     for (const BackupValue& v : values) store_value(v, loaded);
+    require_same_units(values, stores);
     std::map<std::string, int> changed;
     // From the end of each file, so that the positions of earlier values remain valid.
     std::reverse(values.begin(), values.end());

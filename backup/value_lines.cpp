@@ -210,9 +210,11 @@ void scan_assignment(LineScanner& s, std::vector<BackupValue>& out) {
 }
 
 void scan_line(LineScanner& s, std::vector<BackupValue>& out) {
+    while (!s.done() && s.peek() == '(')
+        s.at = std::min(s.line.find(')', s.at), s.line.size() - 1) + 1;
     if (s.done()) return;
     const std::string_view rest = s.line.substr(s.at);
-    if (rest[0] == '%' || rest[0] == '(' || rest[0] == '/') return;
+    if (rest[0] == '%' || rest[0] == '/') return;
     if (rest[0] == 'N' && (s.file.name == "CNC-PARA.TXT" || s.file.name == "PITCH.TXT"))
         return scan_parameter(s, out);
     for (const char* const code : {"G10", "G20", "G21", "G90"})
@@ -227,9 +229,10 @@ void scan_line(LineScanner& s, std::vector<BackupValue>& out) {
 std::vector<BackupValue> scan_values(const ValueFile& whole, std::string_view bytes) {
     ValueFile file = whole;
     std::vector<BackupValue> out;
+    const char line_end = bytes.find('\n') == std::string_view::npos ? '\r' : '\n';
     int number = 1;
     for (std::size_t at = 0; at < bytes.size(); ++number) {
-        std::size_t end = bytes.find('\n', at);
+        std::size_t end = bytes.find(line_end, at);
         if (end == std::string_view::npos) end = bytes.size();
         std::string_view line = bytes.substr(at, end - at);
         while (!line.empty() &&

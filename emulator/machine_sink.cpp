@@ -37,11 +37,11 @@ class MovePath : public motion::PathCurve {
     const motion::AxisMove& move_;
 };
 
-/// Path length of the programmed point, or of X Y Z if that is longer: under G43.4 the axes may
-/// move while the tip is at rest.
+/// Path length of the programmed point, or of X Y Z if that is longer: under G43.4 and M128 the
+/// axes may move while the tip is at rest.
 double longer_way_mm(const motion::AxisMove& move) {
-    if (!move.curve) return move.length_mm;
-    const int parts = 4 * motion::curve_parts(move.from, move.to);
+    if (move.arc) return move.length_mm;
+    const int parts = move.curve ? 4 * motion::curve_parts(move.from, move.to) : 1;
     double way_mm = 0.0;
     AxisPositions before = move.from;
     for (int k = 1; k <= parts; ++k) {

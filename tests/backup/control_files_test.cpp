@@ -161,6 +161,8 @@ TEST_CASE("offsets of a backup have the unit in which the control would read the
     stores.work.standard[0][Axis::X] = 25.4 * 1.5;
     backup::update_backup(b, stores);
     CHECK(b.files["EXT_WKZ.TXT"] == "%\nG90\nG10L2P1X1.5C30.0\nM02\n%\n");
+    stores.parameters.set_bit(0, 2, false);
+    CHECK_THROWS_AS(backup::update_backup(b, stores), InputError);
     b.files["EXT_WKZ.TXT"] = "%\nG21\nG90G10L2P1X1.0C30.0\nM02\n%\n";
     CHECK(loaded() == std::pair(1.0, 50.8));
     b.files.erase("CNC-PARA.TXT");
@@ -174,6 +176,16 @@ TEST_CASE("offsets of a backup have the unit in which the control would read the
     }
     b.files["EXT_WKZ.TXT"] = "%\nG10L2P1X0Y0\n%\n";
     CHECK(backup::list_values(b).size() == 4);
+}
+
+TEST_CASE("a comment in front of a record, or CR alone as line end, hides no value") {
+    backup::ControlBackup b{"f", {}, {}};
+    b.files["EXT_WKZ.TXT"] = "%\n(NOTE)(TWO) G10L2P1X1.0\n(ALONE)\n(OPEN\n/G10L2P1X2.0\n%\n";
+    REQUIRE(backup::list_values(b).size() == 1);
+    CHECK(backup::list_values(b)[0].line == 2);
+    b.files["EXT_WKZ.TXT"] = "%\rG90\rG10L2P1X1.0\rG10L2P2X2.0\rM02\r%";
+    REQUIRE(backup::list_values(b).size() == 2);
+    CHECK(backup::list_values(b)[1].line == 4);
 }
 
 TEST_CASE("two files whose names differ only in case are refused, for one would be lost") {

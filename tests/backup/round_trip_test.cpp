@@ -2,13 +2,16 @@
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
+#include <map>
 #include <regex>
 
 #include "backup/control_files.h"
 #include "backup/differences.h"
 #include "backup/folder_files.h"
 #include "backup/parameter_names.h"
+#include "backup/value_text.h"
 #include "base/random.h"
 
 using namespace trunnion;
@@ -19,8 +22,8 @@ namespace {
 class Generated {
   public:
     explicit Generated(std::uint64_t seed) : random_(seed) {
-        static const char* const ends[] = {"\n", "\r\n", "\n\r\r"};
-        end_ = ends[pick(3)];
+        static const char* const ends[] = {"\n", "\r\n", "\n\r\r", "\r"};
+        end_ = ends[pick(4)];
         old_ = pick(2) == 1;
         backup.folder = "stick";
         backup.files["CNC-PARA.TXT"] = parameters();
@@ -61,6 +64,7 @@ class Generated {
         for (const int n : {1320, 1321, 1240})
             lines.push_back(
                 record(n, 'A', {decimal(), decimal(), decimal(), decimal(), decimal()}));
+        lines.push_back(fmt::format("N01411Q1L1I{}L2I{}", decimal(), decimal()));
         lines.push_back(record(20, 0, {"17"}));
         lines.push_back(record(982, 'S', {"0"}));
         return envelope(lines);
@@ -146,6 +150,38 @@ TEST_CASE("a changed value of a generated backup alters its own digits alone") {
         for (const auto& [name, bytes] : before.files)
             if (name != "CNC-PARA.TXT") CHECK(after.files.at(name) == bytes);
     }
+}
+
+TEST_CASE("any value of a generated backup changes alone, in its own digits") {
+    SeededNoise random(77);
+    std::map<std::string, int> kinds;
+    for (std::uint64_t seed = 2001; seed <= 2600; ++seed) {
+        const backup::ControlBackup before = Generated(seed).backup;
+        const std::vector<backup::BackupValue> values = backup::list_values(before);
+        const backup::BackupValue& v = values[random.bits() % values.size()];
+        CAPTURE(seed, v.file, v.name, v.text);
+        if (v.number == 0 || v.number == 1020) continue;  // these give other values their meaning
+        const double old = backup::stored_value(v);
+        const double next =
+            std::isnan(old) ? 2.5 : old + std::ldexp(1.0, 3 - static_cast<int>(random.bits() % 12));
+        offsets::Stores stores;
+        backup::apply_backup(before, stores);
+        backup::BackupValue wanted = v;
+        wanted.text = backup::format_value(v, next);
+        wanted.text = backup::format_value(v, backup::stored_value(wanted));
+        backup::store_value(wanted, stores);
+        backup::ControlBackup after = before;
+        const auto changed = backup::update_backup(after, stores);
+        REQUIRE(changed == std::map<std::string, int>{{v.file, 1}});
+        backup::ControlBackup expected = before;
+        expected.files[v.file].replace(v.begin, v.size, wanted.text);
+        CHECK(after.files == expected.files);
+        const auto found = backup::diff_backups(before, after);
+        REQUIRE(found.size() == 1);
+        CHECK(found[0].b == wanted.text);
+        ++kinds[v.file];
+    }
+    CHECK(kinds.size() == 4);
 }
 
 TEST_CASE("a diff names axes, offsets, variables and programs") {

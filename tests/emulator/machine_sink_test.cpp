@@ -316,3 +316,23 @@ TEST_CASE("trace rows follow a curve while the tip rests, by step or by chord") 
     CHECK(rows(0, 1.05 * rise_mm) == plain + 3);  // three places between four chords
     CHECK(rows(0, 0.95 * rise_mm) == plain + 7);
 }
+
+TEST_CASE("trace rows follow the axes of M128 while the tip has no way to go") {
+    setup::Setup setup = bc_setup();
+    setup.dialect = interpreter::hurco_dialect();
+    interpreter::ProgramsInMemory none;
+    emulator::RunOptions options;
+    options.trace = true;
+    options.trace_step_mm = 10.0;
+    // The ends are 80 mm from the C axis; without G43.4 X and Y run along the chord between them.
+    const emulator::RunLog log = emulator::run_program(
+        setup, none,
+        interpreter::ProgramText{
+            "c.nc", "G90 G21 G54\nT1 M6\nG0 X80. Y0 Z0\nM128\nG1 C90. F500.\nM30\n", nullptr},
+        options);
+    REQUIRE(log.result.status == controller::RunStatus::ok);
+    int samples = 0;
+    for (std::size_t at = 0; (at = log.trace_csv.find(",5,SAMPLE,", at)) != std::string::npos; ++at)
+        ++samples;
+    CHECK(samples == 11);  // 80 sqrt(2) = 113 mm
+}
