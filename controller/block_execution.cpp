@@ -71,9 +71,18 @@ void cut_thread(const SortedWords& w, Modal& modal, const Frames& frames, Mover&
     modal.block.feed = feed;
 }
 
+/// On a Hurco I J K of a line are the tool's direction, which only M128 leads.
+void require_tip_control(const SortedWords& w, const Modal& modal, const Frames& frames) {
+    const int code = modal.codes[ModalGroup::motion];
+    if (modal.settings.is_hurco() && !frames.tip.in_force && (code == 0 || code == 10) &&
+        (w.present & tool_vector_letters))
+        raise_alarm(5421, "(I J K without M128)", w.column_of_first(tool_vector_letters));
+}
+
 void run_motion(Control& c) {
     SortedWords& w = c.words;
     if (c.modal.in_cycle()) return run_cycle(c.cycle, w, c.modal, c.frames, c.mover);
+    require_tip_control(w, c.modal, c.frames);
     c.moved = true;
     if (c.wrapped.polar()) return c.wrapped.move_polar(w, c.modal, c.frames, c.mover);
     if (uses_cutter_path(w, c.mover)) return queue_motion(w, c.modal, c.frames, c.mover);

@@ -47,9 +47,19 @@ void read_pecks(CycleData& data, const SortedWords& words) {
     data.next_peck = depth_mm(words.more_depth_count - 1);
 }
 
+/// BNC: a negative distance would lead the tool up from the start level.
+void require_distances(const SortedWords& words, char depth_word) {
+    for (const char letter : {depth_word, 'R'})
+        if (words.has(letter) && words.length_mm(letter) < 0.0)
+            raise_alarm(6, words.column_of(letter));
+    for (std::size_t i = 0; i < words.more_depth_count; ++i)
+        if (words.more_depths[i] < 0.0) raise_alarm(6, words.column_of(depth_word));
+}
+
 void read_cycle_words(CycleData& data, const SortedWords& words, const Modal& modal) {
     const char depth_word = letter_of(modal.plane().normal);
     const bool relative = !modal.absolute();
+    if (modal.settings.is_bnc()) require_distances(words, depth_word);
     if (words.has('R')) {
         data.level_r = words.length_mm('R');
         data.r_from_initial = relative;
@@ -69,6 +79,7 @@ void drill_along_tool(const CycleRow& row, const SortedWords& words, Modal& moda
     const bool allowed = row.code10 != 760 && row.code10 != 870 && row.code10 != 880;
     if (!allowed || !modal.absolute() || !words.has('I'))
         raise_alarm(5421, "(under M128 a cycle has I and R, G90, and is not G76, G87 or G88)");
+    if (words.length_mm('I') < 0.0) raise_alarm(6, words.column_of('I'));
     offsets::ControlPosition place = commanded_position(words, modal, frames);
     CycleData data;
     read_pecks(data, words);

@@ -52,6 +52,9 @@ void without_g53(const SortedWords& words, Modal& modal, const Frames& frames, M
 }  // namespace
 
 void go_to_machine_position(const SortedWords& words, Modal& modal, Frames& frames, Mover& mover) {
+    // A public post cancels the plane first because the control asks for it.
+    if (modal.settings.is_hurco() && frames.stages.feature_MF)
+        raise_alarm(9003, "(G53 in a plane: G69 first)");
     if (!modal.absolute()) return without_g53(words, modal, frames, mover);
     offsets::ControlPosition target = frames.machine;
     for (const ControlAxis& entry : modal.settings.axes)
