@@ -142,7 +142,9 @@ std::vector<std::string> unobservable(const PivotVerdict& verdict, bool with_g54
         out.push_back(
             "the stylus length in the tool table and zero positions of the head's axes: wrong ones "
             "read as 19709-19714");
-    if (!with_g54) out.push_back("G54 as a pivot: no DPP or G54.2 run is among the readings");
+    if (!with_g54)
+        out.push_back(fmt::format("G54 as a pivot: no {} run is among the readings",
+                                  hurco ? "DPP" : "DPP or G54.2"));
     out.push_back(fmt::format("zero positions of {} and {}: a sphere turns with them",
                               letter_of(pivot.first.axis), letter_of(pivot.second.axis)));
     for (const std::size_t k : verdict.fit.unseen)
@@ -212,7 +214,9 @@ std::string sentence(const PivotVerdict& verdict, bool hurco) {
         const std::string store = g54     ? "G54 as the pivot"
                                   : hurco ? "The rotary centrelines of the part set-up"
                                           : "The pivot parameters 19700-19714";
-        const std::string parts = g54 ? "DPP and G54.2" : hurco ? "M128" : "G43.4 and tilted-plane";
+        const std::string parts = g54     ? hurco ? "DPP" : "DPP and G54.2"
+                                  : hurco ? "M128"
+                                          : "G43.4 and tilted-plane";
         text += fmt::format("{}{} {} {}: {} parts are off by up to {} because of {}.",
                             text.empty() ? "" : " ", store,
                             hurco && !g54 ? "are"

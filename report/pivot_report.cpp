@@ -106,10 +106,9 @@ std::string quality_text(const PivotResult& r) {
                       0);
     const double apart_um = um_from_mm(setup::step_between_axes_mm(v.right).norm());
     if (v.groups.size() > 1 && apart_um > 0.05)
-        out += fmt::format(
-            "the rotary axes pass each other by {}: G54 holds one point, so DPP\n"
-            "and G54.2 keep an error\n",
-            length_words(apart_um));
+        out += fmt::format("the rotary axes pass each other by {}: G54 holds one point, so {}\n",
+                           length_words(apart_um),
+                           r.hurco ? "DPP\nkeeps an error" : "DPP\nand G54.2 keep an error");
     if (v.groups.size() > 1) out += "and agree with each other" + agreement_words(v) + "\n";
     out += "not observable from these readings:\n";
     for (const std::string& line : v.unobservable) out += "  " + line + "\n";

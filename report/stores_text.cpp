@@ -48,7 +48,7 @@ std::string fanuc_lines(const setup::StoresToType& s, int digits) {
     return text;
 }
 
-std::string centre_lines(const setup::StoresToType& s, int digits) {
+std::string centre_lines(const setup::StoresToType& s, int digits, const char* functions) {
     std::string text;
     for (const setup::StoreLine& line : s.lines)
         if (line.in_force.parameter == 0)
@@ -56,7 +56,9 @@ std::string centre_lines(const setup::StoresToType& s, int digits) {
     for (const setup::StoreLine& line : s.fixture)
         text += line_text(line.in_force.name, line.in_force.value_mm, line.type_mm, digits);
     if (text.empty()) return text;
-    return "only where this work offset is the centre of DPP or G54.2 (G54 + external\noffset):\n" +
+    return fmt::format(
+               "only where this work offset is the centre of {} (G54 + external\noffset):\n",
+               functions) +
            text;
 }
 
@@ -75,9 +77,11 @@ std::string stores_text(const setup::StoresToType& s, interpreter::DialectFamily
         "  (no place in these numbers), {} by the increment of {:g} mm\n",
         length_words(s.now_um), length_words(s.tilts_um), length_words(s.rounding_um),
         s.increment_mm);
-    const std::string centre = centre_lines(s, digits);
+    const bool has_g54_2 = dialect != interpreter::DialectFamily::hurco;
+    const char* const functions = has_g54_2 ? "DPP or G54.2" : "DPP";
+    const std::string centre = centre_lines(s, digits, functions);
     if (centre.empty()) return text;
-    text += centre + fmt::format("  tip off with DPP or G54.2: {} now, {} after typing",
+    text += centre + fmt::format("  tip off with {}: {} now, {} after typing", functions,
                                  length_words(s.g54_now_um), length_words(s.g54_left_um));
     if (s.apart_um > 0.05)
         text += fmt::format(";\n  the axes pass each other by {}, which no G54 can hold",
