@@ -90,7 +90,9 @@ ControlBackup read_backup(const std::string& folder) {
 
 void write_backup(const ControlBackup& backup, const std::string& folder) {
     const std::vector<std::string> others = other_files(backup);
-    const fs::path from = fs::weakly_canonical(backup.folder), to = fs::weakly_canonical(folder);
+    // Of a relative path whose first part does not exist, weakly_canonical gives a relative path.
+    const fs::path from = fs::weakly_canonical(fs::absolute(backup.folder)),
+                   to = fs::weakly_canonical(fs::absolute(folder));
     const std::string inside = to.lexically_relative(from).string();
     if (fs::is_directory(from) && !inside.starts_with(".."))
         throw InputError("this folder is inside the backup, which is copied whole", {folder});

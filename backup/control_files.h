@@ -31,6 +31,8 @@ ControlBackup read_backup(const std::string& folder);
 /// Writes these files, and copies every other file of the folder that they come from.
 void write_backup(const ControlBackup& backup, const std::string& folder);
 
+constexpr int other_path = 1000;
+
 /// One value of a backup with its usual name: "19700", "1320 axis 1", "G54 X", "H1 geometry",
 /// "#500". `line` from 1 in its file; `begin`, `size` delimit the text of the value.
 struct BackupValue {
@@ -43,8 +45,10 @@ struct BackupValue {
     enum class Kind : unsigned char { parameter, work_offset, tool_offset, variable };
     Kind kind = Kind::parameter;
     int number =
-        0;        ///< parameter, variable or tool number; work offset: 0 EXT, 1-6, 100 + P of G54.1
-    int sub = 0;  ///< axis number, letter of the axis, or 10..13 of G10 L
+        0;  ///< parameter, variable or tool number; work offset: 0 EXT, 1-6, 100 + P of G54.1
+    /// Axis number; index of a further path, spindle or group times `other_path`; letter of the
+    /// axis; or 10..13 of G10 L.
+    int sub = 0;
     bool inch = false;      ///< inch in the file, mm in the stores
     bool assigned = false;  ///< "#500=1.5", where a vacant variable is "#0"
     bool for_axis = false;  ///< item A of a parameter: `sub` is an axis number

@@ -11,10 +11,13 @@ namespace {
 
 using Lines = std::vector<ProgramLine>;
 
-/// "O9810", "<NAME>", preceded by the folder; empty for a line that starts no program.
+/// "O0001" of O1 or :1, "<NAME>"; empty for a line that starts no program.
 std::string program_name(const std::string& line) {
-    if (line[0] == 'O') return line.substr(0, line.find_first_not_of("0123456789", 1));
-    return line[0] == '<' ? line.substr(0, line.find('>') + 1) : "";
+    if (line[0] == '<') return line.substr(0, line.find('>') + 1);
+    if (line[0] != 'O' && line[0] != ':') return "";
+    const std::size_t first = std::min(line.find_first_not_of('0', 1), line.size());
+    const std::size_t end = std::min(line.find_first_not_of("0123456789", first), line.size());
+    return fmt::format("O{:0>4}", line.substr(first, end - first));
 }
 
 /// The part of two texts between their equal beginnings and ends.
@@ -89,7 +92,8 @@ std::map<ProgramKey, std::vector<ProgramLine>> programs_of(const ControlBackup& 
             if (line.key.starts_with("&F=")) folder = line.key.substr(3);
             if (const std::string start = program_name(line.key); !start.empty())
                 name = folder + start;
-            if (!name.empty() && line.key[0] != '&') out[{file, name}].push_back(std::move(line));
+            if (line.key[0] != '&' && line.key[0] != '%')
+                out[{file, name}].push_back(std::move(line));
         }
     }
     return out;

@@ -20,7 +20,7 @@ std::vector<ProgramLine> lines_of(std::string_view text);
 
 /// File, and O number or name behind its folder.
 using ProgramKey = std::pair<std::string, std::string>;
-/// Programs of ALL-PROG.TXT and ALL-FLDR.TXT.
+/// Programs of ALL-PROG.TXT and ALL-FLDR.TXT; without a name, the lines in front of the first.
 std::map<ProgramKey, std::vector<ProgramLine>> programs_of(const ControlBackup& backup);
 
 /// "2 lines out, 1 in; first at line 3: G1X2. | G1X3."; lines that only moved count as out and in.

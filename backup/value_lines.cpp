@@ -104,11 +104,9 @@ void scan_parameter(LineScanner& s, std::vector<BackupValue>& out) {
         if (kind == 'S') name += fmt::format(" spindle {}", index);
         if (kind == 'L' && index > 1) name += fmt::format(" path {}", index);
         if (kind == 'T' && index > 1) name += fmt::format(" group {}", index);
-        const bool first_path = (kind == 'L' || kind == 'T') && index <= 1;
+        const int others = index > 1 && kind != 'A' ? other_path : 0;
         BackupValue v = s.value(std::move(name), text, BackupValue::Kind::parameter, number,
-                                first_path    ? 0
-                                : kind == 'A' ? index
-                                              : index * 100 + (kind != 0));
+                                kind == 'A' ? index : others * index);
         v.inch = type == 'I';
         v.for_axis = kind == 'A';
         out.push_back(std::move(v));

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "backup/parameter_names.h"
 #include "base/alarm.h"
 #include "base/numbers.h"
 #include "base/units.h"
@@ -46,6 +47,10 @@ auto work_offset(S& stores, int number) -> decltype(&stores.work.external) {
     if (number > 100 && number <= 400)
         return &stores.work.additional[static_cast<std::size_t>(number - 101)];
     return nullptr;
+}
+
+bool has_tool(const offsets::Stores& stores, int number) {
+    return number > 0 && static_cast<std::size_t>(number) < stores.tools.tool.size();
 }
 
 double offsets::ToolOffset::*tool_field(int l) {
@@ -91,6 +96,7 @@ void store_value(const BackupValue& v, offsets::Stores& stores) {
     const double number = stored_value(v);
     switch (v.kind) {
         case BackupValue::Kind::parameter: {
+            if (v.sub >= other_path) break;
             offsets::Parameter& p = stores.parameters.entry[v.number];
             if (v.sub == 0)
                 p.value = number;
@@ -104,7 +110,7 @@ void store_value(const BackupValue& v, offsets::Stores& stores) {
                 (*offset)[*axis_of(static_cast<char>(v.sub))] = number;
             break;
         case BackupValue::Kind::tool_offset:
-            if (v.number > 0 && static_cast<std::size_t>(v.number) < stores.tools.tool.size())
+            if (has_tool(stores, v.number))
                 stores.tools.tool[static_cast<std::size_t>(v.number)].*tool_field(v.sub) = number;
             break;
         case BackupValue::Kind::variable:
@@ -120,7 +126,8 @@ double value_in(const BackupValue& v, const offsets::Stores& stores) {
     switch (v.kind) {
         case BackupValue::Kind::parameter: {
             const auto entry = stores.parameters.entry.find(v.number);
-            if (entry == stores.parameters.entry.end()) return stored_value(v);
+            if (entry == stores.parameters.entry.end() || v.sub >= other_path)
+                return stored_value(v);
             if (v.sub == 0) return entry->second.value;
             const auto by_axis = entry->second.by_axis.find(v.sub);
             return by_axis == entry->second.by_axis.end() ? stored_value(v) : by_axis->second;
@@ -130,8 +137,7 @@ double value_in(const BackupValue& v, const offsets::Stores& stores) {
             return offset ? (*offset)[*axis_of(static_cast<char>(v.sub))] : stored_value(v);
         }
         case BackupValue::Kind::tool_offset:
-            if (v.number <= 0 || static_cast<std::size_t>(v.number) >= stores.tools.tool.size())
-                return stored_value(v);
+            if (!has_tool(stores, v.number)) return stored_value(v);
             return stores.tools.tool[static_cast<std::size_t>(v.number)].*tool_field(v.sub);
         case BackupValue::Kind::variable: {
             const auto it = stores.variables.find(v.number);
@@ -140,6 +146,19 @@ double value_in(const BackupValue& v, const offsets::Stores& stores) {
         }
     }
     return 0.0;
+}
+
+Standing standing_of_value(const BackupValue& v) {
+    if (v.kind == BackupValue::Kind::parameter) {
+        const Standing first = standing_of_parameter(v.number);
+        return v.sub >= other_path && first == Standing::obeyed ? Standing::known : first;
+    }
+    if (v.kind == BackupValue::Kind::variable) return Standing::obeyed;
+    static const offsets::Stores stores;
+    const bool stored = v.kind == BackupValue::Kind::work_offset
+                            ? work_offset(stores, v.number) != nullptr
+                            : has_tool(stores, v.number);
+    return stored ? Standing::obeyed : Standing::ignored;
 }
 
 bool same_value(double a, double b) {

@@ -19,6 +19,9 @@ double stored_value(const BackupValue& value);
 void store_value(const BackupValue& value, offsets::Stores& stores);
 /// The present content of the stores for that value.
 double value_in(const BackupValue& value, const offsets::Stores& stores);
+/// How the emulator treats it: an offset that no store has is ignored, the value of a further path
+/// or spindle is known alone.
+Standing standing_of_value(const BackupValue& value);
 bool same_value(double a, double b);  ///< two vacant values are equal
 /// `number` in the form of `like`: bits, integer, decimal point, hex double. Throws InputError
 /// where that form has no text for a vacant variable.

