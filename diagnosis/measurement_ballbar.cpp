@@ -5,6 +5,7 @@
 
 #include "base/units.h"
 #include "diagnosis/measurement_plan.h"
+#include "setup/program_language.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -57,16 +58,19 @@ void MeasurementPlan::circle(int plane, double feed_mm_min, bool clockwise) {
     const double from = clockwise ? sweep : 0.0, to = sweep - from;
     const AxisPositions start = place(from).at, end = place(to).at;
     begin_pass(pass_words, start);
-    // X towards Z is clockwise in G18, whose second axis is X.
-    const bool g2 = plane == 2 ? !clockwise : clockwise;
-    const Vector3 to_center = -length * bar(from);
-    result_.program += fmt::format("{} G{}{} I{:.4f} J{:.4f} K{:.4f} F{:.0f}\nG17\n",
-                                   plane == 0   ? "G17"
-                                   : plane == 1 ? "G19"
-                                                : "G18",
-                                   g2 ? 2 : 3, words(end, true), plan_rounded(to_center.x(), 1e-4),
-                                   plan_rounded(to_center.y(), 1e-4),
-                                   plan_rounded(to_center.z(), 1e-4), feed_mm_min);
+    // X towards Z is clockwise in G18, whose second axis is X; BNC exchanges G2 and G3 there, and
+    // I J K are the place of the centre.
+    const bool bnc = setup::language_of(setup_) == setup::ProgramLanguage::bnc;
+    const bool g2 = plane == 2 && !bnc ? !clockwise : clockwise;
+    Vector3 center = -length * bar(from);
+    if (bnc) center += Vector3(start[Axis::X], start[Axis::Y], start[Axis::Z]);
+    result_.program +=
+        fmt::format("{} G{}{} I{:.4f} J{:.4f} K{:.4f} F{:.0f}\nG17\n",
+                    plane == 0   ? "G17"
+                    : plane == 1 ? "G19"
+                                 : "G18",
+                    g2 ? 2 : 3, words(end, true), plan_rounded(center.x(), 1e-4),
+                    plan_rounded(center.y(), 1e-4), plan_rounded(center.z(), 1e-4), feed_mm_min);
     tell("BALLBAR OFF");
     const std::string before =
         std::exchange(state_.test, fmt::format("{}_{}_{:.0f}",

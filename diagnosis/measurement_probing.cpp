@@ -6,6 +6,7 @@
 
 #include "base/units.h"
 #include "diagnosis/measurement_plan.h"
+#include "setup/program_language.h"
 
 namespace trunnion::diagnosis {
 namespace {
@@ -144,12 +145,17 @@ void MeasurementPlan::lead_by_tcp(const AxisPositions& before, const AxisPositio
                            plan_rounded(over_W.x(), 1e-4), plan_rounded(over_W.y(), 1e-4),
                            plan_rounded(over_W.z(), 1e-4), words(at, false));
     };
+    const bool hurco = setup::is_hurco(setup::language_of(setup_));  // its G43.4 leads no tip alone
     result_.program += fmt::format(
                            "DPRNT[MODE*DIRECT]\nG0{}\nM98P8102\nG55\nDPRNT[MODE*RTCP]\n"
-                           "G43.4 H99 X0. Y0. Z{:.1f}\nM98P8102\n",
-                           words({}, false), above_mm + 60.0) +
+                           "{} H99 X0. Y0. Z{:.1f}\n{}M98P8102\n",
+                           words({}, false), hurco ? "G43" : "G43.4", above_mm + 60.0,
+                           hurco ? "M128\nG43.4\n" : "") +
                        lead(before) + lead(rotary) +
-                       "#7=#5021\n#8=#5022\n#9=#5023\nG49 G53 G0 X#7 Y#8 Z#9\nM98P8102\nG59\n";
+                       fmt::format(
+                           "#7=#5021\n#8=#5022\n#9=#5023\n{}G49 G53 G0 X#7 Y#8 Z#9\n"
+                           "M98P8102\nG59\n",
+                           hurco ? "M129\n" : "");
     const Vector3 center_W = spheres_.front().center_W_mm;
     pass_through(aim({}, center_W + (above_mm + 60.0) * Vector3::UnitZ(), tip_S()).at);
     pass_through(aim(before, center_W + over_W, tip_S()).at);

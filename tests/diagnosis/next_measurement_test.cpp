@@ -91,8 +91,12 @@ void tell_truth(setup::Setup& setup) {
 }  // namespace
 
 TEST_CASE("every program of the list reads the rows that were predicted", "[diagnosis][next]") {
+    setup::Setup isnc = shipped("ac_trunnion.toml");
+    isnc.dialect = interpreter::hurco_dialect();
+    setup::Setup bnc = isnc;
+    bnc.hurco.bnc = true;
     for (setup::Setup setup : {campaign::bc_setup(), campaign::ac_setup(), shipped("bc_table.toml"),
-                               shipped("ac_trunnion.toml")}) {
+                               shipped("ac_trunnion.toml"), isnc, bnc}) {
         INFO(setup.name);
         setup.machine.errors = {};
         tell_truth(setup);
@@ -100,6 +104,7 @@ TEST_CASE("every program of the list reads the rows that were predicted", "[diag
         REQUIRE(list.size() == 14);
         setup.probe->repeatability_um = setup.ballbar->noise_um = 0.0;
         for (const diagnosis::Measurement& m : list) {
+            CAPTURE(m.name, setup.hurco.bnc);
             const records::ReadingTable run = run_measurement(setup, m.program, 1);
             require_same_rows(m, run);
             require_predicted(setup, run);
