@@ -132,7 +132,8 @@ bool is_thread_cut(const Place& p) {
 }
 
 bool is_speed_limit(const Place& p) {
-    return p.block.has('S') && p.block.only("GSXZ") && p.block.has_one_g();
+    return p.block.has('S') && p.block.only("GSXZTM") && p.block.has_one_g() &&
+           !p.block.code('M', 30) && !p.block.code('M', 40);
 }
 
 /// T0303 or T0300: tool and offset in one word.

@@ -73,12 +73,20 @@ std::vector<Finding> one_for_each_range(std::vector<Findings::Found> found) {
     return kept;
 }
 
+/// What makes findings equal: rule and text; of an arc the text without its lengths, because one
+/// cause (centres as places, a wrong plane) makes each arc wrong by another length.
+std::pair<std::string, std::string> cause_of(const Finding& finding) {
+    std::string text = finding.text;
+    if (finding.rule == "arc-radius")
+        std::erase_if(text, [](char c) { return (c >= '0' && c <= '9') || c == '-'; });
+    return {finding.rule, text};
+}
+
 /// If there are more than a few equal findings (notes: more than one), only the first is kept, with
 /// their number.
 std::vector<Finding> one_for_each_cause(std::vector<Finding> found) {
     std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> same;
-    for (std::size_t i = 0; i < found.size(); ++i)
-        same[{found[i].rule, found[i].text}].push_back(i);
+    for (std::size_t i = 0; i < found.size(); ++i) same[cause_of(found[i])].push_back(i);
     std::set<std::size_t> dropped;
     for (const auto& [cause, places] : same) {
         const bool note = found[places.front()].severity == Severity::note;

@@ -280,3 +280,14 @@ TEST_CASE("variables of one range, and programs of a missing folder, are one fin
     // Reading and writing, and far ranges, are causes of their own.
     CHECK(check_text("O1\n#0=1\n#0=2\n#300=1\n#301=1\nM98P300\nM98P301\nM30\n").size() == 6);
 }
+
+TEST_CASE("arcs that are wrong in the same way are one finding", "[check]") {
+    std::string arcs = "O1\nG17G91\n";
+    for (int i = 0; i < 200; ++i)
+        arcs += "G2X10.Y" + std::to_string(i % 7) + ".I" + std::to_string(50 + i) + ".J3.F9.\n";
+    const auto found = check_text(arcs + "M30\n");
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].line == 3);
+    CHECK_THAT(found[0].text,
+               Catch::Contains("radius ") && Catch::EndsWith("(200 times, last in line 202)"));
+}
