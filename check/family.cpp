@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bitset>
+#include <limits>
 
 #include "check/section.h"
 
@@ -253,13 +254,17 @@ std::vector<SeenSign> signs_of(const CheckSection& section, const CheckOptions& 
     return seen;
 }
 
-/// A word that programs of mills have and those of a lathe with two axes do not.
-bool has_words_of_mill(const CheckSection& section, const CheckOptions& options) {
-    return std::any_of(section.blocks.begin(), section.blocks.end(), [&](const auto* block) {
+/// The points that call a program a lathe's without a certain sign; none are enough beside a word
+/// of mills (Y, G43, G17). Some lathes have M6.
+int points_of_lathe(const CheckSection& section, const CheckOptions& options) {
+    int points = 2;
+    for (const interpreter::Block* block : section.blocks) {
         const Words words(*section.program, block, options);
-        return words.has('Y') || words.code('M', 60) || words.g(430) || words.g(434) ||
-               words.g(170);
-    });
+        if (words.has('Y') || words.g(430) || words.g(434) || words.g(170))
+            return std::numeric_limits<int>::max();
+        if (words.code('M', 60)) points = 3;
+    }
+    return points;
 }
 
 std::string what_shows(const std::vector<SeenSign>& seen, const char* family) {
@@ -287,7 +292,8 @@ bool check_family(const CheckSection& section, const CheckOptions& options, Find
             if (!first) first = s.block;
         }
         const bool lathe = family == std::string_view("lathe");
-        if (points < 2 || (!certain && lathe && has_words_of_mill(section, options))) continue;
+        if (points < 2) continue;
+        if (!certain && lathe && points < points_of_lathe(section, options)) continue;
         const int number = section.blocks.front()->o_number;
         findings.add("family", Severity::error, {*first, 1},
                      fmt::format("{} is a program for a {} ({}): it is not checked further",

@@ -53,7 +53,10 @@ TEST_CASE("a lathe's program is one finding that names the words", "[check]") {
         "G99G97S1000M3\nG0X50.Z1.\nG76P021060\nG76U-2.W-20.P1000Q300F1.5\n",
         "G75R1.\nG75X20.P2000F.1\n", "G99G96S150M3T0303\nG0X50.Z1.M8\nG1X20.F.1\n",
         "T0700\nG96S100M3\nX5.Z1.\nT0707\n", "G76X28.Z-20.K.9D.3F1.5\nG96S100\n",
-        "G50X200.Z150.S1500\nT0500\n", "G50S2500T0101M42\nX1.\n", "G32Z-20.F1.5\nG4U1.\n");
+        "G50X200.Z150.S1500\nT0500\n", "G50S2500T0101M42\nX1.\n", "G32Z-20.F1.5\nG4U1.\n",
+        "G28U0.W0.\nT0101M06\nG96S400M3\nG0X2.Z.1\n", "G21G96G50S2000\nT0101\nX5.Z1.\n",
+        "T909\nG50S2000\nT707\nG96S120M3\nX15.Z.1\n",
+        "T0101M6\nG96S180M3\nG71P10Q20U.02W.005F.02\nN10X20.\nN20Z-25.\n");
     INFO(body);
     const auto found = check_text("%\nO100(TURN)\n" + body + "GOTO99\nG777\nQQ\nM98P77\nM30\n%\n");
     REQUIRE(found.size() == 1);
@@ -69,7 +72,9 @@ TEST_CASE("a mill's program is never a lathe's", "[check]") {
         "G17\nT0303\nG96S100M3\nG0X1.Y1.\n", "G76X1.Y1.Z-5.R1.Q.1P100F100\nG80\n",
         "G76P010060Q.1R1.\nG76X1.Y1.Z-5.R1.Q.1P1000F100\nG80\n", "G92X0Z0\nX1.Z1.\n",
         "G92X10.Z10.F100\nG1X1.Z1.\n", "G50\nS1000M3\nX1.\n", "G50S2000\nX1.\nZ1.\n",
-        "T0101\nG50S2000M3\nX1.\n", "G99G96S100M3\nG0X1.Z1.\n", "T0303\nG0X1.Z1.\n",
+        "T0101\nG50S2000M3\nX1.\n", "T0101M6\nG96S150M3\nG0X1.Z1.\nG92X0Z0\n",
+        "T0101M6\nG50S2000\nG0X1.Z1.\n", "T101M6\nT202\nS100M3\nG0X1.Z1.\n",
+        "T0101\nG50S100\nG96S100\nG28U0\nY1.\n", "G99G96S100M3\nG0X1.Z1.\n", "T0303\nG0X1.Z1.\n",
         "T1234\nG96S100M3\nG0X1.Z1.\n", "G73X1.Z-5.R1.Q1.F100\nG80\n",
         "G73X1.Z-5.R1.Q1P500F100U1.W1.\nG80\n", "G28U0W0\nG0X1.\n", "G74X1.Z-5.R1.F100\nG80\n",
         "M29S100\nG74R1.\nG74Z-5.Q500F100\nG80\n", "G74R1.\nG74Z-40.Q5.F1.\nG80\n",
