@@ -23,11 +23,22 @@ std::vector<std::string> shipped_folders() try {
     return {};
 }
 
-bool is_one_of(const std::string& folder, const std::vector<std::string>& folders) {
+/// True when the user named one of the shipped folders: their programs are then the user's.
+bool share_a_folder(const std::vector<std::string>& folders, const std::vector<std::string>& ours) {
     std::error_code unknown;
-    return std::any_of(folders.begin(), folders.end(), [&](const std::string& other) {
-        return fs::equivalent(folder, other, unknown);
-    });
+    for (const std::string& folder : folders)
+        for (const std::string& other : ours)
+            if (fs::equivalent(folder, other, unknown)) return true;
+    return false;
+}
+
+interpreter::ProgramFolders with_shipped(std::vector<std::string> folders) {
+    std::vector<std::string> ours = shipped_folders();
+    if (share_a_folder(folders, ours)) {
+        folders.insert(folders.end(), ours.begin(), ours.end());
+        ours.clear();
+    }
+    return interpreter::ProgramFolders(std::move(folders), std::move(ours));
 }
 
 std::optional<int> o_number(const std::string& name) {
@@ -45,12 +56,7 @@ interpreter::ProgramFolders folders_beside(const std::string& path,
                                            std::vector<std::string> folders) {
     const std::string own = fs::path(path).parent_path().string();
     folders.push_back(own.empty() ? "." : own);
-    std::vector<std::string> ours = shipped_folders();
-    if (is_one_of(folders.back(), ours)) {  // a shipped program may call other shipped programs
-        folders.insert(folders.end(), ours.begin(), ours.end());
-        ours.clear();
-    }
-    return interpreter::ProgramFolders(std::move(folders), std::move(ours));
+    return with_shipped(std::move(folders));
 }
 
 interpreter::ProgramFolders folders_of_file(const interpreter::ProgramText& program,
@@ -68,15 +74,14 @@ ProgramAndFolders open_program(const std::string& name, std::vector<std::string>
         const interpreter::ProgramText text = interpreter::read_main_program(name);
         return {text, folders_of_file(text, std::move(folders))};
     }
-    std::vector<std::string> ours = shipped_folders();
     const auto number = o_number(name);
     if (!number) throw InputError("no such program, or it cannot be read", {name, 0, 0});
-    if (!interpreter::ProgramFolders(folders).holds(
-            *number)) {  // called by number: a shipped program may be used
+    interpreter::ProgramFolders source = with_shipped(folders);
+    if (!source.holds_own(*number)) {  // called by number: a shipped program may be used
+        const std::vector<std::string> ours = shipped_folders();
         folders.insert(folders.end(), ours.begin(), ours.end());
-        ours.clear();
+        source = with_shipped(std::move(folders));
     }
-    interpreter::ProgramFolders source(std::move(folders), std::move(ours));
     if (!source.holds(*number))
         throw InputError("O number not found in the program folders", {name, 0, 0});
     return {*number, std::move(source)};

@@ -287,6 +287,11 @@ std::optional<ProgramText> ProgramFolders::look_up(int o_number) {
     return std::nullopt;
 }
 
+bool ProgramFolders::holds_own(int o_number) {
+    const auto found = search(o_number);
+    return found && found->place != shipped;
+}
+
 std::optional<ProgramText> ProgramFolders::find(int o_number) {
     scan_own_files();
     if (const auto given = own_.find(o_number); given != own_.end()) return given->second;

@@ -41,6 +41,8 @@ class ProgramFolders : public ProgramSource {
     std::vector<ProgramText> used() const;
 
     bool holds(int o_number) { return look_up(o_number).has_value(); }
+    /// The user's folders or their subfolders hold it.
+    bool holds_own(int o_number);
     /// One line for each program that a call found only in a subfolder or in the shipped folders,
     /// and one when there were too many subfolders to search.
     const std::vector<std::string>& announcements() const { return announcements_; }

@@ -309,3 +309,23 @@ TEST_CASE("check: M128 is read as a Hurco's, and --against a Hurco's choice comp
     CHECK(bench.check("f.nc") == 0);
     CHECK_THAT(bench.out(), Catch::Contains("note: M128") && Catch::Contains("2 notes"));
 }
+
+TEST_CASE("shipped programs are announced unless they are asked for") {
+    const Bench bench;
+    const std::string source = TRUNNION_SOURCE_DIR;
+    const auto says = [&](const std::string& words) {
+        CHECK(WEXITSTATUS(
+                  std::system(("cd " + source + " && " + TRUNNION_BINARY_DIR + "/bin/trunnion " +
+                               words + " >" + bench.file("out.txt") + " 2>" + bench.file("err.txt"))
+                                  .c_str())) == 0);
+        return bench.read("err.txt");
+    };
+    const std::string main = bench.write("main.nc", "O1\nM98P8110\nM30\n");
+    for (const std::string asked :
+         {"run O8110", "run O8110 --programs programs", "run O8110 --programs programs/pivot",
+          "run programs/pivot/O8001.nc", "run programs/pivot/O8001.nc --programs programs"})
+        CHECK(says(asked).find("shipped program") == std::string::npos);
+    CHECK_THAT(says("run " + main), Catch::Contains("O8110 is a shipped program ("));
+    CHECK_THAT(says("check " + main), Catch::Contains("O8110 is a shipped program ("));
+    CHECK(says("check " + main + " --programs programs").empty());
+}
