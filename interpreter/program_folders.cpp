@@ -27,16 +27,16 @@ std::string lower(std::string text) {
     return text;
 }
 
-bool has_program_ending(const fs::path& path) {
-    const std::string ending = lower(path.extension().string());
-    const bool number =
-        ending.size() > 1 && ending.find_first_not_of("0123456789", 1) == ending.npos;
-    return number || std::find(endings.begin(), endings.end(), ending) != endings.end();
+/// LIB.001: searched for what it holds; a name O1234.1 may be an old version.
+bool may_hold_programs(const fs::path& path) {
+    const std::string ending = path.extension().string();
+    return has_program_ending(path.string()) ||
+           (ending.size() > 1 && ending.find_first_not_of("0123456789", 1) == ending.npos);
 }
 
 /// 1234 for O1234.nc, 1234, o01234.TXT; nothing for other names.
 std::optional<int> number_of_file(const fs::path& path) {
-    if (!has_program_ending(path)) return std::nullopt;
+    if (!has_program_ending(path.string())) return std::nullopt;
     std::string stem = lower(path.stem().string());
     if (stem.starts_with('<') && stem.ends_with('>')) stem = stem.substr(1, stem.size() - 2);
     if (stem.starts_with('o')) stem.erase(0, 1);
@@ -122,6 +122,11 @@ bool is_closed(const std::string& path) {
 
 }  // namespace
 
+bool has_program_ending(const std::string& path) {
+    const std::string ending = lower(fs::path(path).extension().string());
+    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
 ProgramText read_program(const std::string& path) {
     const auto bytes = std::make_shared<const std::string>(read_file_or_input(path));
     return {path, without_leader(*bytes), bytes};
@@ -196,7 +201,7 @@ void ProgramFolders::list_below() {
                 if (is_searched(sub)) continue;
                 for (std::string& name : files_in(sub)) {
                     std::error_code unknown;
-                    if (!has_program_ending(name) || is_closed(name)) continue;
+                    if (!may_hold_programs(name) || is_closed(name)) continue;
                     bytes += fs::file_size(name, unknown);
                     if (shelves_[below].files.size() == most_files_below ||
                         bytes > most_bytes_below)
@@ -213,7 +218,7 @@ void ProgramFolders::list_below() {
 void ProgramFolders::scan(Shelf& shelf) {
     if (std::exchange(shelf.scanned, true)) return;
     for (const std::string& path : shelf.files) {
-        if (!has_program_ending(path)) continue;
+        if (!may_hold_programs(path)) continue;
         const ProgramText file = read_program(path);
         if (!is_text(file.text)) continue;
         programs_in(file.text, [&](const LineHead& head) {

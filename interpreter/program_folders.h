@@ -10,6 +10,9 @@
 
 namespace trunnion::interpreter {
 
+/// True for the usual endings of NC programs, in upper or lower case, and for none.
+bool has_program_ending(const std::string& path);
+
 /// The present content of a file; "-" is standard input. Later changes of the file have no effect.
 /// Throws InputError when the file cannot be read.
 ProgramText read_program(const std::string& path);

@@ -6,6 +6,7 @@
 #include "base/read_file.h"
 #include "base/toml_reader.h"
 #include "base/units.h"
+#include "interpreter/program_folders.h"
 #include "regression/suite.h"
 
 namespace trunnion::regression {
@@ -14,19 +15,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::array<const char*, 12> nc_endings{".nc",  ".txt", ".tap", ".min", ".mpf", ".cnc",
-                                                 ".ngc", ".eia", ".iso", ".prg", ".hnc", ".fnc"};
-
 bool is_program(const fs::path& path) {
-    std::string ending = path.extension().string();
-    for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-    if (ending.empty()) {  // O1234
-        const std::string name = path.filename().string();
-        return name.size() > 1 && (name[0] == 'O' || name[0] == 'o') &&
-               std::all_of(name.begin() + 1, name.end(),
-                           [](char c) { return c >= '0' && c <= '9'; });
-    }
-    return std::find(nc_endings.begin(), nc_endings.end(), ending) != nc_endings.end();
+    if (path.has_extension()) return interpreter::has_program_ending(path.string());
+    const std::string name = path.filename().string();  // O1234
+    return name.size() > 1 && (name[0] == 'O' || name[0] == 'o') &&
+           std::all_of(name.begin() + 1, name.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
 /// `*` matches any characters, `?` one. After a mismatch only the last `*` is extended; the earlier

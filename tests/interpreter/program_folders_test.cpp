@@ -53,10 +53,13 @@ TEST_CASE("files with the endings of other controls and systems are read, too") 
     int number = 7100;
     for (const char* const ending : endings)
         folder.write(std::string("part.") + ending, "O" + std::to_string(number++) + "\nM99\n");
+    folder.write("O7100.1", "O7201 (OLD)\nM99\n");
     folder.write("part.pdf", "O7200\nM99\n");
     interpreter::ProgramFolders programs({folder.path.string()}, {});
     for (int n = 7100; n < number; ++n) CHECK(programs.find(n));
     CHECK_FALSE(programs.find(7200));
+    CHECK_THAT(programs.find(7100)->name, Catch::EndsWith("part.hnc"));
+    CHECK(programs.find(7201));
 }
 
 TEST_CASE("programs of a file that a control punched: LF CR CR ends its lines") {
