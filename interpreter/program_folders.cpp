@@ -89,23 +89,34 @@ std::string_view without_leader(std::string_view text) {
     return text.substr(first, text.find_last_not_of('\0') - first + 1);
 }
 
+/// All entries of a folder. Throws InputError where it cannot be read to its end.
+std::vector<fs::directory_entry> entries_of(const fs::path& folder) {
+    std::vector<fs::directory_entry> entries;
+    std::error_code error;
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+        entries.push_back(*at);
+    if (error) throw InputError("cannot be read: " + error.message(), {folder.string(), 0, 0});
+    return entries;
+}
+
 /// Files of one folder, sorted; a circular link is not a program.
 std::vector<std::string> files_in(const fs::path& folder) {
     std::vector<std::string> names;
     std::error_code unknown;
-    for (const auto& entry : fs::directory_iterator(folder, unknown))
+    for (const fs::directory_entry& entry : entries_of(folder))
         if (entry.is_regular_file(unknown)) names.push_back(entry.path().string());
     std::sort(names.begin(), names.end());
     return names;
 }
 
-/// Subfolders of one folder, sorted; neither hidden ones nor links.
+/// Subfolders of one folder, sorted; neither hidden ones, nor links, nor those closed to this user.
 std::vector<fs::path> folders_in(const fs::path& folder) {
     std::vector<fs::path> names;
     std::error_code unknown;
-    for (const auto& entry : fs::directory_iterator(folder, unknown))
+    for (const fs::directory_entry& entry : entries_of(folder))
         if (entry.is_directory(unknown) && !entry.is_symlink(unknown) &&
-            !entry.path().filename().string().starts_with('.'))
+            !entry.path().filename().string().starts_with('.') &&
+            ::access(entry.path().c_str(), R_OK | X_OK) == 0)
             names.push_back(entry.path());
     std::sort(names.begin(), names.end());
     return names;
