@@ -69,7 +69,7 @@ TEST_CASE("an arm as its kinematic parameters say has no gap", "[diagnosis][arm]
 TEST_CASE("beyond geometry: what is missing in a real UR5, and how far its gap shrinks",
           "[diagnosis][arm][ur5]") {
     const char* folder = std::getenv("TRUNNION_UR5");
-    if (!folder) {
+    if (!folder || !*folder) {
         WARN("skipped: TRUNNION_UR5 does not name the folder of the data set");
         return;
     }

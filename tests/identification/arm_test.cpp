@@ -109,7 +109,7 @@ TEST_CASE("noise shows in the residual and hardly in the prediction", "[identifi
 TEST_CASE("a real UR5 measured by a laser tracker: fitted on 1,000 poses, judged on 20 more",
           "[identification][arm]") {
     const char* folder = std::getenv("TRUNNION_UR5");
-    if (!folder) {
+    if (!folder || !*folder) {
         WARN("skipped: TRUNNION_UR5 does not name the folder of the data set");
         return;
     }
