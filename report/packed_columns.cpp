@@ -3,6 +3,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <new>
 #include <stdexcept>
 
 namespace trunnion::report {
@@ -42,10 +43,11 @@ std::uint64_t distance(const PackedColumn& column, const PackedColumn* like, int
 std::string deflated(const std::string& bytes) {
     uLongf size = compressBound(static_cast<uLong>(bytes.size()));
     std::string out(size, '\0');
-    if (compress2(reinterpret_cast<Bytef*>(out.data()), &size,
-                  reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()),
-                  Z_BEST_COMPRESSION) != Z_OK)
-        throw std::logic_error("zlib refused a buffer of sufficient size");
+    const int result = compress2(reinterpret_cast<Bytef*>(out.data()), &size,
+                                 reinterpret_cast<const Bytef*>(bytes.data()),
+                                 static_cast<uLong>(bytes.size()), Z_BEST_COMPRESSION);
+    if (result == Z_MEM_ERROR) throw std::bad_alloc();
+    if (result != Z_OK) throw std::logic_error("zlib refused a buffer of sufficient size");
     out.resize(size);
     return out;
 }
