@@ -122,12 +122,16 @@ class FreshTable {
         return rotation_about(axis.normalized(), most_tilt_rad * (2.0 * random_.uniform() - 1.0));
     }
 
+    /// The device's ball; without a probe (targets of a tracker, joints of an arm) the origin of S.
+    Vector3 ball_S(const records::Reading& row) const {
+        if (row.device == records::Device::ballbar) return setup_.ballbar->cup_S_mm;
+        return setup_.probe ? setup_.probe->tip_S_mm : Vector3(Vector3::Zero());
+    }
+
     /// Vector from the feature to the device's ball, in M.
     Vector3 apart(const records::Reading& row) const {
         const kinematics::MachinePose poses = forward_.poses(row.commanded);
-        const Vector3 ball_S = row.device == records::Device::ballbar ? setup_.ballbar->cup_S_mm
-                                                                      : setup_.probe->tip_S_mm;
-        return poses.pose_MS * ball_S - poses.pose_MW * center_W(row.feature);
+        return poses.pose_MS * ball_S(row) - poses.pose_MW * center_W(row.feature);
     }
 
     Vector3 center_W(const std::string& feature) const {

@@ -1,6 +1,7 @@
 #include "report/diagnosis_words.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -37,6 +38,12 @@ constexpr double improbable = 0.1;    ///< ... below which its rivals are rather
 
 bool is_sure(const diagnosis::Diagnosis& d) {
     return !d.causes.empty() && d.causes.front().probability >= claimed_from;
+}
+
+/// True where the first cause has rivals and is itself improbable.
+bool is_rather_a_rival(const diagnosis::Diagnosis& d) {
+    return !d.causes.empty() && !d.causes.front().rivals.empty() &&
+           d.causes.front().probability < improbable;
 }
 
 /// Before the name of the first cause.
@@ -134,6 +141,10 @@ std::string verdict_sentence(const diagnosis::Diagnosis& d) {
             return fmt::format("The gap is explained{}, {} {}: {}.", where, by_words(d), first,
                                size);
         case diagnosis::Verdict::ambiguous:
+            if (is_rather_a_rival(d))
+                return fmt::format(
+                    "The gap is explained{}, rather by a rival of {} than by it: {}.", where, first,
+                    size);
             if (rivalled(d) == first)
                 return fmt::format(
                     "The gap is explained{}, but these readings cannot tell {} from its rivals: "
@@ -166,6 +177,10 @@ std::string answer(const diagnosis::Diagnosis& d) {
             return size + (is_sure(d) ? "The cause is " : "The cause is uncertain, perhaps ") +
                    causes + ". " + shrink_words(d.after);
         case diagnosis::Verdict::ambiguous:
+            if (d.causes.size() < 2 && is_rather_a_rival(d))
+                return size + "The cause is hardly " + causes + ", rather one of its rivals (" +
+                       fmt::format("{}", fmt::join(d.causes.front().rivals, ", ")) + "). " +
+                       shrink_words(d.after);
             if (d.causes.size() < 2)
                 return size + "The cause is " + causes +
                        ", or another effect that these readings cannot tell from it: see below. " +

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "report/diagnosis_text.h"
 #include "report/diagnosis_words.h"
 
 namespace trunnion {
@@ -67,6 +68,17 @@ TEST_CASE("rivals are said of the cause that has them") {
                Catch::Contains("most of it by X.backlash, but these readings cannot tell "
                                "C.backlash from its rivals"));
     CHECK_THAT(report::answer(d), Catch::Contains("cannot tell C.backlash from its rivals"));
+}
+
+TEST_CASE("an improbable cause is not said to be the cause: its rivals are") {
+    diagnosis::Diagnosis d = one_cause();
+    d.causes[0].probability = 0.004;
+    CHECK_THAT(report::verdict_sentence(d), Catch::Contains("rather by a rival of C.backlash"));
+    CHECK_THAT(report::answer(d),
+               Catch::Contains("hardly C.backlash") &&
+                   Catch::Contains("rather one of its rivals (" + d.causes[0].rivals[0]));
+    CHECK_THAT(report::diagnosis_text(d), Catch::Contains("probability < 0.01") &&
+                                              Catch::Contains("rather one of its rivals, or"));
 }
 
 TEST_CASE("the page says size, cause, rivals and shrink, and is whole") {
