@@ -21,6 +21,7 @@ diagnosis::Diagnosis one_cause() {
     diagnosis::Cause cause;
     cause.effect = "C.backlash";
     cause.share = 0.93;
+    cause.probability = 0.6;
     cause.rivals = {"C.zero & co"};
     cause.what = "The axis stops short";
     cause.usual_cause = "worn worm gear";
