@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::size_t rivals_tried = 20;
 constexpr std::size_t replacements_tried = 3;  ///< of each other cause
-constexpr double sure = 0.95;     ///< against the best model without it: nothing is named
 constexpr double doubtful = 0.4;  ///< probability at most of causes that cancel each other
 /// Probability at most where the search was ended before a contender was looked for.
 constexpr double unchallenged_most = 0.8;
@@ -193,7 +192,7 @@ void name_rivals(const Design& design, const Offer& held, const std::vector<Offe
 /// What the best model without the member has in its place, where that leaves the member unsure.
 void name_contender(Design& design, const Model& model, const Contender& contender,
                     const Eigen::VectorXd& part, Claim& claim) {
-    if (probability_against(contender) >= sure) return;
+    if (probability_against(contender) >= rules::sure) return;
     std::vector<std::size_t> instead = in_place_of(design, model, contender.model, part);
     instead.insert(instead.end(), contender.slopes.begin(), contender.slopes.end());
     for (const std::size_t k : instead) {
@@ -220,7 +219,7 @@ void name_axis(const Design& design, const Challenged& found, double axis, Claim
     const double any = std::min(axis, probability_against(without_axis.model.members.empty()
                                                               ? found.contenders[claim.position]
                                                               : without_axis));
-    if (claim.probability >= sure * any) return;
+    if (claim.probability >= rules::sure * any) return;
     claim.rivals.insert(claim.rivals.begin(), claim.name);
     claim.rival_groups.insert(claim.rival_groups.begin(), found.model.members[claim.position]);
     claim.name = "free form of " + own.table.axis.name;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/units.h"
+#include "diagnosis/rules.h"
 #include "diagnosis/verdict.h"
 
 namespace trunnion::diagnosis {
@@ -13,7 +14,6 @@ namespace {
 
 constexpr double least_overlap = 0.1;  ///< part of a contribution that a rival must do
 constexpr double hopeless = 60.0;      ///< evidence behind, nats, that no exchange makes up for
-constexpr double surely = 0.95;        ///< probability from which nothing else is named
 constexpr double family = 0.8;         ///< probability below which a free form's family is open
 constexpr double main_part = 0.5;      ///< of a contribution: the cause is rather what does it
 constexpr std::size_t more = 2;        ///< members that it may have beyond the chosen model
@@ -236,7 +236,7 @@ Contender contender_of(const Searching& search, const Standing& chosen, FoldColu
         with_slope_apart(search, chosen, rows, static_cast<std::size_t>(at - members.begin()));
     if (!apart) return without_cause;
     std::vector<std::size_t> slopes;
-    if (probability_against(*apart) < surely)
+    if (probability_against(*apart) < rules::sure)
         for (const std::size_t k : apart->model.members)
             if (is_squareness(design.group(k)) &&
                 std::find(members.begin(), members.end(), k) == members.end())
