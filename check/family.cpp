@@ -164,6 +164,8 @@ struct Sign {
     bool with_other_words = false;  ///< our controls have the code, with other words
 };
 
+// Fanuc's G-code system A for lathes, and Haas mills: assumed, from programs that were read. No
+// manual of either was at hand.
 const Sign signs[] = {
     {"lathe", 2, 'G', 710, 710, names_contour, "G71 P Q", true},
     {"lathe", 2, 'G', 720, 720, names_contour, "G72 P Q", true},
@@ -305,6 +307,7 @@ bool check_family(const CheckSection& section, const CheckOptions& options, Find
     return false;
 }
 
+// Assumed, as the signs above.
 const char* haas_meaning(int code10) {
     struct Meaning {
         int first10, last10;
