@@ -112,6 +112,27 @@ TEST_CASE("every program of the list reads the rows that were predicted", "[diag
     }
 }
 
+TEST_CASE("a planned measurement knows from which side every axis comes to its first reading",
+          "[diagnosis][next]") {
+    for (const setup::Setup& setup : {campaign::bc_setup(), campaign::ac_setup()})
+        for (const diagnosis::Measurement& m : diagnosis::ready_measurements(setup, 100.0)) {
+            const std::size_t first = device_rows(m.table).front();
+            const AxisSample at = records::samples_of(m.table)[first];
+            for (const Axis axis : m.table.axes) {
+                INFO(setup.name << " " << m.name << " " << letter_of(axis));
+                CHECK_FALSE(at.side_unknown[index_of(axis)]);
+                // Out and back: the way into the last position is not all that the axis moved.
+                double way = 0.0, last = 0.0;
+                for (std::size_t k = 0; k < first; ++k) {
+                    const double q = m.table.rows[k].commanded[axis];
+                    way += std::abs(q - last);
+                    last = q;
+                }
+                if (axis != Axis::Z) CHECK(way > std::abs(last) + 1e-6);
+            }
+        }
+}
+
 TEST_CASE("the clock of a planned measurement only goes on, from the time that was given",
           "[diagnosis][next]") {
     for (const diagnosis::Measurement& m :
