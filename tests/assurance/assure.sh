@@ -55,6 +55,11 @@ law() {
   TRUNNION_LAW_BLOCKS=20000 TRUNNION_LAW_SEED=$(date +%s) build/release/bin/test_check \
     "what run refuses*" > "$work/law.log" 2>&1 && state=holds || state=FAILS
   echo "\`check\` refuses each of them: the law **$state**. $(grep -oE '[0-9]+ blocks from seed .*' "$work/law.log" | tail -1)."
+  echo
+  echo "Whole programs, drawn from every code, statement and kind of expression:"
+  echo
+  python3 tests/assurance/refused_blocks.py build/release/bin/trunnion --seed "$(date +%s)" |
+    sed '2,$s/^ *\([0-9]* with\)/- \1/'
 }
 
 bytes() {
