@@ -127,6 +127,34 @@ TEST_CASE("a cause that removes less than half of the gap is not written", "[dia
     }
 }
 
+TEST_CASE("passes of a ballbar are one path where all axes have the same end positions",
+          "[diagnosis][written]") {
+    Rows rows;
+    const auto fold_of = [&](double turn_rad, double way_mm) {
+        records::ReadingTable table = campaign::empty_table(rows.setup);
+        std::vector<diagnosis::NoiseBlock> blocks;
+        for (const bool other : {false, true}) {
+            blocks.push_back({records::Device::ballbar, {}});
+            for (int k = 0; k <= 10; ++k) {
+                records::Reading row = rows.table.rows.front();
+                row.device = records::Device::ballbar;
+                row.time_s = static_cast<double>(table.rows.size());
+                row.commanded[Axis::C] = 0.1 * k * (other ? turn_rad : 0.5);
+                row.commanded[Axis::X] = 0.1 * k * (other ? way_mm : 100.0);
+                blocks.back().rows.push_back(static_cast<Eigen::Index>(table.rows.size()));
+                table.rows.push_back(row);
+            }
+        }
+        const emulator::Replay replay(rows.setup, table);
+        return diagnosis::path_folds(blocks, replay, table.axes).fold;
+    };
+    CHECK(fold_of(0.5, 100.0) == std::vector<int>{0, 0});
+    CHECK(fold_of(0.504, 100.4) == std::vector<int>{0, 0});  // the same to 1 mm and 0.01 rad
+    CHECK(fold_of(0.6, 100.0) == std::vector<int>{0, 1});
+    CHECK(fold_of(-0.5, 100.0) == std::vector<int>{0, 1});
+    CHECK(fold_of(0.5, 103.0) == std::vector<int>{0, 1});
+}
+
 // Each value of the table is seen by one path alone: passes left out are predicted, paths are not.
 TEST_CASE("a free form is not written where other paths know nothing of it",
           "[diagnosis][written]") {

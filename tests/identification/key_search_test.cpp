@@ -1,8 +1,11 @@
 // The search of a key between the values of its grid.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "identification/identify.h"
+#include "identification/keys.h"
 #include "tests/support/campaign.h"
 
 namespace trunnion {
@@ -44,6 +47,38 @@ TEST_CASE("a key is refined inside its interval, to the value that explains most
             CHECK(least >= grid[k - 1] * 0.999);
             CHECK(most <= grid[k + 2] * 1.001);
         }
+}
+
+TEST_CASE("keys optimised together stay within half the first and twice the last grid value",
+          "[identification]") {
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 60, 3);
+    const effects::Catalogue catalogue =
+        effects::make_catalogue(setup, effects::extent_of(setup, table));
+    const effects::Effect& drift = *effects::find_effect(catalogue, "thermal.drift");
+    const std::vector<double>& grid = drift.parameters[3].grid;
+    const double first = grid.front(), last = grid.back();
+    struct Case {
+        double start, truth, found;
+    };
+    for (const Case& c : {Case{first, 0.7 * first, 0.7 * first},
+                          {last, 1.5 * last, 1.5 * last},
+                          {first, 0.2 * first, 0.5 * first},
+                          {last, 4.0 * last, 2.0 * last}}) {
+        const setup::Setup truth = campaign::with_effect(
+            setup, fmt::format("thermal.drift: d_mm=[0.01, 0, 0.03], tau_s={}", c.truth));
+        const records::ReadingTable readings = campaign::measured(truth, table, 1, 0.0);
+        const emulator::Replay replay(setup, readings);
+        const identification::BaseModel base =
+            identification::fit_base(setup, readings, replay, catalogue, {});
+        identification::KeyedEffect keyed{&drift, drift.zeros(), {3}};
+        keyed.values[3] = c.start;
+        std::vector<identification::KeyedEffect> effects{keyed};
+        identification::refine_together(replay, base, effects);
+        INFO(c.truth << " from " << c.start);
+        CHECK(effects[0].values[3] == Approx(c.found).epsilon(0.01));
+    }
 }
 
 }  // namespace trunnion
