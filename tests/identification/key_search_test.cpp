@@ -81,4 +81,38 @@ TEST_CASE("keys optimised together stay within half the first and twice the last
     }
 }
 
+TEST_CASE("a slip is dated to the middle between the readings before and after it",
+          "[identification]") {
+    const setup::Setup setup = campaign::bc_setup();
+    records::ReadingTable table = campaign::empty_table(setup);
+    campaign::add_sphere_map(table, setup, 60, 3);
+    const effects::Catalogue catalogue =
+        effects::make_catalogue(setup, effects::extent_of(setup, table));
+    const effects::Effect& moved = *effects::find_effect(catalogue, "artefact.moved");
+    for (const std::size_t row : {80U, 150U, 220U}) {
+        const double slip_s = table.rows[row].time_s - 1.0;
+        double before_s = 0.0, after_s = 1e9;
+        for (const records::Reading& r : table.rows) {
+            if (r.device == records::Device::none || r.feature != "S1") continue;
+            if (r.time_s < slip_s)
+                before_s = std::max(before_s, r.time_s);
+            else
+                after_s = std::min(after_s, r.time_s);
+        }
+        const setup::Setup truth = campaign::with_effect(
+            setup,
+            fmt::format("artefact.moved: shift_mm=[0.02, 0.01, -0.015], artefact=0, time_s={}",
+                        slip_s));
+        const records::ReadingTable readings = campaign::measured(truth, table, 1, 0.0);
+        const emulator::Replay replay(setup, readings);
+        const identification::BaseModel base =
+            identification::fit_base(setup, readings, replay, catalogue, {});
+        const std::vector<double> keys =
+            identification::search_keys(replay, base, moved, base.residual_mm);
+        INFO(before_s << " to " << after_s);
+        CHECK(keys[3] == 0.0);
+        CHECK(keys[4] == Approx(0.5 * (before_s + after_s)).margin(0.01 * (after_s - before_s)));
+    }
+}
+
 }  // namespace trunnion

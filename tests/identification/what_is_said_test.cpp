@@ -107,6 +107,41 @@ TEST_CASE("a side that nothing tells is said to be taken, one that the fit tells
                Catch::Contains("C came travelling + (the other side fits worse by 40 "));
 }
 
+TEST_CASE("a following error at speed is plausible in a servo log, as far as a delay makes it",
+          "[identification]") {
+    std::vector<std::string> notes;
+    const setup::Setup setup = setup::parse_setup(
+        "[machine]\nname = \"m\"\nchain = \"w b X t\"\n"
+        "[model]\nnoise_um = { axis = 1 }\n",
+        "s.toml", notes);
+    const effects::Catalogue catalogue = effects::make_catalogue(setup);
+    const auto fit = [&](double lag_s, double still_mm) {
+        records::ReadingTable log;
+        log.path = "log.csv";
+        log.axes = {Axis::X};
+        for (int k = 0; k < 400; ++k) {  // to and fro, 200 mm/s in the middle, then standing
+            records::Reading row;
+            row.index = k;
+            row.time_s = 0.01 * k;
+            row.test = "log";
+            row.device = records::Device::axis;
+            row.feature = "X";
+            const double angle = 0.05 * k;
+            row.commanded[Axis::X] = k < 200 ? 40.0 * std::sin(angle) : 40.0 * std::sin(10.0);
+            row.value_mm = k < 200      ? -lag_s * 200.0 * std::cos(angle)
+                           : k % 2 == 0 ? still_mm
+                                        : -still_mm;
+            log.rows.push_back(row);
+        }
+        const emulator::Replay replay(setup, log);
+        return identification::fit_base(setup, log, replay, catalogue, {});
+    };
+    CHECK_NOTHROW(fit(0.02, 0.0));
+    CHECK_NOTHROW(fit(0.09, 0.0));  // 18 mm
+    CHECK_THROWS_AS(fit(0.2, 0.0), InputError);
+    CHECK_THROWS_AS(fit(0.0, 6.0), InputError);
+}
+
 TEST_CASE("a fit needs two readings, more readings than unknowns and effects that there are",
           "[identification]") {
     const setup::Setup setup = laser_machine();
