@@ -86,29 +86,33 @@ TEST_CASE("a replaced file keeps owner and group, another link the old text") {
 
 TEST_CASE("an owner that cannot be kept takes the right to run as that owner with it") {
     if (::getuid() != 0) return;  // nobody else can have a file of another owner
-    const Folder folder;
-    folder.write("a.txt", "old");
-    CHECK(::chown(folder.path.c_str(), 12345, 23456) == 0);
-    CHECK(::chown(folder.file("a.txt").c_str(), 12346, 23457) == 0);
-    CHECK(::chmod(folder.file("a.txt").c_str(), 06777) == 0);
-    const pid_t child = ::fork();
-    if (child == 0) {
-        if (::setgroups(0, nullptr) != 0 || ::setgid(23456) != 0 || ::setuid(12345) != 0)
-            ::_exit(2);
-        try {
-            put(folder.file("a.txt"), "new");
-        } catch (const InputError&) {
-            ::_exit(1);
+    for (const gid_t group : {gid_t{23457}, gid_t{23456}}) {  // another one, and the user's own
+        INFO("group " << group);
+        const Folder folder;
+        folder.write("a.txt", "old");
+        CHECK(::chown(folder.path.c_str(), 12345, 23456) == 0);
+        CHECK(::chown(folder.file("a.txt").c_str(), 12346, group) == 0);
+        CHECK(::chmod(folder.file("a.txt").c_str(), 06777) == 0);
+        const pid_t child = ::fork();
+        if (child == 0) {
+            if (::setgroups(0, nullptr) != 0 || ::setgid(23456) != 0 || ::setuid(12345) != 0)
+                ::_exit(2);
+            try {
+                put(folder.file("a.txt"), "new");
+            } catch (const InputError&) {
+                ::_exit(1);
+            }
+            ::_exit(0);
         }
-        ::_exit(0);
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        REQUIRE((WIFEXITED(status) && WEXITSTATUS(status) == 0));
+        struct stat state {};
+        REQUIRE(::stat(folder.file("a.txt").c_str(), &state) == 0);
+        CHECK(state.st_uid == 12345);
+        CHECK(state.st_gid == 23456);
+        CHECK((state.st_mode & 07777) == 0777);
     }
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    REQUIRE((WIFEXITED(status) && WEXITSTATUS(status) == 0));
-    struct stat state {};
-    REQUIRE(::stat(folder.file("a.txt").c_str(), &state) == 0);
-    CHECK(state.st_uid == 12345);
-    CHECK((state.st_mode & 07777) == 0777);
 }
 
 TEST_CASE("folders made for outputs go again when the outputs fail") {
