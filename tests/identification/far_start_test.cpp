@@ -1,5 +1,6 @@
 // Fits that begin far from their solution, with steps that are shortened; known values; two
 // ripples.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -48,6 +49,25 @@ TEST_CASE("short arcs about a pivot that stands far from where the setup has it 
             INFO(sweep_deg << " deg, " << off_mm << " mm: " << fit.rms_after_um << " um");
             CHECK(fit.rms_after_um < 0.35);  // the noise of the ballbar is 0.3 um
         }
+}
+
+TEST_CASE("a fit that ends before it is at its solution says so", "[identification]") {
+    setup::Setup setup = campaign::bc_setup();
+    setup.model.modelled = {};
+    setup.model.allow_large = true;
+    for (const double off_mm : {30.0, 200.0}) {
+        setup::Setup truth = setup;
+        truth.artefacts[2].center_W_mm += off_mm * Vector3(1.0, -0.5, 0.4);
+        const identification::Identification fit =
+            identification::identify(setup, campaign::measured(truth, arcs(setup, 30.0), 1), {});
+        const bool told =
+            std::any_of(fit.notes.begin(), fit.notes.end(), [](const std::string& note) {
+                return note.find("has not settled") != std::string::npos;
+            });
+        INFO(off_mm << " mm: " << fit.rms_after_um << " um");
+        CHECK(told == (fit.rms_after_um > 10.0));
+        CHECK(told == (off_mm > 100.0));
+    }
 }
 
 TEST_CASE("a calibrated value draws the fit from wherever it begins", "[identification]") {
