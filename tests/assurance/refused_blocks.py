@@ -111,6 +111,8 @@ def main():
     parser.add_argument("--show", action="store_true", help="print what only a run refuses")
     options = parser.parse_args()
     program, rng = os.path.abspath(options.program), random.Random(options.seed)
+    if not os.access(program, os.X_OK) or options.programs < 1:
+        parser.error(f"no program at {options.program}" if options.programs > 0 else "--programs must be 1 or more")
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(os.cpu_count()) as pool:
         paths = []
         for k in range(options.programs):
