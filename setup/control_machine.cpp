@@ -28,7 +28,8 @@ kinematics::AxisGeometry slide(Axis axis) {
     kinematics::AxisGeometry geometry;
     geometry.axis = axis;
     geometry.name = letter_of(axis);
-    geometry.direction = Vector3::Unit(static_cast<int>(index_of(axis)));
+    // Only X, Y and Z have the direction of their number; 1022 gives that of a parallel axis.
+    if (index_of(axis) < 3) geometry.direction = Vector3::Unit(static_cast<int>(index_of(axis)));
     return geometry;
 }
 
