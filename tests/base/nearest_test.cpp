@@ -22,6 +22,7 @@ TEST_CASE("a mistyped word leads to the one that was meant, a strange one to non
     CHECK(nearest(long_word, {long_word + "s"}) == long_word + "s");
     CHECK(nearest(long_word + "r", {long_word}).empty());  // longer words are not searched
     CHECK(nearest("run", {}).empty());
+    CHECK(nearest("cat", {"cut", "bat", "cap"}) == "cut");  // the first of equals
     CHECK(did_you_mean("rum", commands) == ", did you mean 'run'?");
     CHECK(did_you_mean("simulate", commands).empty());
 }

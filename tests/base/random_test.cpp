@@ -1,6 +1,7 @@
 #include "base/random.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 
 using namespace trunnion;
 
@@ -23,4 +24,14 @@ TEST_CASE("the noise of a seed is the published sequence of SplitMix64 on every 
     CHECK(noise.bits() == 6457827717110365317ULL);
     CHECK(noise.bits() == 3203168211198807973ULL);
     CHECK(noise.bits() == 9817491932198370423ULL);
+}
+
+TEST_CASE("normal noise is made in pairs of a radius and an angle (Box and Muller)") {
+    SeededNoise uniform(11), normal(11);
+    for (int pair = 0; pair < 100; ++pair) {
+        const double radius = std::sqrt(-2.0 * std::log(uniform.uniform()));
+        const double angle_rad = 2.0 * 3.14159265358979323846 * uniform.uniform();
+        CHECK(normal.normal() == Approx(radius * std::cos(angle_rad)).margin(1e-12));
+        CHECK(normal.normal() == Approx(radius * std::sin(angle_rad)).margin(1e-12));
+    }
 }

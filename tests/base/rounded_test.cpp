@@ -37,6 +37,16 @@ TEST_CASE("a value has the digits that its sigma allows") {
     CHECK(rounded(1.0, none).sigma == "–");
 }
 
+TEST_CASE("tens and hundreds are rounded, halves away from zero") {
+    CHECK(decimal(1250.0, -2) == "1300");
+    CHECK(decimal(-1250.0, -2) == "-1300");
+    CHECK(decimal(1249.0, -2) == "1200");
+    CHECK(decimal(-1234.0, -2) == "-1200");
+    CHECK(decimal(4.9, -1) == "0");
+    CHECK(decimal(2.5, 0) == "2");  // fmt: halves to even, as printf
+    CHECK(decimal(-0.4, 0) == "0");
+}
+
 TEST_CASE("without a sigma: three significant digits, no exponent") {
     CHECK(three_digits(4.155531e-05) == "0.0000416");
     CHECK(three_digits(421.72) == "422");

@@ -1,5 +1,6 @@
 #include "base/text.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "base/alarm.h"
@@ -24,6 +25,8 @@ TEST_CASE("printable text holds nothing that a terminal obeys") {
     CHECK(printable("\xF5\x80\x80\x80") == "????");
     CHECK(printable("\xF0\x8F\xBF\xBF") == "????");
     CHECK(printable("\xF4\x90\x80\x80") == "????");
+    CHECK(printable("\xF0\x90\x80\x80") == "\xF0\x90\x80\x80");  // U+10000
+    CHECK(printable("\xF4\x8F\xBF\xBF") == "\xF4\x8F\xBF\xBF");  // the last, U+10FFFF
     CHECK(screen_width("a\xC2\xB5m") == 3);
 }
 
@@ -47,6 +50,19 @@ TEST_CASE("a long line is shown around its column") {
     CHECK(shown.size() < 2000);
     const std::size_t first = shown.find('\n'), second = shown.find('\n', first + 1);
     CHECK(shown.find('X') - first == shown.find('^') - second);
+}
+
+TEST_CASE("a line of 200 characters is shown whole, of a longer one 200 characters") {
+    const auto shown_of = [](std::size_t size, int column) {
+        const std::string text =
+            format_diagnostic({"p.nc", 1, column}, "m", std::string(size, 'x'));
+        return std::count(text.begin(), text.end(), 'x');
+    };
+    CHECK(shown_of(200, 150) == 200);
+    CHECK(shown_of(201, 50) == 200);
+    CHECK(shown_of(201, 101) == 200);
+    CHECK(shown_of(201, 102) == 200);  // it begins one character later
+    CHECK(shown_of(301, 301) == 101);
 }
 
 TEST_CASE("a line without a known column is shown from its beginning, however long it is") {
