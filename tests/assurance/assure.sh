@@ -134,10 +134,12 @@ mutation() {
   tests/assurance/mutate.py build/mutants $rooms --mutants "$mutants" --minutes "$minutes" --seed 1 \
     --named tests/assurance/named_mutants.json --out "$work/mutation.json" \
     > "$work/mutation.log"
-  echo "| room | mutants | killed |"
-  echo "|---|---|---|"
+  echo "| room | mutants | killed by its own tests | by others |"
+  echo "|---|---|---|---|"
   python3 -c 'import json, sys
-for r in json.load(open(sys.argv[1])): print("| %s | %d of %d | %d |" % (r["room"], r["mutants"], r["candidates"], r["killed"]))' \
+for r in json.load(open(sys.argv[1])):
+    all = r["killed"] + r["beside"] + len(r["survivors"])
+    print("| %s | %d of %d | %d | %d |" % (r["room"], all, r["candidates"], r["killed"], r["beside"]))' \
     "$work/mutation.json"
   echo
   echo "Survivors:"

@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Mutation score of rooms: changes one thing in one line, builds the room's tests, runs them (with
-those of tests/nc where these hold what the room does).
+those of tests/nc where these hold what the room does). A mutant that they leave alive is given to
+the tests of the rooms that use it and to those of the program (BESIDE).
 
     mutate.py BUILD ROOM... [--mutants 20] [--seed 1] [--named FILE] [--minutes N] [--longest S] [--out FILE]
 
-A mutant is killed when its tests fail or take four times as long; one that does not compile counts as
-nothing. Survivors are printed with file, line and change. FILE holds mutants to be tried besides those drawn
-(JSON: file, text, instead). After N minutes a room is left with the mutants judged by then. Cases that take
-longer than S seconds are not run; those below half a second are run first. The source is changed in place
-and always put back; run it in a clone of its own.
+A mutant is killed when its tests fail or take four times as long; "beside" is one that only the tests of
+BESIDE kill. One that does not compile counts as nothing. Survivors are printed with file, line and change.
+FILE holds mutants to be tried besides those drawn (JSON: file, text, instead). After N minutes a room is
+left with the mutants judged by then. Cases that take longer than S seconds are not run; those below half a
+second are run first. The source is changed in place and always put back; run it in a clone of its own.
 """
 import argparse
 import json
@@ -31,6 +32,12 @@ CHANGES = [(r" < ", " <= "), (r" <= ", " < "), (r" > ", " >= "), (r" >= ", " > "
            (r"\breturn false;", "return true;"), (r"\bcontinue;", "break;")]
 # Rooms whose behaviour the NC programs of tests/nc hold, besides their own tests.
 WITH_NC = {"interpreter", "offsets", "positioning", "controller"}
+# Whose tests see what the tests of a room leave alive.
+BESIDE = {"base": ["cli", "faults"], "geometry": ["kinematics", "positioning", "regression"],
+          "interpreter": ["controller", "check"], "offsets": ["controller", "positioning", "setup"],
+          "kinematics": ["positioning", "emulator"], "positioning": ["controller", "emulator"],
+          "controller": ["emulator", "check"], "estimation": ["identification", "diagnosis"],
+          "identification": ["diagnosis", "cli"], "diagnosis": ["cli"], "regression": ["cli"]}
 QUICK_S = 0.5
 MEMORY_BYTES = 8 << 30  # a mutant that takes more ends
 PASSED_OVER = re.compile(r"^\s*(//|#|template|using|static_assert|raise_|throw|case )|fmt::|\"")
@@ -71,14 +78,14 @@ def tests_of(room):
     return [f"test_{room}"] + (["test_nc"] if room in WITH_NC else [])
 
 
-def builds(build, room):
-    return run(["cmake", "--build", str(build), "--target", *tests_of(room)], 3600) == 0
+def builds(build, tests):
+    return run(["cmake", "--build", str(build), "--target", *tests], 3600) == 0
 
 
-def plain_run(build, room, longest_s, folder):
+def plain_run(build, what, tests, longest_s, folder):
     """What is run for each mutant: (command, seconds it takes), the quick cases first."""
     runs, left_out = [], []
-    for test in tests_of(room):
+    for test in tests:
         program = str(build / "bin" / test)
         report = folder / f"{test}.xml"
         if run([program, "-r", "xml", "-d", "yes", "-o", str(report)], 3600) != 0:
@@ -100,11 +107,19 @@ def plain_run(build, room, longest_s, folder):
                 sys.exit(f"mutate: {test} finds {len(found)} of {len(group)} cases by their names")
             runs.append((name, [program, "--abort", "-f", str(names)], sum(s for s, _ in group)))
     runs.sort(key=lambda each: each[0] != "quick")
-    print(f"{room}: {sum(s for _, _, s in runs):.1f} s, not run: {left_out}", flush=True)
+    print(f"{what}: {sum(s for _, _, s in runs):.1f} s, not run: {left_out}", flush=True)
     return [(command, seconds) for _, command, seconds in runs]
 
 
-def judge(build, room, mutant, runs):
+def tests_beside(room):
+    return ["trunnion"] + [f"test_{beside}" for beside in BESIDE.get(room, [])]
+
+
+def lives(runs):
+    return all(run(command, 4 * seconds + 10) == 0 for command, seconds in runs)
+
+
+def judge(build, room, mutant, runs, runs_beside):
     path, number, (begin, end), instead = mutant
     before = path.read_text()
     lines = before.splitlines(keepends=True)
@@ -112,10 +127,13 @@ def judge(build, room, mutant, runs):
     lines[number] = line[:begin] + instead + line[end:]
     try:
         path.write_text("".join(lines))
-        if not builds(build, room):
+        if not builds(build, tests_of(room)):
             return "no build", lines[number].strip()
-        lives = all(run(command, 4 * seconds + 10) == 0 for command, seconds in runs)
-        return ("survived" if lives else "killed"), lines[number].strip()
+        if not lives(runs):
+            return "killed", lines[number].strip()
+        if not builds(build, tests_beside(room)):
+            return "no build", lines[number].strip()
+        return ("survived" if lives(runs_beside) else "beside"), lines[number].strip()
     finally:
         path.write_text(before)
 
@@ -139,24 +157,27 @@ def main():
         every = list(candidates(root, room))
         chosen = list(named(root, room, options.named))
         chosen += random.sample(every, min(options.mutants, len(every)))
-        if not builds(options.build, room):
+        if not builds(options.build, tests_of(room) + tests_beside(room)):
             sys.exit(f"mutate: the tests of {room} do not build")
-        start = time.monotonic()
-        survivors, judged = [], 0
+        survivors, count = [], {"killed": 0, "beside": 0, "survived": 0, "no build": 0}
         with tempfile.TemporaryDirectory() as folder:
-            runs = plain_run(options.build, room, options.longest, pathlib.Path(folder))
+            runs = plain_run(options.build, room, tests_of(room), options.longest, pathlib.Path(folder))
+            runs_beside = plain_run(options.build, "beside", tests_beside(room)[1:], options.longest,
+                                    pathlib.Path(folder))
+            start = time.monotonic()
             for mutant in chosen:
                 if time.monotonic() - start > 60 * options.minutes:
                     break
-                verdict, text = judge(options.build, room, mutant, runs)
-                judged += verdict != "no build"
+                verdict, text = judge(options.build, room, mutant, runs, runs_beside)
+                count[verdict] += 1
                 place = f"{mutant[0].relative_to(root)}:{mutant[1] + 1}"
                 print(f"{verdict:8} {place}: {text}", flush=True)
                 if verdict == "survived":
                     survivors.append(f"{place}: {text}")
-        builds(options.build, room)
-        result.append({"room": room, "candidates": len(every), "mutants": judged,
-                       "killed": judged - len(survivors), "survivors": survivors})
+        builds(options.build, tests_of(room) + tests_beside(room))
+        result.append({"room": room, "candidates": len(every), "killed": count["killed"],
+                       "beside": count["beside"], "survivors": survivors})
+        print(f"{room}: {count}", flush=True)
     if options.out:
         options.out.write_text(json.dumps(result, indent=1) + "\n")
 
