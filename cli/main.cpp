@@ -114,9 +114,9 @@ std::string no_such_command(const NamedCommand& named) {
                        did_you_mean(named.unknown, names));
 }
 
-/// Names the first option that the command does not have; `surplus` is said of words without one.
+/// Names the first option that the command does not have; what the parser said where there is none.
 std::string no_such_option(const CLI::App& command, const std::vector<std::string>& words,
-                           const std::string& surplus) {
+                           const std::string& parser_says) {
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options())
         for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
@@ -126,7 +126,7 @@ std::string no_such_option(const CLI::App& command, const std::vector<std::strin
             return fmt::format("{} has no option '{}'{}", command.get_name(), name,
                                did_you_mean(name, names));
     }
-    return surplus;
+    return parser_says;
 }
 
 /// An option in the place of another one's value, as in `--svg --json`; empty if there is none.
@@ -233,10 +233,8 @@ int parse_and_run(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::Success& asked) {
         return show_help(app, asked);
-    } catch (const CLI::ExtrasError& e) {
-        return report_usage_error(no_such_option(*named.command, words, e.what()));
     } catch (const CLI::ParseError& e) {
-        return report_usage_error(e.what());
+        return report_usage_error(no_such_option(*named.command, words, e.what()));
     }
     return run_guarded(app, run);
 }

@@ -17,7 +17,6 @@ namespace {
 struct Stretch {
     std::vector<Eigen::Index> rows;
     Eigen::VectorXd value;
-    bool free_shift = false;  ///< the two passes of a difference may be shifted by the machine
 };
 
 double touch_likelihood(const emulator::Replay& replay, const Stretch& s,
@@ -40,8 +39,9 @@ double touch_likelihood(const emulator::Replay& replay, const Stretch& s,
            static_cast<double>(n) * log_scale - llt.matrixLLT().diagonal().array().log().sum();
 }
 
-/// Log likelihood of the values from their innovations under the noise of one pass. The `shift`
-/// columns are profiled out with their loss of freedom (restricted likelihood).
+/// Log likelihood of the values from their innovations under the noise of one pass. The machine may
+/// have shifted between the two passes of a difference: that vector is profiled out with its loss
+/// of freedom (restricted likelihood).
 double pass_likelihood(const emulator::Replay& replay, const Stretch& s, const DeviceNoise& noise) {
     const double scale2 = noise.scale * noise.scale;
     const double shared = scale2 * noise.shared, white = scale2 * (1.0 - noise.shared) + 1e-12;
@@ -52,10 +52,9 @@ double pass_likelihood(const emulator::Replay& replay, const Stretch& s, const D
     for (Eigen::Index k = 0; k < s.value.size(); ++k) {
         Row entry = Row::Zero();
         entry(0) = s.value(k);
-        if (s.free_shift)
-            entry.tail<3>() =
-                replay.contact(static_cast<std::size_t>(s.rows[static_cast<std::size_t>(k)]))
-                    .direction_M;
+        entry.tail<3>() =
+            replay.contact(static_cast<std::size_t>(s.rows[static_cast<std::size_t>(k)]))
+                .direction_M;
         const double expected = variance + white;
         const Row innovation = entry - state;
         square += innovation * innovation.transpose() / expected;
@@ -65,7 +64,6 @@ double pass_likelihood(const emulator::Replay& replay, const Stretch& s, const D
         variance = noise.memory * noise.memory * variance * (1.0 - gain) +
                    (1.0 - noise.memory * noise.memory) * shared;
     }
-    if (!s.free_shift) return sum - 0.5 * square(0, 0);
     Eigen::Matrix3d normal = square.bottomRightCorner<3, 3>();
     // The prior of a shift is 1000 sigma wide: a bar that stays in a plane gives no information
     // perpendicular to it.
@@ -195,14 +193,9 @@ std::vector<std::pair<std::size_t, std::size_t>> repeated_blocks(
     return pairs;
 }
 
-/// Removes the effect of a shift of the machine between passes from the differences: one vector for
-/// each ballbar pass (within the likelihood), and one that grows with time over all probe rows.
-void remove_shift(const emulator::Replay& replay, records::Device device,
-                  std::vector<Stretch>& stretches) {
-    if (device == records::Device::ballbar) {
-        for (Stretch& s : stretches) s.free_shift = true;
-        return;
-    }
+/// Removes the effect of a shift of the machine that grows with time from the differences of rows
+/// that are no passes.
+void remove_shift(const emulator::Replay& replay, std::vector<Stretch>& stretches) {
     Eigen::Index n = 0;
     for (const Stretch& s : stretches) n += s.value.size();
     constexpr int p = 6;  // a shift, and one that grows with time
@@ -254,7 +247,7 @@ NoiseModel noise_from_repeats(const RepeatedRows& rows, const Eigen::VectorXd& r
             all = false;
             continue;
         }
-        remove_shift(replay, device, list);
+        if (device != records::Device::ballbar) remove_shift(replay, list);
         for (Stretch& s : list)  // a few outliers must not determine the noise
             s.value = s.value.cwiseMax(-6.0).cwiseMin(6.0);
         noise.of(device) = estimate(replay, device, list, 0.05, 4.0);

@@ -64,6 +64,8 @@ TEST_CASE("mistyped commands, options, effects and axes lead to the word that wa
         {"pivot --svg --json", "--svg needs a value, and --json is an option"},
         {"pivot --svg --help", "--svg needs a value, and --help is an option"},
         {"run p.nc --trac t.csv", "did you mean '--trace'?"},
+        {"run --trac t.csv", "did you mean '--trace'?"},
+        {"check --frob", "check has no option '--frob'"},
         {"pivot --htlm=p.html", "did you mean '--html'?"},
         {"run p.nc --inject 'C.backlsh=60urad'", "did you mean 'C.backlash'?"},
         {"run p.nc --inject 'Z.scale: scale=4'", "did you mean 'scale_ppm'?"},
